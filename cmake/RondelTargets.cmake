@@ -1,0 +1,20 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+
+# Compile settings of every target of the project.
+#
+# -ffp-contract=off is part of the correctness proof: a fused multiply-add
+# changes the error of a filter and the bits of a spatial key.
+function(rondel_target_settings target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+  target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wconversion -Wshadow)
+  if(RONDEL_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+  if(RONDEL_SANITIZE)
+    target_compile_options(${target} PRIVATE -fsanitize=${RONDEL_SANITIZE}
+                                             -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=${RONDEL_SANITIZE})
+  endif()
+endfunction()

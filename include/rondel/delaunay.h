@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Delaunay and regular triangulations of points on or close to a sphere
+/// (Caroli, de Castro, Loriot, Rouiller, Teillaud et al., SEA 2010, section 4).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// The unit vector of a longitude and latitude, the same bits on every
+/// platform. Quadrants are exact: every longitude at latitude 90 gives
+/// (0, 0, 1), and the longitudes -180, 180 and 540 give the same vector.
+/// \pre both angles are finite. A latitude beyond 90 continues over the pole.
+Point unit_vector(const LonLat& position);
+
+/// The unit vectors of n positions, shape (n, 3).
+/// \throws InvalidInput (first bad index) if an angle is not finite or a
+///         latitude is outside [-90, 90].
+std::vector<Point> unit_vectors(std::span<const LonLat> positions);
+
+/// The triangulation of n sites: the Delaunay triangulation of their exact
+/// projections on the sphere (Model::projected) or the regular triangulation
+/// of weighted sites, which is the convex hull (Model::weighted).
+///
+/// Exact for every finite input. Cocircular sites are resolved by a symbolic
+/// perturbation that depends on the sites' coordinates alone.
+/// Expected time O(n log n); peak memory about 130 bytes a site.
+/// \throws InvalidInput (first bad index) if a coordinate is not finite, a
+///         projected site is the center, the sphere is not valid (squared
+///         radius not positive, center not finite) or there are more than
+///         `max_sites` sites.
+Triangulation delaunay(std::span<const Point> sites, const Options& options = {});
+
+/// The same for an array of 3n numbers x0 y0 z0 x1 y1 z1 ...
+/// \throws InvalidInput also if the length is not a multiple of 3.
+Triangulation delaunay(std::span<const double> xyz, const Options& options = {});
+
+}  // namespace rondel

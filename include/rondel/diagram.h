@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Duals of a triangulation: Voronoi diagrams and, in the weighted model,
+/// power (Laguerre) diagrams. In all functions `sites` are the n sites from
+/// which `triangulation` was made.
+/// \throws InvalidInput if their number differs from triangulation.num_sites().
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// The cells of a diagram in compressed rows: the ring of site i is
+/// `rings[offsets[i]] ... rings[offsets[i+1]-1]`, positions in `points`,
+/// counterclockwise seen from outside.
+///
+/// 1. `points` starts with the circumcenters of the faces, so that below
+///    num_faces() a position in a ring is a face. Further points follow where an arc
+///    would be longer than 120 degrees, and in dimensions 0 and 1.
+/// 2. Consecutive points of a ring are joined by the shorter arc of a great circle.
+/// 3. Duplicates and hidden sites have empty rings. So has a single vertex, whose
+///    cell is the whole sphere.
+struct Cells {
+  std::vector<std::uint64_t> offsets;  ///< n + 1
+  std::vector<Index> rings;
+  std::vector<Point> points;  ///< unit vectors from the center of the sphere
+};
+
+/// Polygons in compressed rows.
+struct Polygons {
+  std::vector<std::uint64_t> offsets;
+  std::vector<Index> corners;  ///< input indices, counterclockwise seen from outside
+};
+
+/// The circumcenters (power centers in the weighted model) of the faces, shape
+/// (m, 3): outward unit normals, also right for ghost faces. The
+/// distance to the exact value is at most 4 ulp (4 * 2^-53), whatever the face's shape.
+std::vector<Point> circumcenters(const Triangulation& triangulation, std::span<const Point> sites);
+
+/// The Voronoi or power cells of all sites, in every dimension.
+Cells cells(const Triangulation& triangulation, std::span<const Point> sites);
+
+/// The areas of the cells in steradians, length n; 0 for duplicates and hidden
+/// sites. The relative error is small for tiny cells too; the sum is 4*pi.
+std::vector<double> areas(const Triangulation& triangulation, std::span<const Point> sites,
+                          const Cells& cells);
+
+/// The directions of the cells' centers of mass, unit vectors, shape (n, 3);
+/// (0, 0, 0) where the center of mass is the center of the sphere or the cell is empty.
+std::vector<Point> centroids(const Triangulation& triangulation, std::span<const Point> sites,
+                             const Cells& cells);
+
+/// The edges, each once with the lower index first, in lexicographic order.
+std::vector<std::array<Index, 2>> edges(const Triangulation& triangulation);
+
+/// The facets with cocircular sites: faces that lie exactly in one plane are
+/// merged into one polygon (a cube has 6 facets, not 12). Each polygon starts
+/// with its lowest index.
+Polygons merge_cocircular(const Triangulation& triangulation, std::span<const Point> sites);
+
+}  // namespace rondel

@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// The whole library in one include (files apart: rondel/io.h).
+#pragma once
+
+#include "rondel/check.h"          // IWYU pragma: export
+#include "rondel/delaunay.h"       // IWYU pragma: export
+#include "rondel/diagram.h"        // IWYU pragma: export
+#include "rondel/error.h"          // IWYU pragma: export
+#include "rondel/predicates.h"     // IWYU pragma: export
+#include "rondel/triangulation.h"  // IWYU pragma: export
+#include "rondel/types.h"          // IWYU pragma: export
+#include "rondel/version.h"        // IWYU pragma: export
