@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Files in and out (target rondel::io). Every function throws FileError with one line that
+/// names the file and, where there is one, the line and the value. Output
+/// goes to a temporary name beside the file and is renamed when it is complete.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rondel/diagram.h"
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// How to read sites.
+struct ReadOptions {
+  std::string lon, lat;  ///< column names; empty: found by header (lon, lng, long, longitude ...)
+  std::string x, y, z;   ///< column names; empty: found by header
+  bool radians = false;  ///< longitude and latitude are in radians
+  bool keep_columns = false;  ///< keep the text of every column, for the properties of GeoJSON
+  Progress progress{};
+};
+
+/// One column of a table, as text.
+struct Column {
+  std::string name;
+  bool is_numeric = false;          ///< every non-empty cell is a JSON number
+  std::string text;                 ///< all cells, one after the other
+  std::vector<std::uint64_t> ends;  ///< where each cell ends in `text`
+};
+
+/// The sites of a file.
+struct SiteTable {
+  std::string name;                  ///< the file, for messages; "<stdin>" for "-"
+  std::vector<Point> sites;          ///< unit vectors for lon/lat input, otherwise as given
+  std::vector<LonLat> positions;     ///< degrees as given; empty for xyz input
+  std::vector<Column> columns;       ///< if kept
+  std::vector<std::uint64_t> lines;  ///< the line of each site; empty where every line is a site
+  std::uint64_t first_line =
+      1;  ///< the line of site 0 when `lines` is empty; 0: the format has none
+
+  [[nodiscard]] bool is_lonlat() const noexcept { return !positions.empty(); }
+  /// "stations.csv:17" or, for formats without lines, "sites.npy: row 16".
+  [[nodiscard]] std::string where(std::size_t site) const;
+};
+
+/// Reads .csv .tsv .xyz .txt .npy .geojson; "-" is CSV from standard input.
+SiteTable read_sites(const std::string& path, const ReadOptions& options = {});
+
+/// Reads the faces (m, 3) of .npy .off .ply .obj .vtp.
+std::vector<Triple> read_triangles(const std::string& path);
+
+/// Whether the format that the name's ending tells can hold triangles (.npy
+/// .off .ply .obj .stl .vtp .geojson), cells (.geojson .vtp .npz), sites (.csv .xyz .npy ...).
+bool can_write_triangles(const std::string& path);
+bool can_write_cells(const std::string& path);
+bool can_write_sites(const std::string& path);
+
+/// Writes the triangles: .npy has input indices (m, 3) uint32; formats with vertices list every
+/// input site in input order with digits that round-trip.
+void write_triangles(const std::string& path, const SiteTable& table,
+                     const Triangulation& triangulation, const Progress& progress = {});
+
+/// What to write of a diagram.
+struct Diagram {
+  Cells cells;
+  std::vector<double> areas;  ///< steradians, by input site
+};
+
+/// Writes the cells. GeoJSON obeys RFC 7946 with one feature a cell: arcs are densified until the
+/// straight line in longitude and latitude is within `tolerance_deg` of the arc
+/// (closer between sites that are close).
+void write_cells(const std::string& path, const SiteTable& table,
+                 const Triangulation& triangulation, const Diagram& diagram,
+                 double tolerance_deg = 0.01, const Progress& progress = {});
+
+/// Writes sites, for generators: .csv and .tsv (lon,lat or x,y,z with a header), .xyz, .txt, .npy.
+void write_sites(const std::string& path, std::span<const Point> sites,
+                 std::span<const LonLat> positions = {});
+
+/// Writes any bytes to a temporary name and renames it to `path`: all or nothing.
+void write_file(const std::string& path, std::string_view bytes);
+
+}  // namespace rondel
