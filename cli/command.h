@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// What the commands of the tool share: their common options, the stages of a job with clock and
+/// progress, the report at the end. A command is two functions: one describes its
+/// arguments to the parser, the other runs when they are parsed.
+///
+///     Command add_plot_command(CLI::App& tool) {
+///       auto options = std::make_shared<PlotOptions>();   // holds a CommonOptions `common`
+///       CLI::App* parser = tool.add_subcommand("plot", "...");
+///       add_input_options(*parser, options->common); ...
+///       return {parser, [options] { return run_plot(*options); }};
+///     }
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+#include "rondel/io.h"
+#include "rondel/triangulation.h"
+
+namespace CLI {
+class App;
+}  // namespace CLI
+
+namespace rondel::cli {
+
+/// The exit status of the tool. Exceptions become one line on stderr, "rondel: <what>", and:
+/// FileError, InvalidInput, bad_alloc, anything else -> failed; UsageError -> usage.
+enum ExitStatus : int { done = 0, failed = 1, usage = 2 };
+
+/// The command line asks for something that the tool does not offer.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A command of the tool and what it does once the command line is parsed.
+struct Command {
+  CLI::App* parser = nullptr;
+  std::function<ExitStatus()> run;
+};
+
+/// The options that mean the same in every command that has them.
+struct CommonOptions {
+  std::string input;   ///< INPUT
+  std::string output;  ///< -o, --output
+  ReadOptions read;    ///< --lon --lat --x --y --z --radians
+  Options build;       ///< --model --threads --center --squared-radius
+  bool json = false;   ///< --json
+  bool quiet = false;  ///< --quiet
+};
+
+void add_input_options(CLI::App& command, CommonOptions& options);
+/// `what` says what is written and to which endings, for the help.
+void add_output_option(CLI::App& command, CommonOptions& options, const std::string& what);
+void add_build_options(CLI::App& command, CommonOptions& options);
+void add_report_options(CLI::App& command, CommonOptions& options);
+
+/// Throws UsageError unless the output's ending is one of those written (`is_known`), and if
+/// the output is the input. Call it before any work.
+void require_output(const CommonOptions& options, bool is_known, const std::string& endings);
+
+/// The stages of a job that a command times itself.
+enum class Stage { dual, write };
+
+/// One run of a command: reads, triangulates, times each stage, shows
+/// progress on a terminal, and reports in the end.
+class Job {
+ public:
+  explicit Job(const CommonOptions& options);
+  ~Job();
+  Job(const Job&) = delete;
+  Job& operator=(const Job&) = delete;
+
+  /// The sites of INPUT. \throws FileError
+  SiteTable read();
+  /// \throws FileError with the file and line of a site that the library does not accept.
+  Triangulation triangulate(const SiteTable& table);
+  /// Runs `work` on the clock of `stage`.
+  void time(Stage stage, const std::function<void()>& work);
+  /// To hand to functions that take a Progress; does nothing where no progress is shown.
+  [[nodiscard]] const Progress& progress() const;
+
+  /// Prints the summary, or the JSON object of --json. `what` names what was written: "the
+  /// triangulation". \throws FileError if stdout cannot be written.
+  void report(const SiteTable& table, const Triangulation& triangulation, const std::string& what);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Writes to stdout and flushes. \throws FileError
+void print(const std::string& text);
+
+Command add_delaunay_command(CLI::App& tool);
+Command add_voronoi_command(CLI::App& tool);
+Command add_check_command(CLI::App& tool);
+Command add_plot_command(CLI::App& tool);  // plot.cpp
+Command add_generate_command(CLI::App& tool);
+Command add_info_command(CLI::App& tool);
+
+}  // namespace rondel::cli
