@@ -19,6 +19,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "rondel/error.h"
 #include "rondel/io.h"
 #include "rondel/triangulation.h"
 
@@ -67,6 +68,14 @@ void require_output(const CommonOptions& options, bool is_known, const std::stri
 /// The stages of a job that a command times itself.
 enum class Stage { dual, write };
 
+/// Wall time of a job and of its stages.
+struct Seconds {
+  double read = 0;
+  double dual = 0;
+  double write = 0;
+  double total = 0;
+};
+
 /// One run of a command: reads, triangulates, times each stage, shows
 /// progress on a terminal, and reports in the end.
 class Job {
@@ -82,17 +91,32 @@ class Job {
   Triangulation triangulate(const SiteTable& table);
   /// Runs `work` on the clock of `stage`.
   void time(Stage stage, const std::function<void()>& work);
-  /// To hand to functions that take a Progress; does nothing where no progress is shown.
+  /// To hand to functions that take a Progress; empty where no progress is shown.
   [[nodiscard]] const Progress& progress() const;
+  /// The time so far.
+  [[nodiscard]] Seconds seconds() const;
 
-  /// Prints the summary, or the JSON object of --json. `what` names what was written: "the
-  /// triangulation". \throws FileError if stdout cannot be written.
-  void report(const SiteTable& table, const Triangulation& triangulation, const std::string& what);
+  /// Prints the summary, or the JSON object of --json, or nothing with --quiet. `what` names what
+  /// was written to OUTPUT: "the triangulation". \throws FileError if stdout cannot be written.
+  void report(const Triangulation& triangulation, const std::string& what);
+  /// The same for a command with a report of its own; `json` is printed under --json.
+  void report(const std::string& json, const std::string& summary);
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Runs `work`, which calls the library with the sites of `table`. What the library
+/// does not accept becomes a FileError that names the site's place in the file.
+template <class Work>
+auto with_places(const SiteTable& table, Work&& work) {
+  try {
+    return work();
+  } catch (const InvalidInput& error) {
+    throw FileError(table.where(error.index()) + ": " + error.what());
+  }
+}
 
 /// Writes to stdout and flushes. \throws FileError
 void print(const std::string& text);
