@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Installs the package, builds the examples against it alone, and compares what they print.
+
+    examples_test.py CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER
+
+The expected texts are in tests/install/expected, one for each example.
+"""
+
+import difflib
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": []}
+
+
+def run(command, **options):
+    """The standard output of a command; the test ends when it fails."""
+    done = subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, check=False, **options
+    )
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def build_examples(cmake, build, source, compiler, work):
+    """Copies the examples away from the source tree, so that nothing but the package is in reach."""
+    run([cmake, "--install", build, "--prefix", work / "prefix"])
+    shutil.copytree(source / "examples", work / "examples")
+    run([cmake, "-S", work / "examples", "-B", work / "build", f"-DCMAKE_PREFIX_PATH={work}/prefix",
+         f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF"])
+    run([cmake, "--build", work / "build"])
+
+
+def difference(source, name, printed):
+    """A diff between what an example printed and what it should print; empty when equal."""
+    expected = (source / "tests/install/expected" / f"{name}.txt").read_text(encoding="utf-8")
+    return "".join(
+        difflib.unified_diff(
+            expected.splitlines(True), printed.splitlines(True), f"expected/{name}.txt", "printed"
+        )
+    )
+
+
+def main():
+    cmake, build, source, compiler = sys.argv[1:]
+    source = pathlib.Path(source)
+    programs = {path.stem for path in (source / "examples").glob("*.cpp")}
+    if programs != set(ARGUMENTS):
+        sys.exit(f"the examples are {sorted(programs)}, the test knows {sorted(ARGUMENTS)}")
+    with tempfile.TemporaryDirectory() as folder:
+        work = pathlib.Path(folder)
+        build_examples(cmake, build, source, compiler, work)
+        found = "".join(
+            difference(source, name, run([work / "build" / name, *arguments], cwd=source))
+            for name, arguments in ARGUMENTS.items()
+        )
+    if found:
+        sys.exit(found)
+
+
+if __name__ == "__main__":
+    main()
