@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <memory>
+#include <system_error>
+
+#include "rondel/error.h"
+
+namespace rondel::io {
+namespace {
+
+constexpr std::size_t buffer_size = std::size_t{1} << 18;
+
+// The registry of temporaries: a signal handler may touch neither the heap nor a lock, so the
+// names lie in fixed buffers. A slot goes free -> claimed -> in_use -> free; the handler reads
+// slots in use only, whose names do not change. A file beyond the last slot is not removed by a
+// signal.
+enum class SlotState : int { free, claimed, in_use };
+struct Slot {
+  std::atomic<SlotState> state{SlotState::free};
+  char name[PATH_MAX] = {};
+};
+constexpr std::size_t num_slots = 8;
+Slot slots[num_slots];
+static_assert(std::atomic<SlotState>::is_always_lock_free);
+
+std::size_t register_temporary(const std::string& name) {
+  if (name.size() >= PATH_MAX) return num_slots;
+  for (std::size_t i = 0; i < num_slots; ++i) {
+    SlotState expected = SlotState::free;
+    if (slots[i].state.compare_exchange_strong(expected, SlotState::claimed)) {
+      std::memcpy(slots[i].name, name.c_str(), name.size() + 1);
+      slots[i].state.store(SlotState::in_use);
+      return i;
+    }
+  }
+  return num_slots;
+}
+
+void forget_temporary(std::size_t slot) noexcept {
+  if (slot < num_slots) slots[slot].state.store(SlotState::free);
+}
+
+extern "C" void rondel_remove_temporaries_and_end(int signal) {
+  for (const Slot& slot : slots) {
+    if (slot.state.load() == SlotState::in_use) ::unlink(slot.name);
+  }
+  std::raise(signal);  // its default action has been restored (SA_RESETHAND)
+}
+
+// Short and independent of the target's name, which may be as long as a name can be.
+std::string temporary_name(const std::string& directory) {
+  static std::atomic<unsigned> counter{0};
+  return directory + ".rondel-" + std::to_string(::getpid()) + "-" +
+         std::to_string(counter.fetch_add(1)) + ".tmp";
+}
+
+std::string resolve_links(const std::string& path) {
+  const std::unique_ptr<char, decltype(&std::free)> resolved(::realpath(path.c_str(), nullptr),
+                                                             &std::free);
+  return resolved ? resolved.get() : path;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path), slot_(num_slots) {
+  if (path == "-") throw FileError("-: standard output is not supported; name a file");
+  struct stat status {};
+  const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
+  if (exists && ::access(path.c_str(), W_OK) != 0) fail(errno);
+  buffer_.reserve(buffer_size);
+  if (exists && !S_ISREG(status.st_mode)) {
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail(errno);
+    return;
+  }
+  if (exists) target_ = resolve_links(path);
+  const std::size_t slash = target_.rfind('/');
+  create(slash == std::string::npos ? "" : target_.substr(0, slash + 1));
+}
+
+AtomicFile::~AtomicFile() { discard(); }
+
+void AtomicFile::create(const std::string& directory) {
+  while (descriptor_ < 0) {
+    temporary_ = temporary_name(directory);
+    slot_ = register_temporary(temporary_);
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ >= 0) break;
+    const int error = errno;
+    forget_temporary(slot_);
+    temporary_.clear();
+    if (error != EEXIST) fail(error);
+  }
+}
+
+void AtomicFile::write(std::string_view bytes) {
+  if (buffer_.size() + bytes.size() > buffer_size) flush();
+  if (bytes.size() > buffer_size) {
+    drain(bytes);
+  } else {
+    buffer_ += bytes;
+  }
+}
+
+void AtomicFile::flush() {
+  drain(buffer_);
+  buffer_.clear();
+}
+
+void AtomicFile::drain(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+    if (count >= 0) {
+      bytes.remove_prefix(static_cast<std::size_t>(count));
+    } else if (errno != EINTR) {
+      fail(errno);
+    }
+  }
+}
+
+void AtomicFile::commit() {
+  flush();
+  const int closed = ::close(descriptor_);
+  descriptor_ = -1;
+  if (closed != 0) fail(errno);
+  if (temporary_.empty()) return;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  forget_temporary(slot_);
+  temporary_.clear();
+}
+
+void AtomicFile::fail(int error) {
+  discard();
+  throw FileError(path_ + ": " + std::generic_category().message(error));
+}
+
+void AtomicFile::discard() noexcept {
+  if (descriptor_ >= 0) ::close(descriptor_);
+  descriptor_ = -1;
+  if (temporary_.empty()) return;
+  ::unlink(temporary_.c_str());
+  forget_temporary(slot_);
+  temporary_.clear();
+}
+
+void remove_temporaries_on_signal() {
+  struct sigaction action {};
+  action.sa_handler = &rondel_remove_temporaries_and_end;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    struct sigaction before {};
+    ::sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+}  // namespace rondel::io

@@ -1,0 +1,141 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/number.h"
+
+#include <fast_float/fast_float.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+namespace rondel::io {
+namespace {
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Skips one or more digits; false if there are none.
+bool skip_digits(const char*& p, const char* end) {
+  const char* const start = p;
+  while (p != end && is_digit(*p)) ++p;
+  return p != start;
+}
+
+std::string text_of(double value) {
+  std::string text;
+  append_number(text, value);
+  return text;
+}
+
+void require_finite(double value, std::string_view what) {
+  if (!std::isfinite(value)) {
+    throw BadValue(std::string(what) + " " + text_of(value) + " is not finite");
+  }
+}
+
+}  // namespace
+
+std::string_view trim(std::string_view text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+double parse_number(std::string_view field, std::string_view what) {
+  std::string_view digits = trim(field);
+  if (digits.empty()) throw BadValue(std::string(what) + " is empty");
+  if (digits.size() > 1 && digits[0] == '+' && digits[1] != '-') digits.remove_prefix(1);
+  double value = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = fast_float::from_chars(digits.data(), end, value);
+  const bool is_number = stop == end && error != std::errc::invalid_argument;
+  if (is_number && std::isfinite(value)) return value;
+  throw BadValue(std::string(what) + " " + quoted(trim(field)) +
+                 (is_number ? " is not finite" : " is not a number"));
+}
+
+std::int64_t parse_integer(std::string_view field, std::string_view what) {
+  const std::string_view digits = trim(field);
+  std::int64_t value = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, value);
+  if (stop != end || error != std::errc{}) {
+    throw BadValue(std::string(what) + " " + quoted(digits) + " is not an integer");
+  }
+  return value;
+}
+
+void append_number(std::string& out, double value) {
+  std::array<char, 32> digits;  // the longest double takes 24: -2.2250738585072014e-308
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  out.append(digits.data(), result.ptr);
+}
+
+void append_integer(std::string& out, std::uint64_t value) {
+  std::array<char, 20> digits;  // 2^64 has 20
+  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+  out.append(digits.data(), result.ptr);
+}
+
+bool is_json_number(std::string_view text) {
+  const char* p = text.data();
+  const char* const end = p + text.size();
+  if (p != end && *p == '-') ++p;
+  if (p == end) return false;
+  if (*p == '0') {
+    ++p;
+  } else if (!skip_digits(p, end)) {
+    return false;
+  }
+  if (p != end && *p == '.' && !skip_digits(++p, end)) return false;
+  if (p != end && (*p == 'e' || *p == 'E')) {
+    ++p;
+    if (p != end && (*p == '+' || *p == '-')) ++p;
+    if (!skip_digits(p, end)) return false;
+  }
+  return p == end;
+}
+
+std::string quoted(std::string_view value) {
+  constexpr std::size_t longest = 60;
+  std::string text(value.substr(0, longest));
+  if (value.size() > longest) {
+    // Do not cut a UTF-8 sequence: drop its bytes 10xxxxxx and then its first byte.
+    while (!text.empty() && (text.back() & 0xC0) == 0x80) text.pop_back();
+    if (!text.empty() && (text.back() & 0x80) != 0) text.pop_back();
+    text += "...";
+  }
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  std::replace_if(text.begin(), text.end(), is_control, '?');
+  return '"' + text + '"';
+}
+
+LonLat checked_position(double lon, double lat, bool is_radians) {
+  require_finite(lon, "longitude");
+  require_finite(lat, "latitude");
+  if (!is_radians) {
+    if (std::abs(lat) > 90) {
+      throw BadValue("latitude " + text_of(lat) + " is outside [-90, 90]");
+    }
+    return {lon, lat};
+  }
+  // Half of pi as a double times this is exactly 90. A latitude that a computation left at most
+  // four ulp beyond the pole is the pole.
+  constexpr double degrees_per_radian = 180 / std::numbers::pi;
+  constexpr double limit = std::numbers::pi / 2 + 4 * std::numeric_limits<double>::epsilon();
+  if (std::abs(lat) > limit) {
+    throw BadValue("latitude " + text_of(lat) + " is outside [-pi/2, pi/2]");
+  }
+  return {lon * degrees_per_radian, std::clamp(lat * degrees_per_radian, -90.0, 90.0)};
+}
+
+Point checked_point(const Point& point) {
+  require_finite(point.x, "x");
+  require_finite(point.y, "y");
+  require_finite(point.z, "z");
+  return point;
+}
+
+}  // namespace rondel::io

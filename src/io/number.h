@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Numbers as text, and what a coordinate and an index may be.
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "rondel/types.h"
+
+namespace rondel::io {
+
+// A value is wrong. It says what; the reader, which knows the place, adds where.
+class BadValue : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// The finite number in `field`, blanks around it and a leading plus allowed. `what` names it in
+// the message: `longitude "12,5" is not a number`.
+double parse_number(std::string_view field, std::string_view what);
+
+// The integer in `field`, blanks around it allowed; `what` as above.
+std::int64_t parse_integer(std::string_view field, std::string_view what);
+
+// The index of a site that a file holds as any integer.
+template <std::integral Integer>
+Index checked_index(Integer value) {
+  if (value < 0) throw BadValue("negative index " + std::to_string(value));
+  if (static_cast<std::make_unsigned_t<Integer>>(value) > std::numeric_limits<Index>::max()) {
+    throw BadValue("index " + std::to_string(value) + " is too large");
+  }
+  return static_cast<Index>(value);
+}
+
+// The shortest digits that give back the same bits.
+void append_number(std::string& out, double value);
+void append_integer(std::string& out, std::uint64_t value);
+
+// Whether JSON accepts `text` as a number (RFC 8259, section 6).
+bool is_json_number(std::string_view text);
+
+// `value` in quotes for a message: one line, not long, no control characters.
+std::string quoted(std::string_view value);
+
+// The position in degrees of a longitude and latitude, given in degrees or radians. Throws BadValue
+// if they are not finite or the latitude lies beyond a pole.
+LonLat checked_position(double lon, double lat, bool is_radians);
+
+// `point` itself; throws BadValue if it is not finite.
+Point checked_point(const Point& point);
+
+// Without the blanks and tabs around it.
+std::string_view trim(std::string_view text);
+
+}  // namespace rondel::io
