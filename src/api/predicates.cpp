@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/predicates.h"
+
+#include "exact/integer.h"
+#include "predicates/orientation.h"
+#include "predicates/perturbation.h"
+#include "predicates/side_of_circle.h"
+#include "predicates/side_of_plane.h"
+
+namespace rondel {
+
+Sign orientation(const Point& a, const Point& b, const Point& c, const Sphere& sphere) {
+  return predicates::orientation_ladder(a, b, c, sphere.center).sign;
+}
+
+Sign side_of_circle(const Point& a, const Point& b, const Point& c, const Point& p, Model model,
+                    const Sphere& sphere) {
+  if (model == Model::projected) {
+    return predicates::side_of_circle_ladder(a, b, c, p, sphere.center).sign;
+  }
+  using exact::to_vector;
+  const Sign sign =
+      predicates::side_of_plane_filter(to_vector(a), to_vector(b), to_vector(c), to_vector(p));
+  return sign != Sign::zero ? sign : predicates::side_of_plane_ladder(a, b, c, p).sign;
+}
+
+bool is_in_conflict(const Point& a, const Point& b, const Point& c, const Point& p, Model model,
+                    const Sphere& sphere) {
+  const Sign sign = side_of_circle(a, b, c, p, model, sphere);
+  if (sign != Sign::zero) return sign == Sign::positive;
+  return predicates::is_in_conflict_perturbed(a, b, c, p, model, sphere.center);
+}
+
+bool is_same_site(const Point& a, const Point& b, Model model, const Sphere& sphere) {
+  if (a == b) return true;
+  if (model == Model::weighted) return false;
+  const auto v = exact::scaled_rays({a, b}, sphere.center);
+  return exact::is_zero(cross(v[0], v[1])) && dot(v[0], v[1]) > 0;
+}
+
+}  // namespace rondel

@@ -1,0 +1,177 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "dual/exact_normal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+#include "exact/integer.h"
+
+namespace rondel::dual {
+namespace {
+
+using exact::Integer;
+using exact::IntegerVector;
+
+// Significant bits of what is rounded to doubles in the end.
+constexpr int wanted_bits = 62;
+
+IntegerVector operator*(const Integer& s, const IntegerVector& v) {
+  return {s * v.x, s * v.y, s * v.z};
+}
+
+int num_bits(const Integer& value) {
+  return value == 0 ? 0 : static_cast<int>(msb(abs(value))) + 1;
+}
+
+int num_bits(const IntegerVector& v) {
+  return std::max({num_bits(v.x), num_bits(v.y), num_bits(v.z)});
+}
+
+Integer shifted(const Integer& value, int bits) {
+  return bits >= 0 ? Integer(value << bits) : Integer(value >> -bits);
+}
+
+// value * 2^exponent, rounded to nearest. A sticky bit below the 62 leading ones makes the
+// single conversion round correctly.
+double to_double(const Integer& value, int exponent) {
+  Integer magnitude = abs(value);
+  const int excess = num_bits(magnitude) - wanted_bits;
+  if (excess > 0) {
+    const bool is_inexact = static_cast<int>(lsb(magnitude)) < excess;
+    magnitude >>= excess;
+    if (is_inexact) magnitude |= 1U;
+    exponent += excess;
+  }
+  const double rounded = std::ldexp(static_cast<double>(static_cast<std::uint64_t>(magnitude)),
+                                    exponent);
+  return value < 0 ? -rounded : rounded;
+}
+
+// The square root rounded down, by Newton's method from above: the iteration decreases until it
+// reaches the root.
+Integer root(const Integer& value) {
+  if (value == 0) return 0;
+  Integer x = Integer(1) << ((num_bits(value) + 1) / 2);
+  const int excess = (num_bits(value) - wanted_bits) & ~1;
+  if (excess > 0) {
+    const auto leading = static_cast<std::uint64_t>(Integer(value >> excess));
+    // The start is at most 2^-20 too large, so that two or three steps suffice.
+    x = Integer(static_cast<std::uint64_t>(std::sqrt(static_cast<double>(leading)) * (1 + 0x1p-20)) +
+                2U)
+        << (excess / 2);
+  }
+  while (true) {
+    const Integer next = (x + value / x) >> 1;
+    if (next >= x) return x;
+    x = next;
+  }
+}
+
+// The unit vector of a non-zero integer vector. Its leading 128 bits give the direction to
+// 2^-126, the root and the quotients keep that.
+Vec rounded_unit(const IntegerVector& v) {
+  constexpr int bits = 128;
+  const int shift = bits - num_bits(v);
+  const IntegerVector w = {shifted(v.x, shift), shifted(v.y, shift), shifted(v.z, shift)};
+  const Integer length = root(dot(w, w));
+  const auto quotient = [&](const Integer& x) {
+    return to_double(Integer((x << bits) / length), -bits);
+  };
+  return {quotient(w.x), quotient(w.y), quotient(w.z)};
+}
+
+// |a| b x c + |b| c x a + |c| a x b, the normal of the projections of a, b and c, times some
+// positive factor. Never zero: a line has at most two points on a sphere.
+//
+// Roots of numbers scaled by 4^k, rounded down, are wrong by less than 1 in 2^k |a|, so the sum is
+// wrong by less than |b x c| + |c x a| + |a x b|.
+IntegerVector projected_normal(const IntegerVector& a, const IntegerVector& b,
+                               const IntegerVector& c) {
+  const IntegerVector bc = cross(b, c);
+  const IntegerVector ca = cross(c, a);
+  const IntegerVector ab = cross(a, b);
+  const int error_bits = std::max({num_bits(bc), num_bits(ca), num_bits(ab)}) + 4;
+  for (int k = 64;; k *= 2) {
+    const auto scaled_root = [k](const IntegerVector& p) { return root(dot(p, p) << (2 * k)); };
+    const IntegerVector n = scaled_root(a) * bc + scaled_root(b) * ca + scaled_root(c) * ab;
+    if (num_bits(n) >= error_bits + wanted_bits) return n;
+  }
+}
+
+std::optional<IntegerVector> plane_normal(const IntegerVector& a, const IntegerVector& b,
+                                          const IntegerVector& c) {
+  const IntegerVector n = cross(b - a, c - a);
+  if (is_zero(n)) return std::nullopt;
+  return n;
+}
+
+// The plane through the line of a and b and through `apex`, oriented away from the first site that
+// does not lie on it. Empty if apex is on the line or all sites are on the plane.
+std::optional<Point> supporting_normal(const SplitSites& sites, Index a, Index b,
+                                       const Point& apex) {
+  const Point& pa = sites.sites()[a];
+  const auto ray = exact::scaled_differences({pa, sites.sites()[b]}, apex);
+  const auto normal = cross(ray[0], ray[1] - ray[0]);
+  if (is_zero(normal)) return std::nullopt;
+  const Vec n = rounded_unit(normal);
+  for (const Point& p : sites.sites()) {
+    const auto q = exact::scaled_differences({p}, pa);
+    const Integer side = dot(normal, q[0]);
+    if (side != 0) return to_point(side < 0 ? n : -1.0 * n);
+  }
+  return std::nullopt;
+}
+
+ExactNormal collinear_normal(const SplitSites& sites, Index a, Index b) {
+  if (const auto n = supporting_normal(sites, a, b, sites.center())) return {*n, true};
+  for (const Point& apex : sites.sites()) {
+    if (const auto n = supporting_normal(sites, a, b, apex)) return {*n, true};
+  }
+  return {{}, true};
+}
+
+}  // namespace
+
+ExactNormal exact_normal(const SplitSites& sites, Index a, Index b, Index c) {
+  const Point& pa = sites.sites()[a];
+  const Point& pb = sites.sites()[b];
+  const Point& pc = sites.sites()[c];
+  if (sites.is_projected()) {
+    const auto p = exact::scaled_rays({pa, pb, pc}, sites.center());
+    return {to_point(rounded_unit(projected_normal(p[0], p[1], p[2]))), false};
+  }
+  const auto p = exact::scaled_differences({pa, pb, pc}, sites.center());
+  if (const auto n = plane_normal(p[0], p[1], p[2])) return {to_point(rounded_unit(*n)), false};
+  return collinear_normal(sites, a, b);
+}
+
+// |a| b - |b| a, divided by |a| |b|. Roots are wrong by less than 1 in 2^k |a|, so the sum by
+// less than |a| + |b|.
+Vec exact_projected_difference(const Point& a, const Point& b, const Point& center) {
+  const auto p = exact::scaled_rays({a, b}, center);
+  const int error_bits = std::max(num_bits(p[0]), num_bits(p[1])) + 3;
+  for (int k = 64;; k *= 2) {
+    const Integer length_a = root(dot(p[0], p[0]) << (2 * k));
+    const Integer length_b = root(dot(p[1], p[1]) << (2 * k));
+    const IntegerVector d = length_a * p[1] - length_b * p[0];
+    const int bits = num_bits(d);
+    if (bits < error_bits + wanted_bits) continue;
+    // d / (2^-k length_a length_b), to 128 bits of quotient.
+    const Integer product = length_a * length_b;
+    const int shift = 128 + num_bits(product) - bits;
+    const auto quotient = [&](const Integer& x) {
+      return to_double(Integer(shifted(x, shift) / product), k - shift);
+    };
+    return {quotient(d.x), quotient(d.y), quotient(d.z)};
+  }
+}
+
+Vec exact_direction(const Point& a, const Point& b) {
+  return rounded_unit(exact::scaled_differences({b}, a)[0]);
+}
+
+}  // namespace rondel::dual

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The places of the sites to twice double precision, once for all faces and cells.
+//
+// A face's normal depends on differences of places only, so a place is
+//   projected: the unit vector of the site, known to 2^-100;
+//   weighted:  the coordinates as given times one power of two that brings the largest
+//              to [1/2, 1): exact, unless bits fall below 2^-1074.
+// Notation of this folder: a the site or first corner, B = b - a and C = c - a, N = B x C,
+// n = N / |N| the circumcenter, u = 2^-53.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "exact/eft.h"
+#include "exact/unit_vector.h"
+#include "exact/vector.h"
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel::dual {
+
+using Vec = exact::Vector3<double>;
+using exact::to_vector;
+
+inline Vec operator*(double s, const Vec& v) { return {s * v.x, s * v.y, s * v.z}; }
+inline Point to_point(const Vec& v) { return {v.x, v.y, v.z}; }
+Vec normalized(const Vec& v);
+
+// b - a as the unevaluated sum hi + lo. |lo| <= 2^-51 in the projected model and
+// |lo| <= u|hi| in the weighted one.
+struct Offset {
+  Vec hi;
+  Vec lo;
+};
+
+inline Offset offset(const exact::SplitPoint& a, const exact::SplitPoint& b) {
+  const auto x = exact::two_diff(b.hi.x, a.hi.x);
+  const auto y = exact::two_diff(b.hi.y, a.hi.y);
+  const auto z = exact::two_diff(b.hi.z, a.hi.z);
+  return {{x.hi, y.hi, z.hi},
+          {x.lo + (b.lo.x - a.lo.x), y.lo + (b.lo.y - a.lo.y), z.lo + (b.lo.z - a.lo.z)}};
+}
+
+class SplitSites {
+ public:
+  // Throws InvalidInput if the number of sites is not that of the triangulation.
+  SplitSites(const Triangulation& triangulation, std::span<const Point> sites);
+
+  [[nodiscard]] const exact::SplitPoint& operator[](Index site) const { return places_[site]; }
+  [[nodiscard]] Offset offset(Index a, Index b) const {
+    return dual::offset(places_[a], places_[b]);
+  }
+  // b - a, or in the weighted model a multiple of it, with every coordinate right to a few u of the
+  // whole, however close the two sites are.
+  [[nodiscard]] Vec difference(Index a, Index b) const;
+
+  [[nodiscard]] bool is_projected() const { return model_ == Model::projected; }
+  [[nodiscard]] std::span<const Point> sites() const { return sites_; }
+  [[nodiscard]] const Point& center() const { return center_; }
+
+ private:
+  std::vector<exact::SplitPoint> places_;
+  std::span<const Point> sites_;
+  Point center_;
+  Model model_;
+};
+
+}  // namespace rondel::dual

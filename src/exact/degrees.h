@@ -1,0 +1,20 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Sine and cosine of degrees, the same bits on every platform.
+#pragma once
+
+namespace rondel::exact {
+
+struct SineCosine {
+  double sine;
+  double cosine;
+};
+
+// 1. Within 0.6 ulp of the exact values.
+// 2. Multiples of 90 degrees give exactly -1, 0 or 1; zeros are positive.
+// 3. Odd (sine) and even (cosine) in the angle; unchanged when the angle grows by 360 degrees.
+// Uses only operations that IEEE 754 rounds correctly, and an exact remainder.
+SineCosine sine_cosine_of_degrees(double degrees);
+
+}  // namespace rondel::exact

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The last rung: integers of any size. A finite double is an integer times a power of
+// two, so points scaled by a common power of two are integer vectors.
+#pragma once
+
+#include <boost/multiprecision/cpp_int.hpp>
+#include <initializer_list>
+#include <span>
+#include <vector>
+
+#include "exact/vector.h"
+#include "rondel/types.h"
+
+namespace rondel::exact {
+
+// Without expression templates, so that the generic vector formulas apply.
+using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<>,
+                                              boost::multiprecision::et_off>;
+using IntegerVector = Vector3<Integer>;
+
+inline Sign sign_of(const Integer& value) { return static_cast<Sign>(value.sign()); }
+
+inline bool is_zero(const IntegerVector& v) { return v.x == 0 && v.y == 0 && v.z == 0; }
+
+// The points minus `center`, all multiplied by the same power of two, exactly.
+std::vector<IntegerVector> scaled_differences(std::initializer_list<Point> points,
+                                              const Point& center);
+
+// The same with a power of two for each point: enough where only its ray counts.
+std::vector<IntegerVector> scaled_rays(std::initializer_list<Point> points, const Point& center);
+
+// The sign of the sum of coefficient[i] * sqrt(radicand[i]), radicands positive.
+//
+// The exact zero test: two roots belong to one class when the product of their
+// radicands is a perfect square. Roots of different classes are linearly independent over the
+// rationals (Besicovitch, J. London Math. Soc. 15, 1940), so the sum is zero
+// if and only if the sum over each class is. If it is not zero, raising the
+// precision finds the sign.
+Sign sign_of_root_sum(std::span<const Integer> coefficients, std::span<const Integer> radicands);
+
+}  // namespace rondel::exact

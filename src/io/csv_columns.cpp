@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/csv_columns.h"
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "io/number.h"
+
+namespace rondel::io {
+namespace {
+
+using Header = std::vector<std::string_view>;
+
+char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
+
+bool equal_but_for_case(std::string_view a, std::string_view b) {
+  return std::ranges::equal(a, b, {}, lower, lower);
+}
+
+std::string found(const Header& header) {
+  constexpr std::size_t most = 30;
+  std::string text = "; found: ";
+  for (std::size_t i = 0; i < header.size() && i < most; ++i) {
+    const std::string name = quoted(trim(header[i]));
+    text += (i == 0 ? "" : ", ") + name.substr(1, name.size() - 2);
+  }
+  return header.size() > most ? text + ", ..." : text;
+}
+
+struct Coordinate {
+  std::string_view word;                           // for messages
+  const std::string& chosen;                       // the name in the options
+  std::vector<std::string_view> usual;
+};
+
+// The column of a coordinate. An exact fit goes before one that differs in case.
+std::optional<std::size_t> find(const Header& header, const Coordinate& coordinate) {
+  const auto fits = [&](std::string_view name) {
+    if (!coordinate.chosen.empty()) return equal_but_for_case(name, trim(coordinate.chosen));
+    return std::ranges::any_of(coordinate.usual,
+                               [&](auto usual) { return equal_but_for_case(name, usual); });
+  };
+  std::vector<std::size_t> fitting;
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    if (trim(header[i]) == coordinate.chosen) return i;
+    if (fits(trim(header[i]))) fitting.push_back(i);
+  }
+  if (fitting.size() > 1) {
+    throw BadValue("more than one column may be the " + std::string(coordinate.word) +
+                   "; name one" + found(header));
+  }
+  if (fitting.empty() && !coordinate.chosen.empty()) {
+    throw BadValue("no column " + quoted(coordinate.chosen) + found(header));
+  }
+  return fitting.empty() ? std::nullopt : std::optional(fitting.front());
+}
+
+std::size_t require(const Header& header, const Coordinate& coordinate) {
+  if (const auto column = find(header, coordinate)) return *column;
+  std::string names;
+  for (const std::string_view name : coordinate.usual) {
+    names += (names.empty() ? "" : ", ") + std::string(name);
+  }
+  throw BadValue("no column for the " + std::string(coordinate.word) + " (" + names + ")" +
+                 found(header));
+}
+
+bool is_any_named(std::span<const Coordinate> coordinates) {
+  return std::ranges::any_of(coordinates, [](const auto& c) { return !c.chosen.empty(); });
+}
+
+std::size_t count_found(const Header& header, std::span<const Coordinate> coordinates) {
+  return static_cast<std::size_t>(std::ranges::count_if(
+      coordinates, [&](const auto& c) { return find(header, c).has_value(); }));
+}
+
+// A file may hold both kinds, or a part of one: what is complete counts, then what is named in part
+// so that the message says what is missing.
+bool is_xyz(const Header& header, std::span<const Coordinate> lonlat,
+            std::span<const Coordinate> xyz) {
+  if (is_any_named(lonlat) && is_any_named(xyz)) {
+    throw BadValue("columns are named both for longitude, latitude and for x, y, z");
+  }
+  if (is_any_named(lonlat) || is_any_named(xyz)) return is_any_named(xyz);
+  const std::size_t num_lonlat = count_found(header, lonlat);
+  const std::size_t num_xyz = count_found(header, xyz);
+  if (num_lonlat == lonlat.size() && num_xyz == xyz.size()) {
+    throw BadValue("columns for both longitude, latitude and x, y, z; name those to read" +
+                   found(header));
+  }
+  if (num_lonlat == 0 && num_xyz == 0) {
+    throw BadValue("no columns for longitude and latitude (lon, lat) or for x, y, z" +
+                   found(header));
+  }
+  return num_xyz == xyz.size() || num_lonlat == 0;
+}
+
+}  // namespace
+
+CoordinateColumns find_columns(const Header& header, const ReadOptions& options) {
+  const Coordinate lonlat[] = {{"longitude", options.lon, {"lon", "lng", "long", "longitude"}},
+                               {"latitude", options.lat, {"lat", "latitude"}}};
+  const Coordinate xyz[] = {{"x coordinate", options.x, {"x"}},
+                            {"y coordinate", options.y, {"y"}},
+                            {"z coordinate", options.z, {"z"}}};
+  CoordinateColumns result;
+  result.is_lonlat = !is_xyz(header, lonlat, xyz);
+  std::ranges::transform(result.is_lonlat ? std::span<const Coordinate>(lonlat) : std::span(xyz),
+                         result.columns.begin(),
+                         [&](const Coordinate& c) { return require(header, c); });
+  return result;
+}
+
+}  // namespace rondel::io

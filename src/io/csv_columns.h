@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Which columns of a table hold the coordinates.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <vector>
+
+#include "rondel/io.h"
+
+namespace rondel::io {
+
+struct CoordinateColumns {
+  bool is_lonlat = false;
+  std::array<std::size_t, 3> columns{};  // lon, lat or x, y, z
+};
+
+// Finds the columns that the options name, otherwise by their usual names; never by their order. Names
+// are compared without regard to case. Throws BadValue if a column is missing or two fit.
+CoordinateColumns find_columns(const std::vector<std::string_view>& header,
+                               const ReadOptions& options);
+
+}  // namespace rondel::io

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/csv_records.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "io/number.h"
+
+namespace rondel::io {
+
+bool CsvRecords::next() {
+  fields_.clear();
+  unescaped_.clear();
+  skip_empty_lines();
+  line_ = next_line_;
+  if (next_ == end_) return false;
+  while (read_field()) {
+  }
+  return true;
+}
+
+void CsvRecords::skip_empty_lines() {
+  while (next_ != end_) {
+    const char* const p = *next_ == '\r' && next_ + 1 != end_ ? next_ + 1 : next_;
+    if (*p != '\n') return;
+    next_ = p + 1;
+    ++next_line_;
+  }
+}
+
+// Reads one field and what ends it; false if the record ends too.
+bool CsvRecords::read_field() {
+  if (next_ != end_ && *next_ == '"') {
+    fields_.push_back(read_quoted());
+    return finish_field();
+  }
+  const char* const first = next_;
+  const char* p = first;
+  while (p != end_ && *p != delimiter_ && *p != '\n') ++p;
+  next_ = p;
+  if (p != first && p[-1] == '\r' && (p == end_ || *p == '\n')) --p;
+  fields_.emplace_back(first, p);
+  return finish_field();
+}
+
+// At a delimiter, at the end of a line or of the text, or else behind a quoted field.
+bool CsvRecords::finish_field() {
+  if (next_ != end_ && *next_ == '\r' && (next_ + 1 == end_ || next_[1] == '\n')) ++next_;
+  if (next_ == end_) return false;
+  const char c = *next_++;
+  if (c == delimiter_) return true;
+  if (c != '\n') throw BadValue("text behind the closing quote of a field");
+  ++next_line_;
+  return false;
+}
+
+std::string_view CsvRecords::read_quoted() {
+  const char* first = ++next_;
+  std::string* unescaped = nullptr;
+  while (true) {
+    const auto rest = static_cast<std::size_t>(end_ - first);
+    const auto* const quote = static_cast<const char*>(std::memchr(first, '"', rest));
+    if (quote == nullptr) throw BadValue("a quoted field does not end");
+    next_line_ += static_cast<std::uint64_t>(std::count(first, quote, '\n'));
+    const bool is_doubled = quote + 1 != end_ && quote[1] == '"';
+    if (is_doubled && unescaped == nullptr) unescaped = &unescaped_.emplace_back();
+    const char* const stop = is_doubled ? quote + 1 : quote;  // of a doubled quote, one stays
+    if (unescaped != nullptr) unescaped->append(first, stop);
+    if (!is_doubled) {
+      const std::string_view field(next_, static_cast<std::size_t>(quote - next_));
+      next_ = quote + 1;
+      return unescaped != nullptr ? std::string_view(*unescaped) : field;
+    }
+    first = quote + 2;
+  }
+}
+
+}  // namespace rondel::io

@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The records of a CSV file (RFC 4180).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rondel::io {
+
+// 1. Records end with LF or CRLF, the last one also with the text. Empty lines are skipped.
+// 2. A field that starts with a quote ends with the next single quote; inside, two quotes stand for one
+//    and line ends are part of it. Elsewhere quotes are ordinary characters.
+class CsvRecords {
+ public:
+  CsvRecords(std::string_view text, char delimiter)
+      : next_(text.data()), start_(next_), end_(next_ + text.size()), delimiter_(delimiter) {}
+
+  // Goes to the next record; false at the end. Throws BadValue for a broken quote.
+  bool next();
+
+  // Valid until the next call of next().
+  [[nodiscard]] const std::vector<std::string_view>& fields() const noexcept { return fields_; }
+  // Where the record starts, from 1 on.
+  [[nodiscard]] std::uint64_t line() const noexcept { return line_; }
+  // How much of the text is done.
+  [[nodiscard]] std::size_t position() const noexcept {
+    return static_cast<std::size_t>(next_ - start_);
+  }
+
+ private:
+  void skip_empty_lines();
+  bool read_field();
+  std::string_view read_quoted();
+  bool finish_field();
+
+  const char* next_;
+  const char* start_;
+  const char* end_;
+  char delimiter_;
+  std::uint64_t line_ = 1;       // of the current record
+  std::uint64_t next_line_ = 1;  // of next_
+  std::vector<std::string_view> fields_;
+  std::deque<std::string> unescaped_;  // fields of this record that had doubled quotes
+};
+
+}  // namespace rondel::io

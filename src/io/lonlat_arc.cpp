@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/lonlat_arc.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace rondel::io {
+namespace {
+
+double squared_norm(const Point& p) { return dot(p, p); }
+
+Point point_at(const LonLat& position) {
+  const double lon = position.lon_deg / degrees_per_radian;
+  const double lat = position.lat_deg / degrees_per_radian;
+  return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+}
+
+// A straight line with the rates u, v of longitude and latitude (radians, over its whole length)
+// has geodesic acceleration of at most |u| (|u| + 2|v|), so it is within an eighth of that of the
+// arc with the same ends while it is short; a seventh leaves room for the sphere's curvature.
+bool is_surely_flat(const MapPoint& p, const MapPoint& q, double tolerance) {
+  const double u = std::abs(q.position.lon_deg - p.position.lon_deg) / degrees_per_radian;
+  const double v = std::abs(q.position.lat_deg - p.position.lat_deg) / degrees_per_radian;
+  return u + v < 0.1 && u * (u + 2 * v) <= 7 * tolerance;
+}
+
+// Whether the straight line is within the tolerance of the arc, by its distance from the plane of
+// the great circle at three places. The circle has at most one inflection between p and q, so
+// the distance vanishes at most once inside and its maximum is at most 1.1 times the largest
+// of the three.
+bool is_flat(const MapPoint& p, const MapPoint& q, double tolerance) {
+  if (is_surely_flat(p, q, tolerance)) return true;
+  const Point chord = difference(q.point, p.point);
+  if (norm(chord) <= tolerance) return true;
+  const Point normal = cross(p.point, chord);
+  const double limit = 0.9 * tolerance * norm(normal);
+  const auto is_near = [&](double t) {
+    const LonLat place{std::lerp(p.position.lon_deg, q.position.lon_deg, t),
+                       std::lerp(p.position.lat_deg, q.position.lat_deg, t)};
+    return std::abs(dot(normal, difference(point_at(place), p.point))) <= limit;
+  };
+  return is_near(0.5) && is_near(0.25) && is_near(0.75);
+}
+
+void bisect(const MapPoint& p, const MapPoint& q, double tolerance, std::vector<MapPoint>& out) {
+  if (is_flat(p, q, tolerance)) return;
+  MapPoint middle;
+  middle.point = normalized(sum(p.point, q.point));
+  if (middle.point == p.point || middle.point == q.point) return;
+  // Ends on the antimeridian have the sign of the side on which the arc lies.
+  const double side = std::abs(p.position.lon_deg) > std::abs(q.position.lon_deg)
+                          ? p.position.lon_deg
+                          : q.position.lon_deg;
+  middle.position = lonlat_of(middle.point, side > 0);
+  bisect(p, middle, tolerance, out);
+  out.push_back(middle);
+  bisect(middle, q, tolerance, out);
+}
+
+}  // namespace
+
+Point sum(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
+Point difference(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
+
+Point cross(const Point& p, const Point& q) {
+  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+
+double dot(const Point& p, const Point& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
+double norm(const Point& p) { return std::sqrt(squared_norm(p)); }
+
+Point normalized(const Point& p) {
+  const double length = norm(p);
+  return {p.x / length, p.y / length, p.z / length};
+}
+
+Point snapped(const Point& p) {
+  if (std::hypot(p.x, p.y) <= merge_distance) return {0, 0, p.z > 0 ? 1.0 : -1.0};
+  if (p.x < 0 && std::abs(p.y) <= merge_distance) return {p.x, 0, p.z};
+  return p;
+}
+
+LonLat lonlat_of(const Point& p, bool east) {
+  double lon = std::atan2(p.y, p.x) * degrees_per_radian;
+  if (p.y == 0) lon = p.x > 0 ? 0 : (east ? 180 : -180);
+  const double lat = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) * degrees_per_radian;
+  // Adding zero turns -0 into 0.
+  return {std::clamp(lon, -180.0, 180.0) + 0.0, std::clamp(lat, -90.0, 90.0) + 0.0};
+}
+
+void append_arc(const MapPoint& p, const MapPoint& q, double tolerance,
+                std::vector<MapPoint>& out) {
+  const auto key = [](const Point& a) { return std::tie(a.x, a.y, a.z); };
+  if (key(p.point) < key(q.point)) {
+    bisect(p, q, tolerance, out);
+    return;
+  }
+  const auto start = static_cast<std::ptrdiff_t>(out.size());
+  bisect(q, p, tolerance, out);
+  std::reverse(out.begin() + start, out.end());
+}
+
+}  // namespace rondel::io

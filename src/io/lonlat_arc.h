@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Arcs of great circles in the plane of longitude and latitude.
+#pragma once
+
+#include <numbers>
+#include <vector>
+
+#include "rondel/types.h"
+
+namespace rondel::io {
+
+inline constexpr double degrees_per_radian = 180 / std::numbers::pi;
+
+// Points of a map nearer than this (radians; 0.1 micrometer on the earth) are one point, and what
+// is that near to a pole or to the antimeridian lies on it. The centers of circumcircles are
+// off by up to 4 * 2^-53 and a longitude or latitude in degrees by 2 * 2^-53 more:
+// whatever is farther apart than 20 times that is still in its order when it is rounded.
+inline constexpr double merge_distance = 0x1p-46;
+
+inline bool is_pole(const Point& p) { return p.x == 0 && p.y == 0; }
+
+// The point itself, or the pole or point of the antimeridian within merge_distance.
+Point snapped(const Point& p);
+
+// Longitude and latitude of a unit vector that is not a pole. A point on the antimeridian has two
+// longitudes; it gets the one on the side of `east`: 180 if true, else -180.
+LonLat lonlat_of(const Point& p, bool east);
+
+Point sum(const Point& p, const Point& q);
+Point difference(const Point& p, const Point& q);
+Point cross(const Point& p, const Point& q);
+double dot(const Point& p, const Point& q);
+double norm(const Point& p);
+Point normalized(const Point& p);
+
+struct MapPoint {
+  Point point;
+  LonLat position;
+};
+
+// Appends the points, in order and without the ends, that cut the arc from p to q into pieces whose
+// straight lines in longitude and latitude are within `tolerance` (radians) of them.
+// 1. The points of the arc from q to p are bit by bit the same in reverse order.
+// 2. They depend on nothing but p, q, their longitudes and the tolerance.
+// Precondition: the arc meets neither a pole nor, its ends apart, the antimeridian.
+void append_arc(const MapPoint& p, const MapPoint& q, double tolerance, std::vector<MapPoint>& out);
+
+}  // namespace rondel::io

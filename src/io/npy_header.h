@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// NumPy's array format (.npy): a magic string, a header that is a Python dictionary, the numbers.
+// https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/binary.h"
+
+namespace rondel::io {
+
+// The header of an array: '<f8', False, (10, 3).
+struct NpyHeader {
+  std::string dtype;
+  bool is_fortran_order = false;
+  std::vector<std::uint64_t> shape;
+  std::size_t data_offset = 0;
+};
+
+// Reads the header of a file of version 1, 2 or 3. Throws BadValue.
+NpyHeader parse_npy_header(std::string_view bytes);
+
+// A header of version 1 for an array in C order, padded so that the data is aligned to 64 bytes.
+std::string make_npy_header(std::string_view dtype, std::span<const std::uint64_t> shape);
+
+std::string shape_text(std::span<const std::uint64_t> shape);
+
+// A two-dimensional array in the bytes of a file.
+class NpyTable {
+ public:
+  // Throws BadValue unless the type is one of `types` ("f8", of any byte order), which `needed` says
+  // in words, and the file has just the bytes of the array.
+  NpyTable(std::string_view bytes, std::span<const std::string_view> types,
+           std::string_view needed);
+
+  [[nodiscard]] std::string_view type() const { return std::string_view(header_.dtype).substr(1); }
+  [[nodiscard]] std::size_t num_rows() const { return header_.shape[0]; }
+  [[nodiscard]] std::size_t num_columns() const { return header_.shape[1]; }
+  [[nodiscard]] std::string shape() const { return shape_text(header_.shape); }
+
+  // Precondition: T is what type() says.
+  template <typename T>
+  [[nodiscard]] T at(std::size_t row, std::size_t column) const {
+    const std::size_t position = header_.is_fortran_order ? column * num_rows() + row
+                                                          : row * num_columns() + column;
+    return load<T>(data_ + position * sizeof(T), order_);
+  }
+
+ private:
+  void check_size(std::size_t num_bytes) const;
+
+  NpyHeader header_;
+  std::endian order_ = std::endian::little;
+  const char* data_ = nullptr;
+};
+
+}  // namespace rondel::io

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/site_collector.h"
+
+#include "io/number.h"
+#include "rondel/delaunay.h"
+
+namespace rondel::io {
+
+void SiteCollector::reserve(std::size_t n, bool is_lonlat) {
+  table_.sites.reserve(n);
+  if (is_lonlat) table_.positions.reserve(n);
+}
+
+void SiteCollector::add_position(double lon, double lat, std::uint64_t line) {
+  const LonLat position = checked_position(lon, lat, options_.radians);
+  note_line(line);
+  table_.positions.push_back(position);
+  table_.sites.push_back(unit_vector(position));
+}
+
+void SiteCollector::add_point(const Point& point, std::uint64_t line) {
+  checked_point(point);
+  note_line(line);
+  table_.sites.push_back(point);
+}
+
+// The lines of the sites are listed from the first one on that does not follow its predecessor.
+void SiteCollector::note_line(std::uint64_t line) {
+  const std::size_t n = table_.sites.size();
+  if (n == 0) table_.first_line = line;
+  if (table_.lines.empty()) {
+    if (line == 0 || line == table_.first_line + n) return;
+    table_.lines.reserve(table_.sites.capacity());
+    for (std::size_t i = 0; i < n; ++i) table_.lines.push_back(table_.first_line + i);
+  }
+  table_.lines.push_back(line);
+}
+
+void SiteCollector::report_progress(std::size_t done, std::size_t total) const {
+  constexpr std::size_t interval = 65536;
+  if (size() % interval != 0 || !options_.progress) return;
+  options_.progress("read", static_cast<double>(done) / static_cast<double>(total));
+}
+
+}  // namespace rondel::io

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the readers of sites have in common: checks, unit vectors, lines and progress.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "rondel/io.h"
+
+namespace rondel::io {
+
+class SiteCollector {
+ public:
+  // Fills `table`, whose name is set.
+  SiteCollector(SiteTable& table, const ReadOptions& options) : table_(table), options_(options) {}
+
+  // Room for n sites.
+  void reserve(std::size_t n, bool is_lonlat);
+
+  // Adds the next site, which stands in `line` (0: the format has no lines). Throws BadValue.
+  void add_position(double lon, double lat, std::uint64_t line);
+  void add_point(const Point& point, std::uint64_t line);
+
+  // Reports, now and then, that `done` of `total` is read.
+  void report_progress(std::size_t done, std::size_t total) const;
+
+  [[nodiscard]] std::size_t size() const noexcept { return table_.sites.size(); }
+
+ private:
+  void note_line(std::uint64_t line);
+
+  SiteTable& table_;
+  const ReadOptions& options_;
+};
+
+}  // namespace rondel::io

@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The formats of sites, one function each way.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "io/atomic_file.h"
+#include "rondel/io.h"
+
+namespace rondel::io {
+
+// Each reads `bytes`, the content of the file `table.name`, into `table`.
+// Throws FileError as read_sites does.
+void read_csv(std::string_view bytes, const ReadOptions& options, SiteTable& table);
+void read_tsv(std::string_view bytes, const ReadOptions& options, SiteTable& table);
+void read_xyz(std::string_view bytes, const ReadOptions& options, SiteTable& table);
+void read_npy_sites(std::string_view bytes, const ReadOptions& options, SiteTable& table);
+void read_geojson(std::string_view bytes, const ReadOptions& options, SiteTable& table);
+
+// Each writes the positions if there are any, otherwise the sites; .xyz has sites only.
+void write_csv(AtomicFile& file, std::span<const Point> sites, std::span<const LonLat> positions);
+void write_tsv(AtomicFile& file, std::span<const Point> sites, std::span<const LonLat> positions);
+void write_xyz(AtomicFile& file, std::span<const Point> sites, std::span<const LonLat> positions);
+void write_npy_sites(AtomicFile& file, std::span<const Point> sites,
+                     std::span<const LonLat> positions);
+
+}  // namespace rondel::io

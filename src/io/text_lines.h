@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The lines of a text file as words between blanks, for .xyz .off .obj and ASCII .ply.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace rondel::io {
+
+// Lines end with LF or CRLF. '#' starts a comment; lines without words are skipped.
+class TextLines {
+ public:
+  explicit TextLines(std::string_view text) : text_(text) {
+    if (text_.starts_with("\xEF\xBB\xBF")) position_ = 3;
+  }
+
+  // Goes to the next line that has words; false at the end.
+  bool next();
+
+  [[nodiscard]] const std::vector<std::string_view>& words() const noexcept { return words_; }
+  // The number of the current line, from 1 on.
+  [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
+  // How many bytes are done, of how many.
+  [[nodiscard]] std::size_t position() const noexcept { return position_; }
+  [[nodiscard]] std::size_t size() const noexcept { return text_.size(); }
+
+ private:
+  std::string_view text_;
+  std::size_t position_ = 0;
+  std::uint64_t number_ = 0;
+  std::vector<std::string_view> words_;
+};
+
+}  // namespace rondel::io

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Error bounds of the filters. docs/theory/filters.md derives each; a test
+// recomputes them and searches for violations.
+//
+// u = 2^-53 is the unit roundoff, eta bounds the distance of a stored direction from
+// the exact unit vector, H is the largest distance of p from the face's corners.
+#pragma once
+
+namespace rondel::predicates {
+
+inline constexpr double unit_roundoff = 0x1p-53;
+
+// A direction is computed as p / sqrt(x^2 + y^2 + z^2), at most 3.5u + O(u^2) off relatively.
+// With a center, the differences add another u.
+inline constexpr double direction_error = 4.6 * unit_roundoff;
+
+// det(B, C, D) of differences of exact data, relative to H^3:
+// rounding of the differences 3u, of the determinant 5u times the permanent (at most 2/sqrt(3)).
+inline constexpr double plane_bound = 10 * unit_roundoff;
+
+// The same of stored directions, relative to H^2 where H <= 2: 6 eta + 2 * 8.8u = 45.2u,
+// times 1.17 for terms of higher order.
+inline constexpr double circle_plane_bound = 54 * unit_roundoff;
+
+// |B|^2 det(p,C,D) + ... of stored directions, relative to H^3 where H <= 2:
+// 24 eta + 2 * (12u + 3 eta + 38.1u) = 238.2u, times 1.19 for terms of higher order.
+inline constexpr double circle_bound = 284 * unit_roundoff;
+
+// det(a, b-a, c-a) of exact data, relative to |a| |b-a| |c-a|: 3u + 5.8u.
+inline constexpr double orientation_bound = 10 * unit_roundoff;
+
+// det(a, b-a, c-a) of stored directions, relative to H = max(|b-a|, |c-a|) <= 2:
+// 4 eta + 2 * (eta + 8.8u) = 45.2u, times 1.17.
+inline constexpr double direction_orientation_bound = 54 * unit_roundoff;
+
+// det(B, C, D) in double-double: exact data relative to H^3, and unit
+// vectors known to 2^-100 relative to H^2.
+inline constexpr double plane_double_double_bound = 0x1p-99;
+inline constexpr double circle_double_double_bound = 0x1p-95;
+
+// The filters of exact data accept a determinant only if its square exceeds this. Then H^3 >= |det|
+// > 10^-145, while H^6 is finite only for H < 10^52, so that lost subnormal bits sum to less than
+// 10^-270: nothing against the slack of the bounds, 10^-161 and more.
+inline constexpr double underflow_guard = 1e-290;
+
+}  // namespace rondel::predicates

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the inexact rungs of a ladder share.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include "exact/vector.h"
+#include "predicates/bounds.h"
+#include "rondel/types.h"
+
+namespace rondel::predicates {
+
+using exact::sign_of;
+using exact::to_vector;
+using Vector = exact::Vector3<double>;
+
+// An inexact rung returns the proven sign, or Sign::zero for "unsure"; it never proves a zero.
+inline Sign unless_unsure(double value, bool is_proven) {
+  return is_proven ? sign_of(value) : Sign::zero;
+}
+
+inline double max_squared_length(const Vector& a, const Vector& b, const Vector& c) {
+  return std::max(std::max(dot(a, a), dot(b, b)), dot(c, c));
+}
+
+// Whether expansions of products of up to five coordinates are exact: no overflow, no underflow.
+inline bool is_safe_for_expansions(std::initializer_list<Point> points) {
+  const auto is_safe = [](double v) {
+    const double size = std::abs(v);
+    return size == 0 || (size > 0x1p-100 && size < 0x1p100);
+  };
+  return std::all_of(points.begin(), points.end(),
+                     [&](const Point& p) { return is_safe(p.x) && is_safe(p.y) && is_safe(p.z); });
+}
+
+}  // namespace rondel::predicates

@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "predicates/perturbation.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <tuple>
+
+#include "exact/integer.h"
+#include "predicates/orientation.h"
+
+namespace rondel::predicates {
+namespace {
+
+using exact::Integer;
+using exact::IntegerVector;
+
+// The roles of the four points. Raising one of them changes the determinant in the direction of a
+// triple of the others: +(b,c,d) for p, -(p,c,d) for b, +(p,b,d) for c, -(p,b,c) for d.
+constexpr std::size_t role_p = 0;
+constexpr std::array<std::array<std::size_t, 3>, 4> triple_of = {
+    {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
+constexpr std::array<Sign, 4> factor_of = {Sign::positive, Sign::negative, Sign::positive,
+                                           Sign::negative};
+
+using Four = std::array<Point, 4>;
+using Order = std::array<std::size_t, 4>;
+
+Order raising_order(const Four& points) {
+  Order order = {0, 1, 2, 3};
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t i, std::size_t j) { return is_raised_more(points[i], points[j]); });
+  return order;
+}
+
+Sign raise_from_center(const Four& points, const Order& order, const Point& center) {
+  for (const std::size_t role : order) {
+    const auto& [i, j, k] = triple_of[role];
+    const Sign sign = orientation_ladder(points[i], points[j], points[k], center).sign;
+    if (sign != Sign::zero) return factor_of[role] * sign;
+  }
+  return Sign::zero;
+}
+
+// What follows concerns four sites in one plane W with the center. The sign of a triple seen from g
+// is its orientation within W, up to one common sign.
+
+// Orientation in W of three distinct unit vectors: that of their circular order. Two of the three
+// consecutive pairs turn the same way; a pair of antipodes turns neither way.
+Sign circular_order(const IntegerVector& x, const IntegerVector& y, const IntegerVector& z,
+                    const IntegerVector& normal) {
+  const auto turn = [&](const IntegerVector& a, const IntegerVector& b) {
+    return static_cast<int>(exact::sign_of(dot(cross(a, b), normal)));
+  };
+  const int turns = turn(x, y) + turn(y, z) + turn(z, x);
+  return static_cast<Sign>((turns > 0) - (turns < 0));
+}
+
+// A vector of W's normal direction whose sense is the orientation of the corners in W. Collinear
+// corners take the sense that raising them from the center gives: moving
+// x to x(1+e) changes (y-x) x (z-x) by e x x (y-z). Zero if they are in line with the center.
+IntegerVector oriented_normal(const std::array<IntegerVector, 4>& v, const Order& order,
+                              const std::array<std::size_t, 3>& triple) {
+  const IntegerVector& x = v[triple[0]];
+  const IntegerVector normal = cross(v[triple[1]] - x, v[triple[2]] - x);
+  if (!is_zero(normal)) return normal;
+  for (const std::size_t role : order) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (triple[k] != role) continue;
+      const IntegerVector raised = cross(v[role], v[triple[(k + 1) % 3]] - v[triple[(k + 2) % 3]]);
+      if (!is_zero(raised)) return raised;
+    }
+  }
+  return normal;
+}
+
+// Raising from g: the face (b, c, d) is positive seen from g, because g is inside the hull.
+Sign raise_from_inside(const Four& points, const Order& order, Model model, const Point& center) {
+  const auto integers =
+      model == Model::weighted
+          ? exact::scaled_differences({points[0], points[1], points[2], points[3]}, center)
+          : exact::scaled_rays({points[0], points[1], points[2], points[3]}, center);
+  const std::array<IntegerVector, 4> v = {integers[0], integers[1], integers[2], integers[3]};
+  IntegerVector normal = cross(v[1], v[2]);
+  if (is_zero(normal)) normal = cross(v[2], v[3]);
+  const auto orientation_in_plane = [&](const std::array<std::size_t, 3>& t) {
+    if (model == Model::projected) return circular_order(v[t[0]], v[t[1]], v[t[2]], normal);
+    return exact::sign_of(dot(oriented_normal(v, order, t), normal));
+  };
+  if (model == Model::weighted) normal = oriented_normal(v, order, triple_of[role_p]);
+  const Sign face = orientation_in_plane(triple_of[role_p]);
+  for (const std::size_t role : order) {
+    const Sign sign = face * orientation_in_plane(triple_of[role]);
+    if (sign != Sign::zero) return factor_of[role] * sign;
+  }
+  return Sign::zero;
+}
+
+}  // namespace
+
+bool is_raised_more(const Point& a, const Point& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+bool is_in_conflict_perturbed(const Point& b, const Point& c, const Point& d, const Point& p,
+                              Model model, const Point& center) {
+  const Four points = {p, b, c, d};
+  const Order order = raising_order(points);
+  Sign sign = raise_from_center(points, order, center);
+  if (sign == Sign::zero) sign = raise_from_inside(points, order, model, center);
+  assert(sign != Sign::zero);
+  return sign == Sign::positive;
+}
+
+}  // namespace rondel::predicates

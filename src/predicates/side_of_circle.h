@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The conflict test of the projected model (the paper, section 4.1): whether p lies
+// inside the circle of the face (b, c, d), all four being exact projections on the
+// sphere. With unit vectors and B = b-p, C = c-p, D = d-p, p.B = -|B|^2 / 2, hence
+//
+//     -2 det(B,C,D) = |B|^2 det(p,C,D) + |C|^2 det(p,D,B) + |D|^2 det(p,B,C):
+//
+// the planar in-circle test in a sheared tangent frame of p.
+//
+// 1. Positive: in conflict. Zero: the four projections are cocircular.
+// 2. Odd under exchange of two arguments.
+// 3. Unchanged when a point moves along its ray.
+//
+// Rungs: the left side in doubles, which decides while the sites are not close;
+// the right side in doubles, whose error is of order u H^3 against a value of order H^4 at
+// any distance H; the left side in double-double; the sign of a sum of
+// four square roots in integers.
+#pragma once
+
+#include "exact/unit_vector.h"
+#include "predicates/filtered.h"
+#include "predicates/tally.h"
+
+namespace rondel::predicates {
+
+// For directions within `direction_error` of unit vectors.
+inline Sign side_of_circle_filter(const Vector& b, const Vector& c, const Vector& d,
+                                  const Vector& p) {
+  const Vector pb = b - p;
+  const Vector pc = c - p;
+  const Vector pd = d - p;
+  const Vector cd = cross(pc, pd);
+  const double b2 = dot(pb, pb);
+  const double c2 = dot(pc, pc);
+  const double d2 = dot(pd, pd);
+  const double m = std::max(std::max(b2, c2), d2);
+  const double plain = -dot(pb, cd);
+  if (std::abs(plain) > circle_plane_bound * m) return sign_of(plain);
+
+  const Vector db = cross(pd, pb);
+  const Vector bc = cross(pb, pc);
+  const Vector sheared = {b2 * cd.x + c2 * db.x + d2 * bc.x, b2 * cd.y + c2 * db.y + d2 * bc.y,
+                          b2 * cd.z + c2 * db.z + d2 * bc.z};
+  const double value = dot(p, sheared);
+  constexpr double bound = circle_bound * circle_bound;
+  return unless_unsure(value, value * value > bound * (m * m * m));
+}
+
+// The second rung. The unit vectors must be within 2^-100 of the exact ones.
+Sign side_of_circle_double_double(const exact::SplitPoint& b, const exact::SplitPoint& c,
+                                  const exact::SplitPoint& d, const exact::SplitPoint& p);
+
+// The last rung: the exact sign for points as given.
+Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const Point& p,
+                          const Point& center);
+
+// The rungs above the filter, for points as given.
+Decision side_of_circle_ladder(const Point& b, const Point& c, const Point& d, const Point& p,
+                               const Point& center);
+
+}  // namespace rondel::predicates
