@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/check.h"
+
+#include <nlohmann/json.hpp>
+
+#include "report.h"
+#include "run.h"
+
+namespace rondel::cli {
+namespace {
+
+std::string json_of(const CheckReport& verdict, const CommonOptions& options, std::size_t sites,
+                    std::size_t faces, const Seconds& seconds) {
+  const nlohmann::ordered_json json = {
+      {"valid", verdict.is_valid},
+      {"reason", verdict.reason},
+      {"sites", sites},
+      {"vertices", verdict.num_vertices},
+      {"edges", verdict.num_edges},
+      {"faces", faces},
+      {"duplicates", verdict.num_duplicates},
+      {"hidden", verdict.num_hidden},
+      {"model", name_of(options.build.model)},
+      {"seconds", {{"read", seconds.read}, {"total", seconds.total}}},
+      {"peak_memory_bytes", peak_memory_bytes()}};
+  return json.dump(2) + '\n';
+}
+
+std::string proof_of(const CheckReport& verdict, const CheckOptions& options, std::size_t sites,
+                     std::size_t faces) {
+  if (!verdict.is_valid) return {};
+  std::string text = options.triangles + " is the triangulation of " + options.common.input + '\n';
+  text += std::to_string(sites) + " sites accounted for: " + std::to_string(verdict.num_vertices) +
+          " vertices, " + std::to_string(verdict.num_duplicates) + " duplicates, " +
+          std::to_string(verdict.num_hidden) + " hidden\n";
+  text += std::to_string(faces) + " faces and " + std::to_string(verdict.num_edges) +
+          " edges form one closed surface; every edge is locally " +
+          (options.common.build.model == Model::projected ? "Delaunay" : "regular") + ", exactly\n";
+  return text;
+}
+
+}  // namespace
+
+ExitStatus run_check(const CheckOptions& options) {
+  Job job(options.common);
+  const SiteTable table = job.read();
+  const std::vector<Triple> triangles = read_triangles(options.triangles);
+  Options build = options.common.build;
+  build.progress = job.progress();
+  const CheckReport verdict =
+      with_places(table, [&] { return check(table.sites, triangles, build); });
+  const std::size_t sites = table.sites.size();
+  job.report(json_of(verdict, options.common, sites, triangles.size(), job.seconds()),
+             proof_of(verdict, options, sites, triangles.size()));
+  if (verdict.is_valid) return done;
+  if (options.common.json) return failed;
+  throw FileError(options.triangles + ": " + verdict.reason);
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The arguments and the help of every command (plot apart: plot.cpp).
+
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <memory>
+
+#include "command.h"
+#include "generate.h"
+#include "run.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+std::string kind_error(const std::string& text) {
+  return find_kind(text) != nullptr ? std::string() : "'" + text + "' is not a kind";
+}
+
+std::string count_error(const std::string& text) { return whole_error(text, 1, max_sites); }
+
+std::string seed_error(const std::string& text) {
+  return whole_error(text, 0, std::numeric_limits<std::uint64_t>::max());
+}
+
+std::string kinds_help() {
+  std::string text = "Kinds:\n";
+  for (const Kind& kind : kinds()) {
+    std::string name(kind.name);
+    name.resize(14, ' ');
+    text += "  " + name + std::string(kind.what) + '\n';
+  }
+  return text;
+}
+
+}  // namespace
+
+Command add_delaunay_command(CLI::App& tool) {
+  auto options = std::make_shared<CommonOptions>();
+  CLI::App* parser = tool.add_subcommand("delaunay", "Triangulate sites on or near a sphere");
+  add_input_options(*parser, *options);
+  add_output_option(*parser, *options,
+                    "Where to write the triangles: .npy (m x 3 input indices), .off .ply .obj\n"
+                    ".stl .vtp .geojson");
+  add_build_options(*parser, *options);
+  add_report_options(*parser, *options);
+  parser->footer(
+      "The triangulation is exact and unique: it depends on the set of sites alone.\n\n"
+      "Examples:\n"
+      "  rondel delaunay stations.csv -o stations.geojson\n"
+      "  rondel delaunay points.xyz --model weighted -o hull.ply\n"
+      "  rondel delaunay stations.csv --lon east --lat north --json -o faces.npy");
+  return {parser, [options] { return run_delaunay(*options); }};
+}
+
+Command add_voronoi_command(CLI::App& tool) {
+  auto options = std::make_shared<VoronoiOptions>();
+  CLI::App* parser = tool.add_subcommand("voronoi", "Compute the Voronoi or power cells of sites");
+  add_input_options(*parser, options->common);
+  add_output_option(
+      *parser, options->common,
+      "Where to write the cells: .geojson (a feature per cell, with its area and the\n"
+      "input's columns), .vtp .npz");
+  parser
+      ->add_option("--tolerance", options->tolerance_deg,
+                   "GeoJSON: how far a line may be from its great circle (default: 0.01)")
+      ->check(positive_error)
+      ->type_name("DEG");
+  add_build_options(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "Areas are in steradians; on Earth, times 6371^2 for square kilometres.\n\n"
+      "Examples:\n"
+      "  rondel voronoi stations.csv -o cells.geojson\n"
+      "  rondel voronoi circles.csv --model weighted -o power-cells.vtp");
+  return {parser, [options] { return run_voronoi(*options); }};
+}
+
+Command add_check_command(CLI::App& tool) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* parser =
+      tool.add_subcommand("check", "Prove or refute that triangles are the triangulation of sites");
+  add_input_options(*parser, options->common);
+  parser
+      ->add_option("TRIANGLES", options->triangles,
+                   "The triangles, as input indices: .npy .off .ply .obj .vtp")
+      ->required()
+      ->type_name("");
+  add_build_options(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "Checks that the triangles form one closed surface, that every site is accounted for\n"
+      "and that every edge is Delaunay, by exact arithmetic. Exit status: 0 if it is proved,\n"
+      "1 if it is refuted or a file cannot be read.\n\n"
+      "Example:\n"
+      "  rondel check stations.csv faces.npy");
+  return {parser, [options] { return run_check(*options); }};
+}
+
+Command add_generate_command(CLI::App& tool) {
+  auto options = std::make_shared<GenerateOptions>();
+  CLI::App* parser = tool.add_subcommand("generate", "Generate sites to try things out");
+  Recipe& recipe = options->recipe;
+  parser->add_option("KIND", options->kind, "What to generate: see below")
+      ->required()
+      ->check(kind_error)
+      ->type_name("");
+  parser->add_option("-n,--number", recipe.n, "Number of sites")
+      ->check(count_error)
+      ->type_name("N");
+  add_output_option(*parser, options->common,
+                    "Where to write the sites: .csv .tsv (with a header), .xyz .txt .npy");
+  parser->add_option("--seed", recipe.seed, "Seed of the random numbers (default: 1)")
+      ->check(seed_error)
+      ->type_name("S");
+  CLI::Option* angle = parser->add_option("--angle", options->angle,
+                                          "Angular radius of patch, cluster and small-circle");
+  angle->check(positive_error)->type_name("DEG");
+  parser->add_flag("--radians", options->common.read.radians, "--angle is in radians")
+      ->needs(angle);
+  CLI::Option* rows = parser->add_option("--rows", recipe.rows, "lonlat-grid: number of parallels");
+  CLI::Option* columns =
+      parser->add_option("--columns", recipe.columns, "lonlat-grid: number of meridians");
+  for (CLI::Option* option : {rows, columns}) {
+    option->check(count_error)->type_name("N");
+  }
+  rows->needs(columns);
+  columns->needs(rows);
+  add_report_options(*parser, options->common);
+  parser->footer(kinds_help() +
+                 "\nThe same seed gives the same bytes on every machine.\n\n"
+                 "Examples:\n"
+                 "  rondel generate uniform -n 100000 -o sites.npy\n"
+                 "  rondel generate patch -n 1000 --angle 0.01 --seed 7 -o patch.csv");
+  return {parser, [options] { return run_generate(*options); }};
+}
+
+Command add_info_command(CLI::App& tool) {
+  auto options = std::make_shared<CommonOptions>();
+  CLI::App* parser = tool.add_subcommand("info", "Say what a file of sites holds");
+  add_input_options(*parser, *options);
+  add_build_options(*parser, *options);
+  add_report_options(*parser, *options);
+  parser->footer(
+      "Prints the number of sites, their bounds, exact duplicates, the distance from\n"
+      "the sphere, and the columns.\n\n"
+      "Example:\n"
+      "  rondel info stations.csv");
+  return {parser, [options] { return run_info(*options); }};
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "report.h"
+#include "rondel/delaunay.h"
+#include "run.h"
+
+namespace rondel::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Range {
+  double min = std::numeric_limits<double>::infinity();
+  double max = -std::numeric_limits<double>::infinity();
+
+  void add(double value) {
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+  [[nodiscard]] bool is_empty() const { return min > max; }
+};
+
+struct NamedRange {
+  const char* name;
+  Range range;
+};
+
+struct Facts {
+  std::vector<NamedRange> bounds;
+  Range height;  // |p - center| - radius
+  std::size_t at_center = 0;
+  Triangulation triangulation;  // of the sites that are not at the center
+};
+
+std::vector<NamedRange> bounds_of(const SiteTable& table) {
+  if (table.is_lonlat()) {
+    Range lon;
+    Range lat;
+    for (const LonLat& position : table.positions) {
+      lon.add(position.lon_deg);
+      lat.add(position.lat_deg);
+    }
+    return {{"lon", lon}, {"lat", lat}};
+  }
+  Range x;
+  Range y;
+  Range z;
+  for (const Point& site : table.sites) {
+    x.add(site.x);
+    y.add(site.y);
+    z.add(site.z);
+  }
+  return {{"x", x}, {"y", y}, {"z", z}};
+}
+
+Range heights_of(const std::vector<Point>& sites, const Sphere& sphere) {
+  const Point& c = sphere.center;
+  const double radius = std::sqrt(sphere.squared_radius);
+  Range range;
+  for (const Point& p : sites) {
+    range.add(std::hypot(p.x - c.x, p.y - c.y, p.z - c.z) - radius);
+  }
+  return range;
+}
+
+// A site at the center is a fact to tell here, not an error.
+Facts find_facts(const SiteTable& table, Job& job, const Sphere& sphere) {
+  Facts facts;
+  facts.bounds = bounds_of(table);
+  facts.height = heights_of(table.sites, sphere);
+  SiteTable rays;
+  rays.name = table.name;
+  std::ranges::copy_if(table.sites, std::back_inserter(rays.sites),
+                       [&](const Point& site) { return site != sphere.center; });
+  facts.at_center = table.sites.size() - rays.sites.size();
+  facts.triangulation = job.triangulate(rays);
+  return facts;
+}
+
+Json json_of(const Range& range) {
+  if (range.is_empty()) return nullptr;
+  return {{"min", range.min}, {"max", range.max}};
+}
+
+std::string json_of(const SiteTable& table, const Facts& facts, const Seconds& seconds) {
+  Json bounds = Json::object();
+  for (const auto& [name, range] : facts.bounds) bounds[name] = json_of(range);
+  Json columns = Json::array();
+  for (const Column& column : table.columns) {
+    columns.push_back({{"name", column.name}, {"kind", column.is_numeric ? "number" : "text"}});
+  }
+  const Triangulation& triangulation = facts.triangulation;
+  const Json json = {{"sites", table.sites.size()},
+                     {"coordinates", table.is_lonlat() ? "lonlat" : "xyz"},
+                     {"bounds", bounds},
+                     {"distance_from_sphere", json_of(facts.height)},
+                     {"at_center", facts.at_center},
+                     {"duplicates", triangulation.duplicates().size()},
+                     {"hidden", triangulation.hidden().size()},
+                     {"dimension", triangulation.dimension()},
+                     {"model", name_of(triangulation.model())},
+                     {"columns", columns},
+                     {"seconds", {{"read", seconds.read}, {"total", seconds.total}}},
+                     {"peak_memory_bytes", peak_memory_bytes()}};
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+std::string text_of(const char* name, const Range& range) {
+  if (range.is_empty()) return {};
+  char text[128];
+  std::snprintf(text, sizeof text, "%s: %.9g to %.9g\n", name, range.min, range.max);
+  return text;
+}
+
+std::string text_of(const SiteTable& table, const Facts& facts) {
+  const Triangulation& triangulation = facts.triangulation;
+  std::string text = table.name + ": " + std::to_string(table.sites.size()) + " sites, given as " +
+                     (table.is_lonlat() ? "longitude and latitude" : "x, y, z") + '\n';
+  for (const auto& [name, range] : facts.bounds) text += text_of(name, range);
+  text += text_of("distance from the sphere", facts.height);
+  if (facts.at_center > 0) text += "at the center: " + std::to_string(facts.at_center) + '\n';
+  text += "duplicates: " + std::to_string(triangulation.duplicates().size()) + '\n';
+  if (triangulation.model() == Model::weighted) {
+    text += "hidden: " + std::to_string(triangulation.hidden().size()) + '\n';
+  }
+  if (table.columns.empty()) return text;
+  text += "columns:";
+  for (const Column& column : table.columns) {
+    text += (&column == table.columns.data() ? " " : ", ") + column.name +
+            (column.is_numeric ? " (number)" : " (text)");
+  }
+  return text + '\n';
+}
+
+}  // namespace
+
+ExitStatus run_info(const CommonOptions& options) {
+  CommonOptions common = options;
+  common.read.keep_columns = true;
+  Job job(common);
+  const SiteTable table = job.read();
+  const Facts facts = find_facts(table, job, common.build.sphere);
+  job.report(json_of(table, facts, job.seconds()), text_of(table, facts));
+  return done;
+}
+
+}  // namespace rondel::cli

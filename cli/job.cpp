@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+
+#include "command.h"
+#include "progress_line.h"
+#include "report.h"
+#include "rondel/delaunay.h"
+
+namespace rondel::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+}  // namespace
+
+struct Job::State {
+  explicit State(const CommonOptions& common) : options(common), line(common.quiet) {}
+
+  CommonOptions options;
+  ProgressLine line;
+  Seconds seconds{};
+  Clock::time_point start = Clock::now();
+};
+
+Job::Job(const CommonOptions& options) : state_(std::make_unique<State>(options)) {}
+Job::~Job() = default;
+
+SiteTable Job::read() {
+  const Clock::time_point start = Clock::now();
+  ReadOptions options = state_->options.read;
+  options.progress = progress();
+  SiteTable table = read_sites(state_->options.input, options);
+  state_->seconds.read += seconds_since(start);
+  return table;
+}
+
+Triangulation Job::triangulate(const SiteTable& table) {
+  Options options = state_->options.build;
+  options.progress = progress();
+  return with_places(table, [&] { return delaunay(table.sites, options); });
+}
+
+void Job::time(Stage stage, const std::function<void()>& work) {
+  const Clock::time_point start = Clock::now();
+  work();
+  double& sum = stage == Stage::dual ? state_->seconds.dual : state_->seconds.write;
+  sum += seconds_since(start);
+}
+
+const Progress& Job::progress() const { return state_->line.callback(); }
+
+Seconds Job::seconds() const {
+  Seconds seconds = state_->seconds;
+  seconds.total = seconds_since(state_->start);
+  return seconds;
+}
+
+void Job::report(const Triangulation& triangulation, const std::string& what) {
+  const CommonOptions& options = state_->options;
+  report(options.json ? json_report(triangulation, seconds()) : std::string(),
+         summary(triangulation, seconds(), what, options.output));
+}
+
+void Job::report(const std::string& json, const std::string& summary) {
+  state_->line.clear();
+  if (state_->options.json) {
+    print(json);
+  } else if (!state_->options.quiet) {
+    print(summary);
+  }
+}
+
+void print(const std::string& text) {
+  errno = 0;
+  const bool is_written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+  if (is_written && std::fflush(stdout) == 0) return;
+  throw FileError("<stdout>: " + std::string(std::strerror(errno)));
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The command line tool: finds the command, runs it, and turns every failure into one
+// line on stderr and an exit status.
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "help.h"
+#include "io/atomic_file.h"
+#include "rondel/version.h"
+
+namespace rondel::cli {
+namespace {
+
+// Where a standard stream is closed, a file that is opened later would take its number and
+// receive its text. So it is opened the wrong way round: its use fails, as it should.
+void guard_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) != -1) continue;
+    const int mode = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    if (open("/dev/null", mode) == -1) std::_Exit(failed);
+  }
+}
+
+int fail(ExitStatus status, std::string message) {
+  std::ranges::replace(message, '\n', ' ');
+  std::fprintf(stderr, "rondel: %s\n", message.c_str());
+  return status;
+}
+
+std::vector<Command> add_commands(CLI::App& tool) {
+  return {add_delaunay_command(tool), add_voronoi_command(tool),  add_check_command(tool),
+          add_plot_command(tool),     add_generate_command(tool), add_info_command(tool)};
+}
+
+const Command* selected(const std::vector<Command>& commands) {
+  const auto at = std::ranges::find_if(
+      commands, [](const Command& command) { return command.parser->parsed(); });
+  return at == commands.end() ? nullptr : &*at;
+}
+
+void configure(CLI::App& tool) {
+  tool.name("rondel");
+  tool.set_version_flag("--version", std::string("rondel ") + version, "Print the version");
+  tool.set_help_flag("--help,-h", "Print this help");
+  tool.formatter(std::make_shared<HelpFormatter>());
+  tool.footer(
+      "'rondel COMMAND --help' explains a command.\n\n"
+      "A first try:\n"
+      "  rondel generate uniform -n 1000 -o sites.csv\n"
+      "  rondel delaunay sites.csv -o triangles.ply\n"
+      "  rondel voronoi sites.csv -o cells.geojson\n"
+      "  rondel plot sites.csv -o globe.png");
+}
+
+// The parser would only say that it did not expect the word.
+void require_known_command(const std::vector<Command>& commands, int argc,
+                           const char* const* argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  const std::string name = argv[1];
+  if (std::ranges::none_of(
+          commands, [&](const Command& command) { return command.parser->get_name() == name; })) {
+    throw UsageError("'" + name + "' is not a command (see rondel --help)");
+  }
+}
+
+int run(int argc, const char* const* argv) {
+  CLI::App tool{"Exact Delaunay triangulations and Voronoi diagrams on the sphere."};
+  configure(tool);
+  const std::vector<Command> commands = add_commands(tool);
+  require_known_command(commands, argc, argv);
+  try {
+    tool.parse(argc, argv);
+  } catch (const CLI::CallForVersion& text) {
+    print(text.what() + std::string("\n"));
+    return done;
+  } catch (const CLI::Success&) {
+    print(tool.help());
+    return done;
+  } catch (const CLI::ParseError& error) {
+    const Command* command = selected(commands);
+    const std::string name = command == nullptr ? "" : " " + command->parser->get_name();
+    throw UsageError(error.what() + std::string(" (see rondel") + name + " --help)");
+  }
+  const Command* command = selected(commands);
+  if (command == nullptr) throw UsageError("no command (see rondel --help)");
+  return command->run();
+}
+
+int run_and_report(int argc, const char* const* argv) {
+  try {
+    return run(argc, argv);
+  } catch (const UsageError& error) {
+    return fail(usage, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(failed, "not enough memory");
+  } catch (const std::exception& error) {
+    return fail(failed, error.what());
+  }
+}
+
+}  // namespace
+}  // namespace rondel::cli
+
+int main(int argc, char** argv) {
+  rondel::cli::guard_standard_streams();
+  std::signal(SIGPIPE, SIG_IGN);  // a broken pipe is an error of write, reported like others
+  rondel::io::remove_temporaries_on_signal();
+  return rondel::cli::run_and_report(argc, argv);
+}

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The options that several commands share.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "command.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+std::string model_error(const std::string& text) {
+  if (text == "projected" || text == "weighted") return {};
+  return "'" + text + "' is not a model (projected, weighted)";
+}
+
+void add_columns(CLI::App& command, ReadOptions& read) {
+  const auto column = [&](const char* name, std::string& target, const char* what) {
+    return command.add_option(name, target, what)
+        ->type_name("COL")
+        ->group("Columns, where their names in the header are not the usual ones");
+  };
+  CLI::Option* lon = column("--lon", read.lon, "Longitude (usual: lon, lng, long, longitude)");
+  CLI::Option* lat = column("--lat", read.lat, "Latitude (usual: lat, latitude)");
+  CLI::Option* x = column("--x", read.x, "x coordinate (usual: x); --x, --y and --z go together");
+  CLI::Option* y = column("--y", read.y, "y coordinate (usual: y)");
+  CLI::Option* z = column("--z", read.z, "z coordinate (usual: z)");
+  lon->needs(lat)->excludes(x);
+  lat->needs(lon);
+  x->needs(y)->needs(z);
+  y->needs(x);
+  z->needs(x);
+  command.add_flag("--radians", read.radians, "Longitude and latitude are in radians")->excludes(x);
+}
+
+}  // namespace
+
+void add_input_options(CLI::App& command, CommonOptions& options) {
+  command
+      .add_option("INPUT", options.input,
+                  "The sites: .csv .tsv .xyz .txt .npy .geojson, or - for CSV from\n"
+                  "standard input. Longitude and latitude in degrees, or x, y, z.")
+      ->required()
+      ->type_name("");
+  add_columns(command, options.read);
+}
+
+void add_output_option(CLI::App& command, CommonOptions& options, const std::string& what) {
+  command.add_option("-o,--output", options.output, what)->required()->type_name("FILE");
+}
+
+void add_build_options(CLI::App& command, CommonOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--model",
+          [&options](const std::string& text) {
+            options.build.model = text == "weighted" ? Model::weighted : Model::projected;
+          },
+          "projected: every site is moved along its ray to the sphere (default).\n"
+          "weighted: a site off the sphere is a circle; sites inside the convex hull\n"
+          "are hidden, and cells are power (Laguerre) cells")
+      ->check(model_error)
+      ->type_name("MODEL");
+  command
+      .add_option_function<std::vector<double>>(
+          "--center",
+          [&options](const std::vector<double>& at) {
+            options.build.sphere.center = {at[0], at[1], at[2]};
+          },
+          "Center of the sphere (default: 0 0 0)")
+      ->expected(3)
+      ->check(finite_error)
+      ->type_name("X Y Z");
+  command
+      .add_option("--squared-radius", options.build.sphere.squared_radius,
+                  "Squared radius of the sphere (default: 1)")
+      ->check(positive_error)
+      ->type_name("R2");
+  command
+      .add_option("--threads", options.build.threads,
+                  "Number of threads (default: one for each core)")
+      ->check([](const std::string& text) { return whole_error(text, 1, 1024); })
+      ->type_name("N");
+}
+
+void add_report_options(CLI::App& command, CommonOptions& options) {
+  command.add_flag("--json", options.json, "Print one JSON object instead of the summary");
+  command.add_flag("--quiet", options.quiet, "Print no summary and show no progress");
+}
+
+void require_output(const CommonOptions& options, bool is_known, const std::string& endings) {
+  if (!is_known) {
+    throw UsageError("--output: the ending of '" + options.output + "' is not one of " + endings);
+  }
+  std::error_code ignored;  // a file that does not exist is equivalent to none
+  if (std::filesystem::equivalent(options.input, options.output, ignored)) {
+    throw UsageError("--output: '" + options.output + "' is the input");
+  }
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// What a finished job tells: a summary for people or one JSON object for programs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "command.h"
+
+namespace rondel::cli {
+
+/// "projected" or "weighted".
+const char* name_of(Model model);
+
+/// The largest resident size of this process so far.
+std::uint64_t peak_memory_bytes();
+
+/// The JSON object of a triangulation, with a newline. Its keys are a contract.
+std::string json_report(const Triangulation& triangulation, const Seconds& seconds);
+
+/// A few lines: what was read, what came out, what was written and how long it took.
+std::string summary(const Triangulation& triangulation, const Seconds& seconds,
+                    const std::string& what, const std::string& output);
+
+}  // namespace rondel::cli

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// What the commands do once their arguments are parsed (plot apart: plot.h).
+#pragma once
+
+#include <string>
+
+#include "command.h"
+#include "generate.h"
+
+namespace rondel::cli {
+
+struct VoronoiOptions {
+  CommonOptions common;
+  double tolerance_deg = 0.01;
+};
+
+struct CheckOptions {
+  CommonOptions common;
+  std::string triangles;
+};
+
+struct GenerateOptions {
+  CommonOptions common;
+  std::string kind;
+  Recipe recipe;
+  double angle = 0;  ///< in the unit of the command line; 0: the kind's own
+};
+
+ExitStatus run_delaunay(const CommonOptions& options);
+ExitStatus run_voronoi(const VoronoiOptions& options);
+ExitStatus run_check(const CheckOptions& options);
+ExitStatus run_generate(const GenerateOptions& options);
+ExitStatus run_info(const CommonOptions& options);
+
+}  // namespace rondel::cli

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "run.h"
+
+namespace rondel::cli {
+namespace {
+
+void require_parts(const Kind& kind, const Recipe& recipe) {
+  const std::string name(kind.name);
+  const bool has_grid = recipe.rows > 0;
+  if (has_grid && name != "lonlat-grid") {
+    throw UsageError("--rows and --columns are for lonlat-grid, not for " + name);
+  }
+  if (recipe.angle_deg > 0 && !kind.takes_angle) {
+    throw UsageError("--angle: " + name + " has no angle");
+  }
+  if (recipe.angle_deg > 180) throw UsageError("--angle is more than half a turn");
+  if (!has_grid && recipe.n == 0) throw UsageError("-n,--number is required");
+  if (has_grid && recipe.rows > max_sites / recipe.columns) {
+    throw UsageError("--rows times --columns is more than " + std::to_string(max_sites));
+  }
+}
+
+}  // namespace
+
+ExitStatus run_generate(const GenerateOptions& options) {
+  const CommonOptions& common = options.common;
+  require_output(common, can_write_sites(common.output), ".csv .tsv .xyz .txt .npy");
+  const Kind& kind = *find_kind(options.kind);
+  Recipe recipe = options.recipe;
+  recipe.angle_deg = common.read.radians ? options.angle * (180 / std::numbers::pi) : options.angle;
+  require_parts(kind, recipe);
+  Job job(common);
+  const Generated generated = kind.make(recipe);
+  job.time(Stage::write, [&] { write_sites(common.output, generated.sites, generated.positions); });
+  const Seconds seconds = job.seconds();
+  const nlohmann::ordered_json json = {
+      {"kind", options.kind},
+      {"sites", generated.sites.size()},
+      {"seed", recipe.seed},
+      {"seconds", {{"write", seconds.write}, {"total", seconds.total}}}};
+  job.report(json.dump(2) + '\n', "wrote " + std::to_string(generated.sites.size()) + " sites to " +
+                                      common.output + '\n');
+  return done;
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "validate.h"
+
+#include <charconv>
+#include <cmath>
+
+namespace rondel::cli {
+namespace {
+
+template <class Number>
+bool parse(const std::string& text, Number& value) {
+  const char* const end = text.data() + text.size();
+  const auto [rest, error] = std::from_chars(text.data(), end, value);
+  return error == std::errc() && rest == end;
+}
+
+}  // namespace
+
+std::string finite_error(const std::string& text) {
+  double value = 0;
+  if (!parse(text, value)) return "'" + text + "' is not a number";
+  return std::isfinite(value) ? std::string() : "'" + text + "' is not finite";
+}
+
+std::string positive_error(const std::string& text) {
+  std::string error = finite_error(text);
+  if (!error.empty()) return error;
+  double value = 0;
+  parse(text, value);
+  return value > 0 ? std::string() : "'" + text + "' is not positive";
+}
+
+std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_t max) {
+  std::uint64_t value = 0;
+  const bool is_octal = text.size() > 1 && text.front() == '0';  // to the parser that follows
+  if (!is_octal && parse(text, value) && min <= value && value <= max) return {};
+  return "'" + text + "' is not a whole number from " + std::to_string(min) + " to " +
+         std::to_string(max);
+}
+
+}  // namespace rondel::cli

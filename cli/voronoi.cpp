@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/diagram.h"
+#include "run.h"
+
+namespace rondel::cli {
+
+ExitStatus run_voronoi(const VoronoiOptions& options) {
+  CommonOptions common = options.common;
+  require_output(common, can_write_cells(common.output), ".geojson .vtp .npz");
+  common.read.keep_columns = common.output.ends_with("json");  // only GeoJSON has properties
+  Job job(common);
+  const SiteTable table = job.read();
+  const Triangulation triangulation = job.triangulate(table);
+  Diagram diagram;
+  job.time(Stage::dual, [&] {
+    diagram.cells = cells(triangulation, table.sites);
+    diagram.areas = areas(triangulation, table.sites, diagram.cells);
+  });
+  job.time(Stage::write, [&] {
+    write_cells(common.output, table, triangulation, diagram, options.tolerance_deg,
+                job.progress());
+  });
+  job.report(triangulation,
+             common.build.model == Model::projected ? "the Voronoi cells" : "the power cells");
+  return done;
+}
+
+}  // namespace rondel::cli
