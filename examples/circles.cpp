@@ -33,6 +33,7 @@ int main() {
       {{0, 90}, 20}, {{0, -90}, 20}, {{10, 10}, 1},  // the last lies deep in the first
   };
   std::vector<rondel::Point> sites;
+  sites.reserve(circles.size());
   for (const Circle& circle : circles) {
     sites.push_back(pole_of(circle));
   }
