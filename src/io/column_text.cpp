@@ -55,7 +55,8 @@ Column make_column(std::string_view name) {
 }
 
 void append_cell(Column& column, std::string_view cell) {
-  if (!is_utf8(cell)) throw BadValue("the text in column " + quoted(column.name) + " is not UTF-8");
+  if (!is_utf8(cell))
+    throw BadValue("the text in column " + in_quotes(column.name) + " is not UTF-8");
   if (column.is_numeric && !cell.empty()) column.is_numeric = is_json_number(cell);
   column.text += cell;
   column.ends.push_back(column.text.size());

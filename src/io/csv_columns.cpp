@@ -24,15 +24,15 @@ std::string found(const Header& header) {
   constexpr std::size_t most = 30;
   std::string text = "; found: ";
   for (std::size_t i = 0; i < header.size() && i < most; ++i) {
-    const std::string name = quoted(trim(header[i]));
+    const std::string name = in_quotes(trim(header[i]));
     text += (i == 0 ? "" : ", ") + name.substr(1, name.size() - 2);
   }
   return header.size() > most ? text + ", ..." : text;
 }
 
 struct Coordinate {
-  std::string_view word;                           // for messages
-  const std::string& chosen;                       // the name in the options
+  std::string_view word;      // for messages
+  const std::string& chosen;  // the name in the options
   std::vector<std::string_view> usual;
 };
 
@@ -53,7 +53,7 @@ std::optional<std::size_t> find(const Header& header, const Coordinate& coordina
                    "; name one" + found(header));
   }
   if (fitting.empty() && !coordinate.chosen.empty()) {
-    throw BadValue("no column " + quoted(coordinate.chosen) + found(header));
+    throw BadValue("no column " + in_quotes(coordinate.chosen) + found(header));
   }
   return fitting.empty() ? std::nullopt : std::optional(fitting.front());
 }

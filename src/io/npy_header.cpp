@@ -86,7 +86,7 @@ void parse_dictionary(std::string_view text, NpyHeader& header) {
       header.shape = literals.tuple();
       seen |= 4U;
     } else {
-      throw BadValue("unknown key " + quoted(key) + " in the .npy header");
+      throw BadValue("unknown key " + in_quotes(key) + " in the .npy header");
     }
     if (!literals.take(",")) {
       literals.require("}");
@@ -106,8 +106,8 @@ NpyHeader parse_npy_header(std::string_view bytes) {
     throw BadValue(".npy version " + std::to_string(major) + " is not supported");
   }
   const std::size_t start = major == 1 ? 10 : 12;
-  const std::size_t length = major == 1 ? load<std::uint16_t>(bytes.data() + 8)
-                                        : load<std::uint32_t>(bytes.data() + 8);
+  const std::size_t length =
+      major == 1 ? load<std::uint16_t>(bytes.data() + 8) : load<std::uint32_t>(bytes.data() + 8);
   if (length > bytes.size() - start) throw BadValue("the .npy header is cut off");
   NpyHeader header;
   header.data_offset = start + length;
@@ -143,7 +143,7 @@ NpyTable::NpyTable(std::string_view bytes, std::span<const std::string_view> typ
   const std::string_view dtype = header_.dtype;
   const bool has_order = dtype.starts_with('<') || dtype.starts_with('>');
   if (!has_order || std::ranges::find(types, type()) == types.end()) {
-    throw BadValue("dtype " + quoted(dtype) + " where " + std::string(needed) + " is needed");
+    throw BadValue("dtype " + in_quotes(dtype) + " where " + std::string(needed) + " is needed");
   }
   if (header_.shape.size() != 2) {
     throw BadValue("shape " + shape() + " where two dimensions are needed");

@@ -52,7 +52,7 @@ double parse_number(std::string_view field, std::string_view what) {
   const auto [stop, error] = fast_float::from_chars(digits.data(), end, value);
   const bool is_number = stop == end && error != std::errc::invalid_argument;
   if (is_number && std::isfinite(value)) return value;
-  throw BadValue(std::string(what) + " " + quoted(trim(field)) +
+  throw BadValue(std::string(what) + " " + in_quotes(trim(field)) +
                  (is_number ? " is not finite" : " is not a number"));
 }
 
@@ -62,7 +62,7 @@ std::int64_t parse_integer(std::string_view field, std::string_view what) {
   const char* const end = digits.data() + digits.size();
   const auto [stop, error] = std::from_chars(digits.data(), end, value);
   if (stop != end || error != std::errc{}) {
-    throw BadValue(std::string(what) + " " + quoted(digits) + " is not an integer");
+    throw BadValue(std::string(what) + " " + in_quotes(digits) + " is not an integer");
   }
   return value;
 }
@@ -98,19 +98,20 @@ bool is_json_number(std::string_view text) {
   return p == end;
 }
 
-std::string quoted(std::string_view value) {
-  constexpr std::size_t longest = 60;
-  std::string text(value.substr(0, longest));
-  if (value.size() > longest) {
+std::string one_line(std::string_view text, std::size_t longest) {
+  std::string line(text.substr(0, longest));
+  if (text.size() > longest) {
     // Do not cut a UTF-8 sequence: drop its bytes 10xxxxxx and then its first byte.
-    while (!text.empty() && (text.back() & 0xC0) == 0x80) text.pop_back();
-    if (!text.empty() && (text.back() & 0x80) != 0) text.pop_back();
-    text += "...";
+    while (!line.empty() && (line.back() & 0xC0) == 0x80) line.pop_back();
+    if (!line.empty() && (line.back() & 0x80) != 0) line.pop_back();
+    line += "...";
   }
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
-  std::replace_if(text.begin(), text.end(), is_control, '?');
-  return '"' + text + '"';
+  std::replace_if(line.begin(), line.end(), is_control, '?');
+  return line;
 }
+
+std::string in_quotes(std::string_view value) { return '"' + one_line(value, 60) + '"'; }
 
 LonLat checked_position(double lon, double lat, bool is_radians) {
   require_finite(lon, "longitude");

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <stdexcept>
@@ -45,8 +46,10 @@ void append_integer(std::string& out, std::uint64_t value);
 // Whether JSON accepts `text` as a number (RFC 8259, section 6).
 bool is_json_number(std::string_view text);
 
-// `value` in quotes for a message: one line, not long, no control characters.
-std::string quoted(std::string_view value);
+// Text from a file for a message: on one line, at most `longest` bytes, no control characters.
+std::string one_line(std::string_view text, std::size_t longest);
+// The same in quotes.
+std::string in_quotes(std::string_view value);
 
 // The position in degrees of a longitude and latitude, given in degrees or radians. Throws BadValue
 // if they are not finite or the latitude lies beyond a pole.
