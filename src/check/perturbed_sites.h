@@ -2,17 +2,18 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The sites as the triangulation sees them: exact signs of the orientation of four
-// perturbed sites, never zero, from rondel/predicates.h and the raw points alone.
+// perturbed sites from rondel/predicates.h and the raw points alone.
 //
 // The perturbation (docs/theory/check.md) raises each site from the center of the sphere and,
 // infinitely less, from a point g strictly inside the hull. is_in_conflict() gives its sign, but
 // when the four lie in one plane with the center it takes the side of g from the order
-// of the face. Here a frame of four independent sites defines g, so that the sign is known for any four
-// sites: g is infinitely near to frame[0], then in the direction of frame[1], and so on, inside
-// their tetrahedron. A plane has g on the side of the first of them that is not in it.
+// of the face, and whether that is a face is what we want to know. Here a frame of independent
+// sites defines g: infinitely near to the first of them, from there towards the second, and so on.
+// A plane has g on the side of the first one that is not in it.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include "check/places.h"
@@ -22,38 +23,48 @@ namespace rondel::proof {
 
 class PerturbedSites {
  public:
-  // All arguments must outlive the object.
+  // Sites and places must outlive the object.
   PerturbedSites(std::span<const Point> sites, const Places& places, Model model,
                  const Sphere& sphere);
+
+  [[nodiscard]] std::size_t size() const { return sites_.size(); }
+  [[nodiscard]] const Point& point(Index place) const { return sites_[places_.speaker[place]]; }
 
   // -1 without sites, 0 with one place, 1 when all lie on one great circle (in one
   // plane with the center), otherwise 2.
   [[nodiscard]] int dimension() const { return dimension_; }
   // Three sites that are not on one great circle; only in dimension 2.
-  [[nodiscard]] std::array<Index, 3> independent() const { return {frame_[0], frame_[1], frame_[2]}; }
+  [[nodiscard]] std::array<Index, 3> independent() const {
+    return {frame_[0], frame_[1], frame_[2]};
+  }
 
   // Whether d is above the plane of a, b, c, counterclockwise seen from above. The four are
   // lowest indices of different places; dimension() is 2.
-  // 1. Odd under exchange of any two arguments.
+  // 1. Never undecided, and odd under exchange of any two arguments, unless the four lie on one
+  //    line with the center: those stay in one plane, and the answer is no.
   // 2. The same as is_in_conflict() where that is defined.
   [[nodiscard]] bool is_above(Index a, Index b, Index c, Index d) const;
 
-  // The exact position before the perturbation.
+  // The same before the perturbation.
   [[nodiscard]] Sign side(Index a, Index b, Index c, Index d) const;
 
+  // Whether a, b, c lie on one line with the center.
+  [[nodiscard]] bool are_in_line_with_center(Index a, Index b, Index c) const;
+
  private:
-  [[nodiscard]] const Point& point(Index place) const { return sites_[places_.speaker[place]]; }
   [[nodiscard]] Sign oriented(Index a, Index b, Index c) const;
   [[nodiscard]] bool are_dependent(Index a, Index b) const;
+  [[nodiscard]] bool are_in_plane_with_center(Index a, Index b, Index c, Index d) const;
   void find_frame();
-  [[nodiscard]] Sign side_of_inner(Index a, Index b, Index c) const;
-  [[nodiscard]] bool is_above_in_plane_with_center(std::array<Index, 4> four) const;
+  [[nodiscard]] Sign side_of_inner(const std::array<Index, 3>& triple) const;
+  [[nodiscard]] bool is_conflict(Index a, Index b, Index c, Index d) const;
 
   std::span<const Point> sites_;
   const Places& places_;
   Model model_;
   Sphere sphere_;
   int dimension_ = -1;
+  // frame_[3] is no_index when all sites lie in one plane.
   std::array<Index, 4> frame_{no_index, no_index, no_index, no_index};
 };
 

@@ -12,6 +12,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "check/axis_point.h"
 #include "rondel/predicates.h"
 
 namespace rondel::proof {
@@ -48,8 +49,8 @@ std::array<double, 3> offset(const Point& p, const Point& center) {
   return d;
 }
 
-// How far a computed ratio r of two coordinates of offset(), |r| <= 1, may be from the exact one, in
-// positions. The relative error is below 3.01 * 2^-53 (two coordinates, one division), that is
+// How far a computed ratio r of two coordinates of offset(), |r| <= 1, may be from the exact one,
+// in positions. The relative error is below 3.01 * 2^-53 (two coordinates, one division), that is
 // below 3.01 units in the last place, which are twice as many positions just
 // below a power of two; a subnormal ratio adds half a position. So 7 suffice.
 constexpr std::int64_t reach = 8;
@@ -90,13 +91,6 @@ void enter_point(std::vector<Entry>& entries, Index site, const Point& p) {
   entries.push_back({xy, mix(xy, p.z), site});
 }
 
-// A point on the axis through the center, at any distance but 0 and on any side.
-Point on_axis(Point center, unsigned axis) {
-  double& value = axis == 0 ? center.x : axis == 1 ? center.y : center.z;
-  value = value >= 0 ? value - std::max(1.0, value) : value + std::max(1.0, -value);
-  return center;
-}
-
 // Brings the sites of one cell in an order in which duplicates are neighbors and, among them, the
 // lowest index is first. For the rays of a cell on the face of coordinate m,
 // det(a, b, e_j) = +-(a_k b_m - b_k a_m) with a_m b_m > 0: it orders them by the slope
@@ -112,8 +106,8 @@ void sort_cell(std::span<Entry> cell, std::span<const Point> sites, Model model,
     return;
   }
   const auto axis = static_cast<unsigned>(cell[0].major & 7U) / 2;
-  const std::array<Point, 2> poles{on_axis(sphere.center, (axis + 1) % 3),
-                                   on_axis(sphere.center, (axis + 2) % 3)};
+  const std::array<Point, 2> poles{axis_point(sphere.center, (axis + 1) % 3),
+                                   axis_point(sphere.center, (axis + 2) % 3)};
   std::ranges::sort(cell, [&](const Entry& a, const Entry& b) {
     for (const Point& pole : poles) {
       const Sign s = orientation(sites[a.site], sites[b.site], pole, sphere);

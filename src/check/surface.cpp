@@ -11,7 +11,6 @@ namespace rondel::proof {
 namespace {
 
 Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
 
 std::string text(std::size_t value) { return std::to_string(value); }
 
@@ -91,8 +90,8 @@ std::string Surface::match_bucket(std::span<Index> bucket) {
 
 std::string Surface::describe_edge(std::span<const Index> halfedges) const {
   const Index h = halfedges[0];
-  const std::string edge = "edge " + text(std::min(origin(h), target(h))) + "-" +
-                           text(std::max(origin(h), target(h)));
+  const std::string edge =
+      "edge " + text(std::min(origin(h), target(h))) + "-" + text(std::max(origin(h), target(h)));
   const std::string first = text(h / 3);
   if (halfedges.size() == 1) return edge + " belongs to face " + first + " only";
   for (const Index other : halfedges.subspan(1)) {
