@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Geomview's .off: "OFF", the numbers of vertices, faces and edges, the vertices, the faces.
+#include <algorithm>
+
+#include "io/mesh_text.h"
+#include "io/number.h"
+#include "io/text_lines.h"
+#include "io/triangle_formats.h"
+#include "rondel/error.h"
+
+namespace rondel::io {
+namespace {
+
+std::uint64_t count(std::string_view word, std::string_view what) {
+  const std::int64_t value = parse_integer(word, what);
+  if (value < 0) throw BadValue("negative " + std::string(what));
+  return static_cast<std::uint64_t>(value);
+}
+
+void require_line(TextLines& lines, std::uint64_t i, std::uint64_t n, std::string_view what) {
+  if (lines.next()) return;
+  throw BadValue("the file ends after " + std::to_string(i) + " of " + std::to_string(n) + " " +
+                 std::string(what));
+}
+
+Triple read_face(const TextLines& lines) {
+  const auto& words = lines.words();
+  const std::int64_t size = parse_integer(words[0], "the number of corners");
+  if (size != 3) {
+    throw BadValue("a face with " + std::to_string(size) + " corners where a triangle is needed");
+  }
+  if (words.size() < 4) throw BadValue("a face without its three indices");
+  const auto index = [&](std::size_t i) { return checked_index(parse_integer(words[i], "index")); };
+  return {index(1), index(2), index(3)};
+}
+
+std::vector<Triple> read_lines(TextLines& lines, std::string_view bytes) {
+  if (!lines.next() || lines.words()[0] != "OFF") throw BadValue("not an OFF file");
+  std::size_t first = 1;  // the counts may stand behind the word OFF or on a line of their own
+  if (lines.words().size() == 1) {
+    require_line(lines, 0, 1, "lines of counts");
+    first = 0;
+  }
+  if (lines.words().size() < first + 2) throw BadValue("no numbers of vertices and faces");
+  const std::uint64_t num_vertices = count(lines.words()[first], "number of vertices");
+  const std::uint64_t num_faces = count(lines.words()[first + 1], "number of faces");
+  for (std::uint64_t i = 0; i < num_vertices; ++i) require_line(lines, i, num_vertices, "vertices");
+  std::vector<Triple> triangles;
+  triangles.reserve(std::min<std::uint64_t>(num_faces, bytes.size() / 8));  // "3 0 1 2\n"
+  for (std::uint64_t i = 0; i < num_faces; ++i) {
+    require_line(lines, i, num_faces, "faces");
+    triangles.push_back(read_face(lines));
+  }
+  return triangles;
+}
+
+}  // namespace
+
+std::vector<Triple> read_off(std::string_view bytes, const std::string& name) {
+  TextLines lines(bytes);
+  try {
+    return read_lines(lines, bytes);
+  } catch (const BadValue& bad) {
+    throw FileError(name + ":" + std::to_string(lines.number()) + ": " + bad.what());
+  }
+}
+
+void write_off(AtomicFile& file, const Mesh& mesh) {
+  // Readers ignore the number of edges; on a closed surface it is 3/2 of that of the faces.
+  const std::size_t num_faces = mesh.triangulation.num_faces();
+  file.write("OFF\n" + std::to_string(mesh.table.sites.size()) + " " + std::to_string(num_faces) +
+             " " + std::to_string(3 * num_faces / 2) + "\n");
+  write_vertex_lines(file, mesh, "");
+  write_face_lines(file, mesh, "3 ", 0);
+}
+
+}  // namespace rondel::io

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The header of Stanford's .ply: a list of elements, each with a list of properties.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace rondel::io {
+
+enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+struct PlyProperty {
+  std::string name;
+  PlyType type{};
+  bool is_list = false;
+  PlyType size_type{};  // of the length of a list
+};
+
+struct PlyElement {
+  std::string name;
+  std::uint64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+enum class PlyEncoding { ascii, little_endian, big_endian };
+
+struct PlyHeader {
+  PlyEncoding encoding{};
+  std::vector<PlyElement> elements;
+  std::size_t data_offset = 0;
+};
+
+// Throws BadValue.
+PlyHeader parse_ply_header(std::string_view bytes);
+
+}  // namespace rondel::io

@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Stanford's .ply, binary little-endian with coordinates in double precision.
+#include <array>
+#include <cstring>
+
+#include "io/binary.h"
+#include "io/triangle_formats.h"
+
+namespace rondel::io {
+
+void write_ply(AtomicFile& file, const Mesh& mesh) {
+  const std::span<const Point> sites = mesh.table.sites;
+  file.write("ply\nformat binary_little_endian 1.0\ncomment Rondel\nelement vertex " +
+             std::to_string(sites.size()) +
+             "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
+             std::to_string(mesh.triangulation.num_faces()) +
+             "\nproperty list uchar int vertex_indices\nend_header\n");
+  static_assert(sizeof(Point) == 3 * sizeof(double));
+  file.write({reinterpret_cast<const char*>(sites.data()), sites.size_bytes()});
+  // A signed index is what most readers expect; it fits, as sites are fewer than 2^30.
+  static_assert(max_sites < (std::size_t{1} << 30U));
+  std::size_t done = 0;
+  for (const Triple& face : mesh.triangulation.faces()) {
+    std::array<char, 1 + sizeof(Triple)> record = {3};
+    std::memcpy(record.data() + 1, face.data(), sizeof(Triple));
+    file.write({record.data(), record.size()});
+    mesh.report_progress(++done);
+  }
+}
+
+}  // namespace rondel::io

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The formats of triangles, one function each way.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/atomic_file.h"
+#include "rondel/io.h"
+
+namespace rondel::io {
+
+// What the writers write: corners are input indices, and vertices are all sites in input order.
+struct Mesh {
+  const SiteTable& table;
+  const Triangulation& triangulation;
+  const Progress& progress;
+
+  // Reports, now and then, that `done` of the faces are written.
+  void report_progress(std::size_t done) const;
+};
+
+void write_npy(AtomicFile& file, const Mesh& mesh);
+void write_off(AtomicFile& file, const Mesh& mesh);
+void write_ply(AtomicFile& file, const Mesh& mesh);
+void write_obj(AtomicFile& file, const Mesh& mesh);
+void write_stl(AtomicFile& file, const Mesh& mesh);
+void write_vtp_triangles(AtomicFile& file, const Mesh& mesh);
+void write_geojson(AtomicFile& file, const Mesh& mesh);
+
+// Each reads the triangles of `bytes`, the content of the file `name`. Indices count from 0 and may
+// be too large for the sites. Throws FileError as read_triangles does.
+std::vector<Triple> read_npy(std::string_view bytes, const std::string& name);
+std::vector<Triple> read_off(std::string_view bytes, const std::string& name);
+std::vector<Triple> read_ply(std::string_view bytes, const std::string& name);
+std::vector<Triple> read_obj(std::string_view bytes, const std::string& name);
+std::vector<Triple> read_vtp(std::string_view bytes, const std::string& name);
+
+}  // namespace rondel::io

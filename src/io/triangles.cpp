@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// read_triangles and write_triangles: which format, and what all have in common.
+#include <array>
+
+#include "io/atomic_file.h"
+#include "io/ending.h"
+#include "io/file_bytes.h"
+#include "io/triangle_formats.h"
+#include "rondel/error.h"
+#include "rondel/io.h"
+
+namespace rondel {
+namespace {
+
+struct Reader {
+  std::string_view ending;
+  std::vector<Triple> (*read)(std::string_view, const std::string&);
+};
+constexpr std::array<Reader, 5> readers = {{{".npy", &io::read_npy},
+                                            {".off", &io::read_off},
+                                            {".ply", &io::read_ply},
+                                            {".obj", &io::read_obj},
+                                            {".vtp", &io::read_vtp}}};
+
+struct Writer {
+  std::string_view ending;
+  void (*write)(io::AtomicFile&, const io::Mesh&);
+};
+constexpr std::array<Writer, 7> writers = {{{".npy", &io::write_npy},
+                                            {".off", &io::write_off},
+                                            {".ply", &io::write_ply},
+                                            {".obj", &io::write_obj},
+                                            {".stl", &io::write_stl},
+                                            {".vtp", &io::write_vtp_triangles},
+                                            {".geojson", &io::write_geojson}}};
+
+}  // namespace
+
+void io::Mesh::report_progress(std::size_t done) const {
+  constexpr std::size_t interval = 65536;
+  if (done % interval != 0 || !progress) return;
+  progress("write", static_cast<double>(done) / static_cast<double>(triangulation.num_faces()));
+}
+
+std::vector<Triple> read_triangles(const std::string& path) {
+  const io::FileBytes file(path);
+  const Reader& reader = io::require_format<Reader>(readers, path, "triangles are read from");
+  if (file.text().empty()) throw FileError(path + ": the file is empty");
+  return reader.read(file.text(), path);
+}
+
+bool can_write_triangles(const std::string& path) {
+  return io::find_format<Writer>(writers, path) != nullptr;
+}
+
+void write_triangles(const std::string& path, const SiteTable& table,
+                     const Triangulation& triangulation, const Progress& progress) {
+  const Writer& writer = io::require_format<Writer>(writers, path, "triangles are written as");
+  io::AtomicFile file(path);
+  writer.write(file, {table, triangulation, progress});
+  file.commit();
+}
+
+}  // namespace rondel
