@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What the commands do once their arguments are parsed (plot apart: plot.h).
+/// What the commands do once their arguments are parsed (plot apart: plot.cpp).
 #pragma once
 
 #include <string>

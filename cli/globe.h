@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// The orthographic globe: points and arcs of the unit sphere as curves in the unit disc. No
+/// drawing library here: curves go to a Pen.
+///
+/// The *view frame* has x to the right, y up and z towards the viewer, so (x, y) is the picture,
+/// and the *limb*, the circle z = 0, is the outline of the globe. A circle of the sphere
+/// projects to an ellipse, and arcs of an ellipse are drawn as cubic Béziers; an
+/// arc that crosses the limb is cut there, because its hidden part would run over the disc.
+///
+///          front  z > 0
+///        . - - - .           an arc a b between both sides is
+///      /    a     \          drawn from a to c (Side::front)
+///     |      \     |         and from c to b (Side::back),
+///     |       \    |         where c, on the limb, is the
+///      \       `c /          crossing: a |b.z| + b |a.z|, normalised
+///        ' - - - ' `b
+#pragma once
+
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "rondel/types.h"
+
+namespace rondel::cli {
+
+/// A place in the picture. The globe is the unit disc.
+struct Spot {
+  double x = 0;
+  double y = 0;
+};
+
+/// Receives the curves of a picture.
+class Pen {
+ public:
+  virtual ~Pen() = default;
+  virtual void move_to(Spot to) = 0;
+  virtual void line_to(Spot to) = 0;
+  virtual void curve_to(Spot control1, Spot control2, Spot to) = 0;
+};
+
+/// Where the globe is looked at from.
+class View {
+ public:
+  /// `center` comes to the middle of the picture; `up_deg` turns the picture: the
+  /// direction, clockwise from north at the center, that points up.
+  explicit View(const LonLat& center, double up_deg = 0);
+
+  /// A vector in the view frame.
+  [[nodiscard]] Point turn(const Point& p) const;
+
+ private:
+  Point right_, up_, forward_;
+};
+
+/// The hemisphere towards the viewer, and the one behind.
+enum class Side { front, back };
+
+/// The unit vector of v. \pre v is finite and not zero.
+Point normalized(const Point& v);
+
+/// The angle between two unit vectors, accurate also where it is tiny or near 180 degrees.
+double angle_between(const Point& a, const Point& b);
+
+/// The part of the shorter arc from a to b on one side of the globe.
+/// 1. A cut end lies on the limb: z = 0 and x² + y² = 1 to a few ulp.
+/// 2. An arc along the limb belongs to the front.
+/// 3. The choice rests on the signs of a.z and b.z alone, so that arcs with a common end agree.
+/// \pre unit vectors in the view frame, not antipodal.
+std::optional<std::pair<Point, Point>> visible_part(const Point& a, const Point& b, Side side);
+
+/// Traces the shorter arc from a to b where it is on that side. Curves are within `tolerance` of
+/// the projected arc, or within 1e-6 if that is more.
+void trace_arc(Pen& pen, const Point& a, const Point& b, Side side, double tolerance);
+
+/// Traces the visible parts of the circle of radius `radius_deg` (90: a great circle)
+/// around `axis`, a unit vector in the view frame.
+void trace_circle(Pen& pen, const Point& axis, double radius_deg, Side side);
+
+/// Traces the outline of the visible part of a convex region of the sphere, given by its
+/// corners counterclockwise seen from outside; where the region goes beyond the
+/// limb the outline follows the limb. \returns whether anything is visible.
+bool trace_region(Pen& pen, std::span<const Point> corners, double tolerance);
+
+}  // namespace rondel::cli

@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel plot: figures of the triangulation and its dual on the globe.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "globe.h"
+#include "plot_draw.h"
+#include "rondel/diagram.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+enum class Show { delaunay, voronoi, both };
+enum class Fill { none, area };
+
+struct PlotOptions {
+  CommonOptions common;
+  FigureStyle style;
+  Show show = Show::delaunay;
+  Fill fill = Fill::none;
+  std::vector<double> view;  // LON LAT, or empty
+  double up_deg = 0;
+};
+
+std::optional<FigureFormat> format_of(const std::string& path) {
+  for (const auto& [ending, format] : {std::pair{".png", FigureFormat::png},
+                                       {".svg", FigureFormat::svg},
+                                       {".pdf", FigureFormat::pdf}}) {
+    if (path.ends_with(ending)) return format;
+  }
+  return std::nullopt;
+}
+
+// The directions of the sites from the center of the sphere.
+std::vector<Point> directions(std::span<const Point> sites, const Point& center) {
+  std::vector<Point> result(sites.size());
+  std::ranges::transform(sites, result.begin(), [&](const Point& p) {
+    // Halved, so that a difference of huge coordinates is finite.
+    const Point half{p.x / 2 - center.x / 2, p.y / 2 - center.y / 2, p.z / 2 - center.z / 2};
+    return half == Point{} ? Point{} : normalized(half);
+  });
+  return result;
+}
+
+// Looks at the middle of the sites if they are on one side of the globe: their mean is then
+// far from the center. Otherwise a little from the north at the meridian of Greenwich.
+View default_view(std::span<const Point> sites, double up_deg) {
+  Point sum{};
+  for (const Point& p : sites) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+  const double length = std::hypot(sum.x, sum.y, sum.z);
+  if (length <= 0.5 * static_cast<double>(sites.size())) return View({0, 20}, up_deg);
+  const double degrees = 180 / std::numbers::pi;
+  return View(
+      {std::atan2(sum.y, sum.x) * degrees, std::atan2(sum.z, std::hypot(sum.x, sum.y)) * degrees},
+      up_deg);
+}
+
+std::vector<Point> turned(std::vector<Point> points, const View& view) {
+  std::ranges::transform(points, points.begin(), [&](const Point& p) { return view.turn(p); });
+  return points;
+}
+
+// The vertices: all sites but duplicates, hidden ones and one at the center of the sphere, which a
+// hull may have as a corner.
+std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Point> points) {
+  std::vector<bool> is_vertex(points.size(), true);
+  for (const Duplicate& duplicate : triangulation.duplicates()) is_vertex[duplicate.site] = false;
+  for (const Hidden& hidden : triangulation.hidden()) is_vertex[hidden.site] = false;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const bool has_direction = points[i] != Point{};
+    if (is_vertex[i] && has_direction) points[count++] = points[i];
+  }
+  points.resize(count);
+  return points;
+}
+
+Figure make_figure(const PlotOptions& options, const Triangulation& triangulation,
+                   const SiteTable& table) {
+  Figure figure;
+  figure.style = options.style;
+  const std::vector<Point> sites = directions(table.sites, triangulation.sphere().center);
+  figure.view = options.view.empty() ? default_view(sites, options.up_deg)
+                                     : View({options.view[0], options.view[1]}, options.up_deg);
+  std::vector<Point> points = turned(sites, figure.view);
+  std::vector<ArcEnds> arcs = triangulation_arcs(triangulation, sites);
+  figure.spacing = median_spacing(arcs, points);
+  figure.sites = vertices(triangulation, points);
+  if (options.show != Show::voronoi) figure.triangulation = {std::move(points), std::move(arcs)};
+  if (options.show != Show::delaunay || options.fill == Fill::area) {
+    Cells cells = rondel::cells(triangulation, table.sites);
+    std::vector<double> cell_areas;
+    if (options.fill == Fill::area) cell_areas = areas(triangulation, table.sites, cells);
+    cells.points = turned(std::move(cells.points), figure.view);
+    if (options.show != Show::delaunay) {
+      figure.diagram.arcs = cell_arcs(cells);
+      figure.diagram.points = cells.points;
+    }
+    if (options.fill == Fill::area) figure.filled = {std::move(cells), std::move(cell_areas)};
+  }
+  return figure;
+}
+
+// A drawing of very many arcs is hardly what was wanted: programs take minutes to open it.
+void warn_of_size(const PlotOptions& options, const Figure& figure, FigureFormat format) {
+  const std::size_t arcs = figure.triangulation.arcs.size() + figure.diagram.arcs.size();
+  if (options.common.quiet || format == FigureFormat::png || arcs < 200'000) return;
+  std::cerr << "rondel: " << options.common.output << " holds up to " << arcs
+            << " arcs and will be large; a .png is small\n";
+}
+
+ExitStatus run_plot(const PlotOptions& options) {
+  const auto format = format_of(options.common.output);
+  require_output(options.common, format.has_value(), ".png .svg .pdf");
+  if (!options.view.empty() && std::abs(options.view[1]) > 90) {
+    throw UsageError("--view: the latitude is outside [-90, 90]");
+  }
+  Job job(options.common);
+  const SiteTable table = job.read();
+  const Triangulation triangulation = job.triangulate(table);
+  Figure figure;
+  job.time(Stage::dual, [&] { figure = make_figure(options, triangulation, table); });
+  warn_of_size(options, figure, *format);
+  job.time(Stage::write, [&] { write_file(options.common.output, draw(figure, *format)); });
+  job.report(triangulation, "the figure");
+  return done;
+}
+
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+// An option whose values are words.
+template <class Value>
+void add_choice(CLI::App& parser, const std::string& name, Value& target,
+                const Choices<Value>& choices, const std::string& help) {
+  const auto find = [choices](const std::string& text) -> std::optional<Value> {
+    for (const auto& [word, value] : choices) {
+      if (word == text) return value;
+    }
+    return std::nullopt;
+  };
+  std::string words;
+  for (const auto& choice : choices) words += (words.empty() ? "" : ", ") + choice.first;
+  parser
+      .add_option_function<std::string>(
+          name, [&target, find](const std::string& text) { target = find(text).value(); }, help)
+      ->check([find, words](const std::string& text) {
+        return find(text) ? std::string() : "'" + text + "' is not one of " + words;
+      })
+      ->type_name("WHAT");
+}
+
+void add_content_options(CLI::App& parser, PlotOptions& options) {
+  add_choice<Show>(parser, "--show", options.show,
+                   {{"delaunay", Show::delaunay}, {"voronoi", Show::voronoi}, {"both", Show::both}},
+                   "delaunay (default), voronoi or both");
+  add_choice<Fill>(parser, "--fill", options.fill, {{"none", Fill::none}, {"area", Fill::area}},
+                   "area: color the cells by area, dark for small ones; none (default)");
+  add_choice<bool>(parser, "--back", options.style.show_back, {{"none", false}, {"faint", true}},
+                   "The arcs behind the globe: faint, or none (default)");
+  const auto show_sites = [&options](bool show) {
+    return [&options, show] { options.style.show_sites = show; };
+  };
+  CLI::Option* sites =
+      parser.add_flag_callback("--sites", show_sites(true), "Draw the sites as dots (default)");
+  parser.add_flag_callback("--no-sites", show_sites(false), "Do not draw the sites")
+      ->excludes(sites);
+  parser
+      .add_option("--graticule", options.style.graticule_deg,
+                  "Distance of meridians and parallels: 30 (default), 15, 10, 5, or 0\nfor none")
+      ->check([](const std::string& text) {
+        const bool is_known =
+            text == "0" || text == "5" || text == "10" || text == "15" || text == "30";
+        return is_known ? std::string() : "'" + text + "' is not one of 0, 5, 10, 15, 30";
+      })
+      ->type_name("DEG");
+}
+
+void add_view_options(CLI::App& parser, PlotOptions& options) {
+  parser
+      .add_option("--view", options.view,
+                  "The place that faces the viewer, in degrees (default: the middle of the\n"
+                  "sites, or 0 20 if they are all around)")
+      ->expected(2)
+      ->check(finite_error)
+      ->type_name("LON LAT");
+  parser
+      .add_option("--up", options.up_deg,
+                  "The direction that points up, in degrees clockwise from north (default: 0)")
+      ->check(finite_error)
+      ->type_name("DEG");
+  parser.add_option("--size", options.style.size, "Width and height in pixels (default: 1000)")
+      ->check([](const std::string& text) { return whole_error(text, 16, 20'000); })
+      ->type_name("N");
+  parser
+      .add_option("--line-width", options.style.line_width,
+                  "Width of the arcs in pixels (default: thinner where sites are close)")
+      ->check(positive_error)
+      ->type_name("W");
+}
+
+}  // namespace
+
+Command add_plot_command(CLI::App& tool) {
+  const auto options = std::make_shared<PlotOptions>();
+  CLI::App* parser =
+      tool.add_subcommand("plot", "Draw the triangulation or the cells on the globe");
+  add_input_options(*parser, options->common);
+  add_output_option(*parser, options->common, "Where to write the figure: .png .svg .pdf");
+  add_content_options(*parser, *options);
+  add_view_options(*parser, *options);
+  add_build_options(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "The globe is seen from far away (orthographic projection). Edges are arcs of great\n"
+      "circles; edges of ghost faces, which the center of the sphere does not see, are left\n"
+      "out. The same input gives the same bytes.\n\n"
+      "Examples:\n"
+      "  rondel plot stations.csv -o stations.png --view -60 35\n"
+      "  rondel plot stations.csv -o cells.svg --show voronoi --fill area\n"
+      "  rondel plot circles.csv --model weighted --show both --back faint -o power.pdf");
+  return {parser, [options] { return run_plot(*options); }};
+}
+
+}  // namespace rondel::cli

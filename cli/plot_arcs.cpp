@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plot_arcs.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "globe.h"
+
+namespace rondel::cli {
+namespace {
+
+// The sites of a ring that covers less than a half circle have one gap that is no edge. The
+// shorter arc across it runs back over all others, so that the sum falls short of 360 degrees.
+std::vector<ArcEnds> ring_arcs(std::span<const Index> ring, std::span<const Point> directions) {
+  std::vector<ArcEnds> arcs;
+  if (ring.size() < 2) return arcs;
+  double sum = 0, longest = 0;
+  std::size_t gap = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const ArcEnds ends{ring[i], ring[(i + 1) % ring.size()]};
+    const double length = angle_between(directions[ends[0]], directions[ends[1]]);
+    sum += length;
+    // The last of equals, so that of two sites the first arc stays.
+    if (length >= longest) {
+      longest = length;
+      gap = i;
+    }
+    arcs.push_back(ends);
+  }
+  constexpr double rounding = 1e-9;
+  const bool has_gap =
+      sum < 2 * std::numbers::pi - rounding || longest > std::numbers::pi - rounding;
+  if (has_gap) arcs.erase(arcs.begin() + static_cast<std::ptrdiff_t>(gap));
+  // Antipodal sites are joined by no shorter arc.
+  std::erase_if(arcs, [&](const ArcEnds& ends) {
+    return angle_between(directions[ends[0]], directions[ends[1]]) > std::numbers::pi - rounding;
+  });
+  return arcs;
+}
+
+}  // namespace
+
+std::vector<ArcEnds> triangulation_arcs(const Triangulation& triangulation,
+                                        std::span<const Point> directions) {
+  if (triangulation.dimension() < 2) return ring_arcs(triangulation.ring(), directions);
+  const auto faces = triangulation.faces();
+  const auto neighbors = triangulation.neighbors();
+  std::vector<bool> is_ghost(faces.size());
+  for (const Index face : triangulation.ghost_faces()) is_ghost[face] = true;
+
+  std::vector<ArcEnds> arcs;
+  arcs.reserve(faces.size() / 2 * 3);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (is_ghost[f]) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Index across = neighbors[f][i];
+      if (f < across || is_ghost[across]) {
+        arcs.push_back({faces[f][(i + 1) % 3], faces[f][(i + 2) % 3]});
+      }
+    }
+  }
+  return arcs;
+}
+
+std::vector<ArcEnds> cell_arcs(const Cells& cells) {
+  std::vector<ArcEnds> arcs;
+  arcs.reserve(cells.rings.size() / 2);
+  for (std::size_t cell = 0; cell + 1 < cells.offsets.size(); ++cell) {
+    const std::span<const Index> ring(cells.rings.data() + cells.offsets[cell],
+                                      cells.rings.data() + cells.offsets[cell + 1]);
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      // The cell on the other side has the same edge, from q to p.
+      const Index p = ring[i], q = ring[(i + 1) % ring.size()];
+      if (p < q && cells.points[p] != cells.points[q]) arcs.push_back({p, q});
+    }
+  }
+  return arcs;
+}
+
+double median_spacing(std::span<const ArcEnds> arcs, std::span<const Point> points) {
+  // In a Delaunay triangulation the nearest site is a neighbor.
+  constexpr double none = std::numeric_limits<double>::infinity();
+  std::vector<double> nearest(points.size(), none);
+  for (const auto& [a, b] : arcs) {
+    const double length = std::hypot(points[a].x - points[b].x, points[a].y - points[b].y);
+    nearest[a] = std::min(nearest[a], length);
+    nearest[b] = std::min(nearest[b], length);
+  }
+  std::vector<double> in_front;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points[i].z > 0 && nearest[i] < none) in_front.push_back(nearest[i]);
+  }
+  if (in_front.empty()) return 0;
+  const auto middle = in_front.begin() + static_cast<std::ptrdiff_t>(in_front.size() / 2);
+  std::ranges::nth_element(in_front, middle);
+  return *middle;
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plot_canvas.h"
+
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
+#include <cairo.h>
+
+#include <new>
+#include <numbers>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace rondel::cli {
+namespace {
+
+struct Release {
+  void operator()(cairo_t* context) const { cairo_destroy(context); }
+  void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
+  void operator()(cairo_pattern_t* pattern) const { cairo_pattern_destroy(pattern); }
+};
+template <typename Object>
+using Owned = std::unique_ptr<Object, Release>;
+
+constexpr double margin = 0.02;  // of the side, on each of the four
+
+void require(cairo_status_t status) {
+  if (status == CAIRO_STATUS_NO_MEMORY) throw std::bad_alloc();
+  if (status != CAIRO_STATUS_SUCCESS) {
+    throw std::runtime_error(std::string("drawing failed: ") + cairo_status_to_string(status));
+  }
+}
+
+// Runs inside Cairo, which is C: no exception may pass.
+cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) noexcept {
+  try {
+    static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), length);
+    return CAIRO_STATUS_SUCCESS;
+  } catch (...) {
+    return CAIRO_STATUS_NO_MEMORY;
+  }
+}
+
+cairo_surface_t* make_surface(FigureFormat format, int size, std::string& bytes) {
+  switch (format) {
+    case FigureFormat::svg:
+      return cairo_svg_surface_create_for_stream(append, &bytes, size, size);
+    case FigureFormat::pdf: {
+      cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(append, &bytes, size, size);
+      // An empty date is no date: otherwise each run would write its own.
+      cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
+      return surface;
+    }
+    case FigureFormat::png:
+      break;
+  }
+  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, size, size);
+}
+
+// Cairo numbers the surfaces of a process and writes the number into the drawing.
+void drop_surface_number(std::string& svg) {
+  constexpr std::string_view id = "<g id=\"surface";
+  const std::size_t start = svg.find(id);
+  if (start == std::string::npos) return;
+  const std::size_t digits = start + id.size();
+  svg.erase(digits, svg.find('"', digits) - digits);
+}
+
+void set_source(cairo_t* context, const Color& c) {
+  cairo_set_source_rgba(context, c.red, c.green, c.blue, c.alpha);
+}
+
+}  // namespace
+
+struct Canvas::State {
+  FigureFormat format;
+  double center, radius;
+  std::string bytes;  // outlives the surface, which writes to it
+  Owned<cairo_surface_t> surface;
+  Owned<cairo_t> context;
+
+  [[nodiscard]] double x(Spot p) const { return center + radius * p.x; }
+  [[nodiscard]] double y(Spot p) const { return center - radius * p.y; }
+};
+
+Canvas::Canvas(FigureFormat format, int size) : state_(std::make_unique<State>()) {
+  state_->format = format;
+  state_->center = size / 2.0;
+  state_->radius = size * (0.5 - margin);
+  state_->surface.reset(make_surface(format, size, state_->bytes));
+  state_->context.reset(cairo_create(state_->surface.get()));
+  require(cairo_status(state_->context.get()));
+  set_source(state_->context.get(), {1, 1, 1});
+  cairo_paint(state_->context.get());
+}
+
+Canvas::~Canvas() = default;
+
+double Canvas::radius() const noexcept { return state_->radius; }
+
+void Canvas::move_to(Spot to) {
+  cairo_move_to(state_->context.get(), state_->x(to), state_->y(to));
+}
+
+void Canvas::line_to(Spot to) {
+  cairo_line_to(state_->context.get(), state_->x(to), state_->y(to));
+}
+
+void Canvas::curve_to(Spot control1, Spot control2, Spot to) {
+  cairo_curve_to(state_->context.get(), state_->x(control1), state_->y(control1),
+                 state_->x(control2), state_->y(control2), state_->x(to), state_->y(to));
+}
+
+void Canvas::dot(Spot center, double radius) {
+  cairo_new_sub_path(state_->context.get());
+  cairo_arc(state_->context.get(), state_->x(center), state_->y(center), radius, 0,
+            2 * std::numbers::pi);
+}
+
+void Canvas::globe() {
+  cairo_arc(state_->context.get(), state_->center, state_->center, state_->radius, 0,
+            2 * std::numbers::pi);
+}
+
+void Canvas::stroke(const Color& color, double width) {
+  cairo_t* context = state_->context.get();
+  set_source(context, color);
+  cairo_set_line_width(context, width);
+  // Ends of thin lines are smaller than a pixel, and round ones cost most of the time.
+  cairo_set_line_cap(context, width < 1 ? CAIRO_LINE_CAP_BUTT : CAIRO_LINE_CAP_ROUND);
+  cairo_set_line_join(context, CAIRO_LINE_JOIN_ROUND);
+  cairo_stroke(context);
+}
+
+void Canvas::fill(const Color& color) {
+  set_source(state_->context.get(), color);
+  cairo_fill(state_->context.get());
+}
+
+void Canvas::shade(const Color& inner, const Color& outer) {
+  const double c = state_->center, r = state_->radius;
+  const Owned<cairo_pattern_t> light(
+      cairo_pattern_create_radial(c - 0.35 * r, c - 0.40 * r, 0.1 * r, c, c, r));
+  cairo_pattern_add_color_stop_rgba(light.get(), 0, inner.red, inner.green, inner.blue,
+                                    inner.alpha);
+  cairo_pattern_add_color_stop_rgba(light.get(), 1, outer.red, outer.green, outer.blue,
+                                    outer.alpha);
+  cairo_set_source(state_->context.get(), light.get());
+  cairo_fill(state_->context.get());
+}
+
+void Canvas::fill_to_seam(const Color& color) {
+  set_source(state_->context.get(), color);
+  cairo_fill_preserve(state_->context.get());
+  stroke(color, 0.6);
+}
+
+std::string Canvas::finish() {
+  require(cairo_status(state_->context.get()));
+  if (state_->format == FigureFormat::png) {
+    require(cairo_surface_write_to_png_stream(state_->surface.get(), append, &state_->bytes));
+  }
+  cairo_surface_finish(state_->surface.get());
+  require(cairo_surface_status(state_->surface.get()));
+  if (state_->format == FigureFormat::svg) drop_surface_number(state_->bytes);
+  return std::move(state_->bytes);
+}
+
+}  // namespace rondel::cli

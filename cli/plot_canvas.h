@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// A square picture of the globe in one of the formats that Cairo writes. The only file that knows
+/// the drawing library is plot_canvas.cpp.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+
+#include "globe.h"
+#include "plot_color.h"
+
+namespace rondel::cli {
+
+enum class FigureFormat { png, svg, pdf };
+
+/// Paths in the coordinates of the unit disc; widths and radii in pixels (points in a PDF).
+class Canvas final : public Pen {
+ public:
+  Canvas(FigureFormat format, int size);
+  ~Canvas() override;
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  /// The radius of the globe in pixels.
+  [[nodiscard]] double radius() const noexcept;
+
+  void move_to(Spot to) override;
+  void line_to(Spot to) override;
+  void curve_to(Spot control1, Spot control2, Spot to) override;
+  /// Adds a small disc to the path.
+  void dot(Spot center, double radius);
+  /// Adds the outline of the globe to the path.
+  void globe();
+
+  /// Each paints the path and ends it.
+  void stroke(const Color& color, double width);
+  void fill(const Color& color);
+  /// Fills from `inner` around the place where the light falls to `outer` at the limb.
+  void shade(const Color& inner, const Color& outer);
+  /// Fills and covers the seam to equal neighbors by a line of the same color.
+  void fill_to_seam(const Color& color);
+
+  /// The bytes of the file, without dates: the same picture gives the same bytes.
+  /// \throws std::runtime_error, std::bad_alloc
+  std::string finish();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace rondel::cli

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plot_draw.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "rondel/delaunay.h"
+
+namespace rondel::cli {
+namespace {
+
+constexpr Color white{1, 1, 1};
+constexpr Color globe_light{1, 1, 1};
+constexpr Color globe_dark{0.860, 0.890, 0.920};
+constexpr Color clear_light{1, 1, 1, 0.10};
+constexpr Color clear_dark{0.05, 0.10, 0.20, 0.24};
+constexpr Color limb_color{0.36, 0.42, 0.48};
+constexpr Color graticule_color{0.40, 0.48, 0.55, 0.38};
+constexpr Color triangulation_color{0.090, 0.200, 0.430};
+constexpr Color diagram_color{0.850, 0.270, 0.080};
+constexpr Color site_color{0.06, 0.06, 0.08};
+
+// One stroke of very many arcs is slow, and so is a stroke for each.
+constexpr std::size_t arcs_in_a_stroke = 200;
+
+// The widths of a figure's lines, in pixels.
+struct Widths {
+  double line, dot_radius;
+};
+
+// Lines and dots get smaller where sites get close, so that dense figures do not turn into ink.
+Widths widths(const Figure& figure, double radius) {
+  const double unit = figure.style.size / 1000.0;
+  const double spacing = figure.spacing * radius;
+  const double line = figure.style.line_width > 0
+                          ? figure.style.line_width
+                          : std::clamp(0.15 * spacing, 0.5 * unit, 1.3 * unit);
+  return {line, std::clamp(0.28 * spacing, 0.7 * unit, 2.6 * unit)};
+}
+
+void draw_arcs(Canvas& canvas, const ArcLayer& layer, Side side, const Color& color, double width) {
+  const double tolerance = 0.02 / canvas.radius();
+  std::size_t count = 0;
+  for (const auto& [from, to] : layer.arcs) {
+    trace_arc(canvas, layer.points[from], layer.points[to], side, tolerance);
+    if (++count % arcs_in_a_stroke == 0) canvas.stroke(color, width);
+  }
+  canvas.stroke(color, width);
+}
+
+void draw_graticule(Canvas& canvas, const Figure& figure) {
+  const int step = figure.style.graticule_deg;
+  if (step == 0) return;
+  const Point north = figure.view.turn({0, 0, 1});
+  for (int lon = 0; lon < 180; lon += step) {
+    // The plane of the meridians lon and lon + 180 is normal to the direction 90 degrees east.
+    const Point normal = figure.view.turn(unit_vector({lon + 90.0, 0}));
+    trace_circle(canvas, normal, 90, Side::front);
+  }
+  for (int colatitude = step; colatitude < 180; colatitude += step) {
+    trace_circle(canvas, north, colatitude, Side::front);
+  }
+  canvas.stroke(graticule_color, 0.7 * figure.style.size / 1000);
+}
+
+// Maps a cell's area to the scale from 0 to 1: logarithmic, between the 2nd and 98th percentile.
+class AreaScale {
+ public:
+  explicit AreaScale(std::span<const double> areas) {
+    std::vector<double> logs;
+    for (const double area : areas) {
+      if (area > 0) logs.push_back(std::log(area));
+    }
+    if (logs.empty()) return;
+    std::sort(logs.begin(), logs.end());
+    low_ = logs[logs.size() / 50];
+    high_ = logs[logs.size() - 1 - logs.size() / 50];
+  }
+  [[nodiscard]] double operator()(double area) const {
+    return high_ > low_ ? (std::log(area) - low_) / (high_ - low_) : 0.5;
+  }
+
+ private:
+  double low_ = 0, high_ = 0;
+};
+
+void draw_filled_cells(Canvas& canvas, const FilledCells& filled) {
+  const AreaScale scale(filled.areas);
+  const double tolerance = 0.02 / canvas.radius();
+  const Cells& cells = filled.cells;
+  std::vector<Point> corners;
+  for (std::size_t cell = 0; cell < filled.areas.size(); ++cell) {
+    corners.clear();
+    for (auto i = cells.offsets[cell]; i < cells.offsets[cell + 1]; ++i) {
+      corners.push_back(cells.points[cells.rings[i]]);
+    }
+    if (!corners.empty() && trace_region(canvas, corners, tolerance)) {
+      canvas.fill_to_seam(area_color(scale(filled.areas[cell])));
+    }
+  }
+  canvas.globe();
+  canvas.shade(clear_light, clear_dark);
+}
+
+void draw_sites(Canvas& canvas, std::span<const Point> sites, double radius) {
+  std::size_t count = 0;
+  for (const Point& site : sites) {
+    if (site.z < 0) continue;
+    canvas.dot({site.x, site.y}, radius);
+    if (++count % arcs_in_a_stroke == 0) canvas.fill(site_color);
+  }
+  canvas.fill(site_color);
+}
+
+}  // namespace
+
+std::string draw(const Figure& figure, FigureFormat format) {
+  Canvas canvas(format, figure.style.size);
+  const Widths width = widths(figure, canvas.radius());
+  canvas.globe();
+  canvas.shade(globe_light, globe_dark);
+  if (figure.style.show_back) {
+    draw_arcs(canvas, figure.triangulation, Side::back, blend(triangulation_color, white, 0.75),
+              0.7 * width.line);
+    draw_arcs(canvas, figure.diagram, Side::back, blend(diagram_color, white, 0.70),
+              0.7 * width.line);
+  }
+  if (figure.filled) draw_filled_cells(canvas, *figure.filled);
+  draw_graticule(canvas, figure);
+  draw_arcs(canvas, figure.triangulation, Side::front, triangulation_color, width.line);
+  draw_arcs(canvas, figure.diagram, Side::front, diagram_color, width.line);
+  if (figure.style.show_sites) draw_sites(canvas, figure.sites, width.dot_radius);
+  canvas.globe();
+  canvas.stroke(limb_color, 1.2 * figure.style.size / 1000);
+  return canvas.finish();
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Draws a triangulation and its dual on the globe.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plot_arcs.h"
+#include "plot_canvas.h"
+#include "rondel/types.h"
+
+namespace rondel::cli {
+
+/// How a figure looks.
+struct FigureStyle {
+  int size = 1000;         ///< of the square picture, in pixels
+  double line_width = 0;   ///< in pixels; 0: follows the density of the arcs
+  int graticule_deg = 30;  ///< distance of its circles; 0: none
+  bool show_sites = true;
+  bool show_back = false;  ///< the arcs behind the globe, faintly
+};
+
+/// Points of the sphere in the view frame, and arcs between them.
+struct ArcLayer {
+  std::vector<Point> points;
+  std::vector<ArcEnds> arcs;
+};
+
+/// The cells to fill, corners in the view frame.
+struct FilledCells {
+  Cells cells;
+  std::vector<double> areas;
+};
+
+/// What a figure shows. Layers that are not wanted stay empty.
+struct Figure {
+  FigureStyle style;
+  View view{LonLat{}};
+  std::vector<Point> sites;  ///< the vertices, in the view frame
+  double spacing = 0;        ///< of the sites, see median_spacing()
+  ArcLayer triangulation;
+  ArcLayer diagram;
+  std::optional<FilledCells> filled;
+};
+
+/// The bytes of the figure.
+std::string draw(const Figure& figure, FigureFormat format);
+
+}  // namespace rondel::cli
