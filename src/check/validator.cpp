@@ -97,22 +97,17 @@ std::string Validator::find_flaw_below_dimension_2(const PerturbedSites& perturb
 std::string Validator::find_unaccounted(const Surface& surface) {
   for (Index i = 0; i < sites_.size(); ++i) {
     const Index first = places_.first[i];
-    if (first == i) {
-      if (surface.is_vertex(i)) continue;
-      if (options_.model == Model::projected) {
-        return "site " + text(i) + " is neither a vertex nor the duplicate of one";
-      }
-      unlisted_.push_back(i);
-      ++report_.num_hidden;
-      continue;
-    }
-    if (surface.is_vertex(i)) {
+    if (first != i) {
+      ++report_.num_duplicates;
+      if (!surface.is_vertex(i)) continue;
       return "site " + text(i) + " is a vertex, but a duplicate of site " + text(first) +
              ", which names their place";
     }
-    ++report_.num_duplicates;
+    if (!surface.is_vertex(i)) unlisted_.push_back(i);
   }
-  return {};
+  report_.num_hidden = unlisted_.size();
+  if (options_.model == Model::weighted || unlisted_.empty()) return {};
+  return "site " + text(unlisted_[0]) + " is neither a vertex nor the duplicate of one";
 }
 
 // The hull of three perturbed sites is a triangle, and that of more has more vertices. Two faces

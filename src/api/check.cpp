@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/check.h"
+
+#include "api/validation.h"
+#include "check/validator.h"
+
+namespace rondel {
+
+CheckReport check(std::span<const Point> sites, std::span<const Triple> triangles,
+                  const Options& options) {
+  api::validate(sites, options);
+  return proof::check_triangles(sites, triangles, options);
+}
+
+}  // namespace rondel
