@@ -29,7 +29,7 @@ enum class Fill { none, area };
 struct PlotOptions {
   CommonOptions common;
   FigureStyle style;
-  Show show = Show::delaunay;
+  std::optional<Show> show;  // none: the cells if they are filled, otherwise the triangulation
   Fill fill = Fill::none;
   std::vector<double> view;  // LON LAT, or empty
   double up_deg = 0;
@@ -90,6 +90,8 @@ std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Poin
 
 Figure make_figure(const PlotOptions& options, const Triangulation& triangulation,
                    const SiteTable& table) {
+  const Show show =
+      options.show.value_or(options.fill == Fill::area ? Show::voronoi : Show::delaunay);
   Figure figure;
   figure.style = options.style;
   const std::vector<Point> sites = directions(table.sites, triangulation.sphere().center);
@@ -99,13 +101,13 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   std::vector<ArcEnds> arcs = triangulation_arcs(triangulation, sites);
   figure.spacing = median_spacing(arcs, points);
   figure.sites = vertices(triangulation, points);
-  if (options.show != Show::voronoi) figure.triangulation = {std::move(points), std::move(arcs)};
-  if (options.show != Show::delaunay || options.fill == Fill::area) {
+  if (show != Show::voronoi) figure.triangulation = {std::move(points), std::move(arcs)};
+  if (show != Show::delaunay || options.fill == Fill::area) {
     Cells cells = rondel::cells(triangulation, table.sites);
     std::vector<double> cell_areas;
     if (options.fill == Fill::area) cell_areas = areas(triangulation, table.sites, cells);
     cells.points = turned(std::move(cells.points), figure.view);
-    if (options.show != Show::delaunay) {
+    if (show != Show::delaunay) {
       figure.diagram.arcs = cell_arcs(cells);
       figure.diagram.points = cells.points;
     }
@@ -143,8 +145,8 @@ template <class Value>
 using Choices = std::vector<std::pair<std::string, Value>>;
 
 // An option whose values are words.
-template <class Value>
-void add_choice(CLI::App& parser, const std::string& name, Value& target,
+template <class Value, class Target>
+void add_choice(CLI::App& parser, const std::string& name, Target& target,
                 const Choices<Value>& choices, const std::string& help) {
   const auto find = [choices](const std::string& text) -> std::optional<Value> {
     for (const auto& [word, value] : choices) {
@@ -166,7 +168,7 @@ void add_choice(CLI::App& parser, const std::string& name, Value& target,
 void add_content_options(CLI::App& parser, PlotOptions& options) {
   add_choice<Show>(parser, "--show", options.show,
                    {{"delaunay", Show::delaunay}, {"voronoi", Show::voronoi}, {"both", Show::both}},
-                   "delaunay (default), voronoi or both");
+                   "delaunay (default), voronoi (default with --fill) or both");
   add_choice<Fill>(parser, "--fill", options.fill, {{"none", Fill::none}, {"area", Fill::area}},
                    "area: color the cells by area, dark for small ones; none (default)");
   add_choice<bool>(parser, "--back", options.style.show_back, {{"none", false}, {"faint", true}},

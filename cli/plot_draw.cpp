@@ -15,11 +15,12 @@ constexpr Color white{1, 1, 1};
 constexpr Color globe_light{1, 1, 1};
 constexpr Color globe_dark{0.860, 0.890, 0.920};
 constexpr Color clear_light{1, 1, 1, 0.10};
-constexpr Color clear_dark{0.05, 0.10, 0.20, 0.24};
+constexpr Color clear_dark{0.05, 0.10, 0.20, 0.17};
 constexpr Color limb_color{0.36, 0.42, 0.48};
 constexpr Color graticule_color{0.40, 0.48, 0.55, 0.38};
 constexpr Color triangulation_color{0.090, 0.200, 0.430};
 constexpr Color diagram_color{0.850, 0.270, 0.080};
+constexpr Color diagram_on_fill_color{0.060, 0.130, 0.220, 0.55};
 constexpr Color site_color{0.06, 0.06, 0.08};
 
 // One stroke of very many arcs is slow, and so is a stroke for each.
@@ -130,7 +131,8 @@ std::string draw(const Figure& figure, FigureFormat format) {
   if (figure.filled) draw_filled_cells(canvas, *figure.filled);
   draw_graticule(canvas, figure);
   draw_arcs(canvas, figure.triangulation, Side::front, triangulation_color, width.line);
-  draw_arcs(canvas, figure.diagram, Side::front, diagram_color, width.line);
+  draw_arcs(canvas, figure.diagram, Side::front,
+            figure.filled ? diagram_on_fill_color : diagram_color, width.line);
   if (figure.style.show_sites) draw_sites(canvas, figure.sites, width.dot_radius);
   canvas.globe();
   canvas.stroke(limb_color, 1.2 * figure.style.size / 1000);
