@@ -1,0 +1,119 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "support/generators.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+namespace rondel::test {
+
+std::span<const Generator> generators() {
+  static const std::vector<Generator> all = [] {
+    std::vector<Generator> result(spherical_generators().begin(), spherical_generators().end());
+    result.insert(result.end(), spatial_generators().begin(), spatial_generators().end());
+    return result;
+  }();
+  return all;
+}
+
+const Generator& generator(std::string_view name) {
+  const auto found = std::ranges::find(generators(), name, &Generator::name);
+  if (found == generators().end()) throw std::invalid_argument("no generator of this name");
+  return *found;
+}
+
+Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+Point operator*(double s, const Point& p) { return {s * p.x, s * p.y, s * p.z}; }
+
+Point cross_product(const Point& a, const Point& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+Point normalized(const Point& p) {
+  const double length = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+  return {p.x / length, p.y / length, p.z / length};
+}
+
+Point random_direction(Random& random) {
+  for (;;) {
+    const Point p = {random.signed_unit(), random.signed_unit(), random.signed_unit()};
+    const double square = p.x * p.x + p.y * p.y + p.z * p.z;
+    if (square <= 1 && square > 0.01) return normalized(p);
+  }
+}
+
+Point random_near(Random& random, const Point& pole, double radius) {
+  return normalized(pole + (radius * random.unit()) * random_direction(random));
+}
+
+namespace {
+
+// Reduced to [0, 45] degrees, so that all symmetries hold for the bits.
+double sine_deg(double angle) {
+  constexpr double radians = std::numbers::pi / 180;
+  if (angle < 0) return -sine_deg(-angle);
+  if (angle >= 360) return sine_deg(std::fmod(angle, 360));
+  if (angle > 180) return -sine_deg(angle - 180);
+  if (angle > 90) return sine_deg(180 - angle);
+  return angle > 45 ? std::cos((90 - angle) * radians) : std::sin(angle * radians);
+}
+
+double cosine_deg(double angle) { return sine_deg(90 - std::abs(angle)); }
+
+}  // namespace
+
+Point unit_vector_deg(double lon, double lat) {
+  return {cosine_deg(lat) * cosine_deg(lon), cosine_deg(lat) * sine_deg(lon), sine_deg(lat)};
+}
+
+Point moved_by_one_ulp(Random& random, Point p) {
+  const double toward = (random.coin() ? 1 : -1) * std::numeric_limits<double>::infinity();
+  double* const coordinates[] = {&p.x, &p.y, &p.z};
+  double& x = *coordinates[random.below(3)];
+  x = std::nextafter(x, toward);
+  return p;
+}
+
+std::vector<Point> paper_s(std::size_t n) {
+  constexpr double pi = std::numbers::pi;
+  std::vector<Point> sites;
+  for (std::size_t i = 0; i <= n; ++i) {
+    const double theta = static_cast<double>(i) * pi / static_cast<double>(n);
+    const double phi = (theta * theta + 1) / (pi * pi);
+    sites.push_back(
+        {std::cos(theta) * std::sin(phi), std::sin(theta) * std::sin(phi), std::cos(phi)});
+  }
+  const double s = -1 / std::sqrt(3.0);
+  sites.insert(sites.end(), {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {s, s, s}});
+  return sites;
+}
+
+std::vector<Point> integer_sphere(int square, Random& random) {
+  const int bound = static_cast<int>(std::sqrt(static_cast<double>(square))) + 1;
+  std::vector<Point> points;
+  for (int x = -bound; x <= bound; ++x) {
+    for (int y = -bound; y <= bound; ++y) {
+      for (int z = -bound; z <= bound; ++z) {
+        if (x * x + y * y + z * z == square) {
+          points.push_back(
+              {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+        }
+      }
+    }
+  }
+  random.shuffle(points);
+  return points;
+}
+
+std::size_t scaled(std::size_t count) {
+  const char* text = std::getenv("RONDEL_TEST_SCALE");
+  const double scale = text == nullptr ? 1 : std::atof(text);
+  return std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(count) * scale));
+}
+
+}  // namespace rondel::test

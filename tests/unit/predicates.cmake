@@ -1,0 +1,9 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+rondel_add_test(predicates_test
+  predicates_oracle_test.cpp
+  predicates_rung_test.cpp
+  predicates_sign_test.cpp
+  predicates_symmetry_test.cpp
+  LIBS rondel_test_support)
+rondel_add_test(predicates_bounds_test predicates_bounds_test.cpp LIBS rondel_test_support)

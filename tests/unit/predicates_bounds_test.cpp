@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Recomputes the filters in doubles, compares them with values of 400 bits, and climbs
+// towards the largest error: none may exceed its bound in src/predicates/bounds.h.
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iostream>
+
+#include "predicates/orientation.h"
+#include "predicates/side_of_circle.h"
+#include "predicates/side_of_plane.h"
+#include "support/adversarial.h"
+#include "support/generators.h"
+
+namespace rondel::test {
+namespace {
+
+using exact::to_vector;
+using exact::Vector3;
+using predicates::Vector;
+
+constexpr mp_bitcnt_t precision = 400;
+using Big = mpf_class;
+using BigVector = Vector3<Big>;
+
+Big big(double v) { return Big(v, precision); }
+BigVector big(const Vector& v) { return {big(v.x), big(v.y), big(v.z)}; }
+BigVector minus(const BigVector& a, const BigVector& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Big dot_of(const BigVector& a, const BigVector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Big det_of(const BigVector& a, const BigVector& b, const BigVector& c) {
+  return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) +
+         a.z * (b.x * c.y - b.y * c.x);
+}
+BigVector unit(const Point& p) {
+  const BigVector v = big(to_vector(p));
+  const Big length = sqrt(dot_of(v, v));
+  return {v.x / length, v.y / length, v.z / length};
+}
+double to_double(const Big& v) { return v.get_d(); }
+
+// A site and the direction stored for it: the rounded p/|p|, moved as far as the contract allows.
+struct Stored {
+  Point site;
+  Vector direction;
+};
+
+Stored store(Random& random, const Point& p) {
+  Point d = normalized(p);
+  const BigVector u = unit(p);
+  for (int tries = random.between(0, 4); tries > 0; --tries) {
+    const Point moved = moved_by_one_ulp(random, d);
+    const BigVector error = minus(big(to_vector(moved)), u);
+    if (std::sqrt(to_double(dot_of(error, error))) <= predicates::direction_error) d = moved;
+  }
+  return {p, to_vector(d)};
+}
+
+using FourStored = std::array<Stored, 4>;
+
+// A filter's quotient |computed - exact| / bound for a configuration.
+using Ratio = double (*)(const FourStored&);
+
+double circle_plane_ratio(const FourStored& s) {
+  const auto& [b, c, d, p] = s;
+  const Vector pb = b.direction - p.direction;
+  const Vector pc = c.direction - p.direction;
+  const Vector pd = d.direction - p.direction;
+  const double value = -dot(pb, cross(pc, pd));
+  const BigVector u = unit(p.site);
+  const Big exact_value =
+      -det_of(minus(unit(b.site), u), minus(unit(c.site), u), minus(unit(d.site), u));
+  const double bound = predicates::circle_plane_bound * predicates::max_squared_length(pb, pc, pd);
+  return std::abs(to_double(value - exact_value)) / bound;
+}
+
+double circle_ratio(const FourStored& s) {
+  const auto& [b, c, d, p] = s;
+  const Vector pb = b.direction - p.direction;
+  const Vector pc = c.direction - p.direction;
+  const Vector pd = d.direction - p.direction;
+  const Vector cd = cross(pc, pd);
+  const Vector db = cross(pd, pb);
+  const Vector bc = cross(pb, pc);
+  const double b2 = dot(pb, pb);
+  const double c2 = dot(pc, pc);
+  const double d2 = dot(pd, pd);
+  const double value =
+      dot(p.direction, Vector{b2 * cd.x + c2 * db.x + d2 * bc.x, b2 * cd.y + c2 * db.y + d2 * bc.y,
+                              b2 * cd.z + c2 * db.z + d2 * bc.z});
+  const BigVector u = unit(p.site);
+  const Big exact_value =
+      -2 * det_of(minus(unit(b.site), u), minus(unit(c.site), u), minus(unit(d.site), u));
+  const double h = std::sqrt(std::max({b2, c2, d2}));
+  return std::abs(to_double(value - exact_value)) / (predicates::circle_bound * h * h * h);
+}
+
+double plane_ratio(const FourStored& s) {
+  const auto& [b, c, d, p] = s;
+  const Vector o = to_vector(p.site);
+  const Vector pb = to_vector(b.site) - o;
+  const Vector pc = to_vector(c.site) - o;
+  const Vector pd = to_vector(d.site) - o;
+  const double value = -det(pb, pc, pd);
+  const BigVector u = big(o);
+  const Big exact_value =
+      -det_of(minus(big(to_vector(b.site)), u), minus(big(to_vector(c.site)), u),
+              minus(big(to_vector(d.site)), u));
+  const double h = std::sqrt(predicates::max_squared_length(pb, pc, pd));
+  return std::abs(to_double(value - exact_value)) / (predicates::plane_bound * h * h * h);
+}
+
+double orientation_ratio(const FourStored& s) {
+  const Vector a = to_vector(s[0].site);
+  const Vector ab = to_vector(s[1].site) - a;
+  const Vector ac = to_vector(s[2].site) - a;
+  const double value = det(a, ab, ac);
+  const Big exact_value = det_of(big(a), big(to_vector(s[1].site)), big(to_vector(s[2].site)));
+  const double size = std::sqrt(dot(a, a)) * std::sqrt(dot(ab, ab)) * std::sqrt(dot(ac, ac));
+  return std::abs(to_double(value - exact_value)) / (predicates::orientation_bound * size);
+}
+
+double direction_orientation_ratio(const FourStored& s) {
+  const Vector a = s[0].direction;
+  const Vector ab = s[1].direction - a;
+  const Vector ac = s[2].direction - a;
+  const double value = det(a, ab, ac);
+  const Big exact_value = det_of(unit(s[0].site), unit(s[1].site), unit(s[2].site));
+  const double h = std::sqrt(std::max(dot(ab, ab), dot(ac, ac)));
+  return std::abs(to_double(value - exact_value)) / (predicates::direction_orientation_bound * h);
+}
+
+FourStored random_configuration(Random& random) {
+  const double distance = random_distance(random, 1e-15);
+  Four four = near_one_circle(random, distance);
+  if (random.coin()) {
+    const Point pole = random_direction(random);
+    for (Point& p : four) p = random_near(random, pole, distance);
+  }
+  FourStored stored;
+  std::ranges::transform(four, stored.begin(), [&](const Point& p) { return store(random, p); });
+  return stored;
+}
+
+FourStored mutated(Random& random, FourStored stored) {
+  for (Stored& s : stored) {
+    if (random.below(3) == 0) {
+      Point p = s.site;
+      if (random.coin()) p = random_near(random, p, random_distance(random, 1e-16));
+      s = store(random, moved_by_one_ulp(random, p));
+    }
+  }
+  return stored;
+}
+
+struct Filter {
+  const char* name;
+  Ratio ratio;
+  double least;  // the search must get this close, or it has lost its teeth
+};
+
+class bounds : public testing::TestWithParam<Filter> {};
+
+TEST_P(bounds, hold_against_a_search) {
+  Random random(41);
+  double largest = 0;
+  for (std::size_t start = 0; start < scaled(250); ++start) {
+    FourStored best = random_configuration(random);
+    double best_ratio = 0;
+    for (int step = 0; step < 60; ++step) {
+      const FourStored next = step == 0 ? best : mutated(random, best);
+      const double ratio = GetParam().ratio(next);
+      if (!(ratio > best_ratio) || !std::isfinite(ratio)) continue;
+      best = next;
+      best_ratio = ratio;
+    }
+    largest = std::max(largest, best_ratio);
+    ASSERT_LE(best_ratio, 1.0);
+  }
+  RecordProperty("largest_ratio", std::to_string(largest));
+  std::cout << GetParam().name << ": largest error " << largest << " of the bound\n";
+  EXPECT_GT(largest, GetParam().least);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    filters, bounds,
+    testing::Values(Filter{"circle_plane", circle_plane_ratio, 0.05},
+                    Filter{"circle", circle_ratio, 0.02}, Filter{"plane", plane_ratio, 0.05},
+                    Filter{"orientation", orientation_ratio, 0.05},
+                    Filter{"direction_orientation", direction_orientation_ratio, 0.05}),
+    [](const auto& filter) { return std::string(filter.param.name); });
+
+// The rounding of a direction as the kernel computes it.
+TEST(bounds, directions_are_close_to_unit_vectors) {
+  Random random(42);
+  double largest = 0;
+  for (std::size_t i = 0; i < scaled(20000); ++i) {
+    const Point p = random.signed_unit() * random_direction(random);
+    const BigVector error = minus(big(to_vector(normalized(p))), unit(p));
+    largest = std::max(largest, std::sqrt(to_double(dot_of(error, error))));
+  }
+  EXPECT_LE(largest, predicates::direction_error);
+}
+
+// Unit vectors in two doubles: contract 1 and 2 of exact/unit_vector.h.
+TEST(bounds, split_unit_vectors_hold_their_contract) {
+  Random random(43);
+  for (std::size_t i = 0; i < scaled(20000); ++i) {
+    const Point center = random.coin() ? Point{} : 4.0 * random_direction(random);
+    Point p = center + random_distance(random, 1e-14) * random_direction(random);
+    if (p == center) continue;
+    const BigVector v = minus(big(to_vector(p)), big(to_vector(center)));
+    const Big length = sqrt(dot_of(v, v));
+    const BigVector u = {v.x / length, v.y / length, v.z / length};
+    const exact::SplitPoint split = exact::unit_vector(p, center);
+    const BigVector high = big(to_vector(split.hi));
+    const BigVector error_high = minus(high, u);
+    const BigVector low = big(to_vector(split.lo));
+    const BigVector error = {error_high.x + low.x, error_high.y + low.y, error_high.z + low.z};
+    ASSERT_LE(std::sqrt(to_double(dot_of(error_high, error_high))), 0x1p-53);
+    ASSERT_LE(std::sqrt(to_double(dot_of(error, error))), 0x1p-100);
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test

@@ -1,0 +1,170 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Which rung decides: a cheap one where it should, and never one that cannot.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "predicates/orientation.h"
+#include "predicates/side_of_circle.h"
+#include "predicates/side_of_plane.h"
+#include "support/adversarial.h"
+#include "support/generators.h"
+#include "support/oracle.h"
+
+namespace rondel::test {
+namespace {
+
+using predicates::Decision;
+using predicates::Rung;
+
+predicates::Vector direction(const Point& p) {
+  const Point high = exact::unit_vector(p, {}).hi;
+  return {high.x, high.y, high.z};
+}
+
+// The ladder of one model from its filter up.
+Decision decide(const Four& four, Model model) {
+  const auto& [a, b, c, p] = four;
+  if (model == Model::projected) {
+    const Sign sign =
+        predicates::side_of_circle_filter(direction(a), direction(b), direction(c), direction(p));
+    return sign != Sign::zero ? Decision{sign, Rung::filter}
+                              : predicates::side_of_circle_ladder(a, b, c, p, {});
+  }
+  using exact::to_vector;
+  const Sign sign =
+      predicates::side_of_plane_filter(to_vector(a), to_vector(b), to_vector(c), to_vector(p));
+  return sign != Sign::zero ? Decision{sign, Rung::filter}
+                            : predicates::side_of_plane_ladder(a, b, c, p);
+}
+
+class predicate_rungs : public testing::TestWithParam<FourGenerator> {};
+
+// The sign of the rung that decided, and of each rung that could have decided.
+TEST_P(predicate_rungs, never_give_a_wrong_sign) {
+  Random random(31);
+  for (std::size_t i = 0; i < scaled(2500) && !HasFailure(); ++i) {
+    const Four four = GetParam().make(random);
+    const auto& [a, b, c, p] = four;
+    for (const Model model : {Model::projected, Model::weighted}) {
+      const int expected = Oracle(four, model, {}).side_of_circle(0, 1, 2, 3);
+      const Decision decision = decide(four, model);
+      EXPECT_EQ(to_int(decision.sign), expected);
+      if (expected == 0) {
+        EXPECT_EQ(decision.rung, Rung::exact);
+      }
+      if (model == Model::weighted) continue;
+      EXPECT_EQ(to_int(predicates::side_of_circle_exact(a, b, c, p, {})), expected);
+      // Directions that are not the nearest doubles, but within the contract's error.
+      const Sign coarse = predicates::side_of_circle_filter(
+          exact::to_vector(normalized(a)), exact::to_vector(normalized(b)),
+          exact::to_vector(normalized(c)), exact::to_vector(normalized(p)));
+      const bool is_in_range = std::ranges::all_of(four, [](const Point& q) {
+        const double square = q.x * q.x + q.y * q.y + q.z * q.z;
+        return square > 0x1p-600 && square < 0x1p600;
+      });
+      if (is_in_range && coarse != Sign::zero) {
+        EXPECT_EQ(to_int(coarse), expected);
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(kinds, predicate_rungs, testing::ValuesIn(four_generators()),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+double filter_share(Model model, double distance) {
+  Random random(32);
+  std::size_t decided = 0;
+  const std::size_t count = 2000;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Point pole = random_direction(random);
+    Four four;
+    for (Point& p : four) p = random_near(random, pole, distance);
+    if (decide(four, model).rung == Rung::filter) ++decided;
+  }
+  return static_cast<double>(decided) / static_cast<double>(count);
+}
+
+// The projected filter must not fade with density, as the paper's filters did (section 5).
+TEST(rungs, filter_decides_at_any_distance) {
+  EXPECT_GT(filter_share(Model::projected, 1), 0.999);
+  EXPECT_GT(filter_share(Model::projected, 1e-3), 0.999);
+  EXPECT_GT(filter_share(Model::projected, 1e-6), 0.999);
+  EXPECT_GT(filter_share(Model::projected, 1e-9), 0.995);
+  EXPECT_GT(filter_share(Model::projected, 1e-11), 0.9);
+  EXPECT_GT(filter_share(Model::weighted, 1), 0.999);
+  EXPECT_GT(filter_share(Model::weighted, 1e-3), 0.999);
+}
+
+TEST(rungs, double_double_decides_near_ties) {
+  Random random(33);
+  std::size_t decided = 0;
+  std::size_t unsure = 0;
+  for (std::size_t i = 0; i < 2000; ++i) {
+    Four four = near_one_circle(random, 0.5);
+    const Rung rung = decide(four, Model::projected).rung;
+    if (rung == Rung::filter) continue;
+    ++unsure;
+    if (rung == Rung::double_double) ++decided;
+  }
+  EXPECT_GT(unsure, 1000U);
+  EXPECT_EQ(decided, unsure);
+}
+
+TEST(rungs, exact_decides_what_lies_below_twice_double_precision) {
+  constexpr double tiny = 1e-40;
+  const Four four = {{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, tiny}}};
+  const Decision projected = decide(four, Model::projected);
+  EXPECT_EQ(projected.rung, Rung::exact);
+  EXPECT_EQ(to_int(projected.sign), Oracle(four, Model::projected, {}).side_of_circle(0, 1, 2, 3));
+  EXPECT_NE(projected.sign, Sign::zero);
+}
+
+// Four sites, none of equal length, whose roots fall into two classes: sqrt(2) and 1.
+TEST(rungs, exact_sees_ties_among_unequal_roots) {
+  const Four four = {{{3, 3, 0}, {-1, 1, 0}, {0, 0, 2}, {0, 0, -5}}};
+  const Decision decision = decide(four, Model::projected);
+  const int expected = Oracle(four, Model::projected, {}).side_of_circle(0, 1, 2, 3);
+  EXPECT_EQ(to_int(decision.sign), expected);
+  const Four tie = {{{3, 4, 12}, {-6, 8, 24}, {-9, -12, 36}, {12, -16, 48}}};
+  EXPECT_EQ(decide(tie, Model::projected).sign, Sign::zero);
+  EXPECT_EQ(decide(tie, Model::projected).rung, Rung::exact);
+}
+
+TEST(rungs, structured_input_is_decided_exactly) {
+  Random random(34);
+  for (std::size_t i = 0; i < 200; ++i) {
+    const Point p = random_direction(random);
+    const Four rectangle = {{p, {-p.x, p.y, p.z}, {-p.x, -p.y, p.z}, {p.x, -p.y, p.z}}};
+    for (const Model model : {Model::projected, Model::weighted}) {
+      const Decision decision = decide(rectangle, model);
+      EXPECT_EQ(decision.rung, Rung::exact);
+      EXPECT_EQ(decision.sign, Sign::zero);
+    }
+    EXPECT_EQ(predicates::orientation_ladder(p, {-p.x, -p.y, p.z}, {0, 0, p.z}, {}).rung,
+              Rung::exact);
+  }
+}
+
+TEST(rungs, orientation_filter_never_gives_a_wrong_sign) {
+  Random random(35);
+  for (const FourGenerator& kind : four_generators()) {
+    for (std::size_t i = 0; i < scaled(1000); ++i) {
+      const Four four = kind.make(random);
+      const auto& [a, b, c, p] = four;
+      const int expected = Oracle(four, Model::projected, {}).orientation(0, 1, 2);
+      const Sign filter = predicates::orientation_filter(direction(a), direction(b), direction(c));
+      if (filter != Sign::zero) {
+        ASSERT_EQ(to_int(filter), expected) << kind.name;
+      }
+      ASSERT_EQ(to_int(predicates::orientation_ladder(a, b, c, {}).sign), expected) << kind.name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test

@@ -1,0 +1,121 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The public predicates against the oracle, on random and adversarial sites.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "rondel/predicates.h"
+#include "support/adversarial.h"
+#include "support/generators.h"
+#include "support/oracle.h"
+
+namespace rondel::test {
+namespace {
+
+std::string text(const Four& four, const Sphere& sphere) {
+  std::ostringstream out;
+  out << std::hexfloat;
+  for (const Point& p : four) out << '{' << p.x << ", " << p.y << ", " << p.z << "} ";
+  out << "center " << sphere.center.x << ", " << sphere.center.y << ", " << sphere.center.z;
+  return out.str();
+}
+
+bool are_distinct(const Oracle& oracle) {
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      if (oracle.is_same_site(i, j)) return false;
+    }
+  }
+  return true;
+}
+
+// Adds a site below (a, b, c), which makes that triple a face seen from inside.
+bool add_inner_site(std::vector<Point>& sites, Model model, const Sphere& sphere) {
+  Random random(5);
+  for (int i = 0; i < 20; ++i) {
+    sites.resize(4);
+    sites.push_back(sphere.center + random_direction(random));
+    if (Oracle(sites, model, sphere).side_of_circle(0, 1, 2, 4) < 0) return true;
+  }
+  return false;
+}
+
+void expect_conflict_as_oracle(const Four& four, Model model, const Sphere& sphere) {
+  const auto& [a, b, c, p] = four;
+  std::vector<Point> sites(four.begin(), four.end());
+  const Oracle oracle(sites, model, sphere);
+  if (!are_distinct(oracle)) return;
+  int expected = oracle.side_of_circle(0, 1, 2, 3);
+  if (expected == 0) {
+    const bool is_flat = oracle.is_flat();
+    if (is_flat && !add_inner_site(sites, model, sphere)) return;  // a, b, c are collinear
+    expected = Oracle(sites, model, sphere).perturbed_side(0, 1, 2, 3);
+    ASSERT_NE(expected, 0) << text(four, sphere);
+  }
+  EXPECT_EQ(is_in_conflict(a, b, c, p, model, sphere), expected > 0) << text(four, sphere);
+}
+
+void expect_as_oracle(const Four& four, const Sphere& sphere) {
+  const auto& [a, b, c, p] = four;
+  for (const Model model : {Model::projected, Model::weighted}) {
+    const Oracle oracle(four, model, sphere);
+    EXPECT_EQ(to_int(side_of_circle(a, b, c, p, model, sphere)), oracle.side_of_circle(0, 1, 2, 3))
+        << text(four, sphere);
+    EXPECT_EQ(to_int(orientation(a, b, c, sphere)), oracle.orientation(0, 1, 2))
+        << text(four, sphere);
+    EXPECT_EQ(is_same_site(a, b, model, sphere), oracle.is_same_site(0, 1)) << text(four, sphere);
+    expect_conflict_as_oracle(four, model, sphere);
+  }
+}
+
+class predicates : public testing::TestWithParam<FourGenerator> {};
+
+TEST_P(predicates, agree_with_the_oracle) {
+  Random random(11);
+  for (std::size_t i = 0; i < scaled(1500) && !HasFailure(); ++i) {
+    expect_as_oracle(GetParam().make(random), {});
+  }
+}
+
+TEST_P(predicates, agree_with_the_oracle_around_any_center) {
+  constexpr std::array<Point, 5> centers = {{{0.1, -3, 1e6},
+                                             {1e10, 1e10, -1e10},
+                                             {0.5, 0.5, 0.5},
+                                             {1e-300, 0, 1e-10},
+                                             {1e300, -1e290, 7}}};
+  Random random(12);
+  for (std::size_t i = 0; i < scaled(600) && !HasFailure(); ++i) {
+    Sphere sphere{centers[random.below(centers.size())], 1};
+    if (random.coin()) sphere.center = random_direction(random);
+    Four four = GetParam().make(random);
+    for (Point& p : four) {
+      if (random.coin()) p = p + sphere.center;
+      while (p == sphere.center) p = moved_by_one_ulp(random, p);
+    }
+    expect_as_oracle(four, sphere);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(kinds, predicates, testing::ValuesIn(four_generators()),
+                         [](const auto& kind) { return std::string(kind.param.name); });
+
+TEST(is_same_site, sees_multiples_and_no_neighbors) {
+  Random random(3);
+  for (std::size_t i = 0; i < scaled(2000); ++i) {
+    const Point p = random_direction(random);
+    const Point near = moved_by_one_ulp(random, p);
+    EXPECT_TRUE(is_same_site(p, std::ldexp(1.0, random.between(-900, 900)) * p));
+    EXPECT_FALSE(is_same_site(p, near));
+    EXPECT_FALSE(is_same_site(p, -1.0 * p));
+    EXPECT_FALSE(is_same_site(p, 2.0 * p, Model::weighted));
+    EXPECT_TRUE(is_same_site(p, p, Model::weighted));
+  }
+  EXPECT_TRUE(is_same_site({-0.0, 0, 1}, {0.0, -0.0, 1}, Model::weighted));
+  EXPECT_TRUE(is_same_site({5e-324, 0, 5e-324}, {1e300, 0, 1e300}));
+}
+
+}  // namespace
+}  // namespace rondel::test
