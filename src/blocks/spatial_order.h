@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The spatial order: by Hilbert key on the cube's faces, then lexicographically by coordinates. It
+// finds the duplicates on the way, which have equal keys.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel::blocks {
+
+struct SpatialOrder {
+  // For each rank, the site whose coordinates count. Among duplicates that is the lexicographically
+  // smallest one, so that the input order changes nothing.
+  std::vector<Index> order;
+  // In increasing order of `site`. The representative is the lowest index: it names the vertex.
+  std::vector<Duplicate> duplicates;
+  // The ranks named by another site than order[rank].
+  std::vector<Duplicate> renamed;  // {rank, lowest index}
+};
+
+SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center);
+
+}  // namespace rondel::blocks

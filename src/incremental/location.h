@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Point location by walks on the hull, as it is seen from the center o of the sphere.
+//
+// A ray from o leaves the hull through a solid face (o strictly below it). The solid faces
+// triangulate a convex cone of directions: all of space when o is strictly inside the hull;
+// otherwise the cone ends at the contour, and the ray enters the hull through a near face
+// (o strictly above it). Grazing faces have o in their plane.
+//
+//          solid          p beyond a contour edge (a, b) of solid face f is outside
+//       .---------.       of the wedge of the two faces at (a, b): f and its
+//      /   hull    \      neighbor both have their third corner on the other side of
+//      '-----------'      the plane (o, a, b). So p is in conflict with one of them.
+//          near
+//            o            docs/theory/location.md has the proofs.
+#pragma once
+
+#include <cassert>
+#include <cstdint>
+#include <vector>
+
+#include "incremental/site_traits.h"
+#include "topology/mesh.h"
+
+namespace rondel::incremental {
+
+enum class FaceKind : std::uint8_t { solid, near, grazing };
+
+inline FaceKind kind_of(Sign orientation) {
+  if (orientation == Sign::positive) return FaceKind::solid;
+  return orientation == Sign::negative ? FaceKind::near : FaceKind::grazing;
+}
+
+// The kinds of the faces, as long as some face is not solid. Once the center is strictly
+// inside the hull it stays there, and nothing is kept any more.
+class FaceKinds {
+ public:
+  [[nodiscard]] bool all_solid() const { return num_ghosts_ == 0; }
+  [[nodiscard]] FaceKind operator[](Index f) const {
+    return all_solid() ? FaceKind::solid : kinds_[f];
+  }
+  void add(Index f, FaceKind kind) {
+    if (f >= kinds_.size()) kinds_.resize(f + 1);
+    kinds_[f] = kind;
+    num_ghosts_ += static_cast<std::size_t>(kind != FaceKind::solid);
+  }
+  void remove(Index f) { num_ghosts_ -= static_cast<std::size_t>(kinds_[f] != FaceKind::solid); }
+  void release() { kinds_ = {}; }
+
+ private:
+  std::vector<FaceKind> kinds_;
+  std::size_t num_ghosts_ = 0;
+};
+
+template <SiteTraits T>
+class Location {
+ public:
+  Location(const T& sites, const topology::Mesh& mesh, const FaceKinds& kinds)
+      : sites_(sites), mesh_(mesh), kinds_(kinds) {}
+
+  // A face that is in conflict with p, or no_index when p is hidden. `solid` is a solid
+  // face near p, `near` a near face (no_index when there is none).
+  [[nodiscard]] Index find_conflict(Index p, Index solid, Index near) const {
+    const Index guess = walk_by_guess(p, solid);
+    if (is_in_conflict(guess, p)) return guess;
+    const Walk far_side = walk(p, guess, FaceKind::solid);
+    if (far_side.beyond != no_index) {
+      return is_in_conflict(far_side.face, p) ? far_side.face : far_side.beyond;
+    }
+    if (is_in_conflict(far_side.face, p)) return far_side.face;
+    if (!T::hides_sites || kinds_.all_solid()) return no_index;
+    if (near != no_index) {
+      const Walk near_side = walk(p, near, FaceKind::near);
+      if (is_in_conflict(near_side.face, p)) return near_side.face;
+    }
+    return far_side.on_plane ? search_grazing(p, far_side.face) : no_index;
+  }
+
+  // The solid face through which the ray of p leaves the hull, or the last one before the contour.
+  [[nodiscard]] Index face_above(Index p, Index solid) const {
+    return walk(p, walk_by_guess(p, solid), FaceKind::solid).face;
+  }
+
+ private:
+  struct Walk {
+    Index face;
+    Index beyond = no_index;  // the face across the contour, when the walk ended there
+    bool on_plane = false;    // p lies in the plane of the center and an edge of `face`
+  };
+
+  [[nodiscard]] bool is_in_conflict(Index f, Index p) const {
+    const auto& v = mesh_[f].vertex;
+    return sites_.is_in_conflict(v[0], v[1], v[2], p);
+  }
+
+  // A visibility walk in doubles. It may end in a wrong face, and is cut off when rounding makes
+  // it go in circles.
+  [[nodiscard]] Index walk_by_guess(Index p, Index f) const {
+    using predicates::Vector;
+    const Vector origin = sites_.coordinates(p);
+    const Vector ray = sites_.from_center(p);
+    unsigned entered = 3;
+    for (Index steps = mesh_.num_faces(); steps > 0; --steps) {
+      const topology::Face& face = mesh_[f];
+      const std::array<Vector, 3> to = {sites_.coordinates(face.vertex[0]) - origin,
+                                        sites_.coordinates(face.vertex[1]) - origin,
+                                        sites_.coordinates(face.vertex[2]) - origin};
+      unsigned i = 0;
+      for (; i < 3; ++i) {
+        if (i == entered) continue;
+        const unsigned a = topology::next_corner[i];
+        if (dot(ray, cross(to[a], to[topology::next_corner[a]])) < 0) break;
+      }
+      if (i == 3) return f;
+      const topology::Halfedge h = face.opposite[i];
+      const Index next = topology::face_of(h);
+      if (!kinds_.all_solid() && kinds_[next] != FaceKind::solid) return f;
+      f = next;
+      entered = topology::edge_of(h);
+    }
+    return f;
+  }
+
+  // The exact walk among the faces of one kind. It ends: each step increases u.n/h, where u is the
+  // direction of p, n the normal of the face and h > 0 its distance from the
+  // center (decreases it on the near side).
+  [[nodiscard]] Walk walk(Index p, Index f, FaceKind kind) const {
+    const Sign outwards = kind == FaceKind::solid ? Sign::negative : Sign::positive;
+    for (;;) {
+      const topology::Face& face = mesh_[f];
+      Index next = no_index;
+      bool on_plane = false;
+      for (unsigned i = 0; i < 3 && next == no_index; ++i) {
+        const unsigned a = topology::next_corner[i];
+        const Sign side =
+            sites_.orientation(face.vertex[a], face.vertex[topology::next_corner[a]], p);
+        on_plane |= side == Sign::zero;
+        if (side == outwards) next = topology::face_of(face.opposite[i]);
+      }
+      if (next == no_index) return {f, no_index, on_plane};
+      if (kinds_[next] != kind) return {f, next, on_plane};
+      f = next;
+    }
+  }
+
+  // A site in a plane through the center that supports the hull may be in conflict with a
+  // grazing face of that plane only. They form one connected facet around a corner of f.
+  [[nodiscard]] Index search_grazing(Index p, Index f) const {
+    std::vector<Index> found;
+    const auto visit = [&](Index g) {
+      if (kinds_[g] == FaceKind::grazing && std::find(found.begin(), found.end(), g) == found.end())
+        found.push_back(g);
+    };
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      topology::Halfedge h = topology::halfedge(f, corner);
+      do {
+        visit(topology::face_of(h));
+        h = mesh_.next_around(topology::face_of(h), topology::edge_of(h));
+      } while (topology::face_of(h) != f);
+    }
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      if (is_in_conflict(found[i], p)) return found[i];
+      for (unsigned edge = 0; edge < 3; ++edge) visit(mesh_.neighbor(found[i], edge));
+    }
+    return no_index;
+  }
+
+  const T& sites_;
+  const topology::Mesh& mesh_;
+  const FaceKinds& kinds_;
+};
+
+}  // namespace rondel::incremental

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "incremental/projected_points.h"
+
+#include <cmath>
+#include <new>
+
+#include "incremental/site_traits.h"
+#include "predicates/orientation.h"
+#include "predicates/perturbation.h"
+
+namespace rondel::incremental {
+namespace {
+
+static_assert(SiteTraits<ProjectedPoints>);
+
+using predicates::Vector;
+
+// Within `direction_error` of the unit vector: bounds.h counts the roundings.
+Vector direction(const Point& p, const Point& center) {
+  const Vector v = exact::to_vector(p) - exact::to_vector(center);
+  const double squared_length = dot(v, v);
+  if (!(squared_length > 0x1p-600 && squared_length < 0x1p600)) {
+    return exact::to_vector(exact::unit_vector(p, center).hi);
+  }
+  const double length = std::sqrt(squared_length);
+  return {v.x / length, v.y / length, v.z / length};
+}
+
+}  // namespace
+
+ProjectedPoints::ProjectedPoints(std::span<const Point> input, std::span<const Index> order,
+                                 const Point& center)
+    : input_(input), order_(order), center_(center) {
+  directions_.reserve(order.size());
+  for (const Index i : order) directions_.push_back(direction(input[i], center));
+}
+
+Sign ProjectedPoints::orientation(Index a, Index b, Index c) const {
+  const Sign sign = predicates::orientation_filter(directions_[a], directions_[b], directions_[c]);
+  if (sign != Sign::zero) return sign;
+  return predicates::orientation_ladder(point(a), point(b), point(c), center_).sign;
+}
+
+exact::SplitPoint ProjectedPoints::split_direction(Index a) const {
+  if (!low_parts_) {
+    low_parts_.reset(static_cast<Point*>(std::calloc(directions_.size(), sizeof(Point))));
+    if (!low_parts_) throw std::bad_alloc();
+  }
+  const Point high = {directions_[a].x, directions_[a].y, directions_[a].z};
+  Point& low = low_parts_[a];
+  if (low == Point{}) {
+    const exact::SplitPoint u = exact::unit_vector(point(a), center_);
+    low = {(u.hi.x - high.x) + u.lo.x, (u.hi.y - high.y) + u.lo.y, (u.hi.z - high.z) + u.lo.z};
+  }
+  return {high, low};
+}
+
+bool ProjectedPoints::climb(Index a, Index b, Index c, Index p) const {
+  Sign sign = predicates::side_of_circle_double_double(split_direction(a), split_direction(b),
+                                                       split_direction(c), split_direction(p));
+  if (sign != Sign::zero) {
+    ++tally_.double_double;
+    return sign == Sign::positive;
+  }
+  sign = predicates::side_of_circle_exact(point(a), point(b), point(c), point(p), center_);
+  if (sign != Sign::zero) {
+    ++tally_.exact;
+    return sign == Sign::positive;
+  }
+  ++tally_.perturbed;
+  return predicates::is_in_conflict_perturbed(point(a), point(b), point(c), point(p),
+                                              Model::projected, center_);
+}
+
+}  // namespace rondel::incremental

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The first approach of the paper (section 4.1): each point stands for its exact
+// projection on the sphere.
+#pragma once
+
+#include <cstdlib>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "predicates/side_of_circle.h"
+#include "predicates/tally.h"
+#include "rondel/types.h"
+
+namespace rondel::incremental {
+
+class ProjectedPoints {
+ public:
+  static constexpr bool hides_sites = false;
+
+  // `order` lists the input index of each spatial rank.
+  ProjectedPoints(std::span<const Point> input, std::span<const Index> order, const Point& center);
+
+  [[nodiscard]] Index size() const { return static_cast<Index>(directions_.size()); }
+  [[nodiscard]] predicates::Vector coordinates(Index a) const { return directions_[a]; }
+  [[nodiscard]] predicates::Vector from_center(Index a) const { return directions_[a]; }
+
+  [[nodiscard]] Sign orientation(Index a, Index b, Index c) const;
+
+  [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p) const {
+    const Sign sign = predicates::side_of_circle_filter(directions_[a], directions_[b],
+                                                        directions_[c], directions_[p]);
+    if (sign == Sign::zero) return climb(a, b, c, p);
+    ++tally_.filter;
+    return sign == Sign::positive;
+  }
+
+  [[nodiscard]] const Tally& tally() const { return tally_; }
+
+ private:
+  [[nodiscard]] const Point& point(Index a) const { return input_[order_[a]]; }
+  [[nodiscard]] exact::SplitPoint split_direction(Index a) const;
+  [[nodiscard]] bool climb(Index a, Index b, Index c, Index p) const;
+
+  struct Free {
+    void operator()(Point* p) const { std::free(p); }
+  };
+
+  std::span<const Point> input_;
+  std::span<const Index> order_;
+  Point center_;
+  std::vector<predicates::Vector> directions_;
+  // What the directions lack of the exact unit vectors, computed when first needed. Zero
+  // pages from calloc take no memory before that.
+  mutable std::unique_ptr<Point[], Free> low_parts_;
+  mutable Tally tally_;
+};
+
+}  // namespace rondel::incremental

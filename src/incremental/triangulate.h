@@ -1,0 +1,25 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// From sites in spatial order to the arrays of the result.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel::incremental {
+
+struct Triangulated {
+  TriangulationArrays arrays;  // but for duplicates and num_sites
+  Tally tally;
+};
+
+// `order` lists the distinct sites by rank; `names` the input indices to report for them.
+// Takes both, to free them as early as possible.
+Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
+                         std::span<const Duplicate> renamed, const Options& options);
+
+}  // namespace rondel::incremental

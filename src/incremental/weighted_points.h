@@ -1,0 +1,49 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The second approach of the paper (section 4.2): each point is a weighted site, and the
+// power test is the orientation of four points.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "predicates/side_of_plane.h"
+#include "predicates/tally.h"
+#include "rondel/types.h"
+
+namespace rondel::incremental {
+
+class WeightedPoints {
+ public:
+  static constexpr bool hides_sites = true;
+
+  // `order` lists the input index of each spatial rank.
+  WeightedPoints(std::span<const Point> input, std::span<const Index> order, const Point& center);
+
+  [[nodiscard]] Index size() const { return static_cast<Index>(points_.size()); }
+  [[nodiscard]] predicates::Vector coordinates(Index a) const { return points_[a]; }
+  [[nodiscard]] predicates::Vector from_center(Index a) const { return points_[a] - center_; }
+
+  [[nodiscard]] Sign orientation(Index a, Index b, Index c) const;
+
+  [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p) const {
+    const Sign sign =
+        predicates::side_of_plane_filter(points_[a], points_[b], points_[c], points_[p]);
+    if (sign == Sign::zero) return climb(a, b, c, p);
+    ++tally_.filter;
+    return sign == Sign::positive;
+  }
+
+  [[nodiscard]] const Tally& tally() const { return tally_; }
+
+ private:
+  [[nodiscard]] Point point(Index a) const { return {points_[a].x, points_[a].y, points_[a].z}; }
+  [[nodiscard]] bool climb(Index a, Index b, Index c, Index p) const;
+
+  std::vector<predicates::Vector> points_;
+  predicates::Vector center_;
+  mutable Tally tally_;
+};
+
+}  // namespace rondel::incremental
