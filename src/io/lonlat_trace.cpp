@@ -25,12 +25,19 @@ const Point* pole_on_arc(const Point& p, const Point& q) {
 
 // The point where an arc from the west to the east crosses the plane of the antimeridian.
 Point crossing(const Point& west, const Point& east) {
+  if (east.y == 0) return east;
   return normalized({west.x * east.y - east.x * west.y, 0, west.z * east.y - east.z * west.y});
 }
 
+MapPoint map_point(const Point& p) { return {p, lonlat_of(p, is_east(p))}; }
+
 class Drawing {
  public:
-  explicit Drawing(Trace& trace) : trace_(trace) {}
+  explicit Drawing(Trace& trace) : trace_(trace) {
+    trace_.points.clear();
+    trace_.arcs.clear();
+    trace_.starts.clear();
+  }
 
   void add_arc(const Point& p, const Point& q, std::uint32_t arc, double tolerance) {
     arc_ = arc;
@@ -46,18 +53,9 @@ class Drawing {
     }
   }
 
-  // Moves the beginning of the ring, which is the end of the last chain, behind it; counts how
-  // often the ring winds around the north pole.
   void finish() {
-    std::vector<std::size_t>& starts = trace_.starts;
-    if (!starts.empty()) {
-      const std::size_t shift = starts.front();
-      const auto middle = static_cast<std::ptrdiff_t>(shift);
-      std::rotate(trace_.points.begin(), trace_.points.begin() + middle, trace_.points.end());
-      std::rotate(trace_.arcs.begin(), trace_.arcs.begin() + middle, trace_.arcs.end());
-      for (std::size_t& start : starts) start -= shift;
-    }
-    trace_.has_north_corners = visits_north_ ? north_sector_meets_antimeridian_ : winding_ == 1;
+    rotate_to_first_start();
+    trace_.has_north_corners = has_north_corners();
   }
 
  private:
@@ -68,39 +66,34 @@ class Drawing {
 
   // Straight up or down a meridian, so nothing lies between the pole and the other end.
   void reach_pole(const Point& p, const Point& pole) {
-    const LonLat position = lonlat_of(p, is_east(p));
-    add({p, position});
-    add({pole, {position.lon_deg, pole.z > 0 ? 90.0 : -90.0}});
-    arrival_ = position.lon_deg;
+    const MapPoint start = map_point(p);
+    add(start);
+    add({pole, {start.position.lon_deg, pole.z * 90}});
   }
 
   void leave_pole(const Point& pole, const Point& q) {
-    const double lon = lonlat_of(q, is_east(q)).lon_deg;
     trace_.starts.push_back(trace_.points.size());
-    add({pole, {lon, pole.z > 0 ? 90.0 : -90.0}});
-    departures_.push_back({pole.z > 0, lon});
+    add({pole, {map_point(q).position.lon_deg, pole.z * 90}});
   }
 
   void add_open_arc(const Point& p, const Point& q, double tolerance) {
     const bool east = is_east(p);
-    const MapPoint start{p, lonlat_of(p, east)};
-    const MapPoint end{q, lonlat_of(q, is_east(q))};
+    const MapPoint start = map_point(p);
+    const MapPoint end = map_point(q);
     add(start);
-    if (east != is_east(q)) {
-      const Point middle = east ? crossing(q, p) : crossing(p, q);
-      if (middle.x < 0) {
-        const MapPoint first{middle, lonlat_of(middle, east)};
-        const MapPoint second{middle, lonlat_of(middle, !east)};
-        add_inner(start, first, tolerance);
-        add(first);
-        trace_.starts.push_back(trace_.points.size());
-        add(second);
-        add_inner(second, end, tolerance);
-        winding_ += east ? 1 : -1;
-        return;
-      }
+    const Point middle = east ? crossing(q, p) : crossing(p, q);
+    if (east == is_east(q) || middle.x > 0) {
+      add_inner(start, end, tolerance);
+      return;
     }
-    add_inner(start, end, tolerance);
+    const MapPoint before{middle, lonlat_of(middle, east)};
+    const MapPoint after{middle, lonlat_of(middle, !east)};
+    add_inner(start, before, tolerance);
+    add(before);
+    trace_.starts.push_back(trace_.points.size());
+    add(after);
+    add_inner(after, end, tolerance);
+    winding_ += east ? 1 : -1;
   }
 
   void add_inner(const MapPoint& p, const MapPoint& q, double tolerance) {
@@ -109,19 +102,55 @@ class Drawing {
     trace_.arcs.resize(trace_.points.size(), arc_);
   }
 
+  // The beginning of the ring is the end of its last chain.
+  void rotate_to_first_start() {
+    std::vector<std::size_t>& starts = trace_.starts;
+    if (starts.empty()) return;
+    const std::size_t shift = starts.front();
+    const auto middle = static_cast<std::ptrdiff_t>(shift);
+    std::rotate(trace_.points.begin(), trace_.points.begin() + middle, trace_.points.end());
+    std::rotate(trace_.arcs.begin(), trace_.arcs.begin() + middle, trace_.arcs.end());
+    for (std::size_t& start : starts) start -= shift;
+  }
+
+  // At a pole on the ring the region is a sector, at the north pole from the longitude at which the
+  // ring leaves eastward to that at which it arrives, at the south pole the other way round.
+  // Otherwise the region has the north pole inside when the ring winds around it once; for
+  // that count a ring through the south pole is pushed into its region, whose antipode at
+  // the north pole is no inner point as the region is convex.
+  bool has_north_corners() {
+    bool visits_north = false;
+    bool is_inside = false;
+    for (std::size_t k = 0; k < trace_.starts.size(); ++k) {
+      const std::size_t start = trace_.starts[k];
+      const MapPoint& begin = trace_.points[start];
+      if (!is_pole(begin.point)) continue;
+      const MapPoint& end = trace_.points[start == 0 ? trace_.points.size() - 1 : start - 1];
+      const double turn = begin.position.lon_deg - end.position.lon_deg;
+      if (begin.point.z < 0) {
+        winding_ += turn < 0 ? 1 : 0;
+      } else {
+        visits_north = true;
+        is_inside = is_inside || turn > 0;
+      }
+    }
+    return visits_north ? is_inside : winding_ == 1;
+  }
+
   Trace& trace_;
   std::uint32_t arc_ = 0;
   int winding_ = 0;
-  bool visits_north_ = false;
-  bool north_sector_meets_antimeridian_ = false;
-  double arrival_ = 0;
-  struct Departure {
-    bool north;
-    double lon;
-  };
-  std::vector<Departure> departures_;
 };
 
 }  // namespace
+
+void draw(std::span<const Point> ring, std::span<const double> tolerances, Trace& trace) {
+  Drawing drawing(trace);
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    drawing.add_arc(ring[i], ring[(i + 1) % ring.size()], static_cast<std::uint32_t>(i),
+                    tolerances[i]);
+  }
+  drawing.finish();
+}
 
 }  // namespace rondel::io

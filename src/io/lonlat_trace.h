@@ -24,10 +24,10 @@
 namespace rondel::io {
 
 struct Trace {
-  std::vector<MapPoint> points;    // of all chains, one after the other
+  std::vector<MapPoint> points;     // of all chains, one after the other
   std::vector<std::uint32_t> arcs;  // the arc of the ring on which the line from each point runs
   std::vector<std::size_t> starts;  // the first point of each chain; empty: one closed loop
-  bool has_north_corners = false;  // the region has the antimeridian at the north pole inside
+  bool has_north_corners = false;   // the region has the antimeridian at the north pole inside
 };
 
 // Draws a ring of at least three points, each snapped() and different from the next; arc i runs

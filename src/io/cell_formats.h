@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The formats of cells.
+#pragma once
+
+#include "io/atomic_file.h"
+#include "rondel/io.h"
+
+namespace rondel::io {
+
+// What write_cells got.
+struct CellsToWrite {
+  const SiteTable& table;
+  const Triangulation& triangulation;
+  const Diagram& diagram;
+  double tolerance_deg;
+  const Progress& progress;
+};
+
+// A FeatureCollection with a feature for each cell, in the order of the sites. Its properties are
+// `site`, `area` and the table's columns. A column whose name is taken (by these two or by a column
+// before it) gets underscores at its end until it is not. Numbers stay as they are
+// written in the input, other text is a string, an empty cell is null. Coordinates have the
+// shortest digits that give back the same double, so that cells of any size stay valid. A cell no
+// wider than rounding has the geometry null.
+void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells);
+
+// Polygons on the unit sphere, whose corners are the diagram's points, with the cell data `site`
+// and `area`. A cell that is the whole sphere has no polygon.
+void write_cells_vtp(AtomicFile& file, const CellsToWrite& cells);
+
+// Four arrays: offsets (n + 1, u8), rings (u4), points (k, 3; f8) and areas (n, f8).
+void write_cells_npz(AtomicFile& file, const CellsToWrite& cells);
+
+}  // namespace rondel::io

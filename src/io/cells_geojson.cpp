@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "io/cell_formats.h"
+#include "io/cell_map.h"
+#include "io/number.h"
+
+namespace rondel::io {
+namespace {
+
+std::string json_string(std::string_view text) { return nlohmann::json(text).dump(); }
+
+// `,"name":` for each column, with names that differ.
+std::vector<std::string> property_keys(const std::vector<Column>& columns) {
+  std::set<std::string> taken{"site", "area"};
+  std::vector<std::string> keys;
+  for (const Column& column : columns) {
+    std::string name = column.name;
+    while (!taken.insert(name).second) name += '_';
+    keys.push_back("," + json_string(name) + ":");
+  }
+  return keys;
+}
+
+void append_value(std::string& out, const Column& column, std::size_t row) {
+  const std::uint64_t start = row == 0 ? 0 : column.ends[row - 1];
+  const std::string_view text =
+      std::string_view(column.text).substr(start, column.ends[row] - start);
+  if (text.empty()) {
+    out += "null";
+  } else if (column.is_numeric) {
+    out += text;
+  } else {
+    out += json_string(text);
+  }
+}
+
+// [[[lon,lat],...]]: a polygon is its outer ring alone.
+void append_polygon(std::string& out, const LonLatPolygon& polygon) {
+  out += "[[";
+  for (const LonLat& position : polygon.ring) {
+    out += '[';
+    append_number(out, position.lon_deg);
+    out += ',';
+    append_number(out, position.lat_deg);
+    out += "],";
+  }
+  out.back() = ']';
+  out += ']';
+}
+
+void append_geometry(std::string& out, const std::vector<LonLatPolygon>& polygons) {
+  if (polygons.empty()) {
+    out += "null";
+  } else if (polygons.size() == 1) {
+    out += R"({"type":"Polygon","coordinates":)";
+    append_polygon(out, polygons.front());
+    out += '}';
+  } else {
+    out += R"({"type":"MultiPolygon","coordinates":[)";
+    for (const LonLatPolygon& polygon : polygons) {
+      append_polygon(out, polygon);
+      out += ',';
+    }
+    out.back() = ']';
+    out += '}';
+  }
+}
+
+}  // namespace
+
+void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
+  const std::vector<Column>& columns = cells.table.columns;
+  const std::vector<std::string> keys = property_keys(columns);
+  const std::size_t n = cells.table.sites.size();
+  CellMap map(cells.table.sites, cells.triangulation, cells.diagram.cells, cells.tolerance_deg,
+              cells.progress);
+  file.write(R"({"type":"FeatureCollection","features":[)");
+  std::string feature;
+  bool is_first = true;
+  for (std::size_t site = 0; site < n; ++site) {
+    if (cells.progress && site % 4096 == 0) {
+      cells.progress("write", static_cast<double>(site) / static_cast<double>(n));
+    }
+    if (!map.has_cell(site)) continue;
+    feature = is_first ? "\n" : ",\n";
+    is_first = false;
+    feature += R"({"type":"Feature","properties":{"site":)";
+    append_integer(feature, site);
+    feature += R"(,"area":)";
+    append_number(feature, cells.diagram.areas[site]);
+    for (std::size_t k = 0; k < columns.size(); ++k) {
+      feature += keys[k];
+      append_value(feature, columns[k], site);
+    }
+    feature += R"(},"geometry":)";
+    append_geometry(feature, map.polygons(site));
+    feature += '}';
+    file.write(feature);
+  }
+  file.write("\n]}\n");
+}
+
+}  // namespace rondel::io

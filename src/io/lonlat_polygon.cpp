@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/lonlat_polygon.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+namespace rondel::io {
+namespace {
+
+// The border of the rectangle, counterclockwise from its corner in the north west.
+enum Side : std::size_t { left, bottom, right, top };
+constexpr std::size_t num_sides = 4;
+
+// The corner at the end of each side.
+constexpr std::array<LonLat, num_sides> corners{{{-180, -90}, {180, -90}, {180, 90}, {-180, 90}}};
+
+// An end of a chain: a place on the border, by side and the distance along it.
+struct Gate {
+  Side side;
+  double along;
+  std::size_t chain;
+
+  friend bool operator<(const Gate& a, const Gate& b) {
+    return a.side != b.side ? a.side < b.side : a.along < b.along;
+  }
+};
+
+Gate gate_at(const MapPoint& end, std::size_t chain) {
+  const auto [lon, lat] = end.position;
+  if (is_pole(end.point)) {
+    return lat > 0 ? Gate{top, -lon, chain} : Gate{bottom, lon, chain};
+  }
+  return lon > 0 ? Gate{right, lat, chain} : Gate{left, -lat, chain};
+}
+
+double doubled_area(const std::vector<LonLat>& ring) {
+  double area = 0;
+  const LonLat origin = ring.front();
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    area += (ring[i].lon_deg - origin.lon_deg) * (ring[i + 1].lat_deg - origin.lat_deg) -
+            (ring[i + 1].lon_deg - origin.lon_deg) * (ring[i].lat_deg - origin.lat_deg);
+  }
+  return area;
+}
+
+// Appends the loop as a polygon, without repeated positions and sides that run to and fro. A loop
+// without area lay along the antimeridian. Clockwise is only what is no wider than rounding.
+void append_loop(const std::vector<LonLat>& loop, std::vector<LonLatPolygon>& out) {
+  std::vector<LonLat> ring;
+  for (const LonLat& position : loop) {
+    if (!ring.empty() && ring.back() == position) continue;
+    if (ring.size() >= 2 && ring[ring.size() - 2] == position) {
+      ring.pop_back();
+      continue;
+    }
+    ring.push_back(position);
+  }
+  while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
+  if (ring.size() < 3) return;
+  const double area = doubled_area(ring);
+  if (area == 0) return;
+  if (area < 0) std::reverse(ring.begin(), ring.end());
+  ring.push_back(ring.front());
+  out.push_back({std::move(ring)});
+}
+
+// Joins chains along the border into loops. With the region to the left, the border belongs to it
+// from the end of a chain counterclockwise to the next start; so in that order the k-th end leads
+// to the k-th start, or to the one after it if the region has the north west corner inside.
+// Ends and starts are sorted apart: if rounding has exchanged an end and a start that are
+// next to each other, the effect stays between them.
+class Stitching {
+ public:
+  explicit Stitching(const Trace& trace) : trace_(trace), next_(trace.starts.size()) {
+    const std::size_t n = trace.starts.size();
+    std::vector<Gate> starts;
+    std::vector<Gate> ends;
+    for (std::size_t chain = 0; chain < n; ++chain) {
+      starts.push_back(gate_at(trace.points[trace.starts[chain]], chain));
+      ends.push_back(gate_at(trace.points[past(chain) - 1], chain));
+    }
+    std::stable_sort(starts.begin(), starts.end());
+    std::stable_sort(ends.begin(), ends.end());
+    for (std::size_t k = 0; k < n; ++k) {
+      const bool wraps = trace.has_north_corners && k + 1 == n;
+      const Gate& start = starts[trace.has_north_corners ? (k + 1) % n : k];
+      next_[ends[k].chain] = {start.chain, ends[k].side, start.side + (wraps ? num_sides : 0)};
+    }
+  }
+
+  void append_loops(std::vector<LonLatPolygon>& out) const {
+    std::vector<bool> is_used(next_.size(), false);
+    std::vector<LonLat> loop;
+    for (std::size_t first = 0; first < next_.size(); ++first) {
+      if (is_used[first]) continue;
+      loop.clear();
+      for (std::size_t chain = first; !is_used[chain]; chain = next_[chain].chain) {
+        is_used[chain] = true;
+        for (std::size_t i = trace_.starts[chain]; i < past(chain); ++i) {
+          loop.push_back(trace_.points[i].position);
+        }
+        for (std::size_t side = next_[chain].first_side; side < next_[chain].last_side; ++side) {
+          loop.push_back(corners[side % num_sides]);
+        }
+      }
+      append_loop(loop, out);
+    }
+  }
+
+ private:
+  // The chain that follows a chain, and the sides at whose ends the border turns on the way.
+  struct Step {
+    std::size_t chain = 0;
+    std::size_t first_side = 0;
+    std::size_t last_side = 0;
+  };
+
+  [[nodiscard]] std::size_t past(std::size_t chain) const {
+    return chain + 1 < trace_.starts.size() ? trace_.starts[chain + 1] : trace_.points.size();
+  }
+
+  const Trace& trace_;
+  std::vector<Step> next_;
+};
+
+}  // namespace
+
+std::vector<LonLatPolygon> polygons_of(const Trace& trace) {
+  std::vector<LonLatPolygon> polygons;
+  if (!trace.starts.empty()) {
+    Stitching(trace).append_loops(polygons);
+    return polygons;
+  }
+  std::vector<LonLat> loop;
+  for (const MapPoint& point : trace.points) loop.push_back(point.position);
+  append_loop(loop, polygons);
+  return polygons;
+}
+
+std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring,
+                                           std::span<const double> tolerances_deg) {
+  if (ring.empty()) {
+    return {{{corners[0], corners[1], corners[2], corners[3], corners[0]}}};
+  }
+  std::vector<Point> points;
+  std::vector<double> tolerances;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point point = snapped(ring[i]);
+    if (point == snapped(ring[(i + 1) % ring.size()])) continue;
+    points.push_back(point);
+    tolerances.push_back(tolerances_deg[i] / degrees_per_radian);
+  }
+  if (points.size() < 3) return {};
+  Trace trace;
+  draw(points, tolerances, trace);
+  return polygons_of(trace);
+}
+
+std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring, double tolerance_deg) {
+  const std::vector<double> tolerances(ring.size(), tolerance_deg);
+  return lonlat_polygons(ring, tolerances);
+}
+
+}  // namespace rondel::io
