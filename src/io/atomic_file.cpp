@@ -94,11 +94,25 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path), sl
 AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::create(const std::string& directory) {
-  while (descriptor_ < 0) {
-    temporary_ = temporary_name(directory);
+  directory_ = directory;
+  // Without a name, so that not even a killed process leaves a file; some file systems cannot.
+  if (::access("/proc/self/fd", X_OK) == 0) {
+    descriptor_ =
+        ::open(directory.empty() ? "." : directory.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    is_nameless_ = descriptor_ >= 0;
+  }
+  if (is_nameless_) return;
+  make_temporary([&](const char* name) {
+    descriptor_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    return descriptor_ >= 0;
+  });
+}
+
+void AtomicFile::make_temporary(const std::function<bool(const char*)>& make) {
+  for (;;) {
+    temporary_ = temporary_name(directory_);
     slot_ = register_temporary(temporary_);
-    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor_ >= 0) break;
+    if (make(temporary_.c_str())) return;
     const int error = errno;
     forget_temporary(slot_);
     temporary_.clear();
@@ -133,6 +147,12 @@ void AtomicFile::drain(std::string_view bytes) {
 
 void AtomicFile::commit() {
   flush();
+  if (is_nameless_) {
+    const std::string link = "/proc/self/fd/" + std::to_string(descriptor_);
+    make_temporary([&](const char* name) {
+      return ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
+    });
+  }
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
   if (closed != 0) fail(errno);

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A file that appears complete or not at all: it is written under a temporary name in the same
-// directory and renamed at the end.
+// A file that appears complete or not at all: it is written without a name, or under a temporary
+// one, in the same directory and renamed at the end.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -33,14 +34,18 @@ class AtomicFile {
 
  private:
   void create(const std::string& directory);
+  // Calls `make` with temporary names until one is new.
+  void make_temporary(const std::function<bool(const char*)>& make);
   void flush();
   void drain(std::string_view bytes);
   [[noreturn]] void fail(int error);
   void discard() noexcept;
 
   std::string path_;
-  std::string target_;     // path_ with symbolic links resolved
-  std::string temporary_;  // empty when the target is written directly
+  std::string target_;  // path_ with symbolic links resolved
+  std::string directory_;
+  std::string temporary_;  // empty when the target is written directly or has no name yet
+  bool is_nameless_ = false;
   std::string buffer_;
   std::size_t slot_;  // in the registry of temporaries
   int descriptor_ = -1;
