@@ -46,8 +46,8 @@ double to_double(const Integer& value, int exponent) {
     if (is_inexact) magnitude |= 1U;
     exponent += excess;
   }
-  const double rounded = std::ldexp(static_cast<double>(static_cast<std::uint64_t>(magnitude)),
-                                    exponent);
+  const double rounded =
+      std::ldexp(static_cast<double>(static_cast<std::uint64_t>(magnitude)), exponent);
   return value < 0 ? -rounded : rounded;
 }
 
@@ -60,8 +60,9 @@ Integer root(const Integer& value) {
   if (excess > 0) {
     const auto leading = static_cast<std::uint64_t>(Integer(value >> excess));
     // The start is at most 2^-20 too large, so that two or three steps suffice.
-    x = Integer(static_cast<std::uint64_t>(std::sqrt(static_cast<double>(leading)) * (1 + 0x1p-20)) +
-                2U)
+    x = Integer(
+            static_cast<std::uint64_t>(std::sqrt(static_cast<double>(leading)) * (1 + 0x1p-20)) +
+            2U)
         << (excess / 2);
   }
   while (true) {
@@ -121,7 +122,7 @@ std::optional<Point> supporting_normal(const SplitSites& sites, Index a, Index b
   for (const Point& p : sites.sites()) {
     const auto q = exact::scaled_differences({p}, pa);
     const Integer side = dot(normal, q[0]);
-    if (side != 0) return to_point(side < 0 ? n : -1.0 * n);
+    if (side != 0) return to_point(side < 0 ? n : Vec{-n.x, -n.y, -n.z});
   }
   return std::nullopt;
 }

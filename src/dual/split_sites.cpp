@@ -37,7 +37,13 @@ void check_size(const Triangulation& triangulation, std::size_t num_sites) {
 }  // namespace
 
 Vec normalized(const Vec& v) {
-  const double length = std::sqrt(dot(v, v));
+  const double square = dot(v, v);
+  if (square < 0x1p-900) {
+    const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    if (size == 0) return v;
+    return normalized({v.x / size, v.y / size, v.z / size});
+  }
+  const double length = std::sqrt(square);
   return {v.x / length, v.y / length, v.z / length};
 }
 
@@ -47,21 +53,20 @@ SplitSites::SplitSites(const Triangulation& triangulation, std::span<const Point
   places_.resize(sites.size());
   const int shift = is_projected() ? 0 : scale_exponent(sites);
   const bool project = is_projected();
-  blocks::parallel_for(sites.size(), triangulation.report().threads,
-                       [&](std::size_t begin, std::size_t end) {
-                         for (std::size_t i = begin; i < end; ++i) {
-                           const Point& p = sites[i];
-                           places_[i] = project ? exact::unit_vector(p, center_)
-                                                : exact::SplitPoint{{std::ldexp(p.x, shift),
-                                                                     std::ldexp(p.y, shift),
-                                                                     std::ldexp(p.z, shift)},
-                                                                    {}};
-                         }
-                       });
+  blocks::parallel_for(
+      0, sites.size(), triangulation.report().threads, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const Point& p = sites[i];
+          places_[i] = project ? exact::unit_vector(p, center_)
+                               : exact::SplitPoint{{std::ldexp(p.x, shift), std::ldexp(p.y, shift),
+                                                    std::ldexp(p.z, shift)},
+                                                   {}};
+        }
+      });
 }
 
-// The places of projected sites are wrong by 2^-100 each, so offsets above 2^-45 are right to 2^-54.
-// Weighted offsets are exact unless they come near to underflow.
+// The places of projected sites are wrong by 2^-100 each, so offsets above 2^-45 are right to
+// 2^-54. Weighted offsets are exact unless they come near to underflow.
 Vec SplitSites::difference(Index a, Index b) const {
   const Offset d = offset(a, b);
   const Vec v = d.hi + d.lo;

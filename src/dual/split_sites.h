@@ -14,6 +14,7 @@
 #include <span>
 #include <vector>
 
+#include "dual/prefetch.h"
 #include "exact/eft.h"
 #include "exact/unit_vector.h"
 #include "exact/vector.h"
@@ -27,6 +28,7 @@ using exact::to_vector;
 
 inline Vec operator*(double s, const Vec& v) { return {s * v.x, s * v.y, s * v.z}; }
 inline Point to_point(const Vec& v) { return {v.x, v.y, v.z}; }
+// Zero stays zero. Precondition: no coordinate above 2^500.
 Vec normalized(const Vec& v);
 
 // b - a as the unevaluated sum hi + lo. |lo| <= 2^-51 in the projected model and
@@ -50,6 +52,7 @@ class SplitSites {
   SplitSites(const Triangulation& triangulation, std::span<const Point> sites);
 
   [[nodiscard]] const exact::SplitPoint& operator[](Index site) const { return places_[site]; }
+  void prefetch(Index site) const { dual::prefetch(&places_[site]); }
   [[nodiscard]] Offset offset(Index a, Index b) const {
     return dual::offset(places_[a], places_[b]);
   }

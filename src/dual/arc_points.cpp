@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "dual/arc_points.h"
+
+#include <algorithm>
+
+#include "dual/ring_walk.h"
+
+namespace rondel::dual {
+namespace {
+
+// A little more than cos(120 degrees), for the rounding of the circumcenters.
+constexpr double longest_arc_cosine = -0.499;
+
+// The middle of the arc from n_f to n_g across the edge e from a to b, f on its left. The
+// arc turns about e from n_f towards the outward side m = e x n_f: n_g = cos(t) n_f + sin(t) m for
+// a unit vector e, so e x (n_f - n_g) = 2 sin(t/2) (sin(t/2) m + cos(t/2) n_f), which is the middle
+// and has length above sqrt(3) here.
+Point middle_of_arc(const Vec& e, const Point& nf, const Point& ng) {
+  return to_point(normalized(cross(normalized(e), to_vector(nf) - to_vector(ng))));
+}
+
+}  // namespace
+
+std::vector<ArcPoint> add_arc_points(const Triangulation& triangulation, const SplitSites& sites,
+                                     std::vector<Point>& points) {
+  const auto faces = triangulation.faces();
+  const auto neighbors = triangulation.neighbors();
+  std::vector<ArcPoint> result;
+  for (Index f = 0; f < faces.size(); ++f) {
+    for (Index i = 0; i < 3; ++i) {
+      const Index g = neighbors[f][i];
+      if (g < f || dot(to_vector(points[f]), to_vector(points[g])) > longest_arc_cosine) continue;
+      const Vec e = sites.difference(faces[f][next_corner(i)], faces[f][previous_corner(i)]);
+      const auto position = static_cast<Index>(points.size());
+      result.push_back({3 * f + i, position});
+      result.push_back({3 * g + mirror_corner(faces[f], i, faces[g]), position});
+      points.push_back(middle_of_arc(e, points[f], points[g]));
+    }
+  }
+  std::ranges::sort(result, {}, &ArcPoint::halfedge);
+  return result;
+}
+
+}  // namespace rondel::dual

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Centers of mass of cells. The integral of the position over a spherical polygon is
+//
+//     M = 1/2 sum over the arcs of  t / sin(t) n x n',   t the length of the arc from n to n'.
+//
+// In small cells the sum of n x n' cancels. With offsets d = n - q it equals the sum of d x d',
+// and what remains is the sum of (t / sin(t) - 1) n x n', where n x n' = q x (d' - d) + d x d'.
+
+#include <cmath>
+
+#include "dual/great_circle.h"
+#include "dual/local_ring.h"
+#include "rondel/diagram.h"
+
+namespace rondel {
+namespace {
+
+using dual::LocalRing;
+using dual::RingPoint;
+using dual::Vec;
+using dual::operator*;
+
+// n - q. With r = q x n, the part across q is r x q and the part along q is
+// q.n - 1 = -|r|^2 / (1 + q.n).
+Vec offset_from_origin(const Vec& q, const RingPoint& p) {
+  if (p.cosine_plus_1 < 1) return cross(p.r, q) - (2 - p.cosine_plus_1) * q;
+  return cross(p.r, q) - (dot(p.r, p.r) / p.cosine_plus_1) * q;
+}
+
+// t / sin(t) - 1 of an arc with this sine and cosine, t < pi.
+double arc_excess(double sine, double cosine) {
+  constexpr double series_limit = 0x1p-6;
+  if (sine > series_limit || cosine < 0) {
+    return sine == 0 ? 0 : std::atan2(sine, cosine) / sine - 1;
+  }
+  // asin(s)/s - 1; the first omitted term is below 2^-6^10 / 28.
+  const double x = sine * sine;
+  return x * (1.0 / 6 + x * (3.0 / 40 + x * (15.0 / 336 + x * (105.0 / 3456))));
+}
+
+Point centroid_of(const LocalRing& ring) {
+  const Vec& q = ring.origin;
+  Vec moment{0, 0, 0};
+  Vec sum{0, 0, 0};
+  double perimeter = 0;
+  Vec last = offset_from_origin(q, ring.points.back());
+  for (const RingPoint& p : ring.points) {
+    const Vec d = offset_from_origin(q, p);
+    const Vec step = d - last;
+    const Vec flat = cross(last, d);
+    const Vec pole = cross(q, step) + flat;
+    const double chord = std::sqrt(dot(step, step));
+    const double sine = std::sqrt(dot(pole, pole));
+    moment = moment + flat + arc_excess(sine, 1 - 0.5 * chord * chord) * pole;
+    sum = sum + q + d;
+    perimeter += chord;
+    last = d;
+  }
+  // A cell without area (a weighted site on a flat part of the hull): the middle of its points.
+  constexpr double rounding = 0x1p-49;
+  const bool is_thin = dot(moment, moment) <= std::pow(rounding * perimeter * perimeter, 2);
+  return dual::to_point(dual::normalized(is_thin ? sum : moment));
+}
+
+}  // namespace
+
+std::vector<Point> centroids(const Triangulation& triangulation, std::span<const Point> sites,
+                             const Cells& cells) {
+  const dual::SplitSites split_sites(triangulation, sites);
+  if (triangulation.dimension() < 2) {
+    return dual::great_circle_centroids(triangulation, split_sites);
+  }
+  std::vector<Point> result(sites.size());
+  dual::for_each_cell(triangulation, split_sites, cells,
+                      [&](Index site, const LocalRing& ring) { result[site] = centroid_of(ring); });
+  return result;
+}
+
+}  // namespace rondel

@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "dual/local_ring.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "blocks/parallel.h"
+#include "dual/face_normal.h"
+#include "dual/ring_walk.h"
+
+namespace rondel::dual {
+namespace {
+
+// Below this square of the sine at the site, the cross product of rounded
+// offsets has lost more than four bits and is computed in double-double.
+constexpr double smallest_sine_squared = 0x1p-8;
+// Offsets of places known to 2^-100 have a relative error of u/2 down to this square.
+constexpr double smallest_square = 0x1p-90;
+// Squares of offsets below this may underflow in products.
+constexpr double underflow_square = 0x1p-450;
+
+}  // namespace
+
+const LocalRing& RingLocalizer::operator()(Index site) {
+  const std::span<const Index> ring(cells_.rings.data() + cells_.offsets[site],
+                                    cells_.rings.data() + cells_.offsets[site + 1]);
+  ring_.points.clear();
+  if (sites_.is_projected()) {
+    localize_around_site(site, ring);
+  } else if (is_small(ring)) {
+    localize_small(site, ring);
+  } else {
+    localize_large(ring);
+  }
+  return ring_;
+}
+
+RingPoint RingLocalizer::global_point(Index position) const {
+  const Vec n = point(position);
+  return ring_point(cross(ring_.origin, n), dot(ring_.origin, n));
+}
+
+// The offset to a neighbor, rounded, and its square.
+struct RingLocalizer::Spoke {
+  Index site;
+  Vec v;
+  double square;
+};
+
+RingLocalizer::Spoke RingLocalizer::spoke(const exact::SplitPoint& a, Index b) const {
+  const exact::SplitPoint& p = sites_[b];
+  const Vec v = (to_vector(p.hi) - to_vector(a.hi)) + (to_vector(p.lo) - to_vector(a.lo));
+  return {b, v, dot(v, v)};
+}
+
+void RingLocalizer::localize_around_site(Index site, std::span<const Index> ring) {
+  const exact::SplitPoint a = sites_[site];
+  ring_.origin = to_vector(a.hi);
+  ring_.points.resize(ring.size());
+  Spoke last{no_index, {}, 0};
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    if (!is_face(ring[j])) {
+      ring_.points[j] = global_point(ring[j]);
+      continue;
+    }
+    const Triple& face = triangulation_.faces()[ring[j]];
+    const Index corner = corner_of(face, site);
+    if (last.site == no_index) last = spoke(a, face[next_corner(corner)]);
+    const Spoke next = spoke(a, face[previous_corner(corner)]);
+    ring_.points[j] = star_point(site, last, next, ring[j]);
+    last = next;
+  }
+}
+
+inline RingPoint RingLocalizer::star_point(Index site, const Spoke& b, const Spoke& c,
+                                           Index position) const {
+  const Vec n = cross(b.v, c.v);
+  const double n2 = dot(n, n);
+  if (n2 < smallest_sine_squared * (b.square * c.square) ||
+      std::min(b.square, c.square) < smallest_square) {
+    return careful_star_point(site, b.site, c.site, position);
+  }
+  const double inverse = 1 / std::sqrt(n2);
+  const double half = 0.5 * inverse;
+  return ring_point((half * b.square) * c.v - (half * c.square) * b.v,
+                    inverse * dot(ring_.origin, n));
+}
+
+// Flat triangles and sites very near to each other. Where even the double-double normal is not
+// proved, the circumcenter itself is still right to 4u.
+RingPoint RingLocalizer::careful_star_point(Index site, Index b, Index c, Index position) const {
+  const Vec to_b = sites_.difference(site, b);
+  const Vec to_c = sites_.difference(site, c);
+  const Vec d = sites_.difference(b, c);
+  const double b2 = dot(to_b, to_b);
+  const double c2 = dot(to_c, to_c);
+  if (std::min(b2, c2) < underflow_square) return global_point(position);
+  Vec n = split_cross(sites_.offset(site, b), sites_.offset(site, c)).rounded();
+  if (!is_accurate(b2, c2, dot(n, n), true)) {
+    n = cross(to_b, to_c);
+    if (dot(n, n) < smallest_sine_squared * b2 * c2) return global_point(position);
+  }
+  const double inverse = 1 / std::sqrt(dot(n, n));
+  return ring_point((0.5 * inverse) * (b2 * d - dot(d, to_b + to_c) * to_b),
+                    inverse * dot(ring_.origin, n));
+}
+
+// Whether all points are within 60 degrees of the first one.
+bool RingLocalizer::is_small(std::span<const Index> ring) const {
+  const Vec first = point(ring[0]);
+  return std::ranges::all_of(
+      ring, [&](Index position) { return is_face(position) && dot(first, point(position)) > 0.5; });
+}
+
+void RingLocalizer::localize_small(Index site, std::span<const Index> ring) {
+  ring_.origin = point(ring[0]);
+  if (walk_arcs(site, ring)) return;
+  ring_.points.clear();
+  for (const Index position : ring) {
+    const Vec d = point(position) - ring_.origin;
+    ring_.points.push_back(ring_point(cross(ring_.origin, d), 1 - 0.5 * dot(d, d)));
+  }
+}
+
+// The offsets d = n - q as sums of steps along the ring. A step turns n about C by the angle with
+// the sine s = C det(B, C, D) / (|B x C| |C x D|), C and s taken as vectors:
+// n' - n = s x n - n |s|^2 / (1 + cos). Returns false where a normal is not proved.
+bool RingLocalizer::walk_arcs(Index site, std::span<const Index> ring) {
+  Vec d{0, 0, 0};
+  SplitNormal last{};
+  double last_length = 0;
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    const Triple& face = triangulation_.faces()[ring[j]];
+    const Index corner = corner_of(face, site);
+    const Offset to_b = sites_.offset(site, face[next_corner(corner)]);
+    const Offset to_c = sites_.offset(site, face[previous_corner(corner)]);
+    const SplitNormal normal = split_cross(to_b, to_c);
+    const Vec n = normal.rounded();
+    const double n2 = dot(n, n);
+    if (!is_accurate(dot(to_b.hi, to_b.hi), dot(to_c.hi, to_c.hi), n2, false)) return false;
+    const double length = std::sqrt(n2);
+    if (j > 0) {
+      const double volume = split_dot(last, to_c);
+      const Vec s = (volume / (last_length * length)) * to_b.hi;
+      const double s2 = std::min(dot(s, s), 1.0);
+      const Vec from = point(ring[j - 1]);
+      d = d + (cross(s, from) - (s2 / (1 + std::sqrt(1 - s2))) * from);
+    }
+    ring_.points.push_back(ring_point(cross(ring_.origin, d), 1 - 0.5 * dot(d, d)));
+    last = normal;
+    last_length = length;
+  }
+  return true;
+}
+
+// q is the direction of the vector area S, the sum of n x n' over the ring. A convex cell lies on
+// the positive side of each arc's pole n x n', so q.n >= 0 for all its points.
+void RingLocalizer::localize_large(std::span<const Index> ring) {
+  Vec area{0, 0, 0};
+  for (std::size_t j = 0; j < ring.size(); ++j) {
+    area = area + cross(point(ring[j]), point(ring[(j + 1) % ring.size()]));
+  }
+  ring_.origin = normalized(area);
+  for (const Index position : ring) ring_.points.push_back(global_point(position));
+}
+
+void for_each_cell(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
+                   const std::function<void(Index, const LocalRing&)>& visit) {
+  const auto faces = triangulation.faces();
+  const auto first_of = [&](Index site) { return cells.rings.data() + cells.offsets[site]; };
+  const auto visit_range = [&](std::size_t begin, std::size_t end) {
+    RingLocalizer localize(triangulation, sites, cells);
+    for (std::size_t f = begin; f < end; ++f) {
+      if (f + 2 * prefetch_distance < end) {
+        for (const Index v : faces[f + 2 * prefetch_distance]) prefetch(&cells.offsets[v]);
+        for (const Index v : faces[f + prefetch_distance]) {
+          prefetch(first_of(v));
+          sites.prefetch(v);
+        }
+      }
+      for (const Index v : faces[f]) {
+        // A ring starts with its smallest face.
+        if (*first_of(v) == f) visit(v, localize(v));
+      }
+    }
+  };
+  blocks::parallel_for(0, faces.size(), triangulation.report().threads, visit_range);
+}
+
+}  // namespace rondel::dual

@@ -1,0 +1,81 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The ring of a cell relative to a point q on the sphere, without the cancellation that absolute
+// unit vectors suffer in small cells: of each point n
+//
+//     r = q x n  and  1 + q.n.
+//
+// Projected: q is the site a, which lies inside its cell. On the unit sphere a.B = -|B|^2/2
+// exactly, so that (with N = B x C and D = C - B)
+//
+//     r = (|B|^2 C - |C|^2 B) / (2|N|) = (|B|^2 D - (D.(B+C)) B) / (2|N|),   q.n = a.N / |N|.
+//
+// Weighted: the site may lie outside of its cell, q is a point of the ring. The
+// ring is walked along its arcs: with neighbors B, C, D in order around a,
+//
+//     (B x C) x (C x D) = C det(B, C, D),
+//
+// so the arcs come from determinants that double-double arithmetic gets right.
+#pragma once
+
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "dual/split_sites.h"
+#include "rondel/diagram.h"
+
+namespace rondel::dual {
+
+struct RingPoint {
+  Vec r;                 // q x n
+  double cosine_plus_1;  // 1 + q.n
+};
+
+struct LocalRing {
+  Vec origin;  // q
+  std::vector<RingPoint> points;
+};
+
+// 1 + cosine for a unit vector at this cosine from q whose cross product with q is r.
+inline RingPoint ring_point(const Vec& r, double cosine) {
+  return {r, cosine > 0 ? 1 + cosine : dot(r, r) / (1 - cosine)};
+}
+
+// Makes the local rings of the cells of a triangulation of dimension 2, one after the other.
+class RingLocalizer {
+ public:
+  RingLocalizer(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells)
+      : triangulation_(triangulation), sites_(sites), cells_(cells) {}
+
+  // Precondition: the cell is not empty. The result lives until the next call.
+  const LocalRing& operator()(Index site);
+
+ private:
+  void localize_around_site(Index site, std::span<const Index> ring);
+  struct Spoke;
+  [[nodiscard]] Spoke spoke(const exact::SplitPoint& a, Index b) const;
+  RingPoint star_point(Index site, const Spoke& b, const Spoke& c, Index position) const;
+  RingPoint careful_star_point(Index site, Index b, Index c, Index point) const;
+  [[nodiscard]] RingPoint global_point(Index point) const;
+
+  void localize_small(Index site, std::span<const Index> ring);
+  bool walk_arcs(Index site, std::span<const Index> ring);
+  void localize_large(std::span<const Index> ring);
+  [[nodiscard]] bool is_small(std::span<const Index> ring) const;
+
+  [[nodiscard]] Vec point(Index position) const { return to_vector(cells_.points[position]); }
+  [[nodiscard]] bool is_face(Index position) const { return position < triangulation_.num_faces(); }
+
+  const Triangulation& triangulation_;
+  const SplitSites& sites_;
+  const Cells& cells_;
+  LocalRing ring_;
+};
+
+// Calls visit(site, its local ring) for every cell, in the order of the faces, in parallel.
+void for_each_cell(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
+                   const std::function<void(Index, const LocalRing&)>& visit);
+
+}  // namespace rondel::dual

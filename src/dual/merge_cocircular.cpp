@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Facets of the hull: neighboring faces are joined when they lie exactly in one
+// plane, then the border of each facet is traced.
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+
+#include "dual/circumcenters.h"
+#include "dual/face_normal.h"
+#include "dual/ring_walk.h"
+#include "rondel/diagram.h"
+#include "rondel/predicates.h"
+
+namespace rondel {
+namespace {
+
+// Disjoint sets of faces; a set is named by its smallest face.
+class FaceSets {
+ public:
+  explicit FaceSets(std::size_t size) : parent_(size) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+  Index find(Index f) {
+    while (parent_[f] != f) f = parent_[f] = parent_[parent_[f]];
+    return f;
+  }
+  void join(Index f, Index g) {
+    f = find(f);
+    g = find(g);
+    parent_[std::max(f, g)] = std::min(f, g);
+  }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+class FacetFinder {
+ public:
+  FacetFinder(const Triangulation& triangulation, std::span<const Point> sites)
+      : triangulation_(triangulation),
+        faces_(triangulation.faces()),
+        neighbors_(triangulation.neighbors()),
+        split_sites_(triangulation, sites),
+        normals_(dual::circumcenters(triangulation, split_sites_)),
+        sets_(faces_.size()) {}
+
+  Polygons facets() {
+    for (Index f = 0; f < faces_.size(); ++f) {
+      for (Index i = 0; i < 3; ++i) {
+        if (is_same_facet(f, i)) sets_.join(f, neighbors_[f][i]);
+      }
+    }
+    return traced();
+  }
+
+ private:
+  // Collinear corners (weighted, after the perturbation) lie in any plane through their
+  // line; such a face joins the one across its longest edge, which covers the other two.
+  [[nodiscard]] bool is_same_facet(Index f, Index i) const {
+    const auto [a, b, c] = faces_[f];
+    if (dual::is_degenerate(split_sites_, a, b, c)) return i == middle_corner(f);
+    const Index g = neighbors_[f][i];
+    if (g < f) return false;
+    // Normals 4u from the truth that are more than 8u apart belong to different planes; on
+    // the rim of a flat hull the plane is the same, but the normals are opposite.
+    constexpr double twice_the_error = 16 * 0x1p-53;
+    const auto d = dual::to_vector(normals_[f]) - dual::to_vector(normals_[g]);
+    if (dot(d, d) > twice_the_error * twice_the_error) return false;
+    const Index p = faces_[g][dual::mirror_corner(faces_[f], i, faces_[g])];
+    const auto sites = split_sites_.sites();
+    return side_of_circle(sites[a], sites[b], sites[c], sites[p], triangulation_.model(),
+                          triangulation_.sphere()) == Sign::zero;
+  }
+
+  // The corner between the other two on a line: differences along it have opposite signs.
+  [[nodiscard]] Index middle_corner(Index f) const {
+    const auto difference = [&](Index i, Index j) {
+      return split_sites_.difference(faces_[f][i], faces_[f][j]);
+    };
+    for (Index i = 0; i < 2; ++i) {
+      if (dot(difference(i, dual::next_corner(i)), difference(i, dual::previous_corner(i))) < 0) {
+        return i;
+      }
+    }
+    return 2;
+  }
+
+  // The halfedge (f, i) is on the border of its facet.
+  bool is_border(Index f, Index i) { return sets_.find(neighbors_[f][i]) != sets_.find(f); }
+
+  Polygons traced() {
+    Polygons result;
+    result.offsets.push_back(0);
+    std::vector<bool> is_traced(faces_.size(), false);
+    for (Index f = 0; f < faces_.size(); ++f) {
+      for (Index i = 0; i < 3; ++i) {
+        if (is_traced[sets_.find(f)] || !is_border(f, i)) continue;
+        is_traced[sets_.find(f)] = true;
+        trace(f, i, result);
+      }
+    }
+    return result;
+  }
+
+  // A facet is a convex polygon, so its border is one cycle. After a border halfedge the next one
+  // is found by turning around its head, inside the facet.
+  void trace(Index first, Index i, Polygons& polygons) {
+    const auto begin = static_cast<std::ptrdiff_t>(polygons.corners.size());
+    const Index first_corner = i;
+    Index f = first;
+    do {
+      polygons.corners.push_back(faces_[f][dual::next_corner(i)]);
+      i = dual::next_corner(i);
+      while (!is_border(f, i)) {
+        const Index g = neighbors_[f][i];
+        i = dual::next_corner(dual::mirror_corner(faces_[f], i, faces_[g]));
+        f = g;
+      }
+    } while (f != first || i != first_corner);
+    const auto polygon = polygons.corners.begin() + begin;
+    std::rotate(polygon, std::min_element(polygon, polygons.corners.end()), polygons.corners.end());
+    polygons.offsets.push_back(polygons.corners.size());
+  }
+
+  const Triangulation& triangulation_;
+  std::span<const Triple> faces_;
+  std::span<const Triple> neighbors_;
+  dual::SplitSites split_sites_;
+  std::vector<Point> normals_;
+  FaceSets sets_;
+};
+
+}  // namespace
+
+Polygons merge_cocircular(const Triangulation& triangulation, std::span<const Point> sites) {
+  return FacetFinder(triangulation, sites).facets();
+}
+
+}  // namespace rondel

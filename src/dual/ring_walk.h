@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Names and steps around the corners of faces.
+//
+//        v0            Halfedge 3f + i is the edge of face f opposite to corner i; it
+//       /  \           runs from corner i+1 to corner i+2 with f on its left.
+//      / f  \          The faces around a vertex v in counterclockwise order: leave f
+//    v1 ---- v2        across the edge from v to the corner that follows second.
+#pragma once
+
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel::dual {
+
+constexpr Index next_corner(Index i) { return i == 2 ? 0 : i + 1; }
+constexpr Index previous_corner(Index i) { return i == 0 ? 2 : i - 1; }
+
+// Precondition: v is a corner of the face.
+inline Index corner_of(const Triple& face, Index v) {
+  return static_cast<Index>(face[1] == v) + 2 * static_cast<Index>(face[2] == v);
+}
+
+// The same edge as halfedge (f, i), as a corner of the face g across it.
+inline Index mirror_corner(const Triple& face, Index i, const Triple& across) {
+  return next_corner(corner_of(across, face[next_corner(i)]));
+}
+
+}  // namespace rondel::dual
