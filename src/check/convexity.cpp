@@ -16,8 +16,9 @@ bool is_above_face(const PerturbedSites& sites, const Triple& face, Index site) 
 }
 
 // Three sites in line with the center stay in one plane with g, so they bound no hull; and
-// without such faces no sign below is undecided.
-std::string find_degenerate_face(const Surface& surface, const PerturbedSites& sites) {
+// without such faces no sign below is undecided. A line meets a sphere twice only.
+std::string find_degenerate_face(const Surface& surface, const PerturbedSites& sites, Model model) {
+  if (model == Model::projected) return {};
   for (Index f = 0; f < surface.num_faces(); ++f) {
     const auto& [a, b, c] = surface.face(f);
     if (sites.are_in_line_with_center(a, b, c)) {
@@ -97,7 +98,7 @@ std::string find_winding_link(const Surface& surface, const PerturbedSites& site
 
 std::string find_concavity(const Surface& surface, const PerturbedSites& sites, Index pole,
                            Model model) {
-  std::string flaw = find_degenerate_face(surface, sites);
+  std::string flaw = find_degenerate_face(surface, sites, model);
   if (!flaw.empty()) return flaw;
   const PoleCount count = count_below_pole(surface, sites, pole);
   if (count.num_above == count.num_faces) {

@@ -7,6 +7,8 @@
 #include <tuple>
 
 #include "check/axis_point.h"
+#include "exact/unit_vector.h"
+#include "predicates/side_of_circle.h"
 #include "rondel/predicates.h"
 
 namespace rondel::proof {
@@ -14,6 +16,12 @@ namespace rondel::proof {
 PerturbedSites::PerturbedSites(std::span<const Point> sites, const Places& places, Model model,
                                const Sphere& sphere)
     : sites_(sites), places_(places), model_(model), sphere_(sphere) {
+  if (model == Model::projected) {
+    directions_.reserve(sites.size());
+    for (const Point& p : sites) {
+      directions_.push_back(exact::to_vector(exact::unit_vector(p, sphere.center).hi));
+    }
+  }
   find_frame();
 }
 
@@ -56,7 +64,13 @@ Sign PerturbedSites::oriented(Index a, Index b, Index c) const {
   return orientation(point(a), point(b), point(c), sphere_);
 }
 
+// Raw points of one place have directions within rounding of each other, so any will do.
 Sign PerturbedSites::side(Index a, Index b, Index c, Index d) const {
+  if (model_ == Model::projected) {
+    const Sign sign = predicates::side_of_circle_filter(directions_[a], directions_[b],
+                                                        directions_[c], directions_[d]);
+    if (sign != Sign::zero) return sign;
+  }
   return side_of_circle(point(a), point(b), point(c), point(d), model_, sphere_);
 }
 

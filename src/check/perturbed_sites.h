@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The sites as the triangulation sees them: exact signs of the orientation of four
-// perturbed sites from rondel/predicates.h and the raw points alone.
+// perturbed sites, from rondel/predicates.h (behind the proven filter of its conflict test).
 //
 // The perturbation (docs/theory/check.md) raises each site from the center of the sphere and,
 // infinitely less, from a point g strictly inside the hull. is_in_conflict() gives its sign, but
@@ -15,8 +15,10 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "check/places.h"
+#include "predicates/filtered.h"
 #include "rondel/types.h"
 
 namespace rondel::proof {
@@ -61,6 +63,7 @@ class PerturbedSites {
 
   std::span<const Point> sites_;
   const Places& places_;
+  std::vector<predicates::Vector> directions_;  // projected: unit vectors, for the filter
   Model model_;
   Sphere sphere_;
   int dimension_ = -1;
