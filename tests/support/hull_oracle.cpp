@@ -68,6 +68,34 @@ void add_faces(const Oracle& oracle, const Places& places, Hull& hull) {
   }
 }
 
+// The sites for which all others are on the left of the line to the next. A site between
+// two others in line with the center is hidden.
+void add_ring(const Oracle& oracle, const Places& places, Hull& hull) {
+  const std::size_t n = oracle.size();
+  const auto is_left_or_between = [&](std::size_t a, std::size_t b, std::size_t p) {
+    if (p == a || p == b) return true;
+    const int sign = oracle.flat_orientation(a, b, p);
+    return sign != 0 ? sign > 0 : oracle.is_between(p, a, b);
+  };
+  std::map<std::size_t, std::size_t> next;
+  for (std::size_t a = 0; a < n; ++a) {
+    for (std::size_t b = 0; b < n; ++b) {
+      bool is_edge = a != b;
+      for (std::size_t p = 0; p < n && is_edge; ++p) is_edge = is_left_or_between(a, b, p);
+      if (is_edge) next[a] = b;
+    }
+  }
+  const std::size_t start = next.begin()->first;
+  std::size_t site = start;
+  do {
+    hull.ring.push_back(places.index[site]);
+    site = next.at(site);
+  } while (site != start && hull.ring.size() <= n);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!next.contains(i)) hull.hidden.push_back(places.index[i]);
+  }
+}
+
 std::string text(const Triple& t) {
   std::ostringstream out;
   out << '(' << t[0] << ' ' << t[1] << ' ' << t[2] << ')';
@@ -123,6 +151,7 @@ Hull brute_force_hull(std::span<const Point> sites, Model model, const Sphere& s
     hull.ring = places.index;
   } else if (oracle.is_flat()) {
     hull.dimension = 1;
+    add_ring(oracle, places, hull);
   } else {
     hull.dimension = 2;
     add_faces(oracle, places, hull);
@@ -149,10 +178,11 @@ std::string difference(const Triangulation& triangulation, std::span<const Point
   if (auto error = set_difference_text("ghost", ghosts, expected.ghosts); !error.empty()) {
     return error;
   }
-  if (expected.dimension == 2) {
-    if (!std::ranges::equal(triangulation.hidden(), expected.hidden, {}, &Hidden::site)) {
-      return "hidden sites";
-    }
+  std::vector<Index> ring(triangulation.ring().begin(), triangulation.ring().end());
+  std::ranges::rotate(ring, std::ranges::min_element(ring));
+  if (ring != expected.ring) return "ring";
+  if (!std::ranges::equal(triangulation.hidden(), expected.hidden, {}, &Hidden::site)) {
+    return "hidden sites";
   }
   for (const auto& check : {topology_error, order_error}) {
     if (auto error = check(triangulation); !error.empty()) return error;

@@ -99,15 +99,49 @@ bool Oracle::is_same_site(std::size_t a, std::size_t b) const {
   return n[0] == 0 && n[1] == 0 && n[2] == 0 && dot(vectors_[a], vectors_[b]) > 0;
 }
 
-bool Oracle::is_flat() const {
-  // Any two directions that differ span the plane in which all others must lie.
+// Any two directions that differ span the plane in which all others must lie.
+IntegerVector Oracle::plane_normal() const {
   IntegerVector first;
   IntegerVector normal;
   for (const auto& v : vectors_) {
     if (first == IntegerVector{}) first = v;
     if (normal == IntegerVector{}) normal = cross(first, v);
   }
+  const auto leading = std::ranges::find_if(normal, [](const auto& x) { return x != 0; });
+  if (leading != normal.end() && *leading < 0) {
+    for (auto& x : normal) x = -x;
+  }
+  return normal;
+}
+
+bool Oracle::is_between(std::size_t p, std::size_t a, std::size_t b) const {
+  IntegerVector to_a;
+  IntegerVector to_b;
+  for (std::size_t i = 0; i < 3; ++i) {
+    to_a[i] = vectors_[a][i] - vectors_[p][i];
+    to_b[i] = vectors_[b][i] - vectors_[p][i];
+  }
+  return dot(to_a, to_b) < 0;
+}
+
+bool Oracle::is_flat() const {
+  const IntegerVector normal = plane_normal();
   return std::ranges::all_of(vectors_, [&](const auto& v) { return dot(normal, v) == 0; });
+}
+
+int Oracle::flat_orientation(std::size_t a, std::size_t b, std::size_t c) const {
+  std::array<unsigned, 3> by_rank = {0, 1, 2};
+  const Quad quad = {a, b, c, normal_row};
+  std::ranges::sort(by_rank, {}, [&](unsigned i) { return rank_[quad[i]]; });
+  for (unsigned monomial = 0; monomial < 8; ++monomial) {
+    unsigned e_set = 0;
+    for (unsigned k = 0; k < 3; ++k) {
+      if ((monomial >> k & 1U) != 0) e_set |= 1U << by_rank[k];
+    }
+    const int result = coefficient_sign(quad, e_set, 0);
+    if (result != 0) return result;
+  }
+  return 0;
 }
 
 // The moved point i in homogeneous coordinates, multiplied by s_i = sqrt(square) > 0 and, for the
@@ -126,6 +160,11 @@ int Oracle::coefficient_sign(const Quad& quad, unsigned e_set, unsigned d_set) c
   std::array<std::vector<Term>, 4> rows;
   RootSum sum;
   for (unsigned i = 0; i < 4; ++i) {
+    if (quad[i] == normal_row) {
+      rows[i] = {{false, 0, plane_normal()}};
+      sum.squares[i] = 1;
+      continue;
+    }
     const IntegerVector& v = vectors_[quad[i]];
     sum.squares[i] = squares_[quad[i]];
     if ((e_set >> i & 1U) != 0) {

@@ -48,14 +48,23 @@ class Oracle {
   [[nodiscard]] std::size_t rank(std::size_t a) const { return rank_[a]; }
   // Whether the site is the center of the sphere.
   [[nodiscard]] bool is_center(std::size_t a) const;
+  // Whether p, in line with a and b, is strictly between them, unperturbed.
+  [[nodiscard]] bool is_between(std::size_t p, std::size_t a, std::size_t b) const;
   // Whether all sites lie in one plane with the center.
   [[nodiscard]] bool is_flat() const;
+  // \pre is_flat(). The orientation of three moved sites within that plane, seen from the side of
+  // its normal whose first non-zero coordinate is positive. Only the e's count: 0 means in line
+  // with the center.
+  [[nodiscard]] int flat_orientation(std::size_t a, std::size_t b, std::size_t c) const;
   // Exact vector from the center, up to a positive factor (in the weighted model the same one for
   // all sites).
   [[nodiscard]] const IntegerVector& vector(std::size_t a) const { return vectors_[a]; }
 
  private:
+  // A row that is the normal of the plane of all sites instead of a site.
+  static constexpr std::size_t normal_row = static_cast<std::size_t>(-1);
   using Quad = std::array<std::size_t, 4>;
+  [[nodiscard]] IntegerVector plane_normal() const;
   // The sign of the coefficient of the product of e_i, i in `e_set`, and d_i, i in `d_set`;
   // sets are bit masks over the rows of `quad`.
   [[nodiscard]] int coefficient_sign(const Quad& quad, unsigned e_set, unsigned d_set) const;
