@@ -18,7 +18,7 @@ namespace rondel {
 struct CheckReport {
   bool is_valid = false;
   std::string reason;  ///< one line that says what is wrong, with indices; empty when valid
-  std::size_t num_vertices = 0;
+  std::size_t num_vertices = 0;  ///< below dimension 2: distinct places, hidden ones included
   std::size_t num_edges = 0;
   std::size_t num_duplicates = 0;
   std::size_t num_hidden = 0;

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(check_test
+  check_api_test.cpp
   check_convexity_test.cpp
   check_places_test.cpp
   check_sites_test.cpp
