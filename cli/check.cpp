@@ -32,11 +32,12 @@ std::string proof_of(const CheckReport& verdict, const CheckOptions& options, st
                      std::size_t faces) {
   if (!verdict.is_valid) return {};
   std::string text = options.triangles + " is the triangulation of " + options.common.input + '\n';
-  text += std::to_string(sites) + " sites accounted for: " + std::to_string(verdict.num_vertices) +
-          " vertices, " + std::to_string(verdict.num_duplicates) + " duplicates, " +
-          std::to_string(verdict.num_hidden) + " hidden\n";
-  text += std::to_string(faces) + " faces and " + std::to_string(verdict.num_edges) +
-          " edges form one closed surface; every edge is locally " +
+  text += count(sites, "site", "sites") +
+          " accounted for: " + count(verdict.num_vertices, "vertex", "vertices") + ", " +
+          count(verdict.num_duplicates, "duplicate", "duplicates") + ", " +
+          count(verdict.num_hidden, "hidden site", "hidden sites") + '\n';
+  text += count(faces, "face", "faces") + " and " + count(verdict.num_edges, "edge", "edges") +
+          " form one closed surface; every edge is locally " +
           (options.common.build.model == Model::projected ? "Delaunay" : "regular") + ", exactly\n";
   return text;
 }

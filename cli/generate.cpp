@@ -202,7 +202,7 @@ Generated ball(const Recipe& recipe) {
 }
 
 Generated integer(const Recipe& recipe) {
-  constexpr std::uint64_t range = 100;
+  constexpr std::uint64_t range = 20;
   Random random(recipe.seed);
   const auto draw = [&] {
     return static_cast<double>(random.below(2 * range + 1)) - static_cast<double>(range);
@@ -242,7 +242,7 @@ constexpr std::array<Kind, 11> all_kinds{{
     {"great-circle", "random on the equator: the triangulation has dimension 1", &great_circle,
      false},
     {"ball", "random in the unit ball, for --model weighted", &ball, false},
-    {"integer", "random integers from -100 to 100: many ties and duplicates", &integer, false},
+    {"integer", "random integers from -20 to 20: many ties and duplicates", &integer, false},
     {"antipodal", "random pairs of opposite sites", &antipodal, false},
 }};
 

@@ -60,12 +60,22 @@ std::vector<NamedRange> bounds_of(const SiteTable& table) {
   return {{"x", x}, {"y", y}, {"z", z}};
 }
 
+// Scaled, so that no square overflows or vanishes.
+double length(double x, double y, double z) {
+  const double scale = std::max({std::abs(x), std::abs(y), std::abs(z)});
+  if (scale == 0) return 0;
+  x /= scale;
+  y /= scale;
+  z /= scale;
+  return scale * std::sqrt(x * x + y * y + z * z);
+}
+
 Range heights_of(const std::vector<Point>& sites, const Sphere& sphere) {
   const Point& c = sphere.center;
   const double radius = std::sqrt(sphere.squared_radius);
   Range range;
   for (const Point& p : sites) {
-    range.add(std::hypot(p.x - c.x, p.y - c.y, p.z - c.z) - radius);
+    range.add(length(p.x - c.x, p.y - c.y, p.z - c.z) - radius);
   }
   return range;
 }
@@ -121,8 +131,9 @@ std::string text_of(const char* name, const Range& range) {
 
 std::string text_of(const SiteTable& table, const Facts& facts) {
   const Triangulation& triangulation = facts.triangulation;
-  std::string text = table.name + ": " + std::to_string(table.sites.size()) + " sites, given as " +
-                     (table.is_lonlat() ? "longitude and latitude" : "x, y, z") + '\n';
+  std::string text = table.name + ": " + count(table.sites.size(), "site", "sites") +
+                     ", given as " + (table.is_lonlat() ? "longitude and latitude" : "x, y, z") +
+                     '\n';
   for (const auto& [name, range] : facts.bounds) text += text_of(name, range);
   text += text_of("distance from the sphere", facts.height);
   if (facts.at_center > 0) text += "at the center: " + std::to_string(facts.at_center) + '\n';

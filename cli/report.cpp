@@ -44,6 +44,10 @@ std::string faces_line(const Triangulation& triangulation) {
 
 const char* name_of(Model model) { return model == Model::projected ? "projected" : "weighted"; }
 
+std::string count(std::size_t number, const std::string& one, const std::string& many) {
+  return std::to_string(number) + ' ' + (number == 1 ? one : many);
+}
+
 std::uint64_t peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
@@ -78,11 +82,11 @@ std::string json_report(const Triangulation& triangulation, const Seconds& secon
 
 std::string summary(const Triangulation& triangulation, const Seconds& seconds,
                     const std::string& what, const std::string& output) {
-  std::string text = std::to_string(triangulation.num_sites()) +
-                     " sites: " + std::to_string(triangulation.num_vertices()) + " vertices, " +
-                     std::to_string(triangulation.duplicates().size()) + " duplicates";
+  std::string text = count(triangulation.num_sites(), "site", "sites") + ": " +
+                     count(triangulation.num_vertices(), "vertex", "vertices") + ", " +
+                     count(triangulation.duplicates().size(), "duplicate", "duplicates");
   if (triangulation.model() == Model::weighted) {
-    text += ", " + std::to_string(triangulation.hidden().size()) + " hidden";
+    text += ", " + count(triangulation.hidden().size(), "hidden site", "hidden sites");
   }
   text += '\n' + faces_line(triangulation) + '\n';
   return text + "wrote " + what + " to " + output + " in " + text_of(seconds.total) + '\n';

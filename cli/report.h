@@ -15,6 +15,9 @@ namespace rondel::cli {
 /// "projected" or "weighted".
 const char* name_of(Model model);
 
+/// "1 site", "2 sites".
+std::string count(std::size_t number, const std::string& one, const std::string& many);
+
 /// The largest resident size of this process so far.
 std::uint64_t peak_memory_bytes();
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "report.h"
 #include "run.h"
 
 namespace rondel::cli {
@@ -43,8 +44,8 @@ ExitStatus run_generate(const GenerateOptions& options) {
       {"sites", generated.sites.size()},
       {"seed", recipe.seed},
       {"seconds", {{"write", seconds.write}, {"total", seconds.total}}}};
-  job.report(json.dump(2) + '\n', "wrote " + std::to_string(generated.sites.size()) + " sites to " +
-                                      common.output + '\n');
+  job.report(json.dump(2) + '\n', "wrote " + count(generated.sites.size(), "site", "sites") +
+                                      " to " + common.output + '\n');
   return done;
 }
 
