@@ -43,48 +43,49 @@ void sort_around(const Mesh& mesh, Index* first, Index count) {
 
 }  // namespace
 
-CanonicalOrder canonical_order(const Mesh& mesh, Index num_ranks) {
-  std::vector<Index> end(static_cast<std::size_t>(num_ranks) + 1, 0);
+std::vector<Halfedge> canonical_order(const Mesh& mesh, Index num_ranks,
+                                      std::vector<Index> scratch) {
+  std::vector<Index>& end = scratch;
+  end.assign(num_ranks, 0);
   for (Index f = 0; f < mesh.num_slots(); ++f) {
     if (mesh.is_alive(f)) ++end[mesh[f].vertex[first_corner(mesh[f])]];
   }
   Index sum = 0;
   for (Index& e : end) sum += std::exchange(e, sum);
 
-  CanonicalOrder result;
-  result.corners.resize(mesh.num_faces());
+  std::vector<Halfedge> order(mesh.num_faces());
   for (Index f = 0; f < mesh.num_slots(); ++f) {
     if (!mesh.is_alive(f)) continue;
     const unsigned corner = first_corner(mesh[f]);
-    result.corners[end[mesh[f].vertex[corner]]++] = halfedge(f, corner);
+    order[end[mesh[f].vertex[corner]]++] = halfedge(f, corner);
   }
   Index begin = 0;
   for (Index rank = 0; rank < num_ranks; ++rank) {
     const Index count = end[rank] - begin;
-    if (count > 1) sort_around(mesh, &result.corners[begin], count);
+    if (count > 1) sort_around(mesh, &order[begin], count);
     begin = end[rank];
   }
-  result.place.assign(mesh.num_slots(), no_index);
-  for (Index i = 0; i < mesh.num_faces(); ++i) result.place[face_of(result.corners[i])] = i;
-  return result;
+  return order;
 }
 
-void write_canonical(const Mesh& mesh, const CanonicalOrder& order, const std::vector<Index>& names,
-                     TriangulationArrays& arrays) {
-  const auto rotated = [&order](Index i, const std::array<Index, 3>& values) {
-    const unsigned a = edge_of(order.corners[i]);
+void write_canonical(Mesh& mesh, const std::vector<Halfedge>& order,
+                     const std::vector<Index>& names, TriangulationArrays& arrays) {
+  const auto rotated = [](const std::array<Index, 3>& values, unsigned a) {
     const unsigned b = next_corner[a];
     return Triple{values[a], values[b], values[next_corner[b]]};
   };
-  const Index m = mesh.num_faces();
-  arrays.faces.resize(m);
-  arrays.neighbors.resize(m);
-  for (Index i = 0; i < m; ++i) {
-    const topology::Face& face = mesh[face_of(order.corners[i])];
-    arrays.faces[i] = rotated(i, face.vertex);
-    arrays.neighbors[i] = rotated(i, face.opposite);
+  arrays.faces.resize(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    auto& vertex = mesh[face_of(order[i])].vertex;
+    arrays.faces[i] = rotated(vertex, edge_of(order[i]));
     for (Index& v : arrays.faces[i]) v = names[v];
-    for (Index& g : arrays.neighbors[i]) g = order.place[face_of(g)];
+    vertex[0] = static_cast<Index>(i);
+  }
+  arrays.neighbors.resize(order.size());
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto& opposite = mesh[face_of(order[i])].opposite;
+    arrays.neighbors[i] = rotated(opposite, edge_of(order[i]));
+    for (Index& g : arrays.neighbors[i]) g = mesh[face_of(g)].vertex[0];
   }
 }
 

@@ -11,19 +11,17 @@
 
 namespace rondel::incremental {
 
-// The place of each face of a mesh in the canonical order: a face belongs to its corner of smallest
-// rank and starts with it. The faces of one owner follow counterclockwise,
-// beginning with the one whose second corner has the smallest rank.
-struct CanonicalOrder {
-  std::vector<Index> place;    // of each slot; no_index if it is not alive
-  std::vector<Index> corners;  // m: the slot and its first corner, 3*face + corner
-};
+// The faces of a mesh in the canonical order, each as 3*face + first corner: a face
+// belongs to its corner of smallest rank and starts with it. The faces of one owner
+// follow counterclockwise, beginning with the one whose second corner has the smallest rank.
+// `num_ranks` bounds the vertices of the mesh; `scratch` lends its memory.
+std::vector<topology::Halfedge> canonical_order(const topology::Mesh& mesh, Index num_ranks,
+                                                std::vector<Index> scratch);
 
-// `num_ranks` bounds the vertices of the mesh.
-CanonicalOrder canonical_order(const topology::Mesh& mesh, Index num_ranks);
-
-// Writes faces and neighbors in this order, vertices under the names of their ranks.
-void write_canonical(const topology::Mesh& mesh, const CanonicalOrder& order,
+// Writes faces and neighbors in this order, vertices under the names of their ranks. Uses up the
+// mesh: afterwards vertex[0] of each face is its place in the order. So the result needs
+// no third array of the size of the mesh beside it.
+void write_canonical(topology::Mesh& mesh, const std::vector<topology::Halfedge>& order,
                      const std::vector<Index>& names, TriangulationArrays& arrays);
 
 }  // namespace rondel::incremental

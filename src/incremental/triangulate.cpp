@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "incremental/brio.h"
 #include "incremental/canonical.h"
@@ -40,20 +41,18 @@ std::vector<Index> find_first(std::span<const Point> sites, std::span<const Inde
   return first;
 }
 
-void report_ghosts(const FaceKinds& kinds, const CanonicalOrder& canonical,
-                   std::vector<Index>& ghosts) {
+void report_ghosts(const topology::Mesh& mesh, const FaceKinds& kinds, std::vector<Index>& ghosts) {
   if (kinds.all_solid()) return;
-  for (Index f = 0; f < canonical.place.size(); ++f) {
-    if (canonical.place[f] != no_index && kinds[f] != FaceKind::solid) {
-      ghosts.push_back(canonical.place[f]);
-    }
+  for (Index f = 0; f < mesh.num_slots(); ++f) {
+    if (mesh.is_alive(f) && kinds[f] != FaceKind::solid) ghosts.push_back(mesh[f].vertex[0]);
   }
   std::ranges::sort(ghosts);
 }
 
+// The hidden ranks, each with the slot of the face above it.
 template <SiteTraits T>
-void report_hidden(Insertion<T>& insertion, Index num_ranks, const CanonicalOrder& canonical,
-                   const std::vector<Index>& names, std::vector<Hidden>& hidden) {
+std::vector<Hidden> find_hidden(Insertion<T>& insertion, Index num_ranks) {
+  std::vector<Hidden> hidden;
   if constexpr (T::hides_sites) {
     const topology::Mesh& mesh = insertion.mesh();
     std::vector<bool> is_vertex(num_ranks, false);
@@ -62,10 +61,10 @@ void report_hidden(Insertion<T>& insertion, Index num_ranks, const CanonicalOrde
       for (const Index v : mesh[f].vertex) is_vertex[v] = true;
     }
     for (Index p = 0; p < num_ranks; ++p) {
-      if (!is_vertex[p]) hidden.push_back({names[p], canonical.place[insertion.face_above(p)]});
+      if (!is_vertex[p]) hidden.push_back({p, insertion.face_above(p)});
     }
-    std::ranges::sort(hidden, {}, &Hidden::site);
   }
+  return hidden;
 }
 
 template <SiteTraits T>
@@ -84,16 +83,19 @@ Triangulated build(std::span<const Point> sites, std::vector<Index> order,
                        static_cast<double>(i) / static_cast<double>(insertion.size()));
     }
   }
-  insertion = {};
   rename(order, renamed);
   Triangulated result;
   result.arrays.dimension = 2;
-  const CanonicalOrder canonical = canonical_order(kernel.mesh(), num_ranks);
-  report_ghosts(kernel.kinds(), canonical, result.arrays.ghost_faces);
-  report_hidden(kernel, num_ranks, canonical, order, result.arrays.hidden);
+  result.arrays.hidden = find_hidden(kernel, num_ranks);
+  const auto canonical = canonical_order(kernel.mesh(), num_ranks, std::move(insertion));
   result.tally = traits->tally();
   traits.reset();
   write_canonical(kernel.mesh(), canonical, order, result.arrays);
+  report_ghosts(kernel.mesh(), kernel.kinds(), result.arrays.ghost_faces);
+  for (Hidden& h : result.arrays.hidden) {
+    h = {order[h.site], kernel.mesh()[h.face].vertex[0]};
+  }
+  std::ranges::sort(result.arrays.hidden, {}, &Hidden::site);
   return result;
 }
 

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel_bench KIND N [projected|weighted] [dual]: one build in this process, and one
+// JSON object on standard output. Scripts repeat it in turns with the peers.
+
+#include <sys/resource.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+
+#include "inputs.h"
+#include "rondel/rondel.h"
+
+namespace {
+
+long peak_kib() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return usage.ru_maxrss;
+}
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: rondel_bench KIND N [projected|weighted] [dual]\n");
+    return 2;
+  }
+  const auto sites = rondel::bench::make_input(argv[1], std::strtoull(argv[2], nullptr, 10));
+  rondel::Options options;
+  options.threads = 1;
+  if (argc > 3 && std::strcmp(argv[3], "weighted") == 0) options.model = rondel::Model::weighted;
+
+  const long before = peak_kib();
+  const double start = now();
+  const auto triangulation = rondel::delaunay(sites, options);
+  const double triangulated = now();
+  const long after = peak_kib();
+  double dual = 0;
+  double total_area = 0;
+  if (argc > 4) {
+    const auto cells = rondel::cells(triangulation, sites);
+    const auto areas = rondel::areas(triangulation, sites, cells);
+    dual = now() - triangulated;
+    total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
+  }
+  const auto n = static_cast<double>(sites.size());
+  const auto& report = triangulation.report();
+  std::printf(
+      "{\"sites\": %zu, \"vertices\": %zu, \"faces\": %zu, \"seconds\": %.6f, \"order\": %.6f, "
+      "\"triangulate\": %.6f, \"dual\": %.6f, \"total_area\": %.15g, \"bytes_per_site\": %.1f, "
+      "\"rungs\": [%llu, %llu, %llu, %llu]}\n",
+      sites.size(), triangulation.num_vertices(), triangulation.num_faces(), triangulated - start,
+      report.order_seconds, report.triangulate_seconds, dual, total_area,
+      static_cast<double>(after - before) * 1024 / n,
+      static_cast<unsigned long long>(report.rungs.filter),
+      static_cast<unsigned long long>(report.rungs.double_double),
+      static_cast<unsigned long long>(report.rungs.exact),
+      static_cast<unsigned long long>(report.rungs.perturbed));
+}
