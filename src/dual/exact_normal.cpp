@@ -111,7 +111,7 @@ std::optional<IntegerVector> plane_normal(const IntegerVector& a, const IntegerV
 }
 
 // The plane through the line of a and b and through `apex`, oriented away from the first site that
-// does not lie on it. Empty if apex is on the line or all sites are on the plane.
+// does not lie on it (either way if there is none). Empty if apex is on the line.
 std::optional<Point> supporting_normal(const SplitSites& sites, Index a, Index b,
                                        const Point& apex) {
   const Point& pa = sites.sites()[a];
@@ -121,10 +121,11 @@ std::optional<Point> supporting_normal(const SplitSites& sites, Index a, Index b
   const Vec n = rounded_unit(normal);
   for (const Point& p : sites.sites()) {
     const auto q = exact::scaled_differences({p}, pa);
-    const Integer side = dot(normal, q[0]);
-    if (side != 0) return to_point(side < 0 ? n : Vec{-n.x, -n.y, -n.z});
+    const Sign side = exact::sign_of(dot(normal, q[0]));
+    if (side == Sign::negative) break;
+    if (side == Sign::positive) return Point{-n.x, -n.y, -n.z};
   }
-  return std::nullopt;
+  return to_point(n);
 }
 
 ExactNormal collinear_normal(const SplitSites& sites, Index a, Index b) {

@@ -94,7 +94,6 @@ inline RingPoint RingLocalizer::star_point(Index site, const Spoke& b, const Spo
 RingPoint RingLocalizer::careful_star_point(Index site, Index b, Index c, Index position) const {
   const Vec to_b = sites_.difference(site, b);
   const Vec to_c = sites_.difference(site, c);
-  const Vec d = sites_.difference(b, c);
   const double b2 = dot(to_b, to_b);
   const double c2 = dot(to_c, to_c);
   if (std::min(b2, c2) < underflow_square) return global_point(position);
@@ -104,56 +103,74 @@ RingPoint RingLocalizer::careful_star_point(Index site, Index b, Index c, Index 
     if (dot(n, n) < smallest_sine_squared * b2 * c2) return global_point(position);
   }
   const double inverse = 1 / std::sqrt(dot(n, n));
-  return ring_point((0.5 * inverse) * (b2 * d - dot(d, to_b + to_c) * to_b),
-                    inverse * dot(ring_.origin, n));
+  // |B|^2 C - |C|^2 B cancels where C is nearly B; then the other form does not.
+  const Vec d = sites_.difference(b, c);
+  const bool is_near = 4 * dot(d, d) < b2;
+  const Vec r = is_near ? b2 * d - dot(d, to_b + to_c) * to_b : b2 * to_c - c2 * to_b;
+  return ring_point((0.5 * inverse) * r, inverse * dot(ring_.origin, n));
 }
 
-// Whether all points are within 60 degrees of the first one.
+// Whether all points are within 41 degrees of the first one, so that no arc between two is over 90.
 bool RingLocalizer::is_small(std::span<const Index> ring) const {
   const Vec first = point(ring[0]);
-  return std::ranges::all_of(
-      ring, [&](Index position) { return is_face(position) && dot(first, point(position)) > 0.5; });
+  return std::ranges::all_of(ring, [&](Index position) {
+    return is_face(position) && dot(first, point(position)) > 0.75;
+  });
 }
 
+// One corner of the walk around a site: the face's normal N = B x C.
+struct RingLocalizer::Wedge {
+  Offset to_b;
+  Offset to_c;
+  SplitNormal normal;
+  double squared;  // |N|^2, or 0 where N is not proved to be accurate
+
+  // sin^2 of the angle between B and C.
+  [[nodiscard]] double sine_squared() const {
+    return squared / (dot(to_b.hi, to_b.hi) * dot(to_c.hi, to_c.hi));
+  }
+};
+
+RingLocalizer::Wedge RingLocalizer::wedge(Index site, Index position) const {
+  const Triple& face = triangulation_.faces()[position];
+  const Index corner = corner_of(face, site);
+  Wedge w{sites_.offset(site, face[next_corner(corner)]),
+          sites_.offset(site, face[previous_corner(corner)]),
+          {},
+          0};
+  w.normal = split_cross(w.to_b, w.to_c);
+  const Vec n = w.normal.rounded();
+  const double n2 = dot(n, n);
+  if (is_accurate(dot(w.to_b.hi, w.to_b.hi), dot(w.to_c.hi, w.to_c.hi), n2, false)) w.squared = n2;
+  return w;
+}
+
+// n' - n from one face to the next. It turns n about C by the angle with the sine
+// s = C det(B, C, D) / (|N| |N'|), C and s taken as vectors: n' - n = s x n - n |s|^2 / (1 + cos).
+// The determinant is right to 2^-100 |B||C|^2|D|, hence s to 2^-100 divided by both sines;
+// where that is not below u/4 the difference of the circumcenters is better.
+Vec RingLocalizer::arc_step(const Wedge& from, const Wedge& to, const Vec& n,
+                            const Vec& next) const {
+  const double sines = from.sine_squared() * to.sine_squared();
+  if (!(sines > 0x1p-90)) return next - n;
+  const double volume = split_dot(from.normal, to.to_c);
+  const Vec s = (volume / (std::sqrt(from.squared) * std::sqrt(to.squared))) * to.to_b.hi;
+  const double s2 = std::min(dot(s, s), 1.0);
+  return cross(s, n) - (s2 / (1 + std::sqrt(1 - s2))) * n;
+}
+
+// The offsets d = n - q are sums of steps along the ring.
 void RingLocalizer::localize_small(Index site, std::span<const Index> ring) {
   ring_.origin = point(ring[0]);
-  if (walk_arcs(site, ring)) return;
-  ring_.points.clear();
-  for (const Index position : ring) {
-    const Vec d = point(position) - ring_.origin;
-    ring_.points.push_back(ring_point(cross(ring_.origin, d), 1 - 0.5 * dot(d, d)));
-  }
-}
-
-// The offsets d = n - q as sums of steps along the ring. A step turns n about C by the angle with
-// the sine s = C det(B, C, D) / (|B x C| |C x D|), C and s taken as vectors:
-// n' - n = s x n - n |s|^2 / (1 + cos). Returns false where a normal is not proved.
-bool RingLocalizer::walk_arcs(Index site, std::span<const Index> ring) {
   Vec d{0, 0, 0};
-  SplitNormal last{};
-  double last_length = 0;
-  for (std::size_t j = 0; j < ring.size(); ++j) {
-    const Triple& face = triangulation_.faces()[ring[j]];
-    const Index corner = corner_of(face, site);
-    const Offset to_b = sites_.offset(site, face[next_corner(corner)]);
-    const Offset to_c = sites_.offset(site, face[previous_corner(corner)]);
-    const SplitNormal normal = split_cross(to_b, to_c);
-    const Vec n = normal.rounded();
-    const double n2 = dot(n, n);
-    if (!is_accurate(dot(to_b.hi, to_b.hi), dot(to_c.hi, to_c.hi), n2, false)) return false;
-    const double length = std::sqrt(n2);
-    if (j > 0) {
-      const double volume = split_dot(last, to_c);
-      const Vec s = (volume / (last_length * length)) * to_b.hi;
-      const double s2 = std::min(dot(s, s), 1.0);
-      const Vec from = point(ring[j - 1]);
-      d = d + (cross(s, from) - (s2 / (1 + std::sqrt(1 - s2))) * from);
-    }
+  Wedge last = wedge(site, ring[0]);
+  ring_.points.push_back({d, 2});
+  for (std::size_t j = 1; j < ring.size(); ++j) {
+    const Wedge next = wedge(site, ring[j]);
+    d = d + arc_step(last, next, point(ring[j - 1]), point(ring[j]));
     ring_.points.push_back(ring_point(cross(ring_.origin, d), 1 - 0.5 * dot(d, d)));
-    last = normal;
-    last_length = length;
+    last = next;
   }
-  return true;
 }
 
 // q is the direction of the vector area S, the sum of n x n' over the ring. A convex cell lies on

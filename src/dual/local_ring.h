@@ -61,7 +61,10 @@ class RingLocalizer {
   [[nodiscard]] RingPoint global_point(Index point) const;
 
   void localize_small(Index site, std::span<const Index> ring);
-  bool walk_arcs(Index site, std::span<const Index> ring);
+  struct Wedge;
+  [[nodiscard]] Wedge wedge(Index site, Index position) const;
+  [[nodiscard]] Vec arc_step(const Wedge& from, const Wedge& to, const Vec& n,
+                             const Vec& next) const;
   void localize_large(std::span<const Index> ring);
   [[nodiscard]] bool is_small(std::span<const Index> ring) const;
 
