@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 namespace rondel::exact {
 namespace {
@@ -42,6 +43,32 @@ IntegerVector to_integers(const Point& p, int lowest) {
           to_integer(decompose(p.z), lowest)};
 }
 
+// Newton's iteration from above: it decreases while it is larger than the floor of the
+// root, doubling the correct bits each time (the library's sqrt goes bit by bit).
+Integer floor_sqrt(const Integer& n) {
+  if (n == 0) return 0;
+  constexpr unsigned leading_bits = 100;  // the root of these is exact to 50 bits
+  const unsigned size = static_cast<unsigned>(msb(n)) + 1;
+  const unsigned shift = size > leading_bits ? (size - leading_bits + 1) / 2 : 0;
+  const double leading = static_cast<double>(Integer(n >> (2 * shift)));
+  Integer root = Integer(static_cast<std::int64_t>(std::sqrt(leading) * (1 + 0x1p-50)) + 1)
+                 << shift;
+  for (;;) {
+    Integer next = (root + n / root) >> 1;
+    if (next >= root) return root;
+    root = std::move(next);
+  }
+}
+
+// The low bits of a square are those of 0, 1, 4, 9, 16, 17, 25, 33, 36, 41, 49 or 57 modulo 64.
+bool is_square(const Integer& n, Integer& root) {
+  constexpr std::uint64_t squares_modulo_64 = 0x0202021202030213U;
+  const auto low_bits = static_cast<unsigned>(n & 63U);
+  if ((squares_modulo_64 >> low_bits & 1U) == 0) return false;
+  root = floor_sqrt(n);
+  return root * root == n;
+}
+
 // Sets `sign` and returns true when 2^bits times the sum lies outside of the error bound: each
 // root is rounded down, so a term is wrong by less than |coefficient|.
 bool sign_at_precision(std::span<const Integer> coefficients, std::span<const Integer> radicands,
@@ -49,7 +76,7 @@ bool sign_at_precision(std::span<const Integer> coefficients, std::span<const In
   Integer sum = 0;
   Integer error = 0;
   for (std::size_t i = 0; i < coefficients.size(); ++i) {
-    const Integer root = sqrt(Integer(radicands[i] << (2 * bits)));
+    const Integer root = floor_sqrt(Integer(radicands[i] << (2 * bits)));
     sum += coefficients[i] * root;
     error += abs(coefficients[i]);
   }
@@ -65,9 +92,8 @@ bool is_zero_by_classes(std::span<const Integer> coefficients, std::span<const I
     // The class sum divided by sqrt(r_i), times r_i: sqrt(r_j) = sqrt(r_i r_j) / r_i * sqrt(r_i).
     Integer sum = coefficients[i] * radicands[i];
     for (std::size_t j = i + 1; j < coefficients.size(); ++j) {
-      const Integer product = radicands[i] * radicands[j];
-      const Integer root = sqrt(product);
-      if (root * root != product) continue;
+      Integer root;
+      if (!is_square(radicands[i] * radicands[j], root)) continue;
       done[j] = true;
       sum += coefficients[j] * root;
     }
@@ -101,7 +127,7 @@ std::vector<IntegerVector> scaled_rays(std::initializer_list<Point> points, cons
 
 Sign sign_of_root_sum(std::span<const Integer> coefficients, std::span<const Integer> radicands) {
   Sign sign = Sign::zero;
-  constexpr unsigned first_precision = 128;
+  constexpr unsigned first_precision = 192;
   if (sign_at_precision(coefficients, radicands, first_precision, sign)) return sign;
   if (is_zero_by_classes(coefficients, radicands)) return Sign::zero;
   for (unsigned bits = 2 * first_precision;; bits *= 2) {
