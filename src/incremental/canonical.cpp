@@ -4,6 +4,8 @@
 #include "incremental/canonical.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <span>
 #include <utility>
 
 namespace rondel::incremental {
@@ -22,22 +24,35 @@ unsigned first_corner(const topology::Face& face) {
   return v[i] < v[2] ? i : 2;
 }
 
-// Sorts the faces of one owner, given as 3*face + corner: walks around the owner from
-// the face that comes first until all have been met.
-void sort_around(const Mesh& mesh, Index* first, Index count) {
-  const auto second_vertex = [&mesh](Halfedge h) {
-    return mesh[face_of(h)].vertex[next_corner[edge_of(h)]];
-  };
-  Index* start = std::min_element(first, first + count, [&](Halfedge g, Halfedge h) {
-    return second_vertex(g) < second_vertex(h);
-  });
-  Halfedge h = *start;
+// Lists the faces of the owner of faces[0] in their order around it, from that one on.
+void walk_around(const Mesh& mesh, std::span<Halfedge> faces) {
+  Halfedge h = faces[0];
   const Index owner = mesh[face_of(h)].vertex[edge_of(h)];
-  for (Index found = 0;;) {
-    const auto& face = mesh[face_of(h)];
-    if (face.vertex[first_corner(face)] == owner) first[found++] = h;
-    if (found == count) return;
+  for (std::size_t found = 0; found < faces.size();) {
+    const topology::Face& face = mesh[face_of(h)];
+    if (face.vertex[first_corner(face)] == owner) faces[found++] = h;
     h = mesh.next_around(face_of(h), edge_of(h));
+  }
+}
+
+// Sorts the faces of one owner, given as 3*face + corner. Where each face meets the one before,
+// which is usual, their corners tell; otherwise a walk around the owner.
+void sort_around(const Mesh& mesh, std::span<Halfedge> faces) {
+  const auto vertex = [&mesh](Halfedge h, unsigned step) {
+    return mesh[face_of(h)].vertex[(edge_of(h) + step) % 3];
+  };
+  std::iter_swap(faces.begin(), std::ranges::min_element(
+                                    faces, {}, [&vertex](Halfedge h) { return vertex(h, 1); }));
+  if (faces.size() == 2) return;
+  for (std::size_t i = 1; i < faces.size(); ++i) {
+    const Index shared = vertex(faces[i - 1], 2);
+    const auto next = std::find_if(faces.begin() + static_cast<std::ptrdiff_t>(i), faces.end(),
+                                   [&](Halfedge h) { return vertex(h, 1) == shared; });
+    if (next == faces.end()) {
+      walk_around(mesh, faces);
+      return;
+    }
+    std::iter_swap(faces.begin() + static_cast<std::ptrdiff_t>(i), next);
   }
 }
 
@@ -62,7 +77,7 @@ std::vector<Halfedge> canonical_order(const Mesh& mesh, Index num_ranks,
   Index begin = 0;
   for (Index rank = 0; rank < num_ranks; ++rank) {
     const Index count = end[rank] - begin;
-    if (count > 1) sort_around(mesh, &order[begin], count);
+    if (count > 1) sort_around(mesh, {&order[begin], count});
     begin = end[rank];
   }
   return order;
