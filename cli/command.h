@@ -23,7 +23,7 @@
 #include "rondel/io.h"
 #include "rondel/triangulation.h"
 
-namespace CLI {
+namespace CLI {  // NOLINT(readability-identifier-naming): not ours
 class App;
 }  // namespace CLI
 

@@ -38,7 +38,7 @@ Generated fibonacci(const Recipe& recipe) {
   constexpr std::uint64_t golden = 0x9e37'79b9'7f4a'7c15U;
   Generated result;
   result.sites.reserve(recipe.n);
-  const double n = static_cast<double>(recipe.n);
+  const auto n = static_cast<double>(recipe.n);
   for (std::uint64_t i = 0; i < recipe.n; ++i) {
     const double turns = static_cast<double>((i * golden) >> 11) * 0x1p-53;
     const Point around = unit_vector({360 * turns, 0});
@@ -76,7 +76,7 @@ Shape grid_shape(std::size_t n) {
 
 // a i/n - b, rounded once, so that the grid is its own mirror image.
 double fraction(double a, std::size_t i, double b, std::size_t n) {
-  const double steps = static_cast<double>(n);
+  const auto steps = static_cast<double>(n);
   return (a * static_cast<double>(i) - b * steps) / steps;
 }
 

@@ -19,7 +19,7 @@
 
 #include "command.h"
 #include "help.h"
-#include "io/atomic_file.h"
+#include "rondel/io.h"
 #include "rondel/version.h"
 
 namespace rondel::cli {
@@ -118,6 +118,6 @@ int run_and_report(int argc, const char* const* argv) {
 int main(int argc, char** argv) {
   rondel::cli::guard_standard_streams();
   std::signal(SIGPIPE, SIG_IGN);  // a broken pipe is an error of write, reported like others
-  rondel::io::remove_temporaries_on_signal();
+  rondel::remove_temporaries_on_signal();
   return rondel::cli::run_and_report(argc, argv);
 }

@@ -88,4 +88,8 @@ void write_sites(const std::string& path, std::span<const Point> sites,
 /// Writes any bytes to a temporary name and renames it to `path`: all or nothing.
 void write_file(const std::string& path, std::string_view bytes);
 
+/// For programs, once, at their start: SIGHUP, SIGINT and SIGTERM will remove all temporary files
+/// before they end the process, and a limit on the size of files will be an error, no signal.
+void remove_temporaries_on_signal();
+
 }  // namespace rondel

@@ -16,6 +16,7 @@
 #include <system_error>
 
 #include "rondel/error.h"
+#include "rondel/io.h"
 
 namespace rondel::io {
 namespace {
@@ -176,9 +177,13 @@ void AtomicFile::discard() noexcept {
   temporary_.clear();
 }
 
+}  // namespace rondel::io
+
+namespace rondel {
+
 void remove_temporaries_on_signal() {
   struct sigaction action {};
-  action.sa_handler = &rondel_remove_temporaries_and_end;
+  action.sa_handler = &io::rondel_remove_temporaries_and_end;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigemptyset(&action.sa_mask);
   for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
@@ -189,4 +194,4 @@ void remove_temporaries_on_signal() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-}  // namespace rondel::io
+}  // namespace rondel

@@ -51,8 +51,4 @@ class AtomicFile {
   int descriptor_ = -1;
 };
 
-// From now on SIGHUP, SIGINT and SIGTERM remove all temporary files before they end the process,
-// and a file size limit is an error instead of a signal. For programs, once, at the start.
-void remove_temporaries_on_signal();
-
 }  // namespace rondel::io
