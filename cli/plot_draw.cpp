@@ -25,6 +25,7 @@ constexpr Color site_color{0.06, 0.06, 0.08};
 
 // One stroke of very many arcs is slow, and so is a stroke for each.
 constexpr std::size_t arcs_in_a_stroke = 200;
+constexpr std::size_t least_strokes = 64;
 
 // The widths of a figure's lines, in pixels.
 struct Widths {
@@ -37,18 +38,23 @@ Widths widths(const Figure& figure, double radius) {
   const double spacing = figure.spacing * radius;
   const double line = figure.style.line_width > 0
                           ? figure.style.line_width
-                          : std::clamp(0.15 * spacing, 0.5 * unit, 1.3 * unit);
-  return {line, std::clamp(0.28 * spacing, 0.7 * unit, 2.6 * unit)};
+                          : std::clamp(0.15 * spacing, 0.25 * unit, 1.3 * unit);
+  return {line, std::clamp(0.25 * spacing, 0.4 * unit, 2.6 * unit)};
 }
 
+// Draws the arcs in strokes that take every k-th of them, so that neighbors, which follow each
+// other, come in different strokes. Within one stroke the coverage of a pixel adds
+// up, and a fan of thin arcs would become a blot; strokes laid over each other keep its shades.
 void draw_arcs(Canvas& canvas, const ArcLayer& layer, Side side, const Color& color, double width) {
   const double tolerance = 0.02 / canvas.radius();
-  std::size_t count = 0;
-  for (const auto& [from, to] : layer.arcs) {
-    trace_arc(canvas, layer.points[from], layer.points[to], side, tolerance);
-    if (++count % arcs_in_a_stroke == 0) canvas.stroke(color, width);
+  const std::size_t num_strokes = std::max(least_strokes, layer.arcs.size() / arcs_in_a_stroke);
+  for (std::size_t stroke = 0; stroke < num_strokes; ++stroke) {
+    for (std::size_t i = stroke; i < layer.arcs.size(); i += num_strokes) {
+      const auto& [from, to] = layer.arcs[i];
+      trace_arc(canvas, layer.points[from], layer.points[to], side, tolerance);
+    }
+    canvas.stroke(color, width);
   }
-  canvas.stroke(color, width);
 }
 
 void draw_graticule(Canvas& canvas, const Figure& figure) {
@@ -97,9 +103,14 @@ void draw_filled_cells(Canvas& canvas, const FilledCells& filled) {
     for (auto i = cells.offsets[cell]; i < cells.offsets[cell + 1]; ++i) {
       corners.push_back(cells.points[cells.rings[i]]);
     }
-    if (!corners.empty() && trace_region(canvas, corners, tolerance)) {
-      canvas.fill_to_seam(area_color(scale(filled.areas[cell])));
+    const double area = filled.areas[cell];
+    if (!(area > 0)) continue;  // a duplicate or hidden site
+    if (corners.empty()) {
+      canvas.globe();  // the cell of a single site is the whole sphere
+    } else if (!trace_region(canvas, corners, tolerance)) {
+      continue;
     }
+    canvas.fill_to_seam(area_color(scale(area)));
   }
   canvas.globe();
   canvas.shade(clear_light, clear_dark);
