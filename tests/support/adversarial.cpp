@@ -3,6 +3,7 @@
 #include "support/adversarial.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "support/generators.h"
@@ -177,6 +178,22 @@ Four nearly_flat_at_any_scale(Random& random) {
   return {a, b, c, random_direction(random)};
 }
 
+// The ends of the range of doubles: differences overflow, products vanish.
+Four ends_of_range(Random& random) {
+  using Limits = std::numeric_limits<double>;
+  constexpr std::array<double, 7> sizes = {0,        Limits::denorm_min(), Limits::min(), 1,
+                                           0x1p1000, Limits::max() / 2,    Limits::max()};
+  Four four;
+  for (Point& p : four) {
+    do {
+      std::array<double, 3> c{};
+      for (double& x : c) x = (random.coin() ? 1 : -1) * sizes[random.below(sizes.size())];
+      p = {c[0], c[1], c[2]};
+    } while (p == Point{});
+  }
+  return four;
+}
+
 constexpr std::array fours = {
     FourGenerator{"uniform", uniform},
     FourGenerator{"at_a_distance", at_a_distance},
@@ -194,6 +211,7 @@ constexpr std::array fours = {
     FourGenerator{"own_scales", own_scales},
     FourGenerator{"moderate_scales", moderate_scales},
     FourGenerator{"sums_of_scales", sums_of_scales},
+    FourGenerator{"ends_of_range", ends_of_range},
     FourGenerator{"nearly_flat_at_any_scale", nearly_flat_at_any_scale},
 };
 

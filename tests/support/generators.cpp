@@ -13,8 +13,10 @@ namespace rondel::test {
 
 std::span<const Generator> generators() {
   static const std::vector<Generator> all = [] {
-    std::vector<Generator> result(spherical_generators().begin(), spherical_generators().end());
-    result.insert(result.end(), spatial_generators().begin(), spatial_generators().end());
+    std::vector<Generator> result;
+    for (const auto& group : {spherical_generators(), spatial_generators(), extreme_generators()}) {
+      result.insert(result.end(), group.begin(), group.end());
+    }
     return result;
   }();
   return all;

@@ -31,7 +31,9 @@ struct Generator {
 // balls, lines: mainly for the weighted model, but with a few exceptions good for both).
 std::span<const Generator> spherical_generators();
 std::span<const Generator> spatial_generators();
-// Both, in this order.
+// The ends of the range of doubles, and remote centers.
+std::span<const Generator> extreme_generators();
+// All, in this order.
 std::span<const Generator> generators();
 // \pre there is one of this name.
 const Generator& generator(std::string_view name);

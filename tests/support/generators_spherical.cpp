@@ -283,26 +283,6 @@ SiteSet integer_sphere_sites(std::size_t n, Seed seed) {
   return set;
 }
 
-// Each site at its own scale; directions are those of `base`.
-SiteSet rescaled(SiteSet set, Seed seed, int low, int high) {
-  Random random(seed);
-  for (Point& p : set.sites) p = std::ldexp(1.0, random.between(low, high)) * p;
-  return set;
-}
-
-SiteSet tiny(std::size_t n, Seed seed) {
-  return rescaled(great_circle_and_some(n, seed), 1, -998, -998);
-}
-SiteSet huge(std::size_t n, Seed seed) {
-  return rescaled(small_circle_and_some(n, seed), 1, 990, 990);
-}
-SiteSet mixed_scales(std::size_t n, Seed seed) {
-  return rescaled(integer_sphere_sites(n, seed), seed, -990, 990);
-}
-SiteSet subnormal(std::size_t n, Seed seed) {
-  return rescaled(integer_sphere_sites(n, seed), seed, -1074, -1060);
-}
-
 SiteSet mirrored(std::size_t n, Seed seed) {
   Random random(seed);
   SiteSet set;
@@ -315,18 +295,6 @@ SiteSet mirrored(std::size_t n, Seed seed) {
   }
   return set;
 }
-
-// Sites around a center whose distance to the site is not exact in doubles.
-SiteSet around(std::size_t n, Seed seed, const Point& center) {
-  SiteSet set = seed % 2 == 0 ? uniform(n, seed) : integer_sphere_sites(n, seed);
-  for (Point& p : set.sites) p = p + center;
-  set.sphere.center = center;
-  std::erase(set.sites, center);
-  return set;
-}
-
-SiteSet far_center(std::size_t n, Seed seed) { return around(n, seed, {0.1, -3, 1e6}); }
-SiteSet very_far_center(std::size_t n, Seed seed) { return around(n, seed, {1e10, -1e10, 0.3}); }
 
 constexpr std::array spherical = {
     Generator{"uniform", uniform},
@@ -352,13 +320,7 @@ constexpr std::array spherical = {
     Generator{"s_n", s_n},
     Generator{"few", few},
     Generator{"integer_sphere", integer_sphere_sites},
-    Generator{"tiny", tiny},
-    Generator{"huge", huge},
-    Generator{"mixed_scales", mixed_scales},
-    Generator{"subnormal", subnormal},
     Generator{"mirrored", mirrored},
-    Generator{"far_center", far_center},
-    Generator{"very_far_center", very_far_center},
 };
 
 }  // namespace
