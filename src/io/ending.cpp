@@ -23,8 +23,9 @@ void throw_unknown_ending(const std::string& path, std::string_view what,
   const std::string found = ending(path);
   std::string message = path + ": ";
   message += found.empty() ? "the name has no ending" : "unknown ending \"" + found + "\"";
-  message += "; " + std::string(what);
-  for (const std::string_view format : known) message += " " + std::string(format);
+  message += "; ";
+  message += what;
+  for (const std::string_view format : known) (message += ' ') += format;
   throw FileError(message);
 }
 

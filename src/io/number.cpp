@@ -10,6 +10,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/utf8.h"
+
 namespace rondel::io {
 namespace {
 
@@ -108,6 +110,10 @@ std::string one_line(std::string_view text, std::size_t longest) {
   }
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
   std::replace_if(line.begin(), line.end(), is_control, '?');
+  if (!is_utf8(line)) {
+    const auto is_not_ascii = [](char c) { return (c & 0x80) != 0; };
+    std::replace_if(line.begin(), line.end(), is_not_ascii, '?');
+  }
   return line;
 }
 

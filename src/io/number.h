@@ -46,7 +46,8 @@ void append_integer(std::string& out, std::uint64_t value);
 // Whether JSON accepts `text` as a number (RFC 8259, section 6).
 bool is_json_number(std::string_view text);
 
-// Text from a file for a message: on one line, at most `longest` bytes, no control characters.
+// Text from a file for a message: on one line, at most `longest` bytes, UTF-8 and
+// without control characters.
 std::string one_line(std::string_view text, std::size_t longest);
 // The same in quotes.
 std::string in_quotes(std::string_view value);

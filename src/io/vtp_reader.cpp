@@ -44,7 +44,8 @@ class Tags {
 
 // The value of an attribute of a tag; empty if it has none.
 std::string_view attribute(std::string_view tag, std::string_view name) {
-  const std::string key = " " + std::string(name) + "=\"";
+  std::string key(1, ' ');
+  (key += name) += "=\"";
   const std::size_t start = tag.find(key);
   if (start == std::string_view::npos) return {};
   tag.remove_prefix(start + key.size());

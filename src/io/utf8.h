@@ -1,0 +1,12 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string_view>
+
+namespace rondel::io {
+
+// Whether `text` is UTF-8 (RFC 3629).
+bool is_utf8(std::string_view text);
+
+}  // namespace rondel::io

@@ -1,0 +1,9 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+find_package(nlohmann_json 3.11 REQUIRED)
+
+rondel_add_test(io_atomic_file_test io_atomic_file_test.cpp LIBS rondel_io)
+rondel_add_test(io_mutation_test io_mutation_test.cpp LIBS rondel_io)
+rondel_add_test(io_number_test io_number_test.cpp LIBS rondel_io)
+rondel_add_test(io_sites_test io_sites_test.cpp LIBS rondel_io)
+rondel_add_test(io_triangles_test io_triangles_test.cpp LIBS rondel_io nlohmann_json::nlohmann_json)

@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "io/atomic_file.h"
+#include "io_support.h"
+
+namespace rondel::test {
+namespace {
+
+using io::AtomicFile;
+
+TEST(atomic_file, appears_complete) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("a.txt");
+  std::string expected;
+  AtomicFile file(path);
+  for (int i = 0; i < 100; ++i) {
+    const std::string part(static_cast<std::size_t>(i) * 7919, static_cast<char>('a' + i % 26));
+    file.write(part);
+    expected += part;
+    EXPECT_FALSE(std::filesystem::exists(path));
+  }
+  file.commit();
+  EXPECT_EQ(read_all(path), expected);
+  EXPECT_EQ(directory.num_files(), 1U);
+}
+
+TEST(atomic_file, leaves_everything_as_it_was_when_abandoned) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.with("a.txt", "before");
+  { AtomicFile(path).write("after"); }
+  EXPECT_EQ(read_all(path), "before");
+  EXPECT_EQ(directory.num_files(), 1U);
+}
+
+TEST(atomic_file, has_the_permissions_of_a_new_file) {
+  const TemporaryDirectory directory;
+  const mode_t mask = ::umask(0027);
+  write_file(directory.file("a.txt"), "x");
+  ::umask(mask);
+  struct stat status {};
+  ASSERT_EQ(::stat(directory.file("a.txt").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0640U);
+}
+
+TEST(atomic_file, replaces_what_a_link_points_to) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.with("a.txt", "before");
+  std::filesystem::create_symlink("a.txt", directory.file("link"));
+  write_file(directory.file("link"), "after");
+  EXPECT_TRUE(std::filesystem::is_symlink(directory.file("link")));
+  EXPECT_EQ(read_all(path), "after");
+}
+
+TEST(atomic_file, takes_a_name_as_long_as_a_name_can_be) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file(std::string(255, 'n'));
+  write_file(path, "x");
+  EXPECT_EQ(read_all(path), "x");
+}
+
+TEST(atomic_file, says_why_it_cannot_be_written) {
+  const TemporaryDirectory directory;
+  const std::string nowhere = directory.file("none/a.txt");
+  EXPECT_EQ(message_of([&] { write_file(nowhere, "x"); }), nowhere + ": No such file or directory");
+  const std::string folder = directory.file("folder");
+  std::filesystem::create_directory(folder);
+  EXPECT_EQ(message_of([&] { write_file(folder, "x"); }), folder + ": Is a directory");
+  EXPECT_EQ(message_of([&] { write_file("-", "x"); }),
+            "-: standard output is not supported; name a file");
+  EXPECT_EQ(directory.num_files(), 1U);
+}
+
+TEST(atomic_file, says_that_the_disk_is_full) {
+  const TemporaryDirectory directory;
+  const std::string link = directory.file("out.geojson");
+  std::filesystem::create_symlink("/dev/full", link);
+  const std::string large(1 << 20, 'x');
+  EXPECT_EQ(message_of([&] { write_file(link, "small"); }), link + ": No space left on device");
+  EXPECT_EQ(message_of([&] { write_file(link, large); }), link + ": No space left on device");
+}
+
+// Runs `action` in a process of its own and returns how it ended.
+template <typename Action>
+int status_of(Action action) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    action();
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return status;
+}
+
+TEST(atomic_file, leaves_nothing_when_a_write_fails) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.with("a.txt", "before");
+  const int status = status_of([&] {
+    remove_temporaries_on_signal();  // so that the limit is an error and no signal
+    const rlimit limit = {100000, 100000};
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+    const std::string message = message_of([&] { write_file(path, std::string(1 << 20, 'x')); });
+    ::_exit(message == path + ": File too large" ? 0 : 1);
+  });
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  EXPECT_EQ(read_all(path), "before");
+  EXPECT_EQ(directory.num_files(), 1U);
+}
+
+TEST(atomic_file, leaves_nothing_when_a_signal_ends_the_process) {
+  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
+    const TemporaryDirectory directory;
+    const int status = status_of([&] {
+      remove_temporaries_on_signal();
+      AtomicFile first(directory.file("a.txt"));
+      AtomicFile second(directory.file("b.txt"));
+      first.write(std::string(1 << 20, 'x'));
+      ::raise(signal);
+    });
+    EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == signal);
+    EXPECT_EQ(directory.num_files(), 0U);
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <random>
+
+#include "io/csv_records.h"
+#include "io/number.h"
+
+namespace rondel::io {
+namespace {
+
+TEST(number, json_accepts_just_its_grammar) {
+  for (const char* const text :
+       {"0", "-0", "7", "-12.50", "0.5", "1e5", "1E+05", "2.5e-300", "12345678901234567890"}) {
+    EXPECT_TRUE(is_json_number(text)) << text;
+  }
+  for (const char* const text : {"", "-", "+1", "01", "-01", ".5", "5.", "1e", "1e+", "0x1", "NaN",
+                                 "Infinity", " 1", "1 ", "1,5", "--1", "1.e5"}) {
+    EXPECT_FALSE(is_json_number(text)) << text;
+  }
+}
+
+TEST(number, accepts_blanks_and_a_plus) {
+  EXPECT_EQ(parse_number(" \t+2.5e1 ", "x"), 25);
+  EXPECT_EQ(parse_number("-.5", "x"), -0.5);
+  for (const char* const text : {"+", "++1", "+-1", "1 2", "1e", "nan(1)", "-"}) {
+    EXPECT_THROW(parse_number(text, "x"), BadValue) << text;
+  }
+}
+
+TEST(number, digits_round_trip) {
+  std::mt19937_64 random(3);
+  for (int i = 0; i < 100000; ++i) {
+    const double value = std::bit_cast<double>(random());
+    if (!(value - value == 0)) continue;  // not finite
+    std::string text;
+    append_number(text, value);
+    EXPECT_LE(text.size(), 24U);
+    EXPECT_TRUE(is_json_number(text)) << text;
+    EXPECT_EQ(parse_number(text, "x"), value);
+  }
+}
+
+TEST(number, quotes_stay_on_one_line) {
+  EXPECT_EQ(in_quotes("a\nb\x7F"), "\"a?b?\"");
+  EXPECT_EQ(in_quotes(std::string(61, 'x')), '"' + std::string(60, 'x') + "...\"");
+}
+
+TEST(number, quotes_are_utf_8) {
+  EXPECT_EQ(in_quotes("\xC3\xA9 \xED\x9F\xBF \xF4\x8F\xBF\xBF"),
+            "\"\xC3\xA9 \xED\x9F\xBF \xF4\x8F\xBF\xBF\"");
+  // An overlong form, a surrogate, beyond U+10FFFF, a lone continuation, a sequence cut off.
+  for (const char* const text :
+       {"\xC0\xAF", "\xE0\x9F\xBF", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\x80", "a\xC3"}) {
+    EXPECT_EQ(in_quotes(text).find_first_not_of("\"?a"), std::string::npos) << text;
+  }
+}
+
+using Records = std::vector<std::vector<std::string>>;
+
+Records records_of(std::string_view text) {
+  Records result;
+  CsvRecords records(text, ',');
+  while (records.next()) result.emplace_back(records.fields().begin(), records.fields().end());
+  return result;
+}
+
+TEST(csv_records, split_as_rfc_4180_says) {
+  EXPECT_EQ(records_of(""), Records{});
+  EXPECT_EQ(records_of("\n\r\n"), Records{});
+  EXPECT_EQ(records_of("a,b"), (Records{{"a", "b"}}));
+  EXPECT_EQ(records_of("a,\r\n,b\r\n"), (Records{{"a", ""}, {"", "b"}}));
+  EXPECT_EQ(records_of("a\r"), (Records{{"a"}}));
+  EXPECT_EQ(records_of("a\rb\n"), (Records{{"a\rb"}}));
+  EXPECT_EQ(records_of("\"\",\"a,\"\"\r\n\"\"\"\r\nc,\" d\""),
+            (Records{{"", "a,\"\r\n\""}, {"c", " d"}}));
+  EXPECT_EQ(records_of("a\"b, \"c\"\n"), (Records{{"a\"b", " \"c\""}}));
+  EXPECT_EQ(records_of("a,"), (Records{{"a", ""}}));
+  EXPECT_EQ(records_of("\"a\"\r"), (Records{{"a"}}));
+}
+
+TEST(csv_records, count_lines_inside_quotes) {
+  CsvRecords records("a\n\n\"b\n\nc\"\"\n\",x\n\"d\"\n", ',');
+  std::vector<std::uint64_t> lines;
+  while (records.next()) lines.push_back(records.line());
+  EXPECT_EQ(lines, (std::vector<std::uint64_t>{1, 3, 7}));
+}
+
+}  // namespace
+}  // namespace rondel::io

@@ -1,0 +1,232 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Readers of sites: what good files mean, and what is said of bad ones.
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "io_support.h"
+
+namespace rondel::test {
+namespace {
+
+std::vector<std::string> cells(const Column& column) {
+  std::vector<std::string> result;
+  std::uint64_t start = 0;
+  for (const std::uint64_t end : column.ends) {
+    result.push_back(column.text.substr(start, end - start));
+    start = end;
+  }
+  return result;
+}
+
+TEST(read_sites, every_good_file_holds_the_octahedron) {
+  const auto files = files_in(corpus / "good");
+  EXPECT_EQ(files.size(), 18U);
+  for (const auto& file : files) {
+    const SiteTable table = read_sites(file.string());
+    EXPECT_EQ(table.sites, octahedron) << file;
+    EXPECT_EQ(table.name, file.string());
+    EXPECT_TRUE(table.columns.empty()) << file;
+    EXPECT_EQ(table.positions.size(), table.is_lonlat() ? 6U : 0U) << file;
+  }
+}
+
+TEST(read_sites, says_what_is_wrong_with_every_bad_file) {
+  expect_messages(corpus / "bad", [](const std::string& file) {
+    ReadOptions options;
+    options.keep_columns = true;
+    read_sites(file, options);
+  });
+}
+
+TEST(read_sites, names_the_line_of_every_site) {
+  const std::map<std::string, std::pair<std::string, std::string>> first_and_last = {
+      {"plain.csv", {":2", ":7"}},          {"bom_crlf_no_final_newline.csv", {":2", ":12"}},
+      {"empty_lines.csv", {":5", ":15"}},   {"comments.xyz", {":3", ":8"}},
+      {"xyz.npy", {": row 0", ": row 5"}},  {"features.geojson", {":3", ":8"}},
+      {"multipoint.geojson", {":1", ":1"}},
+  };
+  for (const auto& [name, expected] : first_and_last) {
+    const SiteTable table = read_sites((corpus / "good" / name).string());
+    EXPECT_EQ(table.where(0), table.name + expected.first);
+    EXPECT_EQ(table.where(5), table.name + expected.second);
+  }
+}
+
+TEST(read_sites, lists_lines_only_where_they_do_not_follow_each_other) {
+  EXPECT_TRUE(read_sites((corpus / "good/plain.csv").string()).lines.empty());
+  EXPECT_TRUE(read_sites((corpus / "good/comments.xyz").string()).lines.empty());
+  const SiteTable table = read_sites((corpus / "good/empty_lines.csv").string());
+  EXPECT_EQ(table.lines, (std::vector<std::uint64_t>{5, 7, 9, 11, 13, 15}));
+}
+
+TEST(read_sites, finds_columns_by_chosen_names) {
+  const TemporaryDirectory directory;
+  const std::string file =
+      directory.with("a.csv", "lon,lat,East,north,up,x,y,z\n9,9,1,2,3,4,5,6\n");
+  ReadOptions options;
+  options.lon = "north";
+  options.lat = "UP";
+  EXPECT_EQ(read_sites(file, options).positions.at(0), (LonLat{2, 3}));
+  options = {};
+  options.x = "east";
+  EXPECT_EQ(read_sites(file, options).sites.at(0), (Point{1, 5, 6}));
+  options.x = "west";
+  EXPECT_EQ(message_of([&] { read_sites(file, options); }),
+            file + ":1: no column \"west\"; found: lon, lat, East, north, up, x, y, z");
+  options.lat = "north";
+  EXPECT_EQ(message_of([&] { read_sites(file, options); }),
+            file + ":1: columns are named both for longitude, latitude and for x, y, z");
+}
+
+TEST(read_sites, prefers_the_exact_name_to_one_that_differs_in_case) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.with("a.csv", "A,a,lat\n1,2,3\n");
+  ReadOptions options;
+  options.lon = "a";
+  EXPECT_EQ(read_sites(file, options).positions.at(0), (LonLat{2, 3}));
+}
+
+TEST(read_sites, refuses_names_of_columns_where_there_are_none) {
+  ReadOptions options;
+  options.x = "x";
+  const std::string file = (corpus / "good/xyz.npy").string();
+  EXPECT_EQ(message_of([&] { read_sites(file, options); }),
+            file + ": columns are named, but .npy files have no names for columns");
+}
+
+TEST(read_sites, keeps_columns_as_text) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.with(
+      "a.csv", "lon,lat,id,name,height,none\n1,+2,007,\"a \"\"b\"\"\",-1.5e3,\n3,4,8,,,\n");
+  ReadOptions options;
+  options.keep_columns = true;
+  const SiteTable table = read_sites(file, options);
+  ASSERT_EQ(table.columns.size(), 6U);
+  EXPECT_EQ(cells(table.columns[1]), (std::vector<std::string>{"+2", "4"}));
+  EXPECT_EQ(cells(table.columns[2]), (std::vector<std::string>{"007", "8"}));
+  EXPECT_EQ(cells(table.columns[3]), (std::vector<std::string>{"a \"b\"", ""}));
+  EXPECT_EQ(cells(table.columns[4]), (std::vector<std::string>{"-1.5e3", ""}));
+  std::vector<bool> is_numeric;
+  for (const Column& column : table.columns) is_numeric.push_back(column.is_numeric);
+  EXPECT_EQ(is_numeric, (std::vector<bool>{true, false, false, false, true, true}));
+}
+
+TEST(read_sites, turns_properties_into_columns) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.with("a.geojson",
+                                          R"({"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"a":1},"geometry":{"type":"Point","coordinates":[1,2]}},
+{"type":"Feature","properties":{"b":"7","a":2.5,"c":null},"geometry":{"type":"Point","coordinates":[1,2]}},
+{"type":"Feature","properties":null,"geometry":{"type":"MultiPoint","coordinates":[[1,2],[3,4]]}}]})");
+  ReadOptions options;
+  options.keep_columns = true;
+  const SiteTable table = read_sites(file, options);
+  ASSERT_EQ(table.columns.size(), 3U);
+  EXPECT_EQ(cells(table.columns[0]), (std::vector<std::string>{"1", "2.5", "", ""}));
+  EXPECT_EQ(cells(table.columns[1]), (std::vector<std::string>{"", "7", "", ""}));
+  EXPECT_TRUE(table.columns[0].is_numeric);
+  EXPECT_FALSE(table.columns[1].is_numeric);
+  EXPECT_EQ(cells(table.columns[2]), (std::vector<std::string>{"", "", "", ""}));
+}
+
+TEST(read_sites, converts_radians) {
+  const TemporaryDirectory directory;
+  const double half_pi = std::numbers::pi / 2;
+  const std::vector<LonLat> radians = {
+      {half_pi, half_pi}, {-2 * half_pi, -std::nextafter(half_pi, 2)}, {0, 0.5}};
+  write_sites(directory.file("a.csv"), std::vector<Point>(3), radians);
+  ReadOptions options;
+  options.radians = true;
+  const SiteTable table = read_sites(directory.file("a.csv"), options);
+  EXPECT_EQ(table.positions.at(0), (LonLat{90, 90}));
+  EXPECT_EQ(table.positions.at(1), (LonLat{-180, -90}));
+  EXPECT_NEAR(table.positions.at(2).lat_deg, 28.64788975654116, 1e-13);
+  EXPECT_EQ(table.sites.at(0), (Point{0, 0, 1}));
+  const std::string file = directory.with("b.csv", "lon,lat\n0,1.5707964\n");
+  EXPECT_EQ(message_of([&] { read_sites(file, options); }),
+            file + ":2: latitude 1.5707964 is outside [-pi/2, pi/2]");
+}
+
+TEST(read_sites, accepts_endings_in_capitals) {
+  const TemporaryDirectory directory;
+  EXPECT_EQ(read_sites(directory.with("A.B.CSV", "x,y,z\n1,2,3\n")).sites.size(), 1U);
+}
+
+TEST(read_sites, says_why_a_file_cannot_be_opened) {
+  const TemporaryDirectory directory;
+  const std::string missing = directory.file("missing.csv");
+  EXPECT_EQ(message_of([&] { read_sites(missing); }), missing + ": No such file or directory");
+  const std::string folder = directory.file("folder.csv");
+  std::filesystem::create_directory(folder);
+  EXPECT_EQ(message_of([&] { read_sites(folder); }), folder + ": Is a directory");
+}
+
+TEST(read_sites, reads_a_pipe_to_its_end) {
+  const TemporaryDirectory directory;
+  std::string text = "x,y,z\n";
+  for (int i = 0; i < 20000; ++i) text += std::to_string(i) + ",2,3\n";
+  const std::string file = directory.with("a.csv", text);
+  // What standard input is on the command line: a descriptor that is no regular file.
+  FILE* const pipe = ::popen(("cat " + file).c_str(), "r");
+  const std::string link = directory.file("pipe.csv");
+  std::filesystem::create_symlink("/proc/self/fd/" + std::to_string(::fileno(pipe)), link);
+  const SiteTable table = read_sites(link);
+  ::pclose(pipe);
+  ASSERT_EQ(table.sites.size(), 20000U);
+  EXPECT_EQ(table.sites.back(), (Point{19999, 2, 3}));
+}
+
+TEST(read_sites, reports_progress) {
+  const TemporaryDirectory directory;
+  std::string text = "x,y,z\n";
+  for (int i = 0; i < 200000; ++i) text += "1,2,3\n";
+  const std::string file = directory.with("a.csv", text);
+  std::vector<double> fractions;
+  ReadOptions options;
+  options.progress = [&](std::string_view stage, double fraction) {
+    EXPECT_EQ(stage, "read");
+    fractions.push_back(fraction);
+  };
+  read_sites(file, options);
+  ASSERT_EQ(fractions.size(), 3U);
+  EXPECT_NEAR(fractions[0], 65536.0 / 200000, 1e-4);
+  EXPECT_NEAR(fractions[2], 3 * 65536.0 / 200000, 1e-4);
+}
+
+TEST(write_sites, round_trips_every_format) {
+  const TemporaryDirectory directory;
+  const double tiny = std::numeric_limits<double>::denorm_min();
+  const std::vector<Point> sites = {
+      {0.1, -1.0 / 3, 1e300}, {tiny, -1e-300, 0}, {1e22, 123456789, 5}};
+  for (const char* const name : {"a.csv", "a.tsv", "a.xyz", "a.txt", "a.npy"}) {
+    ASSERT_TRUE(can_write_sites(name));
+    write_sites(directory.file(name), sites);
+    EXPECT_EQ(read_sites(directory.file(name)).sites, sites) << name;
+  }
+  const std::vector<LonLat> positions = {{0.1, 1.0 / 3}, {-179.99999999999997, -90}};
+  for (const char* const name : {"b.csv", "b.tsv", "b.npy"}) {
+    write_sites(directory.file(name), std::vector<Point>(2), positions);
+    EXPECT_EQ(read_sites(directory.file(name)).positions, positions) << name;
+  }
+}
+
+TEST(write_sites, writes_a_header_and_shortest_digits) {
+  const TemporaryDirectory directory;
+  write_sites(directory.file("a.csv"), std::vector<Point>(1), std::vector<LonLat>{{0.1, -90}});
+  EXPECT_EQ(read_all(directory.file("a.csv")), "lon,lat\n0.1,-90\n");
+  write_sites(directory.file("a.tsv"), std::vector<Point>{{1, 2.5, 1e-300}});
+  EXPECT_EQ(read_all(directory.file("a.tsv")), "x\ty\tz\n1\t2.5\t1e-300\n");
+}
+
+TEST(write_sites, lists_the_endings_that_it_knows) {
+  EXPECT_FALSE(can_write_sites("a.off"));
+  EXPECT_EQ(message_of([] { write_sites("a.off", {}); }),
+            "a.off: unknown ending \".off\"; sites are written as .csv .tsv .xyz .txt .npy");
+}
+
+}  // namespace
+}  // namespace rondel::test

@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the tests of the readers and writers share.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rondel/error.h"
+#include "rondel/io.h"
+
+namespace rondel::test {
+
+inline const std::filesystem::path corpus = RONDEL_SOURCE_DIR "/tests/corpus/io";
+
+// The octahedron, which all good files of the corpus hold.
+inline const std::vector<Point> octahedron = {{1, 0, 0},  {0, 1, 0}, {-1, 0, 0},
+                                              {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+inline const std::vector<Triple> octahedron_faces = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4},
+                                                     {1, 0, 5}, {2, 1, 5}, {3, 2, 5}, {0, 3, 5}};
+
+inline std::string read_all(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+// The message of the FileError that `action` throws; empty if it throws none.
+template <typename Action>
+std::string message_of(Action action) {
+  try {
+    action();
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+// The files of a folder of the corpus, in order.
+inline std::vector<std::filesystem::path> files_in(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+// Compares the messages for the files of a folder with its list "expected.txt".
+template <typename Read>
+void expect_messages(const std::filesystem::path& folder, Read read) {
+  std::vector<std::string> messages;
+  const std::string prefix = folder.string() + "/";
+  for (const auto& file : files_in(folder)) {
+    if (file.filename() == "expected.txt") continue;
+    const std::string message = message_of([&] { read(file.string()); });
+    EXPECT_TRUE(message.starts_with(prefix)) << file << ": " << message;
+    messages.push_back(message.substr(std::min(prefix.size(), message.size())));
+  }
+  std::sort(messages.begin(), messages.end());
+  std::string text;
+  for (const std::string& message : messages) text += message + "\n";
+  EXPECT_EQ(text, read_all(folder / "expected.txt"));
+}
+
+// A new directory, removed at the end.
+class TemporaryDirectory {
+ public:
+  TemporaryDirectory() {
+    std::string name = (std::filesystem::temp_directory_path() / "rondel-test-XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+
+  [[nodiscard]] std::string file(std::string_view name) const { return path_ / name; }
+
+  // Writes `bytes` to a file of that name and returns its path. The file is new: cutting an old one
+  // makes some file systems wait for the disk.
+  [[nodiscard]] std::string with(std::string_view name, std::string_view bytes) const {
+    std::filesystem::remove(file(name));
+    std::ofstream(file(name), std::ios::binary) << bytes;
+    return file(name);
+  }
+
+  [[nodiscard]] std::size_t num_files() const { return files_in(path_).size(); }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace rondel::test
