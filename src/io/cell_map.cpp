@@ -11,10 +11,13 @@
 namespace rondel::io {
 namespace {
 
-// An arc of this length (radians) is straight up to rounding wherever tips can be told apart.
-constexpr double shortest_bisected = 0x1p-24;
+// In radians. Lines are bisected until points would merge. At a tip whole arcs of the diagram are
+// no longer than the rounding of a distant circumcenter: ends of arcs up to 6 mm on the earth
+// merge.
+constexpr double shortest_bisected = 4 * merge_distance;
+constexpr double longest_merged = 0x1p-30;
 // Bisecting an arc of 120 degrees this often makes it as short as that.
-constexpr int max_passes = 26;
+constexpr int max_passes = 46;
 
 double distance(const Point& p, const Point& q) { return norm(difference(p, q)); }
 
@@ -30,11 +33,11 @@ CellMap::CellMap(std::span<const Point> sites, const Triangulation& triangulatio
       triangulation_(triangulation),
       cells_(cells),
       tolerance_(tolerance_deg / degrees_per_radian),
-      least_tolerance_(triangulation.dimension() < 2 ? least_tolerance() : 0),
       only_vertex_(triangulation.dimension() == 0 ? triangulation.ring().front() : sites.size()),
       representatives_(cells.points.size()) {
+  if (triangulation.dimension() == 1) prepare_great_circle();
   merge_close_points();
-  bisect_crossing_lines(progress);
+  resolve_crossing_lines(progress);
 }
 
 bool CellMap::has_cell(std::size_t site) const {
@@ -72,7 +75,6 @@ void CellMap::merge_close_points() {
       representatives_[high] = low;
     }
   }
-  for (Index& point : representatives_) point = representative(point);
 }
 
 // Scaled first, so that the largest and smallest doubles are normalized too.
@@ -82,21 +84,47 @@ Point CellMap::direction(std::size_t site) const {
   return scale > 0 ? normalized({p.x / scale, p.y / scale, p.z / scale}) : p;
 }
 
-double CellMap::arc_tolerance(const Point& own_direction, std::size_t other) const {
-  return std::clamp(distance(own_direction, direction(other)) / 8, merge_distance,
-                    std::max(tolerance_, merge_distance));
+ArcTolerance CellMap::tolerance_between(const Point& own_direction, std::size_t other) const {
+  const Point other_direction = direction(other);
+  const double most = std::max(tolerance_, merge_distance);
+  const double least = distance(own_direction, other_direction) / 8;
+  const Point middle = sum(own_direction, other_direction);
+  const double length = norm(middle);
+  if (length == 0) return {most, most, {}};  // antipodal
+  return {std::clamp(least, merge_distance, most),
+          most,
+          {middle.x / length, middle.y / length, middle.z / length}};
 }
 
-double CellMap::least_tolerance() const {
+// In dimension 1 one least tolerance, that of the closest sites, serves all arcs.
+void CellMap::prepare_great_circle() {
   const std::span<const Index> ring = triangulation_.ring();
-  double least = tolerance_;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    least = std::min(least, arc_tolerance(direction(ring[i]), ring[(i + 1) % ring.size()]));
+  const Point first = direction(ring.front());
+  circle_tolerance_ = tolerance_between(first, ring.back());
+  double length = 0;
+  for (std::size_t i = 1; i < ring.size(); ++i) {
+    const Point own = direction(ring[i]);
+    circle_tolerance_.least =
+        std::min(circle_tolerance_.least, tolerance_between(own, ring[i - 1]).least);
+    const Point axis = cross(first, own);
+    if (norm(axis) <= length) continue;
+    length = norm(axis);
+    axis_ = axis;
   }
-  return std::max(least, merge_distance);
 }
 
-void CellMap::add_arc(Index from, Index to, double tolerance) {
+// An arc runs between the axis and a point between two sites; but around the middle of
+// two sites there are two hemispheres.
+ArcTolerance CellMap::great_circle_tolerance(Index from, Index to) const {
+  ArcTolerance tolerance = circle_tolerance_;
+  if (triangulation_.ring().size() == 2) return tolerance;
+  const Point& p = cells_.points[std::min(from, to)];
+  const Point& q = cells_.points[std::max(from, to)];
+  tolerance.center = std::abs(dot(p, axis_)) < std::abs(dot(q, axis_)) ? p : q;
+  return tolerance;
+}
+
+void CellMap::add_arc(Index from, Index to, const ArcTolerance& tolerance) {
   if (from == to) return;
   const Edge edge = std::minmax(from, to);
   const auto add = [&](const Point& point) {
@@ -126,12 +154,12 @@ bool CellMap::draw_ring(std::size_t site) {
   const std::span<const Index> ring = points_of(site);
   const Point own_direction = direction(site);
   const auto a = static_cast<Index>(site);
-  double tolerance = least_tolerance_;
+  ArcTolerance tolerance;
   const auto read_face = [&](Index point) {
     if (point >= triangulation_.num_faces()) return false;
     const Triple& face = triangulation_.faces()[point];
     const std::size_t corner = face[0] == a ? 0 : (face[1] == a ? 1 : 2);
-    tolerance = arc_tolerance(own_direction, face[(corner + 2) % 3]);
+    tolerance = tolerance_between(own_direction, face[(corner + 2) % 3]);
     return true;
   };
   ring_.points.clear();
@@ -140,7 +168,10 @@ bool CellMap::draw_ring(std::size_t site) {
   std::find_if(ring.rbegin(), ring.rend(), read_face);  // the arc at the seam of the ring
   for (std::size_t i = 0; i < ring.size(); ++i) {
     read_face(ring[i]);
-    add_arc(representatives_[ring[i]], representatives_[ring[(i + 1) % ring.size()]], tolerance);
+    const Index from = representative(ring[i]);
+    const Index to = representative(ring[(i + 1) % ring.size()]);
+    add_arc(from, to,
+            triangulation_.dimension() == 2 ? tolerance : great_circle_tolerance(from, to));
   }
   if (ring_.points.size() > 1 && ring_.points.back() == ring_.points.front()) {
     ring_.points.pop_back();
@@ -150,10 +181,10 @@ bool CellMap::draw_ring(std::size_t site) {
   return true;
 }
 
-void CellMap::bisect_crossing_lines(const Progress& progress) {
+void CellMap::resolve_crossing_lines(const Progress& progress) {
   bool has_changed = false;
   for (std::size_t site = 0; site < sites_.size(); ++site) {
-    has_changed |= bisect_crossing_lines(site);
+    has_changed |= resolve_crossing_lines(site);
     if (progress && site % 4096 == 0) {
       progress("outline", static_cast<double>(site) / static_cast<double>(sites_.size()));
     }
@@ -161,29 +192,39 @@ void CellMap::bisect_crossing_lines(const Progress& progress) {
   for (int pass = 0; has_changed && pass < max_passes; ++pass) {
     has_changed = false;
     for (std::size_t site = 0; site < sites_.size(); ++site) {
-      if (meets_bisected_arc(site)) has_changed |= bisect_crossing_lines(site);
+      if (has_changed_arc(site)) has_changed |= resolve_crossing_lines(site);
     }
   }
 }
 
-bool CellMap::meets_bisected_arc(std::size_t site) const {
+bool CellMap::has_changed_arc(std::size_t site) {
   const std::span<const Index> ring = points_of(site);
   for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Index p = representatives_[ring[i]];
-    const Index q = representatives_[ring[(i + 1) % ring.size()]];
-    if (bisected_.contains(std::minmax(p, q))) return true;
+    const Index p = representative(ring[i]);
+    const Index q = representative(ring[(i + 1) % ring.size()]);
+    if (merged_.contains(p) || bisected_.contains(std::minmax(p, q))) return true;
   }
   return false;
 }
 
-bool CellMap::bisect_crossing_lines(std::size_t site) {
+bool CellMap::resolve_crossing_lines(std::size_t site) {
   if (!draw_ring(site)) return false;
   const std::vector<std::size_t> lines = crossing_lines(trace_);
-  std::vector<Edge> edges;
-  for (const std::size_t line : lines) edges.push_back(ring_.edges[trace_.arcs[line]]);
-  std::sort(edges.begin(), edges.end());
-  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  if (lines.empty()) return false;
+  std::set<Edge> edges;
+  std::set<Index> ends;
+  for (const std::size_t line : lines) {
+    const Edge& edge = ring_.edges[trace_.arcs[line]];
+    edges.insert(edge);
+    ends.insert({edge.first, edge.second});
+  }
   bool has_changed = false;
+  for (std::size_t i = 0; i < ring_.points.size(); ++i) {
+    const auto [low, high] = ring_.edges[i];
+    if (!ends.contains(low) && !ends.contains(high)) continue;
+    has_changed |= merge(ring_.edges[i], ring_.tolerances[i]);
+  }
+  if (has_changed) return true;
   for (const Edge& edge : edges) has_changed |= bisect(edge, lines);
   return has_changed;
 }
@@ -211,6 +252,17 @@ bool CellMap::bisect(const Edge& edge, std::span<const std::size_t> lines) {
             [&](const Point& p, const Point& q) { return key(p) < key(q); });
   points.erase(std::unique(points.begin(), points.end()), points.end());
   bisected_[edge] = std::move(points);
+  return true;
+}
+
+// Shrinks a very short arc at a tip, where that moves the boundary much less than the sites are
+// apart: rounding may have turned it round, and then the sides of the tip do cross.
+bool CellMap::merge(const Edge& edge, const ArcTolerance& tolerance) {
+  const auto [low, high] = std::minmax({representative(edge.first), representative(edge.second)});
+  const double length = distance(cells_.points[low], cells_.points[high]);
+  if (low == high || length > std::min(longest_merged, tolerance.least / 16)) return false;
+  representatives_[high] = low;
+  merged_.insert(low);
   return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,10 +20,11 @@ namespace rondel::io {
 // Three things concern more than one cell:
 // 1. Points nearer to each other than merge_distance become one point, for all cells: between
 //    cocircular sites the order of the circumcenters is rounding.
-// 2. The arc between the cells of two sites is densified to an eighth of the angle between the
-//    sites, or finer: so the polygon of a site, half that angle away, still contains it.
+// 2. Between close sites the arc between their cells is densified to an eighth of the angle between
+//    them, farther from them to an eighth of the distance: so each polygon contains its site.
 // 3. Where the lines of a cell cross, at a tip sharper than the tolerance resolves, both arcs are
-//    bisected until they do not; these points belong to the cells on both sides.
+//    bisected until they do not; these points belong to the cells on both sides. An arc at the tip
+//    that is very short shrinks to a point.
 class CellMap {
  public:
   CellMap(std::span<const Point> sites, const Triangulation& triangulation, const Cells& cells,
@@ -40,31 +42,35 @@ class CellMap {
   // The ring of a cell: its points and those that bisect its arcs further.
   struct Ring {
     std::vector<Point> points;
-    std::vector<double> tolerances;  // of the arcs from each point
-    std::vector<Edge> edges;         // of the diagram, on which they lie
+    std::vector<ArcTolerance> tolerances;  // of the arcs from each point
+    std::vector<Edge> edges;               // of the diagram, on which they lie
   };
 
   void merge_close_points();
   Index representative(Index point);
-  void bisect_crossing_lines(const Progress& progress);
-  bool bisect_crossing_lines(std::size_t site);
+  void resolve_crossing_lines(const Progress& progress);
+  bool resolve_crossing_lines(std::size_t site);
   bool bisect(const Edge& edge, std::span<const std::size_t> lines);
-  [[nodiscard]] bool meets_bisected_arc(std::size_t site) const;
+  bool merge(const Edge& edge, const ArcTolerance& tolerance);
+  [[nodiscard]] bool has_changed_arc(std::size_t site);
   bool draw_ring(std::size_t site);
-  void add_arc(Index from, Index to, double tolerance);
+  void add_arc(Index from, Index to, const ArcTolerance& tolerance);
   [[nodiscard]] Point direction(std::size_t site) const;
-  [[nodiscard]] double arc_tolerance(const Point& own_direction, std::size_t other) const;
-  [[nodiscard]] double least_tolerance() const;
+  [[nodiscard]] ArcTolerance tolerance_between(const Point& own_direction, std::size_t other) const;
+  void prepare_great_circle();
+  [[nodiscard]] ArcTolerance great_circle_tolerance(Index from, Index to) const;
   [[nodiscard]] std::span<const Index> points_of(std::size_t site) const;
 
   std::span<const Point> sites_;
   const Triangulation& triangulation_;
   const Cells& cells_;
-  double tolerance_;        // radians
-  double least_tolerance_;  // below dimension 2, of all arcs
+  double tolerance_;               // radians
+  ArcTolerance circle_tolerance_;  // below dimension 2
+  Point axis_{};                   // of the great circle of the sites in dimension 1
   std::size_t only_vertex_;
   std::vector<Index> representatives_;
   std::map<Edge, std::vector<Point>> bisected_;  // from the lower point on
+  std::set<Index> merged_;                       // for a tip
   Ring ring_;                                    // of the cell that is being drawn
   Trace trace_;                                  // of that cell
 };

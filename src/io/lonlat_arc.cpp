@@ -26,13 +26,27 @@ bool is_surely_flat(const MapPoint& p, const MapPoint& q, double tolerance) {
   return u + v < 0.1 && u * (u + 2 * v) <= 7 * tolerance;
 }
 
+double angle(const Point& p, const Point& q) {
+  return 2 * std::asin(std::min(1.0, norm(difference(p, q)) / 2));
+}
+
+// The tolerance where the arc comes closest to the center: by the triangle inequality on the sphere
+// that is no nearer than half of what the way over the center is longer than the arc.
+double tolerance_along(const Point& p, const Point& q, const ArcTolerance& arc) {
+  if (arc.least == arc.most) return arc.most;
+  const double detour = angle(p, arc.center) + angle(q, arc.center);
+  const double distance = (detour - angle(p, q)) / 2;
+  return std::min(arc.most, std::max(arc.least, distance / 8));
+}
+
 // Whether the straight line is within the tolerance of the arc, by its distance from the plane of
 // the great circle at three places. The circle has at most one inflection between p and q, so
 // the distance vanishes at most once inside and its maximum is at most 1.1 times the largest
 // of the three.
-bool is_flat(const MapPoint& p, const MapPoint& q, double tolerance) {
-  if (is_surely_flat(p, q, tolerance)) return true;
+bool is_flat(const MapPoint& p, const MapPoint& q, const ArcTolerance& arc) {
+  if (is_surely_flat(p, q, arc.least)) return true;
   const Point chord = difference(q.point, p.point);
+  const double tolerance = tolerance_along(p.point, q.point, arc);
   if (norm(chord) <= tolerance) return true;
   const Point normal = cross(p.point, chord);
   const double limit = 0.9 * tolerance * norm(normal);
@@ -44,7 +58,8 @@ bool is_flat(const MapPoint& p, const MapPoint& q, double tolerance) {
   return is_near(0.5) && is_near(0.25) && is_near(0.75);
 }
 
-void bisect(const MapPoint& p, const MapPoint& q, double tolerance, std::vector<MapPoint>& out) {
+void bisect(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
+            std::vector<MapPoint>& out) {
   if (is_flat(p, q, tolerance)) return;
   MapPoint middle;
   middle.point = normalized(sum(p.point, q.point));
@@ -90,7 +105,7 @@ LonLat lonlat_of(const Point& p, bool east) {
   return {std::clamp(lon, -180.0, 180.0) + 0.0, std::clamp(lat, -90.0, 90.0) + 0.0};
 }
 
-void append_arc(const MapPoint& p, const MapPoint& q, double tolerance,
+void append_arc(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
                 std::vector<MapPoint>& out) {
   const auto key = [](const Point& a) { return std::tie(a.x, a.y, a.z); };
   if (key(p.point) < key(q.point)) {

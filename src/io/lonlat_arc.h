@@ -40,11 +40,21 @@ struct MapPoint {
   LonLat position;
 };
 
+// How far the straight lines may be from an arc (radians): `least` at the point `center`, which is
+// between two sites, from there on an eighth of the distance from it, but at most `most`.
+// So the lines keep clear of both sites and are still few on long arcs between close sites.
+struct ArcTolerance {
+  double least = 0;
+  double most = 0;
+  Point center{};
+};
+
 // Appends the points, in order and without the ends, that cut the arc from p to q into pieces whose
-// straight lines in longitude and latitude are within `tolerance` (radians) of them.
+// straight lines in longitude and latitude are within the tolerance of them.
 // 1. The points of the arc from q to p are bit by bit the same in reverse order.
 // 2. They depend on nothing but p, q, their longitudes and the tolerance.
 // Precondition: the arc meets neither a pole nor, its ends apart, the antimeridian.
-void append_arc(const MapPoint& p, const MapPoint& q, double tolerance, std::vector<MapPoint>& out);
+void append_arc(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
+                std::vector<MapPoint>& out);
 
 }  // namespace rondel::io

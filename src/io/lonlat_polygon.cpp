@@ -146,12 +146,13 @@ std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring,
     return {{{corners[0], corners[1], corners[2], corners[3], corners[0]}}};
   }
   std::vector<Point> points;
-  std::vector<double> tolerances;
+  std::vector<ArcTolerance> tolerances;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point point = snapped(ring[i]);
     if (point == snapped(ring[(i + 1) % ring.size()])) continue;
     points.push_back(point);
-    tolerances.push_back(tolerances_deg[i] / degrees_per_radian);
+    const double tolerance = tolerances_deg[i] / degrees_per_radian;
+    tolerances.push_back({tolerance, tolerance, {}});
   }
   if (points.size() < 3) return {};
   Trace trace;

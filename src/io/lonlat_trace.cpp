@@ -39,7 +39,7 @@ class Drawing {
     trace_.starts.clear();
   }
 
-  void add_arc(const Point& p, const Point& q, std::uint32_t arc, double tolerance) {
+  void add_arc(const Point& p, const Point& q, std::uint32_t arc, const ArcTolerance& tolerance) {
     arc_ = arc;
     if (is_pole(p)) {
       leave_pole(p, q);
@@ -76,7 +76,7 @@ class Drawing {
     add({pole, {map_point(q).position.lon_deg, pole.z * 90}});
   }
 
-  void add_open_arc(const Point& p, const Point& q, double tolerance) {
+  void add_open_arc(const Point& p, const Point& q, const ArcTolerance& tolerance) {
     const bool east = is_east(p);
     const MapPoint start = map_point(p);
     const MapPoint end = map_point(q);
@@ -96,7 +96,7 @@ class Drawing {
     winding_ += east ? 1 : -1;
   }
 
-  void add_inner(const MapPoint& p, const MapPoint& q, double tolerance) {
+  void add_inner(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance) {
     if (p.point == q.point) return;
     append_arc(p, q, tolerance, trace_.points);
     trace_.arcs.resize(trace_.points.size(), arc_);
@@ -144,7 +144,7 @@ class Drawing {
 
 }  // namespace
 
-void draw(std::span<const Point> ring, std::span<const double> tolerances, Trace& trace) {
+void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances, Trace& trace) {
   Drawing drawing(trace);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     drawing.add_arc(ring[i], ring[(i + 1) % ring.size()], static_cast<std::uint32_t>(i),

@@ -31,10 +31,10 @@ struct Trace {
 };
 
 // Draws a ring of at least three points, each snapped() and different from the next; arc i runs
-// from point i to the next one and is densified to tolerances[i] (radians).
+// from point i to the next one and is densified to tolerances[i].
 // Which side of a pole an arc passes, and where it crosses the antimeridian, depends on the
 // arc alone, so that the regions on both sides of it fit together.
 // Precondition: the region, to the left of the ring, is spherically convex (at most a hemisphere).
-void draw(std::span<const Point> ring, std::span<const double> tolerances, Trace& trace);
+void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances, Trace& trace);
 
 }  // namespace rondel::io

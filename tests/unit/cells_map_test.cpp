@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Whole diagrams as maps: the polygons of all cells are valid and fill the rectangle.
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "cells_planar.h"
+#include "io/cell_map.h"
+#include "rondel/delaunay.h"
+#include "support/generators.h"
+
+namespace rondel::test {
+namespace {
+
+LonLat position_of(const Point& site) {
+  const double scale = std::max({std::abs(site.x), std::abs(site.y), std::abs(site.z)});
+  const Point p{site.x / scale, site.y / scale, site.z / scale};
+  return {std::atan2(p.y, p.x) * 180 / std::numbers::pi,
+          std::atan2(p.z, std::hypot(p.x, p.y)) * 180 / std::numbers::pi};
+}
+
+struct Demands {
+  bool has_polygons = true;  // no cell is as narrow as rounding
+  bool site_inside = true;   // each site lies in its own cell
+};
+
+// Checks the map of the diagram of `sites`.
+void expect_map(const std::vector<Point>& sites, const std::string& name,
+                const Options& options = {}, const Demands& demands = {}) {
+  const Triangulation triangulation = delaunay(sites, options);
+  const Cells diagram = cells(triangulation, sites);
+  const std::vector<double> own_areas = areas(triangulation, sites, diagram);
+  io::CellMap map(sites, triangulation, diagram, 0.01, {});
+  double total = 0;
+  for (std::size_t site = 0; site < sites.size(); ++site) {
+    const auto polygons = map.polygons(site);
+    const std::string where = name + ", site " + std::to_string(site);
+    EXPECT_EQ(map.has_cell(site), own_areas[site] > 0) << where;
+    total += planar_area(polygons);
+    if (!map.has_cell(site)) continue;
+    EXPECT_TRUE(!polygons.empty() || !demands.has_polygons) << where;
+    EXPECT_EQ(fault(polygons), "") << where;
+    EXPECT_NEAR(spherical_area(polygons), own_areas[site], 2e-3) << where;
+    const LonLat place = position_of(sites[site]);
+    const bool is_on_border =
+        std::abs(place.lon_deg) > 180 - 1e-12 || std::abs(place.lat_deg) > 90 - 1e-12;
+    if (demands.site_inside && !is_on_border) {
+      EXPECT_TRUE(contains(polygons, place)) << where;
+    }
+  }
+  EXPECT_NEAR(total, 360 * 180, 1e-7) << name;
+}
+
+std::vector<Point> random_sites(std::size_t n, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Point> sites(n);
+  std::ranges::generate(sites, [&] { return random_direction(random); });
+  return sites;
+}
+
+TEST(cell_map, few_sites) {
+  expect_map({{1, 0, 0}}, "one site");
+  expect_map({{1, 0, 0}, {2, 0, 0}}, "one site twice");
+  const Point a = unit_vector({10, 20});
+  for (const LonLat& other :
+       {LonLat{-170, -20}, LonLat{10.0001, 20}, LonLat{10, -60}, LonLat{100, 80}}) {
+    expect_map({a, unit_vector(other)}, "two sites");
+  }
+  expect_map({{0, 0, 1}, {0, 0, -1}}, "two poles");
+  for (std::size_t n = 3; n < 12; ++n) expect_map(random_sites(n, n), "few random sites");
+}
+
+TEST(cell_map, sites_on_one_great_circle) {
+  for (const int count : {2, 3, 4, 7, 36, 360}) {
+    std::vector<Point> equator;
+    std::vector<Point> meridian;
+    std::vector<Point> tilted;
+    std::vector<Point> half;
+    for (int i = 0; i < count; ++i) {
+      equator.push_back(unit_vector({360.0 * i / count, 0}));
+      half.push_back(unit_vector({100.0 * i / count, 0}));
+      meridian.push_back(unit_vector({i % 2 == 0 ? 0.0 : 180.0, 180.0 * i / count - 90}));
+      tilted.push_back({equator.back().x, equator.back().y, equator.back().x});
+    }
+    expect_map(equator, "equator");
+    expect_map(half, "part of the equator");
+    expect_map(meridian, "meridian");
+    expect_map(tilted, "tilted circle");
+  }
+}
+
+TEST(cell_map, random_sites) {
+  for (std::size_t n : {20U, 100U, 1000U, 5000U}) expect_map(random_sites(n, n), "random");
+}
+
+TEST(cell_map, clusters_at_the_poles_and_the_antimeridian) {
+  for (const double radius : {1e-1, 1e-3, 1e-6, 1e-9}) {
+    for (const Point& center :
+         {Point{0, 0, 1}, Point{0, 0, -1}, Point{-1, 0, 0}, Point{-0.6, 0, 0.8}}) {
+      Random random(5);
+      std::vector<Point> sites = random_sites(30, 6);
+      for (int i = 0; i < 200; ++i) sites.push_back(random_near(random, center, radius));
+      expect_map(sites, "cluster of radius " + std::to_string(radius));
+    }
+  }
+}
+
+// All sites in one region: its outer cells are wedges that meet on the other side of the earth.
+TEST(cell_map, regions) {
+  for (const double radius : {1e-1, 1e-3, 1e-6}) {
+    for (const LonLat& center : {LonLat{8, 47}, LonLat{179, -30}, LonLat{0, 0}, LonLat{30, 90}}) {
+      Random random(9);
+      std::vector<Point> sites;
+      for (int i = 0; i < 300; ++i)
+        sites.push_back(random_near(random, unit_vector(center), radius));
+      expect_map(sites, "region of radius " + std::to_string(radius));
+    }
+  }
+}
+
+TEST(cell_map, grids_of_cocircular_sites) {
+  for (const double shift : {0.0, 0.5, 1e-13}) {
+    std::vector<Point> grid;
+    for (int lat = -90; lat <= 90; lat += 10) {
+      for (int lon = -180; lon < 180; lon += 10) {
+        grid.push_back(unit_vector({lon + shift, static_cast<double>(lat)}));
+      }
+    }
+    expect_map(grid, "grid");
+    std::vector<Point> cap(grid.begin(), grid.begin() + 100);
+    expect_map(cap, "part of a grid");
+  }
+}
+
+TEST(cell_map, close_pairs) {
+  std::vector<Point> sites;
+  Random random(3);
+  for (int i = 0; i < 300; ++i) {
+    const Point site = random_direction(random);
+    sites.push_back(site);
+    sites.push_back(random_near(random, site, 1.7e-6));  // 1e-4 degrees
+  }
+  expect_map(sites, "close pairs");
+}
+
+TEST(cell_map, weighted_sites) {
+  std::vector<Point> sites = random_sites(500, 8);
+  Random random(4);
+  for (Point& site : sites) site = (1 + 0.01 * random.unit()) * site;
+  expect_map(sites, "weighted", {.model = Model::weighted}, {.site_inside = false});
+}
+
+// Named degenerate inputs: cells may be no wider than rounding, but the map is valid and without
+// gaps.
+TEST(cell_map, degenerate_sites) {
+  for (const Generator& kind : spherical_generators()) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+      const SiteSet set = kind.make(300, seed);
+      expect_map(set.sites, std::string(kind.name), {.sphere = set.sphere},
+                 {.has_polygons = false, .site_inside = false});
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test
