@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// check: any list of triangles gives a verdict, and only the triangulation is accepted.
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "fuzz/fuzz_input.h"
+#include "rondel/check.h"
+#include "rondel/delaunay.h"
+
+namespace rondel::fuzz {
+namespace {
+
+std::vector<Triple> normalized(std::vector<Triple> faces) {
+  for (Triple& face : faces) std::ranges::rotate(face, std::ranges::min_element(face));
+  std::ranges::sort(faces);
+  return faces;
+}
+
+// Replaces the diagonal of two faces, so that the list stays a closed surface.
+void flip(std::vector<Triple>& faces, std::size_t f, std::size_t i) {
+  const auto [a, b, c] = std::tuple(faces[f][i], faces[f][(i + 1) % 3], faces[f][(i + 2) % 3]);
+  for (std::size_t g = 0; g < faces.size(); ++g) {
+    for (std::size_t j = 0; j < 3 && g != f; ++j) {
+      const Index d = faces[g][j];
+      if (faces[g][(j + 1) % 3] != c || faces[g][(j + 2) % 3] != b || d == a) continue;
+      faces[f] = {a, b, d};
+      faces[g] = {a, d, c};
+      return;
+    }
+  }
+}
+
+void change(std::vector<Triple>& faces, ByteSource& source, std::size_t num_sites) {
+  const std::size_t f = source.below(faces.size());
+  switch (source.byte() % 8) {
+    case 0:
+      faces.erase(faces.begin() + static_cast<std::ptrdiff_t>(f));
+      break;
+    case 1:
+      faces.push_back(faces[f]);
+      break;
+    case 2:
+      std::swap(faces[f][0], faces[f][1]);
+      break;
+    case 3:
+      faces[f][source.below(3)] = source.byte();
+      break;
+    case 4: {  // one site takes the part of another everywhere
+      const auto from = static_cast<Index>(source.below(num_sites));
+      const auto to = static_cast<Index>(source.below(num_sites));
+      for (Triple& face : faces) std::ranges::replace(face, from, to);
+      break;
+    }
+    default:
+      flip(faces, f, source.below(3));
+  }
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rondel;
+  fuzz::ByteSource source(data, size);
+  Options options;
+  options.model = source.byte() % 2 == 0 ? Model::projected : Model::weighted;
+  const std::size_t num_changes = source.below(8);
+  std::vector<std::uint8_t> changes(3 * num_changes);
+  for (std::uint8_t& byte : changes) byte = source.byte();
+  options.sphere = fuzz::next_sphere(source);
+  std::vector<Point> sites = fuzz::all_sites(source, 14);
+  if (options.model == Model::projected) fuzz::remove_center(sites, options.sphere);
+
+  const Triangulation built = delaunay(sites, options);
+  std::vector<Triple> faces(built.faces().begin(), built.faces().end());
+  fuzz::ByteSource how(changes.data(), changes.size());
+  while (!how.is_empty() && !faces.empty()) fuzz::change(faces, how, sites.size());
+  const bool is_right =
+      fuzz::normalized(faces) == fuzz::normalized({built.faces().begin(), built.faces().end()});
+  const CheckReport report = check(sites, faces, options);
+  fuzz::require(report.is_valid == is_right, is_right
+                                                 ? "the triangulation is accepted: " + report.reason
+                                                 : "only the triangulation is accepted");
+  fuzz::require(report.is_valid == report.reason.empty(), "a refusal has a reason");
+  fuzz::require(report.reason.find('\n') == std::string::npos, "a reason is one line");
+  return 0;
+}

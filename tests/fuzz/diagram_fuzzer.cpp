@@ -1,0 +1,127 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// circumcenters, cells, areas, centroids, edges, merge_cocircular: what rondel/diagram.h promises
+// of any triangulation.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "fuzz/fuzz_input.h"
+#include "rondel/delaunay.h"
+#include "rondel/diagram.h"
+#include "rondel/error.h"
+
+namespace rondel::fuzz {
+namespace {
+
+double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+bool is_unit(const Point& p) { return std::abs(dot(p, p) - 1) < 1e-14; }
+
+std::vector<bool> vertices(const Triangulation& t) {
+  std::vector<bool> is_vertex(t.num_sites(), true);
+  for (const Duplicate& d : t.duplicates()) is_vertex[d.site] = false;
+  for (const Hidden& h : t.hidden()) is_vertex[h.site] = false;
+  return is_vertex;
+}
+
+void test_cells(const Triangulation& t, const Cells& cells) {
+  require(cells.offsets.size() == t.num_sites() + 1 && cells.offsets[0] == 0 &&
+              cells.offsets.back() == cells.rings.size(),
+          "offsets frame the rings");
+  require(std::ranges::is_sorted(cells.offsets), "offsets increase");
+  for (const Point& p : cells.points) require(is_unit(p), "points of a diagram are unit vectors");
+  const std::vector<bool> is_vertex = vertices(t);
+  for (std::size_t i = 0; i < t.num_sites(); ++i) {
+    const std::size_t length = cells.offsets[i + 1] - cells.offsets[i];
+    const bool has_ring = is_vertex[i] && t.num_vertices() > 1;
+    require((length > 0) == has_ring, "exactly the vertices have rings");
+    for (std::size_t k = 0; k < length; ++k) {
+      const Index here = cells.rings[cells.offsets[i] + k];
+      const Index there = cells.rings[cells.offsets[i] + (k + 1) % length];
+      require(here < cells.points.size() && there < cells.points.size(), "rings name points");
+      require(dot(cells.points[here], cells.points[there]) > -0.5 - 1e-12,
+              "no arc is longer than 120 degrees");
+    }
+  }
+}
+
+void test_areas(const Triangulation& t, std::span<const Point> sites, const Cells& cells) {
+  const std::vector<double> area = areas(t, sites, cells);
+  require(area.size() == t.num_sites(), "an area for each site");
+  const std::vector<bool> is_vertex = vertices(t);
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    require(area[i] >= 0 && (is_vertex[i] || area[i] == 0), "areas are not negative");
+  }
+  if (t.num_vertices() == 0) return;
+  const double sum = std::accumulate(area.begin(), area.end(), 0.0);
+  require(std::abs(sum / (4 * std::numbers::pi) - 1) < 1e-12,
+          "areas add up to the sphere, not to " + std::to_string(sum));
+}
+
+void test_centroids(const Triangulation& t, std::span<const Point> sites, const Cells& cells) {
+  for (const Point& p : centroids(t, sites, cells)) {
+    require(p == Point{} || is_unit(p), "centroids are unit vectors or zero");
+  }
+}
+
+void test_edges(const Triangulation& t) {
+  const auto all = edges(t);
+  require(std::ranges::is_sorted(all), "edges are sorted");
+  require(std::ranges::adjacent_find(all) == all.end(), "edges are distinct");
+  for (const auto& [a, b] : all) require(a < b && b < t.num_sites(), "the lower index is first");
+  if (t.dimension() == 2) require(2 * all.size() == 3 * t.num_faces(), "edges of triangles");
+}
+
+void test_polygons(const Triangulation& t, std::span<const Point> sites) {
+  const Polygons merged = merge_cocircular(t, sites);
+  std::size_t num_triangles = 0;
+  for (std::size_t i = 0; i + 1 < merged.offsets.size(); ++i) {
+    const auto begin = merged.corners.begin() + static_cast<std::ptrdiff_t>(merged.offsets[i]);
+    const auto end = merged.corners.begin() + static_cast<std::ptrdiff_t>(merged.offsets[i + 1]);
+    require(end - begin >= 3, "a polygon has three corners or more");
+    require(std::min_element(begin, end) == begin, "the lowest index is first");
+    num_triangles += static_cast<std::size_t>(end - begin) - 2;
+  }
+  require(num_triangles <= t.num_faces(), "merging adds no triangles");
+}
+
+void test(std::vector<Point> sites, const Options& options) {
+  const Triangulation t = delaunay(sites, options);
+  const std::vector<Point> centers = circumcenters(t, sites);
+  require(centers.size() == t.num_faces(), "a circumcenter for each face");
+  const Cells diagram = cells(t, sites);
+  require(diagram.points.size() >= centers.size() &&
+              std::ranges::equal(centers, std::span(diagram.points).first(centers.size())),
+          "the points start with the circumcenters");
+  test_cells(t, diagram);
+  test_areas(t, sites, diagram);
+  test_centroids(t, sites, diagram);
+  test_edges(t);
+  test_polygons(t, sites);
+  sites.push_back({1, 2, 3});
+  try {
+    static_cast<void>(cells(t, sites));
+    require(false, "a wrong number of sites is refused");
+  } catch (const InvalidInput&) {
+  }
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rondel;
+  fuzz::ByteSource source(data, size);
+  Options options;
+  options.sphere = fuzz::next_sphere(source);
+  std::vector<Point> sites = fuzz::all_sites(source, 30);
+  for (const Model model : {Model::weighted, Model::projected}) {
+    options.model = model;
+    if (model == Model::projected) fuzz::remove_center(sites, options.sphere);
+    fuzz::test(sites, options);
+  }
+  return 0;
+}

@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// From the bytes of a fuzzer to values that reach the geometry: sites that are likely to coincide,
+// to be cocircular, to be one ulp apart or to differ by hundreds of orders of magnitude.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rondel/types.h"
+
+namespace rondel::fuzz {
+
+// Reads bytes from the front; zeros when there are none left.
+class ByteSource {
+ public:
+  ByteSource(const std::uint8_t* data, std::size_t size) : bytes_(data, size) {}
+
+  [[nodiscard]] bool is_empty() const { return bytes_.empty(); }
+  std::uint8_t byte();
+  std::int8_t small() { return static_cast<std::int8_t>(byte()); }
+  std::size_t below(std::size_t bound) { return byte() % bound; }
+  // Any bit pattern.
+  double any_double();
+  // Any finite double.
+  double finite_double();
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+};
+
+// The next site; it may refer to the earlier ones. Finite.
+Point next_site(ByteSource& source, std::span<const Point> earlier);
+
+// Until the bytes end, at most `limit`.
+std::vector<Point> all_sites(ByteSource& source, std::size_t limit);
+
+// Mostly the unit sphere.
+Sphere next_sphere(ByteSource& source);
+
+// Where the projected model cannot have a site: removes these.
+void remove_center(std::vector<Point>& sites, const Sphere& sphere);
+
+// Ends the program with a message when a law is broken; a fuzzer sees that as a crash.
+void require(bool holds, const std::string& law);
+
+}  // namespace rondel::fuzz
