@@ -120,7 +120,7 @@ std::vector<Index> convex_polygon(Index size, const PlaneView& view) {
   };
   append_chain(sorted.begin(), sorted.end());
   append_chain(sorted.rbegin(), sorted.rend());
-  std::ranges::rotate(ring, std::ranges::min_element(ring));
+  std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
   return ring;
 }
 

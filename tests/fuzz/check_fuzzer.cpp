@@ -14,7 +14,9 @@ namespace rondel::fuzz {
 namespace {
 
 std::vector<Triple> normalized(std::vector<Triple> faces) {
-  for (Triple& face : faces) std::ranges::rotate(face, std::ranges::min_element(face));
+  for (Triple& face : faces) {
+    std::rotate(face.begin(), std::ranges::min_element(face), face.end());
+  }
   std::ranges::sort(faces);
   return faces;
 }

@@ -117,7 +117,7 @@ std::string set_difference_text(const char* what, const std::set<Triple>& actual
 
 Triple lowest_first(const Triple& face) {
   Triple result = face;
-  std::ranges::rotate(result, std::ranges::min_element(result));
+  std::rotate(result.begin(), std::ranges::min_element(result), result.end());
   return result;
 }
 
@@ -179,7 +179,7 @@ std::string difference(const Triangulation& triangulation, std::span<const Point
     return error;
   }
   std::vector<Index> ring(triangulation.ring().begin(), triangulation.ring().end());
-  std::ranges::rotate(ring, std::ranges::min_element(ring));
+  std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
   if (ring != expected.ring) return "ring";
   if (!std::ranges::equal(triangulation.hidden(), expected.hidden, {}, &Hidden::site)) {
     return "hidden sites";

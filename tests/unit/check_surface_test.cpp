@@ -34,7 +34,7 @@ TEST(check_surface, lists_links_counterclockwise) {
   const proof::Surface surface(6, octahedron.faces);
   ASSERT_EQ(surface.flaw(), "");
   std::vector<Index> ring = surface.link(2);
-  std::ranges::rotate(ring, std::ranges::find(ring, 0U));
+  std::rotate(ring.begin(), std::ranges::find(ring, 0U), ring.end());
   EXPECT_EQ(ring, (std::vector<Index>{0, 1, 3, 4}));
 }
 
