@@ -58,9 +58,10 @@ Point centroid_of(const LocalRing& ring) {
     perimeter += chord;
     last = d;
   }
-  // A cell without area (a weighted site on a flat part of the hull): the middle of its points.
-  constexpr double rounding = 0x1p-49;
-  const bool is_thin = dot(moment, moment) <= std::pow(rounding * perimeter * perimeter, 2);
+  // Where a thin cell's moment drowns in rounding errors, the middle of its points is better. Some
+  // cells have no area at all: weighted sites on a flat part of the hull.
+  const double noise = 8 * perimeter * (ring.error + 0x1p-52 * perimeter);
+  const bool is_thin = dot(moment, moment) <= noise * noise;
   return dual::to_point(dual::normalized(is_thin ? sum : moment));
 }
 

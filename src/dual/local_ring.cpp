@@ -20,7 +20,9 @@ constexpr double smallest_sine_squared = 0x1p-8;
 // Offsets of places known to 2^-100 have a relative error of u/2 down to this square.
 constexpr double smallest_square = 0x1p-90;
 // Squares of offsets below this may underflow in products.
-constexpr double underflow_square = 0x1p-450;
+constexpr double underflow_square = 0x1p-200;
+// 4u.
+constexpr double circumcenter_error = 0x1p-51;
 
 }  // namespace
 
@@ -28,8 +30,11 @@ const LocalRing& RingLocalizer::operator()(Index site) {
   const std::span<const Index> ring(cells_.rings.data() + cells_.offsets[site],
                                     cells_.rings.data() + cells_.offsets[site + 1]);
   ring_.points.clear();
+  ring_.error = 0;
   if (sites_.is_projected()) {
     localize_around_site(site, ring);
+    // An arc may pass so near to the site that only relatively right points tell its side.
+    if (ring_.error > 0) localize_large(ring);
   } else if (is_small(ring)) {
     localize_small(site, ring);
   } else {
@@ -76,7 +81,7 @@ void RingLocalizer::localize_around_site(Index site, std::span<const Index> ring
 }
 
 inline RingPoint RingLocalizer::star_point(Index site, const Spoke& b, const Spoke& c,
-                                           Index position) const {
+                                           Index position) {
   const Vec n = cross(b.v, c.v);
   const double n2 = dot(n, n);
   if (n2 < smallest_sine_squared * (b.square * c.square) ||
@@ -89,23 +94,29 @@ inline RingPoint RingLocalizer::star_point(Index site, const Spoke& b, const Spo
                     inverse * dot(ring_.origin, n));
 }
 
-// Flat triangles and sites very near to each other. Where even the double-double normal is not
-// proved, the circumcenter itself is still right to 4u.
-RingPoint RingLocalizer::careful_star_point(Index site, Index b, Index c, Index position) const {
+// Flat triangles and sites very near to each other. Where C is nearly B, N = B x D and the form of
+// r with D do not cancel. Without a proved double-double normal, the rounded one is wrong by u over
+// the sine between its factors, and the circumcenter itself by u, which is u / |r|
+// relatively, with |r| = |D| / (2 sin(B, C)): the better one is taken.
+RingPoint RingLocalizer::careful_star_point(Index site, Index b, Index c, Index position) {
   const Vec to_b = sites_.difference(site, b);
   const Vec to_c = sites_.difference(site, c);
+  const Vec d = sites_.difference(b, c);
   const double b2 = dot(to_b, to_b);
   const double c2 = dot(to_c, to_c);
-  if (std::min(b2, c2) < underflow_square) return global_point(position);
+  const double d2 = dot(d, d);
+  const bool is_near = 4 * d2 < b2;
   Vec n = split_cross(sites_.offset(site, b), sites_.offset(site, c)).rounded();
   if (!is_accurate(b2, c2, dot(n, n), true)) {
-    n = cross(to_b, to_c);
-    if (dot(n, n) < smallest_sine_squared * b2 * c2) return global_point(position);
+    n = cross(to_b, is_near ? d : to_c);
+    const double n2 = dot(n, n);
+    const double sine2 = n2 / (b2 * (is_near ? d2 : c2));
+    if (std::min({b2, c2, d2}) < underflow_square || d2 * b2 * c2 > 4 * n2 * sine2) {
+      ring_.error = circumcenter_error;
+      return global_point(position);
+    }
   }
   const double inverse = 1 / std::sqrt(dot(n, n));
-  // |B|^2 C - |C|^2 B cancels where C is nearly B; then the other form does not.
-  const Vec d = sites_.difference(b, c);
-  const bool is_near = 4 * dot(d, d) < b2;
   const Vec r = is_near ? b2 * d - dot(d, to_b + to_c) * to_b : b2 * to_c - c2 * to_b;
   return ring_point((0.5 * inverse) * r, inverse * dot(ring_.origin, n));
 }
@@ -180,7 +191,8 @@ void RingLocalizer::localize_large(std::span<const Index> ring) {
   for (std::size_t j = 0; j < ring.size(); ++j) {
     area = area + cross(point(ring[j]), point(ring[(j + 1) % ring.size()]));
   }
-  ring_.origin = normalized(area);
+  ring_.origin = dot(area, area) > 0 ? normalized(area) : point(ring[0]);
+  ring_.points.clear();
   for (const Index position : ring) ring_.points.push_back(global_point(position));
 }
 

@@ -36,6 +36,7 @@ struct RingPoint {
 struct LocalRing {
   Vec origin;  // q
   std::vector<RingPoint> points;
+  double error = 0;  // of r, beyond the relative rounding errors
 };
 
 // 1 + cosine for a unit vector at this cosine from q whose cross product with q is r.
@@ -56,8 +57,8 @@ class RingLocalizer {
   void localize_around_site(Index site, std::span<const Index> ring);
   struct Spoke;
   [[nodiscard]] Spoke spoke(const exact::SplitPoint& a, Index b) const;
-  RingPoint star_point(Index site, const Spoke& b, const Spoke& c, Index position) const;
-  RingPoint careful_star_point(Index site, Index b, Index c, Index point) const;
+  RingPoint star_point(Index site, const Spoke& b, const Spoke& c, Index position);
+  RingPoint careful_star_point(Index site, Index b, Index c, Index point);
   [[nodiscard]] RingPoint global_point(Index point) const;
 
   void localize_small(Index site, std::span<const Index> ring);
