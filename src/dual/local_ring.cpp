@@ -185,13 +185,17 @@ void RingLocalizer::localize_small(Index site, std::span<const Index> ring) {
 }
 
 // q is the direction of the vector area S, the sum of n x n' over the ring. A convex cell lies on
-// the positive side of each arc's pole n x n', so q.n >= 0 for all its points.
+// the positive side of each arc's pole n x n', so q.n >= 0 for all its points. In a cell so thin
+// that S is noise, q is the middle of the points, which does not vanish there.
 void RingLocalizer::localize_large(std::span<const Index> ring) {
+  constexpr double noise = 0x1p-40;
   Vec area{0, 0, 0};
+  Vec sum{0, 0, 0};
   for (std::size_t j = 0; j < ring.size(); ++j) {
+    sum = sum + point(ring[j]);
     area = area + cross(point(ring[j]), point(ring[(j + 1) % ring.size()]));
   }
-  ring_.origin = dot(area, area) > 0 ? normalized(area) : point(ring[0]);
+  ring_.origin = normalized(dot(area, area) > noise * noise ? area : sum);
   ring_.points.clear();
   for (const Index position : ring) ring_.points.push_back(global_point(position));
 }

@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "support/mpfr_oracle.h"
+#include "unit/dual_support.h"
+
+namespace rondel::test {
+namespace {
+
+constexpr double sphere_area = 4 * std::numbers::pi;
+
+std::vector<double> areas_of(std::span<const Point> sites, Model model = Model::projected) {
+  const Triangulation triangulation = triangulated(sites, model);
+  return areas(triangulation, sites, cells(triangulation, sites));
+}
+
+// A cell of which one side is a billionth of the other cannot be better than its circumcenters,
+// so what counts is the larger of a relative and an absolute error.
+void expect_right_areas(const DualCase& c, double relative, double absolute) {
+  const Cells diagram = cells(c.triangulation, c.sites);
+  const auto result = areas(c.triangulation, c.sites, diagram);
+  const DualOracle oracle(c.triangulation, c.sites);
+  for (Index i = 0; i < c.sites.size(); ++i) {
+    if (ring_of(diagram, i).empty() || result[i] == 0) continue;
+    const double exact = polygon_area(oracle.ring(diagram, i)).rounded();
+    EXPECT_NEAR(result[i], exact, std::max(relative * exact, absolute)) << c.name << " site " << i;
+  }
+}
+
+TEST(areas, agree_with_long_numbers_for_every_generator) {
+  for_each_case(12, 2, [](const DualCase& c) { expect_right_areas(c, 1e-14, 1e-15); });
+}
+
+TEST(areas, sum_to_the_sphere_for_every_generator) {
+  for_each_case(60, 3, [](const DualCase& c) {
+    if (c.triangulation.dimension() < 0) return;
+    const auto result = areas(c.triangulation, c.sites, cells(c.triangulation, c.sites));
+    EXPECT_NEAR(sum_of(result) / sphere_area, 1, 1e-13) << c.name;
+    for (const double a : result) EXPECT_GE(a, 0) << c.name;
+  });
+}
+
+TEST(areas, sum_to_the_sphere_for_many_sites) {
+  for (const char* name : {"uniform", "patch_and_globe", "globe_grid", "s_n"}) {
+    const auto sites = generator(name).make(50000, 1).sites;
+    EXPECT_NEAR(sum_of(areas_of(sites)) / sphere_area, 1, 1e-12) << name;
+  }
+}
+
+TEST(areas, are_relatively_right_in_tiny_patches) {
+  for (const char* name : {"patch_1e_6", "patch_1e_9", "patch_1e_12", "patch_and_globe"}) {
+    for (const Model model : {Model::projected, Model::weighted}) {
+      const DualCase c = make_case(generator(name), 40, 1, model);
+      expect_right_areas(c, 1e-13, 0);
+    }
+  }
+}
+
+TEST(areas, of_the_platonic_solids_are_equal) {
+  constexpr double tolerance = 4e-15;
+  for (const double a : areas_of(octahedron())) EXPECT_NEAR(a, sphere_area / 6, tolerance);
+  for (const Model model : {Model::projected, Model::weighted}) {
+    for (const double a : areas_of(cube(), model)) EXPECT_NEAR(a, sphere_area / 8, tolerance);
+  }
+}
+
+TEST(areas, below_dimension_2_are_those_of_lunes) {
+  EXPECT_EQ(areas_of(std::vector<Point>{{1, 2, 3}}), std::vector<double>{sphere_area});
+  EXPECT_EQ(areas_of(std::vector<Point>{{1, 0, 0}, {1, 1e-9, 0}, {2, 0, 0}}),
+            (std::vector<double>{sphere_area / 2, sphere_area / 2, 0}));
+  const auto quarter = areas_of(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}});
+  for (const double a : quarter) EXPECT_DOUBLE_EQ(a, std::numbers::pi);
+}
+
+TEST(areas, of_thin_lunes_are_relatively_right) {
+  for (const double h : {1e-3, 1e-9, 1e-100}) {
+    const std::vector<Point> sites = {{1, -h, 0}, {1, 0, 0}, {1, h, 0}};
+    const auto result = areas_of(sites);
+    EXPECT_NEAR(result[1] / (2 * std::atan(h)), 1, 4 * ulp) << h;
+    EXPECT_NEAR(sum_of(result), sphere_area, 8 * ulp * sphere_area);
+  }
+}
+
+TEST(areas, of_hidden_and_duplicate_sites_are_zero) {
+  std::vector<Point> sites = cube();
+  sites.push_back({0.5, 0.25, 0});
+  sites.push_back({1, 1, 1});
+  const auto result = areas_of(sites, Model::weighted);
+  EXPECT_EQ(result[8], 0);
+  EXPECT_EQ(result[9], 0);
+}
+
+TEST(areas, do_not_depend_on_the_number_of_threads) {
+  const auto sites = generator("uniform").make(20000, 1).sites;
+  const Triangulation one = triangulated(sites);
+  const Triangulation four = delaunay(sites, Options{.threads = 4});
+  EXPECT_EQ(areas(one, sites, cells(one, sites)), areas(four, sites, cells(four, sites)));
+}
+
+}  // namespace
+}  // namespace rondel::test
