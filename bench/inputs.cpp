@@ -84,8 +84,8 @@ std::vector<Point> paper_s(std::size_t n) {
   for (std::size_t i = 0; i <= n; ++i) {
     const double theta = pi * static_cast<double>(i) / static_cast<double>(n);
     const double phi = (theta * theta + 1) / (pi * pi);
-    sites.push_back({std::cos(theta) * std::sin(phi), std::sin(theta) * std::sin(phi),
-                     std::cos(phi)});
+    sites.push_back(
+        {std::cos(theta) * std::sin(phi), std::sin(theta) * std::sin(phi), std::cos(phi)});
   }
   const double s = 1 / std::sqrt(3.0);
   sites.insert(sites.end(), {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-s, -s, -s}});

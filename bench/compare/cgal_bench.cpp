@@ -29,17 +29,18 @@ void measure(const std::vector<Kernel::Point_3>& points) {
   const auto start = std::chrono::steady_clock::now();
   const Traits traits(Kernel::Point_3(0, 0, 0), 1);
   const CGAL::Delaunay_triangulation_on_sphere_2<Traits> triangulation(points.begin(), points.end(),
-                                                                        traits);
+                                                                       traits);
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   rusage after{};
   getrusage(RUSAGE_SELF, &after);
-  std::printf("{\"sites\": %zu, \"vertices\": %zu, \"faces\": %zu, \"seconds\": %.6f, "
-              "\"bytes_per_site\": %.1f}\n",
-              points.size(), static_cast<std::size_t>(triangulation.number_of_vertices()),
-              static_cast<std::size_t>(triangulation.number_of_faces()), seconds,
-              static_cast<double>(after.ru_maxrss - before.ru_maxrss) * 1024 /
-                  static_cast<double>(points.size()));
+  std::printf(
+      "{\"sites\": %zu, \"vertices\": %zu, \"faces\": %zu, \"seconds\": %.6f, "
+      "\"bytes_per_site\": %.1f}\n",
+      points.size(), static_cast<std::size_t>(triangulation.number_of_vertices()),
+      static_cast<std::size_t>(triangulation.number_of_faces()), seconds,
+      static_cast<double>(after.ru_maxrss - before.ru_maxrss) * 1024 /
+          static_cast<double>(points.size()));
 }
 
 }  // namespace

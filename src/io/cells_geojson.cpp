@@ -7,6 +7,7 @@
 
 #include "io/cell_formats.h"
 #include "io/cell_map.h"
+#include "io/geojson_geometry.h"
 #include "io/number.h"
 
 namespace rondel::io {
@@ -36,38 +37,6 @@ void append_value(std::string& out, const Column& column, std::size_t row) {
     out += text;
   } else {
     out += json_string(text);
-  }
-}
-
-// [[[lon,lat],...]]: a polygon is its outer ring alone.
-void append_polygon(std::string& out, const LonLatPolygon& polygon) {
-  out += "[[";
-  for (const LonLat& position : polygon.ring) {
-    out += '[';
-    append_number(out, position.lon_deg);
-    out += ',';
-    append_number(out, position.lat_deg);
-    out += "],";
-  }
-  out.back() = ']';
-  out += ']';
-}
-
-void append_geometry(std::string& out, const std::vector<LonLatPolygon>& polygons) {
-  if (polygons.empty()) {
-    out += "null";
-  } else if (polygons.size() == 1) {
-    out += R"({"type":"Polygon","coordinates":)";
-    append_polygon(out, polygons.front());
-    out += '}';
-  } else {
-    out += R"({"type":"MultiPolygon","coordinates":[)";
-    for (const LonLatPolygon& polygon : polygons) {
-      append_polygon(out, polygon);
-      out += ',';
-    }
-    out.back() = ']';
-    out += '}';
   }
 }
 

@@ -18,8 +18,8 @@ struct CoordinateColumns {
   std::array<std::size_t, 3> columns{};  // lon, lat or x, y, z
 };
 
-// Finds the columns that the options name, otherwise by their usual names; never by their order. Names
-// are compared without regard to case. Throws BadValue if a column is missing or two fit.
+// Finds the columns that the options name, otherwise by their usual names; never by their order.
+// Names are compared without regard to case. Throws BadValue if a column is missing or two fit.
 CoordinateColumns find_columns(const std::vector<std::string_view>& header,
                                const ReadOptions& options);
 

@@ -73,7 +73,8 @@ void read_delimited(std::string_view bytes, char delimiter, const ReadOptions& o
     const std::uint64_t header_line = records.line();
     read_rows(records, text, options, table);
     if (table.sites.empty()) {
-      throw FileError(table.name + ":" + std::to_string(header_line) + ": no sites after the header");
+      throw FileError(table.name + ":" + std::to_string(header_line) +
+                      ": no sites after the header");
     }
   } catch (const BadValue& bad) {
     throw FileError(table.name + ":" + std::to_string(records.line()) + ": " + bad.what());

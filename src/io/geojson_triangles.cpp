@@ -9,6 +9,7 @@
 #include <cmath>
 #include <string>
 
+#include "io/geojson_geometry.h"
 #include "io/lonlat_arc.h"
 #include "io/lonlat_polygon.h"
 #include "io/number.h"
@@ -65,34 +66,6 @@ class Faces {
   const Mesh& mesh_;
   const Triangulation& triangulation_;
 };
-
-void append_ring(std::string& out, const std::vector<LonLat>& ring) {
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    out += i == 0 ? "[[" : ",[";
-    append_number(out, ring[i].lon_deg);
-    out += ',';
-    append_number(out, ring[i].lat_deg);
-    out += ']';
-  }
-  out += ']';
-}
-
-// A face on the antimeridian has several polygons; one that is too thin for the map none.
-void append_geometry(std::string& out, const std::vector<LonLatPolygon>& polygons) {
-  if (polygons.empty()) {
-    out += "null";
-    return;
-  }
-  const bool is_multiple = polygons.size() > 1;
-  out += is_multiple ? R"({"type":"MultiPolygon","coordinates":[)"
-                     : R"({"type":"Polygon","coordinates":)";
-  for (std::size_t i = 0; i < polygons.size(); ++i) {
-    out += i == 0 ? "[" : ",[";
-    append_ring(out, polygons[i].ring);
-    out += ']';
-  }
-  out += is_multiple ? "]}" : "}";
-}
 
 }  // namespace
 

@@ -36,8 +36,8 @@ std::string shape_text(std::span<const std::uint64_t> shape);
 // A two-dimensional array in the bytes of a file.
 class NpyTable {
  public:
-  // Throws BadValue unless the type is one of `types` ("f8", of any byte order), which `needed` says
-  // in words, and the file has just the bytes of the array.
+  // Throws BadValue unless the type is one of `types` ("f8", of any byte order), which `needed`
+  // says in words, and the file has just the bytes of the array.
   NpyTable(std::string_view bytes, std::span<const std::string_view> types,
            std::string_view needed);
 
@@ -49,8 +49,8 @@ class NpyTable {
   // Precondition: T is what type() says.
   template <typename T>
   [[nodiscard]] T at(std::size_t row, std::size_t column) const {
-    const std::size_t position = header_.is_fortran_order ? column * num_rows() + row
-                                                          : row * num_columns() + column;
+    const std::size_t position =
+        header_.is_fortran_order ? column * num_rows() + row : row * num_columns() + column;
     return load<T>(data_ + position * sizeof(T), order_);
   }
 

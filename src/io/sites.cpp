@@ -54,8 +54,7 @@ SiteTable read_sites(const std::string& path, const ReadOptions& options) {
   table.name = path == "-" ? "<stdin>" : path;
   const io::FileBytes file(path);
   const Reader& reader =
-      path == "-" ? readers[0]
-                  : io::require_format<Reader>(readers, path, "sites are read from");
+      path == "-" ? readers[0] : io::require_format<Reader>(readers, path, "sites are read from");
   if (!reader.has_columns && names_a_column(options)) {
     throw FileError(table.name + ": columns are named, but " + std::string(reader.ending) +
                     " files have no names for columns");

@@ -20,9 +20,9 @@ void read_lines(TextLines& lines, const ReadOptions& options, SiteTable& table) 
       throw BadValue(std::to_string(words.size()) + (words.size() == 1 ? " field" : " fields") +
                      " where three numbers are expected");
     }
-    collector.add_point({parse_number(words[0], "x"), parse_number(words[1], "y"),
-                         parse_number(words[2], "z")},
-                        lines.number());
+    collector.add_point(
+        {parse_number(words[0], "x"), parse_number(words[1], "y"), parse_number(words[2], "z")},
+        lines.number());
     collector.report_progress(lines.position(), lines.size());
   }
 }
