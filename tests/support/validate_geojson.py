@@ -9,8 +9,8 @@
 2. No ring crosses the antimeridian: no side is longer than 180 degrees of longitude, the sides
    along lat = +-90 apart.
 3. The planar areas sum to 360 * 180 and the `area` properties to 4 pi; both poles are covered.
-4. With the columns of the sites (found by name if they are lon and lat): each site lies in its own
-   cell.
+4. Each site lies in its own cell, if the features have its longitude and latitude (columns found
+   by the names that rondel knows, or named).
 5. Each feature's `area` is the area of its polygons on the sphere, up to the tolerance of the arcs.
 
 Exit status 0 if so, else 1 with a line for each fault (the first 20).
@@ -34,7 +34,8 @@ def spherical_area(ring):
     for (lon, lat), (next_lon, next_lat) in zip(ring, ring[1:]):
         half = math.radians(next_lat - lat) / 2
         sinc = math.sin(half) / half if half else 1
-        terms.append(-math.radians(next_lon - lon) * math.sin(math.radians(lat + next_lat) / 2) * sinc)
+        middle = math.radians(lat + next_lat) / 2
+        terms.append(-math.radians(next_lon - lon) * math.sin(middle) * sinc)
     return math.fsum(terms)
 
 
@@ -62,7 +63,11 @@ def ring_faults(ring):
         yield "a ring is not valid: " + explain_validity(polygon)
 
 
-def feature_faults(feature, lon, lat):
+def first_known(properties, names):
+    return next((properties[name] for name in names if name in properties), None)
+
+
+def feature_faults(feature, lon_names, lat_names):
     geometry = feature["geometry"]
     properties = feature["properties"]
     polygons = polygons_of(geometry)
@@ -74,13 +79,15 @@ def feature_faults(feature, lon, lat):
     region = shape(geometry)
     if not region.is_valid:
         yield "the geometry is not valid: " + explain_validity(region)
-    if lon in properties and lat in properties:
-        own_lon = math.remainder(properties[lon], 360)
-        place = Point(own_lon, properties[lat])
-        mirrored = Point(-own_lon, properties[lat])  # of a site on the antimeridian
-        is_inside = region.intersects(place) or (abs(own_lon) == 180 and region.intersects(mirrored))
-        if abs(properties[lat]) != 90 and not is_inside:
-            yield f"the site at {own_lon},{properties[lat]} is outside its cell"
+    lon = first_known(properties, lon_names)
+    lat = first_known(properties, lat_names)
+    if lon is not None and lat is not None:
+        own_lon = math.remainder(lon, 360)
+        place = Point(own_lon, lat)
+        mirrored = Point(-own_lon, lat)  # of a site on the antimeridian
+        is_on_cut = abs(own_lon) == 180 and region.intersects(mirrored)
+        if abs(lat) != 90 and not (region.intersects(place) or is_on_cut):
+            yield f"the site at {own_lon},{lat} is outside its cell"
     area = math.fsum(spherical_area(polygon[0]) for polygon in polygons)
     if abs(area - properties["area"]) > AREA_TOLERANCE:
         yield f"the area is {properties['area']}, its polygons have {area}"
@@ -89,11 +96,13 @@ def feature_faults(feature, lon, lat):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("file")
-    parser.add_argument("--lon", default="lon")
-    parser.add_argument("--lat", default="lat")
+    parser.add_argument("--lon")
+    parser.add_argument("--lat")
     options = parser.parse_args()
     with open(options.file, encoding="utf-8") as file:
         collection = json.load(file)
+    lon_names = [options.lon] if options.lon else ["lon", "lng", "long", "longitude"]
+    lat_names = [options.lat] if options.lat else ["lat", "latitude"]
     faults = [] if collection["type"] == "FeatureCollection" else ["not a FeatureCollection"]
     planar = []
     areas = []
@@ -109,7 +118,8 @@ def main():
         if feature["geometry"] is None:
             num_null += 1
             continue
-        faults += [f"site {site}: {fault}" for fault in feature_faults(feature, options.lon, options.lat)]
+        own_faults = feature_faults(feature, lon_names, lat_names)
+        faults += [f"site {site}: {fault}" for fault in own_faults]
         for (ring,) in polygons_of(feature["geometry"]):
             planar.append(Polygon(ring).area)
             for (lon, lat), (next_lon, next_lat) in zip(ring, ring[1:]):

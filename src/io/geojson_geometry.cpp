@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/geojson_geometry.h"
+
+#include "io/number.h"
+
+namespace rondel::io {
+namespace {
+
+// [[[lon,lat],...]]: a polygon is its outer ring alone.
+void append_polygon(std::string& out, const LonLatPolygon& polygon) {
+  out += "[[";
+  for (const LonLat& position : polygon.ring) {
+    out += '[';
+    append_number(out, position.lon_deg);
+    out += ',';
+    append_number(out, position.lat_deg);
+    out += "],";
+  }
+  out.back() = ']';
+  out += ']';
+}
+
+}  // namespace
+
+void append_geometry(std::string& out, const std::vector<LonLatPolygon>& polygons) {
+  if (polygons.empty()) {
+    out += "null";
+    return;
+  }
+  if (polygons.size() == 1) {
+    out += R"({"type":"Polygon","coordinates":)";
+    append_polygon(out, polygons.front());
+    out += '}';
+    return;
+  }
+  out += R"({"type":"MultiPolygon","coordinates":[)";
+  for (const LonLatPolygon& polygon : polygons) {
+    append_polygon(out, polygon);
+    out += ',';
+  }
+  out.back() = ']';
+  out += '}';
+}
+
+}  // namespace rondel::io
