@@ -5,6 +5,7 @@
 // library must find the one perturbed hull.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 
 #include "rondel/delaunay.h"
@@ -37,9 +38,9 @@ void expect_brute_force(const SiteSet& set, Model model) {
       << (model == Model::projected ? "projected\n" : "weighted\n") << text(set);
 }
 
-class hull : public testing::TestWithParam<Generator> {};
+class hulls : public testing::TestWithParam<Generator> {};
 
-TEST_P(hull, is_that_of_brute_force) {
+TEST_P(hulls, are_those_of_brute_force) {
   const Generator& kind = GetParam();
   for (std::uint64_t seed = 0; seed < scaled(12) && !HasFailure(); ++seed) {
     SiteSet set = kind.make(3 + seed % 10, seed);
@@ -49,8 +50,23 @@ TEST_P(hull, is_that_of_brute_force) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(kinds, hull, testing::ValuesIn(generators().begin(), generators().end()),
+INSTANTIATE_TEST_SUITE_P(kinds, hulls, testing::ValuesIn(generators().begin(), generators().end()),
                          [](const auto& kind) { return std::string(kind.param.name); });
+
+// Sites of two kinds in one input.
+TEST(hull, of_mixed_kinds_is_that_of_brute_force) {
+  Random random(61);
+  for (std::size_t i = 0; i < scaled(600) && !HasFailure(); ++i) {
+    SiteSet set = generators()[random.below(generators().size())].make(6, random.next() % 1000);
+    set.sites.resize(std::min<std::size_t>(set.sites.size(), 6));
+    const Generator& other = generators()[random.below(generators().size())];
+    SiteSet more = other.make(6, random.next() % 1000);
+    more.sites.resize(std::min<std::size_t>(more.sites.size(), 6));
+    set.sites.insert(set.sites.end(), more.sites.begin(), more.sites.end());
+    std::erase(set.sites, set.sphere.center);
+    expect_brute_force(set, random.coin() ? Model::weighted : Model::projected);
+  }
+}
 
 }  // namespace
 }  // namespace rondel::test

@@ -41,7 +41,7 @@ std::vector<Index> place_names(const Triangulation& t) {
 }
 
 TEST(input_order, changes_nothing) {
-  expect_for_all(800, [] {
+  expect_for_all(300, [] {
     const Input input = *inputs(300);
     const SiteSet set = input.make();
     const Triangulation first = triangulate(set, input.model);
@@ -71,7 +71,7 @@ TEST(input_order, representatives_have_the_lowest_index) {
 
 // The same sites again, in any order and as often as one likes.
 TEST(input_order, repeated_sites_add_duplicates_only) {
-  expect_for_all(500, [] {
+  expect_for_all(300, [] {
     const Input input = *inputs(120);
     const SiteSet set = input.make();
     const Triangulation first = triangulate(set, input.model);
@@ -90,7 +90,7 @@ TEST(input_order, repeated_sites_add_duplicates_only) {
 
 // With two threads or any number, the bytes are the same.
 TEST(input_order, threads_change_nothing) {
-  expect_for_all(150, [] {
+  expect_for_all(60, [] {
     const Input input = *inputs(2000);
     const SiteSet set = input.make();
     const Triangulation one = triangulate(set, input.model);

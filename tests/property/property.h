@@ -35,7 +35,10 @@ struct Input {
   Model model;
 
   [[nodiscard]] const Generator& generator() const { return generators()[kind]; }
-  [[nodiscard]] SiteSet make() const { return generator().make(size, seed); }
+  [[nodiscard]] SiteSet make() const {
+    return generator().make(generator().has_long_integers ? std::min<std::size_t>(size, 40) : size,
+                            seed);
+  }
 };
 
 inline void showValue(const Input& input, std::ostream& out) {

@@ -24,7 +24,8 @@ struct Generator {
   std::string_view name;
   // About n sites; some kinds give a few more or fewer.
   SiteSet (*make)(std::size_t n, std::uint64_t seed);
-  bool weighted_only = false;  // a site may be the center
+  bool weighted_only = false;      // a site may be the center
+  bool has_long_integers = false;  // slow for the exact oracle
 };
 
 // Kinds that mean to lie on a sphere (directions matter), and kinds that fill space (planes, cubes,

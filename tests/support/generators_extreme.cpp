@@ -115,11 +115,11 @@ constexpr std::array extreme = {
     Generator{"mixed_scales", mixed_scales},
     Generator{"moderate_scales", moderate_scales},
     Generator{"subnormal", subnormal},
-    Generator{"ends_of_range", ends_of_range},
+    Generator{"ends_of_range", ends_of_range, false, true},
     Generator{"signed_zeros", signed_zeros},
     Generator{"far_center", far_center},
     Generator{"very_far_center", very_far_center},
-    Generator{"remote_center", remote_center},
+    Generator{"remote_center", remote_center, false, true},
     Generator{"needle", needle},
     Generator{"funnel", funnel},
 };
