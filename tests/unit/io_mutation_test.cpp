@@ -10,11 +10,13 @@
 namespace rondel::test {
 namespace {
 
+using namespace std::string_view_literals;
+
 std::string mutate(std::string bytes, const std::string& other, std::mt19937_64& random) {
   const auto below = [&](std::size_t n) {
     return std::uniform_int_distribution<std::size_t>(0, n == 0 ? 0 : n - 1)(random);
   };
-  constexpr std::string_view special("\"\n\r,\t{}[]()-+.e0129\x00\xFF<>'#_/", 29);
+  constexpr std::string_view special = "\"\n\r,\t{}[]()-+.e0129\x00\xFF<>'#_/"sv;
   for (std::size_t changes = 1 + below(4); changes > 0; --changes) {
     const std::size_t position = below(bytes.size());
     const std::size_t length = below(1 + std::min<std::size_t>(16, bytes.size() - position));
