@@ -65,6 +65,8 @@ bool can_write_sites(const std::string& path);
 
 /// Writes the triangles: .npy has input indices (m, 3) uint32; formats with vertices list every
 /// input site in input order with digits that round-trip.
+/// .stl repeats the corners as 32-bit floats, the only numbers that it has. GeoJSON has the solid
+/// faces: seen from the center, ghost faces are flat or reversed.
 void write_triangles(const std::string& path, const SiteTable& table,
                      const Triangulation& triangulation, const Progress& progress = {});
 
