@@ -18,7 +18,7 @@ constexpr double longest_arc_cosine = -0.499;
 // a unit vector e, so e x (n_f - n_g) = 2 sin(t/2) (sin(t/2) m + cos(t/2) n_f), which is the middle
 // and has length above sqrt(3) here.
 Point middle_of_arc(const Vec& e, const Point& nf, const Point& ng) {
-  return to_point(normalized(cross(normalized(e), to_vector(nf) - to_vector(ng))));
+  return to_point(normalized(cross(e, to_vector(nf) - to_vector(ng))));
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ std::vector<ArcPoint> add_arc_points(const Triangulation& triangulation, const S
     for (Index i = 0; i < 3; ++i) {
       const Index g = neighbors[f][i];
       if (g < f || dot(to_vector(points[f]), to_vector(points[g])) > longest_arc_cosine) continue;
-      const Vec e = sites.difference(faces[f][next_corner(i)], faces[f][previous_corner(i)]);
+      const Vec e = sites.direction(faces[f][next_corner(i)], faces[f][previous_corner(i)]);
       const auto position = static_cast<Index>(points.size());
       result.push_back({3 * f + i, position});
       result.push_back({3 * g + mirror_corner(faces[f], i, faces[g]), position});

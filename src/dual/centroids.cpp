@@ -20,7 +20,6 @@ namespace {
 using dual::LocalRing;
 using dual::RingPoint;
 using dual::Vec;
-using dual::operator*;
 
 // n - q. With r = q x n, the part across q is r x q and the part along q is
 // q.n - 1 = -|r|^2 / (1 + q.n).

@@ -31,8 +31,12 @@ int num_bits(const IntegerVector& v) {
   return std::max({num_bits(v.x), num_bits(v.y), num_bits(v.z)});
 }
 
+// value * 2^bits, rounded towards zero. (Boost 1.74 loses the sign of some negative numbers that it
+// shifts to the right.)
 Integer shifted(const Integer& value, int bits) {
-  return bits >= 0 ? Integer(value << bits) : Integer(value >> -bits);
+  if (bits >= 0) return value << bits;
+  const Integer magnitude = abs(value) >> -bits;
+  return value < 0 ? Integer(-magnitude) : magnitude;
 }
 
 // value * 2^exponent, rounded to nearest. A sticky bit below the 62 leading ones makes the
@@ -153,22 +157,19 @@ ExactNormal exact_normal(const SplitSites& sites, Index a, Index b, Index c) {
 
 // |a| b - |b| a, divided by |a| |b|. Roots are wrong by less than 1 in 2^k |a|, so the sum by
 // less than |a| + |b|.
-Vec exact_projected_difference(const Point& a, const Point& b, const Point& center) {
+ExactDifference exact_projected_difference(const Point& a, const Point& b, const Point& center) {
   const auto p = exact::scaled_rays({a, b}, center);
   const int error_bits = std::max(num_bits(p[0]), num_bits(p[1])) + 3;
   for (int k = 64;; k *= 2) {
     const Integer length_a = root(dot(p[0], p[0]) << (2 * k));
     const Integer length_b = root(dot(p[1], p[1]) << (2 * k));
     const IntegerVector d = length_a * p[1] - length_b * p[0];
-    const int bits = num_bits(d);
-    if (bits < error_bits + wanted_bits) continue;
-    // d / (2^-k length_a length_b), to 128 bits of quotient.
+    if (num_bits(d) < error_bits + wanted_bits) continue;
+    // |d| / (2^-k length_a length_b), to 128 bits of quotient.
     const Integer product = length_a * length_b;
-    const int shift = 128 + num_bits(product) - bits;
-    const auto quotient = [&](const Integer& x) {
-      return to_double(Integer(shifted(x, shift) / product), k - shift);
-    };
-    return {quotient(d.x), quotient(d.y), quotient(d.z)};
+    const int shift = 128 + num_bits(product) - num_bits(d);
+    const Integer quotient = shifted(root(dot(d, d)), shift) / product;
+    return {rounded_unit(d), to_double(quotient, k - shift)};
   }
 }
 

@@ -21,8 +21,12 @@ struct ExactNormal {
 // points away from the sites.
 ExactNormal exact_normal(const SplitSites& sites, Index a, Index b, Index c);
 
-// The difference b/|b| - a/|a| of the projections, each coordinate within 2^-53 of the length.
-Vec exact_projected_difference(const Point& a, const Point& b, const Point& center);
+// The difference b/|b| - a/|a| of the projections.
+struct ExactDifference {
+  Vec direction;  // unit vector, each coordinate within 2^-53
+  double length;  // 0 where it is below the smallest double
+};
+ExactDifference exact_projected_difference(const Point& a, const Point& b, const Point& center);
 
 // The unit vector from a to b.
 Vec exact_direction(const Point& a, const Point& b);

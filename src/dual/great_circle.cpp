@@ -51,7 +51,7 @@ void set_rings(std::span<const Index> vertices, std::span<const std::array<Index
 }
 
 Cells hemispheres(const SplitSites& sites, std::span<const Index> pair, std::size_t num_sites) {
-  const auto [x, y] = frame_across(normalized(sites.difference(pair[1], pair[0])));
+  const auto [x, y] = frame_across(sites.direction(pair[1], pair[0]));
   Cells cells;
   cells.points = {to_point(x), to_point(y), to_point(-1.0 * x), to_point(-1.0 * y)};
   constexpr std::array<std::array<Index, 4>, 2> rings = {{{0, 1, 2, 3}, {0, 3, 2, 1}}};
@@ -66,7 +66,7 @@ Cells lunes(const SplitSites& sites, std::span<const Index> ring, std::size_t nu
   cells.points = {to_point(axis), to_point(-1.0 * axis)};
   std::vector<std::array<Index, 4>> rings;
   for (Index j = 0; j < k; ++j) {
-    const Vec e = normalized(sites.difference(ring[j], ring[(j + 1) % k]));
+    const Vec e = sites.direction(ring[j], ring[(j + 1) % k]);
     cells.points.push_back(to_point(normalized(cross(e, axis))));
     rings.push_back({0, 2 + (j + k - 1) % k, 1, 2 + j});
   }
@@ -135,9 +135,7 @@ std::vector<Point> great_circle_centroids(const Triangulation& triangulation,
   const std::size_t k = ring.size();
   std::vector<Point> result(triangulation.num_sites());
   if (k < 2) return result;
-  const auto edge = [&](std::size_t j) {
-    return normalized(sites.difference(ring[j % k], ring[(j + 1) % k]));
-  };
+  const auto edge = [&](std::size_t j) { return sites.direction(ring[j % k], ring[(j + 1) % k]); };
   const Vec axis = k == 2 ? Vec{} : axis_of(sites, ring);
   for (std::size_t j = 0; j < k; ++j) {
     result[ring[j]] =

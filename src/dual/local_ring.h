@@ -58,8 +58,8 @@ class RingLocalizer {
   struct Spoke;
   [[nodiscard]] Spoke spoke(const exact::SplitPoint& a, Index b) const;
   RingPoint star_point(Index site, const Spoke& b, const Spoke& c, Index position);
-  RingPoint careful_star_point(Index site, Index b, Index c, Index point);
-  [[nodiscard]] RingPoint global_point(Index point) const;
+  RingPoint careful_star_point(Index site, Index b, Index c, Index position);
+  [[nodiscard]] RingPoint global_point(Index position) const;
 
   void localize_small(Index site, std::span<const Index> ring);
   struct Wedge;

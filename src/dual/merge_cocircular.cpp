@@ -75,13 +75,13 @@ class FacetFinder {
                           triangulation_.sphere()) == Sign::zero;
   }
 
-  // The corner between the other two on a line: differences along it have opposite signs.
+  // The corner between the other two on a line: the directions to them are opposite.
   [[nodiscard]] Index middle_corner(Index f) const {
-    const auto difference = [&](Index i, Index j) {
-      return split_sites_.difference(faces_[f][i], faces_[f][j]);
+    const auto direction = [&](Index i, Index j) {
+      return split_sites_.direction(faces_[f][i], faces_[f][j]);
     };
     for (Index i = 0; i < 2; ++i) {
-      if (dot(difference(i, dual::next_corner(i)), difference(i, dual::previous_corner(i))) < 0) {
+      if (dot(direction(i, dual::next_corner(i)), direction(i, dual::previous_corner(i))) < 0) {
         return i;
       }
     }

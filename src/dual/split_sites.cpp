@@ -67,12 +67,23 @@ SplitSites::SplitSites(const Triangulation& triangulation, std::span<const Point
 
 // The places of projected sites are wrong by 2^-100 each, so offsets above 2^-45 are right to
 // 2^-54. Weighted offsets are exact unless they come near to underflow.
+bool SplitSites::is_rounded_enough(const Vec& difference) const {
+  return dot(difference, difference) >= (is_projected() ? 0x1p-90 : 0x1p-900);
+}
+
 Vec SplitSites::difference(Index a, Index b) const {
   const Offset d = offset(a, b);
   const Vec v = d.hi + d.lo;
-  const double smallest = is_projected() ? 0x1p-90 : 0x1p-900;
-  if (dot(v, v) >= smallest) return v;
-  return is_projected() ? exact_projected_difference(sites_[a], sites_[b], center_)
+  if (!is_projected() || is_rounded_enough(v)) return v;
+  const auto exact = exact_projected_difference(sites_[a], sites_[b], center_);
+  return exact.length * exact.direction;
+}
+
+Vec SplitSites::direction(Index a, Index b) const {
+  const Offset d = offset(a, b);
+  const Vec v = d.hi + d.lo;
+  if (is_rounded_enough(v)) return normalized(v);
+  return is_projected() ? exact_projected_difference(sites_[a], sites_[b], center_).direction
                         : exact_direction(sites_[a], sites_[b]);
 }
 

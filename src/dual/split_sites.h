@@ -56,15 +56,18 @@ class SplitSites {
   [[nodiscard]] Offset offset(Index a, Index b) const {
     return dual::offset(places_[a], places_[b]);
   }
-  // b - a, or in the weighted model a multiple of it, with every coordinate right to a few u of the
-  // whole, however close the two sites are.
+  // b - a with every coordinate right to a few u of the length, however close the two are.
   [[nodiscard]] Vec difference(Index a, Index b) const;
+  // Its unit vector, also where the difference is below the smallest double.
+  [[nodiscard]] Vec direction(Index a, Index b) const;
 
   [[nodiscard]] bool is_projected() const { return model_ == Model::projected; }
   [[nodiscard]] std::span<const Point> sites() const { return sites_; }
   [[nodiscard]] const Point& center() const { return center_; }
 
  private:
+  [[nodiscard]] bool is_rounded_enough(const Vec& difference) const;
+
   std::vector<exact::SplitPoint> places_;
   std::span<const Point> sites_;
   Point center_;
