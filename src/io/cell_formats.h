@@ -28,9 +28,9 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells);
 
 // Polygons on the unit sphere, whose corners are the diagram's points, with the cell data `site`
 // and `area`. A cell that is the whole sphere has no polygon.
-void write_cells_vtp(AtomicFile& file, const CellsToWrite& cells);
+void write_cells_vtp(AtomicFile& file, const CellsToWrite& to_write);
 
 // Four arrays: offsets (n + 1, u8), rings (u4), points (k, 3; f8) and areas (n, f8).
-void write_cells_npz(AtomicFile& file, const CellsToWrite& cells);
+void write_cells_npz(AtomicFile& file, const CellsToWrite& to_write);
 
 }  // namespace rondel::io

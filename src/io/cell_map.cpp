@@ -165,7 +165,8 @@ bool CellMap::draw_ring(std::size_t site) {
   ring_.points.clear();
   ring_.tolerances.clear();
   ring_.edges.clear();
-  std::find_if(ring.rbegin(), ring.rend(), read_face);  // the arc at the seam of the ring
+  // The arc at the seam of the ring.
+  static_cast<void>(std::find_if(ring.rbegin(), ring.rend(), read_face));
   for (std::size_t i = 0; i < ring.size(); ++i) {
     read_face(ring[i]);
     const Index from = representative(ring[i]);

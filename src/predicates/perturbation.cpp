@@ -64,12 +64,12 @@ Sign circular_order(const IntegerVector& x, const IntegerVector& y, const Intege
 IntegerVector oriented_normal(const std::array<IntegerVector, 4>& v, const Order& order,
                               const std::array<std::size_t, 3>& triple) {
   const IntegerVector& x = v[triple[0]];
-  const IntegerVector normal = cross(v[triple[1]] - x, v[triple[2]] - x);
+  IntegerVector normal = cross(v[triple[1]] - x, v[triple[2]] - x);
   if (!is_zero(normal)) return normal;
   for (const std::size_t role : order) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (triple[k] != role) continue;
-      const IntegerVector raised = cross(v[role], v[triple[(k + 1) % 3]] - v[triple[(k + 2) % 3]]);
+      IntegerVector raised = cross(v[role], v[triple[(k + 1) % 3]] - v[triple[(k + 2) % 3]]);
       if (!is_zero(raised)) return raised;
     }
   }
