@@ -20,6 +20,7 @@ namespace {
 using dual::LocalRing;
 using dual::RingPoint;
 using dual::Vec;
+using dual::operator*;  // NOLINT(misc-unused-using-decls): s * v
 
 // n - q. With r = q x n, the part across q is r x q and the part along q is
 // q.n - 1 = -|r|^2 / (1 + q.n).
