@@ -1,0 +1,7 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+rondel_add_test(kernel_test
+  kernel_api_test.cpp
+  kernel_exact_test.cpp
+  kernel_order_test.cpp
+  LIBS rondel_test_support)
