@@ -25,7 +25,8 @@ TEST(models, agree_on_a_sphere_of_integers) {
     const auto square = *rc::gen::element(9, 26, 81, 89, 161, 206, 329, 594, 1001);
     Random random(*rc::gen::inRange<std::uint64_t>(0, 1000));
     SiteSet set{integer_sphere(square, random)};
-    set.sites.resize(std::min<std::size_t>(set.sites.size(), *rc::gen::inRange(1, 300)));
+    set.sites.resize(
+        std::min<std::size_t>(set.sites.size(), *rc::gen::inRange<std::size_t>(1, 300)));
     RC_ASSERT(are_equal(triangulate(set, Model::projected), triangulate(set, Model::weighted)));
   });
 }
