@@ -32,7 +32,8 @@ std::vector<ArcPoint> add_arc_points(const Triangulation& triangulation, const S
     for (Index i = 0; i < 3; ++i) {
       const Index g = neighbors[f][i];
       if (g < f || dot(to_vector(points[f]), to_vector(points[g])) > longest_arc_cosine) continue;
-      const Vec e = sites.direction(faces[f][next_corner(i)], faces[f][previous_corner(i)]);
+      const Triple& corners = sites.corners(f);
+      const Vec e = sites.direction(corners[next_corner(i)], corners[previous_corner(i)]);
       const auto position = static_cast<Index>(points.size());
       result.push_back({3 * f + i, position});
       result.push_back({3 * g + mirror_corner(faces[f], i, faces[g]), position});

@@ -13,15 +13,11 @@ namespace rondel {
 
 std::vector<Point> dual::circumcenters(const Triangulation& triangulation,
                                        const SplitSites& sites) {
-  const auto faces = triangulation.faces();
-  std::vector<Point> result(faces.size());
-  blocks::parallel_for(0, faces.size(), triangulation.report().threads,
+  std::vector<Point> result(triangulation.num_faces());
+  blocks::parallel_for(0, result.size(), triangulation.report().threads,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t f = begin; f < end; ++f) {
-                           if (f + prefetch_distance < end) {
-                             for (const Index v : faces[f + prefetch_distance]) sites.prefetch(v);
-                           }
-                           const auto [a, b, c] = faces[f];
+                           const auto [a, b, c] = sites.corners(static_cast<Index>(f));
                            result[f] = unit_normal(sites, a, b, c);
                          }
                        });

@@ -118,8 +118,8 @@ std::optional<IntegerVector> plane_normal(const IntegerVector& a, const IntegerV
 // does not lie on it (either way if there is none). Empty if apex is on the line.
 std::optional<Point> supporting_normal(const SplitSites& sites, Index a, Index b,
                                        const Point& apex) {
-  const Point& pa = sites.sites()[a];
-  const auto ray = exact::scaled_differences({pa, sites.sites()[b]}, apex);
+  const Point& pa = sites.point(a);
+  const auto ray = exact::scaled_differences({pa, sites.point(b)}, apex);
   const auto normal = cross(ray[0], ray[1] - ray[0]);
   if (is_zero(normal)) return std::nullopt;
   const Vec n = rounded_unit(normal);
@@ -143,9 +143,9 @@ ExactNormal collinear_normal(const SplitSites& sites, Index a, Index b) {
 }  // namespace
 
 ExactNormal exact_normal(const SplitSites& sites, Index a, Index b, Index c) {
-  const Point& pa = sites.sites()[a];
-  const Point& pb = sites.sites()[b];
-  const Point& pc = sites.sites()[c];
+  const Point& pa = sites.point(a);
+  const Point& pb = sites.point(b);
+  const Point& pc = sites.point(c);
   if (sites.is_projected()) {
     const auto p = exact::scaled_rays({pa, pb, pc}, sites.center());
     return {to_point(rounded_unit(projected_normal(p[0], p[1], p[2]))), false};

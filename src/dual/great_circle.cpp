@@ -18,12 +18,12 @@ constexpr double pi = std::numbers::pi;
 // The axis: the normal of three vertices in the order of the ring. Vertices of the weighted model
 // may be collinear, all but two of them then have cells without area, and any axis across the line
 // will do.
-Vec axis_of(const SplitSites& sites, std::span<const Index> ring) {
-  for (std::size_t j = 2; j < ring.size(); ++j) {
-    if (is_degenerate(sites, ring[0], ring[j - 1], ring[j])) continue;
-    return to_vector(unit_normal(sites, ring[0], ring[j - 1], ring[j]));
+Vec axis_of(const SplitSites& sites) {
+  for (Index j = 2; j < sites.order().size(); ++j) {
+    if (is_degenerate(sites, 0, j - 1, j)) continue;
+    return to_vector(unit_normal(sites, 0, j - 1, j));
   }
-  return to_vector(unit_normal(sites, ring[0], ring[1], ring[2]));
+  return to_vector(unit_normal(sites, 0, 1, 2));
 }
 
 // Two unit vectors across d, so that first, second, d is a right-handed frame.
@@ -51,7 +51,7 @@ void set_rings(std::span<const Index> vertices, std::span<const std::array<Index
 }
 
 Cells hemispheres(const SplitSites& sites, std::span<const Index> pair, std::size_t num_sites) {
-  const auto [x, y] = frame_across(sites.direction(pair[1], pair[0]));
+  const auto [x, y] = frame_across(sites.direction(1, 0));
   Cells cells;
   cells.points = {to_point(x), to_point(y), to_point(-1.0 * x), to_point(-1.0 * y)};
   constexpr std::array<std::array<Index, 4>, 2> rings = {{{0, 1, 2, 3}, {0, 3, 2, 1}}};
@@ -60,13 +60,13 @@ Cells hemispheres(const SplitSites& sites, std::span<const Index> pair, std::siz
 }
 
 Cells lunes(const SplitSites& sites, std::span<const Index> ring, std::size_t num_sites) {
-  const Vec axis = axis_of(sites, ring);
+  const Vec axis = axis_of(sites);
   const auto k = static_cast<Index>(ring.size());
   Cells cells;
   cells.points = {to_point(axis), to_point(-1.0 * axis)};
   std::vector<std::array<Index, 4>> rings;
   for (Index j = 0; j < k; ++j) {
-    const Vec e = sites.direction(ring[j], ring[(j + 1) % k]);
+    const Vec e = sites.direction(j, (j + 1) % k);
     cells.points.push_back(to_point(normalized(cross(e, axis))));
     rings.push_back({0, 2 + (j + k - 1) % k, 1, 2 + j});
   }
@@ -115,16 +115,15 @@ Cells great_circle_cells(const Triangulation& triangulation, const SplitSites& s
 std::vector<double> great_circle_areas(const Triangulation& triangulation,
                                        const SplitSites& sites) {
   const auto ring = triangulation.ring();
-  const std::size_t k = ring.size();
+  const auto k = static_cast<Index>(ring.size());
   std::vector<double> result(triangulation.num_sites(), 0.0);
   if (k <= 2) {
-    for (const Index v : ring) result[v] = 4 * pi / static_cast<double>(k);
+    for (const Index v : ring) result[v] = 4 * pi / k;
     return result;
   }
-  const Vec axis = axis_of(sites, ring);
-  for (std::size_t j = 0; j < k; ++j) {
-    result[ring[j]] =
-        2 * lune_angle(sites, axis, ring[(j + k - 1) % k], ring[j], ring[(j + 1) % k]);
+  const Vec axis = axis_of(sites);
+  for (Index j = 0; j < k; ++j) {
+    result[ring[j]] = 2 * lune_angle(sites, axis, (j + k - 1) % k, j, (j + 1) % k);
   }
   return result;
 }
@@ -132,12 +131,12 @@ std::vector<double> great_circle_areas(const Triangulation& triangulation,
 std::vector<Point> great_circle_centroids(const Triangulation& triangulation,
                                           const SplitSites& sites) {
   const auto ring = triangulation.ring();
-  const std::size_t k = ring.size();
+  const auto k = static_cast<Index>(ring.size());
   std::vector<Point> result(triangulation.num_sites());
   if (k < 2) return result;
-  const auto edge = [&](std::size_t j) { return sites.direction(ring[j % k], ring[(j + 1) % k]); };
-  const Vec axis = k == 2 ? Vec{} : axis_of(sites, ring);
-  for (std::size_t j = 0; j < k; ++j) {
+  const auto edge = [&](Index j) { return sites.direction(j % k, (j + 1) % k); };
+  const Vec axis = k == 2 ? Vec{} : axis_of(sites);
+  for (Index j = 0; j < k; ++j) {
     result[ring[j]] =
         to_point(k == 2 ? -1.0 * edge(j) : lune_center(edge(j + k - 1), edge(j), axis));
   }

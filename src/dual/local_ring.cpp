@@ -9,6 +9,7 @@
 
 #include "blocks/parallel.h"
 #include "dual/face_normal.h"
+#include "dual/prefetch.h"
 #include "dual/ring_walk.h"
 
 namespace rondel::dual {
@@ -26,17 +27,18 @@ constexpr double circumcenter_error = 0x1p-51;
 
 }  // namespace
 
-const LocalRing& RingLocalizer::operator()(Index site) {
+const LocalRing& RingLocalizer::operator()(Index rank) {
+  const Index site = sites_.order()[rank];
   const std::span<const Index> ring(cells_.rings.data() + cells_.offsets[site],
                                     cells_.rings.data() + cells_.offsets[site + 1]);
   ring_.points.clear();
   ring_.error = 0;
   if (sites_.is_projected()) {
-    localize_around_site(site, ring);
+    localize_around_site(rank, ring);
     // An arc may pass so near to the site that only relatively right points tell its side.
     if (ring_.error > 0) localize_large(ring);
   } else if (is_small(ring)) {
-    localize_small(site, ring);
+    localize_small(rank, ring);
   } else {
     localize_large(ring);
   }
@@ -50,19 +52,19 @@ RingPoint RingLocalizer::global_point(Index position) const {
 
 // The offset to a neighbor, rounded, and its square.
 struct RingLocalizer::Spoke {
-  Index site;
+  Index rank;
   Vec v;
   double square;
 };
 
-RingLocalizer::Spoke RingLocalizer::spoke(const exact::SplitPoint& a, Index b) const {
+inline RingLocalizer::Spoke RingLocalizer::spoke(const exact::SplitPoint& a, Index b) const {
   const exact::SplitPoint& p = sites_[b];
   const Vec v = (to_vector(p.hi) - to_vector(a.hi)) + (to_vector(p.lo) - to_vector(a.lo));
   return {b, v, dot(v, v)};
 }
 
-void RingLocalizer::localize_around_site(Index site, std::span<const Index> ring) {
-  const exact::SplitPoint a = sites_[site];
+void RingLocalizer::localize_around_site(Index rank, std::span<const Index> ring) {
+  const exact::SplitPoint a = sites_[rank];
   ring_.origin = to_vector(a.hi);
   ring_.points.resize(ring.size());
   Spoke last{no_index, {}, 0};
@@ -71,22 +73,22 @@ void RingLocalizer::localize_around_site(Index site, std::span<const Index> ring
       ring_.points[j] = global_point(ring[j]);
       continue;
     }
-    const Triple& face = triangulation_.faces()[ring[j]];
-    const Index corner = corner_of(face, site);
-    if (last.site == no_index) last = spoke(a, face[next_corner(corner)]);
+    const Triple& face = sites_.corners(ring[j]);
+    const Index corner = corner_of(face, rank);
+    if (last.rank == no_index) last = spoke(a, face[next_corner(corner)]);
     const Spoke next = spoke(a, face[previous_corner(corner)]);
-    ring_.points[j] = star_point(site, last, next, ring[j]);
+    ring_.points[j] = star_point(rank, last, next, ring[j]);
     last = next;
   }
 }
 
-inline RingPoint RingLocalizer::star_point(Index site, const Spoke& b, const Spoke& c,
+inline RingPoint RingLocalizer::star_point(Index rank, const Spoke& b, const Spoke& c,
                                            Index position) {
   const Vec n = cross(b.v, c.v);
   const double n2 = dot(n, n);
   if (n2 < smallest_sine_squared * (b.square * c.square) ||
       std::min(b.square, c.square) < smallest_square) {
-    return careful_star_point(site, b.site, c.site, position);
+    return careful_star_point(rank, b.rank, c.rank, position);
   }
   const double inverse = 1 / std::sqrt(n2);
   const double half = 0.5 * inverse;
@@ -98,15 +100,15 @@ inline RingPoint RingLocalizer::star_point(Index site, const Spoke& b, const Spo
 // r with D do not cancel. Without a proved double-double normal, the rounded one is wrong by u over
 // the sine between its factors, and the circumcenter itself by u, which is u / |r|
 // relatively, with |r| = |D| / (2 sin(B, C)): the better one is taken.
-RingPoint RingLocalizer::careful_star_point(Index site, Index b, Index c, Index position) {
-  const Vec to_b = sites_.difference(site, b);
-  const Vec to_c = sites_.difference(site, c);
+RingPoint RingLocalizer::careful_star_point(Index rank, Index b, Index c, Index position) {
+  const Vec to_b = sites_.difference(rank, b);
+  const Vec to_c = sites_.difference(rank, c);
   const Vec d = sites_.difference(b, c);
   const double b2 = dot(to_b, to_b);
   const double c2 = dot(to_c, to_c);
   const double d2 = dot(d, d);
   const bool is_near = 4 * d2 < b2;
-  Vec n = split_cross(sites_.offset(site, b), sites_.offset(site, c)).rounded();
+  Vec n = split_cross(sites_.offset(rank, b), sites_.offset(rank, c)).rounded();
   if (!is_accurate(b2, c2, dot(n, n), true)) {
     n = cross(to_b, is_near ? d : to_c);
     const double n2 = dot(n, n);
@@ -142,11 +144,11 @@ struct RingLocalizer::Wedge {
   }
 };
 
-RingLocalizer::Wedge RingLocalizer::wedge(Index site, Index position) const {
-  const Triple& face = triangulation_.faces()[position];
-  const Index corner = corner_of(face, site);
-  Wedge w{sites_.offset(site, face[next_corner(corner)]),
-          sites_.offset(site, face[previous_corner(corner)]),
+RingLocalizer::Wedge RingLocalizer::wedge(Index rank, Index position) const {
+  const Triple& face = sites_.corners(position);
+  const Index corner = corner_of(face, rank);
+  Wedge w{sites_.offset(rank, face[next_corner(corner)]),
+          sites_.offset(rank, face[previous_corner(corner)]),
           {},
           0};
   w.normal = split_cross(w.to_b, w.to_c);
@@ -171,13 +173,13 @@ Vec RingLocalizer::arc_step(const Wedge& from, const Wedge& to, const Vec& n,
 }
 
 // The offsets d = n - q are sums of steps along the ring.
-void RingLocalizer::localize_small(Index site, std::span<const Index> ring) {
+void RingLocalizer::localize_small(Index rank, std::span<const Index> ring) {
   ring_.origin = point(ring[0]);
   Vec d{0, 0, 0};
-  Wedge last = wedge(site, ring[0]);
+  Wedge last = wedge(rank, ring[0]);
   ring_.points.push_back({d, 2});
   for (std::size_t j = 1; j < ring.size(); ++j) {
-    const Wedge next = wedge(site, ring[j]);
+    const Wedge next = wedge(rank, ring[j]);
     d = d + arc_step(last, next, point(ring[j - 1]), point(ring[j]));
     ring_.points.push_back(ring_point(cross(ring_.origin, d), 1 - 0.5 * dot(d, d)));
     last = next;
@@ -200,27 +202,23 @@ void RingLocalizer::localize_large(std::span<const Index> ring) {
   for (const Index position : ring) ring_.points.push_back(global_point(position));
 }
 
+// The rings lie in the order of the input, so they are asked for ahead.
 void for_each_cell(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
                    const std::function<void(Index, const LocalRing&)>& visit) {
-  const auto faces = triangulation.faces();
-  const auto first_of = [&](Index site) { return cells.rings.data() + cells.offsets[site]; };
-  const auto visit_range = [&](std::size_t begin, std::size_t end) {
-    RingLocalizer localize(triangulation, sites, cells);
-    for (std::size_t f = begin; f < end; ++f) {
-      if (f + 2 * prefetch_distance < end) {
-        for (const Index v : faces[f + 2 * prefetch_distance]) prefetch(&cells.offsets[v]);
-        for (const Index v : faces[f + prefetch_distance]) {
-          prefetch(first_of(v));
-          sites.prefetch(v);
-        }
-      }
-      for (const Index v : faces[f]) {
-        // A ring starts with its smallest face.
-        if (*first_of(v) == f) visit(v, localize(v));
-      }
-    }
-  };
-  blocks::parallel_for(0, faces.size(), triangulation.report().threads, visit_range);
+  const auto order = sites.order();
+  blocks::parallel_for(0, order.size(), triangulation.report().threads,
+                       [&](std::size_t begin, std::size_t end) {
+                         RingLocalizer localize(triangulation, sites, cells);
+                         for (std::size_t k = begin; k < end; ++k) {
+                           if (k + 2 * prefetch_distance < end) {
+                             prefetch(&cells.offsets[order[k + 2 * prefetch_distance]]);
+                             const Index ahead = order[k + prefetch_distance];
+                             prefetch(&cells.rings[cells.offsets[ahead]]);
+                             prefetch(&cells.rings[cells.offsets[ahead + 1] - 1]);
+                           }
+                           visit(order[k], localize(static_cast<Index>(k)));
+                         }
+                       });
 }
 
 }  // namespace rondel::dual

@@ -50,20 +50,21 @@ class RingLocalizer {
   RingLocalizer(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells)
       : triangulation_(triangulation), sites_(sites), cells_(cells) {}
 
-  // Precondition: the cell is not empty. The result lives until the next call.
-  const LocalRing& operator()(Index site);
+  // Precondition: the cell of the vertex of this rank is not empty. The result lives until the next
+  // call.
+  const LocalRing& operator()(Index rank);
 
  private:
-  void localize_around_site(Index site, std::span<const Index> ring);
+  void localize_around_site(Index rank, std::span<const Index> ring);
   struct Spoke;
   [[nodiscard]] Spoke spoke(const exact::SplitPoint& a, Index b) const;
-  RingPoint star_point(Index site, const Spoke& b, const Spoke& c, Index position);
-  RingPoint careful_star_point(Index site, Index b, Index c, Index position);
+  RingPoint star_point(Index rank, const Spoke& b, const Spoke& c, Index position);
+  RingPoint careful_star_point(Index rank, Index b, Index c, Index position);
   [[nodiscard]] RingPoint global_point(Index position) const;
 
-  void localize_small(Index site, std::span<const Index> ring);
+  void localize_small(Index rank, std::span<const Index> ring);
   struct Wedge;
-  [[nodiscard]] Wedge wedge(Index site, Index position) const;
+  [[nodiscard]] Wedge wedge(Index rank, Index position) const;
   [[nodiscard]] Vec arc_step(const Wedge& from, const Wedge& to, const Vec& n,
                              const Vec& next) const;
   void localize_large(std::span<const Index> ring);

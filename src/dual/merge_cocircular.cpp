@@ -60,8 +60,7 @@ class FacetFinder {
   // Collinear corners (weighted, after the perturbation) lie in any plane through their
   // line; such a face joins the one across its longest edge, which covers the other two.
   [[nodiscard]] bool is_same_facet(Index f, Index i) const {
-    const auto [a, b, c] = faces_[f];
-    if (dual::is_degenerate(split_sites_, a, b, c)) return i == middle_corner(f);
+    if (is_degenerate(f)) return i == middle_corner(f);
     const Index g = neighbors_[f][i];
     if (g < f) return false;
     // Normals 4u from the truth that are more than 8u apart belong to different planes; on
@@ -69,16 +68,22 @@ class FacetFinder {
     constexpr double twice_the_error = 16 * 0x1p-53;
     const auto d = dual::to_vector(normals_[f]) - dual::to_vector(normals_[g]);
     if (dot(d, d) > twice_the_error * twice_the_error) return false;
+    const auto [a, b, c] = faces_[f];
     const Index p = faces_[g][dual::mirror_corner(faces_[f], i, faces_[g])];
     const auto sites = split_sites_.sites();
     return side_of_circle(sites[a], sites[b], sites[c], sites[p], triangulation_.model(),
                           triangulation_.sphere()) == Sign::zero;
   }
 
+  [[nodiscard]] bool is_degenerate(Index f) const {
+    const auto [a, b, c] = split_sites_.corners(f);
+    return dual::is_degenerate(split_sites_, a, b, c);
+  }
+
   // The corner between the other two on a line: the directions to them are opposite.
   [[nodiscard]] Index middle_corner(Index f) const {
     const auto direction = [&](Index i, Index j) {
-      return split_sites_.direction(faces_[f][i], faces_[f][j]);
+      return split_sites_.direction(split_sites_.corners(f)[i], split_sites_.corners(f)[j]);
     };
     for (Index i = 0; i < 2; ++i) {
       if (dot(direction(i, dual::next_corner(i)), direction(i, dual::previous_corner(i))) < 0) {

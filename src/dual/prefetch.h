@@ -12,12 +12,15 @@ namespace rondel::dual {
 // How many faces ahead: the work on so many covers one miss of all caches.
 constexpr std::size_t prefetch_distance = 24;
 
+// Asks for the first and the last byte: an object may straddle two cache lines.
 template <class T>
-void prefetch(const T* address) {
+void prefetch(const T* object) {
 #if defined(__GNUC__)
-  __builtin_prefetch(address);
+  const auto* bytes = reinterpret_cast<const char*>(object);
+  __builtin_prefetch(bytes);
+  if constexpr (sizeof(T) > sizeof(void*)) __builtin_prefetch(bytes + sizeof(T) - 1);
 #else
-  static_cast<void>(address);
+  static_cast<void>(object);
 #endif
 }
 

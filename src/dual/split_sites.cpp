@@ -10,6 +10,7 @@
 
 #include "blocks/parallel.h"
 #include "dual/exact_normal.h"
+#include "dual/prefetch.h"
 #include "rondel/error.h"
 
 namespace rondel::dual {
@@ -24,6 +25,10 @@ int scale_exponent(std::span<const Point> sites) {
   int exponent = 0;
   std::frexp(largest, &exponent);
   return -exponent;
+}
+
+exact::SplitPoint scaled_place(const Point& p, int shift) {
+  return {{std::ldexp(p.x, shift), std::ldexp(p.y, shift), std::ldexp(p.z, shift)}, {}};
 }
 
 void check_size(const Triangulation& triangulation, std::size_t num_sites) {
@@ -50,19 +55,42 @@ Vec normalized(const Vec& v) {
 SplitSites::SplitSites(const Triangulation& triangulation, std::span<const Point> sites)
     : sites_(sites), center_(triangulation.sphere().center), model_(triangulation.model()) {
   check_size(triangulation, sites.size());
-  places_.resize(sites.size());
-  const int shift = is_projected() ? 0 : scale_exponent(sites);
+  set_order(triangulation);
+  set_places(triangulation.report().threads);
+}
+
+void SplitSites::set_order(const Triangulation& triangulation) {
+  const auto faces = triangulation.faces();
+  std::vector<Index> rank(sites_.size(), no_index);
+  order_.reserve(triangulation.num_vertices());
+  corners_.resize(faces.size());
+  const auto rank_of = [&](Index v) {
+    if (rank[v] == no_index) {
+      rank[v] = static_cast<Index>(order_.size());
+      order_.push_back(v);
+    }
+    return rank[v];
+  };
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (f + prefetch_distance < faces.size()) {
+      for (const Index v : faces[f + prefetch_distance]) prefetch(&rank[v]);
+    }
+    for (std::size_t i = 0; i < 3; ++i) corners_[f][i] = rank_of(faces[f][i]);
+  }
+  for (const Index v : triangulation.ring()) rank_of(v);
+}
+
+void SplitSites::set_places(unsigned threads) {
+  places_.resize(order_.size());
   const bool project = is_projected();
-  blocks::parallel_for(
-      0, sites.size(), triangulation.report().threads, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const Point& p = sites[i];
-          places_[i] = project ? exact::unit_vector(p, center_)
-                               : exact::SplitPoint{{std::ldexp(p.x, shift), std::ldexp(p.y, shift),
-                                                    std::ldexp(p.z, shift)},
-                                                   {}};
-        }
-      });
+  const int shift = project ? 0 : scale_exponent(sites_);
+  blocks::parallel_for(0, order_.size(), threads, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      if (k + prefetch_distance < end) prefetch(&sites_[order_[k + prefetch_distance]]);
+      const Point& p = sites_[order_[k]];
+      places_[k] = project ? exact::unit_vector(p, center_) : scaled_place(p, shift);
+    }
+  });
 }
 
 // The places of projected sites are wrong by 2^-100 each, so offsets above 2^-45 are right to
@@ -75,7 +103,7 @@ Vec SplitSites::difference(Index a, Index b) const {
   const Offset d = offset(a, b);
   const Vec v = d.hi + d.lo;
   if (!is_projected() || is_rounded_enough(v)) return v;
-  const auto exact = exact_projected_difference(sites_[a], sites_[b], center_);
+  const auto exact = exact_projected_difference(point(a), point(b), center_);
   return exact.length * exact.direction;
 }
 
@@ -83,8 +111,8 @@ Vec SplitSites::direction(Index a, Index b) const {
   const Offset d = offset(a, b);
   const Vec v = d.hi + d.lo;
   if (is_rounded_enough(v)) return normalized(v);
-  return is_projected() ? exact_projected_difference(sites_[a], sites_[b], center_).direction
-                        : exact_direction(sites_[a], sites_[b]);
+  return is_projected() ? exact_projected_difference(point(a), point(b), center_).direction
+                        : exact_direction(point(a), point(b));
 }
 
 }  // namespace rondel::dual

@@ -14,7 +14,6 @@
 #include <span>
 #include <vector>
 
-#include "dual/prefetch.h"
 #include "exact/eft.h"
 #include "exact/unit_vector.h"
 #include "exact/vector.h"
@@ -46,13 +45,20 @@ inline Offset offset(const exact::SplitPoint& a, const exact::SplitPoint& b) {
           {x.lo + (b.lo.x - a.lo.x), y.lo + (b.lo.y - a.lo.y), z.lo + (b.lo.z - a.lo.z)}};
 }
 
+// Vertices are named by their rank: the order in which the faces first come to them (below
+// dimension 2, the order of the ring). Faces are in spatial order and sites are not, so places by
+// rank are near in memory when they are near in space; by site, every corner would miss the caches.
 class SplitSites {
  public:
   // Throws InvalidInput if the number of sites is not that of the triangulation.
   SplitSites(const Triangulation& triangulation, std::span<const Point> sites);
 
-  [[nodiscard]] const exact::SplitPoint& operator[](Index site) const { return places_[site]; }
-  void prefetch(Index site) const { dual::prefetch(&places_[site]); }
+  // The site of each rank.
+  [[nodiscard]] std::span<const Index> order() const { return order_; }
+  // The ranks of the corners of a face.
+  [[nodiscard]] const Triple& corners(Index face) const { return corners_[face]; }
+
+  [[nodiscard]] const exact::SplitPoint& operator[](Index rank) const { return places_[rank]; }
   [[nodiscard]] Offset offset(Index a, Index b) const {
     return dual::offset(places_[a], places_[b]);
   }
@@ -62,12 +68,18 @@ class SplitSites {
   [[nodiscard]] Vec direction(Index a, Index b) const;
 
   [[nodiscard]] bool is_projected() const { return model_ == Model::projected; }
+  // The input point of a rank, and all input points.
+  [[nodiscard]] const Point& point(Index rank) const { return sites_[order_[rank]]; }
   [[nodiscard]] std::span<const Point> sites() const { return sites_; }
   [[nodiscard]] const Point& center() const { return center_; }
 
  private:
   [[nodiscard]] bool is_rounded_enough(const Vec& difference) const;
+  void set_order(const Triangulation& triangulation);
+  void set_places(unsigned threads);
 
+  std::vector<Index> order_;
+  std::vector<Triple> corners_;
   std::vector<exact::SplitPoint> places_;
   std::span<const Point> sites_;
   Point center_;
