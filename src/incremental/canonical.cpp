@@ -44,6 +44,12 @@ void sort_around(const Mesh& mesh, std::span<Halfedge> faces) {
   std::iter_swap(faces.begin(), std::ranges::min_element(
                                     faces, {}, [&vertex](Halfedge h) { return vertex(h, 1); }));
   if (faces.size() == 2) return;
+  // Looking for the next face is quadratic in their number, the walk linear in the owner's degree.
+  constexpr std::size_t many = 16;
+  if (faces.size() > many) {
+    walk_around(mesh, faces);
+    return;
+  }
   for (std::size_t i = 1; i < faces.size(); ++i) {
     const Index shared = vertex(faces[i - 1], 2);
     const auto next = std::find_if(faces.begin() + static_cast<std::ptrdiff_t>(i), faces.end(),
