@@ -27,7 +27,7 @@ Sign side_of_circle(const Point& a, const Point& b, const Point& c, const Point&
 /// The same, with ties broken as the triangulation breaks them: never undecided.
 /// \pre the four points are distinct sites (distinct rays under
 ///      Model::projected). When they also lie in one plane with the center,
-///      (a, b, c) is taken to be a face of the hull: not collinear,
+///      (a, b, c) is taken to be a face of the hull: not in line with the center,
 ///      counterclockwise seen from outside.
 bool is_in_conflict(const Point& a, const Point& b, const Point& c, const Point& p,
                     Model model = Model::projected, const Sphere& sphere = {});

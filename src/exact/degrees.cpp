@@ -10,7 +10,7 @@
 namespace rondel::exact {
 namespace {
 
-// Taylor sums for |t| <= pi/4, t = hi + lo; the first neglected term is below 2^-59 of the result.
+// Taylor sums for |t| <= pi/4, t = hi + lo; the first neglected term is below 2^-58 of the result.
 double sine(DoubleDouble t) {
   const double s = t.hi * t.hi;
   const double p =

@@ -16,6 +16,7 @@
 //            o            docs/theory/location.md has the proofs.
 #pragma once
 
+#include <array>
 #include <cassert>
 #include <cstdint>
 #include <vector>
@@ -74,7 +75,7 @@ class Location {
       const Walk near_side = walk(p, near, FaceKind::near);
       if (is_in_conflict(near_side.face, p)) return near_side.face;
     }
-    return far_side.on_plane ? search_grazing(p, far_side.face) : no_index;
+    return no_index;
   }
 
   // The solid face through which the ray of p leaves the hull, or the last one before the contour.
@@ -86,7 +87,6 @@ class Location {
   struct Walk {
     Index face;
     Index beyond = no_index;  // the face across the contour, when the walk ended there
-    bool on_plane = false;    // p lies in the plane of the center and an edge of `face`
   };
 
   [[nodiscard]] bool is_in_conflict(Index f, Index p) const {
@@ -130,40 +130,16 @@ class Location {
     for (;;) {
       const topology::Face& face = mesh_[f];
       Index next = no_index;
-      bool on_plane = false;
       for (unsigned i = 0; i < 3 && next == no_index; ++i) {
         const unsigned a = topology::next_corner[i];
         const Sign side =
             sites_.orientation(face.vertex[a], face.vertex[topology::next_corner[a]], p);
-        on_plane |= side == Sign::zero;
         if (side == outwards) next = topology::face_of(face.opposite[i]);
       }
-      if (next == no_index) return {f, no_index, on_plane};
-      if (kinds_[next] != kind) return {f, next, on_plane};
+      if (next == no_index) return {f};
+      if (kinds_[next] != kind) return {f, next};
       f = next;
     }
-  }
-
-  // A site in a plane through the center that supports the hull may be in conflict with a
-  // grazing face of that plane only. They form one connected facet around a corner of f.
-  [[nodiscard]] Index search_grazing(Index p, Index f) const {
-    std::vector<Index> found;
-    const auto visit = [&](Index g) {
-      if (kinds_[g] == FaceKind::grazing && std::find(found.begin(), found.end(), g) == found.end())
-        found.push_back(g);
-    };
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      topology::Halfedge h = topology::halfedge(f, corner);
-      do {
-        visit(topology::face_of(h));
-        h = mesh_.next_around(topology::face_of(h), topology::edge_of(h));
-      } while (topology::face_of(h) != f);
-    }
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      if (is_in_conflict(found[i], p)) return found[i];
-      for (unsigned edge = 0; edge < 3; ++edge) visit(mesh_.neighbor(found[i], edge));
-    }
-    return no_index;
   }
 
   const T& sites_;

@@ -21,18 +21,18 @@ inline constexpr double direction_error = 4.6 * unit_roundoff;
 inline constexpr double plane_bound = 10 * unit_roundoff;
 
 // The same of stored directions, relative to H^2 where H <= 2: 6 eta + 2 * 8.8u = 45.2u,
-// times 1.17 for terms of higher order.
+// times 1.18 for terms of higher order.
 inline constexpr double circle_plane_bound = 54 * unit_roundoff;
 
 // |B|^2 det(p,C,D) + ... of stored directions, relative to H^3 where H <= 2:
-// 24 eta + 2 * (12u + 3 eta + 38.1u) = 238.2u, times 1.19 for terms of higher order.
+// 24 eta + 2 * (12u + 3 eta + 38.1u) = 238.2u, times 1.16 for terms of higher order.
 inline constexpr double circle_bound = 284 * unit_roundoff;
 
 // det(a, b-a, c-a) of exact data, relative to |a| |b-a| |c-a|: 3u + 5.8u.
 inline constexpr double orientation_bound = 10 * unit_roundoff;
 
 // det(a, b-a, c-a) of stored directions, relative to H = max(|b-a|, |c-a|) <= 2:
-// 4 eta + 2 * (eta + 8.8u) = 45.2u, times 1.17.
+// 4 eta + 2 * (eta + 8.8u) = 45.2u, times 1.18.
 inline constexpr double direction_orientation_bound = 54 * unit_roundoff;
 
 // det(B, C, D) in double-double: exact data relative to H^3, and unit
@@ -42,7 +42,7 @@ inline constexpr double circle_double_double_bound = 0x1p-95;
 
 // The filters of exact data accept a determinant only if its square exceeds this. Then H^3 >= |det|
 // > 10^-145, while H^6 is finite only for H < 10^52, so that lost subnormal bits sum to less than
-// 10^-270: nothing against the slack of the bounds, 10^-161 and more.
+// 10^-270: nothing against the slack of the bounds, 10^-175 and more.
 inline constexpr double underflow_guard = 1e-290;
 
 }  // namespace rondel::predicates

@@ -10,7 +10,8 @@ namespace rondel::predicates {
 
 // Compares the rays of two points exactly, by the slopes of their coordinates against the longest
 // one. Zero when both points are on one ray.
-// Precondition: the same coordinate is the longest of both, with the same sign.
+// Precondition: the same coordinate is the longest of both (the first one of equals), with the same
+// sign.
 Sign compare_rays(const Point& a, const Point& b, const Point& center);
 
 }  // namespace rondel::predicates
