@@ -21,6 +21,13 @@ Point middle_of_arc(const Vec& e, const Point& nf, const Point& ng) {
   return to_point(normalized(cross(e, to_vector(nf) - to_vector(ng))));
 }
 
+// Whether the circumcenter is within 60 degrees of the corners, with room for rounding. Two such
+// faces with a common corner are less than 120 degrees apart. (A weighted corner may lie anywhere.)
+bool is_near_corners(const SplitSites& sites, Index face, const Point& center) {
+  return sites.is_projected() &&
+         dot(to_vector(center), to_vector(sites[sites.corners(face)[0]].hi)) > 0.501;
+}
+
 }  // namespace
 
 std::vector<ArcPoint> add_arc_points(const Triangulation& triangulation, const SplitSites& sites,
@@ -29,9 +36,12 @@ std::vector<ArcPoint> add_arc_points(const Triangulation& triangulation, const S
   const auto neighbors = triangulation.neighbors();
   std::vector<ArcPoint> result;
   for (Index f = 0; f < faces.size(); ++f) {
+    if (is_near_corners(sites, f, points[f])) continue;
     for (Index i = 0; i < 3; ++i) {
       const Index g = neighbors[f][i];
-      if (g < f || dot(to_vector(points[f]), to_vector(points[g])) > longest_arc_cosine) continue;
+      if (dot(to_vector(points[f]), to_vector(points[g])) > longest_arc_cosine) continue;
+      // The other face would come to the same edge.
+      if (g < f && !is_near_corners(sites, g, points[g])) continue;
       const Triple& corners = sites.corners(f);
       const Vec e = sites.direction(corners[next_corner(i)], corners[previous_corner(i)]);
       const auto position = static_cast<Index>(points.size());

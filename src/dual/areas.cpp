@@ -58,8 +58,7 @@ std::vector<double> areas(const Triangulation& triangulation, std::span<const Po
   const dual::SplitSites split_sites(triangulation, sites);
   if (triangulation.dimension() < 2) return dual::great_circle_areas(triangulation, split_sites);
   std::vector<double> result(sites.size(), 0.0);
-  dual::for_each_cell(triangulation, split_sites, cells,
-                      [&](Index site, const LocalRing& ring) { result[site] = area_of(ring); });
+  dual::measure_cells(triangulation, split_sites, cells, area_of, result);
   return result;
 }
 

@@ -20,23 +20,23 @@ namespace {
 using dual::ArcPoint;
 using dual::prefetch;
 using dual::prefetch_distance;
+using dual::prefetch_to_write;
 
-// Positions in the rings: offsets[i + 1] counts the faces and arc points around i, then sums.
+// Positions in the rings: the faces and arc points around each site, summed.
 std::vector<std::uint64_t> ring_offsets(const Triangulation& triangulation,
+                                        const dual::SplitSites& sites,
                                         std::span<const ArcPoint> arc_points) {
-  std::vector<std::uint64_t> offsets(triangulation.num_sites() + 1, 0);
-  const auto faces = triangulation.faces();
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    if (f + prefetch_distance < faces.size()) {
-      for (const Index v : faces[f + prefetch_distance]) prefetch(&offsets[v + 1]);
-    }
-    for (const Index v : faces[f]) ++offsets[v + 1];
+  const auto order = sites.order();
+  std::vector<Index> sizes(order.size(), 0);
+  for (Index f = 0; f < triangulation.num_faces(); ++f) {
+    for (const Index rank : sites.corners(f)) ++sizes[rank];
   }
   // A ring leaves a face across the edge that ends at its site, so the halfedge's head counts it.
   for (const ArcPoint& p : arc_points) {
-    const Triple& face = faces[p.halfedge / 3];
-    ++offsets[face[dual::previous_corner(p.halfedge % 3)] + 1];
+    ++sizes[sites.corners(p.halfedge / 3)[dual::previous_corner(p.halfedge % 3)]];
   }
+  std::vector<std::uint64_t> offsets(triangulation.num_sites() + 1, 0);
+  for (std::size_t k = 0; k < order.size(); ++k) offsets[order[k] + 1] = sizes[k];
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   return offsets;
 }
@@ -62,19 +62,22 @@ Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& 
   Cells result;
   result.points = dual::circumcenters(triangulation, sites);
   const auto arc_points = dual::add_arc_points(triangulation, sites, result.points);
-  result.offsets = ring_offsets(triangulation, arc_points);
+  result.offsets = ring_offsets(triangulation, sites, arc_points);
   result.rings.resize(result.offsets.back());
-  std::vector<bool> is_written(triangulation.num_sites(), false);
-  const auto faces = triangulation.faces();
-  for (Index f = 0; f < faces.size(); ++f) {
-    if (f + 2 * prefetch_distance < faces.size()) {
-      for (const Index v : faces[f + 2 * prefetch_distance]) prefetch(&result.offsets[v]);
-      for (const Index v : faces[f + prefetch_distance]) prefetch(&result.rings[result.offsets[v]]);
-    }
-    for (const Index v : faces[f]) {
-      if (is_written[v]) continue;
-      is_written[v] = true;
-      write_ring(triangulation, arc_points, v, f, result.rings.data() + result.offsets[v]);
+  const auto order = sites.order();
+  Index next = 0;  // the rank that the faces have not come to yet
+  for (Index f = 0; f < triangulation.num_faces(); ++f) {
+    for (const Index rank : sites.corners(f)) {
+      if (rank != next) continue;
+      ++next;
+      if (rank + 2 * prefetch_distance < order.size()) {
+        prefetch(&result.offsets[order[rank + 2 * prefetch_distance]]);
+        const Index ahead = order[rank + prefetch_distance];
+        prefetch_to_write(&result.rings[result.offsets[ahead]]);
+        prefetch_to_write(&result.rings[result.offsets[ahead + 1] - 1]);
+      }
+      const Index site = order[rank];
+      write_ring(triangulation, arc_points, site, f, result.rings.data() + result.offsets[site]);
     }
   }
   return result;

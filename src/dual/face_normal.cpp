@@ -10,15 +10,17 @@
 namespace rondel::dual {
 namespace {
 
+// N = B x C, rounded.
 struct Candidate {
-  Vec normal;  // N
+  Vec normal;
   double squared;
   bool is_accurate;
 };
 
-Candidate candidate(const SplitSites& sites, Index a, Index b, Index c) {
-  const Offset to_b = sites.offset(a, b);
-  const Offset to_c = sites.offset(a, c);
+inline Candidate candidate(const SplitSites& sites, Index a, Index b, Index c) {
+  const exact::SplitPoint& place = sites[a];
+  const Offset to_b = offset(place, sites[b]);
+  const Offset to_c = offset(place, sites[c]);
   const Vec n = split_cross(to_b, to_c).rounded();
   const double n2 = dot(n, n);
   return {n, n2,

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "blocks/parallel.h"
 #include "dual/face_normal.h"
-#include "dual/prefetch.h"
 #include "dual/ring_walk.h"
 
 namespace rondel::dual {
@@ -64,7 +62,7 @@ inline RingLocalizer::Spoke RingLocalizer::spoke(const exact::SplitPoint& a, Ind
 }
 
 void RingLocalizer::localize_around_site(Index rank, std::span<const Index> ring) {
-  const exact::SplitPoint a = sites_[rank];
+  const exact::SplitPoint& a = sites_[rank];
   ring_.origin = to_vector(a.hi);
   ring_.points.resize(ring.size());
   Spoke last{no_index, {}, 0};
@@ -74,9 +72,8 @@ void RingLocalizer::localize_around_site(Index rank, std::span<const Index> ring
       continue;
     }
     const Triple& face = sites_.corners(ring[j]);
-    const Index corner = corner_of(face, rank);
-    if (last.rank == no_index) last = spoke(a, face[next_corner(corner)]);
-    const Spoke next = spoke(a, face[previous_corner(corner)]);
+    if (last.rank == no_index) last = spoke(a, face[next_corner(corner_of(face, rank))]);
+    const Spoke next = spoke(a, third_corner(face, rank, last.rank));
     ring_.points[j] = star_point(rank, last, next, ring[j]);
     last = next;
   }
@@ -200,25 +197,6 @@ void RingLocalizer::localize_large(std::span<const Index> ring) {
   ring_.origin = normalized(dot(area, area) > noise * noise ? area : sum);
   ring_.points.clear();
   for (const Index position : ring) ring_.points.push_back(global_point(position));
-}
-
-// The rings lie in the order of the input, so they are asked for ahead.
-void for_each_cell(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
-                   const std::function<void(Index, const LocalRing&)>& visit) {
-  const auto order = sites.order();
-  blocks::parallel_for(0, order.size(), triangulation.report().threads,
-                       [&](std::size_t begin, std::size_t end) {
-                         RingLocalizer localize(triangulation, sites, cells);
-                         for (std::size_t k = begin; k < end; ++k) {
-                           if (k + 2 * prefetch_distance < end) {
-                             prefetch(&cells.offsets[order[k + 2 * prefetch_distance]]);
-                             const Index ahead = order[k + prefetch_distance];
-                             prefetch(&cells.rings[cells.offsets[ahead]]);
-                             prefetch(&cells.rings[cells.offsets[ahead + 1] - 1]);
-                           }
-                           visit(order[k], localize(static_cast<Index>(k)));
-                         }
-                       });
 }
 
 }  // namespace rondel::dual

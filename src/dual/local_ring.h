@@ -19,10 +19,12 @@
 // so the arcs come from determinants that double-double arithmetic gets right.
 #pragma once
 
-#include <functional>
+#include <cstddef>
 #include <span>
 #include <vector>
 
+#include "blocks/parallel.h"
+#include "dual/prefetch.h"
 #include "dual/split_sites.h"
 #include "rondel/diagram.h"
 
@@ -79,8 +81,26 @@ class RingLocalizer {
   LocalRing ring_;
 };
 
-// Calls visit(site, its local ring) for every cell, in the order of the faces, in parallel.
-void for_each_cell(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
-                   const std::function<void(Index, const LocalRing&)>& visit);
+// result[site] = measure(local ring) for the cell of every vertex, in parallel and in the order of
+// the ranks. The rings and results lie in the order of the input, so they are asked for ahead.
+template <class T>
+void measure_cells(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
+                   T (*measure)(const LocalRing&), std::vector<T>& result) {
+  const auto order = sites.order();
+  const auto measure_range = [&](std::size_t begin, std::size_t end) {
+    RingLocalizer localize(triangulation, sites, cells);
+    for (std::size_t k = begin; k < end; ++k) {
+      if (k + 2 * prefetch_distance < end) {
+        prefetch(&cells.offsets[order[k + 2 * prefetch_distance]]);
+        const Index ahead = order[k + prefetch_distance];
+        prefetch(&cells.rings[cells.offsets[ahead]]);
+        prefetch(&cells.rings[cells.offsets[ahead + 1] - 1]);
+        prefetch_to_write(&result[ahead]);
+      }
+      result[order[k]] = measure(localize(static_cast<Index>(k)));
+    }
+  };
+  blocks::parallel_for(0, order.size(), triangulation.report().threads, measure_range);
+}
 
 }  // namespace rondel::dual

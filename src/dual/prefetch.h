@@ -24,4 +24,14 @@ void prefetch(const T* object) {
 #endif
 }
 
+// The same before a write.
+template <class T>
+void prefetch_to_write(T* object) {
+#if defined(__GNUC__)
+  __builtin_prefetch(object, 1);
+#else
+  static_cast<void>(object);
+#endif
+}
+
 }  // namespace rondel::dual

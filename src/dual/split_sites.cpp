@@ -63,7 +63,7 @@ void SplitSites::set_order(const Triangulation& triangulation) {
   const auto faces = triangulation.faces();
   std::vector<Index> rank(sites_.size(), no_index);
   order_.reserve(triangulation.num_vertices());
-  corners_.resize(faces.size());
+  corners_ = std::make_unique_for_overwrite<Triple[]>(faces.size());
   const auto rank_of = [&](Index v) {
     if (rank[v] == no_index) {
       rank[v] = static_cast<Index>(order_.size());
@@ -81,7 +81,7 @@ void SplitSites::set_order(const Triangulation& triangulation) {
 }
 
 void SplitSites::set_places(unsigned threads) {
-  places_.resize(order_.size());
+  places_ = std::make_unique_for_overwrite<exact::SplitPoint[]>(order_.size());
   const bool project = is_projected();
   const int shift = project ? 0 : scale_exponent(sites_);
   blocks::parallel_for(0, order_.size(), threads, [&](std::size_t begin, std::size_t end) {

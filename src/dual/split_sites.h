@@ -11,6 +11,7 @@
 // n = N / |N| the circumcenter, u = 2^-53.
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -79,8 +80,8 @@ class SplitSites {
   void set_places(unsigned threads);
 
   std::vector<Index> order_;
-  std::vector<Triple> corners_;
-  std::vector<exact::SplitPoint> places_;
+  std::unique_ptr<Triple[]> corners_;
+  std::unique_ptr<exact::SplitPoint[]> places_;
   std::span<const Point> sites_;
   Point center_;
   Model model_;
