@@ -102,7 +102,7 @@ IntegerVector projected_normal(const IntegerVector& a, const IntegerVector& b,
   const int error_bits = std::max({num_bits(bc), num_bits(ca), num_bits(ab)}) + 4;
   for (int k = 64;; k *= 2) {
     const auto scaled_root = [k](const IntegerVector& p) { return root(dot(p, p) << (2 * k)); };
-    const IntegerVector n = scaled_root(a) * bc + scaled_root(b) * ca + scaled_root(c) * ab;
+    IntegerVector n = scaled_root(a) * bc + scaled_root(b) * ca + scaled_root(c) * ab;
     if (num_bits(n) >= error_bits + wanted_bits) return n;
   }
 }

@@ -97,7 +97,7 @@ TEST(areas, of_hidden_and_duplicate_sites_are_zero) {
 TEST(areas, do_not_depend_on_the_number_of_threads) {
   const auto sites = generator("uniform").make(20000, 1).sites;
   const Triangulation one = triangulated(sites);
-  const Triangulation four = delaunay(sites, Options{.threads = 4});
+  const Triangulation four = with_threads(one, 4);
   EXPECT_EQ(areas(one, sites, cells(one, sites)), areas(four, sites, cells(four, sites)));
 }
 

@@ -134,7 +134,7 @@ TEST(circumcenters, of_the_octahedron_are_the_corners_of_the_cube) {
 TEST(circumcenters, do_not_depend_on_the_number_of_threads) {
   const auto sites = generator("uniform").make(20000, 1).sites;
   const Triangulation one = triangulated(sites);
-  const Triangulation four = delaunay(sites, Options{.threads = 4});
+  const Triangulation four = with_threads(one, 4);
   EXPECT_EQ(circumcenters(one, sites), circumcenters(four, sites));
 }
 

@@ -52,6 +52,20 @@ inline Triangulation triangulated(std::span<const Point> sites, Model model = Mo
   return delaunay(sites, Options{.model = model, .sphere = {}, .threads = 1, .progress = {}});
 }
 
+// The same triangulation, whose duals are computed with this number of threads.
+inline Triangulation with_threads(const Triangulation& t, unsigned threads) {
+  TriangulationArrays arrays;
+  arrays.num_sites = t.num_sites();
+  arrays.dimension = t.dimension();
+  arrays.faces.assign(t.faces().begin(), t.faces().end());
+  arrays.neighbors.assign(t.neighbors().begin(), t.neighbors().end());
+  BuildReport report;
+  report.threads = threads;
+  return {std::move(arrays),
+          Options{.model = t.model(), .sphere = t.sphere(), .threads = threads, .progress = {}},
+          report};
+}
+
 inline std::span<const Index> ring_of(const Cells& cells, std::size_t site) {
   return {cells.rings.data() + cells.offsets[site], cells.rings.data() + cells.offsets[site + 1]};
 }
