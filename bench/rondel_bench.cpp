@@ -47,10 +47,9 @@ int main(int argc, char** argv) {
   double dual = 0;
   double total_area = 0;
   if (argc > 4) {
-    const auto cells = rondel::cells(triangulation, sites);
-    const auto areas = rondel::areas(triangulation, sites, cells);
+    const auto diagram = rondel::diagram(triangulation, sites);
     dual = now() - triangulated;
-    total_area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    total_area = std::accumulate(diagram.areas.begin(), diagram.areas.end(), 0.0);
   }
   const auto n = static_cast<double>(sites.size());
   const auto& report = triangulation.report();

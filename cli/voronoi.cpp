@@ -14,10 +14,7 @@ ExitStatus run_voronoi(const VoronoiOptions& options) {
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
   Diagram diagram;
-  job.time(Stage::dual, [&] {
-    diagram.cells = cells(triangulation, table.sites);
-    diagram.areas = areas(triangulation, table.sites, diagram.cells);
-  });
+  job.time(Stage::dual, [&] { diagram = rondel::diagram(triangulation, table.sites); });
   job.time(Stage::write, [&] {
     write_cells(common.output, table, triangulation, diagram, options.tolerance_deg,
                 job.progress());

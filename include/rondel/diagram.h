@@ -34,6 +34,12 @@ struct Cells {
   std::vector<Point> points;  ///< unit vectors from the center of the sphere
 };
 
+/// Cells and their areas.
+struct Diagram {
+  Cells cells;
+  std::vector<double> areas;  ///< steradians, by input site; 0 for duplicates and hidden sites
+};
+
 /// Polygons in compressed rows.
 struct Polygons {
   std::vector<std::uint64_t> offsets;
@@ -52,6 +58,10 @@ Cells cells(const Triangulation& triangulation, std::span<const Point> sites);
 /// sites. The relative error is small for tiny cells too; the sum is 4*pi.
 std::vector<double> areas(const Triangulation& triangulation, std::span<const Point> sites,
                           const Cells& cells);
+
+/// The cells and their areas at once: faster than cells() and then areas(), which both need the
+/// sites' places in more than double precision.
+Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites);
 
 /// The directions of the cells' centers of mass, unit vectors, shape (n, 3);
 /// (0, 0, 0) where the center of mass is the center of the sphere or the cell is empty.

@@ -70,12 +70,6 @@ bool can_write_sites(const std::string& path);
 void write_triangles(const std::string& path, const SiteTable& table,
                      const Triangulation& triangulation, const Progress& progress = {});
 
-/// What to write of a diagram.
-struct Diagram {
-  Cells cells;
-  std::vector<double> areas;  ///< steradians, by input site
-};
-
 /// Writes the cells. GeoJSON obeys RFC 7946 with one feature a cell: arcs are densified until the
 /// straight line in longitude and latitude is within `tolerance_deg` of the arc
 /// (closer between sites that are close).

@@ -60,7 +60,7 @@ using Progress = std::function<void(std::string_view stage, double fraction)>;
 struct Options {
   Model model = Model::projected;
   Sphere sphere{};
-  unsigned threads = 0;  ///< 0: one for each core
+  unsigned threads = 0;  ///< at most, 0: one for each core; the result does not depend on it
   Progress progress{};
 };
 

@@ -3,9 +3,12 @@
 
 #include "rondel/delaunay.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
+#include <thread>
+#include <utility>
 
 #include "api/validation.h"
 #include "blocks/spatial_order.h"
@@ -25,11 +28,16 @@ void announce(const Options& options, std::string_view stage, double fraction) {
   if (options.progress) options.progress(stage, fraction);
 }
 
+unsigned num_threads(const Options& options) {
+  return options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
 }  // namespace
 
 Triangulation delaunay(std::span<const Point> sites, const Options& options) {
   api::validate(sites, options);
   BuildReport report;
+  report.threads = num_threads(options);
   const auto start = Clock::now();
   announce(options, "order", 0);
   auto order = blocks::spatial_order(sites, options.model, options.sphere.center);

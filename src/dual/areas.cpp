@@ -17,6 +17,7 @@
 
 #include "dual/great_circle.h"
 #include "dual/local_ring.h"
+#include "dual/parts.h"
 #include "rondel/diagram.h"
 
 namespace rondel {
@@ -53,12 +54,24 @@ double area_of(const LocalRing& ring) {
 
 }  // namespace
 
+std::vector<double> dual::areas(const Triangulation& triangulation, const SplitSites& sites,
+                                const Cells& cells) {
+  if (triangulation.dimension() < 2) return great_circle_areas(triangulation, sites);
+  std::vector<double> result(triangulation.num_sites(), 0.0);
+  measure_cells(triangulation, sites, cells, area_of, result);
+  return result;
+}
+
 std::vector<double> areas(const Triangulation& triangulation, std::span<const Point> sites,
                           const Cells& cells) {
+  return dual::areas(triangulation, dual::SplitSites(triangulation, sites), cells);
+}
+
+Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites) {
   const dual::SplitSites split_sites(triangulation, sites);
-  if (triangulation.dimension() < 2) return dual::great_circle_areas(triangulation, split_sites);
-  std::vector<double> result(sites.size(), 0.0);
-  dual::measure_cells(triangulation, split_sites, cells, area_of, result);
+  Diagram result;
+  result.cells = dual::cells(triangulation, split_sites);
+  result.areas = dual::areas(triangulation, split_sites, result.cells);
   return result;
 }
 

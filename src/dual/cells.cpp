@@ -8,8 +8,8 @@
 #include <numeric>
 
 #include "dual/arc_points.h"
-#include "dual/circumcenters.h"
 #include "dual/great_circle.h"
+#include "dual/parts.h"
 #include "dual/prefetch.h"
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
@@ -85,10 +85,13 @@ Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& 
 
 }  // namespace
 
+Cells dual::cells(const Triangulation& triangulation, const SplitSites& sites) {
+  return triangulation.dimension() == 2 ? surface_cells(triangulation, sites)
+                                        : great_circle_cells(triangulation, sites);
+}
+
 Cells cells(const Triangulation& triangulation, std::span<const Point> sites) {
-  const dual::SplitSites split_sites(triangulation, sites);
-  return triangulation.dimension() == 2 ? surface_cells(triangulation, split_sites)
-                                        : dual::great_circle_cells(triangulation, split_sites);
+  return dual::cells(triangulation, dual::SplitSites(triangulation, sites));
 }
 
 }  // namespace rondel

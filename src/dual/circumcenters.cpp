@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "dual/circumcenters.h"
-
 #include <cstddef>
 
 #include "blocks/parallel.h"
 #include "dual/face_normal.h"
+#include "dual/parts.h"
 #include "rondel/diagram.h"
 
 namespace rondel {

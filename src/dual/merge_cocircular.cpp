@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <numeric>
 
-#include "dual/circumcenters.h"
 #include "dual/face_normal.h"
+#include "dual/parts.h"
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
 #include "rondel/predicates.h"
