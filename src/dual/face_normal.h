@@ -54,9 +54,11 @@ double split_dot(const SplitNormal& n, const Offset& d);
 // A place is wrong by 2^-100 at most (projected; 0 or below 2^-1073 in the weighted model), an
 // offset by 2^-99, so N by 2^-98 (|B| + |C|), which also covers the roundings above, plus 2^-101
 // |B||C|. This is below 2^-55 |N| if |N| >= 2^-43 (|B| + |C|) + 2^-46 |B||C|; squared with (x +
-// y)^2 <= 2x^2 + 2y^2, twice. The last condition keeps away from underflow.
+// y)^2 <= 2x^2 + 2y^2, twice. The squares may be those of the high parts: of a
+// projected offset, the low part may add 2^-100, all there is of sites closer than 2^-53. The
+// last condition keeps away from underflow.
 inline bool is_accurate(double b2, double c2, double n2, bool is_projected) {
-  const double from_places = is_projected ? 0x1p-84 * (b2 + c2) : 0.0;
+  const double from_places = is_projected ? 0x1p-84 * (b2 + c2 + 0x1p-100) : 0.0;
   return n2 >= from_places + 0x1p-91 * b2 * c2 && n2 >= 0x1p-900;
 }
 

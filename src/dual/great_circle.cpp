@@ -3,6 +3,7 @@
 
 #include "dual/great_circle.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -86,6 +87,12 @@ double half_angle(const SplitSites& sites, const Vec& axis, Index a, Index b) {
 double exterior_angle(const SplitSites& sites, const Vec& axis, Index a, Index b, Index c) {
   const Offset e = sites.offset(a, b);
   const Offset f = sites.offset(b, c);
+  constexpr double underflow_square = 0x1p-900;
+  if (std::min(dot(e.hi, e.hi), dot(f.hi, f.hi)) < underflow_square) {
+    const Vec from = sites.direction(a, b);
+    const Vec to = sites.direction(b, c);
+    return std::abs(std::atan2(dot(axis, cross(from, to)), dot(from, to)));
+  }
   const double turn = dot(axis, split_cross(e, f).rounded());
   return std::abs(std::atan2(turn, dot(e.hi, f.hi)));
 }
