@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel_bench KIND N [projected|weighted] [dual]: one build in this process, and one
+// rondel_bench KIND N [projected|weighted] [dual] [THREADS]: one build in this process, and one
 // JSON object on standard output. Scripts repeat it in turns with the peers.
 
 #include <sys/resource.h>
@@ -31,12 +31,12 @@ double now() {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: rondel_bench KIND N [projected|weighted] [dual]\n");
+    std::fprintf(stderr, "usage: rondel_bench KIND N [projected|weighted] [dual] [THREADS]\n");
     return 2;
   }
   const auto sites = rondel::bench::make_input(argv[1], std::strtoull(argv[2], nullptr, 10));
   rondel::Options options;
-  options.threads = 1;
+  options.threads = argc > 5 ? static_cast<unsigned>(std::atoi(argv[5])) : 1;
   if (argc > 3 && std::strcmp(argv[3], "weighted") == 0) options.model = rondel::Model::weighted;
 
   const long before = peak_kib();

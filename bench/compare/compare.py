@@ -19,6 +19,7 @@ UNIFORM = ["uniform", str(2**20)]
 CASES = {
     "projected": ["rondel_bench", *UNIFORM, "projected"],
     "projected, with cells and areas": ["rondel_bench", *UNIFORM, "projected", "dual"],
+    "projected, with cells and areas, 2 threads": ["rondel_bench", *UNIFORM, "projected", "dual", "2"],
     "weighted": ["rondel_bench", *UNIFORM, "weighted"],
     "CGAL, points as given": ["cgal_bench", *UNIFORM, "kernel"],
     "CGAL, projected": ["cgal_bench", *UNIFORM, "projection"],
@@ -59,6 +60,11 @@ def main():
               f"| {min(times):.0f} | {max(times):.0f} | {median(name, 'bytes_per_site'):.0f} |")
     projected = median("projected")
     dual = results["projected, with cells and areas"]
+    dual_2 = results["projected, with cells and areas, 2 threads"]
+
+    def dual_ratio(results):
+        return statistics.median(run["dual"] / run["seconds"] for run in results)
+
     per_site = projected / results["projected"][0]["sites"]
 
     def of_uniform(name):
@@ -70,8 +76,8 @@ def main():
     print(f"projected / weighted:              {projected / median('weighted'):.2f}")
     for name in ("grid 500 x 1000", "Fibonacci 2^20", "patch 2^18 + 1000", "S_100000"):
         print(f"{name} / uniform, per site: {of_uniform(name):.2f}")
-    print("cells and areas / triangulation:   "
-          f"{statistics.median(run['dual'] / run['seconds'] for run in dual):.2f}")
+    print(f"cells and areas / triangulation:   {dual_ratio(dual):.2f}, "
+          f"with two threads {dual_ratio(dual_2):.2f}")
     error = max(abs(run["total_area"] / 12.566370614359172954 - 1) for run in dual)
     print(f"sum of areas, relative error:      {error:.1e}")
 
