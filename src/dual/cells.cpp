@@ -58,9 +58,10 @@ void write_ring(const Triangulation& triangulation, std::span<const ArcPoint> ar
   } while (f != first);
 }
 
-Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& sites) {
+Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& sites,
+                    std::vector<dual::FaceMeasure>& measures) {
   Cells result;
-  result.points = dual::circumcenters(triangulation, sites);
+  result.points = dual::circumcenters(triangulation, sites, measures);
   const auto arc_points = dual::add_arc_points(triangulation, sites, result.points);
   result.offsets = ring_offsets(triangulation, sites, arc_points);
   result.rings.resize(result.offsets.back());
@@ -85,13 +86,15 @@ Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& 
 
 }  // namespace
 
-Cells dual::cells(const Triangulation& triangulation, const SplitSites& sites) {
-  return triangulation.dimension() == 2 ? surface_cells(triangulation, sites)
+Cells dual::cells(const Triangulation& triangulation, const SplitSites& sites,
+                  std::vector<FaceMeasure>& measures) {
+  return triangulation.dimension() == 2 ? surface_cells(triangulation, sites, measures)
                                         : great_circle_cells(triangulation, sites);
 }
 
 Cells cells(const Triangulation& triangulation, std::span<const Point> sites) {
-  return dual::cells(triangulation, dual::SplitSites(triangulation, sites));
+  std::vector<dual::FaceMeasure> measures;
+  return dual::cells(triangulation, dual::SplitSites(triangulation, sites), measures);
 }
 
 }  // namespace rondel

@@ -10,17 +10,24 @@
 
 namespace rondel {
 
-std::vector<Point> dual::circumcenters(const Triangulation& triangulation,
-                                       const SplitSites& sites) {
+std::vector<Point> dual::circumcenters(const Triangulation& triangulation, const SplitSites& sites,
+                                       std::vector<FaceMeasure>& measures) {
   std::vector<Point> result(triangulation.num_faces());
+  measures.resize(result.size());
   blocks::parallel_for(0, result.size(), triangulation.report().threads,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t f = begin; f < end; ++f) {
                            const auto [a, b, c] = sites.corners(static_cast<Index>(f));
-                           result[f] = unit_normal(sites, a, b, c);
+                           result[f] = unit_normal(sites, a, b, c, measures[f]);
                          }
                        });
   return result;
+}
+
+std::vector<Point> dual::circumcenters(const Triangulation& triangulation,
+                                       const SplitSites& sites) {
+  std::vector<FaceMeasure> measures;
+  return circumcenters(triangulation, sites, measures);
 }
 
 std::vector<Point> circumcenters(const Triangulation& triangulation, std::span<const Point> sites) {

@@ -69,6 +69,14 @@ inline bool is_accurate(double b2, double c2, double n2, bool is_projected) {
 // root by 2.5u along N, and the division by another u: 0.25 + sqrt(1 + 2.5^2) + 1 = 3.95.
 Point unit_normal(const SplitSites& sites, Index a, Index b, Index c);
 
+// 1 / |N| and n.q, the same for each corner q of a projected face up to rounding: the cells need
+// them again. The first is 0 where the fast path did not prove N.
+struct FaceMeasure {
+  double inverse = 0;
+  double cosine = 0;
+};
+Point unit_normal(const SplitSites& sites, Index a, Index b, Index c, FaceMeasure& measure);
+
 // Whether the corners are collinear, which needs a perturbed, weighted face.
 bool is_degenerate(const SplitSites& sites, Index a, Index b, Index c);
 

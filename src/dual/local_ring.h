@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "blocks/parallel.h"
+#include "dual/face_normal.h"
 #include "dual/prefetch.h"
 #include "dual/split_sites.h"
 #include "rondel/diagram.h"
@@ -49,8 +50,10 @@ inline RingPoint ring_point(const Vec& r, double cosine) {
 // Makes the local rings of the cells of a triangulation of dimension 2, one after the other.
 class RingLocalizer {
  public:
-  RingLocalizer(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells)
-      : triangulation_(triangulation), sites_(sites), cells_(cells) {}
+  // `measures` of the faces, or nothing: then they are computed again for each corner.
+  RingLocalizer(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
+                std::span<const FaceMeasure> measures)
+      : triangulation_(triangulation), sites_(sites), cells_(cells), measures_(measures) {}
 
   // Precondition: the cell of the vertex of this rank is not empty. The result lives until the next
   // call.
@@ -78,6 +81,7 @@ class RingLocalizer {
   const Triangulation& triangulation_;
   const SplitSites& sites_;
   const Cells& cells_;
+  std::span<const FaceMeasure> measures_;
   LocalRing ring_;
 };
 
@@ -85,10 +89,11 @@ class RingLocalizer {
 // the ranks. The rings and results lie in the order of the input, so they are asked for ahead.
 template <class T>
 void measure_cells(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
-                   T (*measure)(const LocalRing&), std::vector<T>& result) {
+                   std::span<const FaceMeasure> measures, T (*measure)(const LocalRing&),
+                   std::vector<T>& result) {
   const auto order = sites.order();
   const auto measure_range = [&](std::size_t begin, std::size_t end) {
-    RingLocalizer localize(triangulation, sites, cells);
+    RingLocalizer localize(triangulation, sites, cells, measures);
     for (std::size_t k = begin; k < end; ++k) {
       if (k + 2 * prefetch_distance < end) {
         prefetch(&cells.offsets[order[k + 2 * prefetch_distance]]);

@@ -44,6 +44,26 @@ TEST(areas, sum_to_the_sphere_for_every_generator) {
   });
 }
 
+// diagram() takes the normals' lengths from the circumcenters, areas() computes them at each
+// corner.
+TEST(diagram, has_the_cells_and_areas_of_the_single_calls) {
+  for_each_case(60, 3, [](const DualCase& c) {
+    const Cells expected = cells(c.triangulation, c.sites);
+    const auto expected_areas = areas(c.triangulation, c.sites, expected);
+    const Diagram both = diagram(c.triangulation, c.sites);
+    EXPECT_EQ(both.cells.offsets, expected.offsets) << c.name;
+    EXPECT_EQ(both.cells.rings, expected.rings) << c.name;
+    EXPECT_EQ(both.cells.points, expected.points) << c.name;
+    ASSERT_EQ(both.areas.size(), expected_areas.size());
+    for (std::size_t i = 0; i < expected_areas.size(); ++i) {
+      EXPECT_NEAR(both.areas[i], expected_areas[i], 1e-13 * expected_areas[i]) << c.name;
+    }
+    if (c.triangulation.dimension() >= 0) {
+      EXPECT_NEAR(sum_of(both.areas) / sphere_area, 1, 1e-13) << c.name;
+    }
+  });
+}
+
 TEST(areas, sum_to_the_sphere_for_many_sites) {
   for (const char* name : {"uniform", "patch_and_globe", "globe_grid", "s_n"}) {
     const auto sites = generator(name).make(50000, 1).sites;
