@@ -18,13 +18,13 @@
 #include <vector>
 
 #include "incremental/location.h"
-#include "incremental/site_traits.h"
+#include "incremental/sphere_traits.h"
 #include "topology/cavity.h"
 #include "topology/mesh.h"
 
 namespace rondel::incremental {
 
-template <SiteTraits T>
+template <SphereTraits T>
 class Insertion {
  public:
   // `first` are three sites with a non-zero orientation.

@@ -21,7 +21,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "incremental/site_traits.h"
+#include "incremental/sphere_traits.h"
 #include "topology/mesh.h"
 
 namespace rondel::incremental {
@@ -54,7 +54,7 @@ class FaceKinds {
   std::size_t num_ghosts_ = 0;
 };
 
-template <SiteTraits T>
+template <SphereTraits T>
 class Location {
  public:
   Location(const T& sites, const topology::Mesh& mesh, const FaceKinds& kinds)

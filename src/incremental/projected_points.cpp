@@ -6,14 +6,14 @@
 #include <cmath>
 #include <new>
 
-#include "incremental/site_traits.h"
+#include "incremental/sphere_traits.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
 
 namespace rondel::incremental {
 namespace {
 
-static_assert(SiteTraits<ProjectedPoints>);
+static_assert(SphereTraits<ProjectedPoints>);
 
 using predicates::Vector;
 

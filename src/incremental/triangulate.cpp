@@ -50,7 +50,7 @@ void report_ghosts(const topology::Mesh& mesh, const FaceKinds& kinds, std::vect
 }
 
 // The hidden ranks, each with the slot of the face above it.
-template <SiteTraits T>
+template <SphereTraits T>
 std::vector<Hidden> find_hidden(Insertion<T>& insertion, Index num_ranks) {
   std::vector<Hidden> hidden;
   if constexpr (T::hides_sites) {
@@ -67,7 +67,7 @@ std::vector<Hidden> find_hidden(Insertion<T>& insertion, Index num_ranks) {
   return hidden;
 }
 
-template <SiteTraits T>
+template <SphereTraits T>
 Triangulated build(std::span<const Point> sites, std::vector<Index> order,
                    std::span<const Duplicate> renamed, std::vector<Index> insertion,
                    std::span<const Index> first, const Options& options) {

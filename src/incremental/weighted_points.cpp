@@ -3,13 +3,13 @@
 
 #include "incremental/weighted_points.h"
 
-#include "incremental/site_traits.h"
+#include "incremental/sphere_traits.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
 
 namespace rondel::incremental {
 
-static_assert(SiteTraits<WeightedPoints>);
+static_assert(SphereTraits<WeightedPoints>);
 
 WeightedPoints::WeightedPoints(std::span<const Point> input, std::span<const Index> order,
                                const Point& center)

@@ -14,7 +14,7 @@
 namespace rondel::incremental {
 
 template <class T>
-concept SiteTraits = requires(const T& sites, Index a, Index b, Index c, Index p) {
+concept SphereTraits = requires(const T& sites, Index a, Index b, Index c, Index p) {
   // Whether an insertion can turn a vertex, or the new site, into a hidden site.
   { T::hides_sites } -> std::convertible_to<bool>;
   // The number of distinct sites.
