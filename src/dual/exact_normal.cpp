@@ -13,6 +13,7 @@
 namespace rondel::dual {
 namespace {
 
+using exact::floor_sqrt;
 using exact::Integer;
 using exact::IntegerVector;
 
@@ -55,34 +56,13 @@ double to_double(const Integer& value, int exponent) {
   return value < 0 ? -rounded : rounded;
 }
 
-// The square root rounded down, by Newton's method from above: the iteration decreases until it
-// reaches the root.
-Integer root(const Integer& value) {
-  if (value == 0) return 0;
-  Integer x = Integer(1) << ((num_bits(value) + 1) / 2);
-  const int excess = (num_bits(value) - wanted_bits) & ~1;
-  if (excess > 0) {
-    const auto leading = static_cast<std::uint64_t>(Integer(value >> excess));
-    // The start is at most 2^-20 too large, so that two or three steps suffice.
-    x = Integer(
-            static_cast<std::uint64_t>(std::sqrt(static_cast<double>(leading)) * (1 + 0x1p-20)) +
-            2U)
-        << (excess / 2);
-  }
-  while (true) {
-    const Integer next = (x + value / x) >> 1;
-    if (next >= x) return x;
-    x = next;
-  }
-}
-
 // The unit vector of a non-zero integer vector. Its leading 128 bits give the direction to
 // 2^-126, the root and the quotients keep that.
 Vec rounded_unit(const IntegerVector& v) {
   constexpr int bits = 128;
   const int shift = bits - num_bits(v);
   const IntegerVector w = {shifted(v.x, shift), shifted(v.y, shift), shifted(v.z, shift)};
-  const Integer length = root(dot(w, w));
+  const Integer length = floor_sqrt(dot(w, w));
   const auto quotient = [&](const Integer& x) {
     return to_double(Integer((x << bits) / length), -bits);
   };
@@ -101,7 +81,9 @@ IntegerVector projected_normal(const IntegerVector& a, const IntegerVector& b,
   const IntegerVector ab = cross(a, b);
   const int error_bits = std::max({num_bits(bc), num_bits(ca), num_bits(ab)}) + 4;
   for (int k = 64;; k *= 2) {
-    const auto scaled_root = [k](const IntegerVector& p) { return root(dot(p, p) << (2 * k)); };
+    const auto scaled_root = [k](const IntegerVector& p) {
+      return floor_sqrt(dot(p, p) << (2 * k));
+    };
     IntegerVector n = scaled_root(a) * bc + scaled_root(b) * ca + scaled_root(c) * ab;
     if (num_bits(n) >= error_bits + wanted_bits) return n;
   }
@@ -161,14 +143,14 @@ ExactDifference exact_projected_difference(const Point& a, const Point& b, const
   const auto p = exact::scaled_rays({a, b}, center);
   const int error_bits = std::max(num_bits(p[0]), num_bits(p[1])) + 3;
   for (int k = 64;; k *= 2) {
-    const Integer length_a = root(dot(p[0], p[0]) << (2 * k));
-    const Integer length_b = root(dot(p[1], p[1]) << (2 * k));
+    const Integer length_a = floor_sqrt(dot(p[0], p[0]) << (2 * k));
+    const Integer length_b = floor_sqrt(dot(p[1], p[1]) << (2 * k));
     const IntegerVector d = length_a * p[1] - length_b * p[0];
     if (num_bits(d) < error_bits + wanted_bits) continue;
     // |d| / (2^-k length_a length_b), to 128 bits of quotient.
     const Integer product = length_a * length_b;
     const int shift = 128 + num_bits(product) - num_bits(d);
-    const Integer quotient = shifted(root(dot(d, d)), shift) / product;
+    const Integer quotient = shifted(floor_sqrt(dot(d, d)), shift) / product;
     return {rounded_unit(d), to_double(quotient, k - shift)};
   }
 }

@@ -43,23 +43,6 @@ IntegerVector to_integers(const Point& p, int lowest) {
           to_integer(decompose(p.z), lowest)};
 }
 
-// Newton's iteration from above: it decreases while it is larger than the floor of the
-// root, doubling the correct bits each time (the library's sqrt goes bit by bit).
-Integer floor_sqrt(const Integer& n) {
-  if (n == 0) return 0;
-  constexpr unsigned leading_bits = 100;  // the root of these is exact to 50 bits
-  const unsigned size = static_cast<unsigned>(msb(n)) + 1;
-  const unsigned shift = size > leading_bits ? (size - leading_bits + 1) / 2 : 0;
-  const double leading = static_cast<double>(Integer(n >> (2 * shift)));
-  Integer root = Integer(static_cast<std::int64_t>(std::sqrt(leading) * (1 + 0x1p-50)) + 1)
-                 << shift;
-  for (;;) {
-    Integer next = (root + n / root) >> 1;
-    if (next >= root) return root;
-    root = std::move(next);
-  }
-}
-
 // The low bits of a square are those of 0, 1, 4, 9, 16, 17, 25, 33, 36, 41, 49 or 57 modulo 64.
 bool is_square(const Integer& n, Integer& root) {
   constexpr std::uint64_t squares_modulo_64 = 0x0202021202030213U;
@@ -103,6 +86,23 @@ bool is_zero_by_classes(std::span<const Integer> coefficients, std::span<const I
 }
 
 }  // namespace
+
+// Newton's iteration from above: it decreases while it is larger than the floor of the
+// root, doubling the correct bits each time (the library's sqrt goes bit by bit).
+Integer floor_sqrt(const Integer& n) {
+  if (n == 0) return 0;
+  constexpr unsigned leading_bits = 100;  // the root of these is exact to 50 bits
+  const unsigned size = static_cast<unsigned>(msb(n)) + 1;
+  const unsigned shift = size > leading_bits ? (size - leading_bits + 1) / 2 : 0;
+  const double leading = static_cast<double>(Integer(n >> (2 * shift)));
+  Integer root = Integer(static_cast<std::int64_t>(std::sqrt(leading) * (1 + 0x1p-50)) + 1)
+                 << shift;
+  for (;;) {
+    Integer next = (root + n / root) >> 1;
+    if (next >= root) return root;
+    root = std::move(next);
+  }
+}
 
 std::vector<IntegerVector> scaled_differences(std::initializer_list<Point> points,
                                               const Point& center) {

@@ -31,6 +31,9 @@ std::vector<IntegerVector> scaled_differences(std::initializer_list<Point> point
 // The same with a power of two for each point: enough where only its ray counts.
 std::vector<IntegerVector> scaled_rays(std::initializer_list<Point> points, const Point& center);
 
+// The square root rounded down. Precondition: n >= 0.
+Integer floor_sqrt(const Integer& n);
+
 // The sign of the sum of coefficient[i] * sqrt(radicand[i]), radicands positive.
 //
 // The exact zero test: two roots belong to one class when the product of their
