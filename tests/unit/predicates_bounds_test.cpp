@@ -28,7 +28,10 @@ constexpr mp_bitcnt_t precision = 400;
 using Big = mpf_class;
 using BigVector = Vector3<Big>;
 
-Big big(double v) { return Big(v, precision); }
+Big big(double v) {
+  Big value(v, precision);
+  return value;
+}
 BigVector big(const Vector& v) { return {big(v.x), big(v.y), big(v.z)}; }
 BigVector minus(const BigVector& a, const BigVector& b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
