@@ -14,9 +14,9 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <span>
 #include <vector>
 
+#include "incremental/conflict_region.h"
 #include "incremental/location.h"
 #include "incremental/sphere_traits.h"
 #include "topology/cavity.h"
@@ -48,17 +48,17 @@ class Insertion {
   }
 
   void insert(Index p) {
-    const Index start = Location<T>(sites_, mesh_, kinds_).find_conflict(p, solid_, near_);
+    const Index start = Location<T>(sites_, mesh_, kinds_).locate(p, solid_, near_).conflict;
     if (start == no_index) return;
-    find_conflict_region(p, start);
-    assert(horizon_.size() >= 3);
+    region_.find(sites_, mesh_, p, start);
+    assert(region_.horizon().size() >= 3);
     if (!tracks_kinds_) {
-      topology::star(mesh_, p, horizon_, region_);
-      solid_ = region_.front();
+      topology::star(mesh_, p, region_.horizon(), region_.faces());
+      solid_ = region_.faces().front();
       return;
     }
-    for (const Index f : region_) kinds_.remove(f);
-    topology::star(mesh_, p, horizon_, region_);
+    for (const Index f : region_.faces()) kinds_.remove(f);
+    topology::star(mesh_, p, region_.horizon(), region_.faces());
     classify_star();
   }
 
@@ -73,56 +73,11 @@ class Insertion {
   }
 
  private:
-  // Depth first, so that the horizon comes in counterclockwise order: entering a face through its
-  // edge j, the edges j+1 and j+2 take the place of the edge just crossed.
-  //
-  // Where no vertex can become hidden, the region has no inner vertex and its dual
-  // graph is a tree: no face is met twice. Otherwise visited faces are marked.
-  void find_conflict_region(Index p, Index start) {
-    region_.assign(1, start);
-    horizon_.clear();
-    stack_.clear();
-    mark(start, true);
-    for (const unsigned edge : {2U, 1U, 0U}) stack_.push_back(topology::halfedge(start, edge));
-    while (!stack_.empty()) {
-      const topology::Halfedge h = stack_.back();
-      stack_.pop_back();
-      const topology::Face& face = mesh_[topology::face_of(h)];
-      const unsigned edge = topology::edge_of(h);
-      const topology::Halfedge opposite = face.opposite[edge];
-      const Index neighbor = topology::face_of(opposite);
-      if (is_marked(neighbor)) continue;
-      const auto& v = mesh_[neighbor].vertex;
-      if (!sites_.is_in_conflict(v[0], v[1], v[2], p)) {
-        horizon_.push_back({face.vertex[topology::next_corner[edge]], opposite});
-        continue;
-      }
-      mark(neighbor, true);
-      region_.push_back(neighbor);
-      const unsigned entered = topology::edge_of(opposite);
-      stack_.push_back(topology::halfedge(neighbor, topology::previous_corner[entered]));
-      stack_.push_back(topology::halfedge(neighbor, topology::next_corner[entered]));
-    }
-    for (const Index f : region_) mark(f, false);
-  }
-
-  void mark(Index f, bool value) {
-    if constexpr (T::hides_sites) {
-      if (f >= marks_.size()) marks_.resize(std::max<std::size_t>(f + 1, 2 * marks_.size()));
-      marks_[f] = value;
-    }
-  }
-
-  [[nodiscard]] bool is_marked(Index f) const {
-    if constexpr (T::hides_sites) return f < marks_.size() && marks_[f];
-    return false;
-  }
-
   // Where the walks start next. A solid (near) face can only vanish if the star has one too:
   // what it covers, seen from the center, is covered by the star afterwards.
   void classify_star() {
     near_ = near_ != no_index && is_current(near_, FaceKind::near) ? near_ : no_index;
-    for (const Index f : region_) {
+    for (const Index f : region_.faces()) {
       const auto& v = mesh_[f].vertex;
       const FaceKind kind = kind_of(sites_.orientation(v[0], v[1], v[2]));
       kinds_.add(f, kind);
@@ -137,7 +92,8 @@ class Insertion {
 
   // Whether f still has the kind it is remembered for: it may be a removed or reused slot.
   [[nodiscard]] bool is_current(Index f, FaceKind kind) const {
-    return mesh_.is_alive(f) && std::find(region_.begin(), region_.end(), f) == region_.end() &&
+    const std::vector<Index>& star = region_.faces();
+    return mesh_.is_alive(f) && std::find(star.begin(), star.end(), f) == star.end() &&
            kinds_[f] == kind;
   }
 
@@ -147,10 +103,7 @@ class Insertion {
   bool tracks_kinds_ = true;
   Index solid_ = no_index;
   Index near_ = no_index;
-  std::vector<Index> region_;
-  std::vector<topology::HorizonEdge> horizon_;
-  std::vector<topology::Halfedge> stack_;
-  std::vector<bool> marks_;
+  ConflictRegion<T> region_;
 };
 
 }  // namespace rondel::incremental

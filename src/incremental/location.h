@@ -60,22 +60,27 @@ class Location {
   Location(const T& sites, const topology::Mesh& mesh, const FaceKinds& kinds)
       : sites_(sites), mesh_(mesh), kinds_(kinds) {}
 
-  // A face that is in conflict with p, or no_index when p is hidden. `solid` is a solid
-  // face near p, `near` a near face (no_index when there is none).
-  [[nodiscard]] Index find_conflict(Index p, Index solid, Index near) const {
+  // Where p is. A hidden site has a solid face above it, and a near face below it unless there
+  // is none or its ray touches the hull in grazing faces only.
+  struct Place {
+    Index conflict = no_index;  // a face in conflict with p; none when p is hidden
+    Index solid = no_index;
+    Index near = no_index;
+  };
+
+  // `solid` is a solid face near p, `near` a near face (no_index when there is none).
+  [[nodiscard]] Place locate(Index p, Index solid, Index near) const {
     const Index guess = walk_by_guess(p, solid);
-    if (is_in_conflict(guess, p)) return guess;
+    if (is_in_conflict(guess, p)) return {guess};
     const Walk far_side = walk(p, guess, FaceKind::solid);
-    if (far_side.beyond != no_index) {
-      return is_in_conflict(far_side.face, p) ? far_side.face : far_side.beyond;
+    if (is_in_conflict(far_side.face, p)) return {far_side.face};
+    if (far_side.beyond != no_index) return {far_side.beyond};
+    if (!T::hides_sites || kinds_.all_solid() || near == no_index) {
+      return {no_index, far_side.face};
     }
-    if (is_in_conflict(far_side.face, p)) return far_side.face;
-    if (!T::hides_sites || kinds_.all_solid()) return no_index;
-    if (near != no_index) {
-      const Walk near_side = walk(p, near, FaceKind::near);
-      if (is_in_conflict(near_side.face, p)) return near_side.face;
-    }
-    return no_index;
+    const Walk near_side = walk(p, near, FaceKind::near);
+    if (is_in_conflict(near_side.face, p)) return {near_side.face};
+    return {no_index, far_side.face, near_side.beyond == no_index ? near_side.face : no_index};
   }
 
   // The solid face through which the ray of p leaves the hull, or the last one before the contour.
