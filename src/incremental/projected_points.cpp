@@ -3,8 +3,10 @@
 
 #include "incremental/projected_points.h"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
+#include <utility>
 
 #include "incremental/sphere_traits.h"
 #include "predicates/orientation.h"
@@ -37,19 +39,37 @@ ProjectedPoints::ProjectedPoints(std::span<const Point> input, std::span<const I
   for (const Index i : order) directions_.push_back(direction(input[i], center));
 }
 
+void ProjectedPoints::set(Index a, std::span<const Point> input, std::span<const Index> order) {
+  const predicates::Vector v = direction(input[order[a]], center_);
+  if (a < directions_.size()) {
+    directions_[a] = v;
+  } else {
+    directions_.push_back(v);
+  }
+  input_ = input;
+  order_ = order;
+  if (a < low_parts_.size) low_parts_.data[a] = {};
+}
+
 Sign ProjectedPoints::orientation(Index a, Index b, Index c) const {
   const Sign sign = predicates::orientation_filter(directions_[a], directions_[b], directions_[c]);
   if (sign != Sign::zero) return sign;
   return predicates::orientation_ladder(point(a), point(b), point(c), center_).sign;
 }
 
+void ProjectedPoints::reserve_low_parts() const {
+  const std::size_t size = directions_.capacity();
+  LowParts longer{
+      std::unique_ptr<Point[], Free>(static_cast<Point*>(std::calloc(size, sizeof(Point)))), size};
+  if (!longer.data) throw std::bad_alloc();
+  std::copy_n(low_parts_.data.get(), low_parts_.size, longer.data.get());
+  low_parts_ = std::move(longer);
+}
+
 exact::SplitPoint ProjectedPoints::split_direction(Index a) const {
-  if (!low_parts_) {
-    low_parts_.reset(static_cast<Point*>(std::calloc(directions_.size(), sizeof(Point))));
-    if (!low_parts_) throw std::bad_alloc();
-  }
+  if (a >= low_parts_.size) reserve_low_parts();
   const Point high = {directions_[a].x, directions_[a].y, directions_[a].z};
-  Point& low = low_parts_[a];
+  Point& low = low_parts_.data[a];
   if (low == Point{}) {
     const exact::SplitPoint u = exact::unit_vector(point(a), center_);
     low = {(u.hi.x - high.x) + u.lo.x, (u.hi.y - high.y) + u.lo.y, (u.hi.z - high.z) + u.lo.z};

@@ -23,6 +23,9 @@ class ProjectedPoints {
   // `order` lists the input index of each spatial rank.
   ProjectedPoints(std::span<const Point> input, std::span<const Index> order, const Point& center);
 
+  // For sites that change: site a has become input[order[a]]; a <= size().
+  void set(Index a, std::span<const Point> input, std::span<const Index> order);
+
   [[nodiscard]] Index size() const { return static_cast<Index>(directions_.size()); }
   [[nodiscard]] predicates::Vector coordinates(Index a) const { return directions_[a]; }
   [[nodiscard]] predicates::Vector from_center(Index a) const { return directions_[a]; }
@@ -42,10 +45,15 @@ class ProjectedPoints {
  private:
   [[nodiscard]] const Point& point(Index a) const { return input_[order_[a]]; }
   [[nodiscard]] exact::SplitPoint split_direction(Index a) const;
+  void reserve_low_parts() const;
   [[nodiscard]] bool climb(Index a, Index b, Index c, Index p) const;
 
   struct Free {
     void operator()(Point* p) const { std::free(p); }
+  };
+  struct LowParts {
+    std::unique_ptr<Point[], Free> data;
+    std::size_t size = 0;
   };
 
   std::span<const Point> input_;
@@ -54,7 +62,7 @@ class ProjectedPoints {
   std::vector<predicates::Vector> directions_;
   // What the directions lack of the exact unit vectors, computed when first needed. Zero
   // pages from calloc take no memory before that.
-  mutable std::unique_ptr<Point[], Free> low_parts_;
+  mutable LowParts low_parts_;
   mutable Tally tally_;
 };
 

@@ -18,6 +18,15 @@ WeightedPoints::WeightedPoints(std::span<const Point> input, std::span<const Ind
   for (const Index i : order) points_.push_back(exact::to_vector(input[i]));
 }
 
+void WeightedPoints::set(Index a, std::span<const Point> input, std::span<const Index> order) {
+  const predicates::Vector v = exact::to_vector(input[order[a]]);
+  if (a < points_.size()) {
+    points_[a] = v;
+  } else {
+    points_.push_back(v);
+  }
+}
+
 Sign WeightedPoints::orientation(Index a, Index b, Index c) const {
   return predicates::orientation_ladder(point(a), point(b), point(c),
                                         {center_.x, center_.y, center_.z})

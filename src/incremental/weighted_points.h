@@ -21,6 +21,9 @@ class WeightedPoints {
   // `order` lists the input index of each spatial rank.
   WeightedPoints(std::span<const Point> input, std::span<const Index> order, const Point& center);
 
+  // For sites that change: site a has become input[order[a]]; a <= size().
+  void set(Index a, std::span<const Point> input, std::span<const Index> order);
+
   [[nodiscard]] Index size() const { return static_cast<Index>(points_.size()); }
   [[nodiscard]] predicates::Vector coordinates(Index a) const { return points_[a]; }
   [[nodiscard]] predicates::Vector from_center(Index a) const { return points_[a] - center_; }
