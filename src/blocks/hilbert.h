@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
 
 namespace rondel::blocks {
@@ -63,6 +64,7 @@ inline constexpr std::array<Step, 1024> steps = make_steps();
 struct HilbertKey {
   std::uint64_t high = 0;
   std::uint64_t low = 0;
+  friend auto operator<=>(const HilbertKey&, const HilbertKey&) = default;
 };
 
 // The position along the curve: all levels of one position are (high, low).

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "blocks/spatial_index.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+
+namespace {
+
+using rondel::Index;
+using rondel::no_index;
+using rondel::blocks::HilbertKey;
+using rondel::blocks::SpatialIndex;
+
+bool any(Index) { return true; }
+
+// The same by a standard container.
+using Model = std::multimap<HilbertKey, Index>;
+
+void expect_same(const SpatialIndex& index, const Model& model) {
+  ASSERT_EQ(index.size(), model.size());
+  const auto values = index.values();
+  ASSERT_EQ(values.size(), model.size());
+  std::map<Index, HilbertKey> key_of;
+  for (const auto& [key, value] : model) key_of[value] = key;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    ASSERT_TRUE(key_of.contains(values[i]));
+    ASSERT_LE(key_of[values[i > 0 ? i - 1 : 0]], key_of[values[i]]);
+  }
+}
+
+// Random keys out of `range`, so that a small range has long runs of equal keys.
+void run_script(std::uint64_t range, int steps, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  SpatialIndex index;
+  Model model;
+  Index next = 0;
+  std::vector<std::pair<HilbertKey, Index>> live;
+  for (int step = 0; step < steps; ++step) {
+    const bool is_growing = (step / 3000) % 2 == 0;
+    if (live.empty() || random() % 10 < (is_growing ? 7 : 3)) {
+      const HilbertKey key = {random() % range, random() % 2};
+      index.insert(key, next);
+      model.emplace(key, next);
+      live.emplace_back(key, next++);
+    } else {
+      const std::size_t i = random() % live.size();
+      const auto [key, value] = live[i];
+      index.erase(key, value);
+      const auto [begin, end] = model.equal_range(key);
+      for (auto it = begin; it != end; ++it) {
+        if (it->second != value) continue;
+        model.erase(it);
+        break;
+      }
+      live[i] = live.back();
+      live.pop_back();
+      ASSERT_EQ(index.find(key, [value = value](Index v) { return v == value; }), no_index);
+    }
+    const HilbertKey probe = {random() % range, 0};
+    ASSERT_EQ(index.find(probe, any) == no_index, !model.contains(probe));
+    ASSERT_EQ(index.near(probe) == no_index, model.empty());
+    if (step % 500 == 0) expect_same(index, model);
+  }
+  for (const auto& [key, value] : live) {
+    ASSERT_EQ(index.find(key, [value = value](Index v) { return v == value; }), value);
+  }
+  expect_same(index, model);
+}
+
+TEST(spatial_index, behaves_like_a_sorted_list_for_distinct_keys) {
+  run_script(std::uint64_t{1} << 50, 20000, 1);
+}
+
+TEST(spatial_index, behaves_like_a_sorted_list_for_long_runs_of_equal_keys) {
+  run_script(5, 20000, 2);
+}
+
+TEST(spatial_index, near_finds_a_neighbor) {
+  SpatialIndex index;
+  EXPECT_EQ(index.near({7, 0}), no_index);
+  for (Index i = 0; i < 1000; ++i) index.insert({10 * i, 0}, i);
+  EXPECT_EQ(index.near({0, 0}), 0U);
+  EXPECT_EQ(index.near({100000, 0}), 999U);
+  for (Index i = 1; i < 1000; ++i) {
+    const Index found = index.near({10 * i - 5, 0});
+    EXPECT_TRUE(found == i || found == i - 1);
+  }
+}
+
+TEST(spatial_index, is_filled_at_once) {
+  std::vector<HilbertKey> keys;
+  std::vector<Index> values;
+  for (Index i = 0; i < 5000; ++i) {
+    keys.push_back({i / 3, 0});
+    values.push_back(i);
+  }
+  SpatialIndex index;
+  index.insert({1, 1}, 9999);
+  index.assign(keys, values);
+  EXPECT_EQ(index.values(), values);
+  for (Index i = 0; i < 5000; ++i) index.erase(keys[i], i);
+  EXPECT_EQ(index.size(), 0U);
+}
+
+}  // namespace
