@@ -18,6 +18,31 @@ class Random {
  public:
   double uniform() { return static_cast<double>(next() >> 11) * 0x1p-53; }
 
+  Point in_cube() {
+    const double x = 2 * uniform() - 1;
+    const double y = 2 * uniform() - 1;
+    const double z = 2 * uniform() - 1;
+    return {x, y, z};
+  }
+
+  Point in_ball() {
+    for (;;) {
+      const Point p = in_cube();
+      if (p.x * p.x + p.y * p.y + p.z * p.z <= 1) return p;
+    }
+  }
+
+  // The polar method (Marsaglia and Bray, SIAM Review 6, 1964).
+  double normal() {
+    for (;;) {
+      const double a = 2 * uniform() - 1;
+      const double b = 2 * uniform() - 1;
+      const double squared = a * a + b * b;
+      if (squared >= 1 || squared == 0) continue;
+      return a * std::sqrt(-2 * std::log(squared) / squared);
+    }
+  }
+
   Point on_sphere() {
     for (;;) {
       const double x = 2 * uniform() - 1;
@@ -96,10 +121,20 @@ std::vector<Point> paper_s(std::size_t n) {
 
 std::vector<Point> make_input(const std::string& kind, std::size_t n) {
   Random random;
-  if (kind == "uniform") {
-    std::vector<Point> sites;
-    for (std::size_t i = 0; i < n; ++i) sites.push_back(random.on_sphere());
+  const auto repeated = [n](auto make) {
+    std::vector<Point> sites(n);
+    for (Point& p : sites) p = make();
     return sites;
+  };
+  if (kind == "uniform") return repeated([&] { return random.on_sphere(); });
+  if (kind == "ball") return repeated([&] { return random.in_ball(); });
+  if (kind == "cube") return repeated([&] { return random.in_cube(); });
+  if (kind == "gaussian") {
+    return repeated([&] {
+      const double x = random.normal();
+      const double y = random.normal();
+      return Point{x, y, random.normal()};
+    });
   }
   if (kind == "fibonacci") return fibonacci(n);
   if (kind == "grid") return grid(n);
