@@ -19,7 +19,9 @@ static_assert(SphereTraits<ProjectedPoints>);
 
 using predicates::Vector;
 
-// Within `direction_error` of the unit vector: bounds.h counts the roundings.
+}  // namespace
+
+// bounds.h counts the roundings.
 Vector direction(const Point& p, const Point& center) {
   const Vector v = exact::to_vector(p) - exact::to_vector(center);
   const double squared_length = dot(v, v);
@@ -29,8 +31,6 @@ Vector direction(const Point& p, const Point& center) {
   const double length = std::sqrt(squared_length);
   return {v.x / length, v.y / length, v.z / length};
 }
-
-}  // namespace
 
 ProjectedPoints::ProjectedPoints(std::span<const Point> input, std::span<const Index> order,
                                  const Point& center)
@@ -46,8 +46,7 @@ void ProjectedPoints::set(Index a, std::span<const Point> input, std::span<const
   } else {
     directions_.push_back(v);
   }
-  input_ = input;
-  order_ = order;
+  rebind(input, order);
   if (a < low_parts_.size) low_parts_.data[a] = {};
 }
 

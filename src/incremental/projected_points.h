@@ -16,6 +16,9 @@
 
 namespace rondel::incremental {
 
+// The direction of a point, within `direction_error` of the unit vector.
+predicates::Vector direction(const Point& p, const Point& center);
+
 class ProjectedPoints {
  public:
   static constexpr bool hides_sites = false;
@@ -23,10 +26,19 @@ class ProjectedPoints {
   // `order` lists the input index of each spatial rank.
   ProjectedPoints(std::span<const Point> input, std::span<const Index> order, const Point& center);
 
+  // For sites that change: the arrays have moved or grown.
+  void rebind(std::span<const Point> input, std::span<const Index> order) {
+    input_ = input;
+    order_ = order;
+  }
+
   // For sites that change: site a has become input[order[a]]; a <= size().
   void set(Index a, std::span<const Point> input, std::span<const Index> order);
 
   [[nodiscard]] Index size() const { return static_cast<Index>(directions_.size()); }
+  [[nodiscard]] const Point& center() const { return center_; }
+  // The site as given.
+  [[nodiscard]] const Point& point(Index a) const { return input_[order_[a]]; }
   [[nodiscard]] predicates::Vector coordinates(Index a) const { return directions_[a]; }
   [[nodiscard]] predicates::Vector from_center(Index a) const { return directions_[a]; }
 
@@ -43,7 +55,6 @@ class ProjectedPoints {
   [[nodiscard]] const Tally& tally() const { return tally_; }
 
  private:
-  [[nodiscard]] const Point& point(Index a) const { return input_[order_[a]]; }
   [[nodiscard]] exact::SplitPoint split_direction(Index a) const;
   void reserve_low_parts() const;
   [[nodiscard]] bool climb(Index a, Index b, Index c, Index p) const;

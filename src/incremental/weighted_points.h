@@ -21,10 +21,15 @@ class WeightedPoints {
   // `order` lists the input index of each spatial rank.
   WeightedPoints(std::span<const Point> input, std::span<const Index> order, const Point& center);
 
+  // For sites that change: the arrays have moved or grown.
+  void rebind(std::span<const Point> /*input*/, std::span<const Index> /*order*/) {}
+
   // For sites that change: site a has become input[order[a]]; a <= size().
   void set(Index a, std::span<const Point> input, std::span<const Index> order);
 
   [[nodiscard]] Index size() const { return static_cast<Index>(points_.size()); }
+  [[nodiscard]] Point center() const { return {center_.x, center_.y, center_.z}; }
+  [[nodiscard]] Point point(Index a) const { return {points_[a].x, points_[a].y, points_[a].z}; }
   [[nodiscard]] predicates::Vector coordinates(Index a) const { return points_[a]; }
   [[nodiscard]] predicates::Vector from_center(Index a) const { return points_[a] - center_; }
 
@@ -41,7 +46,6 @@ class WeightedPoints {
   [[nodiscard]] const Tally& tally() const { return tally_; }
 
  private:
-  [[nodiscard]] Point point(Index a) const { return {points_[a].x, points_[a].y, points_[a].z}; }
   [[nodiscard]] bool climb(Index a, Index b, Index c, Index p) const;
 
   std::vector<predicates::Vector> points_;
