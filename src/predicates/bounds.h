@@ -16,7 +16,7 @@ inline constexpr double unit_roundoff = 0x1p-53;
 // With a center, the differences add another u.
 inline constexpr double direction_error = 4.6 * unit_roundoff;
 
-// det(B, C, D) of differences of exact data, relative to H^3:
+// det(B, C, D) of differences of exact data, relative to |B||C||D|:
 // rounding of the differences 3u, of the determinant 5u times the permanent (at most 2/sqrt(3)).
 inline constexpr double plane_bound = 10 * unit_roundoff;
 
@@ -35,14 +35,14 @@ inline constexpr double orientation_bound = 10 * unit_roundoff;
 // 4 eta + 2 * (eta + 8.8u) = 45.2u, times 1.18.
 inline constexpr double direction_orientation_bound = 54 * unit_roundoff;
 
-// det(B, C, D) in double-double: exact data relative to H^3, and unit
+// det(B, C, D) in double-double: exact data relative to |B||C||D|, and unit
 // vectors known to 2^-100 relative to H^2.
 inline constexpr double plane_double_double_bound = 0x1p-99;
 inline constexpr double circle_double_double_bound = 0x1p-95;
 
-// The filters of exact data accept a determinant only if its square exceeds this. Then H^3 >= |det|
-// > 10^-145, while H^6 is finite only for H < 10^52, so that lost subnormal bits sum to less than
-// 10^-270: nothing against the slack of the bounds, 10^-175 and more.
-inline constexpr double underflow_guard = 1e-290;
+// The filters of exact data accept a determinant of three vectors only if the square of each length
+// exceeds this. Overflow makes them unsure; docs/theory/filters.md shows that underflow is
+// harmless then.
+inline constexpr double least_squared_length = 1e-80;
 
 }  // namespace rondel::predicates

@@ -16,15 +16,8 @@ Sign filter(const Point& a, const Point& b, const Point& c, const Point& center)
   const Vector ab = to_vector(b) - to_vector(a);
   const Vector ac = to_vector(c) - to_vector(a);
   const double value = det(from_center, ab, ac);
-  const double size_a = dot(from_center, from_center);
-  const double size_b = dot(ab, ab);
-  const double size_c = dot(ac, ac);
-  // In this range no product over- or underflows: with mixed scales the product of the sizes could
-  // vanish while the determinant is large.
-  const auto [least, most] = std::minmax({size_a, size_b, size_c});
-  const bool is_in_range = least > 1e-80 && most < 1e80;
-  constexpr double bound = orientation_bound * orientation_bound;
-  return unless_unsure(value, is_in_range && value * value > bound * (size_a * size_b * size_c));
+  return unless_unsure(value, is_beyond(value, orientation_bound, dot(from_center, from_center),
+                                        dot(ab, ab), dot(ac, ac)));
 }
 
 Sign by_expansions(const Point& a, const Point& b, const Point& c) {

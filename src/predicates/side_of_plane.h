@@ -25,12 +25,11 @@ inline Sign side_of_plane_filter(const Vector& b, const Vector& c, const Vector&
   const Vector pc = c - p;
   const Vector pd = d - p;
   const double value = -det(pb, pc, pd);
-  const double m = max_squared_length(pb, pc, pd);
-  constexpr double bound = plane_bound * plane_bound;
-  return unless_unsure(value, value * value > bound * (m * m * m) + underflow_guard);
+  return unless_unsure(value, is_beyond(value, plane_bound, dot(pb, pb), dot(pc, pc), dot(pd, pd)));
 }
 
-// The rungs above the filter.
+// All rungs: the filter again with the differences taken from the point from which they are
+// shortest, which decides when sites of very different weights meet, then those above.
 Decision side_of_plane_ladder(const Point& b, const Point& c, const Point& d, const Point& p);
 
 }  // namespace rondel::predicates

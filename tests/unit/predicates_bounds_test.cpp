@@ -115,8 +115,16 @@ double plane_ratio(const FourStored& s) {
   const Big exact_value =
       -det_of(minus(big(to_vector(b.site)), u), minus(big(to_vector(c.site)), u),
               minus(big(to_vector(d.site)), u));
-  const double h = std::sqrt(predicates::max_squared_length(pb, pc, pd));
-  return std::abs(to_double(value - exact_value)) / (predicates::plane_bound * h * h * h);
+  const double size = std::sqrt(dot(pb, pb)) * std::sqrt(dot(pc, pc)) * std::sqrt(dot(pd, pd));
+  return std::abs(to_double(value - exact_value)) / (predicates::plane_bound * size);
+}
+
+// Weights of very different magnitudes: |B|, |C| and |D| are 1e15, 1e3 and 1 apart.
+double plane_of_mixed_weights_ratio(const FourStored& s) {
+  FourStored scaled_sites = s;
+  scaled_sites[0].site = 1e15 * s[0].site;
+  scaled_sites[1].site = 1e3 * s[1].site;
+  return plane_ratio(scaled_sites);
 }
 
 double orientation_ratio(const FourStored& s) {
@@ -194,7 +202,8 @@ TEST_P(bounds, hold_against_a_search) {
 INSTANTIATE_TEST_SUITE_P(
     filters, bounds,
     testing::Values(Filter{"circle_plane", circle_plane_ratio, 0.1},
-                    Filter{"circle", circle_ratio, 0.03}, Filter{"plane", plane_ratio, 0.08},
+                    Filter{"circle", circle_ratio, 0.03}, Filter{"plane", plane_ratio, 0.1},
+                    Filter{"plane_of_mixed_weights", plane_of_mixed_weights_ratio, 0.1},
                     Filter{"orientation", orientation_ratio, 0.1},
                     Filter{"direction_orientation", direction_orientation_ratio, 0.1}),
     [](const auto& filter) { return std::string(filter.param.name); });

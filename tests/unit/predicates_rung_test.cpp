@@ -100,6 +100,36 @@ TEST(rungs, filter_decides_at_any_distance) {
   EXPECT_GT(filter_share(Model::weighted, 1e-3), 0.999);
 }
 
+// Three close sites and one whose weight is far larger, in each of the four roles.
+TEST(rungs, filter_decides_between_weights_of_all_magnitudes) {
+  Random random(36);
+  for (const double length : {1e1, 1e4, 1e8, 1e15, 1e30}) {
+    for (std::size_t i = 0; i < 400; ++i) {
+      const Point pole = random_direction(random);
+      Four four;
+      for (Point& p : four) p = random_near(random, pole, 1e-3);
+      four[i % 4] = length * random_direction(random);
+      const Decision decision = decide(four, Model::weighted);
+      ASSERT_EQ(decision.rung, Rung::filter) << length;
+      ASSERT_EQ(to_int(decision.sign),
+                Oracle(four, Model::weighted, {}).side_of_circle(0, 1, 2, 3));
+    }
+  }
+}
+
+// Squared lengths that vanish must not vanish from the bound.
+TEST(rungs, filter_is_unsure_where_squares_underflow) {
+  const Point b = {0x1p-600, 0, 0};
+  const Point c = {0, 0x1p400, 0x1p300};
+  const Point d = {0, 0x1p300, 0x1p400};
+  EXPECT_EQ(predicates::side_of_plane_filter(exact::to_vector(b), exact::to_vector(c),
+                                             exact::to_vector(d), {0, 0, 0}),
+            Sign::zero);
+  const Decision decision = decide({{b, c, d, {0, 0, 0}}}, Model::weighted);
+  EXPECT_EQ(decision.rung, Rung::exact);
+  EXPECT_EQ(decision.sign, Sign::negative);
+}
+
 TEST(rungs, double_double_decides_near_ties) {
   Random random(33);
   std::size_t decided = 0;
