@@ -25,6 +25,24 @@ Point unit_vector(const LonLat& position);
 ///         latitude is outside [-90, 90].
 std::vector<Point> unit_vectors(std::span<const LonLat> positions);
 
+/// The weighted site of a circle on the sphere around the origin: q / cos r, the pole of the
+/// circle's plane, for the center q and the angular radius r. `center` is taken as it is,
+/// so it is a unit vector on the unit sphere and has length R on a sphere of radius R.
+/// 1. Radius 0 gives `center` itself, bit for bit.
+/// 2. The same bits on every platform; each coordinate within 2 ulp of its exact value.
+/// 3. The result is on or outside the sphere. An imaginary circle, whose squared radius is
+/// negative, is
+///    a point inside: it has no angular radius, and is given by its coordinates.
+/// \throws InvalidInput if the radius is not in [0, 90).
+Point polar_point(const Point& center, double radius_deg);
+Point polar_point(const LonLat& center, double radius_deg);
+
+/// The weighted sites of n circles, shape (n, 3).
+/// \throws InvalidInput if there is not one radius for each center; (first bad index) if a radius
+///         is not in [0, 90); for longitudes and latitudes then as unit_vectors() does.
+std::vector<Point> polar_points(std::span<const Point> centers, std::span<const double> radii_deg);
+std::vector<Point> polar_points(std::span<const LonLat> centers, std::span<const double> radii_deg);
+
 /// The triangulation of n sites: the Delaunay triangulation of their exact
 /// projections on the sphere (Model::projected) or the regular triangulation
 /// of weighted sites, which is the convex hull (Model::weighted).

@@ -17,22 +17,23 @@ bool is_finite(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
+std::string coordinates(const Point& p) {
+  return "(" + text(p.x) + ", " + text(p.y) + ", " + text(p.z) + ")";
+}
+
+}  // namespace
+
 std::string text(double value) {
   std::array<char, 32> buffer{};
   const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
   return {buffer.data(), end};
 }
 
-std::string text(const Point& p) {
-  return "(" + text(p.x) + ", " + text(p.y) + ", " + text(p.z) + ")";
-}
-
-}  // namespace
-
 void validate(std::span<const Point> sites, const Options& options) {
   const Sphere& sphere = options.sphere;
   if (!is_finite(sphere.center)) {
-    throw InvalidInput("the center " + text(sphere.center) + " of the sphere is not finite", 0);
+    throw InvalidInput("the center " + coordinates(sphere.center) + " of the sphere is not finite",
+                       0);
   }
   if (!(sphere.squared_radius > 0) || !std::isfinite(sphere.squared_radius)) {
     throw InvalidInput(
@@ -45,10 +46,11 @@ void validate(std::span<const Point> sites, const Options& options) {
   }
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if (!is_finite(sites[i])) {
-      throw InvalidInput("site " + std::to_string(i) + ": " + text(sites[i]) + " is not finite", i);
+      throw InvalidInput(
+          "site " + std::to_string(i) + ": " + coordinates(sites[i]) + " is not finite", i);
     }
     if (options.model == Model::projected && sites[i] == sphere.center) {
-      throw InvalidInput("site " + std::to_string(i) + ": " + text(sites[i]) +
+      throw InvalidInput("site " + std::to_string(i) + ": " + coordinates(sites[i]) +
                              " is the center of the sphere and has no projection",
                          i);
     }

@@ -5,10 +5,14 @@
 #pragma once
 
 #include <span>
+#include <string>
 
 #include "rondel/types.h"
 
 namespace rondel::api {
+
+// The shortest digits that give back the value.
+std::string text(double value);
 
 // Throws InvalidInput as rondel/delaunay.h promises.
 void validate(std::span<const Point> sites, const Options& options);

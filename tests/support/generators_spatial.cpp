@@ -203,6 +203,44 @@ SiteSet near_sphere(std::size_t n, Seed seed) {
   return set;
 }
 
+// The points q / cos r of circles with radii r from 0 to 30 degrees.
+SiteSet circles(std::size_t n, Seed seed) {
+  Random random(seed);
+  SiteSet set;
+  const double least_cosine = std::sqrt(0.75);
+  while (set.sites.size() < n) {
+    const double cosine = least_cosine + (1 - least_cosine) * random.unit();
+    set.sites.push_back((1 / cosine) * random_direction(random));
+  }
+  return set;
+}
+
+// Mostly points of the sphere, and some circles of up to nearly 90 degrees: lengths up to 2^50.
+SiteSet mixed_magnitudes(std::size_t n, Seed seed) {
+  Random random(seed);
+  SiteSet set;
+  while (set.sites.size() < n) {
+    const bool is_huge = random.below(8) == 0;
+    const double length = is_huge ? std::ldexp(1 + random.unit(), random.between(0, 49)) : 1;
+    set.sites.push_back(length * random_direction(random));
+  }
+  return set;
+}
+
+// Real circles, points of the sphere and imaginary circles. Half of the sites come in pairs on one
+// ray, of which the shorter is hidden where the center is inside the hull.
+SiteSet imaginary_circles(std::size_t n, Seed seed) {
+  Random random(seed);
+  SiteSet set;
+  while (set.sites.size() < n) {
+    const bool has_pair = !set.sites.empty() && random.below(3) == 0;
+    const Point q = has_pair ? set.sites.back() : random_direction(random);
+    const double length = has_pair ? 0.5 : 1 + 0.125 * random.signed_unit();
+    set.sites.push_back(length * q);
+  }
+  return set;
+}
+
 SiteSet cube_with_center(std::size_t n, Seed seed) {
   SiteSet set = cube(n, seed);
   set.sites.push_back(set.sphere.center);
@@ -231,6 +269,9 @@ constexpr std::array spatial = {
     Generator{"ball", ball},
     Generator{"ball_outside", ball_outside},
     Generator{"near_sphere", near_sphere},
+    Generator{"circles", circles},
+    Generator{"mixed_magnitudes", mixed_magnitudes},
+    Generator{"imaginary_circles", imaginary_circles},
     Generator{"cube_with_center", cube_with_center, true},
 };
 
