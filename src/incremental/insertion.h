@@ -33,14 +33,7 @@ class Insertion {
     if (sites.orientation(first[0], first[1], first[2]) == Sign::negative) {
       std::swap(first[1], first[2]);
     }
-    const auto& [a, b, c] = first;
-    const Index top = mesh_.add_face();
-    const Index bottom = mesh_.add_face();
-    mesh_[top].vertex = {a, b, c};
-    mesh_[bottom].vertex = {a, c, b};
-    mesh_.link(topology::halfedge(top, 0), topology::halfedge(bottom, 0));
-    mesh_.link(topology::halfedge(top, 1), topology::halfedge(bottom, 2));
-    mesh_.link(topology::halfedge(top, 2), topology::halfedge(bottom, 1));
+    const auto [top, bottom] = topology::flat_pair(mesh_, first);
     kinds_.add(top, FaceKind::solid);
     kinds_.add(bottom, FaceKind::near);
     solid_ = top;

@@ -5,6 +5,18 @@
 
 namespace rondel::topology {
 
+std::pair<Index, Index> flat_pair(Mesh& mesh, const std::array<Index, 3>& corners) {
+  const auto& [a, b, c] = corners;
+  const Index top = mesh.add_face();
+  const Index bottom = mesh.add_face();
+  mesh[top].vertex = {a, b, c};
+  mesh[bottom].vertex = {a, c, b};
+  mesh.link(halfedge(top, 0), halfedge(bottom, 0));
+  mesh.link(halfedge(top, 1), halfedge(bottom, 2));
+  mesh.link(halfedge(top, 2), halfedge(bottom, 1));
+  return {top, bottom};
+}
+
 void star(Mesh& mesh, Index v, std::span<const HorizonEdge> horizon, std::vector<Index>& slots) {
   const std::size_t size = horizon.size();
   while (slots.size() < size) slots.push_back(mesh.add_face());

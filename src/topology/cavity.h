@@ -4,11 +4,17 @@
 // Replaces a conflict region by the star of a vertex.
 #pragma once
 
+#include <array>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include "topology/mesh.h"
 
 namespace rondel::topology {
+
+// Adds two faces back to back, (a, b, c) and (a, c, b): the smallest surface. Returns both.
+std::pair<Index, Index> flat_pair(Mesh& mesh, const std::array<Index, 3>& corners);
 
 // An edge of the horizon: from `origin` to the origin of the next one, seen from outside.
 struct HorizonEdge {

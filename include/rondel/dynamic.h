@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// A triangulation whose sites come, go and move.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// An immutable copy of a DynamicTriangulation.
+struct Snapshot {
+  std::vector<Index> ids;       ///< increasing; site i of `triangulation` is ids[i]
+  std::vector<Point> sites;     ///< shape (n, 3)
+  Triangulation triangulation;  ///< of `sites`, as delaunay() makes it, without a report
+};
+
+/// A Delaunay or regular triangulation under insertions, removals and moves
+/// (insertion: Caroli et al., SEA 2010, section 4; removal: Chew 1990, Devillers 1999).
+///
+/// 1. At any time the triangulation is the one that delaunay() makes of the sites that are
+///    there, whatever changes led to it.
+/// 2. Each site has an id that keeps its meaning until the site is removed; then the id may be
+///    given to a new site. The sites of a constructor have the ids 0 ... n-1.
+/// 3. Hidden sites come back when what hides them goes; duplicates stay when one of them goes.
+/// 4. A call that throws InvalidInput changes nothing. Its index is the position in the array that
+///    was passed, 0 for a single argument.
+/// 5. Insertion takes O(log n) expected time for sites in random places, removal O(d) expected for
+///    a vertex with d neighbors. Exceptions: while all sites lie on one great circle, and
+///    when the center of the sphere leaves the hull of weighted sites, a change may take O(n).
+/// 6. Functions that are const may be called from several threads at once.
+class DynamicTriangulation {
+ public:
+  /// Without sites; `options.threads` is not used.
+  /// \throws InvalidInput if the sphere is not valid.
+  explicit DynamicTriangulation(const Options& options = {});
+
+  /// With n sites, by delaunay(). \throws InvalidInput as delaunay() does.
+  explicit DynamicTriangulation(std::span<const Point> sites, const Options& options = {});
+
+  /// From a triangulation and the sites from which it was made.
+  /// \throws InvalidInput if their number differs from triangulation.num_sites().
+  DynamicTriangulation(const Triangulation& triangulation, std::span<const Point> sites);
+
+  ~DynamicTriangulation();
+  DynamicTriangulation(DynamicTriangulation&& other) noexcept;
+  DynamicTriangulation& operator=(DynamicTriangulation&& other) noexcept;
+
+  /// Adds a site and returns its id.
+  /// \throws InvalidInput if a coordinate is not finite, a projected site is the center, or there
+  ///         are `max_sites` sites already.
+  Index insert(const Point& site);
+
+  /// The same, in expected constant time if the site with the id `hint` is close.
+  /// \throws InvalidInput also if there is no such site.
+  Index insert(const Point& site, Index hint);
+
+  /// Adds n sites and returns their ids in the order of `sites`.
+  std::vector<Index> insert(std::span<const Point> sites);
+
+  /// \throws InvalidInput if there is no such site.
+  void remove(Index id);
+
+  /// \throws InvalidInput (first bad position) if there is no such site or an id appears twice.
+  void remove(std::span<const Index> ids);
+
+  /// Moves a site, which keeps its id.
+  /// \throws InvalidInput as remove() and insert() do.
+  void move(Index id, const Point& to);
+
+  /// Moves ids[i] to to[i], one after the other.
+  /// \throws InvalidInput as remove() and insert() do, and if the lengths differ.
+  void move(std::span<const Index> ids, std::span<const Point> to);
+
+  [[nodiscard]] Model model() const noexcept;
+  [[nodiscard]] const Sphere& sphere() const noexcept;
+
+  /// As in Triangulation.
+  [[nodiscard]] int dimension() const;
+  [[nodiscard]] std::size_t num_sites() const noexcept;
+  [[nodiscard]] std::size_t num_vertices() const;
+  [[nodiscard]] std::size_t num_faces() const noexcept;
+
+  /// The ids in use, increasing.
+  [[nodiscard]] std::vector<Index> ids() const;
+  [[nodiscard]] bool contains(Index id) const noexcept;
+
+  /// The functions below throw InvalidInput if there is no such site.
+
+  [[nodiscard]] Point site(Index id) const;
+  /// The lowest id in the same place, which stands for all of them. Takes time linear in their
+  /// number.
+  [[nodiscard]] Index representative(Index id) const;
+  /// Whether the site, or its representative, is a vertex; otherwise it is hidden.
+  [[nodiscard]] bool is_vertex(Index id) const;
+  /// The vertices adjacent to a vertex, counterclockwise seen from outside; of a duplicate, those
+  /// of its representative. Empty for a hidden site.
+  [[nodiscard]] std::vector<Index> neighbors(Index id) const;
+
+  /// The sites and their triangulation as they are now, in O(n) after sorting the sites.
+  [[nodiscard]] Snapshot snapshot() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace rondel

@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/dynamic.h"
+
+#include <algorithm>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "api/validation.h"
+#include "blocks/spatial_order.h"
+#include "dynamic/editor.h"
+#include "dynamic/snapshot.h"
+#include "incremental/brio.h"
+#include "incremental/projected_points.h"
+#include "incremental/weighted_points.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+
+namespace rondel {
+
+using incremental::ProjectedPoints;
+using incremental::WeightedPoints;
+
+struct DynamicTriangulation::Impl {
+  explicit Impl(const Options& wanted) : options(wanted) {
+    options.progress = {};
+    if (options.model == Model::weighted) {
+      editor.emplace<dynamic::Editor<WeightedPoints>>(options.model, options.sphere.center);
+    }
+  }
+
+  template <class Function>
+  decltype(auto) visit(Function&& function) {
+    return std::visit(std::forward<Function>(function), editor);
+  }
+  template <class Function>
+  decltype(auto) visit(Function&& function) const {
+    return std::visit(std::forward<Function>(function), editor);
+  }
+
+  [[nodiscard]] const dynamic::Places& places() const {
+    return visit([](const auto& e) -> const dynamic::Places& { return e.places(); });
+  }
+
+  void require_site(Index id, std::size_t position) const {
+    if (places().is_alive(id)) return;
+    throw InvalidInput("site " + std::to_string(id) + " does not exist", position);
+  }
+
+  void require_distinct_sites(std::span<const Index> ids) const {
+    std::vector<std::pair<Index, std::size_t>> sorted;
+    sorted.reserve(ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      require_site(ids[i], i);
+      sorted.emplace_back(ids[i], i);
+    }
+    std::ranges::sort(sorted);
+    std::optional<std::size_t> first;
+    for (std::size_t i = 1; i < sorted.size(); ++i) {
+      if (sorted[i].first != sorted[i - 1].first) continue;
+      first = std::min(first.value_or(sorted[i].second), sorted[i].second);
+    }
+    if (!first) return;
+    throw InvalidInput("site " + std::to_string(ids[*first]) + " appears twice", *first);
+  }
+
+  void require_room(std::size_t more) const {
+    if (more <= max_sites - places().num_sites()) return;
+    throw InvalidInput(std::to_string(places().num_sites() + more) + " sites are more than the " +
+                           std::to_string(max_sites) + " that one triangulation can hold",
+                       max_sites - places().num_sites());
+  }
+
+  void assign(const Triangulation& triangulation, std::span<const Point> sites) {
+    dynamic::Build build = dynamic::make_build(triangulation, sites);
+    visit([&](auto& e) {
+      e.assign(sites, build.place_of_site, build.speakers);
+      if (triangulation.dimension() == 2) {
+        e.adopt(std::move(build.mesh), build.hidden);
+      } else {
+        e.adopt_flat();
+      }
+    });
+  }
+
+  void changed() { flat.reset(); }
+
+  // Below dimension 2 there is no hull to ask.
+  [[nodiscard]] bool has_hull() const {
+    return visit([](const auto& e) { return e.hull().has_value(); });
+  }
+  const Snapshot& flat_snapshot() const {
+    const std::lock_guard guard(mutex);
+    if (!flat) {
+      flat.emplace();
+      flat->ids = dynamic::live_sites(places());
+      for (const Index id : flat->ids) flat->sites.push_back(places().point(id));
+      flat->triangulation = delaunay(flat->sites, options);
+    }
+    return *flat;
+  }
+  [[nodiscard]] std::vector<Index> flat_ring() const {
+    const Snapshot& now = flat_snapshot();
+    std::vector<Index> ring;
+    for (const Index i : now.triangulation.ring()) ring.push_back(now.ids[i]);
+    return ring;
+  }
+
+  Options options;
+  std::variant<dynamic::Editor<ProjectedPoints>, dynamic::Editor<WeightedPoints>> editor{
+      std::in_place_index<0>, Model::projected, options.sphere.center};
+  mutable std::mutex mutex;
+  mutable std::optional<Snapshot> flat;
+};
+
+DynamicTriangulation::DynamicTriangulation(const Options& options) {
+  api::validate({}, options);
+  impl_ = std::make_unique<Impl>(options);
+}
+
+DynamicTriangulation::DynamicTriangulation(std::span<const Point> sites, const Options& options)
+    : DynamicTriangulation(delaunay(sites, options), sites) {}
+
+DynamicTriangulation::DynamicTriangulation(const Triangulation& triangulation,
+                                           std::span<const Point> sites) {
+  if (sites.size() != triangulation.num_sites()) {
+    throw InvalidInput("there are " + std::to_string(sites.size()) +
+                           " sites for a triangulation of " +
+                           std::to_string(triangulation.num_sites()),
+                       std::min(sites.size(), triangulation.num_sites()));
+  }
+  Options options;
+  options.model = triangulation.model();
+  options.sphere = triangulation.sphere();
+  impl_ = std::make_unique<Impl>(options);
+  impl_->assign(triangulation, sites);
+}
+
+DynamicTriangulation::~DynamicTriangulation() = default;
+DynamicTriangulation::DynamicTriangulation(DynamicTriangulation&&) noexcept = default;
+DynamicTriangulation& DynamicTriangulation::operator=(DynamicTriangulation&&) noexcept = default;
+
+Index DynamicTriangulation::insert(const Point& site) {
+  api::validate({&site, 1}, impl_->options);
+  impl_->require_room(1);
+  impl_->changed();
+  return impl_->visit([&](auto& e) { return e.insert(site, no_index); });
+}
+
+Index DynamicTriangulation::insert(const Point& site, Index hint) {
+  api::validate({&site, 1}, impl_->options);
+  impl_->require_site(hint, 0);
+  impl_->require_room(1);
+  impl_->changed();
+  return impl_->visit([&](auto& e) { return e.insert(site, hint); });
+}
+
+std::vector<Index> DynamicTriangulation::insert(std::span<const Point> sites) {
+  api::validate(sites, impl_->options);
+  impl_->require_room(sites.size());
+  impl_->changed();
+  return impl_->visit([&](auto& e) { return e.insert(sites); });
+}
+
+void DynamicTriangulation::remove(Index id) {
+  impl_->require_site(id, 0);
+  impl_->changed();
+  impl_->visit([&](auto& e) { e.remove(id); });
+}
+
+void DynamicTriangulation::remove(std::span<const Index> ids) {
+  impl_->require_distinct_sites(ids);
+  impl_->changed();
+  impl_->visit([&](auto& e) {
+    for (const Index id : ids) e.remove(id);
+  });
+}
+
+void DynamicTriangulation::move(Index id, const Point& to) { move({&id, 1}, {&to, 1}); }
+
+void DynamicTriangulation::move(std::span<const Index> ids, std::span<const Point> to) {
+  if (ids.size() != to.size()) {
+    throw InvalidInput("there are " + std::to_string(to.size()) + " points for " +
+                           std::to_string(ids.size()) + " sites to move",
+                       std::min(ids.size(), to.size()));
+  }
+  for (std::size_t i = 0; i < ids.size(); ++i) impl_->require_site(ids[i], i);
+  api::validate(to, impl_->options);
+  impl_->changed();
+  impl_->visit([&](auto& e) {
+    for (std::size_t i = 0; i < ids.size(); ++i) e.move(ids[i], to[i]);
+  });
+}
+
+Model DynamicTriangulation::model() const noexcept { return impl_->options.model; }
+const Sphere& DynamicTriangulation::sphere() const noexcept { return impl_->options.sphere; }
+
+int DynamicTriangulation::dimension() const {
+  return impl_->has_hull() ? 2 : impl_->flat_snapshot().triangulation.dimension();
+}
+
+std::size_t DynamicTriangulation::num_sites() const noexcept { return impl_->places().num_sites(); }
+
+std::size_t DynamicTriangulation::num_vertices() const {
+  if (!impl_->has_hull()) return impl_->flat_snapshot().triangulation.num_vertices();
+  return impl_->visit([](const auto& e) { return e.hull()->num_vertices(); });
+}
+
+std::size_t DynamicTriangulation::num_faces() const noexcept {
+  return impl_->visit(
+      [](const auto& e) -> std::size_t { return e.hull() ? e.hull()->mesh().num_faces() : 0; });
+}
+
+std::vector<Index> DynamicTriangulation::ids() const {
+  return dynamic::live_sites(impl_->places());
+}
+
+bool DynamicTriangulation::contains(Index id) const noexcept {
+  return impl_->places().is_alive(id);
+}
+
+Point DynamicTriangulation::site(Index id) const {
+  impl_->require_site(id, 0);
+  return impl_->places().point(id);
+}
+
+Index DynamicTriangulation::representative(Index id) const {
+  impl_->require_site(id, 0);
+  return impl_->places().representative(impl_->places().place_of(id));
+}
+
+bool DynamicTriangulation::is_vertex(Index id) const {
+  impl_->require_site(id, 0);
+  if (!impl_->has_hull()) {
+    const auto ring = impl_->flat_ring();
+    return std::ranges::find(ring, representative(id)) != ring.end();
+  }
+  return impl_->visit([id](const auto& e) { return e.hull()->is_vertex(e.places().place_of(id)); });
+}
+
+std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
+  impl_->require_site(id, 0);
+  if (!impl_->has_hull()) {
+    const auto ring = impl_->flat_ring();
+    const auto at = std::ranges::find(ring, representative(id));
+    if (at == ring.end() || ring.size() == 1) return {};
+    const auto i = static_cast<std::size_t>(at - ring.begin());
+    const Index next = ring[(i + 1) % ring.size()];
+    if (ring.size() == 2) return {next};
+    return {next, ring[(i + ring.size() - 1) % ring.size()]};
+  }
+  return impl_->visit([id](const auto& e) {
+    std::vector<Index> result = e.hull()->neighbors(e.places().place_of(id));
+    for (Index& place : result) place = e.places().representative(place);
+    return result;
+  });
+}
+
+Snapshot DynamicTriangulation::snapshot() const {
+  if (!impl_->has_hull()) return impl_->flat_snapshot();
+  return impl_->visit([this](const auto& e) {
+    Snapshot now;
+    now.ids = dynamic::live_sites(e.places());
+    now.sites.reserve(now.ids.size());
+    for (const Index id : now.ids) now.sites.push_back(e.places().point(id));
+    now.triangulation = {dynamic::make_arrays(e.places(), now.ids, now.sites, e.hull()->mesh(),
+                                              e.hull()->kinds(), e.hull()->hidden(),
+                                              impl_->options.model, impl_->options.sphere.center),
+                         impl_->options,
+                         {}};
+    return now;
+  });
+}
+
+}  // namespace rondel

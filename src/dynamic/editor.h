@@ -1,0 +1,193 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A triangulation that changes: sites with stable ids, the places that they share, and the hull
+// of the places.
+//
+// While all places lie in one plane with the center there is no hull (dimension 1 and below). The
+// first place off that plane starts it; when the last one leaves, it is given up.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "dynamic/hull.h"
+#include "dynamic/places.h"
+#include "incremental/brio.h"
+#include "incremental/great_circle.h"
+#include "incremental/sphere_traits.h"
+
+namespace rondel::dynamic {
+
+template <incremental::SphereTraits T>
+class Editor {
+ public:
+  Editor(Model model, const Point& center)
+      : center_(center), places_(model, center), sites_({}, {}, center) {}
+  Editor(const Editor&) = delete;
+  Editor& operator=(const Editor&) = delete;
+
+  [[nodiscard]] const Places& places() const { return places_; }
+  [[nodiscard]] const T& sites() const { return sites_; }
+  // None below dimension 2. Its vertices are places.
+  [[nodiscard]] const std::optional<Hull<T>>& hull() const { return hull_; }
+
+  // `hint` is a site close to p, or no_index: the place to start is looked up.
+  Index insert(const Point& p, Index hint) {
+    const Index site = places_.add_site();
+    sites_.rebind(places_.points(), places_.speakers());
+    arrive(site, p, hint);
+    return site;
+  }
+
+  // Ids in the order of `points`, although they are inserted in rounds along the spatial order.
+  std::vector<Index> insert(std::span<const Point> points) {
+    const auto size = static_cast<Index>(points.size());
+    std::vector<std::pair<blocks::HilbertKey, Index>> order(size);
+    std::vector<Index> ids(size);
+    for (Index i = 0; i < size; ++i) {
+      order[i] = {places_.key(points[i]), i};
+      ids[i] = places_.add_site();
+    }
+    sites_.rebind(places_.points(), places_.speakers());
+    std::ranges::sort(order);
+    for (const Index rank : incremental::insertion_order(size)) {
+      const Index i = order[rank].second;
+      arrive(ids[i], points[i], no_index);
+    }
+    return ids;
+  }
+
+  void remove(Index site) {
+    depart(site);
+    places_.free_site(site);
+  }
+
+  void move(Index site, const Point& p) {
+    depart(site);
+    arrive(site, p, no_index);
+  }
+
+  // Takes the result of a build, instead of inserting each: `mesh` has places for vertices,
+  // `hidden` are pairs of a place and a vertex close to it.
+  void assign(std::span<const Point> points, std::span<const Index> place_of_site,
+              std::span<const Index> speakers) {
+    places_.assign(points, place_of_site, speakers);
+    for (Index place = 0; place < speakers.size(); ++place) refresh(place);
+  }
+  void adopt(topology::Mesh mesh, std::span<const std::array<Index, 2>> hidden) {
+    hull_.emplace(sites_, std::move(mesh));
+    for (const auto& [place, close] : hidden) hull_->attach_hidden(place, close);
+  }
+  void adopt_flat() { rebuild(no_index); }
+
+ private:
+  void refresh(Index place) { sites_.set(place, places_.points(), places_.speakers()); }
+
+  void arrive(Index site, const Point& p, Index hint) {
+    places_.set_point(site, p);
+    const blocks::HilbertKey key = places_.key(p);
+    Index place = places_.find(p, key);
+    if (place == no_index) {
+      const Index close = hint != no_index ? places_.place_of(hint) : places_.near(key);
+      place = places_.add_place(site, key);
+      refresh(place);
+      put_in(place, close);
+      return;
+    }
+    const bool speaks = places_.would_speak(site, place);
+    if (speaks) take_out(place);
+    places_.join(site, place);
+    if (!speaks) return;
+    places_.set_speaker(place, site);
+    refresh(place);
+    put_in(place, no_index);
+  }
+
+  void depart(Index site) {
+    const Index place = places_.place_of(site);
+    const Index next = places_.next_speaker(site);
+    if (next == no_index) {
+      take_out(place);
+      places_.leave(site);
+      places_.free_place(place, places_.key(places_.point(site)));
+      return;
+    }
+    // On one ray, other coordinates mean another rank among ties.
+    const bool is_other = places_.point(next) != places_.place_point(place);
+    if (is_other) take_out(place);
+    places_.leave(site);
+    places_.set_speaker(place, next);
+    refresh(place);
+    if (is_other) put_in(place, no_index);
+  }
+
+  void put_in(Index place, Index close) {
+    if (hull_) {
+      hull_->insert(place, close);
+      return;
+    }
+    std::vector<Index> wider = span_;
+    wider.push_back(place);
+    if (find_span(wider).size() == wider.size()) span_ = wider;
+    if (span_.size() == 3) build(places_.in_order());
+  }
+
+  void take_out(Index place) {
+    if (!hull_) {
+      if (std::ranges::find(span_, place) != span_.end()) rebuild(place);
+    } else if (!hull_->is_vertex(place)) {
+      hull_->remove_hidden(place);
+    } else if (!leaves_flat(place)) {
+      hull_->remove_vertex(place);
+    } else {
+      hull_.reset();
+      rebuild(place);
+    }
+  }
+
+  // Whether the vertices but v lie in one plane with the center: then all are neighbors of v.
+  [[nodiscard]] bool leaves_flat(Index v) {
+    if (hull_->num_vertices() == 3) return true;
+    const auto link = hull_->neighbors(v);
+    return link.size() + 1 == hull_->num_vertices() && find_span(link).size() < 3;
+  }
+
+  // From all places but one, or all.
+  void rebuild(Index left_out) {
+    std::vector<Index> order = places_.in_order();
+    std::erase(order, left_out);
+    span_ = find_span(order);
+    if (span_.size() == 3) build(order);
+  }
+
+  void build(const std::vector<Index>& order) {
+    hull_.emplace(sites_, std::array{span_[0], span_[1], span_[2]});
+    for (const Index rank : incremental::insertion_order(static_cast<Index>(order.size()))) {
+      const Index place = order[rank];
+      if (std::ranges::find(span_, place) == span_.end()) hull_->insert(place, no_index);
+    }
+    span_.clear();
+  }
+
+  // Places that span the most, as in incremental/great_circle.h.
+  [[nodiscard]] std::vector<Index> find_span(std::span<const Index> places) const {
+    std::vector<Point> points;
+    points.reserve(places.size());
+    for (const Index place : places) points.push_back(places_.place_point(place));
+    std::vector<Index> span = incremental::find_span(points, center_);
+    for (Index& i : span) i = places[i];
+    return span;
+  }
+
+  Point center_;
+  Places places_;
+  T sites_;
+  std::optional<Hull<T>> hull_;
+  std::vector<Index> span_;  // without a hull
+};
+
+}  // namespace rondel::dynamic

@@ -1,0 +1,59 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Which faces hide which sites, so that a hidden site comes back when what hid it goes.
+//
+//            solid         A hidden site p lies on its ray between a solid face above it and, when
+//         .---------.      the center o is outside, a near face below it. As long as both are
+//         there, p
+//        /     p     \     is inside the hull. With o inside, nothing is needed below. Sites
+//        '-----------'     without a near face are "ungrounded": they depend on o staying inside,
+//        or on
+//            near          grazing faces.
+//              o
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "rondel/types.h"
+
+namespace rondel::dynamic {
+
+class HiddenSites {
+ public:
+  [[nodiscard]] bool contains(Index p) const {
+    return p < links_.size() && links_[p][0].face != no_index;
+  }
+  [[nodiscard]] Index solid_face(Index p) const { return links_[p][0].face; }
+  [[nodiscard]] Index near_face(Index p) const { return links_[p][1].face; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+
+  // `near` may be no_index.
+  void attach(Index p, Index solid, Index near);
+  void detach(Index p);
+
+  // Detach all sites of a face, or all that are ungrounded, and append them to `sites`.
+  void take(Index face, std::vector<Index>& sites);
+  void take_ungrounded(std::vector<Index>& sites);
+
+ private:
+  // Two doubly linked lists: of the sites below a solid face, and above a near face or nothing.
+  struct Link {
+    Index face = no_index;
+    Index next = no_index;
+    Index previous = no_index;
+  };
+
+  Index& head(Index face) { return face == no_index ? ungrounded_ : heads_[face]; }
+  void push(Index p, std::size_t side, Index face);
+  void unlink(Index p, std::size_t side);
+
+  std::vector<std::array<Link, 2>> links_;  // by site
+  std::vector<Index> heads_;                // by face
+  Index ungrounded_ = no_index;
+  std::size_t size_ = 0;
+};
+
+}  // namespace rondel::dynamic

@@ -1,0 +1,275 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The hull of places that come and go (a place: what duplicates share), in dimension 2: the
+// incremental algorithm's insertion, and removal by triangulating the link of the vertex.
+//
+// Invariant between operations: the mesh is the hull of the perturbed places; each place that is
+// not a vertex is attached to the faces that hide it.
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "dynamic/hidden_sites.h"
+#include "dynamic/link_triangulation.h"
+#include "incremental/conflict_region.h"
+#include "incremental/location.h"
+#include "incremental/sphere_traits.h"
+#include "topology/cavity.h"
+#include "topology/mesh.h"
+
+namespace rondel::dynamic {
+
+template <incremental::SphereTraits T>
+class Hull {
+ public:
+  // `first` are three places with a non-zero orientation.
+  Hull(const T& sites, std::array<Index, 3> first) : sites_(sites) {
+    if (sites.orientation(first[0], first[1], first[2]) == Sign::negative) {
+      std::swap(first[1], first[2]);
+    }
+    const auto [top, bottom] = topology::flat_pair(mesh_, first);
+    adopt(top, false);
+    adopt(bottom, false);
+  }
+
+  // The finished mesh of a build, its vertices renamed to places. Places that are hidden follow by
+  // attach_hidden.
+  Hull(const T& sites, topology::Mesh mesh) : sites_(sites), mesh_(std::move(mesh)) {
+    for (Index f = 0; f < mesh_.num_slots(); ++f) {
+      if (mesh_.is_alive(f)) adopt(f, false);
+    }
+  }
+
+  [[nodiscard]] const topology::Mesh& mesh() const { return mesh_; }
+  [[nodiscard]] const incremental::FaceKinds& kinds() const { return kinds_; }
+  [[nodiscard]] const HiddenSites& hidden() const { return hidden_; }
+  [[nodiscard]] std::size_t num_vertices() const { return mesh_.num_faces() / 2 + 2; }
+  [[nodiscard]] bool is_vertex(Index p) const {
+    return p < corner_of_.size() && corner_of_[p] != no_index;
+  }
+  // A corner of each vertex, as 3*face + corner.
+  [[nodiscard]] std::span<const topology::Halfedge> corners() const { return corner_of_; }
+
+  // A solid face at the place `close`, or below which it is hidden; some solid face if
+  // there is none, or `close` is no_index.
+  [[nodiscard]] Index solid_face_at(Index close) const { return start_at(close).solid; }
+
+  // `close` is a place close to p, or no_index.
+  void insert(Index p, Index close) { insert_from(p, start_at(close)); }
+
+  // Attaches a place that is known to be hidden.
+  void attach_hidden(Index p, Index close) { cover(p, start_at(close)); }
+
+  void remove_hidden(Index p) { hidden_.detach(p); }
+
+  // The neighbors of a vertex, counterclockwise seen from outside; none of a hidden place.
+  [[nodiscard]] std::vector<Index> neighbors(Index v) const {
+    std::vector<Index> result;
+    if (!is_vertex(v)) return result;
+    topology::Halfedge h = corner_of_[v];
+    do {
+      const Index f = topology::face_of(h);
+      const unsigned corner = topology::edge_of(h);
+      result.push_back(mesh_[f].vertex[topology::next_corner[corner]]);
+      h = mesh_.next_around(f, corner);
+    } while (h != corner_of_[v]);
+    return result;
+  }
+
+  // Precondition: v is a vertex, and the hull of the others has dimension 2.
+  void remove_vertex(Index v) {
+    const bool was_all_solid = kinds_.all_solid();
+    collect_star(v);
+    bool is_grazed = false;
+    for (const Index f : star_) {
+      is_grazed = is_grazed || kinds_[f] == incremental::FaceKind::grazing;
+      if (f == near_) near_ = no_index;
+      if (f == solid_) solid_ = no_index;
+      kinds_.remove(f);
+      hidden_.take(f, displaced_);
+    }
+    triangulation_.run(sites_, link_);
+    corner_of_[v] = no_index;
+    sew();
+    restart_at(outer_);
+    if (is_grazed || (was_all_solid && !kinds_.all_solid())) hidden_.take_ungrounded(displaced_);
+    assert(solid_ != no_index);
+    const Start start = {solid_, near_};
+    for (const Index p : std::exchange(displaced_, {})) insert_from(p, start);
+  }
+
+ private:
+  struct Start {
+    Index solid = no_index;
+    Index near = no_index;
+  };
+
+  [[nodiscard]] Start start_at(Index close) const {
+    Start start = {solid_, near_};
+    if (close == no_index) return start;
+    if (!is_vertex(close)) {
+      if (!hidden_.contains(close)) return start;
+      start.solid = hidden_.solid_face(close);
+      if (hidden_.near_face(close) != no_index) start.near = hidden_.near_face(close);
+      return start;
+    }
+    topology::Halfedge h = corner_of_[close];
+    if (kinds_.all_solid()) return {topology::face_of(h), no_index};
+    do {
+      const Index f = topology::face_of(h);
+      if (kinds_[f] == incremental::FaceKind::solid) start.solid = f;
+      if (kinds_[f] == incremental::FaceKind::near) start.near = f;
+      h = mesh_.next_around(f, topology::edge_of(h));
+    } while (h != corner_of_[close]);
+    return start;
+  }
+
+  // A face that is new: its kind, its corners, and where walks start.
+  void adopt(Index f, bool is_surely_solid) {
+    const auto& v = mesh_[f].vertex;
+    const auto kind = is_surely_solid ? incremental::FaceKind::solid
+                                      : incremental::kind_of(sites_.orientation(v[0], v[1], v[2]));
+    kinds_.add(f, kind);
+    if (kind == incremental::FaceKind::solid) solid_ = f;
+    if (kind == incremental::FaceKind::near) near_ = f;
+    for (unsigned i = 0; i < 3; ++i) {
+      if (v[i] >= corner_of_.size()) corner_of_.resize(v[i] + std::size_t{1}, no_index);
+      corner_of_[v[i]] = topology::halfedge(f, i);
+    }
+  }
+
+  // A solid (near) face can only vanish with a star if one next to the star, or one that replaces
+  // it, is solid (near): the faces of one kind are connected by their edges.
+  void restart_at(std::span<const topology::Halfedge> outer) {
+    for (const topology::Halfedge h : outer) {
+      const Index f = topology::face_of(h);
+      if (solid_ == no_index && kinds_[f] == incremental::FaceKind::solid) solid_ = f;
+      if (near_ == no_index && kinds_[f] == incremental::FaceKind::near) near_ = f;
+    }
+  }
+
+  void insert_from(Index p, const Start& start) {
+    const auto place = incremental::Location<T>(sites_, mesh_, kinds_)
+                           .locate(p, current_solid(start.solid), current_near(start.near));
+    if (place.conflict == no_index) {
+      hidden_.attach(p, place.solid, place.near);
+      return;
+    }
+    // Once the center is strictly inside, insertions leave it there.
+    const bool is_surely_solid = kinds_.all_solid();
+    region_.find(sites_, mesh_, p, place.conflict);
+    std::vector<Index> covered = release_region();
+    topology::star(mesh_, p, region_.horizon(), region_.faces());
+    for (const Index f : region_.faces()) adopt(f, is_surely_solid);
+    restart_around_star();
+    for (const Index q : covered) {
+      if (!is_vertex(q)) cover(q, {solid_, near_});
+    }
+  }
+
+  // Start faces found before other insertions may be gone.
+  [[nodiscard]] Index current_solid(Index f) const {
+    return mesh_.is_alive(f) && kinds_[f] == incremental::FaceKind::solid ? f : solid_;
+  }
+  [[nodiscard]] Index current_near(Index f) const {
+    return f != no_index && mesh_.is_alive(f) && kinds_[f] == incremental::FaceKind::near ? f
+                                                                                          : near_;
+  }
+
+  // Before the star takes the place of the region: returns the sites that its faces hide, and the
+  // vertices that may have none left.
+  std::vector<Index> release_region() {
+    std::vector<Index> covered;
+    for (const Index f : region_.faces()) {
+      if (f == near_) near_ = no_index;
+      if (f == solid_) solid_ = no_index;
+      kinds_.remove(f);
+      if constexpr (T::hides_sites) hidden_.take(f, covered);
+    }
+    // By Euler's formula, a region without inner vertices has two faces less than edges.
+    if (T::hides_sites && region_.faces().size() + 2 != region_.horizon().size()) {
+      for (const Index f : region_.faces()) {
+        for (const Index v : mesh_[f].vertex) {
+          if (std::exchange(corner_of_[v], no_index) != no_index) covered.push_back(v);
+        }
+      }
+    }
+    return covered;
+  }
+
+  void restart_around_star() {
+    if (solid_ != no_index && (near_ != no_index || kinds_.all_solid())) return;
+    outer_.clear();
+    for (const auto& edge : region_.horizon()) outer_.push_back(edge.outside);
+    restart_at(outer_);
+  }
+
+  // Finds the faces that hide q.
+  void cover(Index q, const Start& start) {
+    const auto place =
+        incremental::Location<T>(sites_, mesh_, kinds_).locate(q, start.solid, start.near);
+    assert(place.conflict == no_index);
+    hidden_.attach(q, place.solid, place.near);
+  }
+
+  void collect_star(Index v) {
+    link_.clear();
+    outer_.clear();
+    star_.clear();
+    topology::Halfedge h = corner_of_[v];
+    do {
+      const Index f = topology::face_of(h);
+      const unsigned corner = topology::edge_of(h);
+      link_.push_back(mesh_[f].vertex[topology::next_corner[corner]]);
+      outer_.push_back(mesh_[f].opposite[corner]);
+      star_.push_back(f);
+      h = mesh_.next_around(f, corner);
+    } while (h != corner_of_[v]);
+  }
+
+  // Puts the triangulation of the link in the slots of the star.
+  void sew() {
+    for (int i = 0; i < 2; ++i) {
+      mesh_.remove_face(star_.back());
+      star_.pop_back();
+    }
+    const auto faces = triangulation_.faces();
+    for (std::size_t k = 0; k < faces.size(); ++k) {
+      topology::Face& face = mesh_[star_[k]];
+      for (unsigned i = 0; i < 3; ++i) {
+        face.vertex[i] = link_[faces[k].vertex[i]];
+        const topology::Halfedge inside = faces[k].opposite[i];
+        if (inside != no_index) {
+          face.opposite[i] =
+              topology::halfedge(star_[topology::face_of(inside)], topology::edge_of(inside));
+        } else {
+          mesh_.link(topology::halfedge(star_[k], i),
+                     outer_[faces[k].vertex[topology::next_corner[i]]]);
+        }
+      }
+    }
+    for (const Index f : star_) adopt(f, false);
+  }
+
+  const T& sites_;
+  topology::Mesh mesh_;
+  incremental::FaceKinds kinds_;
+  HiddenSites hidden_;
+  std::vector<topology::Halfedge> corner_of_;
+  Index solid_ = no_index;
+  Index near_ = no_index;
+
+  incremental::ConflictRegion<T> region_;
+  LinkTriangulation<T> triangulation_;
+  std::vector<Index> link_;
+  std::vector<topology::Halfedge> outer_;
+  std::vector<Index> star_;
+  std::vector<Index> displaced_;
+};
+
+}  // namespace rondel::dynamic

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "dynamic/snapshot.h"
+
+#include <algorithm>
+
+#include "blocks/spatial_order.h"
+#include "incremental/canonical.h"
+
+namespace rondel::dynamic {
+namespace {
+
+void rename_vertices(topology::Mesh& mesh, std::span<const Index> names) {
+  for (Index f = 0; f < mesh.num_slots(); ++f) {
+    if (!mesh.is_alive(f)) continue;
+    for (Index& v : mesh[f].vertex) v = names[v];
+  }
+}
+
+// The edge of the face g behind which the face f is.
+topology::Halfedge halfedge_to(const Triangulation& triangulation, Index g, Index f, Index origin) {
+  for (unsigned i = 0; i < 3; ++i) {
+    const Index end = triangulation.faces()[g][topology::previous_corner[i]];
+    if (triangulation.neighbors()[g][i] == f && end == origin) return topology::halfedge(g, i);
+  }
+  return no_index;
+}
+
+topology::Mesh make_mesh(const Triangulation& triangulation, std::span<const Index> place_of_site) {
+  topology::Mesh mesh;
+  const auto num_faces = static_cast<Index>(triangulation.num_faces());
+  mesh.reserve(num_faces);
+  for (Index f = 0; f < num_faces; ++f) {
+    const Triple& corners = triangulation.faces()[f];
+    topology::Face& face = mesh[mesh.add_face()];
+    for (unsigned i = 0; i < 3; ++i) {
+      face.vertex[i] = place_of_site[corners[i]];
+      face.opposite[i] = halfedge_to(triangulation, triangulation.neighbors()[f][i], f,
+                                     corners[topology::next_corner[i]]);
+    }
+  }
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<Index> live_sites(const Places& places) {
+  std::vector<Index> ids;
+  ids.reserve(places.num_sites());
+  for (Index site = 0; site < places.site_limit(); ++site) {
+    if (places.is_alive(site)) ids.push_back(site);
+  }
+  return ids;
+}
+
+TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids,
+                                std::span<const Point> sites, const topology::Mesh& mesh,
+                                const incremental::FaceKinds& kinds, const HiddenSites& hidden,
+                                Model model, const Point& center) {
+  auto [names, duplicates, renamed] = blocks::spatial_order(sites, model, center);
+  const auto num_ranks = static_cast<Index>(names.size());
+  std::vector<Index> rank_of_place(places.place_limit(), no_index);
+  TriangulationArrays arrays;
+  std::vector<Hidden> hidden_ranks;  // with slots for faces
+  for (Index rank = 0; rank < num_ranks; ++rank) {
+    const Index place = places.place_of(ids[names[rank]]);
+    rank_of_place[place] = rank;
+    if (hidden.contains(place)) hidden_ranks.push_back({rank, hidden.solid_face(place)});
+  }
+  for (const auto& [rank, name] : renamed) names[rank] = name;
+
+  topology::Mesh copy = mesh;
+  rename_vertices(copy, rank_of_place);
+  const auto order = incremental::canonical_order(copy, num_ranks, std::move(rank_of_place));
+  incremental::write_canonical(copy, order, names, arrays);
+  arrays.num_sites = sites.size();
+  arrays.dimension = 2;
+  arrays.duplicates = std::move(duplicates);
+  // write_canonical has left the place of each face in its first vertex.
+  for (const auto& [rank, slot] : hidden_ranks) {
+    arrays.hidden.push_back({names[rank], copy[slot].vertex[0]});
+  }
+  std::ranges::sort(arrays.hidden, {}, &Hidden::site);
+  for (Index f = 0; f < mesh.num_slots() && !kinds.all_solid(); ++f) {
+    if (mesh.is_alive(f) && kinds[f] != incremental::FaceKind::solid) {
+      arrays.ghost_faces.push_back(copy[f].vertex[0]);
+    }
+  }
+  std::ranges::sort(arrays.ghost_faces);
+  return arrays;
+}
+
+Build make_build(const Triangulation& triangulation, std::span<const Point> sites) {
+  Build build;
+  auto order = blocks::spatial_order(sites, triangulation.model(), triangulation.sphere().center);
+  build.place_of_site.assign(sites.size(), no_index);
+  build.speakers = std::move(order.order);
+  for (Index place = 0; place < build.speakers.size(); ++place) {
+    build.place_of_site[build.speakers[place]] = place;
+  }
+  for (const auto& [place, lowest] : order.renamed) build.place_of_site[lowest] = place;
+  for (const auto& [site, lowest] : order.duplicates) {
+    build.place_of_site[site] = build.place_of_site[lowest];
+  }
+  build.mesh = make_mesh(triangulation, build.place_of_site);
+  for (const auto& [site, face] : triangulation.hidden()) {
+    if (face == no_index) continue;
+    build.hidden.push_back(
+        {build.place_of_site[site], build.place_of_site[triangulation.faces()[face][0]]});
+  }
+  return build;
+}
+
+}  // namespace rondel::dynamic
