@@ -57,4 +57,18 @@ void validate(std::span<const Point> sites, const Options& options) {
   }
 }
 
+void validate_queries(std::span<const Point> queries, const Point& center, bool are_rays) {
+  for (std::size_t i = 0; i < queries.size(); ++i) {
+    if (!is_finite(queries[i])) {
+      throw InvalidInput(
+          "query " + std::to_string(i) + ": " + coordinates(queries[i]) + " is not finite", i);
+    }
+    if (are_rays && queries[i] == center) {
+      throw InvalidInput("query " + std::to_string(i) + ": " + coordinates(queries[i]) +
+                             " is the center of the sphere and has no direction",
+                         i);
+    }
+  }
+}
+
 }  // namespace rondel::api

@@ -17,4 +17,7 @@ std::string text(double value);
 // Throws InvalidInput as rondel/delaunay.h promises.
 void validate(std::span<const Point> sites, const Options& options);
 
+// Throws InvalidInput if a query point is not finite or, where it stands for a ray, the center.
+void validate_queries(std::span<const Point> queries, const Point& center, bool are_rays = true);
+
 }  // namespace rondel::api

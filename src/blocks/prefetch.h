@@ -7,9 +7,9 @@
 
 #include <cstddef>
 
-namespace rondel::dual {
+namespace rondel::blocks {
 
-// How many faces ahead: the work on so many covers one miss of all caches.
+// How many faces (sites, queries) ahead: the work on so many covers one miss of all caches.
 constexpr std::size_t prefetch_distance = 24;
 
 // Asks for the first and the last byte: an object may straddle two cache lines.
@@ -34,4 +34,4 @@ void prefetch_to_write(T* object) {
 #endif
 }
 
-}  // namespace rondel::dual
+}  // namespace rondel::blocks

@@ -8,9 +8,9 @@
 #include <numeric>
 
 #include "dual/arc_points.h"
+#include "blocks/prefetch.h"
 #include "dual/great_circle.h"
 #include "dual/parts.h"
-#include "dual/prefetch.h"
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
 
@@ -18,9 +18,9 @@ namespace rondel {
 namespace {
 
 using dual::ArcPoint;
-using dual::prefetch;
-using dual::prefetch_distance;
-using dual::prefetch_to_write;
+using blocks::prefetch;
+using blocks::prefetch_distance;
+using blocks::prefetch_to_write;
 
 // Positions in the rings: the faces and arc points around each site, summed.
 std::vector<std::uint64_t> ring_offsets(const Triangulation& triangulation,

@@ -24,12 +24,16 @@
 #include <vector>
 
 #include "blocks/parallel.h"
+#include "blocks/prefetch.h"
 #include "dual/face_normal.h"
-#include "dual/prefetch.h"
 #include "dual/split_sites.h"
 #include "rondel/diagram.h"
 
 namespace rondel::dual {
+
+using blocks::prefetch;
+using blocks::prefetch_distance;
+using blocks::prefetch_to_write;
 
 struct RingPoint {
   Vec r;                 // q x n

@@ -9,11 +9,14 @@
 #include <string>
 
 #include "blocks/parallel.h"
+#include "blocks/prefetch.h"
 #include "dual/exact_normal.h"
-#include "dual/prefetch.h"
 #include "rondel/error.h"
 
 namespace rondel::dual {
+
+using blocks::prefetch;
+using blocks::prefetch_distance;
 namespace {
 
 // The power of two that brings the largest coordinate to [1/2, 1).

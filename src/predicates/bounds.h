@@ -40,6 +40,26 @@ inline constexpr double direction_orientation_bound = 54 * unit_roundoff;
 inline constexpr double plane_double_double_bound = 0x1p-99;
 inline constexpr double circle_double_double_bound = 0x1p-95;
 
+// |b-p|^2 - |a-p|^2 of stored directions, relative to H = max(|a-p|, |b-p|) <= 2:
+// 2 (4 eta + 10u) + 2u = 58.8u, and 2.9u for terms of higher order.
+inline constexpr double angle_bound = 64 * unit_roundoff;
+
+// One of the two against an exact number t, relative to max(|a-p|, sqrt(t)): 4 eta + 10u + 2u, and
+// 2.7u for terms of higher order.
+inline constexpr double within_angle_bound = 36 * unit_roundoff;
+
+// Both in double-double, relative to H, of unit vectors known to 2^-100.
+inline constexpr double angle_double_double_bound = 0x1p-95;
+
+// (p-o).(a-b) of exact data, relative to the sum of the sizes of its three products: 5u.
+inline constexpr double power_bound = 6 * unit_roundoff;
+
+// (p-o).(a-o) - c |p-o| R of exact data, relative to |p-o| (|a-o| + |c| R): 7u.
+inline constexpr double within_power_bound = 10 * unit_roundoff;
+
+// Sums of products below this may have lost bits to underflow.
+inline constexpr double least_product = 1e-270;
+
 // The filters of exact data accept a determinant of three vectors only if the square of each length
 // exceeds this. Overflow makes them unsure; docs/theory/filters.md shows that underflow is
 // harmless then.

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Many queries at once: in spatial order, so that each starts where the one before ended and finds
+// what it needs in the cache; one range of that order for each thread.
+#pragma once
+
+#include <span>
+
+#include "blocks/cube_position.h"
+#include "blocks/hilbert.h"
+#include "blocks/parallel.h"
+#include "blocks/prefetch.h"
+#include "blocks/radix_sort.h"
+#include "query/engine.h"
+
+namespace rondel::query {
+
+inline std::uint64_t spatial_key(const Point& p, const Point& center) {
+  return blocks::hilbert_key(blocks::cube_position(p, center)).high;
+}
+
+inline blocks::KeyedIndices sort_queries(std::span<const Point> queries, const Point& center,
+                                         unsigned threads) {
+  blocks::KeyedIndices sorted;
+  sorted.keys.resize(queries.size());
+  sorted.indices.resize(queries.size());
+  blocks::parallel_for(0, queries.size(), threads, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+      sorted.keys[i] = spatial_key(queries[i], center);
+      sorted.indices[i] = static_cast<Index>(i);
+    }
+  });
+  blocks::radix_sort(sorted, 3 + 2 * blocks::high_levels);
+  return sorted;
+}
+
+// Calls work(range, cursor) for ranges of the queries in spatial order, given by their indices.
+template <class Work>
+void for_each_range(const blocks::KeyedIndices& sorted, const Vertices& vertices, unsigned threads,
+                    const Work& work) {
+  blocks::parallel_for(0, sorted.indices.size(), threads, [&](std::size_t first, std::size_t last) {
+    if (first == last) return;
+    Cursor cursor;
+    cursor.vertex = vertices.near(sorted.keys[first]);
+    work(std::span<const Index>(sorted.indices).subspan(first, last - first), cursor);
+  });
+}
+
+// Calls answer(i, cursor) for the queries i of a range.
+template <class Answer>
+void for_each_query(std::span<const Index> range, std::span<const Point> queries, Cursor& cursor,
+                    const Answer& answer) {
+  for (std::size_t i = 0; i < range.size(); ++i) {
+    const std::size_t ahead = i + blocks::prefetch_distance;
+    if (ahead < range.size()) blocks::prefetch(&queries[range[ahead]]);
+    answer(range[i], cursor);
+  }
+}
+
+}  // namespace rondel::query

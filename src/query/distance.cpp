@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "query/distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "predicates/squared_chord.h"
+
+namespace rondel::query {
+namespace {
+
+using exact::DoubleDouble;
+using exact::SplitPoint;
+using std::numbers::pi;
+
+SplitPoint antipode(const SplitPoint& u) {
+  return {{-u.hi.x, -u.hi.y, -u.hi.z}, {-u.lo.x, -u.lo.y, -u.lo.z}};
+}
+
+// The angle whose versine, 1 - cos, is given.
+double angle_of_versine(double versine) { return 2 * std::asin(std::sqrt(versine / 2)); }
+
+// |site - o|^2 / R^2 - 1, or infinity where that is beyond 1e200.
+double excess(const Point& site, const Sphere& sphere) {
+  int exponent = 0;
+  double squared_radius = std::frexp(sphere.squared_radius, &exponent);
+  if (exponent % 2 != 0) {
+    squared_radius *= 2;
+    --exponent;
+  }
+  const auto term = [&](double coordinate, double origin) {
+    const DoubleDouble d = exact::two_diff(coordinate, origin);
+    const DoubleDouble s = {std::ldexp(d.hi, -exponent / 2), std::ldexp(d.lo, -exponent / 2)};
+    return s * s;
+  };
+  const DoubleDouble squared_length =
+      (term(site.x, sphere.center.x) + term(site.y, sphere.center.y)) +
+      term(site.z, sphere.center.z);
+  if (!(squared_length.hi < 1e200)) return std::numeric_limits<double>::infinity();
+  return (squared_length - DoubleDouble{squared_radius, 0}).hi / squared_radius;
+}
+
+}  // namespace
+
+double angle_between(const Point& p, const Point& q, const Point& center) {
+  const SplitPoint u = exact::unit_vector(p, center);
+  const SplitPoint v = exact::unit_vector(q, center);
+  const double d2 = predicates::squared_chord(u, v).hi;
+  if (d2 <= 2) return angle_of_versine(d2 / 2);
+  return pi - angle_of_versine(predicates::squared_chord(antipode(u), v).hi / 2);
+}
+
+// With the versine v of the angle between the rays and the quotient r = |site - o| / R, the cosine
+// is (1-v) r, and 1 - (1-v) r = (1-r) + v r, where 1 - r = -(r^2-1) / (1+r).
+double laguerre_distance(const Point& p, const Point& site, const Sphere& sphere) {
+  if (site == sphere.center) return pi / 2;
+  const double angle = angle_between(p, site, sphere.center);
+  const double e = excess(site, sphere);
+  if (std::isinf(e)) return angle < pi / 2 ? 0 : pi;
+  const double r = std::sqrt(1 + e);
+  const double half = std::sin(angle / 2);
+  const double versine = 2 * half * half * r - e / (1 + r);
+  return angle_of_versine(std::clamp(versine, 0.0, 2.0));
+}
+
+}  // namespace rondel::query

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Where a direction is among the solid faces, by the walk that docs/theory/location.md proves, with
+// exact orientations only; and the conflict region of a point.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "incremental/conflict_region.h"
+#include "incremental/location.h"
+#include "query/surface.h"
+#include "query/target.h"
+#include "rondel/query.h"
+
+namespace rondel::query {
+
+// A place among internal names: `last_face` is where the next walk may start.
+struct Place {
+  Where where = Where::outside;
+  std::array<Index, 3> vertices = {no_index, no_index, no_index};
+  Index face = no_index;
+  Index last_face = no_index;
+};
+
+// Of the solid faces that share a vertex, the one of the smallest number.
+template <incremental::SphereTraits T>
+Index first_solid_face(const Surface<T>& surface, Index v) {
+  Index first = no_index;
+  surface.visit_corners(v, [&](topology::Halfedge h) {
+    const Index f = topology::face_of(h);
+    if (surface.kinds[f] == incremental::FaceKind::solid) first = std::min(first, f);
+    return false;
+  });
+  return first;
+}
+
+// The query lies in the closed cone of the solid face f. `is_on[i]`: in the plane of edge i.
+template <incremental::SphereTraits T>
+Place place_in(const Surface<T>& surface, Index f, const std::array<bool, 3>& is_on) {
+  const topology::Face& face = surface.mesh[f];
+  const auto count = std::ranges::count(is_on, true);
+  if (count == 0) return {Where::face, face.vertex, f, f};
+  if (count == 1) {
+    const auto i = static_cast<unsigned>(std::ranges::find(is_on, true) - is_on.begin());
+    const unsigned a = topology::next_corner[i];
+    const Index other = topology::face_of(face.opposite[i]);
+    const bool is_shared = surface.kinds[other] == incremental::FaceKind::solid;
+    return {Where::edge,
+            {face.vertex[a], face.vertex[topology::next_corner[a]], no_index},
+            is_shared ? std::min(f, other) : f,
+            f};
+  }
+  const auto i = static_cast<unsigned>(std::ranges::find(is_on, false) - is_on.begin());
+  const Index v = face.vertex[i];
+  return {Where::vertex, {v, no_index, no_index}, first_solid_face(surface, v), f};
+}
+
+// `start` is a solid face.
+template <incremental::SphereTraits T>
+Place locate(const Surface<T>& surface, const Target<T>& target, Index start) {
+  Index f = start;
+  unsigned entered = 3;
+  for (;;) {
+    const topology::Face& face = surface.mesh[f];
+    std::array<bool, 3> is_on{};
+    unsigned i = 0;
+    for (; i < 3; ++i) {
+      if (i == entered) continue;
+      const unsigned a = topology::next_corner[i];
+      const Sign side = target.orientation(face.vertex[a], face.vertex[topology::next_corner[a]],
+                                           Target<T>::query);
+      if (side == Sign::negative) break;
+      is_on[i] = side == Sign::zero;
+    }
+    if (i == 3) return place_in(surface, f, is_on);
+    const topology::Halfedge h = face.opposite[i];
+    const Index next = topology::face_of(h);
+    if (surface.kinds[next] != incremental::FaceKind::solid) {
+      Place outside;
+      outside.last_face = f;
+      return outside;
+    }
+    f = next;
+    entered = topology::edge_of(h);
+  }
+}
+
+// The faces in conflict with the target, in increasing order. `solid` is a solid face near it,
+// `near` a near face if there is one. Precondition, projected: the target is no duplicate.
+template <incremental::SphereTraits T>
+std::vector<Index> conflict_region(const Surface<T>& surface, const Target<T>& target, Index solid,
+                                   Index near) {
+  const incremental::Location<Target<T>> location(target, surface.mesh, surface.kinds);
+  const Index start = location.locate(Target<T>::query, solid, near).conflict;
+  if (start == no_index) return {};
+  incremental::ConflictRegion<Target<T>> region;
+  region.find(target, surface.mesh, Target<T>::query, start);
+  std::vector<Index> faces = std::move(region.faces());
+  std::ranges::sort(faces);
+  return faces;
+}
+
+}  // namespace rondel::query

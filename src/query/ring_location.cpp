@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "query/ring_location.h"
+
+#include "exact/integer.h"
+#include "incremental/great_circle.h"
+#include "predicates/orientation.h"
+
+namespace rondel::query {
+
+RingLocation::RingLocation(std::span<const Point> points, const Point& center)
+    : points_(points), center_(center) {
+  const auto span = incremental::find_span(points, center);
+  if (span.size() < 2) return;
+  spanning_ = {span[0], span[1]};
+  while (turn(span[0], points[span[1]]) == Sign::zero) ++axis_;
+  for (Index i = 0; i < points.size() && solid_ == no_index; ++i) {
+    if (is_solid(i)) solid_ = i;
+  }
+}
+
+Sign RingLocation::turn(Index i, const Point& p) const {
+  const auto v = exact::scaled_rays({points_[i], p}, center_);
+  const exact::IntegerVector n = cross(v[0], v[1]);
+  return exact::sign_of(axis_ == 0 ? n.x : (axis_ == 1 ? n.y : n.z));
+}
+
+bool RingLocation::is_solid(Index edge) const {
+  return turn(edge, points_[next(edge)]) == Sign::positive;
+}
+
+bool RingLocation::is_in_plane(const Point& p) const {
+  return predicates::orientation_ladder(points_[spanning_[0]], points_[spanning_[1]], p, center_)
+             .sign == Sign::zero;
+}
+
+bool RingLocation::is_on_ray(Index i, const Point& p) const {
+  const auto v = exact::scaled_rays({points_[i], p}, center_);
+  return exact::is_zero(cross(v[0], v[1])) && dot(v[0], v[1]) > 0;
+}
+
+RingLocation::Place RingLocation::locate(const Point& p, Index near) const {
+  if (solid_ == no_index) {
+    if (is_on_ray(near, p)) return {Where::vertex, {near, no_index}};
+    return {};
+  }
+  if (!is_in_plane(p)) return {};
+  return walk(p, is_solid(near) ? near : solid_);
+}
+
+// Ahead as long as p is beyond the end of the edge, back as long as it is before the begin. Within
+// a cone of less than 180 degrees, or around a full circle, neither turns into the other.
+RingLocation::Place RingLocation::walk(const Point& p, Index edge) const {
+  for (Index i = edge;;) {
+    const Index end = next(i);
+    const Sign from_end = turn(end, p);
+    const Sign from_begin = turn(i, p);
+    if (from_end == Sign::positive) {
+      i = end;
+    } else if (from_begin == Sign::negative) {
+      i = previous(i);
+    } else {
+      if (from_begin == Sign::zero) return {Where::vertex, {i, no_index}};
+      if (from_end == Sign::zero) return {Where::vertex, {end, no_index}};
+      return {Where::edge, {i, end}};
+    }
+    if (!is_solid(i)) return {};
+  }
+}
+
+}  // namespace rondel::query

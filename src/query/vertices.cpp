@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "query/vertices.h"
+
+#include <algorithm>
+#include <tuple>
+#include <utility>
+
+#include "blocks/cube_position.h"
+#include "blocks/hilbert.h"
+#include "blocks/radix_sort.h"
+
+namespace rondel::query {
+namespace {
+
+using topology::next_corner;
+using topology::previous_corner;
+
+std::vector<Index> vertices_by_index(const Triangulation& triangulation) {
+  const auto n = static_cast<Index>(triangulation.num_sites());
+  std::vector<bool> is_vertex(n, true);
+  for (const Duplicate& d : triangulation.duplicates()) is_vertex[d.site] = false;
+  for (const Hidden& h : triangulation.hidden()) is_vertex[h.site] = false;
+  std::vector<Index> vertices;
+  vertices.reserve(triangulation.num_vertices());
+  for (Index i = 0; i < n; ++i) {
+    if (is_vertex[i]) vertices.push_back(i);
+  }
+  return vertices;
+}
+
+blocks::KeyedIndices sorted_by_key(std::vector<Index> indices, std::span<const Point> sites,
+                                   const Point& center) {
+  blocks::KeyedIndices data;
+  data.keys.reserve(indices.size());
+  for (const Index i : indices) {
+    data.keys.push_back(hilbert_key(blocks::cube_position(sites[i], center)).high);
+  }
+  data.indices = std::move(indices);
+  blocks::radix_sort(data, 3 + 2 * blocks::high_levels);
+  return data;
+}
+
+bool is_less(const Point& a, const Point& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+// The edge of `neighbor` from a to b, and the other way round.
+unsigned edge_between(const Triple& neighbor, Index a, Index b) {
+  unsigned j = 0;
+  while (neighbor[next_corner[j]] != a || neighbor[previous_corner[j]] != b) ++j;
+  return j;
+}
+
+}  // namespace
+
+Index Vertices::near(std::uint64_t key) const {
+  const auto at = std::ranges::upper_bound(keys, key);
+  const auto place = static_cast<Index>(at == keys.begin() ? 0 : at - keys.begin() - 1);
+  return at_key.empty() ? place : at_key[place];
+}
+
+Vertices list_vertices(const Triangulation& triangulation, std::span<const Point> sites) {
+  Vertices result;
+  auto sorted =
+      sorted_by_key(vertices_by_index(triangulation), sites, triangulation.sphere().center);
+  result.keys = std::move(sorted.keys);
+  const bool is_ring = triangulation.dimension() < 2;
+  if (is_ring) {
+    result.names.assign(triangulation.ring().begin(), triangulation.ring().end());
+  } else {
+    result.names = std::move(sorted.indices);
+  }
+  result.vertex_of.assign(triangulation.num_sites(), no_index);
+  for (Index v = 0; v < result.names.size(); ++v) result.vertex_of[result.names[v]] = v;
+  if (is_ring) {
+    for (const Index i : sorted.indices) result.at_key.push_back(result.vertex_of[i]);
+  }
+  result.speakers = result.names;
+  for (const auto& [site, representative] : triangulation.duplicates()) {
+    const Index v = result.vertex_of[representative];
+    result.vertex_of[site] = v;
+    if (v == no_index) continue;
+    Index& speaker = result.speakers[v];
+    if (is_less(sites[site], sites[speaker])) speaker = site;
+  }
+  return result;
+}
+
+topology::Mesh link_faces(const Triangulation& triangulation, const Vertices& vertices) {
+  const auto faces = triangulation.faces();
+  const auto neighbors = triangulation.neighbors();
+  topology::Mesh mesh;
+  mesh.reserve(faces.size());
+  for (Index f = 0; f < faces.size(); ++f) {
+    topology::Face& face = mesh[mesh.add_face()];
+    for (unsigned i = 0; i < 3; ++i) {
+      face.vertex[i] = vertices.vertex_of[faces[f][i]];
+      const Index g = neighbors[f][i];
+      const unsigned edge =
+          edge_between(faces[g], faces[f][previous_corner[i]], faces[f][next_corner[i]]);
+      face.opposite[i] = topology::halfedge(g, edge);
+    }
+  }
+  return mesh;
+}
+
+std::vector<topology::Halfedge> corners_of(const topology::Mesh& mesh, std::size_t num_vertices) {
+  std::vector<topology::Halfedge> corners(num_vertices, no_index);
+  for (Index f = 0; f < mesh.num_slots(); ++f) {
+    for (unsigned i = 0; i < 3; ++i) corners[mesh[f].vertex[i]] = topology::halfedge(f, i);
+  }
+  return corners;
+}
+
+}  // namespace rondel::query
