@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel_bench KIND N [projected|weighted] [dual] [THREADS]: one build in this process, and one
-// JSON object on standard output. Scripts repeat it in turns with the peers.
+// rondel_bench KIND N [projected|weighted|hull] [dual] [THREADS]: one build in this process, and
+// one JSON object on standard output. Scripts repeat it in turns with the peers.
 
 #include <sys/resource.h>
 
@@ -31,17 +31,20 @@ double now() {
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: rondel_bench KIND N [projected|weighted] [dual] [THREADS]\n");
+    std::fprintf(stderr, "usage: rondel_bench KIND N [projected|weighted|hull] [dual] [THREADS]\n");
     return 2;
   }
   const auto sites = rondel::bench::make_input(argv[1], std::strtoull(argv[2], nullptr, 10));
   rondel::Options options;
   options.threads = argc > 5 ? static_cast<unsigned>(std::atoi(argv[5])) : 1;
-  if (argc > 3 && std::strcmp(argv[3], "weighted") == 0) options.model = rondel::Model::weighted;
+  const char* const what = argc > 3 ? argv[3] : "projected";
+  if (std::strcmp(what, "weighted") == 0) options.model = rondel::Model::weighted;
 
   const long before = peak_kib();
   const double start = now();
-  const auto triangulation = rondel::delaunay(sites, options);
+  const auto triangulation = std::strcmp(what, "hull") == 0
+                                 ? rondel::convex_hull(sites, {.threads = options.threads})
+                                 : rondel::delaunay(sites, options);
   const double triangulated = now();
   const long after = peak_kib();
   double dual = 0;

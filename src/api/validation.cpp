@@ -17,6 +17,13 @@ bool is_finite(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
+// Faster than to ask for each: a coordinate that is not finite makes its sum NaN.
+bool are_finite(std::span<const Point> sites) {
+  Point sum;
+  for (const Point& p : sites) sum = {sum.x + 0 * p.x, sum.y + 0 * p.y, sum.z + 0 * p.z};
+  return sum == Point{};
+}
+
 std::string coordinates(const Point& p) {
   return "(" + text(p.x) + ", " + text(p.y) + ", " + text(p.z) + ")";
 }
@@ -44,6 +51,7 @@ void validate(std::span<const Point> sites, const Options& options) {
                            std::to_string(max_sites) + " that one triangulation can hold",
                        max_sites);
   }
+  if (options.model == Model::weighted && are_finite(sites)) return;
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if (!is_finite(sites[i])) {
       throw InvalidInput(

@@ -7,6 +7,7 @@
 
 #include "blocks/spatial_order.h"
 #include "incremental/canonical.h"
+#include "incremental/hidden_faces.h"
 
 namespace rondel::dynamic {
 namespace {
@@ -62,13 +63,14 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
   const auto num_ranks = static_cast<Index>(names.size());
   std::vector<Index> rank_of_place(places.place_limit(), no_index);
   TriangulationArrays arrays;
-  std::vector<Hidden> hidden_ranks;  // with slots for faces
   for (Index rank = 0; rank < num_ranks; ++rank) {
     const Index place = places.place_of(ids[names[rank]]);
     rank_of_place[place] = rank;
-    if (hidden.contains(place)) hidden_ranks.push_back({rank, hidden.solid_face(place)});
+    if (hidden.contains(place)) arrays.hidden.push_back({rank, no_index});
   }
   for (const auto& [rank, name] : renamed) names[rank] = name;
+  for (Hidden& h : arrays.hidden) h.site = names[h.site];
+  std::ranges::sort(arrays.hidden, {}, &Hidden::site);
 
   topology::Mesh copy = mesh;
   rename_vertices(copy, rank_of_place);
@@ -78,16 +80,13 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
   arrays.dimension = 2;
   arrays.duplicates = std::move(duplicates);
   // write_canonical has left the place of each face in its first vertex.
-  for (const auto& [rank, slot] : hidden_ranks) {
-    arrays.hidden.push_back({names[rank], copy[slot].vertex[0]});
-  }
-  std::ranges::sort(arrays.hidden, {}, &Hidden::site);
   for (Index f = 0; f < mesh.num_slots() && !kinds.all_solid(); ++f) {
     if (mesh.is_alive(f) && kinds[f] != incremental::FaceKind::solid) {
       arrays.ghost_faces.push_back(copy[f].vertex[0]);
     }
   }
   std::ranges::sort(arrays.ghost_faces);
+  incremental::assign_hidden_faces(sites, center, arrays);
   return arrays;
 }
 

@@ -5,30 +5,29 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
-#include "exact/integer.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
+#include "predicates/turn.h"
 
 namespace rondel::incremental {
 namespace {
 
-using exact::IntegerVector;
-
 std::array<double, 3> coordinates(const Point& p) { return {p.x, p.y, p.z}; }
 
-IntegerVector normal_of(const Point& a, const Point& b, const Point& center) {
-  const auto v = exact::scaled_rays({a, b}, center);
-  return cross(v[0], v[1]);
+// An axis along which the plane of two points and the center is not seen edge on.
+unsigned view_axis(const Point& a, const Point& b, const Point& center) {
+  unsigned axis = 0;
+  while (axis < 2 && predicates::turn(center, a, b, axis) == Sign::zero) ++axis;
+  return axis;
 }
 
 // A plane through the center, seen along one axis: exact orientations of its points.
 class PlaneView {
  public:
-  PlaneView(std::span<const Point> points, const IntegerVector& normal, const Point& center)
-      : points_(points), center_(center), axis_(normal.x != 0 ? 0 : (normal.y != 0 ? 1 : 2)) {}
+  PlaneView(std::span<const Point> points, unsigned axis, const Point& center)
+      : points_(points), center_(center), axis_(axis) {}
 
   // Sign of the cross product of two points seen from the center.
   [[nodiscard]] Sign turn(Index i, Index j) const { return turn(center_, points_[i], points_[j]); }
@@ -62,25 +61,12 @@ class PlaneView {
   [[nodiscard]] std::size_t v() const { return (axis_ + 2) % 3; }
 
   [[nodiscard]] Sign turn(const Point& origin, const Point& a, const Point& b) const {
-    const auto o = coordinates(origin);
-    const auto p = coordinates(a);
-    const auto q = coordinates(b);
-    // Two differences, a product and a sum: at most 4u (1 + O(u)) relative to the products.
-    const double left = (p[u()] - o[u()]) * (q[v()] - o[v()]);
-    const double right = (p[v()] - o[v()]) * (q[u()] - o[u()]);
-    const double size = std::abs(left) + std::abs(right);
-    constexpr double bound = 5 * predicates::unit_roundoff;
-    if (size > 0x1p-900 && std::abs(left - right) > bound * size) {
-      return exact::sign_of(left - right);
-    }
-    const auto w = exact::scaled_differences({a, b}, origin);
-    const IntegerVector n = cross(w[0], w[1]);
-    return exact::sign_of(axis_ == 0 ? n.x : (axis_ == 1 ? n.y : n.z));
+    return predicates::turn(origin, a, b, axis_);
   }
 
   std::span<const Point> points_;
   Point center_;
-  std::size_t axis_;
+  unsigned axis_;
 };
 
 // By angle from the first point: itself, one side, its antipode, the other side.
@@ -145,7 +131,7 @@ std::vector<Index> find_span(std::span<const Point> points, const Point& center)
     const bool is_new =
         span.empty() ? points[i] != center
         : span.size() == 1
-            ? !exact::is_zero(normal_of(points[span[0]], points[i], center))
+            ? !predicates::are_collinear(center, points[span[0]], points[i])
             : predicates::orientation_ladder(points[span[0]], points[span[1]], points[i], center)
                       .sign != Sign::zero;
     if (is_new) span.push_back(i);
@@ -156,7 +142,7 @@ std::vector<Index> find_span(std::span<const Point> points, const Point& center)
 std::vector<Index> ring_of_great_circle(std::span<const Point> points, std::span<const Index> span,
                                         Model model, const Point& center) {
   if (span.size() < 2) return ends_of_line(points, model);
-  const PlaneView view(points, normal_of(points[span[0]], points[span[1]], center), center);
+  const PlaneView view(points, view_axis(points[span[0]], points[span[1]], center), center);
   const auto size = static_cast<Index>(points.size());
   return model == Model::projected ? sort_by_angle(size, view) : convex_polygon(size, view);
 }

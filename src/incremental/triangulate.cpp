@@ -49,19 +49,18 @@ void report_ghosts(const topology::Mesh& mesh, const FaceKinds& kinds, std::vect
   std::ranges::sort(ghosts);
 }
 
-// The hidden ranks, each with the slot of the face above it.
+// The hidden ranks.
 template <SphereTraits T>
-std::vector<Hidden> find_hidden(Insertion<T>& insertion, Index num_ranks) {
+std::vector<Hidden> find_hidden(const topology::Mesh& mesh, Index num_ranks) {
   std::vector<Hidden> hidden;
   if constexpr (T::hides_sites) {
-    const topology::Mesh& mesh = insertion.mesh();
     std::vector<bool> is_vertex(num_ranks, false);
     for (Index f = 0; f < mesh.num_slots(); ++f) {
       if (!mesh.is_alive(f)) continue;
       for (const Index v : mesh[f].vertex) is_vertex[v] = true;
     }
     for (Index p = 0; p < num_ranks; ++p) {
-      if (!is_vertex[p]) hidden.push_back({p, insertion.face_above(p)});
+      if (!is_vertex[p]) hidden.push_back({p, no_index});
     }
   }
   return hidden;
@@ -86,15 +85,13 @@ Triangulated build(std::span<const Point> sites, std::vector<Index> order,
   rename(order, renamed);
   Triangulated result;
   result.arrays.dimension = 2;
-  result.arrays.hidden = find_hidden(kernel, num_ranks);
+  result.arrays.hidden = find_hidden<T>(kernel.mesh(), num_ranks);
   const auto canonical = canonical_order(kernel.mesh(), num_ranks, std::move(insertion));
   result.tally = traits->tally();
   traits.reset();
   write_canonical(kernel.mesh(), canonical, order, result.arrays);
   report_ghosts(kernel.mesh(), kernel.kinds(), result.arrays.ghost_faces);
-  for (Hidden& h : result.arrays.hidden) {
-    h = {order[h.site], kernel.mesh()[h.face].vertex[0]};
-  }
+  for (Hidden& h : result.arrays.hidden) h.site = order[h.site];
   std::ranges::sort(result.arrays.hidden, {}, &Hidden::site);
   return result;
 }

@@ -13,7 +13,7 @@
 namespace rondel::incremental {
 
 struct Triangulated {
-  TriangulationArrays arrays;  // but for duplicates and num_sites
+  TriangulationArrays arrays;  // but for duplicates, num_sites and the faces of hidden sites
   Tally tally;
 };
 

@@ -5,6 +5,7 @@
 
 #include "exact/expansion.h"
 #include "exact/integer.h"
+#include "predicates/side_of_plane.h"
 
 namespace rondel::predicates {
 namespace {
@@ -33,6 +34,10 @@ Decision orientation_ladder(const Point& a, const Point& b, const Point& c, cons
   if (const Sign sign = filter(a, b, c, center); sign != Sign::zero) return {sign, Rung::filter};
   if (center == Point{} && is_safe_for_expansions({a, b, c})) {
     return {by_expansions(a, b, c), Rung::exact};
+  }
+  if (center != Point{}) {
+    const Decision above = side_of_plane_ladder(a, b, c, center);
+    return {-above.sign, above.rung};
   }
   const auto v = exact::scaled_rays({a, b, c}, center);
   return {exact::sign_of(det(v[0], v[1], v[2])), Rung::exact};

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Convex hulls of points in space, whatever they are: the paper's second approach (Caroli, de
+/// Castro, Loriot, Rouiller, Teillaud et al., SEA 2010, end of section 4.2), seen from inside.
+#pragma once
+
+#include <span>
+
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// How to build a hull.
+struct HullOptions {
+  unsigned threads = 0;  ///< at most, 0: one for each core; the result does not depend on it
+  Progress progress{};
+};
+
+/// The convex hull of n points: a triangulation of Model::weighted around a center that is chosen.
+///
+/// Exact for every finite input, and unique: it depends on the set of points only. Its vertices
+/// are exactly the extreme points: no point of a facet or an edge, however flat, that is not a
+/// corner.
+///
+/// 1. `dimension` is 2 for points that span space: closed triangles, counterclockwise seen from
+/// outside.
+///    A facet with more than three corners is triangulated in a way that depends on its corners
+///    only; every other point is hidden (the face is the first whose cone from the center has it).
+/// 2. Points in one plane are a flat hull: dimension 1, and `ring()` has the corners of the
+///    convex polygon, counterclockwise seen from the side to which the plane's normal points, its
+///    first non-zero coordinate being positive. Points on one line: `ring()` has the two ends, in
+///    increasing order of index. One place: dimension 0.
+/// 3. `sphere().center` lies strictly inside the hull, and every face is solid. There is no such
+///    point in a flat hull, and perhaps no double in a hull about as thin as the
+///    distance of doubles; then the center is the lexicographically smallest point, a vertex, and
+///    the faces whose planes contain it are ghost faces. The hull is as exact as any other.
+///
+/// Expected time O(n log n), in practice O(n) when most points are inside.
+/// \throws InvalidInput (first bad index) if a coordinate is not finite or there are more than
+///         `max_sites` points.
+Triangulation convex_hull(std::span<const Point> points, const HullOptions& options = {});
+
+/// The same for an array of 3n numbers x0 y0 z0 x1 y1 z1 ...
+/// \throws InvalidInput also if the length is not a multiple of 3.
+Triangulation convex_hull(std::span<const double> xyz, const HullOptions& options = {});
+
+/// Volume and surface area of a hull.
+struct HullSize {
+  double volume = 0;
+  double area = 0;  ///< of a flat hull: both sides of the polygon together
+};
+
+/// Sums over the faces in doubles. The relative error is near 1e-15 for a body that is as thick as
+/// wide, larger by the ratio for a thin one. Infinity where the size exceeds the range of doubles.
+/// \pre `hull` comes from convex_hull(points).
+/// \throws InvalidInput if the number of points differs from hull.num_sites().
+HullSize size_of_hull(const Triangulation& hull, std::span<const Point> points);
+
+}  // namespace rondel

@@ -1,0 +1,134 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "api/build.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "blocks/duplicates.h"
+#include "blocks/spatial_order.h"
+#include "incremental/hidden_faces.h"
+#include "incremental/inner_sites.h"
+#include "incremental/triangulate.h"
+#include "rondel/error.h"
+
+namespace rondel::api {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+void announce(const Options& options, std::string_view stage, double fraction) {
+  if (options.progress) options.progress(stage, fraction);
+}
+
+unsigned num_threads(const Options& options) {
+  return options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
+}
+
+// The sites to insert when others can be left out, or nothing if all are to be inserted.
+std::vector<Index> find_rest(std::span<const Point> sites, const Options& options,
+                             const incremental::InnerPoint* inner) {
+  if (options.model != Model::weighted) return {};
+  if (!incremental::has_many_inner_sites(sites, options.sphere.center)) return {};
+  incremental::InnerPoint found;
+  if (inner == nullptr) {
+    found = incremental::find_inner_point(sites);
+    inner = &found;
+  }
+  if (!inner->is_inside) return {};
+  auto rest = incremental::rest_without_inner_sites(sites, *inner);
+  return rest.size() < sites.size() ? std::move(rest) : std::vector<Index>();
+}
+
+// The triangulation of sites[rest[0]], sites[rest[1]], ... becomes that of all sites. As `rest` is
+// increasing, what is sorted by site remains so.
+void add_inner_sites(std::span<const Point> sites, std::span<const Index> rest,
+                     TriangulationArrays& arrays) {
+  for (Triple& face : arrays.faces) {
+    for (Index& corner : face) corner = rest[corner];
+  }
+  for (Hidden& h : arrays.hidden) h.site = rest[h.site];
+  for (Duplicate& d : arrays.duplicates) d = {rest[d.site], rest[d.representative]};
+
+  std::vector<Index> inner;
+  inner.reserve(sites.size() - rest.size());
+  auto next = rest.begin();
+  for (Index i = 0; i < sites.size(); ++i) {
+    if (next != rest.end() && *next == i) {
+      ++next;
+    } else {
+      inner.push_back(i);
+    }
+  }
+  const auto duplicates = blocks::find_duplicates(sites, inner);
+  arrays.hidden.reserve(arrays.hidden.size() + inner.size() - duplicates.size());
+  const auto outer_hidden = static_cast<std::ptrdiff_t>(arrays.hidden.size());
+  auto duplicate = duplicates.begin();
+  for (const Index i : inner) {
+    if (duplicate != duplicates.end() && duplicate->site == i) {
+      ++duplicate;
+    } else {
+      arrays.hidden.push_back({i, no_index});
+    }
+  }
+  std::ranges::inplace_merge(arrays.hidden, arrays.hidden.begin() + outer_hidden, {},
+                             &Hidden::site);
+  const auto outer_duplicates = static_cast<std::ptrdiff_t>(arrays.duplicates.size());
+  arrays.duplicates.insert(arrays.duplicates.end(), duplicates.begin(), duplicates.end());
+  std::ranges::inplace_merge(arrays.duplicates, arrays.duplicates.begin() + outer_duplicates, {},
+                             &Duplicate::site);
+}
+
+std::vector<Point> select(std::span<const Point> sites, std::span<const Index> indices) {
+  std::vector<Point> points;
+  points.reserve(indices.size());
+  for (const Index i : indices) points.push_back(sites[i]);
+  return points;
+}
+
+}  // namespace
+
+Triangulation build(std::span<const Point> sites, const Options& options,
+                    const incremental::InnerPoint* inner) {
+  BuildReport report;
+  report.threads = num_threads(options);
+  const auto start = Clock::now();
+  announce(options, "order", 0);
+  const auto rest = find_rest(sites, options, inner);
+  const auto rest_points = select(sites, rest);
+  const std::span<const Point> inserted = rest.empty() ? sites : rest_points;
+  auto order = blocks::spatial_order(inserted, options.model, options.sphere.center);
+  report.order_seconds = seconds_since(start);
+
+  const auto order_end = Clock::now();
+  auto built = incremental::triangulate(inserted, std::move(order.order), order.renamed, options);
+  built.arrays.num_sites = sites.size();
+  built.arrays.duplicates = std::move(order.duplicates);
+  if (!rest.empty()) add_inner_sites(sites, rest, built.arrays);
+  incremental::assign_hidden_faces(sites, options.sphere.center, built.arrays);
+  announce(options, "triangulate", 1);
+  report.triangulate_seconds = seconds_since(order_end);
+  report.rungs = built.tally;
+  return {std::move(built.arrays), options, report};
+}
+
+std::span<const Point> as_points(std::span<const double> xyz) {
+  if (xyz.size() % 3 != 0) {
+    throw InvalidInput("an array of points has length " + std::to_string(xyz.size()) +
+                           ", which is not a multiple of 3",
+                       xyz.size() - xyz.size() % 3);
+  }
+  static_assert(sizeof(Point) == 3 * sizeof(double));
+  return {reinterpret_cast<const Point*>(xyz.data()), xyz.size() / 3};
+}
+
+}  // namespace rondel::api

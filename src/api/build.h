@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the functions that return a triangulation share, once their arguments are validated.
+#pragma once
+
+#include <span>
+
+#include "incremental/inner_point.h"
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel::api {
+
+// `inner`, if its user knows one, is a point inside the hull of the sites; it saves looking for
+// one.
+Triangulation build(std::span<const Point> sites, const Options& options,
+                    const incremental::InnerPoint* inner = nullptr);
+
+// The same numbers as points. Throws InvalidInput if their number is not a multiple of 3.
+std::span<const Point> as_points(std::span<const double> xyz);
+
+}  // namespace rondel::api
