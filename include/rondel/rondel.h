@@ -9,7 +9,6 @@
 #include "rondel/delaunay.h"       // IWYU pragma: export
 #include "rondel/diagram.h"        // IWYU pragma: export
 #include "rondel/error.h"          // IWYU pragma: export
-#include "rondel/hull.h"           // IWYU pragma: export
 #include "rondel/predicates.h"     // IWYU pragma: export
 #include "rondel/triangulation.h"  // IWYU pragma: export
 #include "rondel/types.h"          // IWYU pragma: export
