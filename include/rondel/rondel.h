@@ -8,8 +8,11 @@
 #include "rondel/check.h"          // IWYU pragma: export
 #include "rondel/delaunay.h"       // IWYU pragma: export
 #include "rondel/diagram.h"        // IWYU pragma: export
+#include "rondel/dynamic.h"        // IWYU pragma: export
 #include "rondel/error.h"          // IWYU pragma: export
+#include "rondel/hull.h"           // IWYU pragma: export
 #include "rondel/predicates.h"     // IWYU pragma: export
+#include "rondel/query.h"          // IWYU pragma: export
 #include "rondel/triangulation.h"  // IWYU pragma: export
 #include "rondel/types.h"          // IWYU pragma: export
 #include "rondel/version.h"        // IWYU pragma: export
