@@ -30,9 +30,8 @@ std::vector<Point> unit_vectors(std::span<const LonLat> positions);
 /// so it is a unit vector on the unit sphere and has length R on a sphere of radius R.
 /// 1. Radius 0 gives `center` itself, bit for bit.
 /// 2. The same bits on every platform; each coordinate within 2 ulp of its exact value.
-/// 3. The result is on or outside the sphere. An imaginary circle, whose squared radius is
-/// negative, is
-///    a point inside: it has no angular radius, and is given by its coordinates.
+/// 3. The result is on or outside the sphere. A point inside stands for an imaginary circle: it
+///    has no angular radius, and is given by its coordinates.
 /// \throws InvalidInput if the radius is not in [0, 90).
 Point polar_point(const Point& center, double radius_deg);
 Point polar_point(const LonLat& center, double radius_deg);

@@ -23,7 +23,10 @@ namespace rondel {
 struct ReadOptions {
   std::string lon, lat;  ///< column names; empty: found by header (lon, lng, long, longitude ...)
   std::string x, y, z;   ///< column names; empty: found by header
-  bool radians = false;  ///< longitude and latitude are in radians
+  /// Column of the angular radius in degrees, for GeoJSON a property: each site is then the
+  /// weighted site of a circle, see polar_point(). Empty: sites have no radius.
+  std::string radius;
+  bool radians = false;       ///< longitude, latitude and radius are in radians
   bool keep_columns = false;  ///< keep the text of every column, for the properties of GeoJSON
   Progress progress{};
 };
@@ -39,8 +42,10 @@ struct Column {
 /// The sites of a file.
 struct SiteTable {
   std::string name;                  ///< the file, for messages; "<stdin>" for "-"
-  std::vector<Point> sites;          ///< unit vectors for lon/lat input, otherwise as given
+  std::vector<Point> sites;          ///< unit vectors for lon/lat input, otherwise as given;
+                                     ///< of circles the polar points
   std::vector<LonLat> positions;     ///< degrees as given; empty for xyz input
+  std::vector<double> radii_deg;     ///< of circles; empty without a radius column
   std::vector<Column> columns;       ///< if kept
   std::vector<std::uint64_t> lines;  ///< the line of each site; empty where every line is a site
   std::uint64_t first_line =
@@ -78,8 +83,10 @@ void write_cells(const std::string& path, const SiteTable& table,
                  double tolerance_deg = 0.01, const Progress& progress = {});
 
 /// Writes sites, for generators: .csv and .tsv (lon,lat or x,y,z with a header), .xyz, .txt, .npy.
+/// With the radii of circles at `positions`, .csv and .tsv have lon,lat,radius, and .npy has
+/// `sites`, the polar points, as .xyz and .txt always do.
 void write_sites(const std::string& path, std::span<const Point> sites,
-                 std::span<const LonLat> positions = {});
+                 std::span<const LonLat> positions = {}, std::span<const double> radii_deg = {});
 
 /// Writes any bytes to a temporary name and renames it to `path`: all or nothing.
 void write_file(const std::string& path, std::string_view bytes);

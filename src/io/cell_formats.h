@@ -23,14 +23,16 @@ struct CellsToWrite {
 // before it) gets underscores at its end until it is not. Numbers stay as they are
 // written in the input, other text is a string, an empty cell is null. Coordinates have the
 // shortest digits that give back the same double, so that cells of any size stay valid. A cell no
-// wider than rounding has the geometry null.
+// wider than rounding has the geometry null. Hidden sites have no cell and no feature: the
+// collection's member "hidden" lists each with the three sites of a face below which it lies.
 void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells);
 
 // Polygons on the unit sphere, whose corners are the diagram's points, with the cell data `site`
 // and `area`. A cell that is the whole sphere has no polygon.
 void write_cells_vtp(AtomicFile& file, const CellsToWrite& to_write);
 
-// Four arrays: offsets (n + 1, u8), rings (u4), points (k, 3; f8) and areas (n, f8).
+// Six arrays: offsets (n + 1, u8), rings (u4), points (k, 3; f8), areas (n, f8), faces (m, 3; u4),
+// of which the first m points are the circumcenters, and hidden (h, 2; u4): site, a face above it.
 void write_cells_npz(AtomicFile& file, const CellsToWrite& to_write);
 
 }  // namespace rondel::io

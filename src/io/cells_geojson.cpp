@@ -40,6 +40,26 @@ void append_value(std::string& out, const Column& column, std::size_t row) {
   }
 }
 
+// A foreign member (RFC 7946, section 6.1): each hidden site with the corners of the face above it.
+std::string hidden_member(const Triangulation& triangulation) {
+  std::string text;
+  for (const auto& [site, face] : triangulation.hidden()) {
+    text += text.empty() ? ",\"hidden\":[\n" : ",\n";
+    text += R"({"site":)";
+    append_integer(text, site);
+    text += R"(,"below":[)";
+    if (face != no_index) {
+      for (const Index corner : triangulation.faces()[face]) {
+        append_integer(text, corner);
+        text += ',';
+      }
+      text.pop_back();
+    }
+    text += "]}";
+  }
+  return text.empty() ? text : text + "\n]";
+}
+
 }  // namespace
 
 void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
@@ -71,7 +91,9 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
     feature += '}';
     file.write(feature);
   }
-  file.write("\n]}\n");
+  file.write("\n]");
+  file.write(hidden_member(cells.triangulation));
+  file.write("}\n");
 }
 
 }  // namespace rondel::io

@@ -11,12 +11,19 @@ namespace rondel::io {
 namespace {
 
 template <typename T>
-std::string_view bytes_of(const std::vector<T>& values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+std::string_view bytes_of(std::span<const T> values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
 }
 
-// A point is three numbers without gaps, a row of the array.
+template <typename T>
+std::string_view bytes_of(const std::vector<T>& values) {
+  return bytes_of(std::span<const T>(values));
+}
+
+// Each is a row of its array, numbers without gaps.
 static_assert(sizeof(Point) == 3 * sizeof(double));
+static_assert(sizeof(Triple) == 3 * sizeof(Index));
+static_assert(sizeof(Hidden) == 2 * sizeof(Index));
 
 }  // namespace
 
@@ -33,6 +40,10 @@ void write_cells_npz(AtomicFile& file, const CellsToWrite& to_write) {
   add("points.npy", "<f8", std::array<std::uint64_t, 2>{cells.points.size(), 3},
       bytes_of(cells.points));
   add("areas.npy", "<f8", std::array<std::uint64_t, 1>{areas.size()}, bytes_of(areas));
+  const std::span<const Triple> faces = to_write.triangulation.faces();
+  const std::span<const Hidden> hidden = to_write.triangulation.hidden();
+  add("faces.npy", "<u4", std::array<std::uint64_t, 2>{faces.size(), 3}, bytes_of(faces));
+  add("hidden.npy", "<u4", std::array<std::uint64_t, 2>{hidden.size(), 2}, bytes_of(hidden));
   zip.finish();
 }
 

@@ -111,6 +111,7 @@ CoordinateColumns find_columns(const Header& header, const ReadOptions& options)
   std::ranges::transform(result.is_lonlat ? std::span<const Coordinate>(lonlat) : std::span(xyz),
                          result.columns.begin(),
                          [&](const Coordinate& c) { return require(header, c); });
+  if (!options.radius.empty()) result.radius = find(header, {"radius", options.radius, {}});
   return result;
 }
 

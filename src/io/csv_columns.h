@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -16,9 +17,11 @@ namespace rondel::io {
 struct CoordinateColumns {
   bool is_lonlat = false;
   std::array<std::size_t, 3> columns{};  // lon, lat or x, y, z
+  std::optional<std::size_t> radius;     // if the options name it
 };
 
-// Finds the columns that the options name, otherwise by their usual names; never by their order.
+// Finds the columns that the options name, otherwise by their usual names; never by their order. A
+// radius must be named: a column of that name may be anything.
 // Names are compared without regard to case. Throws BadValue if a column is missing or two fit.
 CoordinateColumns find_columns(const std::vector<std::string_view>& header,
                                const ReadOptions& options);

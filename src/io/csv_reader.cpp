@@ -56,6 +56,9 @@ void read_rows(CsvRecords& records, std::string_view text, const ReadOptions& op
                            parse_number(fields[c], "z")},
                           records.line());
     }
+    if (coordinates.radius) {
+      collector.make_circle(parse_number(fields[*coordinates.radius], "radius"));
+    }
     for (std::size_t i = 0; i < table.columns.size(); ++i) {
       append_cell(table.columns[i], fields[i]);
     }

@@ -103,6 +103,7 @@ class GeoJsonReader {
  public:
   GeoJsonReader(std::string_view bytes, const ReadOptions& options, SiteTable& table)
       : bytes_(bytes),
+        radius_(options.radius),
         keep_columns_(options.keep_columns),
         collector_(table, options),
         columns_(table.columns) {}
@@ -118,8 +119,10 @@ class GeoJsonReader {
   void add_feature(const json& feature);
   void add_geometry(const json& geometry, const json& properties);
   void add_coordinates(const json& coordinates, const json& properties);
+  [[nodiscard]] double radius_in(const json& properties) const;
 
   std::string_view bytes_;
+  std::string radius_;  // the property
   bool keep_columns_;
   SiteCollector collector_;
   PropertyColumns columns_;
@@ -227,8 +230,16 @@ void GeoJsonReader::add_coordinates(const json& coordinates, const json& propert
   }
   if (keep_columns_) columns_.add(properties, collector_.size());
   collector_.add_position(coordinates[0].get<double>(), coordinates[1].get<double>(), line());
+  if (!radius_.empty()) collector_.make_circle(radius_in(properties));
   collector_.report_progress(static_cast<std::size_t>(cursor_.position - bytes_.data()),
                              bytes_.size());
+}
+
+double GeoJsonReader::radius_in(const json& properties) const {
+  const json& value = member(properties, radius_.c_str());
+  if (value.is_null()) throw BadValue("no property " + in_quotes(radius_));
+  if (value.is_number()) return value.get<double>();
+  return parse_number(value.is_string() ? value.get<std::string>() : value.dump(), "radius");
 }
 
 }  // namespace

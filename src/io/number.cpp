@@ -138,6 +138,13 @@ LonLat checked_position(double lon, double lat, bool is_radians) {
   return {lon * degrees_per_radian, std::clamp(lat * degrees_per_radian, -90.0, 90.0)};
 }
 
+double checked_radius(double radius, bool is_radians) {
+  constexpr double degrees_per_radian = 180 / std::numbers::pi;
+  const double degrees = is_radians ? radius * degrees_per_radian : radius;
+  if (degrees >= 0 && degrees < 90) return degrees;
+  throw BadValue("radius " + text_of(radius) + " is not in [0, " + (is_radians ? "pi/2)" : "90)"));
+}
+
 Point checked_point(const Point& point) {
   require_finite(point.x, "x");
   require_finite(point.y, "y");

@@ -56,6 +56,10 @@ std::string in_quotes(std::string_view value);
 // if they are not finite or the latitude lies beyond a pole.
 LonLat checked_position(double lon, double lat, bool is_radians);
 
+// The angular radius in degrees of a circle, given in degrees or radians. Throws BadValue unless it
+// is at least 0 and less than a right angle.
+double checked_radius(double radius, bool is_radians);
+
 // `point` itself; throws BadValue if it is not finite.
 Point checked_point(const Point& point);
 

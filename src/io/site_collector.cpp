@@ -25,6 +25,14 @@ void SiteCollector::add_point(const Point& point, std::uint64_t line) {
   table_.sites.push_back(point);
 }
 
+void SiteCollector::make_circle(double radius) {
+  const double radius_deg = checked_radius(radius, options_.radians);
+  Point& site = table_.sites.back();
+  site = checked_point(polar_point(site, radius_deg));
+  if (table_.radii_deg.empty()) table_.radii_deg.reserve(table_.sites.capacity());
+  table_.radii_deg.push_back(radius_deg);
+}
+
 // The lines of the sites are listed from the first one on that does not follow its predecessor.
 void SiteCollector::note_line(std::uint64_t line) {
   const std::size_t n = table_.sites.size();

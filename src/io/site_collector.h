@@ -23,6 +23,9 @@ class SiteCollector {
   void add_position(double lon, double lat, std::uint64_t line);
   void add_point(const Point& point, std::uint64_t line);
 
+  // Turns the site just added into the circle of that radius around it. Throws BadValue.
+  void make_circle(double radius);
+
   // Reports, now and then, that `done` of `total` is read.
   void report_progress(std::size_t done, std::size_t total) const;
 

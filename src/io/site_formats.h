@@ -20,11 +20,18 @@ void read_xyz(std::string_view bytes, const ReadOptions& options, SiteTable& tab
 void read_npy_sites(std::string_view bytes, const ReadOptions& options, SiteTable& table);
 void read_geojson(std::string_view bytes, const ReadOptions& options, SiteTable& table);
 
-// Each writes the positions if there are any, otherwise the sites; .xyz has sites only.
-void write_csv(AtomicFile& file, std::span<const Point> sites, std::span<const LonLat> positions);
-void write_tsv(AtomicFile& file, std::span<const Point> sites, std::span<const LonLat> positions);
-void write_xyz(AtomicFile& file, std::span<const Point> sites, std::span<const LonLat> positions);
-void write_npy_sites(AtomicFile& file, std::span<const Point> sites,
-                     std::span<const LonLat> positions);
+// What write_sites got. Positions and radii may be empty.
+struct SitesToWrite {
+  std::span<const Point> sites;
+  std::span<const LonLat> positions;
+  std::span<const double> radii_deg;
+};
+
+// Each writes the positions if there are any, otherwise the sites. Where there are radii, the
+// tables with a header have a column for them; .npy then has the sites. .xyz always has the sites.
+void write_csv(AtomicFile& file, const SitesToWrite& to_write);
+void write_tsv(AtomicFile& file, const SitesToWrite& to_write);
+void write_xyz(AtomicFile& file, const SitesToWrite& to_write);
+void write_npy_sites(AtomicFile& file, const SitesToWrite& to_write);
 
 }  // namespace rondel::io

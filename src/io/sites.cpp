@@ -28,7 +28,7 @@ constexpr std::array<Reader, 6> readers = {{{".csv", &io::read_csv, true},
 
 struct Writer {
   std::string_view ending;
-  void (*write)(io::AtomicFile&, std::span<const Point>, std::span<const LonLat>);
+  void (*write)(io::AtomicFile&, const io::SitesToWrite&);
 };
 constexpr std::array<Writer, 5> writers = {{{".csv", &io::write_csv},
                                             {".tsv", &io::write_tsv},
@@ -59,6 +59,10 @@ SiteTable read_sites(const std::string& path, const ReadOptions& options) {
     throw FileError(table.name + ": columns are named, but " + std::string(reader.ending) +
                     " files have no names for columns");
   }
+  if (!reader.has_columns && !options.radius.empty() && reader.ending != ".geojson") {
+    throw FileError(table.name + ": a radius is named, but " + std::string(reader.ending) +
+                    " files have no names for columns; give weighted sites as x, y, z");
+  }
   reader.read(file.text(), options, table);
   return table;
 }
@@ -68,10 +72,10 @@ bool can_write_sites(const std::string& path) {
 }
 
 void write_sites(const std::string& path, std::span<const Point> sites,
-                 std::span<const LonLat> positions) {
+                 std::span<const LonLat> positions, std::span<const double> radii_deg) {
   const Writer& writer = io::require_format<Writer>(writers, path, "sites are written as");
   io::AtomicFile file(path);
-  writer.write(file, sites, positions);
+  writer.write(file, {sites, positions, radii_deg});
   file.commit();
 }
 

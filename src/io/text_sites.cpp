@@ -27,33 +27,40 @@ void write_points(AtomicFile& file, std::span<const Point> sites, char delimiter
   }
 }
 
-void write_delimited(AtomicFile& file, std::span<const Point> sites,
-                     std::span<const LonLat> positions, char delimiter) {
-  std::string line = positions.empty() ? "x,y,z\n" : "lon,lat\n";
+void write_delimited(AtomicFile& file, const SitesToWrite& to_write, char delimiter) {
+  const auto& [sites, positions, radii_deg] = to_write;
+  std::string line = positions.empty()   ? "x,y,z\n"
+                     : radii_deg.empty() ? "lon,lat\n"
+                                         : "lon,lat,radius\n";
   for (char& c : line) {
     if (c == ',') c = delimiter;
   }
   file.write(line);
   if (positions.empty()) return write_points(file, sites, delimiter);
-  for (const LonLat& position : positions) {
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const auto& [lon_deg, lat_deg] = positions[i];
     line.clear();
-    append_row(line, {position.lon_deg, position.lat_deg}, delimiter);
+    if (radii_deg.empty()) {
+      append_row(line, {lon_deg, lat_deg}, delimiter);
+    } else {
+      append_row(line, {lon_deg, lat_deg, radii_deg[i]}, delimiter);
+    }
     file.write(line);
   }
 }
 
 }  // namespace
 
-void write_csv(AtomicFile& file, std::span<const Point> sites, std::span<const LonLat> positions) {
-  write_delimited(file, sites, positions, ',');
+void write_csv(AtomicFile& file, const SitesToWrite& to_write) {
+  write_delimited(file, to_write, ',');
 }
 
-void write_tsv(AtomicFile& file, std::span<const Point> sites, std::span<const LonLat> positions) {
-  write_delimited(file, sites, positions, '\t');
+void write_tsv(AtomicFile& file, const SitesToWrite& to_write) {
+  write_delimited(file, to_write, '\t');
 }
 
-void write_xyz(AtomicFile& file, std::span<const Point> sites, std::span<const LonLat>) {
-  write_points(file, sites, ' ');
+void write_xyz(AtomicFile& file, const SitesToWrite& to_write) {
+  write_points(file, to_write.sites, ' ');
 }
 
 }  // namespace rondel::io

@@ -48,8 +48,9 @@ void ZipWriter::write(std::string_view bytes) {
 }
 
 void ZipWriter::add(const std::string& name, std::string_view head, std::string_view body) {
+  // A null pointer would mean "start anew" to crc32_z.
   const auto bytes = [](std::string_view text) {
-    return reinterpret_cast<const Bytef*>(text.data());
+    return reinterpret_cast<const Bytef*>(text.empty() ? "" : text.data());
   };
   const uLong head_checksum = crc32_z(0, bytes(head), head.size());
   const auto checksum =

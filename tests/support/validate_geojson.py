@@ -3,14 +3,14 @@
 # SPDX-License-Identifier: Apache-2.0
 """Proves that a file of cells is a map of the whole sphere by RFC 7946.
 
-    validate_geojson.py cells.geojson [--lon COLUMN --lat COLUMN]
+    validate_geojson.py cells.geojson [--power | --lon COLUMN --lat COLUMN]
 
 1. Every ring is closed, counterclockwise and simple, and lies in [-180, 180] x [-90, 90].
 2. No ring crosses the antimeridian: no side is longer than 180 degrees of longitude, the sides
    along lat = +-90 apart.
 3. The planar areas sum to 360 * 180 and the `area` properties to 4 pi; both poles are covered.
 4. Each site lies in its own cell, if the features have its longitude and latitude (columns found
-   by the names that rondel knows, or named).
+   by the names that rondel knows, or named). Not so the circles of power cells: --power.
 5. Each feature's `area` is the area of its polygons on the sphere, up to the tolerance of the arcs.
 
 Exit status 0 if so, else 1 with a line for each fault (the first 20).
@@ -98,11 +98,14 @@ def main():
     parser.add_argument("file")
     parser.add_argument("--lon")
     parser.add_argument("--lat")
+    parser.add_argument("--power", action="store_true")
     options = parser.parse_args()
     with open(options.file, encoding="utf-8") as file:
         collection = json.load(file)
     lon_names = [options.lon] if options.lon else ["lon", "lng", "long", "longitude"]
     lat_names = [options.lat] if options.lat else ["lat", "latitude"]
+    if options.power:
+        lon_names = lat_names = []
     faults = [] if collection["type"] == "FeatureCollection" else ["not a FeatureCollection"]
     planar = []
     areas = []

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -52,8 +53,8 @@ SiteTable table_of(const std::vector<LonLat>& positions) {
   return table;
 }
 
-void write(const std::string& path, const SiteTable& table) {
-  const Triangulation triangulation = delaunay(table.sites);
+void write(const std::string& path, const SiteTable& table, const Options& options = {}) {
+  const Triangulation triangulation = delaunay(table.sites, options);
   Diagram diagram;
   diagram.cells = cells(triangulation, table.sites);
   diagram.areas = areas(triangulation, table.sites, diagram.cells);
@@ -157,6 +158,34 @@ TEST(write_cells, geojson_is_valid_by_shapely) {
   }
 }
 
+TEST(write_cells, geojson_of_power_cells_is_valid_by_shapely) {
+  const std::string python = python_with("shapely");
+  if (python.empty()) GTEST_SKIP() << "python3-shapely is not installed";
+  struct Input {
+    const char* name;
+    std::vector<LonLat> positions;
+    double largest_deg;
+  };
+  const std::vector<Input> inputs{{"globe", random_positions(2000, {0, 0}, 180), 30},
+                                  {"small", random_positions(2000, {0, 0}, 180), 1},
+                                  {"huge", random_positions(300, {0, 0}, 180), 89.9999},
+                                  {"region", random_positions(300, {8, 47}, 3), 1},
+                                  {"north", random_positions(300, {0, 90}, 60), 20},
+                                  {"date_line", random_positions(300, {180, -20}, 10), 5}};
+  for (const auto& [name, positions, largest_deg] : inputs) {
+    Random random(17);
+    std::vector<double> radii_deg(positions.size());
+    for (double& radius_deg : radii_deg) radius_deg = largest_deg * random.unit();
+    SiteTable table = table_of(positions);
+    table.sites = polar_points(positions, radii_deg);
+    const std::string path = file_name(std::string("power_") + name + ".geojson");
+    write(path, table, {.model = Model::weighted});
+    const std::string command =
+        python + " " RONDEL_SOURCE_DIR "/tests/support/validate_geojson.py --power '" + path + "'";
+    EXPECT_EQ(std::system(command.c_str()), 0) << name;
+  }
+}
+
 // The archive and its arrays are what NumPy and Python's zipfile take for them.
 TEST(write_cells, npz_opens_in_numpy) {
   const std::string python = python_with("numpy");
@@ -167,14 +196,43 @@ TEST(write_cells, npz_opens_in_numpy) {
   std::ofstream(script) << R"(import sys, math, zipfile, numpy
 assert zipfile.ZipFile(sys.argv[1]).testzip() is None
 a = numpy.load(sys.argv[1])
-assert sorted(a) == ['areas', 'offsets', 'points', 'rings'], sorted(a)
+assert sorted(a) == ['areas', 'faces', 'hidden', 'offsets', 'points', 'rings'], sorted(a)
 assert a['offsets'].dtype == 'u8' and a['offsets'].shape == (501,)
 assert a['rings'].dtype == 'u4' and a['rings'].shape == (a['offsets'][-1],)
 assert a['points'].dtype == 'f8' and a['points'].shape == (2 * 500 - 4, 3)
 assert abs(numpy.linalg.norm(a['points'], axis=1) - 1).max() < 1e-15
 assert abs(a['areas'].sum() / (4 * math.pi) - 1) < 1e-12
+assert a['faces'].dtype == 'u4' and a['faces'].shape == (2 * 500 - 4, 3)
+assert a['hidden'].dtype == 'u4' and a['hidden'].shape == (0, 2)
 )";
   EXPECT_EQ(std::system((python + " '" + script + "' '" + path + "'").c_str()), 0);
+}
+
+// What is hidden has no cell; both formats that can name it, with a face above it, do.
+TEST(write_cells, names_hidden_sites) {
+  SiteTable table;
+  table.name = "hidden.csv";
+  table.sites = {{2, 0, 0}, {-2, 0, 0}, {0, 2, 0},        {0, -2, 0},
+                 {0, 0, 2}, {0, 0, -2}, {1, 0.25, 0.125}, {0, 0, -1.5}};
+  const Triangulation triangulation = delaunay(table.sites, {.model = Model::weighted});
+  const Diagram cells = diagram(triangulation, table.sites);
+  write_cells(file_name("hidden.geojson"), table, triangulation, cells);
+  const auto json = nlohmann::json::parse(content(file_name("hidden.geojson")));
+  EXPECT_EQ(json["features"].size(), 6U);
+  ASSERT_EQ(json["hidden"].size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const auto& [site, face] = triangulation.hidden()[i];
+    EXPECT_EQ(json["hidden"][i]["site"], site);
+    EXPECT_EQ(json["hidden"][i]["below"], triangulation.faces()[face]);
+  }
+  EXPECT_EQ(json["hidden"][0]["site"], 6);
+  const std::string path = file_name("hidden.npz");
+  write_cells(path, table, triangulation, cells);
+  const std::string bytes = content(path);
+  const auto member = bytes.find("hidden.npy");
+  const auto pairs = bytes.find("PK", member) - sizeof(Hidden) * 2;
+  EXPECT_EQ(std::memcmp(bytes.data() + pairs, triangulation.hidden().data(), sizeof(Hidden) * 2),
+            0);
 }
 
 TEST(write_cells, vtp_describes_its_bytes) {
