@@ -49,12 +49,13 @@ struct Command {
 struct CommonOptions {
   std::string input;   ///< INPUT
   std::string output;  ///< -o, --output
-  ReadOptions read;    ///< --lon --lat --x --y --z --radians
+  ReadOptions read;    ///< --lon --lat --x --y --z --radius --radians
   Options build;       ///< --model --threads --center --squared-radius
   bool json = false;   ///< --json
   bool quiet = false;  ///< --quiet
 };
 
+/// \pre comes before add_build_options(): --radius sets the model, which --model may contradict.
 void add_input_options(CLI::App& command, CommonOptions& options);
 /// `what` says what is written and to which endings, for the help.
 void add_output_option(CLI::App& command, CommonOptions& options, const std::string& what);

@@ -71,10 +71,11 @@ Command add_voronoi_command(CLI::App& tool) {
   add_build_options(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
-      "Areas are in steradians; on Earth, times 6371^2 for square kilometres.\n\n"
+      "Areas are in steradians; on Earth, times 6371^2 for square kilometres. Hidden sites,\n"
+      "which only circles and other weighted sites may be, have no cell.\n\n"
       "Examples:\n"
       "  rondel voronoi stations.csv -o cells.geojson\n"
-      "  rondel voronoi circles.csv --model weighted -o power-cells.vtp");
+      "  rondel voronoi circles.csv --radius radius -o power-cells.geojson");
   return {parser, [options] { return run_voronoi(*options); }};
 }
 
@@ -116,7 +117,8 @@ Command add_generate_command(CLI::App& tool) {
       ->check(seed_error)
       ->type_name("S");
   CLI::Option* angle = parser->add_option("--angle", options->angle,
-                                          "Angular radius of patch, cluster and small-circle");
+                                          "Angular radius of patch, cluster and small-circle,\n"
+                                          "largest one of circles");
   angle->check(positive_error)->type_name("DEG");
   parser->add_flag("--radians", options->common.read.radians, "--angle is in radians")
       ->needs(angle);
@@ -133,6 +135,7 @@ Command add_generate_command(CLI::App& tool) {
                  "\nThe same seed gives the same bytes on every machine.\n\n"
                  "Examples:\n"
                  "  rondel generate uniform -n 100000 -o sites.npy\n"
+                 "  rondel generate circles -n 1000 --angle 20 -o circles.csv\n"
                  "  rondel generate patch -n 1000 --angle 0.01 --seed 7 -o patch.csv");
   return {parser, [options] { return run_generate(*options); }};
 }

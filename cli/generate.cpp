@@ -231,7 +231,25 @@ Generated antipodal(const Recipe& recipe) {
   return result;
 }
 
-constexpr std::array<Kind, 11> all_kinds{{
+// Uniform centers without an arc sine: a latitude is taken with a probability that is its cosine.
+Generated circles(const Recipe& recipe) {
+  Random random(recipe.seed);
+  const double largest_deg = recipe.angle_deg > 0 ? recipe.angle_deg : 30;
+  Generated result;
+  result.positions.reserve(recipe.n);
+  result.radii_deg.reserve(recipe.n);
+  while (result.positions.size() < recipe.n) {
+    const double lat_deg = 90 * random.symmetric();
+    const double cosine = unit_vector({0, lat_deg}).x;
+    if (random.unit() >= cosine) continue;
+    result.positions.push_back({180 * random.symmetric(), lat_deg});
+    result.radii_deg.push_back(largest_deg * random.unit());
+  }
+  result.sites = polar_points(result.positions, result.radii_deg);
+  return result;
+}
+
+constexpr std::array<Kind, 12> all_kinds{{
     {"uniform", "random on the sphere", &uniform, false},
     {"fibonacci", "the Fibonacci spiral: nearly equal distances, no randomness", &fibonacci, false},
     {"lonlat-grid", "parallels (both poles too) times meridians; see --rows", &lonlat_grid, false},
@@ -241,6 +259,7 @@ constexpr std::array<Kind, 11> all_kinds{{
     {"small-circle", "random on one parallel (--angle from the pole: 30)", &small_circle, true},
     {"great-circle", "random on the equator: the triangulation has dimension 1", &great_circle,
      false},
+    {"circles", "random circles of radii up to --angle (30), for --radius radius", &circles, true},
     {"ball", "random in the unit ball, for --model weighted", &ball, false},
     {"integer", "random integers from -20 to 20: many ties and duplicates", &integer, false},
     {"antipodal", "random pairs of opposite sites", &antipodal, false},

@@ -24,10 +24,12 @@ struct Recipe {
   double angle_deg = 0;     ///< angular radius; 0: the kind's own
 };
 
-/// Sites, and their longitudes and latitudes if they were made from those.
+/// Sites, and their longitudes and latitudes if they were made from those. Where there are radii,
+/// the sites are the polar points of circles.
 struct Generated {
   std::vector<Point> sites;
   std::vector<LonLat> positions;
+  std::vector<double> radii_deg;
 };
 
 /// A kind of sites.

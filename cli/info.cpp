@@ -39,7 +39,7 @@ struct Facts {
   Triangulation triangulation;  // of the sites that are not at the center
 };
 
-std::vector<NamedRange> bounds_of(const SiteTable& table) {
+std::vector<NamedRange> coordinate_bounds(const SiteTable& table) {
   if (table.is_lonlat()) {
     Range lon;
     Range lat;
@@ -58,6 +58,15 @@ std::vector<NamedRange> bounds_of(const SiteTable& table) {
     z.add(site.z);
   }
   return {{"x", x}, {"y", y}, {"z", z}};
+}
+
+std::vector<NamedRange> bounds_of(const SiteTable& table) {
+  std::vector<NamedRange> bounds = coordinate_bounds(table);
+  if (table.radii_deg.empty()) return bounds;
+  Range radius;
+  for (const double radius_deg : table.radii_deg) radius.add(radius_deg);
+  bounds.push_back({"radius", radius});
+  return bounds;
 }
 
 // Scaled, so that no square overflows or vanishes.
@@ -109,6 +118,7 @@ std::string json_of(const SiteTable& table, const Facts& facts, const Seconds& s
   const Triangulation& triangulation = facts.triangulation;
   const Json json = {{"sites", table.sites.size()},
                      {"coordinates", table.is_lonlat() ? "lonlat" : "xyz"},
+                     {"circles", !table.radii_deg.empty()},
                      {"bounds", bounds},
                      {"distance_from_sphere", json_of(facts.height)},
                      {"at_center", facts.at_center},
@@ -133,7 +143,7 @@ std::string text_of(const SiteTable& table, const Facts& facts) {
   const Triangulation& triangulation = facts.triangulation;
   std::string text = table.name + ": " + count(table.sites.size(), "site", "sites") +
                      ", given as " + (table.is_lonlat() ? "longitude and latitude" : "x, y, z") +
-                     '\n';
+                     (table.radii_deg.empty() ? "\n" : ", circles\n");
   for (const auto& [name, range] : facts.bounds) text += text_of(name, range);
   text += text_of("distance from the sphere", facts.height);
   if (facts.at_center > 0) text += "at the center: " + std::to_string(facts.at_center) + '\n';

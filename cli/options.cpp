@@ -33,7 +33,22 @@ void add_columns(CLI::App& command, ReadOptions& read) {
   x->needs(y)->needs(z);
   y->needs(x);
   z->needs(x);
-  command.add_flag("--radians", read.radians, "Longitude and latitude are in radians")->excludes(x);
+  command.add_flag("--radians", read.radians, "Longitude, latitude and radius are in radians")
+      ->excludes(x);
+}
+
+void add_radius(CLI::App& command, CommonOptions& options) {
+  command
+      .add_option_function<std::string>(
+          "--radius",
+          [&options](const std::string& column) {
+            if (column.empty()) throw UsageError("--radius: the name of a column is empty");
+            options.read.radius = column;
+            options.build.model = Model::weighted;
+          },
+          "Angular radius, at least 0 and less than 90 degrees: the sites are circles\n"
+          "and the model is weighted. In .geojson a property")
+      ->type_name("COL");
 }
 
 }  // namespace
@@ -45,6 +60,7 @@ void add_input_options(CLI::App& command, CommonOptions& options) {
                   "standard input. Longitude and latitude in degrees, or x, y, z.")
       ->required()
       ->type_name("");
+  add_radius(command, options);
   add_columns(command, options.read);
 }
 
@@ -58,10 +74,13 @@ void add_build_options(CLI::App& command, CommonOptions& options) {
           "--model",
           [&options](const std::string& text) {
             options.build.model = text == "weighted" ? Model::weighted : Model::projected;
+            if (text == "projected" && !options.read.radius.empty()) {
+              throw UsageError("--radius: circles need --model weighted, not projected");
+            }
           },
           "projected: every site is moved along its ray to the sphere (default).\n"
-          "weighted: a site off the sphere is a circle; sites inside the convex hull\n"
-          "are hidden, and cells are power (Laguerre) cells")
+          "weighted (implied by --radius): a site off the sphere is a circle; sites inside\n"
+          "the convex hull are hidden, and cells are power (Laguerre) cells")
       ->check(model_error)
       ->type_name("MODEL");
   command
@@ -69,6 +88,9 @@ void add_build_options(CLI::App& command, CommonOptions& options) {
           "--center",
           [&options](const std::vector<double>& at) {
             options.build.sphere.center = {at[0], at[1], at[2]};
+            if (!options.read.radius.empty()) {
+              throw UsageError("--radius: circles are on a sphere around 0 0 0, without --center");
+            }
           },
           "Center of the sphere (default: 0 0 0)")
       ->expected(3)

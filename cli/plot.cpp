@@ -31,6 +31,7 @@ struct PlotOptions {
   FigureStyle style;
   std::optional<Show> show;  // none: the cells if they are filled, otherwise the triangulation
   Fill fill = Fill::none;
+  bool show_circles = false;
   std::vector<double> view;  // LON LAT, or empty
   double up_deg = 0;
 };
@@ -97,6 +98,10 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   const std::vector<Point> sites = directions(table.sites, triangulation.sphere().center);
   figure.view = options.view.empty() ? default_view(sites, options.up_deg)
                                      : View({options.view[0], options.view[1]}, options.up_deg);
+  if (options.show_circles) {
+    figure.circles = real_circles(table, triangulation, sites);
+    for (Circle& circle : figure.circles) circle.axis = figure.view.turn(circle.axis);
+  }
   std::vector<Point> points = turned(sites, figure.view);
   std::vector<ArcEnds> arcs = triangulation_arcs(triangulation, sites);
   figure.spacing = median_spacing(arcs, points);
@@ -118,7 +123,8 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
 
 // A drawing of very many arcs is hardly what was wanted: programs take minutes to open it.
 void warn_of_size(const PlotOptions& options, const Figure& figure, FigureFormat format) {
-  const std::size_t arcs = figure.triangulation.arcs.size() + figure.diagram.arcs.size();
+  const std::size_t arcs =
+      figure.triangulation.arcs.size() + figure.diagram.arcs.size() + figure.circles.size();
   if (options.common.quiet || format == FigureFormat::png || arcs < 200'000) return;
   std::cerr << "rondel: " << options.common.output << " holds up to " << arcs
             << " arcs and will be large; a .png is small\n";
@@ -129,6 +135,9 @@ ExitStatus run_plot(const PlotOptions& options) {
   require_output(options.common, format.has_value(), ".png .svg .pdf");
   if (!options.view.empty() && std::abs(options.view[1]) > 90) {
     throw UsageError("--view: the latitude is outside [-90, 90]");
+  }
+  if (options.show_circles && options.common.build.model != Model::weighted) {
+    throw UsageError("--circles: sites are circles with --radius or --model weighted");
   }
   Job job(options.common);
   const SiteTable table = job.read();
@@ -172,7 +181,9 @@ void add_content_options(CLI::App& parser, PlotOptions& options) {
   add_choice<Fill>(parser, "--fill", options.fill, {{"none", Fill::none}, {"area", Fill::area}},
                    "area: color the cells by area, dark for small ones; none (default)");
   add_choice<bool>(parser, "--back", options.style.show_back, {{"none", false}, {"faint", true}},
-                   "The arcs behind the globe: faint, or none (default)");
+                   "What is behind the globe: faint, or none (default)");
+  parser.add_flag("--circles", options.show_circles,
+                  "Draw the circles for which weighted sites stand, hidden ones paler");
   const auto show_sites = [&options](bool show) {
     return [&options, show] { options.style.show_sites = show; };
   };
@@ -233,7 +244,7 @@ Command add_plot_command(CLI::App& tool) {
       "Examples:\n"
       "  rondel plot stations.csv -o stations.png --view -60 35\n"
       "  rondel plot stations.csv -o cells.svg --show voronoi --fill area\n"
-      "  rondel plot circles.csv --model weighted --show both --back faint -o power.pdf");
+      "  rondel plot circles.csv --radius radius --circles --show voronoi -o power.pdf");
   return {parser, [options] { return run_plot(*options); }};
 }
 

@@ -21,6 +21,8 @@ constexpr Color graticule_color{0.40, 0.48, 0.55, 0.38};
 constexpr Color triangulation_color{0.090, 0.200, 0.430};
 constexpr Color diagram_color{0.850, 0.270, 0.080};
 constexpr Color diagram_on_fill_color{0.060, 0.130, 0.220, 0.55};
+constexpr Color circle_color{0.000, 0.440, 0.340};
+constexpr Color hidden_circle_color{0.000, 0.440, 0.340, 0.30};
 constexpr Color site_color{0.06, 0.06, 0.08};
 
 // One stroke of very many arcs is slow, and so is a stroke for each.
@@ -54,6 +56,24 @@ void draw_arcs(Canvas& canvas, const ArcLayer& layer, Side side, const Color& co
       trace_arc(canvas, layer.points[from], layer.points[to], side, tolerance);
     }
     canvas.stroke(color, width);
+  }
+}
+
+// In strokes of every k-th circle, as draw_arcs does. Those without a cell come first, paler.
+void draw_circles(Canvas& canvas, std::span<const Circle> circles, Side side, double paleness,
+                  double width) {
+  const std::size_t num_strokes = std::max(least_strokes, circles.size() / arcs_in_a_stroke);
+  for (const bool is_hidden : {true, false}) {
+    const Color& color = is_hidden ? hidden_circle_color : circle_color;
+    for (std::size_t stroke = 0; stroke < num_strokes; ++stroke) {
+      for (std::size_t i = stroke; i < circles.size(); i += num_strokes) {
+        const Circle& circle = circles[i];
+        if (circle.is_hidden == is_hidden) {
+          trace_circle(canvas, circle.axis, circle.radius_deg, side);
+        }
+      }
+      canvas.stroke(blend(color, white, paleness), width);
+    }
   }
 }
 
@@ -138,9 +158,11 @@ std::string draw(const Figure& figure, FigureFormat format) {
               0.7 * width.line);
     draw_arcs(canvas, figure.diagram, Side::back, blend(diagram_color, white, 0.70),
               0.7 * width.line);
+    draw_circles(canvas, figure.circles, Side::back, 0.75, 0.7 * width.line);
   }
   if (figure.filled) draw_filled_cells(canvas, *figure.filled);
   draw_graticule(canvas, figure);
+  draw_circles(canvas, figure.circles, Side::front, 0, width.line);
   draw_arcs(canvas, figure.triangulation, Side::front, triangulation_color, width.line);
   draw_arcs(canvas, figure.diagram, Side::front,
             figure.filled ? diagram_on_fill_color : diagram_color, width.line);

@@ -11,6 +11,7 @@
 
 #include "plot_arcs.h"
 #include "plot_canvas.h"
+#include "plot_circles.h"
 #include "rondel/types.h"
 
 namespace rondel::cli {
@@ -21,7 +22,7 @@ struct FigureStyle {
   double line_width = 0;   ///< in pixels; 0: follows the density of the arcs
   int graticule_deg = 30;  ///< distance of its circles; 0: none
   bool show_sites = true;
-  bool show_back = false;  ///< the arcs behind the globe, faintly
+  bool show_back = false;  ///< the arcs and circles behind the globe, faintly
 };
 
 /// Points of the sphere in the view frame, and arcs between them.
@@ -44,6 +45,7 @@ struct Figure {
   double spacing = 0;        ///< of the sites, see median_spacing()
   ArcLayer triangulation;
   ArcLayer diagram;
+  std::vector<Circle> circles;  ///< axes in the view frame
   std::optional<FilledCells> filled;
 };
 

@@ -19,6 +19,9 @@ void require_parts(const Kind& kind, const Recipe& recipe) {
   if (recipe.angle_deg > 0 && !kind.takes_angle) {
     throw UsageError("--angle: " + name + " has no angle");
   }
+  if (name == "circles" && recipe.angle_deg >= 90) {
+    throw UsageError("--angle: circles have radii of less than 90 degrees");
+  }
   if (recipe.angle_deg > 180) throw UsageError("--angle is more than half a turn");
   if (!has_grid && recipe.n == 0) throw UsageError("-n,--number is required");
   if (has_grid && recipe.rows > max_sites / recipe.columns) {
@@ -37,7 +40,9 @@ ExitStatus run_generate(const GenerateOptions& options) {
   require_parts(kind, recipe);
   Job job(common);
   const Generated generated = kind.make(recipe);
-  job.time(Stage::write, [&] { write_sites(common.output, generated.sites, generated.positions); });
+  job.time(Stage::write, [&] {
+    write_sites(common.output, generated.sites, generated.positions, generated.radii_deg);
+  });
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {
       {"kind", options.kind},
