@@ -95,8 +95,7 @@ class DynamicTriangulation {
   /// The functions below throw InvalidInput if there is no such site.
 
   [[nodiscard]] Point site(Index id) const;
-  /// The lowest id in the same place, which stands for all of them. Takes time linear in their
-  /// number.
+  /// The lowest id in the same place, which stands for all of them.
   [[nodiscard]] Index representative(Index id) const;
   /// Whether the site, or its representative, is a vertex; otherwise it is hidden.
   [[nodiscard]] bool is_vertex(Index id) const;

@@ -231,7 +231,7 @@ Point DynamicTriangulation::site(Index id) const {
 
 Index DynamicTriangulation::representative(Index id) const {
   impl_->require_site(id, 0);
-  return impl_->places().representative(impl_->places().place_of(id));
+  return impl_->places().names()[impl_->places().place_of(id)];
 }
 
 bool DynamicTriangulation::is_vertex(Index id) const {
@@ -256,7 +256,7 @@ std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
   }
   return impl_->visit([id](const auto& e) {
     std::vector<Index> result = e.hull()->neighbors(e.places().place_of(id));
-    for (Index& place : result) place = e.places().representative(place);
+    for (Index& place : result) place = e.places().names()[place];
     return result;
   });
 }

@@ -49,21 +49,15 @@ Index Places::find(const Point& p, const blocks::HilbertKey& key) const {
   });
 }
 
-Index Places::representative(Index place) const {
-  Index lowest = speakers_[place];
-  for (Index s = next_at_place(lowest); s != speakers_[place]; s = next_at_place(s)) {
-    lowest = std::min(lowest, s);
-  }
-  return lowest;
-}
-
 Index Places::add_place(Index site, const blocks::HilbertKey& key) {
   Index place = static_cast<Index>(speakers_.size());
   if (free_places_.empty()) {
     speakers_.push_back(site);
+    names_.push_back(site);
   } else {
     place = take_slot(free_places_);
     speakers_[place] = site;
+    names_[place] = site;
   }
   links_[site] = {place, site, site};
   index_.insert(key, place);
@@ -85,6 +79,7 @@ void Places::join(Index site, Index place) {
   links_[site] = {place, after, before};
   links_[before].next = site;
   links_[after].previous = site;
+  names_[place] = std::min(names_[place], site);
 }
 
 Index Places::next_speaker(Index site) const {
@@ -99,6 +94,11 @@ Index Places::next_speaker(Index site) const {
 
 void Places::leave(Index site) {
   const Link link = links_[site];
+  Index& name = names_[link.place];
+  if (name == site && link.next != site) {
+    name = link.next;
+    for (Index s = links_[name].next; s != site; s = links_[s].next) name = std::min(name, s);
+  }
   links_[link.previous].next = link.next;
   links_[link.next].previous = link.previous;
   links_[site] = {};
@@ -108,6 +108,7 @@ void Places::assign(std::span<const Point> points, std::span<const Index> place_
                     std::span<const Index> speakers) {
   points_.assign(points.begin(), points.end());
   speakers_.assign(speakers.begin(), speakers.end());
+  names_ = speakers_;
   links_.assign(points.size(), {});
   for (Index place = 0; place < speakers.size(); ++place) {
     links_[speakers[place]] = {place, speakers[place], speakers[place]};

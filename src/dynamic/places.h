@@ -51,10 +51,8 @@ class Places {
   [[nodiscard]] Index near(const blocks::HilbertKey& key) const { return index_.near(key); }
   // All places in spatial order.
   [[nodiscard]] std::vector<Index> in_order() const { return index_.values(); }
-  // The sites at a place, the one after `site`; they form a ring.
-  [[nodiscard]] Index next_at_place(Index site) const { return links_[site].next; }
-  // The lowest of them.
-  [[nodiscard]] Index representative(Index place) const;
+  // By place, the lowest of its sites.
+  [[nodiscard]] std::span<const Index> names() const { return names_; }
 
   // A new place for the site alone.
   Index add_place(Index site, const blocks::HilbertKey& key);
@@ -74,6 +72,7 @@ class Places {
               std::span<const Index> speakers);
 
  private:
+  // The sites at a place form a ring.
   struct Link {
     Index place = no_index;
     Index next = no_index;
@@ -85,6 +84,7 @@ class Places {
   std::vector<Point> points_;
   std::vector<Link> links_;
   std::vector<Index> speakers_;
+  std::vector<Index> names_;
   std::vector<Index> free_sites_;
   std::vector<Index> free_places_;
   blocks::SpatialIndex index_;
