@@ -99,8 +99,8 @@ class DynamicTriangulation {
   [[nodiscard]] Index representative(Index id) const;
   /// Whether the site, or its representative, is a vertex; otherwise it is hidden.
   [[nodiscard]] bool is_vertex(Index id) const;
-  /// The vertices adjacent to a vertex, counterclockwise seen from outside; of a duplicate, those
-  /// of its representative. Empty for a hidden site.
+  /// The vertices adjacent to a vertex, counterclockwise seen from outside, the lowest id first; of
+  /// a duplicate, those of its representative. Empty for a hidden site.
   [[nodiscard]] std::vector<Index> neighbors(Index id) const;
 
   /// The sites and their triangulation as they are now, in O(n) after sorting the sites.

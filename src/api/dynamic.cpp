@@ -252,11 +252,13 @@ std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
     const auto i = static_cast<std::size_t>(at - ring.begin());
     const Index next = ring[(i + 1) % ring.size()];
     if (ring.size() == 2) return {next};
-    return {next, ring[(i + ring.size() - 1) % ring.size()]};
+    const Index before = ring[(i + ring.size() - 1) % ring.size()];
+    return {std::min(next, before), std::max(next, before)};
   }
   return impl_->visit([id](const auto& e) {
     std::vector<Index> result = e.hull()->neighbors(e.places().place_of(id));
     for (Index& place : result) place = e.places().names()[place];
+    std::ranges::rotate(result, std::ranges::min_element(result));
     return result;
   });
 }

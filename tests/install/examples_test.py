@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": []}
+ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "editing": []}
 
 
 def run(command, **options):

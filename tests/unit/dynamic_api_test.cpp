@@ -98,13 +98,11 @@ TEST(dynamic, keeps_ids_and_reuses_those_of_removed_sites) {
 
 TEST(dynamic, neighbors_are_counterclockwise) {
   const DynamicTriangulation changing(octahedron);
-  std::vector<Index> ring = changing.neighbors(2);
-  std::ranges::rotate(ring, std::ranges::find(ring, Index{0}));
-  EXPECT_EQ(ring, (std::vector<Index>{0, 1, 3, 4}));
+  EXPECT_EQ(changing.neighbors(2), (std::vector<Index>{0, 1, 3, 4}));
 
   const DynamicTriangulation circle(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
   EXPECT_EQ(circle.dimension(), 1);
-  EXPECT_EQ(circle.neighbors(1), (std::vector<Index>{2, 0}));
+  EXPECT_EQ(circle.neighbors(1), (std::vector<Index>{0, 2}));
   const DynamicTriangulation pair(std::vector<Point>{{1, 0, 0}, {0, 1, 0}});
   EXPECT_EQ(pair.neighbors(1), (std::vector<Index>{0}));
   const DynamicTriangulation single(std::vector<Point>{{1, 0, 0}});
