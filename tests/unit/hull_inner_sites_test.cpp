@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Leaving out sites that are certainly inside, and finding duplicates without an order.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "blocks/duplicates.h"
+#include "blocks/spatial_order.h"
+#include "incremental/hidden_faces.h"
+#include "incremental/inner_point.h"
+#include "incremental/inner_sites.h"
+#include "incremental/triangulate.h"
+#include "rondel/delaunay.h"
+#include "rondel/hull.h"
+#include "support/generators.h"
+#include "support/hull_check.h"
+
+namespace rondel::test {
+namespace {
+
+// The kernel alone: every site is inserted.
+TriangulationArrays insert_all(std::span<const Point> sites, const Point& center) {
+  Options options;
+  options.model = Model::weighted;
+  options.sphere.center = center;
+  auto order = blocks::spatial_order(sites, options.model, center);
+  auto arrays =
+      incremental::triangulate(sites, std::move(order.order), order.renamed, options).arrays;
+  arrays.num_sites = sites.size();
+  arrays.duplicates = std::move(order.duplicates);
+  incremental::assign_hidden_faces(sites, center, arrays);
+  return arrays;
+}
+
+void expect_equal(const Triangulation& t, const TriangulationArrays& arrays) {
+  EXPECT_TRUE(std::ranges::equal(t.faces(), arrays.faces));
+  EXPECT_TRUE(std::ranges::equal(t.neighbors(), arrays.neighbors));
+  EXPECT_TRUE(std::ranges::equal(t.ghost_faces(), arrays.ghost_faces));
+  EXPECT_TRUE(std::ranges::equal(t.duplicates(), arrays.duplicates));
+  EXPECT_TRUE(std::ranges::equal(t.hidden(), arrays.hidden));
+}
+
+class inner_sites : public testing::TestWithParam<Cloud> {};
+
+TEST_P(inner_sites, change_nothing_when_left_out) {
+  const auto points = GetParam().make(20000, 5);
+  const Triangulation hull = convex_hull(points);
+  expect_equal(hull, insert_all(points, hull.sphere().center));
+}
+
+// A center that is not inside the hull: ghost faces, and walks that end at the contour.
+TEST_P(inner_sites, change_nothing_around_another_center) {
+  const auto points = GetParam().make(20000, 6);
+  Options options;
+  options.model = Model::weighted;
+  options.sphere.center = {points[0].x + 3.5, points[0].y, points[0].z};
+  expect_equal(delaunay(points, options), insert_all(points, options.sphere.center));
+}
+
+INSTANTIATE_TEST_SUITE_P(clouds, inner_sites,
+                         testing::ValuesIn(solid_clouds().begin(), solid_clouds().end()),
+                         [](const auto& cloud) { return std::string(cloud.param.name); });
+
+TEST(inner_site, is_most_of_a_ball) {
+  const auto points = solid_clouds()[0].make(100000, 1);
+  const auto inner = incremental::find_inner_point(points);
+  ASSERT_TRUE(inner.is_inside);
+  EXPECT_TRUE(incremental::has_many_inner_sites(points, inner.point));
+  EXPECT_LT(incremental::rest_without_inner_sites(points, inner).size(), points.size() / 8);
+}
+
+TEST(inner_site, is_none_on_a_sphere) {
+  const SiteSet set = generator("uniform").make(20000, 1);
+  const auto inner = incremental::find_inner_point(set.sites);
+  EXPECT_FALSE(incremental::has_many_inner_sites(set.sites, inner.point));
+}
+
+// What is nearly on the boundary must be kept: sites in the facets of a cube, some moved in or out
+// by one ulp.
+TEST(inner_site, is_no_site_of_a_facet) {
+  Random random(4);
+  auto points = solid_clouds()[1].make(20000, 1);
+  const std::size_t first = points.size();
+  for (int i = 0; i < 2000; ++i) {
+    Point p = {random.signed_unit(), random.signed_unit(), 1};
+    if (i % 4 == 1) p.z = std::nextafter(1.0, 2.0);
+    points.push_back(i % 2 == 0 ? p : Point{p.z, p.x, p.y});
+  }
+  for (const double x : {-1, 1}) {
+    for (const double y : {-1, 1}) points.insert(points.end(), {{x, y, -1}, {x, y, 1}});
+  }
+  const auto inner = incremental::find_inner_point(points);
+  ASSERT_TRUE(inner.is_inside);
+  const auto rest = incremental::rest_without_inner_sites(points, inner);
+  for (std::size_t i = first; i < points.size(); ++i) {
+    ASSERT_TRUE(std::ranges::binary_search(rest, static_cast<Index>(i))) << i;
+  }
+  const Triangulation hull = convex_hull(points);
+  EXPECT_EQ(hull_error(hull, points), "");
+}
+
+TEST(duplicates, are_found_without_an_order) {
+  Random random(9);
+  std::vector<Point> points;
+  std::vector<Index> listed;
+  for (Index i = 0; i < 5000; ++i) {
+    const double zero = random.coin() ? 0.0 : -0.0;
+    points.push_back({double(random.between(-5, 5)), double(random.between(-5, 5)), zero});
+    if (random.below(5) != 0) listed.push_back(i);
+  }
+  std::vector<Duplicate> expected;
+  for (const Index i : listed) {
+    const auto lowest =
+        std::ranges::find_if(listed, [&](Index j) { return points[j] == points[i]; });
+    if (*lowest != i) expected.push_back({i, *lowest});
+  }
+  EXPECT_EQ(blocks::find_duplicates(points, listed), expected);
+  EXPECT_TRUE(blocks::find_duplicates(points, {}).empty());
+}
+
+}  // namespace
+}  // namespace rondel::test
