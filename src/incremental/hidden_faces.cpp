@@ -60,30 +60,45 @@ class FaceFinder {
   [[nodiscard]] Index face_above(const Point& p) {
     const Vector v = frame_.to(p);
     const Direction d = grid_.direction(v);
-    // The walk ends: location.md, and walks around the end of a range are exact.
-    Index f = d.length > 0 ? starts_[grid_.cell(d)] : first_solid_;
+    if (!(d.length > 0)) return walk(first_solid_, p, v, 0).result;
+    Index& start = starts_[grid_.cell(d)];
+    const Walk found = walk(start, p, v, d.length);
+    // Sites whose rays pass a vertex of high degree often come in the same direction.
+    constexpr unsigned many = 8;
+    if (found.steps > many) start = found.end;
+    return found.result;
+  }
+
+ private:
+  struct Walk {
+    Index end;
+    Index result;
+    unsigned steps;
+  };
+
+  // Ends: location.md. `length` is the longest coordinate of v, which is p in the frame.
+  [[nodiscard]] Walk walk(Index f, const Point& p, const Vector& v, double length) {
     const double bound =
-        d.length > least_length ? cone_bound * d.length : std::numeric_limits<double>::infinity();
-    for (;;) {
+        length > least_length ? cone_bound * length : std::numeric_limits<double>::infinity();
+    for (unsigned steps = 0;; ++steps) {
       const Cone& c = cone(f);
       const std::array<double, 3> value = {dot(c.normal[0], v), dot(c.normal[1], v),
                                            dot(c.normal[2], v)};
       // The edge that p is beyond most, chosen without branches.
       std::size_t i = value[1] < value[0] ? 1 : 0;
       i = value[2] < value[i] ? 2 : i;
-      if (value[i] > bound) return f;
+      if (value[i] > bound) return {f, f, steps};
       if (!(value[i] < -bound)) {
         const auto side = exact_sides(f, p);
         i = static_cast<std::size_t>(std::ranges::find(side, Sign::negative) - side.begin());
-        if (i == 3) return first_of_cones(f, side);
+        if (i == 3) return {f, first_of_cones(f, side), steps};
       }
       const Index next = arrays_.neighbors[f][i];
-      if (is_ghost(next)) return f;
+      if (is_ghost(next)) return {f, f, steps};
       f = next;
     }
   }
 
- private:
   // Some 2.4 cells for each face or hidden site, whatever there is less of.
   static unsigned cells_for(std::size_t size) {
     constexpr double cells_for_each = 0.4;
@@ -145,24 +160,33 @@ class FaceFinder {
     return first_at_[vertex];
   }
 
-  // Faces near the middle of each cell, by walks in doubles that may go wrong.
+  // A face at a vertex in each cell, or one of the cell before, and from there by a walk to the
+  // middle. Walks in doubles may go wrong, and they are short, so that needles do not cost much.
   void fill_grid() {
-    starts_.reserve(grid_.num_cells());
-    Index f = first_solid_;
+    starts_.assign(grid_.num_cells(), no_index);
+    for (Index f = 0; f < arrays_.faces.size(); ++f) {
+      if (is_ghost(f)) continue;
+      const Direction d = grid_.direction(frame_.to(sites_[arrays_.faces[f][0]]));
+      if (d.length > 0) starts_[grid_.cell(d)] = f;
+    }
+    Index last = first_solid_;
+    Index* start = starts_.data();
     for (unsigned side = 0; side < 6; ++side) {
       for (unsigned i = 0; i < grid_.cells(); ++i) {
-        for (unsigned j = 0; j < grid_.cells(); ++j) {
-          f = walk_by_guess(f, grid_.point(side, i + 0.5, j + 0.5));
-          starts_.push_back(f);
+        for (unsigned j = 0; j < grid_.cells(); ++j, ++start) {
+          last = walk_by_guess(*start == no_index ? last : *start,
+                               grid_.point(side, i + 0.5, j + 0.5));
+          *start = last;
         }
       }
     }
   }
 
   [[nodiscard]] Index walk_by_guess(Index f, const Vector& v) {
-    for (std::size_t steps = arrays_.faces.size(); steps > 0; --steps) {
+    constexpr int most_steps = 32;
+    for (int step = 0; step < most_steps; ++step) {
       const Cone& c = cone(f);
-      unsigned i = 0;
+      std::size_t i = 0;
       while (i < 3 && !(dot(c.normal[i], v) < 0)) ++i;
       if (i == 3 || is_ghost(arrays_.neighbors[f][i])) return f;
       f = arrays_.neighbors[f][i];
