@@ -93,9 +93,10 @@ class Locator {
   [[nodiscard]] SiteLists within(std::span<const Point> queries, double angle,
                                  unsigned threads = 0) const;
 
-  /// The distance of any site, hidden ones too, in radians from 0 to pi. Projected: within a few
-  /// ulp. Weighted: 1 minus the cosine is within 1e-15; the cosine is clamped to [-1, 1], so 0
-  /// means inside of the circle. \throws InvalidInput also if there is no such site.
+  /// The distance of any site, hidden ones too, in radians from 0 to pi. Projected: within 8e-16 of
+  /// itself and 1e-29. Weighted: its cosine, clamped to [-1, 1], is within 1e-15 (1 + |P|/R);
+  /// 0 is the inside of the circle.
+  /// \throws InvalidInput also if there is no such site.
   [[nodiscard]] double distance(const Point& query, Index site) const;
 
   /// The vertices that share an edge with a site, counterclockwise from the lowest index. Of a

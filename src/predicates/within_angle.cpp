@@ -31,9 +31,9 @@ Scaled scaled(double value) {
 
 // 1 - t/2 for 0 <= t <= 2.
 Scaled complement(double t) {
-  Scaled half = scaled(t / 2);
-  if (half.integer == 0) return {1, 0};
-  // t <= 2, so the exponent is at most -52.
+  if (t == 0) return {1, 0};
+  Scaled half = scaled(t);
+  --half.exponent;  // at most -52
   half.integer = (Integer(1) << -half.exponent) - half.integer;
   return half;
 }

@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
+#include <optional>
 
 #include "predicates/squared_chord.h"
 
@@ -24,8 +24,13 @@ SplitPoint antipode(const SplitPoint& u) {
 // The angle whose versine, 1 - cos, is given.
 double angle_of_versine(double versine) { return 2 * std::asin(std::sqrt(versine / 2)); }
 
-// |site - o|^2 / R^2 - 1, or infinity where that is beyond 1e200.
-double excess(const Point& site, const Sphere& sphere) {
+struct Ratio {
+  double value;   // r = |site - o| / R
+  double excess;  // r^2 - 1
+};
+
+// No result where r is beyond 1e100.
+std::optional<Ratio> length_ratio(const Point& site, const Sphere& sphere) {
   int exponent = 0;
   double squared_radius = std::frexp(sphere.squared_radius, &exponent);
   if (exponent % 2 != 0) {
@@ -37,11 +42,11 @@ double excess(const Point& site, const Sphere& sphere) {
     const DoubleDouble s = {std::ldexp(d.hi, -exponent / 2), std::ldexp(d.lo, -exponent / 2)};
     return s * s;
   };
-  const DoubleDouble squared_length =
-      (term(site.x, sphere.center.x) + term(site.y, sphere.center.y)) +
-      term(site.z, sphere.center.z);
-  if (!(squared_length.hi < 1e200)) return std::numeric_limits<double>::infinity();
-  return (squared_length - DoubleDouble{squared_radius, 0}).hi / squared_radius;
+  const DoubleDouble square = (term(site.x, sphere.center.x) + term(site.y, sphere.center.y)) +
+                              term(site.z, sphere.center.z);
+  if (!(square.hi < 1e200)) return std::nullopt;
+  return Ratio{std::sqrt(square.hi / squared_radius),
+               (square - DoubleDouble{squared_radius, 0}).hi / squared_radius};
 }
 
 }  // namespace
@@ -59,11 +64,10 @@ double angle_between(const Point& p, const Point& q, const Point& center) {
 double laguerre_distance(const Point& p, const Point& site, const Sphere& sphere) {
   if (site == sphere.center) return pi / 2;
   const double angle = angle_between(p, site, sphere.center);
-  const double e = excess(site, sphere);
-  if (std::isinf(e)) return angle < pi / 2 ? 0 : pi;
-  const double r = std::sqrt(1 + e);
+  const auto ratio = length_ratio(site, sphere);
+  if (!ratio) return angle < pi / 2 ? 0 : pi;
   const double half = std::sin(angle / 2);
-  const double versine = 2 * half * half * r - e / (1 + r);
+  const double versine = 2 * half * half * ratio->value - ratio->excess / (1 + ratio->value);
   return angle_of_versine(std::clamp(versine, 0.0, 2.0));
 }
 

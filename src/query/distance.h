@@ -8,13 +8,11 @@
 
 namespace rondel::query {
 
-// The angle between the rays of two points, to a few ulp at any size.
+// The angle between the rays of two points, within 8e-16 of itself and 1e-29.
 double angle_between(const Point& p, const Point& q, const Point& center);
 
-// The Laguerre distance of p from a weighted site, arccos of (u.(site-o))/R clamped to [-1, 1]; u
-// is the unit vector of p. The versine (1 minus this quotient) is off by less than 1e-15 at
-// distances up to 180 degrees from a real circle, and for a point near the sphere by less than
-// 1e-15 relatively.
+// The Laguerre distance of p from a weighted site, arccos of (u.(site-o))/R clamped to [-1, 1]; u is
+// the unit vector of p. The quotient is off by less than 1e-15 (1 + |site-o|/R).
 double laguerre_distance(const Point& p, const Point& site, const Sphere& sphere);
 
 }  // namespace rondel::query

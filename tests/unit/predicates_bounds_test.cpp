@@ -11,9 +11,11 @@
 #include <functional>
 #include <iostream>
 
+#include "predicates/compare_distance.h"
 #include "predicates/orientation.h"
 #include "predicates/side_of_circle.h"
 #include "predicates/side_of_plane.h"
+#include "predicates/within_angle.h"
 #include "support/adversarial.h"
 #include "support/generators.h"
 
@@ -147,6 +149,57 @@ double direction_orientation_ratio(const FourStored& s) {
   return std::abs(to_double(value - exact_value)) / (predicates::direction_orientation_bound * h);
 }
 
+Big squared_chord(const Stored& s, const Stored& t) {
+  const BigVector d = minus(unit(s.site), unit(t.site));
+  return dot_of(d, d);
+}
+
+double angle_ratio(const FourStored& s) {
+  const Vector a = s[0].direction - s[3].direction;
+  const Vector b = s[1].direction - s[3].direction;
+  const double value = dot(b, b) - dot(a, a);
+  const Big exact_value = squared_chord(s[1], s[3]) - squared_chord(s[0], s[3]);
+  const double h = std::sqrt(std::max(dot(a, a), dot(b, b)));
+  return std::abs(to_double(value - exact_value)) / (predicates::angle_bound * h);
+}
+
+double within_angle_ratio(const FourStored& s) {
+  const Vector d = s[0].direction - s[3].direction;
+  const double d2 = dot(d, d);
+  const double t = 1.25 * d2;
+  const Big exact_value = t - squared_chord(s[0], s[3]);
+  return std::abs(to_double((t - d2) - exact_value)) /
+         (predicates::within_angle_bound * std::sqrt(t));
+}
+
+// The center is not the origin, so that the differences are rounded.
+double power_ratio(const FourStored& s) {
+  const Vector center = to_vector(0.3 * s[2].site);
+  const Vector ray = to_vector(s[3].site) - center;
+  const Vector ba = to_vector(s[0].site) - to_vector(s[1].site);
+  const BigVector exact_ray = minus(big(to_vector(s[3].site)), big(center));
+  const Big exact_value =
+      dot_of(exact_ray, minus(big(to_vector(s[0].site)), big(to_vector(s[1].site))));
+  const double size = std::abs(ray.x * ba.x) + std::abs(ray.y * ba.y) + std::abs(ray.z * ba.z);
+  return std::abs(to_double(dot(ray, ba) - exact_value)) / (predicates::power_bound * size);
+}
+
+double within_power_ratio(const FourStored& s) {
+  const Vector center = to_vector(0.3 * s[2].site);
+  const Vector ray = to_vector(s[3].site) - center;
+  const Vector a = to_vector(s[0].site) - center;
+  const double t = std::abs(s[1].site.x);
+  const double squared_radius = 2 + s[1].site.y;
+  const double limit = std::sqrt(dot(ray, ray) * squared_radius) * (1 - t / 2);
+  const BigVector exact_ray = minus(big(to_vector(s[3].site)), big(center));
+  const Big root = sqrt(dot_of(exact_ray, exact_ray) * big(squared_radius));
+  const Big exact_value =
+      dot_of(exact_ray, minus(big(to_vector(s[0].site)), big(center))) - root * (1 - big(t) / 2);
+  const double size = std::sqrt(dot(ray, ray) * dot(a, a)) + limit;
+  return std::abs(to_double((dot(ray, a) - limit) - exact_value)) /
+         (predicates::within_power_bound * size);
+}
+
 FourStored random_configuration(Random& random) {
   const double distance = random_distance(random, 1e-15);
   Four four = near_one_circle(random, distance);
@@ -205,7 +258,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Filter{"circle", circle_ratio, 0.03}, Filter{"plane", plane_ratio, 0.1},
                     Filter{"plane_of_mixed_weights", plane_of_mixed_weights_ratio, 0.1},
                     Filter{"orientation", orientation_ratio, 0.1},
-                    Filter{"direction_orientation", direction_orientation_ratio, 0.1}),
+                    Filter{"direction_orientation", direction_orientation_ratio, 0.1},
+                    Filter{"angle", angle_ratio, 0.1},
+                    Filter{"within_angle", within_angle_ratio, 0.1},
+                    Filter{"power", power_ratio, 0.1},
+                    Filter{"within_power", within_power_ratio, 0.1}),
     [](const auto& filter) { return std::string(filter.param.name); });
 
 // The rounding of a direction as the kernel computes it.
