@@ -86,7 +86,7 @@ class DynamicTriangulation {
   [[nodiscard]] int dimension() const;
   [[nodiscard]] std::size_t num_sites() const noexcept;
   [[nodiscard]] std::size_t num_vertices() const;
-  [[nodiscard]] std::size_t num_faces() const noexcept;
+  [[nodiscard]] std::size_t num_faces() const;
 
   /// The ids in use, increasing.
   [[nodiscard]] std::vector<Index> ids() const;

@@ -27,7 +27,7 @@ using incremental::ProjectedPoints;
 using incremental::WeightedPoints;
 
 struct DynamicTriangulation::Impl {
-  explicit Impl(const Options& wanted) : options(wanted) {
+  explicit Impl(Options wanted) : options(std::move(wanted)) {
     options.progress = {};
     if (options.model == Model::weighted) {
       editor.emplace<dynamic::Editor<WeightedPoints>>(options.model, options.sphere.center);
@@ -211,7 +211,7 @@ std::size_t DynamicTriangulation::num_vertices() const {
   return impl_->visit([](const auto& e) { return e.hull()->num_vertices(); });
 }
 
-std::size_t DynamicTriangulation::num_faces() const noexcept {
+std::size_t DynamicTriangulation::num_faces() const {
   return impl_->visit(
       [](const auto& e) -> std::size_t { return e.hull() ? e.hull()->mesh().num_faces() : 0; });
 }
@@ -258,7 +258,7 @@ std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
   return impl_->visit([id](const auto& e) {
     std::vector<Index> result = e.hull()->neighbors(e.places().place_of(id));
     for (Index& place : result) place = e.places().names()[place];
-    std::ranges::rotate(result, std::ranges::min_element(result));
+    std::rotate(result.begin(), std::ranges::min_element(result), result.end());
     return result;
   });
 }

@@ -54,8 +54,8 @@ class SpatialIndex {
   // The last leaf whose first key is less than `key`, else the first one: entries with this key
   // start there, or at the begin of the next.
   [[nodiscard]] std::size_t leaf_of(const HilbertKey& key) const;
-  void split(std::size_t leaf);
-  void join_if_small(std::size_t leaf);
+  void split(std::size_t i);
+  void join_if_small(std::size_t i);
 
   std::vector<Leaf> leaves_;
   std::vector<HilbertKey> firsts_;

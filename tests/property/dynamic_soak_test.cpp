@@ -89,7 +89,7 @@ void run_script(Model model, std::size_t steps, std::size_t limit) {
     const std::size_t what = random.below(10);
     const Point& p = pool[random.below(pool.size())];
     const std::size_t i = live.empty() ? 0 : random.below(live.size());
-    if (what < 2 && !live.empty()) {
+    if (!live.empty() && what < 2) {
       changing.move(live[i], p);
     } else if (live.size() < limit && (live.empty() || (what < 8) == is_growing)) {
       live.push_back(changing.insert(p));

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <ostream>
 
 #include "rondel/delaunay.h"
 #include "rondel/dynamic.h"
@@ -18,8 +19,8 @@ struct Case {
   Model model;
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.generator << (c.model == Model::weighted ? ", weighted" : ", projected");
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.generator << (c.model == Model::weighted ? ", weighted" : ", projected");
 }
 
 std::vector<Case> all_cases() {

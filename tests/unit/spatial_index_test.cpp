@@ -82,11 +82,11 @@ TEST(spatial_index, behaves_like_a_sorted_list_for_long_runs_of_equal_keys) {
 TEST(spatial_index, near_finds_a_neighbor) {
   SpatialIndex index;
   EXPECT_EQ(index.near({7, 0}), no_index);
-  for (Index i = 0; i < 1000; ++i) index.insert({10 * i, 0}, i);
+  for (Index i = 0; i < 1000; ++i) index.insert({std::uint64_t{10} * i, 0}, i);
   EXPECT_EQ(index.near({0, 0}), 0U);
   EXPECT_EQ(index.near({100000, 0}), 999U);
   for (Index i = 1; i < 1000; ++i) {
-    const Index found = index.near({10 * i - 5, 0});
+    const Index found = index.near({std::uint64_t{10} * i - 5, 0});
     EXPECT_TRUE(found == i || found == i - 1);
   }
 }
