@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <vector>
 
 #include "incremental/sphere_traits.h"
@@ -21,12 +22,11 @@ class ConflictRegion {
   // just crossed.
   //
   // Where no vertex can become hidden, the region has no inner vertex and its dual
-  // graph is a tree: no face is met twice. Otherwise visited faces are marked.
+  // graph is a tree: no face is met twice. Otherwise visited faces are remembered.
   void find(const T& sites, const topology::Mesh& mesh, Index p, Index start) {
     faces_.assign(1, start);
     horizon_.clear();
     stack_.clear();
-    mark(start, true);
     for (const unsigned edge : {2U, 1U, 0U}) stack_.push_back(topology::halfedge(start, edge));
     while (!stack_.empty()) {
       const topology::Halfedge h = stack_.back();
@@ -35,19 +35,20 @@ class ConflictRegion {
       const unsigned edge = topology::edge_of(h);
       const topology::Halfedge opposite = face.opposite[edge];
       const Index neighbor = topology::face_of(opposite);
-      if (is_marked(neighbor)) continue;
+      if (is_known(neighbor)) continue;
       const auto& v = mesh[neighbor].vertex;
       if (!sites.is_in_conflict(v[0], v[1], v[2], p)) {
         horizon_.push_back({face.vertex[topology::next_corner[edge]], opposite});
         continue;
       }
-      mark(neighbor, true);
-      faces_.push_back(neighbor);
+      add(neighbor);
       const unsigned entered = topology::edge_of(opposite);
       stack_.push_back(topology::halfedge(neighbor, topology::previous_corner[entered]));
       stack_.push_back(topology::halfedge(neighbor, topology::next_corner[entered]));
     }
-    for (const Index f : faces_) mark(f, false);
+    if (T::hides_sites && faces_.size() >= few) {
+      for (const Index f : faces_) marks_[f] = false;
+    }
   }
 
   [[nodiscard]] const std::vector<topology::HorizonEdge>& horizon() const { return horizon_; }
@@ -56,16 +57,30 @@ class ConflictRegion {
   [[nodiscard]] std::vector<Index>& faces() { return faces_; }
 
  private:
-  void mark(Index f, bool value) {
+  // A region this small is searched faster than marks, which lie anywhere in memory.
+  static constexpr std::size_t few = 16;
+
+  void add(Index f) {
+    faces_.push_back(f);
     if constexpr (T::hides_sites) {
-      if (f >= marks_.size()) marks_.resize(std::max<std::size_t>(f + 1, 2 * marks_.size()));
-      marks_[f] = value;
+      if (faces_.size() < few) return;
+      if (faces_.size() > few) {
+        mark(f);
+      } else {
+        for (const Index known : faces_) mark(known);
+      }
     }
   }
 
-  [[nodiscard]] bool is_marked(Index f) const {
-    if constexpr (T::hides_sites) return f < marks_.size() && marks_[f];
-    return false;
+  void mark(Index f) {
+    if (f >= marks_.size()) marks_.resize(std::max<std::size_t>(f + 1, 2 * marks_.size()));
+    marks_[f] = true;
+  }
+
+  [[nodiscard]] bool is_known(Index f) const {
+    if constexpr (!T::hides_sites) return false;
+    if (faces_.size() >= few) return f < marks_.size() && marks_[f];
+    return std::find(faces_.begin(), faces_.end(), f) != faces_.end();
   }
 
   std::vector<Index> faces_;
