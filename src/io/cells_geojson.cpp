@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/cell_formats.h"
@@ -22,7 +23,10 @@ std::vector<std::string> property_keys(const std::vector<Column>& columns) {
   for (const Column& column : columns) {
     std::string name = column.name;
     while (!taken.insert(name).second) name += '_';
-    keys.push_back("," + json_string(name) + ":");
+    std::string key = ",";
+    key += json_string(name);
+    key += ':';
+    keys.push_back(std::move(key));
   }
   return keys;
 }
