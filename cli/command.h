@@ -67,12 +67,14 @@ void add_report_options(CLI::App& command, CommonOptions& options);
 void require_output(const CommonOptions& options, bool is_known, const std::string& endings);
 
 /// The stages of a job that a command times itself.
-enum class Stage { dual, write };
+enum class Stage { dual, locator, query, write };
 
 /// Wall time of a job and of its stages.
 struct Seconds {
   double read = 0;
   double dual = 0;
+  double locator = 0;
+  double query = 0;
   double write = 0;
   double total = 0;
 };
@@ -88,6 +90,8 @@ class Job {
 
   /// The sites of INPUT. \throws FileError
   SiteTable read();
+  /// The sites of another file. \throws FileError
+  SiteTable read(const std::string& path, const ReadOptions& read);
   /// \throws FileError with the file and line of a site that the library does not accept.
   Triangulation triangulate(const SiteTable& table);
   /// Runs `work` on the clock of `stage`.
@@ -128,5 +132,7 @@ Command add_check_command(CLI::App& tool);
 Command add_plot_command(CLI::App& tool);  // plot.cpp
 Command add_generate_command(CLI::App& tool);
 Command add_info_command(CLI::App& tool);
+Command add_locate_command(CLI::App& tool);
+Command add_nearest_command(CLI::App& tool);
 
 }  // namespace rondel::cli

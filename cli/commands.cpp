@@ -35,6 +35,22 @@ std::string kinds_help() {
   return text;
 }
 
+std::string distance_error(const std::string& text) { return range_error(text, 0, 180); }
+
+void add_query_options(CLI::App& parser, QueryOptions& options, const std::string& formats) {
+  add_input_options(parser, options.common);
+  parser
+      .add_option("QUERIES", options.queries,
+                  "The points to ask for, in the formats of INPUT; columns that are named\n"
+                  "by an option have the same name in both. One of the two may be -")
+      ->required()
+      ->type_name("");
+  parser.add_option("-o,--output", options.common.output, "Where to write the answers: " + formats)
+      ->type_name("FILE");
+  add_build_options(parser, options.common);
+  add_report_options(parser, options.common);
+}
+
 }  // namespace
 
 Command add_delaunay_command(CLI::App& tool) {
@@ -152,6 +168,49 @@ Command add_info_command(CLI::App& tool) {
       "Example:\n"
       "  rondel info stations.csv");
   return {parser, [options] { return run_info(*options); }};
+}
+
+Command add_locate_command(CLI::App& tool) {
+  auto options = std::make_shared<QueryOptions>();
+  CLI::App* parser = tool.add_subcommand("locate", "Tell in which triangle points lie");
+  add_query_options(*parser, *options, ".csv .tsv (standard output: CSV), or .npy: the\nfaces");
+  parser->footer(
+      "A row for each query: whether its ray from the center meets a vertex, an edge, a face,\n"
+      "or the outside (no face that the center sees), the face, and the 1, 2 or 3 sites. Faces\n"
+      "are numbered as 'rondel delaunay' writes them; .npy holds their numbers (4294967295\n"
+      "outside).\n\n"
+      "Example:\n"
+      "  rondel locate stations.csv ships.csv -o faces.csv");
+  return {parser, [options] { return run_locate(*options); }};
+}
+
+Command add_nearest_command(CLI::App& tool) {
+  auto options = std::make_shared<QueryOptions>();
+  CLI::App* parser = tool.add_subcommand("nearest", "Find the sites nearest to points");
+  add_query_options(*parser, *options, ".csv .tsv (standard output: CSV), or .npy: the\nsites");
+  CLI::Option* k = parser->add_option("-k,--count", options->k, "The K nearest sites (default: 1)");
+  k->check(count_error)->type_name("K");
+  parser
+      ->add_option("--within", options->within_deg,
+                   "All sites at a distance of at most DEG, from 0 to 180")
+      ->excludes(k)
+      ->check(distance_error)
+      ->type_name("DEG");
+  parser
+      ->add_option("--column", options->columns,
+                   "Add this column of INPUT to the answers; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("COL");
+  parser->footer(
+      "A row for each site found: the query, the site (both counted from 0) and its distance,\n"
+      "the nearest first, ties by site; with --within in the order of the sites. The distance\n"
+      "is the angle; with --model weighted it is the Laguerre distance, which is 0 within a\n"
+      "circle. Comparisons are exact. .npy holds the sites as (queries) or (queries x K),\n"
+      "4294967295 for none.\n\n"
+      "Examples:\n"
+      "  rondel nearest stations.csv ships.csv --column name\n"
+      "  rondel nearest stations.csv ships.csv --within 2 -o close.csv");
+  return {parser, [options] { return run_nearest(*options); }};
 }
 
 }  // namespace rondel::cli

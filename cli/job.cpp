@@ -27,6 +27,20 @@ struct Job::State {
 
   CommonOptions options;
   ProgressLine line;
+  double& clock(Stage stage) {
+    switch (stage) {
+      case Stage::dual:
+        return seconds.dual;
+      case Stage::locator:
+        return seconds.locator;
+      case Stage::query:
+        return seconds.query;
+      case Stage::write:
+        break;
+    }
+    return seconds.write;
+  }
+
   Seconds seconds{};
   Clock::time_point start = Clock::now();
 };
@@ -34,11 +48,13 @@ struct Job::State {
 Job::Job(const CommonOptions& options) : state_(std::make_unique<State>(options)) {}
 Job::~Job() = default;
 
-SiteTable Job::read() {
+SiteTable Job::read() { return read(state_->options.input, state_->options.read); }
+
+SiteTable Job::read(const std::string& path, const ReadOptions& read) {
   const Clock::time_point start = Clock::now();
-  ReadOptions options = state_->options.read;
+  ReadOptions options = read;
   options.progress = progress();
-  SiteTable table = read_sites(state_->options.input, options);
+  SiteTable table = read_sites(path, options);
   state_->seconds.read += seconds_since(start);
   return table;
 }
@@ -52,8 +68,7 @@ Triangulation Job::triangulate(const SiteTable& table) {
 void Job::time(Stage stage, const std::function<void()>& work) {
   const Clock::time_point start = Clock::now();
   work();
-  double& sum = stage == Stage::dual ? state_->seconds.dual : state_->seconds.write;
-  sum += seconds_since(start);
+  state_->clock(stage) += seconds_since(start);
 }
 
 const Progress& Job::progress() const { return state_->line.callback(); }

@@ -5,7 +5,9 @@
 /// What the commands do once their arguments are parsed (plot apart: plot.cpp).
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "command.h"
 #include "generate.h"
@@ -29,10 +31,21 @@ struct GenerateOptions {
   double angle = 0;  ///< in the unit of the command line; 0: the kind's own
 };
 
+/// What locate and nearest share, and what only nearest has.
+struct QueryOptions {
+  CommonOptions common;              ///< an empty output is standard output
+  std::string queries;               ///< QUERIES
+  std::vector<std::string> columns;  ///< --column: columns of INPUT to add to the answers
+  std::uint64_t k = 0;               ///< -k; 0: not given
+  double within_deg = -1;            ///< --within; negative: not given
+};
+
 ExitStatus run_delaunay(const CommonOptions& options);
 ExitStatus run_voronoi(const VoronoiOptions& options);
 ExitStatus run_check(const CheckOptions& options);
 ExitStatus run_generate(const GenerateOptions& options);
+ExitStatus run_locate(const QueryOptions& options);
+ExitStatus run_nearest(const QueryOptions& options);
 ExitStatus run_info(const CommonOptions& options);
 
 }  // namespace rondel::cli

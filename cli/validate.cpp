@@ -5,6 +5,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 
 namespace rondel::cli {
 namespace {
@@ -30,6 +31,17 @@ std::string positive_error(const std::string& text) {
   double value = 0;
   parse(text, value);
   return value > 0 ? std::string() : "'" + text + "' is not positive";
+}
+
+std::string range_error(const std::string& text, double min, double max) {
+  std::string error = finite_error(text);
+  if (!error.empty()) return error;
+  double value = 0;
+  parse(text, value);
+  if (min <= value && value <= max) return {};
+  char range[64];
+  std::snprintf(range, sizeof range, "' is not from %g to %g", min, max);
+  return "'" + text + range;
 }
 
 std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_t max) {

@@ -12,7 +12,9 @@ namespace rondel::cli {
 
 std::string finite_error(const std::string& text);
 std::string positive_error(const std::string& text);
-/// A decimal number in [min, max].
+/// A number in [min, max].
+std::string range_error(const std::string& text, double min, double max);
+/// A whole number in [min, max], decimal.
 std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_t max);
 
 }  // namespace rondel::cli

@@ -88,6 +88,10 @@ void write_cells(const std::string& path, const SiteTable& table,
 void write_sites(const std::string& path, std::span<const Point> sites,
                  std::span<const LonLat> positions = {}, std::span<const double> radii_deg = {});
 
+/// Writes indices as .npy (uint32) of this shape, whose product is their number.
+void write_indices(const std::string& path, std::span<const Index> values,
+                   std::span<const std::uint64_t> shape);
+
 /// Writes any bytes to a temporary name and renames it to `path`: all or nothing.
 void write_file(const std::string& path, std::string_view bytes);
 

@@ -56,6 +56,21 @@ class JsonReport(unittest.TestCase):
         self.assertGreater(report["rungs"]["filter"], 0)
         self.assertEqual(report["seconds"]["dual"], 0)
 
+    def test_queries_count_their_answers(self):
+        keys = ["sites", "vertices", "faces", "dimension", "model", "threads", "queries", "answers",
+                "seconds", "peak_memory_bytes"]
+        seconds = ["read", "order", "triangulate", "locator", "query", "write", "total"]
+        for command, options, answers in (
+                ("nearest", ["-k", "2"], {"found": 6}),
+                ("nearest", ["--within", "40"], {"found": 5}),
+                ("locate", [], {"vertex": 1, "edge": 0, "face": 2, "outside": 0})):
+            report = self.report(command, INPUTS / "towns.csv", INPUTS / "ships.csv",
+                                 "-o", "out.csv", *options)
+            self.assertEqual(list(report), keys)
+            self.assertEqual(list(report["seconds"]), seconds)
+            self.assertEqual([report[key] for key in keys[:8] if key != "threads"],
+                             [10, 9, 14, 2, "projected", 3, answers])
+
     def test_voronoi_has_the_same_keys_and_times_the_dual(self):
         report = self.build("voronoi", "towns.csv", "out.geojson")
         self.assert_contract(report)

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "query_job.h"
+
+namespace rondel::cli {
+namespace {
+
+constexpr std::array<std::string_view, 4> names = {"vertex", "edge", "face", "outside"};
+
+std::string_view name_of(Where where) { return names[static_cast<std::size_t>(where)]; }
+
+std::string table_of(const std::vector<Location>& locations, char separator) {
+  std::string text;
+  for (const std::string_view name : {"query", "where", "face", "site_a", "site_b", "site_c"}) {
+    if (!text.empty()) text += separator;
+    text += name;
+  }
+  for (std::size_t i = 0; i < locations.size(); ++i) {
+    const Location& location = locations[i];
+    text += '\n';
+    append(text, i);
+    text += separator;
+    text += name_of(location.where);
+    for (const Index index :
+         {location.face, location.sites[0], location.sites[1], location.sites[2]}) {
+      text += separator;
+      if (index != no_index) append(text, std::uint64_t{index});
+    }
+  }
+  return text + '\n';
+}
+
+}  // namespace
+
+ExitStatus run_locate(const QueryOptions& options) {
+  QueryJob job(options);
+  job.prepare();
+  const auto locations =
+      job.ask([&] { return job.locator().locate(job.queries(), job.threads()); });
+  if (job.is_npy()) {
+    std::vector<Index> faces(locations.size());
+    std::ranges::transform(locations, faces.begin(), &Location::face);
+    job.write_npy(faces, {faces.size()});
+  } else {
+    job.write_text(table_of(locations, job.separator()));
+  }
+  QueryJob::Counts counts;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto number = std::ranges::count(locations, static_cast<Where>(i), &Location::where);
+    counts.emplace_back(names[i], static_cast<std::size_t>(number));
+  }
+  job.report(counts);
+  return done;
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,112 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <numbers>
+
+#include "query_job.h"
+
+namespace rondel::cli {
+namespace {
+
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
+
+std::vector<const Column*> find_columns(const QueryOptions& options, const SiteTable& table) {
+  std::vector<const Column*> found;
+  for (const std::string& name : options.columns) {
+    const auto at = std::ranges::find(table.columns, name, &Column::name);
+    if (at == table.columns.end()) {
+      throw FileError(table.name + ": no column '" + name + "' for --column");
+    }
+    found.push_back(&*at);
+  }
+  return found;
+}
+
+std::string_view cell(const Column& column, Index row) {
+  const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
+  return std::string_view(column.text).substr(begin, column.ends[row] - begin);
+}
+
+// The sites of each query in compressed rows.
+SiteLists find_sites(QueryJob& job, const QueryOptions& options) {
+  if (options.within_deg >= 0) {
+    const double angle = options.within_deg / degrees_per_radian;
+    return job.ask([&] { return job.locator().within(job.queries(), angle, job.threads()); });
+  }
+  const std::size_t k = std::max<std::uint64_t>(options.k, 1);
+  const std::size_t row = std::min(k, job.triangulation().num_vertices());
+  SiteLists lists;
+  lists.sites = job.ask([&] { return job.locator().k_nearest(job.queries(), row, job.threads()); });
+  for (std::size_t i = 0; i <= job.queries().size(); ++i) lists.offsets.push_back(i * row);
+  return lists;
+}
+
+std::string table_of(const QueryJob& job, const QueryOptions& options, const SiteLists& lists) {
+  const char separator = job.separator();
+  const auto columns = find_columns(options, job.sites());
+  std::string text = "query";
+  text += separator;
+  text += "site";
+  text += separator;
+  text += "distance_deg";
+  for (const Column* column : columns) {
+    text += separator;
+    append_field(text, column->name, separator);
+  }
+  text += '\n';
+  for (std::size_t i = 0; i < job.queries().size(); ++i) {
+    for (std::uint64_t k = lists.offsets[i]; k < lists.offsets[i + 1]; ++k) {
+      const Index site = lists.sites[k];
+      append(text, i);
+      text += separator;
+      append(text, std::uint64_t{site});
+      text += separator;
+      append_distance(text, job.locator().distance(job.queries()[i], site) * degrees_per_radian);
+      for (const Column* column : columns) {
+        text += separator;
+        append_field(text, cell(*column, site), separator);
+      }
+      text += '\n';
+    }
+  }
+  return text;
+}
+
+// Rows of k sites, whatever there are.
+void write_npy(QueryJob& job, const QueryOptions& options, const SiteLists& lists) {
+  const std::size_t k = std::max<std::uint64_t>(options.k, 1);
+  const std::size_t num_queries = job.queries().size();
+  std::vector<Index> values(num_queries * k, no_index);
+  for (std::size_t i = 0; i < num_queries; ++i) {
+    std::copy(lists.sites.begin() + static_cast<std::ptrdiff_t>(lists.offsets[i]),
+              lists.sites.begin() + static_cast<std::ptrdiff_t>(lists.offsets[i + 1]),
+              values.begin() + static_cast<std::ptrdiff_t>(i * k));
+  }
+  if (options.k == 0) {
+    job.write_npy(values, {num_queries});
+  } else {
+    job.write_npy(values, {num_queries, k});
+  }
+}
+
+}  // namespace
+
+ExitStatus run_nearest(const QueryOptions& options) {
+  QueryJob job(options);
+  if (job.is_npy() && (options.within_deg >= 0 || !options.columns.empty())) {
+    throw UsageError("--output: .npy holds one row of sites a query, without --within or --column");
+  }
+  job.prepare();
+  find_columns(options, job.sites());
+  const SiteLists lists = find_sites(job, options);
+  if (job.is_npy()) {
+    write_npy(job, options, lists);
+  } else {
+    job.write_text(table_of(job, options, lists));
+  }
+  job.report({{"found", lists.sites.size()}});
+  return done;
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "query_job.h"
+
+#include <array>
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "report.h"
+
+namespace rondel::cli {
+namespace {
+
+bool ends_with(const std::string& path, std::string_view ending) {
+  return path.size() > ending.size() &&
+         path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+}
+
+// The queries are points, whatever the sites are.
+ReadOptions query_options(const QueryOptions& options) {
+  ReadOptions read = options.common.read;
+  read.radius.clear();
+  return read;
+}
+
+}  // namespace
+
+QueryJob::QueryJob(const QueryOptions& options) : options_(options), job_(options.common) {
+  const CommonOptions& common = options_.common;
+  if (common.input == "-" && options_.queries == "-") {
+    throw UsageError("INPUT and QUERIES: only one of them can be standard input");
+  }
+  if (common.output.empty()) {
+    if (common.json) throw UsageError("--json: standard output has the answers; use --output");
+    return;
+  }
+  const bool is_known =
+      is_npy() || ends_with(common.output, ".csv") || ends_with(common.output, ".tsv");
+  require_output(common, is_known, ".csv .tsv .npy");
+  std::error_code ignored;
+  if (std::filesystem::equivalent(options_.queries, common.output, ignored)) {
+    throw UsageError("--output: '" + common.output + "' is the file of queries");
+  }
+}
+
+void QueryJob::prepare() {
+  ReadOptions read = options_.common.read;
+  read.keep_columns = !options_.columns.empty();
+  sites_ = job_.read(options_.common.input, read);
+  queries_ = job_.read(options_.queries, query_options(options_));
+  triangulation_ = job_.triangulate(sites_);
+  job_.time(Stage::locator, [this] { locator_.emplace(triangulation_, sites_.sites); });
+}
+
+bool QueryJob::is_npy() const { return ends_with(options_.common.output, ".npy"); }
+
+char QueryJob::separator() const { return ends_with(options_.common.output, ".tsv") ? '\t' : ','; }
+
+void QueryJob::write_text(const std::string& text) {
+  job_.time(Stage::write, [&] {
+    if (options_.common.output.empty()) {
+      print(text);
+    } else {
+      write_file(options_.common.output, text);
+    }
+  });
+}
+
+void QueryJob::write_npy(const std::vector<Index>& values,
+                         const std::vector<std::uint64_t>& shape) {
+  job_.time(Stage::write, [&] { write_indices(options_.common.output, values, shape); });
+}
+
+void QueryJob::report(const Counts& answers) {
+  if (options_.common.output.empty()) return;
+  const Seconds seconds = job_.seconds();
+  const BuildReport& build = triangulation_.report();
+  nlohmann::ordered_json json = {{"sites", sites_.sites.size()},
+                                 {"vertices", triangulation_.num_vertices()},
+                                 {"faces", triangulation_.num_faces()},
+                                 {"dimension", triangulation_.dimension()},
+                                 {"model", name_of(triangulation_.model())},
+                                 {"threads", build.threads},
+                                 {"queries", queries_.sites.size()}};
+  std::string text = count(queries_.sites.size(), "query", "queries") + " to " +
+                     count(sites_.sites.size(), "site", "sites") + ": ";
+  for (const auto& [name, number] : answers) {
+    json["answers"][name] = number;
+    if (&name != &answers.front().first) text += ", ";
+    text += name + ' ' + std::to_string(number);
+  }
+  json["seconds"] = {{"read", seconds.read},
+                     {"order", build.order_seconds},
+                     {"triangulate", build.triangulate_seconds},
+                     {"locator", seconds.locator},
+                     {"query", seconds.query},
+                     {"write", seconds.write},
+                     {"total", seconds.total}};
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  std::array<char, 32> time{};
+  std::snprintf(time.data(), time.size(), "%.3f s", seconds.total);
+  text += "\nwrote the answers to " + options_.common.output + " in " + time.data() + '\n';
+  job_.report(json.dump(2) + '\n', text);
+}
+
+void append(std::string& text, std::uint64_t value) { text += std::to_string(value); }
+
+void append_distance(std::string& text, double degrees) {
+  constexpr int digits = 15;  // one less than what the last operation rounds
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), degrees,
+                                 std::chars_format::general, digits)
+                       .ptr;
+  text.append(buffer.data(), end);
+}
+
+void append_field(std::string& text, std::string_view field, char separator) {
+  const bool is_plain = field.find_first_of("\"\r\n") == std::string_view::npos &&
+                        field.find(separator) == std::string_view::npos;
+  if (is_plain) {
+    text += field;
+    return;
+  }
+  text += '"';
+  for (const char c : field) {
+    if (c == '"') text += '"';
+    text += c;
+  }
+  text += '"';
+}
+
+}  // namespace rondel::cli

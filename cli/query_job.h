@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// What locate and nearest share: two files in, a table of answers out.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "rondel/query.h"
+#include "run.h"
+
+namespace rondel::cli {
+
+/// One run: reads both files, triangulates and makes the locator.
+class QueryJob {
+ public:
+  /// Checks the options before any work. \throws UsageError
+  explicit QueryJob(const QueryOptions& options);
+
+  void prepare();
+
+  [[nodiscard]] const SiteTable& sites() const { return sites_; }
+  [[nodiscard]] const std::vector<Point>& queries() const { return queries_.sites; }
+  [[nodiscard]] const Triangulation& triangulation() const { return triangulation_; }
+  [[nodiscard]] const Locator& locator() const { return *locator_; }
+  [[nodiscard]] unsigned threads() const { return options_.common.build.threads; }
+
+  /// Whether the answers go to a .npy file.
+  [[nodiscard]] bool is_npy() const;
+  /// Between the fields of a row.
+  [[nodiscard]] char separator() const;
+
+  /// Asks the locator on the clock; names the place of a query that it does not accept.
+  template <class Ask>
+  auto ask(const Ask& question) {
+    decltype(question()) answers;
+    job_.time(Stage::query, [&] { answers = with_places(queries_, question); });
+    return answers;
+  }
+
+  void write_text(const std::string& text);
+  void write_npy(const std::vector<Index>& values, const std::vector<std::uint64_t>& shape);
+
+  /// Prints the report where it does not disturb the answers. `answers` counts them by name.
+  using Counts = std::vector<std::pair<std::string, std::size_t>>;
+  void report(const Counts& answers);
+
+ private:
+  QueryOptions options_;
+  Job job_;
+  SiteTable sites_;
+  SiteTable queries_;
+  Triangulation triangulation_;
+  std::optional<Locator> locator_;
+};
+
+void append(std::string& text, std::uint64_t value);
+/// Appends an angle with 15 digits.
+void append_distance(std::string& text, double degrees);
+/// Appends a field, in quotes where RFC 4180 asks for them.
+void append_field(std::string& text, std::string_view field, char separator);
+
+}  // namespace rondel::cli

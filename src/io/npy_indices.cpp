@@ -1,0 +1,17 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/atomic_file.h"
+#include "io/npy_header.h"
+#include "rondel/io.h"
+
+namespace rondel {
+
+void write_indices(const std::string& path, std::span<const Index> values,
+                   std::span<const std::uint64_t> shape) {
+  io::AtomicFile file(path);
+  file.write(io::make_npy_header("<u4", shape));
+  file.write({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
+  file.commit();
+}
+
+}  // namespace rondel
