@@ -127,6 +127,17 @@ std::vector<Point> make_input(const std::string& kind, std::size_t n) {
     return sites;
   };
   if (kind == "uniform") return repeated([&] { return random.on_sphere(); });
+  if (kind == "circles" || kind == "small-circles") {
+    const double largest_deg = kind == "circles" ? 30 : 0.3;
+    return repeated(
+        [&] { return polar_point(random.on_sphere(), largest_deg * random.uniform()); });
+  }
+  if (kind == "mixed-weights") {
+    auto sites = repeated([&] { return random.on_sphere(); });
+    Point& far = sites[n / 2];
+    far = {1e15 * far.x, 1e15 * far.y, 1e15 * far.z};
+    return sites;
+  }
   if (kind == "ball") return repeated([&] { return random.in_ball(); });
   if (kind == "cube") return repeated([&] { return random.in_cube(); });
   if (kind == "gaussian") {

@@ -35,6 +35,16 @@ class Faces {
     return {direction(sites[a]), direction(sites[b]), direction(sites[c])};
   }
 
+  // Doubles do not tell which way the arc between two opposite corners takes. A solid face has none,
+  // but its corners may be opposite when they are rounded.
+  [[nodiscard]] bool is_determined(const std::array<Point, 3>& ring) const {
+    const auto are_opposite = [](const Point& p, const Point& q) {
+      return norm(sum(p, q)) <= merge_distance;
+    };
+    return !are_opposite(ring[0], ring[1]) && !are_opposite(ring[1], ring[2]) &&
+           !are_opposite(ring[2], ring[0]);
+  }
+
   // The tolerances of the edges 01, 12 and 20.
   [[nodiscard]] std::array<double, 3> tolerances(Index face) const {
     const auto& neighbors = triangulation_.neighbors()[face];
@@ -85,7 +95,12 @@ void write_geojson(AtomicFile& file, const Mesh& mesh) {
     }
     feature.back() = ']';
     feature += R"(},"geometry":)";
-    append_geometry(feature, lonlat_polygons(faces.ring(face), faces.tolerances(face)));
+    const auto ring = faces.ring(face);
+    if (faces.is_determined(ring)) {
+      append_geometry(feature, lonlat_polygons(ring, faces.tolerances(face)));
+    } else {
+      append_geometry(feature, {});
+    }
     feature += '}';
     file.write(feature);
     separator = ",\n";

@@ -26,6 +26,11 @@ void test(std::string_view bytes, const ReadOptions& options) {
   }
   require(table.positions.empty() || table.positions.size() == table.sites.size(),
           "every site has a position or none");
+  require(table.radii_deg.empty() || table.radii_deg.size() == table.sites.size(),
+          "every site has a radius or none");
+  for (const double radius_deg : table.radii_deg) {
+    require(radius_deg >= 0 && radius_deg < 90, "radii are those of circles");
+  }
   require(table.lines.empty() || table.lines.size() == table.sites.size(),
           "every site has a line or none");
   for (const Point& p : table.sites) {
@@ -49,6 +54,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   rondel::fuzz::test(bytes, options);
   options.radians = true;
   options.keep_columns = true;
+  rondel::fuzz::test(bytes, options);
+  options.radius = "radius";
   rondel::fuzz::test(bytes, options);
   return 0;
 }

@@ -55,6 +55,22 @@ void test_positions(const Folder& folder, const SiteTable& table) {
   }
 }
 
+void test_circles(const Folder& folder, const SiteTable& table) {
+  if (table.radii_deg.empty()) return;
+  const auto sites = polar_points(table.positions, table.radii_deg);
+  ReadOptions options;
+  options.radius = "radius";
+  for (const char* name : {"r.csv", "r.tsv"}) {
+    const std::string path = folder.file(name);
+    write_sites(path, sites, table.positions, table.radii_deg);
+    const SiteTable back = read_sites(path, options);
+    require(back.radii_deg == table.radii_deg && back.sites == sites,
+            std::string("circles survive ") + name);
+  }
+  write_sites(folder.file("r.npy"), sites, table.positions, table.radii_deg);
+  require(read_sites(folder.file("r.npy")).sites == sites, "circles survive as points");
+}
+
 void test_triangles(const Folder& folder, const SiteTable& table, const Triangulation& t) {
   for (const char* name : {"t.npy", "t.off", "t.ply", "t.obj", "t.vtp"}) {
     const std::string path = folder.file(name);
@@ -98,11 +114,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       table.positions.push_back({source.small() * 1.5 + source.byte() / 256.0,
                                  source.small() % 90 + source.small() / 128.0});
       table.sites.push_back(unit_vector(table.positions.back()));
+      table.radii_deg.push_back(source.byte() * 0.35);
     }
   }
   const Triangulation t = delaunay(table.sites);
   fuzz::test_sites(folder, table);
   fuzz::test_positions(folder, table);
+  fuzz::test_circles(folder, table);
   fuzz::test_triangles(folder, table, t);
   fuzz::test_cells(folder, table, t);
   return 0;

@@ -56,6 +56,23 @@ void test(const LonLat& position) {
   }
 }
 
+void test_circle(const LonLat& center, double radius_deg) {
+  const Point q = unit_vector(center);
+  const bool is_circle = radius_deg >= 0 && radius_deg < 90;
+  try {
+    const Point p = polar_point(center, radius_deg);
+    require(is_circle, "a radius of no circle is refused");
+    require(p == polar_points(std::array{q}, std::array{radius_deg})[0], "one or many, the same");
+    const double length = std::hypot(p.x, p.y, p.z);
+    require(std::isfinite(length) && length > 1 - 1e-15, "a polar point is not inside");
+    const double distance = std::hypot(p.x - length * q.x, p.y - length * q.y, p.z - length * q.z);
+    require(distance <= 1e-15 * length, "a polar point is in the direction of the center");
+    require(radius_deg != 0 || p == q, "a circle of radius 0 is its center");
+  } catch (const InvalidInput&) {
+    require(!is_circle, "only a radius of no circle is refused");
+  }
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -64,5 +81,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const double lon = rondel::fuzz::next_angle(source);
   const double lat = rondel::fuzz::next_angle(source);
   rondel::fuzz::test({lon, lat});
+  rondel::fuzz::test_circle({lon, lat}, rondel::fuzz::next_angle(source));
   return 0;
 }

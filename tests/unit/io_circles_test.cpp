@@ -65,6 +65,15 @@ TEST(read_circles, takes_radians) {
             right + ":2: radius 1.5707963267948966 is not in [0, pi/2)");
 }
 
+TEST(read_circles, reads_the_corpus) {
+  for (const char* const name : {"radius.csv", "radius.geojson"}) {
+    const SiteTable table = read_sites((corpus / "good" / name).string(), radius_in("radius"));
+    EXPECT_EQ(table.radii_deg.at(1), 12.5) << name;
+    EXPECT_EQ(table.radii_deg.at(2), 89.9999) << name;
+    EXPECT_EQ(table.sites, polar_points(table.positions, table.radii_deg)) << name;
+  }
+}
+
 TEST(read_circles, says_which_radius_is_wrong) {
   const TemporaryDirectory directory;
   const auto message = [&](const std::string& name, const std::string& bytes) {

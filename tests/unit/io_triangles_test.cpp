@@ -217,6 +217,20 @@ TEST(write_triangles, geojson_leaves_ghost_faces_out) {
   for (const auto& feature : features) EXPECT_GT(area_of(feature), 0);
 }
 
+// Two corners are opposite up to 1e-300: doubles do not tell where the edge between them runs.
+TEST(write_triangles, geojson_has_no_geometry_where_corners_round_to_opposites) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("a.geojson");
+  const Case c = make_case({{0, 1, 0}, {0, -1, 1e-300}, {1, 0, -1}, {-1, 0, -1}});
+  ASSERT_EQ(c.triangulation.num_faces(), 4U);
+  ASSERT_EQ(c.triangulation.num_ghost_faces(), 0U);
+  write_triangles(path, c.table, c.triangulation);
+  const auto features = nlohmann::json::parse(read_all(path)).at("features");
+  ASSERT_EQ(features.size(), 4U);
+  EXPECT_EQ(std::ranges::count_if(features, [](const auto& f) { return f["geometry"].is_null(); }),
+            2);
+}
+
 TEST(write_triangles, geojson_without_faces_has_no_features) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("a.geojson");
