@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// query_bench N QUERIES [projected|weighted] [THREADS]: uniform sites and as many other
+// uniform points as queries, in one batch of each kind, and one JSON object on standard output. The
+// check sum, of the nearest sites' indices, is the same for every program.
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "inputs.h"
+#include "rondel/rondel.h"
+
+namespace {
+
+double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+template <class Work>
+double seconds_of(const Work& work) {
+  const double start = now();
+  work();
+  return now() - start;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc < 3) {
+    std::fprintf(stderr, "usage: query_bench N QUERIES [projected|weighted] [THREADS]\n");
+    return 2;
+  }
+  const std::size_t n = std::strtoull(argv[1], nullptr, 10);
+  const std::size_t q = std::strtoull(argv[2], nullptr, 10);
+  const auto points = rondel::bench::make_input("uniform", n + q);
+  const auto sites = std::span(points).first(n);
+  const auto queries = std::span(points).last(q);
+  rondel::Options options;
+  if (argc > 3 && std::strcmp(argv[3], "weighted") == 0) options.model = rondel::Model::weighted;
+  const unsigned threads = argc > 4 ? static_cast<unsigned>(std::atoi(argv[4])) : 1;
+
+  const double start = now();
+  const auto triangulation = rondel::delaunay(sites, options);
+  const double built = now();
+  const rondel::Locator locator(triangulation, sites);
+  const double ready = now();
+  std::vector<rondel::Index> nearest;
+  const double nearest_seconds = seconds_of([&] { nearest = locator.nearest(queries, threads); });
+  const double locate_seconds =
+      seconds_of([&] { static_cast<void>(locator.locate(queries, threads)); });
+  constexpr std::size_t k = 8;
+  const double k_nearest_seconds =
+      seconds_of([&] { static_cast<void>(locator.k_nearest(queries, k, threads)); });
+  std::uint64_t single_sum = 0;
+  const double single_seconds = seconds_of([&] {
+    for (const rondel::Point& p : queries) single_sum += locator.nearest(p);
+  });
+  const auto sum = std::accumulate(nearest.begin(), nearest.end(), std::uint64_t{0});
+  if (sum != single_sum) return 1;
+  std::printf(
+      "{\"sites\": %zu, \"queries\": %zu, \"build\": %.6f, \"locator\": %.6f, \"seconds\": %.6f, "
+      "\"locate\": %.6f, \"k_nearest_8\": %.6f, \"single\": %.6f, \"sum\": %llu}\n",
+      n, q, built - start, ready - built, nearest_seconds, locate_seconds, k_nearest_seconds,
+      single_seconds, static_cast<unsigned long long>(sum));
+}
