@@ -32,7 +32,9 @@ struct Scratch {
 template <Graph G, class Target>
 void k_nearest(const G& graph, const Target& target, const Candidate& start, std::size_t k,
                Scratch& scratch, std::vector<Index>& found) {
-  auto& [visited, front, level, unused] = scratch;
+  VisitedSet& visited = scratch.visited;
+  std::vector<Candidate>& front = scratch.front;
+  std::vector<Candidate>& level = scratch.level;
   visited.clear();
   front.assign(1, start);
   visited.insert(start.vertex);
