@@ -55,18 +55,21 @@ struct DynamicTriangulation::Impl {
   void require_distinct_sites(std::span<const Index> ids) const {
     std::vector<std::pair<Index, std::size_t>> sorted;
     sorted.reserve(ids.size());
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-      require_site(ids[i], i);
+    for (std::size_t i = 0; i < ids.size() && places().is_alive(ids[i]); ++i) {
       sorted.emplace_back(ids[i], i);
     }
+    const std::size_t first_missing = sorted.size();
     std::ranges::sort(sorted);
-    std::optional<std::size_t> first;
+    std::size_t first_repeated = ids.size();
     for (std::size_t i = 1; i < sorted.size(); ++i) {
       if (sorted[i].first != sorted[i - 1].first) continue;
-      first = std::min(first.value_or(sorted[i].second), sorted[i].second);
+      first_repeated = std::min(first_repeated, sorted[i].second);
     }
-    if (!first) return;
-    throw InvalidInput("site " + std::to_string(ids[*first]) + " appears twice", *first);
+    if (first_repeated < ids.size()) {
+      throw InvalidInput("site " + std::to_string(ids[first_repeated]) + " appears twice",
+                         first_repeated);
+    }
+    if (first_missing < ids.size()) require_site(ids[first_missing], first_missing);
   }
 
   void require_room(std::size_t more) const {

@@ -156,6 +156,9 @@ TEST(dynamic, refuses_what_is_not_valid_and_changes_nothing) {
   expect_refused(changing, 2, "site 1 appears twice", [&] {
     changing.remove(std::vector<Index>{1, 0, 1});
   });
+  expect_refused(changing, 1, "site 3 appears twice", [&] {
+    changing.remove(std::vector<Index>{3, 3, 9});
+  });
   expect_refused(changing, 0, "not finite", [&] { changing.move(0, {0, 0, nan}); });
   expect_refused(changing, 0, "site 6 does not exist", [&] { changing.move(6, {1, 1, 1}); });
   expect_refused(changing, 1, "2 points for 1 sites", [&] {
