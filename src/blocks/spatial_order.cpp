@@ -11,6 +11,7 @@
 #include "blocks/hilbert.h"
 #include "blocks/radix_sort.h"
 #include "predicates/ray_order.h"
+#include "system/huge_pages.h"
 
 namespace rondel::blocks {
 namespace {
@@ -22,11 +23,11 @@ class Ordering {
 
   SpatialOrder run() {
     KeyedIndices data;
-    data.keys.resize(sites_.size());
-    data.indices.resize(sites_.size());
+    system::reserve_large(data.keys, sites_.size());
+    system::reserve_large(data.indices, sites_.size());
     for (std::size_t i = 0; i < sites_.size(); ++i) {
-      data.keys[i] = key(static_cast<Index>(i)).high;
-      data.indices[i] = static_cast<Index>(i);
+      data.keys.push_back(key(static_cast<Index>(i)).high);
+      data.indices.push_back(static_cast<Index>(i));
     }
     radix_sort(data, 3 + 2 * high_levels);
     result_.order.reserve(sites_.size());

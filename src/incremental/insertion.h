@@ -29,7 +29,7 @@ class Insertion {
  public:
   // `first` are three sites with a non-zero orientation.
   Insertion(const T& sites, std::array<Index, 3> first) : sites_(sites) {
-    if constexpr (!T::hides_sites) mesh_.reserve(2 * static_cast<std::size_t>(sites.size()));
+    mesh_.reserve(2 * static_cast<std::size_t>(sites.size()));
     if (sites.orientation(first[0], first[1], first[2]) == Sign::negative) {
       std::swap(first[1], first[2]);
     }

@@ -11,6 +11,7 @@
 #include "incremental/sphere_traits.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
+#include "system/huge_pages.h"
 
 namespace rondel::incremental {
 namespace {
@@ -35,7 +36,7 @@ Vector direction(const Point& p, const Point& center) {
 ProjectedPoints::ProjectedPoints(std::span<const Point> input, std::span<const Index> order,
                                  const Point& center)
     : input_(input), order_(order), center_(center) {
-  directions_.reserve(order.size());
+  system::reserve_large(directions_, order.size());
   for (const Index i : order) directions_.push_back(direction(input[i], center));
 }
 

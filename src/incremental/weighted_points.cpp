@@ -6,6 +6,7 @@
 #include "incremental/sphere_traits.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
+#include "system/huge_pages.h"
 
 namespace rondel::incremental {
 
@@ -14,7 +15,7 @@ static_assert(SphereTraits<WeightedPoints>);
 WeightedPoints::WeightedPoints(std::span<const Point> input, std::span<const Index> order,
                                const Point& center)
     : center_(exact::to_vector(center)) {
-  points_.reserve(order.size());
+  system::reserve_large(points_, order.size());
   for (const Index i : order) points_.push_back(exact::to_vector(input[i]));
 }
 

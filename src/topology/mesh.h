@@ -20,6 +20,7 @@
 
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
+#include "system/huge_pages.h"
 
 namespace rondel::topology {
 
@@ -39,7 +40,7 @@ struct Face {
 
 class Mesh {
  public:
-  void reserve(std::size_t faces) { faces_.reserve(faces); }
+  void reserve(std::size_t faces) { system::reserve_large(faces_, faces); }
 
   // Slots, alive or not.
   [[nodiscard]] Index num_slots() const { return static_cast<Index>(faces_.size()); }
