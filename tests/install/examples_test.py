@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "editing": []}
+ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "nearest": [], "editing": []}
 
 
 def run(command, **options):
