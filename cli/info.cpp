@@ -139,11 +139,15 @@ std::string text_of(const char* name, const Range& range) {
   return text;
 }
 
+std::string coordinates_of(const SiteTable& table) {
+  if (table.radii_deg.empty()) return table.is_lonlat() ? "longitude and latitude" : "x, y, z";
+  return table.is_lonlat() ? "longitude, latitude and radius" : "x, y, z and radius";
+}
+
 std::string text_of(const SiteTable& table, const Facts& facts) {
   const Triangulation& triangulation = facts.triangulation;
   std::string text = table.name + ": " + count(table.sites.size(), "site", "sites") +
-                     ", given as " + (table.is_lonlat() ? "longitude and latitude" : "x, y, z") +
-                     (table.radii_deg.empty() ? "\n" : ", circles\n");
+                     ", given as " + coordinates_of(table) + '\n';
   for (const auto& [name, range] : facts.bounds) text += text_of(name, range);
   text += text_of("distance from the sphere", facts.height);
   if (facts.at_center > 0) text += "at the center: " + std::to_string(facts.at_center) + '\n';
