@@ -5,7 +5,7 @@
 
     compare.py BIN_FOLDER [--runs N]
 
-BIN_FOLDER holds rondel_bench and cgal_bench (cmake -DRONDEL_BUILD_BENCHMARKS=ON). Ratios are
+BIN_FOLDER holds rondel_bench, query_bench and the peers (cmake -DRONDEL_BUILD_BENCHMARKS=ON). Ratios are
 of medians from the same turns, so that they survive a machine whose speed drifts.
 """
 
@@ -30,15 +30,48 @@ CASES = {
     "S_100000, weighted": ["rondel_bench", "paper-s", "100000", "weighted"],
 }
 
+QUERIES = [str(2**20), str(2**20)]
+QUERY_CASES = {
+    "projected": ["query_bench", *QUERIES],
+    "projected, 2 threads": ["query_bench", *QUERIES, "projected", "2"],
+    "weighted": ["query_bench", *QUERIES, "weighted"],
+    "nanoflann": ["nanoflann_bench", *QUERIES],
+}
 
-def measure(folder, runs):
-    results = {name: [] for name in CASES}
+
+def measure(folder, runs, cases):
+    results = {name: [] for name in cases}
     for _ in range(runs):
-        for name, (program, *arguments) in CASES.items():
+        for name, (program, *arguments) in cases.items():
             output = subprocess.run([folder / program, *arguments], check=True,
                                     capture_output=True, text=True).stdout
             results[name].append(json.loads(output))
     return results
+
+
+def compare_queries(folder, runs):
+    """The nearest of 2^20 sites to 2^20 other points."""
+    results = measure(folder, runs, QUERY_CASES)
+    if len({run["sum"] for name in results for run in results[name]}) != 1:
+        raise SystemExit("the nearest sites differ")
+
+    def median(name, key):
+        values = [run[key] / run["queries"] * 1e9 for run in results[name] if key in run]
+        return f"{statistics.median(values):.0f}" if values else ""
+
+    print()
+    print("| queries, ns each: medians | index | nearest | min | one by one | 8 nearest | locate |")
+    print("| --- | --- | --- | --- | --- | --- | --- |")
+    for name, runs_of in results.items():
+        best = min(run["seconds"] / run["queries"] * 1e9 for run in runs_of)
+        index = median(name, "locator") or median(name, "build")
+        print(f"| {name} | {index} | {median(name, 'seconds')} | {best:.0f} "
+              f"| {median(name, 'single')} | {median(name, 'k_nearest_8')} | {median(name, 'locate')} |")
+    ratio = statistics.median(run["seconds"] / run["build"] for run in results["projected"])
+    print()
+    print(f"nearest / bulk build, per site:    {ratio:.2f}")
+    print(f"nanoflann / nearest:               "
+          f"{float(median('nanoflann', 'seconds')) / float(median('projected', 'seconds')):.2f}")
 
 
 def main():
@@ -46,7 +79,7 @@ def main():
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--runs", type=int, default=7)
     arguments = parser.parse_args()
-    results = measure(arguments.folder, arguments.runs)
+    results = measure(arguments.folder, arguments.runs, CASES)
 
     def median(name, key="seconds"):
         return statistics.median(run[key] for run in results[name])
@@ -80,6 +113,7 @@ def main():
           f"with two threads {dual_ratio(dual_2):.2f}")
     error = max(abs(run["total_area"] / 12.566370614359172954 - 1) for run in dual)
     print(f"sum of areas, relative error:      {error:.1e}")
+    compare_queries(arguments.folder, arguments.runs)
 
 
 if __name__ == "__main__":
