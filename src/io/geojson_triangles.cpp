@@ -35,8 +35,8 @@ class Faces {
     return {direction(sites[a]), direction(sites[b]), direction(sites[c])};
   }
 
-  // Doubles do not tell which way the arc between two opposite corners takes. A solid face has none,
-  // but its corners may be opposite when they are rounded.
+  // Doubles do not tell which way the arc between two opposite corners takes. A solid face has
+  // none, but its corners may be opposite when they are rounded.
   [[nodiscard]] bool is_determined(const std::array<Point, 3>& ring) const {
     const auto are_opposite = [](const Point& p, const Point& q) {
       return norm(sum(p, q)) <= merge_distance;
