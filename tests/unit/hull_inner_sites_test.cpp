@@ -9,6 +9,7 @@
 
 #include "blocks/duplicates.h"
 #include "blocks/spatial_order.h"
+#include "incremental/direction_grid.h"
 #include "incremental/hidden_faces.h"
 #include "incremental/inner_point.h"
 #include "incremental/inner_sites.h"
@@ -119,6 +120,34 @@ TEST(duplicates, are_found_without_an_order) {
   }
   EXPECT_EQ(blocks::find_duplicates(points, listed), expected);
   EXPECT_TRUE(blocks::find_duplicates(points, {}).empty());
+}
+
+// One that is too short to be divided by has no place in the grid.
+TEST(direction_grid, knows_the_place_of_each_direction_that_it_gives) {
+  const incremental::DirectionGrid grid(8);
+  for (const double length : {1e-320, 1e-310, 1e-300, 1e-280, 1.0, 1e300}) {
+    const incremental::Direction d = grid.direction({0, length, 0});
+    if (!(d.length > 0)) continue;
+    EXPECT_EQ(d.u, 4) << length;
+    EXPECT_EQ(d.v, 4) << length;
+  }
+  EXPECT_GT(grid.direction({0, 1e-280, 0}).length, 0);
+  EXPECT_EQ(grid.direction({0, 1e-320, 0}).length, 0);
+}
+
+TEST(direction_grid, hidden_sites_may_be_close_to_the_center) {
+  Options options;
+  options.model = Model::weighted;
+  const Triangulation built = delaunay(
+      std::vector<Point>{
+          {1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}, {1e-320, 0, 0}, {0, -3e-310, 1e-320}},
+      options);
+  ASSERT_EQ(built.hidden().size(), 2U);
+  for (const auto& [site, face] : built.hidden()) {
+    const Triple& corners = built.faces()[face];
+    const Index opposite = 6 - corners[0] - corners[1] - corners[2];
+    EXPECT_TRUE(site == 4 ? opposite == 1 || opposite == 2 : opposite == 0 || opposite == 2);
+  }
 }
 
 }  // namespace
