@@ -35,7 +35,8 @@ struct Snapshot {
 /// 5. Insertion takes O(log n) expected time for sites in random places, removal O(d) expected for
 ///    a vertex with d neighbors. Exceptions: while all sites lie on one great circle, and
 ///    when the center of the sphere leaves the hull of weighted sites, a change may take O(n).
-/// 6. Functions that are const may be called from several threads at once.
+/// 6. A Locator (query.h) answers questions of place and distance.
+/// 7. Functions that are const may be called from several threads at once.
 class DynamicTriangulation {
  public:
   /// Without sites; `options.threads` is not used.
@@ -103,10 +104,16 @@ class DynamicTriangulation {
   /// a duplicate, those of its representative. Empty for a hidden site.
   [[nodiscard]] std::vector<Index> neighbors(Index id) const;
 
+  /// The corners of a face that a Locator names, as ids, counterclockwise seen from outside.
+  /// Numbers of faces have a meaning until the next change only. \throws InvalidInput if there is
+  /// no such face.
+  [[nodiscard]] Triple face(Index face) const;
+
   /// The sites and their triangulation as they are now, in O(n) after sorting the sites.
   [[nodiscard]] Snapshot snapshot() const;
 
  private:
+  friend class Locator;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

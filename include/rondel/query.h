@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "rondel/dynamic.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
@@ -28,8 +29,8 @@ enum class Where : std::uint8_t {
 /// The answer of Locator::locate().
 struct Location {
   Where where = Where::outside;
-  Index face =
-      no_index;  ///< a solid face that has it: of several the first; none below dimension 2
+  /// A solid face that has it: of several the first; none below dimension 2.
+  Index face = no_index;
   std::array<Index, 3> sites = {no_index, no_index, no_index};
   friend bool operator==(const Location&, const Location&) = default;
 };
@@ -44,14 +45,12 @@ struct SiteLists {
 /// sphere through it.
 ///
 /// 1. All answers are exact, ties included, and depend on the set of sites and the query alone.
-/// 2. The distance of a site P from a query p is the angle between their rays (Model::projected),
-/// or
+/// 2. The distance of a site P from a query p is the angle between their rays (Model::projected) or
 ///    the Laguerre distance arccos(cos(angle) |P|/R), which puts p into the power cell of the
 ///    nearest site (Model::weighted; Sugihara 2002). Vectors are taken from the center.
 /// 3. The answers are vertices: input indices, for duplicates the lowest one; never a hidden site.
-/// 4. A range of queries is answered in spatial order and by `threads` threads (0: one for each
-/// core),
-///    faster than one by one. The result does not depend on that.
+/// 4. A range of queries is answered in spatial order, faster than one by one, by `threads` threads
+///    (0: one for each core). The result does not depend on that.
 /// 5. Any number of threads may use one Locator at once.
 ///
 /// Expected time for one query: O(log n) and the length of the answer; in a large range
@@ -62,6 +61,10 @@ class Locator {
   /// Keeps a reference to `sites`, which must live as long, but none to `triangulation`. O(n).
   /// \throws InvalidInput if their number differs from triangulation.num_sites().
   Locator(const Triangulation& triangulation, std::span<const Point> sites);
+
+  /// O(1) in dimension 2. Keeps a reference, and is of no use any more after the next change. Sites
+  /// have their ids, faces numbers for DynamicTriangulation::face().
+  explicit Locator(const DynamicTriangulation& triangulation);
   ~Locator();
   Locator(Locator&& other) noexcept;
   Locator& operator=(Locator&& other) noexcept;

@@ -4,122 +4,87 @@
 #include "rondel/dynamic.h"
 
 #include <algorithm>
-#include <mutex>
-#include <optional>
 #include <string>
-#include <type_traits>
 #include <utility>
-#include <variant>
 
+#include "api/dynamic_impl.h"
 #include "api/validation.h"
-#include "blocks/spatial_order.h"
-#include "dynamic/editor.h"
 #include "dynamic/snapshot.h"
-#include "incremental/brio.h"
-#include "incremental/projected_points.h"
-#include "incremental/weighted_points.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 
 namespace rondel {
 
-using incremental::ProjectedPoints;
-using incremental::WeightedPoints;
+DynamicTriangulation::Impl::Impl(Options wanted)
+    : options(std::move(wanted)),
+      editor(std::in_place_index<0>, Model::projected, options.sphere.center) {
+  options.progress = {};
+  if (options.model == Model::weighted) {
+    editor.emplace<1>(Model::weighted, options.sphere.center);
+  }
+}
 
-struct DynamicTriangulation::Impl {
-  explicit Impl(Options wanted) : options(std::move(wanted)) {
-    options.progress = {};
-    if (options.model == Model::weighted) {
-      editor.emplace<dynamic::Editor<WeightedPoints>>(options.model, options.sphere.center);
+void DynamicTriangulation::Impl::require_site(Index id, std::size_t position) const {
+  if (places().is_alive(id)) return;
+  throw InvalidInput("site " + std::to_string(id) + " does not exist", position);
+}
+
+void DynamicTriangulation::Impl::require_distinct_sites(std::span<const Index> ids) const {
+  std::vector<std::pair<Index, std::size_t>> sorted;
+  sorted.reserve(ids.size());
+  for (std::size_t i = 0; i < ids.size() && places().is_alive(ids[i]); ++i) {
+    sorted.emplace_back(ids[i], i);
+  }
+  const std::size_t first_missing = sorted.size();
+  std::ranges::sort(sorted);
+  std::size_t first_repeated = ids.size();
+  for (std::size_t i = 1; i < sorted.size(); ++i) {
+    if (sorted[i].first != sorted[i - 1].first) continue;
+    first_repeated = std::min(first_repeated, sorted[i].second);
+  }
+  if (first_repeated < ids.size()) {
+    throw InvalidInput("site " + std::to_string(ids[first_repeated]) + " appears twice",
+                       first_repeated);
+  }
+  if (first_missing < ids.size()) require_site(ids[first_missing], first_missing);
+}
+
+void DynamicTriangulation::Impl::require_room(std::size_t more) const {
+  if (more <= max_sites - places().num_sites()) return;
+  throw InvalidInput(std::to_string(places().num_sites() + more) + " sites are more than the " +
+                         std::to_string(max_sites) + " that one triangulation can hold",
+                     max_sites - places().num_sites());
+}
+
+void DynamicTriangulation::Impl::assign(const Triangulation& triangulation,
+                                        std::span<const Point> sites) {
+  dynamic::Build build = dynamic::make_build(triangulation, sites);
+  visit([&](auto& e) {
+    e.assign(sites, build.place_of_site, build.speakers);
+    if (triangulation.dimension() == 2) {
+      e.adopt(std::move(build.mesh), build.hidden);
+    } else {
+      e.adopt_flat();
     }
-  }
+  });
+}
 
-  template <class Function>
-  decltype(auto) visit(Function&& function) {
-    return std::visit(std::forward<Function>(function), editor);
+const Snapshot& DynamicTriangulation::Impl::flat_snapshot() const {
+  const std::lock_guard guard(mutex);
+  if (!flat) {
+    flat.emplace();
+    flat->ids = dynamic::live_sites(places());
+    for (const Index id : flat->ids) flat->sites.push_back(places().point(id));
+    flat->triangulation = delaunay(flat->sites, options);
   }
-  template <class Function>
-  decltype(auto) visit(Function&& function) const {
-    return std::visit(std::forward<Function>(function), editor);
-  }
-
-  [[nodiscard]] const dynamic::Places& places() const {
-    return visit([](const auto& e) -> const dynamic::Places& { return e.places(); });
-  }
-
-  void require_site(Index id, std::size_t position) const {
-    if (places().is_alive(id)) return;
-    throw InvalidInput("site " + std::to_string(id) + " does not exist", position);
-  }
-
-  void require_distinct_sites(std::span<const Index> ids) const {
-    std::vector<std::pair<Index, std::size_t>> sorted;
-    sorted.reserve(ids.size());
-    for (std::size_t i = 0; i < ids.size() && places().is_alive(ids[i]); ++i) {
-      sorted.emplace_back(ids[i], i);
-    }
-    const std::size_t first_missing = sorted.size();
-    std::ranges::sort(sorted);
-    std::size_t first_repeated = ids.size();
-    for (std::size_t i = 1; i < sorted.size(); ++i) {
-      if (sorted[i].first != sorted[i - 1].first) continue;
-      first_repeated = std::min(first_repeated, sorted[i].second);
-    }
-    if (first_repeated < ids.size()) {
-      throw InvalidInput("site " + std::to_string(ids[first_repeated]) + " appears twice",
-                         first_repeated);
-    }
-    if (first_missing < ids.size()) require_site(ids[first_missing], first_missing);
-  }
-
-  void require_room(std::size_t more) const {
-    if (more <= max_sites - places().num_sites()) return;
-    throw InvalidInput(std::to_string(places().num_sites() + more) + " sites are more than the " +
-                           std::to_string(max_sites) + " that one triangulation can hold",
-                       max_sites - places().num_sites());
-  }
-
-  void assign(const Triangulation& triangulation, std::span<const Point> sites) {
-    dynamic::Build build = dynamic::make_build(triangulation, sites);
-    visit([&](auto& e) {
-      e.assign(sites, build.place_of_site, build.speakers);
-      if (triangulation.dimension() == 2) {
-        e.adopt(std::move(build.mesh), build.hidden);
-      } else {
-        e.adopt_flat();
-      }
-    });
-  }
-
-  void changed() { flat.reset(); }
-
-  // Below dimension 2 there is no hull to ask.
-  [[nodiscard]] bool has_hull() const {
-    return visit([](const auto& e) { return e.hull().has_value(); });
-  }
-  const Snapshot& flat_snapshot() const {
-    const std::lock_guard guard(mutex);
-    if (!flat) {
-      flat.emplace();
-      flat->ids = dynamic::live_sites(places());
-      for (const Index id : flat->ids) flat->sites.push_back(places().point(id));
-      flat->triangulation = delaunay(flat->sites, options);
-    }
-    return *flat;
-  }
-  [[nodiscard]] std::vector<Index> flat_ring() const {
-    const Snapshot& now = flat_snapshot();
-    std::vector<Index> ring;
-    for (const Index i : now.triangulation.ring()) ring.push_back(now.ids[i]);
-    return ring;
-  }
-
-  Options options;
-  std::variant<dynamic::Editor<ProjectedPoints>, dynamic::Editor<WeightedPoints>> editor{
-      std::in_place_index<0>, Model::projected, options.sphere.center};
-  mutable std::mutex mutex;
-  mutable std::optional<Snapshot> flat;
-};
+  return *flat;
+}
+std::vector<Index> DynamicTriangulation::Impl::flat_ring() const {
+  const Snapshot& now = flat_snapshot();
+  std::vector<Index> ring;
+  for (const Index i : now.triangulation.ring()) ring.push_back(now.ids[i]);
+  return ring;
+}
 
 DynamicTriangulation::DynamicTriangulation(const Options& options) {
   api::validate({}, options);
@@ -263,6 +228,17 @@ std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
     for (Index& place : result) place = e.places().names()[place];
     std::rotate(result.begin(), std::ranges::min_element(result), result.end());
     return result;
+  });
+}
+
+Triple DynamicTriangulation::face(Index face) const {
+  return impl_->visit([face](const auto& e) {
+    if (!e.hull() || face >= e.hull()->mesh().num_slots() || !e.hull()->mesh().is_alive(face)) {
+      throw InvalidInput("face " + std::to_string(face) + " does not exist", 0);
+    }
+    Triple corners = e.hull()->mesh()[face].vertex;
+    for (Index& v : corners) v = e.places().names()[v];
+    return corners;
   });
 }
 

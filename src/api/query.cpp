@@ -11,11 +11,13 @@
 #include <string>
 #include <utility>
 
+#include "api/dynamic_impl.h"
 #include "api/validation.h"
+#include "dynamic/query_engine.h"
 #include "query/batch.h"
+#include "query/directory.h"
 #include "query/distance.h"
 #include "query/engine.h"
-#include "query/vertices.h"
 #include "rondel/error.h"
 
 namespace rondel {
@@ -55,46 +57,53 @@ struct RangeLists {
 class Locator::Impl {
  public:
   Impl(const Triangulation& triangulation, std::span<const Point> sites)
-      : sites_(sites),
-        model_(triangulation.model()),
-        sphere_(triangulation.sphere()),
-        vertices_(query::list_vertices(triangulation, sites)),
-        engine_(query::make_engine(triangulation, sites, vertices_)) {}
+      : Impl(triangulation, sites, {}) {}
+
+  // The sites of the snapshot are named by their ids.
+  explicit Impl(Snapshot snapshot)
+      : Impl(snapshot.triangulation, snapshot.sites, std::move(snapshot.ids)) {
+    sites_ = std::move(snapshot.sites);
+  }
+
+  template <incremental::SphereTraits T>
+  Impl(const dynamic::Editor<T>& editor, const Options& options)
+      : model_(options.model),
+        sphere_(options.sphere),
+        directory_(std::make_unique<dynamic::HullDirectory<T>>(editor)),
+        engine_(std::make_unique<dynamic::HullEngine<T>>(editor, sphere_)) {}
 
   void validate(std::span<const Point> queries) const {
     api::validate_queries(queries, sphere_.center);
   }
   void validate_site(Index site) const {
-    if (site < sites_.size()) return;
-    throw InvalidInput(
-        "there is no site " + std::to_string(site) + " among " + std::to_string(sites_.size()),
-        site);
+    if (directory_->has_site(site)) return;
+    throw InvalidInput("there is no site " + std::to_string(site), site);
   }
 
   [[nodiscard]] bool is_empty() const { return engine_ == nullptr; }
   [[nodiscard]] const query::Engine& engine() const { return *engine_; }
   [[nodiscard]] const Sphere& sphere() const { return sphere_; }
   [[nodiscard]] Model model() const { return model_; }
-  [[nodiscard]] const Point& site(Index i) const { return sites_[i]; }
-  [[nodiscard]] std::size_t num_vertices() const { return vertices_.names.size(); }
-  [[nodiscard]] Index vertex_of(Index site) const { return vertices_.vertex_of[site]; }
+  [[nodiscard]] Point site(Index i) const { return directory_->site(i); }
+  [[nodiscard]] std::size_t num_vertices() const { return directory_->num_vertices(); }
+  [[nodiscard]] Index vertex_of(Index site) const { return directory_->vertex_of(site); }
 
   [[nodiscard]] Cursor cursor_at(const Point& p) const {
     Cursor cursor;
-    cursor.vertex = vertices_.near(query::spatial_key(p, sphere_.center));
+    cursor.vertex = directory_->near(p);
     return cursor;
   }
   template <class Answer>
   void for_each_query(std::span<const Point> queries, unsigned threads,
                       const Answer& answer) const {
     const auto sorted = query::sort_queries(queries, sphere_.center, threads);
-    query::for_each_range(sorted, vertices_, threads,
+    query::for_each_range(sorted, queries, *directory_, threads,
                           [&](std::span<const Index> range, Cursor& cursor) {
                             query::for_each_query(range, queries, cursor, answer);
                           });
   }
 
-  [[nodiscard]] Index name(Index vertex) const { return vertices_.names[vertex]; }
+  [[nodiscard]] Index name(Index vertex) const { return directory_->name(vertex); }
   void rename(std::span<Index> found) const {
     for (Index& v : found) v = name(v);
   }
@@ -120,10 +129,17 @@ class Locator::Impl {
                                  unsigned threads) const;
 
  private:
-  std::span<const Point> sites_;
+  Impl(const Triangulation& triangulation, std::span<const Point> sites, std::vector<Index> ids)
+      : model_(triangulation.model()), sphere_(triangulation.sphere()) {
+    auto directory = std::make_unique<query::BuiltDirectory>(triangulation, sites, std::move(ids));
+    engine_ = query::make_engine(triangulation, sites, directory->vertices());
+    directory_ = std::move(directory);
+  }
+
   Model model_;
   Sphere sphere_;
-  query::Vertices vertices_;
+  std::vector<Point> sites_;  // of a snapshot: the same memory that the others refer to
+  std::unique_ptr<query::Directory> directory_;
   std::unique_ptr<query::Engine> engine_;
 };
 
@@ -133,7 +149,7 @@ SiteLists Locator::Impl::within(std::span<const Point> queries, const Limit& lim
   const auto sorted = query::sort_queries(queries, sphere_.center, threads);
   std::vector<RangeLists> ranges;
   std::mutex mutex;
-  query::for_each_range(sorted, vertices_, threads,
+  query::for_each_range(sorted, queries, *directory_, threads,
                         [&](std::span<const Index> range, Cursor& cursor) {
                           RangeLists lists{range, {}, {}};
                           query::for_each_query(range, queries, cursor, [&](Index i, Cursor& at) {
@@ -174,6 +190,16 @@ SiteLists Locator::Impl::within(std::span<const Point> queries, const Limit& lim
 Locator::Locator(const Triangulation& triangulation, std::span<const Point> sites) {
   check_number(triangulation, sites.size());
   impl_ = std::make_unique<const Impl>(triangulation, sites);
+}
+Locator::Locator(const DynamicTriangulation& triangulation) {
+  const DynamicTriangulation::Impl& changing = *triangulation.impl_;
+  if (!changing.has_hull()) {
+    impl_ = std::make_unique<const Impl>(changing.flat_snapshot());
+    return;
+  }
+  impl_ = changing.visit([&changing](const auto& editor) {
+    return std::make_unique<const Impl>(editor, changing.options);
+  });
 }
 Locator::~Locator() = default;
 Locator::Locator(Locator&& other) noexcept = default;

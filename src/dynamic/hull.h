@@ -55,9 +55,9 @@ class Hull {
   // A corner of each vertex, as 3*face + corner.
   [[nodiscard]] std::span<const topology::Halfedge> corners() const { return corner_of_; }
 
-  // A solid face at the place `close`, or below which it is hidden; some solid face if
-  // there is none, or `close` is no_index.
-  [[nodiscard]] Index solid_face_at(Index close) const { return start_at(close).solid; }
+  // Where walks may start. There is always a solid face; no_index if there is no near one.
+  [[nodiscard]] Index solid_face() const { return solid_; }
+  [[nodiscard]] Index near_face() const { return near_; }
 
   // `close` is a place close to p, or no_index.
   void insert(Index p, Index close) { insert_from(p, start_at(close)); }

@@ -8,6 +8,7 @@
 #include "blocks/spatial_order.h"
 #include "incremental/canonical.h"
 #include "incremental/hidden_faces.h"
+#include "topology/linking.h"
 
 namespace rondel::dynamic {
 namespace {
@@ -17,31 +18,6 @@ void rename_vertices(topology::Mesh& mesh, std::span<const Index> names) {
     if (!mesh.is_alive(f)) continue;
     for (Index& v : mesh[f].vertex) v = names[v];
   }
-}
-
-// The edge of the face g behind which the face f is.
-topology::Halfedge halfedge_to(const Triangulation& triangulation, Index g, Index f, Index origin) {
-  for (unsigned i = 0; i < 3; ++i) {
-    const Index end = triangulation.faces()[g][topology::previous_corner[i]];
-    if (triangulation.neighbors()[g][i] == f && end == origin) return topology::halfedge(g, i);
-  }
-  return no_index;
-}
-
-topology::Mesh make_mesh(const Triangulation& triangulation, std::span<const Index> place_of_site) {
-  topology::Mesh mesh;
-  const auto num_faces = static_cast<Index>(triangulation.num_faces());
-  mesh.reserve(num_faces);
-  for (Index f = 0; f < num_faces; ++f) {
-    const Triple& corners = triangulation.faces()[f];
-    topology::Face& face = mesh[mesh.add_face()];
-    for (unsigned i = 0; i < 3; ++i) {
-      face.vertex[i] = place_of_site[corners[i]];
-      face.opposite[i] = halfedge_to(triangulation, triangulation.neighbors()[f][i], f,
-                                     corners[topology::next_corner[i]]);
-    }
-  }
-  return mesh;
 }
 
 }  // namespace
@@ -102,7 +78,8 @@ Build make_build(const Triangulation& triangulation, std::span<const Point> site
   for (const auto& [site, lowest] : order.duplicates) {
     build.place_of_site[site] = build.place_of_site[lowest];
   }
-  build.mesh = make_mesh(triangulation, build.place_of_site);
+  build.mesh =
+      topology::link_faces(triangulation.faces(), triangulation.neighbors(), build.place_of_site);
   for (const auto& [site, face] : triangulation.hidden()) {
     if (face == no_index) continue;
     build.hidden.push_back(

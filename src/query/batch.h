@@ -7,18 +7,14 @@
 
 #include <span>
 
-#include "blocks/cube_position.h"
 #include "blocks/hilbert.h"
 #include "blocks/parallel.h"
 #include "blocks/prefetch.h"
 #include "blocks/radix_sort.h"
+#include "query/directory.h"
 #include "query/engine.h"
 
 namespace rondel::query {
-
-inline std::uint64_t spatial_key(const Point& p, const Point& center) {
-  return blocks::hilbert_key(blocks::cube_position(p, center)).high;
-}
 
 inline blocks::KeyedIndices sort_queries(std::span<const Point> queries, const Point& center,
                                          unsigned threads) {
@@ -37,12 +33,12 @@ inline blocks::KeyedIndices sort_queries(std::span<const Point> queries, const P
 
 // Calls work(range, cursor) for ranges of the queries in spatial order, given by their indices.
 template <class Work>
-void for_each_range(const blocks::KeyedIndices& sorted, const Vertices& vertices, unsigned threads,
-                    const Work& work) {
+void for_each_range(const blocks::KeyedIndices& sorted, std::span<const Point> queries,
+                    const Directory& directory, unsigned threads, const Work& work) {
   blocks::parallel_for(0, sorted.indices.size(), threads, [&](std::size_t first, std::size_t last) {
     if (first == last) return;
     Cursor cursor;
-    cursor.vertex = vertices.near(sorted.keys[first]);
+    cursor.vertex = directory.near(queries[sorted.indices[first]]);
     work(std::span<const Index>(sorted.indices).subspan(first, last - first), cursor);
   });
 }

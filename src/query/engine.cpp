@@ -3,15 +3,11 @@
 
 #include "query/engine.h"
 
-#include <algorithm>
-
 #include "incremental/projected_points.h"
 #include "incremental/weighted_points.h"
-#include "query/locate.h"
-#include "query/nearest.h"
+#include "query/graph_engine.h"
 #include "query/ring_location.h"
-#include "query/surface.h"
-#include "query/target.h"
+#include "topology/linking.h"
 
 namespace rondel::query {
 namespace {
@@ -19,121 +15,45 @@ namespace {
 using incremental::FaceKind;
 using incremental::FaceKinds;
 
-// What both graphs share: queries for near vertices.
+// What both engines of a finished triangulation own.
 template <incremental::SphereTraits T>
-class GraphEngine : public Engine {
- public:
-  GraphEngine(const Triangulation& triangulation, std::span<const Point> sites,
-              const Vertices& vertices)
-      : sphere_(triangulation.sphere()),
-        vertices_(vertices),
-        traits_(sites, vertices.speakers, triangulation.sphere().center) {}
+struct Built {
+  Built(const Triangulation& triangulation, std::span<const Point> sites, const Vertices& names)
+      : sphere(triangulation.sphere()),
+        vertices(names),
+        traits(sites, names.speakers, triangulation.sphere().center) {}
 
- protected:
-  template <Graph G>
-  Candidate find_nearest(const G& graph, const Target<T>& target, Cursor& cursor) const {
-    const Candidate top = query::nearest(graph, target, cursor.vertex);
-    cursor.vertex = top.vertex;
-    return top;
-  }
-
-  template <Graph G>
-  void find_k_nearest(const G& graph, const Point& p, std::size_t k, Cursor& cursor,
-                      std::vector<Index>& found) const {
-    const Target<T> target(traits_, p);
-    const Candidate start = find_nearest(graph, target, cursor);
-    query::k_nearest(graph, target, start, k, cursor.scratch, found);
-  }
-
-  template <Graph G>
-  void find_within(const G& graph, const Point& p, const std::optional<predicates::Cosine>& cosine,
-                   Cursor& cursor, std::vector<Index>& found) const {
-    const Target<T> target(traits_, p);
-    const Candidate start = find_nearest(graph, target, cursor);
-    const auto is_inside = [&](Index v) {
-      return !cosine.has_value() || target.is_within(v, *cosine, sphere_);
-    };
-    flood(graph, start.vertex, is_inside, cursor.scratch, found);
-  }
-
-  template <Graph G>
-  std::vector<Index> find_neighbors(const G& graph, Index v) const {
-    std::vector<Index> found;
-    graph.visit_neighbors(v, [&found](Index w) {
-      found.push_back(w);
-      return false;
-    });
-    const auto lowest =
-        std::ranges::min_element(found, {}, [&graph](Index w) { return graph.name(w); });
-    std::rotate(found.begin(), lowest, found.end());
-    return found;
-  }
-
-  Sphere sphere_;
-  const Vertices& vertices_;
-  T traits_;
+  Sphere sphere;
+  const Vertices& vertices;
+  T traits;
 };
 
 template <incremental::SphereTraits T>
-class SurfaceEngine final : public GraphEngine<T> {
+class BuiltSurface final : private Built<T>, public SurfaceEngine<T> {
  public:
-  SurfaceEngine(const Triangulation& triangulation, std::span<const Point> sites,
-                const Vertices& vertices)
-      : GraphEngine<T>(triangulation, sites, vertices),
-        mesh_(link_faces(triangulation, vertices)),
-        corner_of_(corners_of(mesh_, vertices.names.size())) {
+  BuiltSurface(const Triangulation& triangulation, std::span<const Point> sites,
+               const Vertices& names)
+      : Built<T>(triangulation, sites, names),
+        SurfaceEngine<T>(this->traits, this->sphere),
+        mesh_(topology::link_faces(triangulation.faces(), triangulation.neighbors(),
+                                   names.vertex_of)),
+        corner_of_(corners_of(mesh_, names.names.size())) {
     while (triangulation.is_ghost(solid_)) ++solid_;
     if (triangulation.num_ghost_faces() > 0) classify(triangulation);
   }
 
-  Location locate(const Point& p, Cursor& cursor) const override {
-    const Target<T> target(this->traits_, p);
-    const Place place = query::locate(surface(), target, start_face(cursor));
-    cursor.face = place.last_face;
-    return {place.where, place.face, place.vertices};
-  }
-
-  Index nearest(const Point& p, Cursor& cursor) const override {
-    return this->find_nearest(surface(), Target<T>(this->traits_, p), cursor).vertex;
-  }
-
-  void k_nearest(const Point& p, std::size_t k, Cursor& cursor,
-                 std::vector<Index>& found) const override {
-    this->find_k_nearest(surface(), p, k, cursor, found);
-  }
-
-  void within(const Point& p, const std::optional<predicates::Cosine>& cosine, Cursor& cursor,
-              std::vector<Index>& found) const override {
-    this->find_within(surface(), p, cosine, cursor, found);
-  }
-
-  [[nodiscard]] std::vector<Index> neighbors(Index v) const override {
-    return this->find_neighbors(surface(), v);
-  }
-
-  std::vector<Index> conflict_region(const Point& p, Cursor& cursor) const override {
-    const Target<T> target(this->traits_, p);
-    const Candidate top = this->find_nearest(surface(), target, cursor);
-    if (target.is_duplicate(top)) return {};
-    return query::conflict_region(surface(), target, start_face(cursor), near_);
-  }
-
  private:
-  [[nodiscard]] Surface<T> surface() const {
-    return {this->traits_, mesh_, kinds_, corner_of_, this->vertices_.names};
+  [[nodiscard]] Surface<T> surface() const override {
+    return {this->traits, mesh_, kinds_, corner_of_, this->vertices.names};
   }
-
-  [[nodiscard]] Index start_face(const Cursor& cursor) const {
-    if (cursor.face != no_index) return cursor.face;
-    const Index f = first_solid_face(surface(), cursor.vertex);
-    return f != no_index ? f : solid_;
-  }
+  [[nodiscard]] Index solid_face() const override { return solid_; }
+  [[nodiscard]] Index near_face() const override { return near_; }
 
   void classify(const Triangulation& triangulation) {
     for (Index f = 0; f < mesh_.num_slots(); ++f) {
       const auto& v = mesh_[f].vertex;
       const FaceKind kind = triangulation.is_ghost(f)
-                                ? incremental::kind_of(this->traits_.orientation(v[0], v[1], v[2]))
+                                ? incremental::kind_of(this->traits.orientation(v[0], v[1], v[2]))
                                 : FaceKind::solid;
       kinds_.add(f, kind);
       if (kind == FaceKind::near) near_ = f;
@@ -149,12 +69,12 @@ class SurfaceEngine final : public GraphEngine<T> {
 
 // Dimensions 0 and 1.
 template <incremental::SphereTraits T>
-class RingEngine final : public GraphEngine<T> {
+class BuiltRing final : private Built<T>, public GraphEngine<T> {
  public:
-  RingEngine(const Triangulation& triangulation, std::span<const Point> sites,
-             const Vertices& vertices)
-      : GraphEngine<T>(triangulation, sites, vertices),
-        points_(points_of(sites, vertices)),
+  BuiltRing(const Triangulation& triangulation, std::span<const Point> sites, const Vertices& names)
+      : Built<T>(triangulation, sites, names),
+        GraphEngine<T>(this->traits, this->sphere),
+        points_(points_of(sites, names)),
         location_(points_, triangulation.sphere().center) {}
 
   Location locate(const Point& p, Cursor& cursor) const override {
@@ -164,7 +84,7 @@ class RingEngine final : public GraphEngine<T> {
   }
 
   Index nearest(const Point& p, Cursor& cursor) const override {
-    return this->find_nearest(ring(), Target<T>(this->traits_, p), cursor).vertex;
+    return this->find_nearest(ring(), Target<T>(this->traits, p), cursor).vertex;
   }
 
   void k_nearest(const Point& p, std::size_t k, Cursor& cursor,
@@ -193,7 +113,7 @@ class RingEngine final : public GraphEngine<T> {
   }
 
   [[nodiscard]] Ring<T> ring() const {
-    return {this->traits_, static_cast<Index>(points_.size()), this->vertices_.names};
+    return {this->traits, static_cast<Index>(points_.size()), this->vertices.names};
   }
 
   std::vector<Point> points_;
@@ -214,8 +134,8 @@ std::unique_ptr<Engine> make(const Triangulation& triangulation, std::span<const
 std::unique_ptr<Engine> make_engine(const Triangulation& triangulation,
                                     std::span<const Point> sites, const Vertices& vertices) {
   if (triangulation.dimension() < 0) return nullptr;
-  return triangulation.dimension() < 2 ? make<RingEngine>(triangulation, sites, vertices)
-                                       : make<SurfaceEngine>(triangulation, sites, vertices);
+  return triangulation.dimension() < 2 ? make<BuiltRing>(triangulation, sites, vertices)
+                                       : make<BuiltSurface>(triangulation, sites, vertices);
 }
 
 }  // namespace rondel::query

@@ -14,9 +14,6 @@
 namespace rondel::query {
 namespace {
 
-using topology::next_corner;
-using topology::previous_corner;
-
 std::vector<Index> vertices_by_index(const Triangulation& triangulation) {
   const auto n = static_cast<Index>(triangulation.num_sites());
   std::vector<bool> is_vertex(n, true);
@@ -44,13 +41,6 @@ blocks::KeyedIndices sorted_by_key(std::vector<Index> indices, std::span<const P
 
 bool is_less(const Point& a, const Point& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
-}
-
-// The edge of `neighbor` from a to b, and the other way round.
-unsigned edge_between(const Triple& neighbor, Index a, Index b) {
-  unsigned j = 0;
-  while (neighbor[next_corner[j]] != a || neighbor[previous_corner[j]] != b) ++j;
-  return j;
 }
 
 }  // namespace
@@ -86,24 +76,6 @@ Vertices list_vertices(const Triangulation& triangulation, std::span<const Point
     if (is_less(sites[site], sites[speaker])) speaker = site;
   }
   return result;
-}
-
-topology::Mesh link_faces(const Triangulation& triangulation, const Vertices& vertices) {
-  const auto faces = triangulation.faces();
-  const auto neighbors = triangulation.neighbors();
-  topology::Mesh mesh;
-  mesh.reserve(faces.size());
-  for (Index f = 0; f < faces.size(); ++f) {
-    topology::Face& face = mesh[mesh.add_face()];
-    for (unsigned i = 0; i < 3; ++i) {
-      face.vertex[i] = vertices.vertex_of[faces[f][i]];
-      const Index g = neighbors[f][i];
-      const unsigned edge =
-          edge_between(faces[g], faces[f][previous_corner[i]], faces[f][next_corner[i]]);
-      face.opposite[i] = topology::halfedge(g, edge);
-    }
-  }
-  return mesh;
 }
 
 std::vector<topology::Halfedge> corners_of(const topology::Mesh& mesh, std::size_t num_vertices) {

@@ -27,9 +27,6 @@ struct Vertices {
 
 Vertices list_vertices(const Triangulation& triangulation, std::span<const Point> sites);
 
-// The faces under the same numbers, with linked edges and internal names.
-topology::Mesh link_faces(const Triangulation& triangulation, const Vertices& vertices);
-
 // For each vertex 3*face + corner of one of its faces.
 std::vector<topology::Halfedge> corners_of(const topology::Mesh& mesh, std::size_t num_vertices);
 

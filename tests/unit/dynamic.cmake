@@ -2,5 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(dynamic_test
   dynamic_api_test.cpp
+  dynamic_query_test.cpp
   dynamic_script_test.cpp
   LIBS rondel_test_support)

@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What a DynamicTriangulation holds: the editor of its model.
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "dynamic/editor.h"
+#include "incremental/projected_points.h"
+#include "incremental/weighted_points.h"
+#include "rondel/dynamic.h"
+
+namespace rondel {
+
+struct DynamicTriangulation::Impl {
+  explicit Impl(Options wanted);
+
+  template <class Function>
+  decltype(auto) visit(Function&& function) {
+    return std::visit(std::forward<Function>(function), editor);
+  }
+  template <class Function>
+  decltype(auto) visit(Function&& function) const {
+    return std::visit(std::forward<Function>(function), editor);
+  }
+
+  [[nodiscard]] const dynamic::Places& places() const {
+    return visit([](const auto& e) -> const dynamic::Places& { return e.places(); });
+  }
+
+  // They throw InvalidInput.
+  void require_site(Index id, std::size_t position) const;
+  void require_distinct_sites(std::span<const Index> ids) const;
+  void require_room(std::size_t more) const;
+
+  void assign(const Triangulation& triangulation, std::span<const Point> sites);
+  void changed() { flat.reset(); }
+
+  // Below dimension 2 there is no hull to ask. A snapshot answers, made when first needed.
+  [[nodiscard]] bool has_hull() const {
+    return visit([](const auto& e) { return e.hull().has_value(); });
+  }
+  [[nodiscard]] const Snapshot& flat_snapshot() const;
+  [[nodiscard]] std::vector<Index> flat_ring() const;
+
+  Options options;
+  std::variant<dynamic::Editor<incremental::ProjectedPoints>,
+               dynamic::Editor<incremental::WeightedPoints>>
+      editor;
+  mutable std::mutex mutex;
+  mutable std::optional<Snapshot> flat;
+};
+
+}  // namespace rondel
