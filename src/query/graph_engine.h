@@ -51,7 +51,7 @@ class GraphEngine : public Engine {
   }
 
   template <Graph G>
-  std::vector<Index> find_neighbors(const G& graph, Index v) const {
+  [[nodiscard]] std::vector<Index> find_neighbors(const G& graph, Index v) const {
     std::vector<Index> found;
     graph.visit_neighbors(v, [&found](Index w) {
       found.push_back(w);
