@@ -55,7 +55,7 @@ struct SiteLists {
 ///
 /// Expected time for one query: O(log n) and the length of the answer; in a large range
 /// O(1). Vertices at exactly the same distance are all visited.
-/// Memory: about 95 bytes a site.
+/// Memory: 96 bytes a vertex.
 class Locator {
  public:
   /// Keeps a reference to `sites`, which must live as long, but none to `triangulation`. O(n).
