@@ -33,8 +33,9 @@ struct Snapshot {
 /// 4. A call that throws InvalidInput changes nothing. Its index is the position in the array that
 ///    was passed, 0 for a single argument.
 /// 5. Insertion takes O(log n) expected time for sites in random places, removal O(d) expected for
-///    a vertex with d neighbors. Exceptions: while all sites lie on one great circle, and
-///    when the center of the sphere leaves the hull of weighted sites, a change may take O(n).
+///    a vertex with d neighbors. Exceptions: the sites that a change hides, or that come back, are
+///    inserted once more each; while all sites lie on one great circle, and when the center of the
+///    sphere leaves the hull of weighted sites, a change may take O(n).
 /// 6. A Locator (query.h) answers questions of place and distance.
 /// 7. Functions that are const may be called from several threads at once.
 class DynamicTriangulation {

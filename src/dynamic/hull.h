@@ -8,14 +8,19 @@
 // not a vertex is attached to the faces that hide it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstddef>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "blocks/cube_position.h"
+#include "blocks/hilbert.h"
 #include "dynamic/hidden_sites.h"
 #include "dynamic/link_triangulation.h"
+#include "incremental/brio.h"
 #include "incremental/conflict_region.h"
 #include "incremental/location.h"
 #include "incremental/sphere_traits.h"
@@ -99,8 +104,7 @@ class Hull {
     restart_at(outer_);
     if (is_grazed || (was_all_solid && !kinds_.all_solid())) hidden_.take_ungrounded(displaced_);
     assert(solid_ != no_index);
-    const Start start = {solid_, near_};
-    for (const Index p : std::exchange(displaced_, {})) insert_from(p, start);
+    if (!displaced_.empty()) bring_back();
   }
 
  private:
@@ -167,9 +171,41 @@ class Hull {
     topology::star(mesh_, p, region_.horizon(), region_.faces());
     for (const Index f : region_.faces()) adopt(f, is_surely_solid);
     restart_around_star();
-    for (const Index q : covered) {
-      if (!is_vertex(q)) cover(q, {solid_, near_});
+    cover_all(std::move(covered));
+  }
+
+  void cover_all(std::vector<Index> places) {
+    Start start = {solid_, near_};
+    for (const Index q : in_spatial_order(std::move(places))) {
+      if (is_vertex(q)) continue;
+      cover(q, start);
+      start = start_at(q);
     }
+  }
+
+  // As a build inserts, in rounds along the spatial order: all hidden sites may come back at once.
+  void bring_back() {
+    const std::vector<Index> places = in_spatial_order(std::exchange(displaced_, {}));
+    Start start = {solid_, near_};
+    for (const Index rank : incremental::insertion_order(static_cast<Index>(places.size()))) {
+      insert_from(places[rank], start);
+      start = is_vertex(places[rank]) ? Start{solid_, near_} : start_at(places[rank]);
+    }
+  }
+
+  // Each walk can then start where the one before has ended.
+  [[nodiscard]] std::vector<Index> in_spatial_order(std::vector<Index> places) const {
+    constexpr std::size_t few = 8;
+    if (places.size() <= few) return places;
+    std::vector<std::pair<blocks::HilbertKey, Index>> order;
+    order.reserve(places.size());
+    for (const Index p : places) {
+      const auto position = blocks::cube_position(sites_.point(p), sites_.center());
+      order.emplace_back(blocks::hilbert_key(position), p);
+    }
+    std::ranges::sort(order);
+    std::ranges::transform(order, places.begin(), [](const auto& entry) { return entry.second; });
+    return places;
   }
 
   // Start faces found before other insertions may be gone.

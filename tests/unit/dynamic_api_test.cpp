@@ -229,6 +229,45 @@ TEST(dynamic, removes_a_vertex_of_high_degree) {
   expect_same(changing.snapshot().triangulation, delaunay(sites));
 }
 
+// All sites of a curve lie below one corner; any order of insertion but a random one would make
+// each of them a neighbor of most others on the way.
+TEST(dynamic, many_hidden_sites_come_back_at_once) {
+  Options options;
+  options.model = Model::weighted;
+  std::vector<Point> sites;
+  for (int i = -10000; i < 10000; ++i) {
+    const double t = i / 1e4;
+    sites.push_back({t, t * t, t * t * t});
+  }
+  DynamicTriangulation changing(sites, options);
+  const Triangulation built = delaunay(sites, options);
+  const auto corners =
+      changing.insert(std::vector<Point>{{9, 9, 9}, {-9, -9, 9}, {-9, 9, -9}, {9, -9, -9}});
+  EXPECT_EQ(changing.num_vertices(), 4U);
+  EXPECT_EQ(changing.snapshot().triangulation.hidden().size(), sites.size());
+  changing.remove(corners);
+  expect_same(changing.snapshot().triangulation, built);
+}
+
+// The star of the apex has thousands of faces, each of which hides some sites.
+TEST(dynamic, one_site_hides_many_below_many_faces) {
+  Options options;
+  options.model = Model::weighted;
+  std::vector<Point> sites = {{0, 0, -3}};
+  constexpr int size = 3000;
+  for (int i = 0; i < size; ++i) {
+    const Point rim = unit_vector({i * 360.0 / size, 0});
+    sites.push_back(rim);
+    sites.push_back(unit_vector({i * 7.0, 5 + i * 80.0 / size}));
+  }
+  DynamicTriangulation changing(sites, options);
+  const Triangulation built = delaunay(sites, options);
+  const Index apex = changing.insert({0, 0, 50});
+  EXPECT_EQ(changing.neighbors(apex).size(), static_cast<std::size_t>(size));
+  changing.remove(apex);
+  expect_same(changing.snapshot().triangulation, built);
+}
+
 TEST(dynamic, can_be_moved_as_an_object) {
   DynamicTriangulation first(octahedron);
   DynamicTriangulation second(std::move(first));
