@@ -65,7 +65,8 @@ int main(int argc, char** argv) {
   const auto n = static_cast<double>(sites.size());
   std::printf(
       "{\"sites\": %zu, \"vertices\": %zu, \"bulk\": %.6f, \"insert\": %.6f, \"remove\": %.6f, "
-      "\"insert_by_bulk\": %.2f, \"remove_by_bulk\": %.2f, \"bytes_per_site\": %.1f, \"left\": %zu}\n",
+      "\"insert_by_bulk\": %.2f, \"remove_by_bulk\": %.2f, \"bytes_per_site\": %.1f, \"left\": "
+      "%zu}\n",
       sites.size(), vertices, bulk, insert, remove, insert / bulk, remove / bulk, memory / n,
       changing.num_sites());
 }
