@@ -130,15 +130,29 @@ class Editor {
       hull_->insert(place, close);
       return;
     }
+    widen_span(place);
+    if (span_.size() == 3) build(places_.in_order());
+  }
+
+  bool widen_span(Index place) {
     std::vector<Index> wider = span_;
     wider.push_back(place);
-    if (find_span(wider).size() == wider.size()) span_ = wider;
-    if (span_.size() == 3) build(places_.in_order());
+    if (find_span(wider).size() < wider.size()) return false;
+    span_ = std::move(wider);
+    return true;
+  }
+
+  // When a place leaves the span, at most one other can take its part.
+  void leave_span(Index place) {
+    if (std::erase(span_, place) == 0) return;
+    for (const Index other : places_.in_order()) {
+      if (other != place && widen_span(other)) return;
+    }
   }
 
   void take_out(Index place) {
     if (!hull_) {
-      if (std::ranges::find(span_, place) != span_.end()) rebuild(place);
+      leave_span(place);
     } else if (!hull_->is_vertex(place)) {
       hull_->remove_hidden(place);
     } else if (!leaves_flat(place)) {

@@ -268,6 +268,25 @@ TEST(dynamic, one_site_hides_many_below_many_faces) {
   expect_same(changing.snapshot().triangulation, built);
 }
 
+// Along the circle, so that what spans it goes again and again.
+TEST(dynamic, a_great_circle_is_emptied_site_by_site) {
+  constexpr int size = 20000;
+  for (const double start : {-135.0, 0.5, 45.0, 135.0}) {
+    DynamicTriangulation changing;
+    std::vector<Point> sites(size);
+    for (int i = 0; i < size; ++i) sites[i] = unit_vector({start + i * 360.0 / size, 0});
+    const auto ids = changing.insert(sites);
+    for (int i = 0; i < size - 3; ++i) changing.remove(ids[i]);
+    EXPECT_EQ(changing.dimension(), 1);
+    EXPECT_EQ(changing.num_vertices(), 3U);
+    const Index pole = changing.insert({0, 0, 1});
+    EXPECT_EQ(changing.num_faces(), 4U);
+    changing.remove(pole);
+    for (int i = size - 3; i < size; ++i) changing.remove(ids[i]);
+    EXPECT_EQ(changing.dimension(), -1);
+  }
+}
+
 TEST(dynamic, can_be_moved_as_an_object) {
   DynamicTriangulation first(octahedron);
   DynamicTriangulation second(std::move(first));
