@@ -19,7 +19,8 @@ class ConflictRegion {
  public:
   // Depth first from `start`, a face in conflict, so that the horizon comes in counterclockwise
   // order: entering a face through its edge j, the edges j+1 and j+2 take the place of the edge
-  // just crossed.
+  // just crossed. The faces behind these two are tested together, since neither test waits for the
+  // other.
   //
   // Where no vertex can become hidden, the region has no inner vertex and its dual
   // graph is a tree: no face is met twice. Otherwise visited faces are remembered.
@@ -27,24 +28,24 @@ class ConflictRegion {
     faces_.assign(1, start);
     horizon_.clear();
     stack_.clear();
-    for (const unsigned edge : {2U, 1U, 0U}) stack_.push_back(topology::halfedge(start, edge));
+    const topology::Face& face = mesh[start];
+    const auto& last = mesh[topology::face_of(face.opposite[2])].vertex;
+    stack_.push_back(
+        {{face.vertex[0], face.opposite[2]}, sites.is_in_conflict(last[0], last[1], last[2], p)});
+    push_edges(sites, mesh, p, face, 0, 1);
     while (!stack_.empty()) {
-      const topology::Halfedge h = stack_.back();
+      const Crossing crossing = stack_.back();
       stack_.pop_back();
-      const topology::Face& face = mesh[topology::face_of(h)];
-      const unsigned edge = topology::edge_of(h);
-      const topology::Halfedge opposite = face.opposite[edge];
-      const Index neighbor = topology::face_of(opposite);
-      if (is_known(neighbor)) continue;
-      const auto& v = mesh[neighbor].vertex;
-      if (!sites.is_in_conflict(v[0], v[1], v[2], p)) {
-        horizon_.push_back({face.vertex[topology::next_corner[edge]], opposite});
+      if (!crossing.is_in_conflict) {
+        horizon_.push_back(crossing.edge);
         continue;
       }
-      add(neighbor);
-      const unsigned entered = topology::edge_of(opposite);
-      stack_.push_back(topology::halfedge(neighbor, topology::previous_corner[entered]));
-      stack_.push_back(topology::halfedge(neighbor, topology::next_corner[entered]));
+      const Index f = topology::face_of(crossing.edge.outside);
+      if (is_known(f)) continue;
+      add(f);
+      const unsigned entered = topology::edge_of(crossing.edge.outside);
+      push_edges(sites, mesh, p, mesh[f], topology::next_corner[entered],
+                 topology::previous_corner[entered]);
     }
     if (T::hides_sites && faces_.size() >= few) {
       for (const Index f : faces_) marks_[f] = false;
@@ -57,6 +58,22 @@ class ConflictRegion {
   [[nodiscard]] std::vector<Index>& faces() { return faces_; }
 
  private:
+  struct Crossing {
+    topology::HorizonEdge edge;
+    bool is_in_conflict;  // the face behind it
+  };
+
+  // Edge i runs from corner i+1.
+  void push_edges(const T& sites, const topology::Mesh& mesh, Index p, const topology::Face& face,
+                  unsigned first, unsigned second) {
+    const topology::Halfedge a = face.opposite[first];
+    const topology::Halfedge b = face.opposite[second];
+    const auto [is_a, is_b] = sites.are_in_conflict(mesh[topology::face_of(a)].vertex,
+                                                    mesh[topology::face_of(b)].vertex, p);
+    stack_.push_back({{face.vertex[topology::next_corner[second]], b}, is_b});
+    stack_.push_back({{face.vertex[topology::next_corner[first]], a}, is_a});
+  }
+
   // A region this small is searched faster than marks, which lie anywhere in memory.
   static constexpr std::size_t few = 16;
 
@@ -85,7 +102,7 @@ class ConflictRegion {
 
   std::vector<Index> faces_;
   std::vector<topology::HorizonEdge> horizon_;
-  std::vector<topology::Halfedge> stack_;
+  std::vector<Crossing> stack_;
   std::vector<bool> marks_;
 };
 

@@ -5,6 +5,7 @@
 // projection on the sphere.
 #pragma once
 
+#include <array>
 #include <cstdlib>
 #include <memory>
 #include <span>
@@ -50,6 +51,20 @@ class ProjectedPoints {
     if (sign == Sign::zero) return climb(a, b, c, p);
     ++tally_.filter;
     return sign == Sign::positive;
+  }
+
+  // Two faces at once.
+  [[nodiscard]] std::array<bool, 2> are_in_conflict(const std::array<Index, 3>& f,
+                                                    const std::array<Index, 3>& g, Index p) const {
+    const Sign first = predicates::side_of_circle_filter(directions_[f[0]], directions_[f[1]],
+                                                         directions_[f[2]], directions_[p]);
+    const Sign second = predicates::side_of_circle_filter(directions_[g[0]], directions_[g[1]],
+                                                          directions_[g[2]], directions_[p]);
+    if (first == Sign::zero || second == Sign::zero) {
+      return {is_in_conflict(f[0], f[1], f[2], p), is_in_conflict(g[0], g[1], g[2], p)};
+    }
+    tally_.filter += 2;
+    return {first == Sign::positive, second == Sign::positive};
   }
 
   [[nodiscard]] const Tally& tally() const { return tally_; }

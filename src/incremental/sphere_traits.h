@@ -6,6 +6,7 @@
 // WeightedPoints (section 4.2), differ in the conflict test.
 #pragma once
 
+#include <array>
 #include <concepts>
 
 #include "predicates/filtered.h"
@@ -14,7 +15,8 @@
 namespace rondel::incremental {
 
 template <class T>
-concept SphereTraits = requires(const T& sites, Index a, Index b, Index c, Index p) {
+concept SphereTraits = requires(const T& sites, Index a, Index b, Index c, Index p,
+                                const std::array<Index, 3>& f) {
   // Whether an insertion can turn a vertex, or the new site, into a hidden site.
   { T::hides_sites } -> std::convertible_to<bool>;
   // The number of distinct sites.
@@ -26,6 +28,8 @@ concept SphereTraits = requires(const T& sites, Index a, Index b, Index c, Index
   { sites.orientation(a, b, c) } -> std::same_as<Sign>;
   // Exact, ties broken: whether p is in conflict with the face (a, b, c) of a hull.
   { sites.is_in_conflict(a, b, c, p) } -> std::same_as<bool>;
+  // The same for two faces.
+  { sites.are_in_conflict(f, f, p) } -> std::same_as<std::array<bool, 2>>;
 };
 
 }  // namespace rondel::incremental

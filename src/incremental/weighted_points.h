@@ -5,6 +5,7 @@
 // power test is the orientation of four points.
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -41,6 +42,20 @@ class WeightedPoints {
     if (sign == Sign::zero) return climb(a, b, c, p);
     ++tally_.filter;
     return sign == Sign::positive;
+  }
+
+  // Two faces at once.
+  [[nodiscard]] std::array<bool, 2> are_in_conflict(const std::array<Index, 3>& f,
+                                                    const std::array<Index, 3>& g, Index p) const {
+    const Sign first =
+        predicates::side_of_plane_filter(points_[f[0]], points_[f[1]], points_[f[2]], points_[p]);
+    const Sign second =
+        predicates::side_of_plane_filter(points_[g[0]], points_[g[1]], points_[g[2]], points_[p]);
+    if (first == Sign::zero || second == Sign::zero) {
+      return {is_in_conflict(f[0], f[1], f[2], p), is_in_conflict(g[0], g[1], g[2], p)};
+    }
+    tally_.filter += 2;
+    return {first == Sign::positive, second == Sign::positive};
   }
 
   [[nodiscard]] const Tally& tally() const { return tally_; }

@@ -6,6 +6,8 @@
 // that any number of threads may query at once.
 #pragma once
 
+#include <array>
+
 #include "exact/integer.h"
 #include "incremental/projected_points.h"
 #include "incremental/sphere_traits.h"
@@ -53,6 +55,10 @@ class Target {
   }
   [[nodiscard]] Sign orientation(Index a, Index b, Index c) const;
   [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p) const;
+  [[nodiscard]] std::array<bool, 2> are_in_conflict(const std::array<Index, 3>& f,
+                                                    const std::array<Index, 3>& g, Index p) const {
+    return {is_in_conflict(f[0], f[1], f[2], p), is_in_conflict(g[0], g[1], g[2], p)};
+  }
 
   // Distances.
   [[nodiscard]] Candidate candidate(Index v) const {
