@@ -57,9 +57,12 @@ struct CommonOptions {
 
 /// \pre comes before add_build_options(): --radius sets the model, which --model may contradict.
 void add_input_options(CLI::App& command, CommonOptions& options);
+/// The same for a command that takes points in space: x, y, z only.
+void add_point_input_options(CLI::App& command, CommonOptions& options);
 /// `what` says what is written and to which endings, for the help.
 void add_output_option(CLI::App& command, CommonOptions& options, const std::string& what);
 void add_build_options(CLI::App& command, CommonOptions& options);
+void add_threads_option(CLI::App& command, CommonOptions& options);
 void add_report_options(CLI::App& command, CommonOptions& options);
 
 /// Throws UsageError unless the output's ending is one of those written (`is_known`), and if
@@ -94,6 +97,8 @@ class Job {
   SiteTable read(const std::string& path, const ReadOptions& read);
   /// \throws FileError with the file and line of a site that the library does not accept.
   Triangulation triangulate(const SiteTable& table);
+  /// \throws FileError as triangulate()
+  Triangulation hull(const SiteTable& table);
   /// Runs `work` on the clock of `stage`.
   void time(Stage stage, const std::function<void()>& work);
   /// To hand to functions that take a Progress; empty where no progress is shown.
@@ -128,6 +133,7 @@ void print(const std::string& text);
 
 Command add_delaunay_command(CLI::App& tool);
 Command add_voronoi_command(CLI::App& tool);
+Command add_hull_command(CLI::App& tool);
 Command add_check_command(CLI::App& tool);
 Command add_plot_command(CLI::App& tool);  // plot.cpp
 Command add_generate_command(CLI::App& tool);

@@ -95,6 +95,28 @@ Command add_voronoi_command(CLI::App& tool) {
   return {parser, [options] { return run_voronoi(*options); }};
 }
 
+Command add_hull_command(CLI::App& tool) {
+  auto options = std::make_shared<HullCommandOptions>();
+  CLI::App* parser = tool.add_subcommand("hull", "Compute the convex hull of points in space");
+  add_point_input_options(*parser, options->common);
+  add_output_option(*parser, options->common,
+                    "Where to write the triangles: .npy (m x 3 input indices), .off .ply .obj\n"
+                    ".stl .vtp");
+  parser->add_flag("--compact", options->is_compact,
+                   "Write the vertices of the hull only, renumbered; otherwise every input point\n"
+                   "is written, in input order");
+  add_threads_option(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "The hull is exact and unique; its vertices are the extreme points alone. Points in one\n"
+      "plane make a flat hull, which is written as a surface with two sides; points on one\n"
+      "line make no triangles. Volume and area are sums in doubles.\n\n"
+      "Examples:\n"
+      "  rondel hull scan.xyz -o hull.ply --compact\n"
+      "  rondel hull points.npy --json -o faces.npy");
+  return {parser, [options] { return run_hull(*options); }};
+}
+
 Command add_check_command(CLI::App& tool) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* parser =

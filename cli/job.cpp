@@ -10,6 +10,7 @@
 #include "progress_line.h"
 #include "report.h"
 #include "rondel/delaunay.h"
+#include "rondel/hull.h"
 
 namespace rondel::cli {
 namespace {
@@ -63,6 +64,11 @@ Triangulation Job::triangulate(const SiteTable& table) {
   Options options = state_->options.build;
   options.progress = progress();
   return with_places(table, [&] { return delaunay(table.sites, options); });
+}
+
+Triangulation Job::hull(const SiteTable& table) {
+  const HullOptions options = {.threads = state_->options.build.threads, .progress = progress()};
+  return with_places(table, [&] { return convex_hull(table.sites, options); });
 }
 
 void Job::time(Stage stage, const std::function<void()>& work) {

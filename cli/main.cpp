@@ -42,9 +42,9 @@ int fail(ExitStatus status, std::string message) {
 }
 
 std::vector<Command> add_commands(CLI::App& tool) {
-  return {add_delaunay_command(tool), add_voronoi_command(tool),  add_check_command(tool),
-          add_plot_command(tool),     add_generate_command(tool), add_info_command(tool),
-          add_locate_command(tool),   add_nearest_command(tool)};
+  return {add_delaunay_command(tool), add_voronoi_command(tool), add_hull_command(tool),
+          add_check_command(tool),    add_plot_command(tool),    add_generate_command(tool),
+          add_info_command(tool),     add_locate_command(tool),  add_nearest_command(tool)};
 }
 
 const Command* selected(const std::vector<Command>& commands) {

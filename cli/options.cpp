@@ -17,22 +17,31 @@ std::string model_error(const std::string& text) {
   return "'" + text + "' is not a model (projected, weighted)";
 }
 
-void add_columns(CLI::App& command, ReadOptions& read) {
-  const auto column = [&](const char* name, std::string& target, const char* what) {
-    return command.add_option(name, target, what)
-        ->type_name("COL")
-        ->group("Columns, where their names in the header are not the usual ones");
-  };
-  CLI::Option* lon = column("--lon", read.lon, "Longitude (usual: lon, lng, long, longitude)");
-  CLI::Option* lat = column("--lat", read.lat, "Latitude (usual: lat, latitude)");
-  CLI::Option* x = column("--x", read.x, "x coordinate (usual: x); --x, --y and --z go together");
-  CLI::Option* y = column("--y", read.y, "y coordinate (usual: y)");
-  CLI::Option* z = column("--z", read.z, "z coordinate (usual: z)");
-  lon->needs(lat)->excludes(x);
-  lat->needs(lon);
+CLI::Option* add_column(CLI::App& command, const char* name, std::string& target,
+                        const char* what) {
+  return command.add_option(name, target, what)
+      ->type_name("COL")
+      ->group("Columns, where their names in the header are not the usual ones");
+}
+
+CLI::Option* add_xyz(CLI::App& command, ReadOptions& read) {
+  CLI::Option* x =
+      add_column(command, "--x", read.x, "x coordinate (usual: x); --x, --y and --z go together");
+  CLI::Option* y = add_column(command, "--y", read.y, "y coordinate (usual: y)");
+  CLI::Option* z = add_column(command, "--z", read.z, "z coordinate (usual: z)");
   x->needs(y)->needs(z);
   y->needs(x);
   z->needs(x);
+  return x;
+}
+
+void add_columns(CLI::App& command, ReadOptions& read) {
+  CLI::Option* lon =
+      add_column(command, "--lon", read.lon, "Longitude (usual: lon, lng, long, longitude)");
+  CLI::Option* lat = add_column(command, "--lat", read.lat, "Latitude (usual: lat, latitude)");
+  CLI::Option* x = add_xyz(command, read);
+  lon->needs(lat)->excludes(x);
+  lat->needs(lon);
   command.add_flag("--radians", read.radians, "Longitude, latitude and radius are in radians")
       ->excludes(x);
 }
@@ -62,6 +71,16 @@ void add_input_options(CLI::App& command, CommonOptions& options) {
       ->type_name("");
   add_radius(command, options);
   add_columns(command, options.read);
+}
+
+void add_point_input_options(CLI::App& command, CommonOptions& options) {
+  command
+      .add_option("INPUT", options.input,
+                  "The points, x, y, z: .csv .tsv .xyz .txt .npy, or - for CSV from\n"
+                  "standard input")
+      ->required()
+      ->type_name("");
+  add_xyz(command, options.read);
 }
 
 void add_output_option(CLI::App& command, CommonOptions& options, const std::string& what) {
@@ -101,6 +120,10 @@ void add_build_options(CLI::App& command, CommonOptions& options) {
                   "Squared radius of the sphere (default: 1)")
       ->check(positive_error)
       ->type_name("R2");
+  add_threads_option(command, options);
+}
+
+void add_threads_option(CLI::App& command, CommonOptions& options) {
   command
       .add_option("--threads", options.build.threads,
                   "Number of threads (default: one for each core)")

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "command.h"
+#include "rondel/hull.h"
 
 namespace rondel::cli {
 
@@ -24,8 +25,15 @@ std::uint64_t peak_memory_bytes();
 /// The JSON object of a triangulation, with a newline. Its keys are a contract.
 std::string json_report(const Triangulation& triangulation, const Seconds& seconds);
 
+/// The same with what only a hull has: flat, volume, area.
+std::string hull_json_report(const Triangulation& hull, const HullSize& size,
+                             const Seconds& seconds);
+
 /// A few lines: what was read, what came out, what was written and how long it took.
 std::string summary(const Triangulation& triangulation, const Seconds& seconds,
                     const std::string& what, const std::string& output);
+
+std::string hull_summary(const Triangulation& hull, const HullSize& size, const Seconds& seconds,
+                         const std::string& output);
 
 }  // namespace rondel::cli

@@ -19,6 +19,11 @@ struct VoronoiOptions {
   double tolerance_deg = 0.01;
 };
 
+struct HullCommandOptions {
+  CommonOptions common;
+  bool is_compact = false;  ///< --compact
+};
+
 struct CheckOptions {
   CommonOptions common;
   std::string triangles;
@@ -42,6 +47,7 @@ struct QueryOptions {
 
 ExitStatus run_delaunay(const CommonOptions& options);
 ExitStatus run_voronoi(const VoronoiOptions& options);
+ExitStatus run_hull(const HullCommandOptions& options);
 ExitStatus run_check(const CheckOptions& options);
 ExitStatus run_generate(const GenerateOptions& options);
 ExitStatus run_locate(const QueryOptions& options);

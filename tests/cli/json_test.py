@@ -71,6 +71,15 @@ class JsonReport(unittest.TestCase):
             self.assertEqual([report[key] for key in keys[:8] if key != "threads"],
                              [10, 9, 14, 2, "projected", 3, answers])
 
+    def test_hull_has_these_keys_and_more(self):
+        report = self.build("hull", "cube.xyz", "out.off")
+        self.assertEqual([report.pop(key) for key in ("flat", "volume", "area")], [False, 8, 24])
+        self.assert_contract(report)
+        flat = self.build("hull", "square.csv", "out.off")
+        self.assertEqual([flat.pop(key) for key in ("flat", "volume", "area")], [True, 0, 8])
+        self.assert_contract(flat)
+        self.assertEqual((flat["dimension"], flat["vertices"], flat["faces"]), (1, 4, 0))
+
     def test_voronoi_has_the_same_keys_and_times_the_dual(self):
         report = self.build("voronoi", "towns.csv", "out.geojson")
         self.assert_contract(report)

@@ -14,7 +14,8 @@ import subprocess
 import sys
 import tempfile
 
-ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "nearest": [], "editing": []}
+ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "hull": [], "nearest": [],
+             "editing": []}
 
 
 def run(command, **options):
