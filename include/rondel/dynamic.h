@@ -77,8 +77,8 @@ class DynamicTriangulation {
   /// \throws InvalidInput as remove() and insert() do.
   void move(Index id, const Point& to);
 
-  /// Moves ids[i] to to[i], one after the other.
-  /// \throws InvalidInput as remove() and insert() do, and if the lengths differ.
+  /// Moves ids[i] to to[i], one after the other; an id may appear again.
+  /// \throws InvalidInput if there is no such site, as insert() does, and if the lengths differ.
   void move(std::span<const Index> ids, std::span<const Point> to);
 
   [[nodiscard]] Model model() const noexcept;

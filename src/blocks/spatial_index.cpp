@@ -4,7 +4,6 @@
 #include "blocks/spatial_index.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 
 namespace rondel::blocks {
@@ -15,74 +14,37 @@ auto at(Vector& v, std::size_t i) {
   return v.begin() + static_cast<std::ptrdiff_t>(i);
 }
 
-std::size_t lower_bound(const std::vector<HilbertKey>& keys, const HilbertKey& key) {
-  return static_cast<std::size_t>(std::ranges::lower_bound(keys, key) - keys.begin());
-}
-
 }  // namespace
 
-std::size_t SpatialIndex::leaf_of(const HilbertKey& key) const {
-  const std::size_t next = lower_bound(firsts_, key);
-  return next == 0 ? 0 : next - 1;
-}
-
-void SpatialIndex::insert(const HilbertKey& key, Index value) {
+void SpatialIndex::insert_at(const Position& at_entry, const HilbertKey& key, Index value) {
+  auto [i, k] = at_entry;
   if (leaves_.empty()) {
     leaves_.emplace_back();
     firsts_.push_back(key);
   }
-  std::size_t i = leaf_of(key);
   if (leaves_[i].keys.size() == leaf_size) {
     split(i);
-    if (firsts_[i + 1] < key) ++i;
+    if (k > leaves_[i].keys.size()) k -= leaves_[i++].keys.size();
   }
   Leaf& leaf = leaves_[i];
-  const std::size_t place = lower_bound(leaf.keys, key);
-  leaf.keys.insert(at(leaf.keys, place), key);
-  leaf.values.insert(at(leaf.values, place), value);
+  leaf.keys.insert(at(leaf.keys, k), key);
+  leaf.values.insert(at(leaf.values, k), value);
   firsts_[i] = leaf.keys.front();
   ++size_;
 }
 
-void SpatialIndex::erase(const HilbertKey& key, Index value) {
-  std::size_t i = leaf_of(key);
-  std::size_t place = lower_bound(leaves_[i].keys, key);
-  for (;;) {
-    if (place == leaves_[i].keys.size()) {
-      ++i;
-      place = 0;
-      assert(i < leaves_.size());
-    } else if (leaves_[i].values[place] == value) {
-      break;
-    } else {
-      ++place;
-    }
-  }
-  Leaf& leaf = leaves_[i];
-  assert(leaf.keys[place] == key);
-  leaf.keys.erase(at(leaf.keys, place));
-  leaf.values.erase(at(leaf.values, place));
+void SpatialIndex::erase_at(const Position& at_entry) {
+  Leaf& leaf = leaves_[at_entry.leaf];
+  leaf.keys.erase(at(leaf.keys, at_entry.entry));
+  leaf.values.erase(at(leaf.values, at_entry.entry));
   --size_;
-  join_if_small(i);
-}
-
-Index SpatialIndex::find(const HilbertKey& key, const std::function<bool(Index)>& is_wanted) const {
-  if (leaves_.empty()) return no_index;
-  std::size_t i = leaf_of(key);
-  for (std::size_t place = lower_bound(leaves_[i].keys, key);; ++place) {
-    if (place == leaves_[i].keys.size()) {
-      if (++i == leaves_.size()) return no_index;
-      place = 0;
-    }
-    if (leaves_[i].keys[place] != key) return no_index;
-    if (is_wanted(leaves_[i].values[place])) return leaves_[i].values[place];
-  }
+  join_if_small(at_entry.leaf);
 }
 
 Index SpatialIndex::near(const HilbertKey& key) const {
   if (leaves_.empty()) return no_index;
-  const Leaf& leaf = leaves_[leaf_of(key)];
-  return leaf.values[std::min(lower_bound(leaf.keys, key), leaf.keys.size() - 1)];
+  const auto [i, k] = lower_bound(key, [](Index) { return false; });
+  return leaves_[i].values[std::min(k, leaves_[i].keys.size() - 1)];
 }
 
 std::vector<Index> SpatialIndex::values() const {

@@ -124,12 +124,15 @@ class Hull {
     }
     topology::Halfedge h = corner_of_[close];
     if (kinds_.all_solid()) return {topology::face_of(h), no_index};
-    do {
+    // Any face will do; a vertex of high degree is not searched for the best.
+    constexpr int enough = 32;
+    for (int i = 0; i < enough; ++i) {
       const Index f = topology::face_of(h);
       if (kinds_[f] == incremental::FaceKind::solid) start.solid = f;
       if (kinds_[f] == incremental::FaceKind::near) start.near = f;
       h = mesh_.next_around(f, topology::edge_of(h));
-    } while (h != corner_of_[close]);
+      if (h == corner_of_[close]) break;
+    }
     return start;
   }
 

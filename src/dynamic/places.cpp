@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cassert>
 #include <cstddef>
+#include <iterator>
+#include <utility>
 
 #include "blocks/cube_position.h"
 #include "predicates/perturbation.h"
@@ -25,12 +27,12 @@ Index take_slot(std::vector<Index>& free_slots) {
 Index Places::add_site() {
   if (!free_sites_.empty()) return take_slot(free_sites_);
   points_.emplace_back();
-  links_.emplace_back();
+  place_of_.push_back(no_index);
   return site_limit() - 1;
 }
 
 void Places::free_site(Index site) {
-  assert(links_[site].place == no_index);
+  assert(place_of_[site] == no_index);
   free_sites_.push_back(site);
 }
 
@@ -42,7 +44,7 @@ blocks::HilbertKey Places::key(const Point& p) const {
 }
 
 Index Places::find(const Point& p, const blocks::HilbertKey& key) const {
-  return index_.find(key, [&](Index place) {
+  return index_.find(key, order_of(p), [&](Index place) {
     const Point& q = place_point(place);
     if (p == q) return true;
     return model_ == Model::projected && predicates::compare_rays(p, q, center_) == Sign::zero;
@@ -59,13 +61,13 @@ Index Places::add_place(Index site, const blocks::HilbertKey& key) {
     speakers_[place] = site;
     names_[place] = site;
   }
-  links_[site] = {place, site, site};
-  index_.insert(key, place);
+  place_of_[site] = place;
+  index_.insert(key, place, order_of(points_[site]));
   return place;
 }
 
 void Places::free_place(Index place, const blocks::HilbertKey& key) {
-  index_.erase(key, place);
+  index_.erase(key, place, order_of(place_point(place)));
   free_places_.push_back(place);
 }
 
@@ -73,35 +75,51 @@ bool Places::would_speak(Index site, Index place) const {
   return predicates::is_raised_more(points_[site], place_point(place));
 }
 
+bool Places::is_less(const Point& a, const Point& b) { return predicates::is_raised_more(a, b); }
+
+bool Places::SpeaksBefore::operator()(const Member& a, const Member& b) const {
+  if (a.place != b.place) return a.place < b.place;
+  const Point& p = (*points)[a.site];
+  const Point& q = (*points)[b.site];
+  if (predicates::is_raised_more(p, q)) return true;
+  return !predicates::is_raised_more(q, p) && a.site < b.site;
+}
+
+void Places::list(const Member& member) {
+  by_name_.insert(member);
+  by_triple_.insert(member);
+}
+
+void Places::strike(const Member& member) {
+  by_name_.erase(member);
+  by_triple_.erase(member);
+}
+
 void Places::join(Index site, Index place) {
-  const Index before = speakers_[place];
-  const Index after = links_[before].next;
-  links_[site] = {place, after, before};
-  links_[before].next = site;
-  links_[after].previous = site;
+  list({place, speakers_[place]});
+  list({place, site});
+  place_of_[site] = place;
   names_[place] = std::min(names_[place], site);
 }
 
 Index Places::next_speaker(Index site) const {
-  const Index speaker = speakers_[links_[site].place];
-  if (site != speaker) return speaker;
-  Index best = no_index;
-  for (Index s = links_[site].next; s != site; s = links_[s].next) {
-    if (best == no_index || predicates::is_raised_more(points_[s], points_[best])) best = s;
-  }
-  return best;
+  const Index place = place_of_[site];
+  if (site != speakers_[place]) return speakers_[place];
+  auto next = by_triple_.lower_bound(place);
+  if (next == by_triple_.end() || next->place != place) return no_index;
+  if (next->site == site) ++next;
+  return next->site;
 }
 
 void Places::leave(Index site) {
-  const Link link = links_[site];
-  Index& name = names_[link.place];
-  if (name == site && link.next != site) {
-    name = link.next;
-    for (Index s = links_[name].next; s != site; s = links_[s].next) name = std::min(name, s);
-  }
-  links_[link.previous].next = link.next;
-  links_[link.next].previous = link.previous;
-  links_[site] = {};
+  const Index place = std::exchange(place_of_[site], no_index);
+  strike({place, site});
+  const auto first = by_name_.lower_bound({place, 0});
+  if (first == by_name_.end() || first->place != place) return;
+  names_[place] = first->site;
+  const auto second = std::next(first);
+  const bool is_alone = second == by_name_.end() || second->place != place;
+  if (is_alone) strike({place, names_[place]});
 }
 
 void Places::assign(std::span<const Point> points, std::span<const Index> place_of_site,
@@ -109,12 +127,10 @@ void Places::assign(std::span<const Point> points, std::span<const Index> place_
   points_.assign(points.begin(), points.end());
   speakers_.assign(speakers.begin(), speakers.end());
   names_ = speakers_;
-  links_.assign(points.size(), {});
-  for (Index place = 0; place < speakers.size(); ++place) {
-    links_[speakers[place]] = {place, speakers[place], speakers[place]};
-  }
+  place_of_.assign(points.size(), no_index);
+  for (Index place = 0; place < speakers.size(); ++place) place_of_[speakers[place]] = place;
   for (Index site = 0; site < points.size(); ++site) {
-    if (links_[site].place == no_index) join(site, place_of_site[site]);
+    if (place_of_[site] == no_index) join(site, place_of_site[site]);
   }
   std::vector<blocks::HilbertKey> keys(speakers.size());
   std::vector<Index> places(speakers.size());

@@ -5,6 +5,8 @@
 // the lexicographically smallest of their triples speaks for it.
 #pragma once
 
+#include <compare>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -17,6 +19,8 @@ namespace rondel::dynamic {
 class Places {
  public:
   Places(Model model, const Point& center) : model_(model), center_(center) {}
+  Places(const Places&) = delete;
+  Places& operator=(const Places&) = delete;
 
   // --- sites ---
 
@@ -24,10 +28,10 @@ class Places {
   // Ids are below this.
   [[nodiscard]] Index site_limit() const { return static_cast<Index>(points_.size()); }
   [[nodiscard]] bool is_alive(Index site) const {
-    return site < points_.size() && links_[site].place != no_index;
+    return site < points_.size() && place_of_[site] != no_index;
   }
   [[nodiscard]] const Point& point(Index site) const { return points_[site]; }
-  [[nodiscard]] Index place_of(Index site) const { return links_[site].place; }
+  [[nodiscard]] Index place_of(Index site) const { return place_of_[site]; }
 
   // An id for a new site, which is not at any place yet: one that was freed, else the next one.
   Index add_site();
@@ -72,21 +76,43 @@ class Places {
               std::span<const Index> speakers);
 
  private:
-  // The sites at a place form a ring.
-  struct Link {
-    Index place = no_index;
-    Index next = no_index;
-    Index previous = no_index;
+  // Places with several sites list them twice, so that whoever leaves has a successor at once: by
+  // name, and by who speaks.
+  struct Member {
+    Index place;
+    Index site;
+    friend auto operator<=>(const Member&, const Member&) = default;
   };
+  struct SpeaksBefore {
+    using is_transparent = void;
+    const std::vector<Point>* points;
+    bool operator()(const Member& a, const Member& b) const;
+    bool operator()(const Member& a, Index place) const { return a.place < place; }
+    bool operator()(Index place, const Member& b) const { return place < b.place; }
+  };
+
+  // How the index orders weighted places of equal keys. In the projected model these are so close
+  // that they are few.
+  [[nodiscard]] auto order_of(const Point& p) const {
+    return [this, &p](Index place) {
+      return model_ == Model::weighted && is_less(place_point(place), p);
+    };
+  }
+  static bool is_less(const Point& a, const Point& b);
+
+  void list(const Member& member);
+  void strike(const Member& member);
 
   Model model_;
   Point center_;
   std::vector<Point> points_;
-  std::vector<Link> links_;
+  std::vector<Index> place_of_;
   std::vector<Index> speakers_;
   std::vector<Index> names_;
   std::vector<Index> free_sites_;
   std::vector<Index> free_places_;
+  std::set<Member> by_name_;
+  std::set<Member, SpeaksBefore> by_triple_{SpeaksBefore{&points_}};
   blocks::SpatialIndex index_;
 };
 

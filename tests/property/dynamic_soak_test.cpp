@@ -82,7 +82,7 @@ void run_script(Model model, std::size_t steps, std::size_t limit) {
   std::vector<Index> live;
   live.reserve(limit);
   Random random(steps);
-  std::size_t allowed = 0;
+  std::size_t most = 0;  // in the first fifth, which meets the limit often
   for (std::size_t step = 0; step < steps; ++step) {
     // The number of sites swings between none and the limit.
     const bool is_growing = (step / (2 * limit)) % 2 == 0;
@@ -98,10 +98,10 @@ void run_script(Model model, std::size_t steps, std::size_t limit) {
       live[i] = live.back();
       live.pop_back();
     }
-    if (step == steps / 5) allowed = bytes_in_use + bytes_in_use / 4;
+    if (step < steps / 5) most = std::max<std::size_t>(most, bytes_in_use);
+    ASSERT_LE(bytes_in_use, most + most / 8) << "step " << step;
     if (step % 500 != 0) continue;
     ASSERT_EQ(changing.num_sites(), live.size());
-    ASSERT_TRUE(allowed == 0 || bytes_in_use <= allowed) << "step " << step;
     expect_equal_to_a_build(changing, options);
     ASSERT_FALSE(testing::Test::HasFatalFailure()) << "step " << step;
   }
