@@ -4,20 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <optional>
+#include <tuple>
 
 #include "io/crossing_lines.h"
 
 namespace rondel::io {
 namespace {
 
-// In radians. Lines are bisected until points would merge. At a tip whole arcs of the diagram are
-// no longer than the rounding of a distant circumcenter: ends of arcs up to 6 mm on the earth
-// merge.
-constexpr double shortest_bisected = 4 * merge_distance;
+// In radians. At a tip whole arcs of the diagram are no longer than the rounding of a distant
+// circumcenter: ends of arcs up to 6 mm on the earth merge.
 constexpr double longest_merged = 0x1p-30;
-// Bisecting an arc of 120 degrees this often makes it as short as that.
+// Each pass carries points across one more cell of a row of narrow ones.
 constexpr int max_passes = 46;
+
+bool is_before(const Point& p, const Point& q) {
+  return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
+}
 
 double distance(const Point& p, const Point& q) { return norm(difference(p, q)); }
 
@@ -46,7 +51,7 @@ bool CellMap::has_cell(std::size_t site) const {
 
 std::vector<LonLatPolygon> CellMap::polygons(std::size_t site) {
   if (site == only_vertex_) return lonlat_polygons({}, tolerance_);
-  if (!draw_ring(site)) return {};
+  if (unresolved_.contains(site) || !draw_ring(site)) return {};
   return polygons_of(trace_);
 }
 
@@ -136,8 +141,8 @@ void CellMap::add_arc(Index from, Index to, const ArcTolerance& tolerance) {
     ring_.edges.back() = edge;
   };
   add(snapped(cells_.points[from]));
-  const auto inner = bisected_.empty() ? bisected_.end() : bisected_.find(edge);
-  if (inner == bisected_.end()) return;
+  const auto inner = inner_points_.empty() ? inner_points_.end() : inner_points_.find(edge);
+  if (inner == inner_points_.end()) return;
   const std::vector<Point>& points = inner->second;
   if (from == edge.first) {
     std::for_each(points.begin(), points.end(), add);
@@ -203,21 +208,20 @@ bool CellMap::has_changed_arc(std::size_t site) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Index p = representative(ring[i]);
     const Index q = representative(ring[(i + 1) % ring.size()]);
-    if (merged_.contains(p) || bisected_.contains(std::minmax(p, q))) return true;
+    if (merged_.contains(p) || inner_points_.contains(std::minmax(p, q))) return true;
   }
   return false;
 }
 
 bool CellMap::resolve_crossing_lines(std::size_t site) {
+  unresolved_.erase(site);
   if (!draw_ring(site)) return false;
-  const std::vector<std::size_t> lines = crossing_lines(trace_);
-  if (lines.empty()) return false;
-  std::set<Edge> edges;
+  const std::vector<LinePair> pairs = crossing_lines(trace_);
+  if (pairs.empty()) return false;
+  unresolved_.insert(site);
   std::set<Index> ends;
-  for (const std::size_t line : lines) {
-    const Edge& edge = ring_.edges[trace_.arcs[line]];
-    edges.insert(edge);
-    ends.insert({edge.first, edge.second});
+  for (const auto& [i, j] : pairs) {
+    for (const Edge& edge : {edge_of(i), edge_of(j)}) ends.insert({edge.first, edge.second});
   }
   bool has_changed = false;
   for (std::size_t i = 0; i < ring_.points.size(); ++i) {
@@ -225,35 +229,94 @@ bool CellMap::resolve_crossing_lines(std::size_t site) {
     if (!ends.contains(low) && !ends.contains(high)) continue;
     has_changed |= merge(ring_.edges[i], ring_.tolerances[i]);
   }
-  if (has_changed) return true;
-  for (const Edge& edge : edges) has_changed |= bisect(edge, lines);
-  return has_changed;
+  return has_changed || align(pairs);
 }
 
-// Keeps the points of the edge as they are drawn, with the midpoints of those of its lines that are
-// not too short; false if all are.
-bool CellMap::bisect(const Edge& edge, std::span<const std::size_t> lines) {
-  const auto is_on_edge = [&](std::size_t i) { return ring_.edges[trace_.arcs[i]] == edge; };
-  const Point low = snapped(cells_.points[edge.first]);
-  const Point high = snapped(cells_.points[edge.second]);
-  std::vector<Point> points;
-  for (const std::size_t line : lines) {
-    if (!is_on_edge(line)) continue;
-    const Point& p = trace_.points[line].point;
-    const Point& q = trace_.points[(line + 1) % trace_.points.size()].point;
-    if (distance(p, q) > shortest_bisected) points.push_back(normalized(sum(p, q)));
-  }
-  if (points.empty()) return false;
+const CellMap::Edge& CellMap::edge_of(std::size_t line) const {
+  return ring_.edges[trace_.arcs[line]];
+}
+
+bool CellMap::is_end(const Edge& edge, const Point& p) const {
+  return p == snapped(cells_.points[edge.first]) || p == snapped(cells_.points[edge.second]);
+}
+
+// Gives each of two lines that cross the points opposite the ends of the other; false if all lines
+// have them.
+bool CellMap::align(std::span<const LinePair> pairs) {
+  std::map<Edge, Inner> drawn;
+  for (const auto& [i, j] : pairs) drawn[edge_of(i)], drawn[edge_of(j)];
   for (std::size_t i = 0; i < trace_.points.size(); ++i) {
+    const auto inner = drawn.find(edge_of(i));
     const Point& p = trace_.points[i].point;
-    if (is_on_edge(i) && p != low && p != high) points.push_back(p);
+    if (inner != drawn.end() && !is_end(inner->first, p)) inner->second.kept.push_back(p);
   }
+  bool has_changed = false;
+  for (const auto& [i, j] : pairs) {
+    if (edge_of(i) == edge_of(j)) continue;
+    for (const auto& [line, other] : {LinePair{i, j}, LinePair{j, i}}) {
+      has_changed |= align(line, edge_of(other), trace_.points[other].point, drawn);
+      has_changed |= align(line, edge_of(other), line_end(other), drawn);
+    }
+  }
+  if (!has_changed) return false;
+  for (auto& [edge, inner] : drawn) keep(edge, inner);
+  return true;
+}
+
+const Point& CellMap::line_end(std::size_t line) const {
+  return trace_.points[(line + 1) % trace_.points.size()].point;
+}
+
+// Gives a line the point opposite `p` of another edge. Points within merge_distance become one: of
+// two vertices of the diagram that of the lower index, else a vertex or the first in
+// lexicographic order, so that points do not change to and fro.
+bool CellMap::align(std::size_t line, const Edge& other, const Point& p,
+                    std::map<Edge, Inner>& drawn) {
+  const Edge& edge = edge_of(line);
+  const Point& from = trace_.points[line].point;
+  const Point& to = line_end(line);
+  if (p == from || p == to) return false;
+  for (const Point& end : {from, to}) {
+    if (distance(p, end) > merge_distance) continue;
+    if (is_end(edge, end)) return is_end(other, p) && merge_vertices(edge, end, other, p);
+    if (!is_end(other, p) && !is_before(p, end)) return false;
+    drawn[edge].dropped.push_back(end);
+    drawn[edge].kept.push_back(p);
+    return true;
+  }
+  const std::optional<Point> foot = foot_on_arc(p, from, to);
+  if (!foot) return false;
+  const Point point = distance(*foot, p) <= merge_distance ? p : snapped(*foot);
+  if (is_pole(point) || distance(point, from) <= merge_distance ||
+      distance(point, to) <= merge_distance)
+    return false;
+  drawn[edge].kept.push_back(point);
+  return true;
+}
+
+bool CellMap::merge_vertices(const Edge& edge, const Point& p, const Edge& other, const Point& q) {
+  const auto vertex = [&](const Edge& e, const Point& point) {
+    return representative(point == snapped(cells_.points[e.first]) ? e.first : e.second);
+  };
+  const auto [low, high] = std::minmax({vertex(edge, p), vertex(other, q)});
+  if (low == high) return false;
+  representatives_[high] = low;
+  merged_.insert(low);
+  return true;
+}
+
+void CellMap::keep(const Edge& edge, Inner& inner) {
+  std::sort(inner.kept.begin(), inner.kept.end(), is_before);
+  std::sort(inner.dropped.begin(), inner.dropped.end(), is_before);
+  std::vector<Point>& points = inner_points_[edge];
+  points.clear();
+  std::set_difference(inner.kept.begin(), inner.kept.end(), inner.dropped.begin(),
+                      inner.dropped.end(), std::back_inserter(points), is_before);
+  points.erase(std::unique(points.begin(), points.end()), points.end());
+  const Point low = snapped(cells_.points[edge.first]);
   const auto key = [&](const Point& p) { return distance(low, p); };
   std::sort(points.begin(), points.end(),
             [&](const Point& p, const Point& q) { return key(p) < key(q); });
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  bisected_[edge] = std::move(points);
-  return true;
 }
 
 // Shrinks a very short arc at a tip, where that moves the boundary much less than the sites are

@@ -22,9 +22,11 @@ namespace rondel::io {
 //    cocircular sites the order of the circumcenters is rounding.
 // 2. Between close sites the arc between their cells is densified to an eighth of the angle between
 //    them, farther from them to an eighth of the distance: so each polygon contains its site.
-// 3. Where the lines of a cell cross, at a tip sharper than the tolerance resolves, both arcs are
-//    bisected until they do not; these points belong to the cells on both sides. An arc at the tip
-//    that is very short shrinks to a point.
+// 3. Where the lines of a cell cross, as it is narrower than the tolerance resolves, each arc gets
+//    the points opposite those of the other, for the cells on both sides of it: lines between
+//    opposite points are as good as parallel, however near. Where they are nearer than
+//    merge_distance they become the same. An arc at a tip that is very short shrinks to a point.
+// 4. What still crosses itself after that is not drawn.
 class CellMap {
  public:
   CellMap(std::span<const Point> sites, const Triangulation& triangulation, const Cells& cells,
@@ -38,6 +40,13 @@ class CellMap {
 
  private:
   using Edge = std::pair<Index, Index>;  // two points, the lower one first
+  using LinePair = std::pair<std::size_t, std::size_t>;
+
+  // Points of an edge between its ends, in any order.
+  struct Inner {
+    std::vector<Point> kept;
+    std::vector<Point> dropped;
+  };
 
   // The ring of a cell: its points and those that bisect its arcs further.
   struct Ring {
@@ -50,7 +59,13 @@ class CellMap {
   Index representative(Index point);
   void resolve_crossing_lines(const Progress& progress);
   bool resolve_crossing_lines(std::size_t site);
-  bool bisect(const Edge& edge, std::span<const std::size_t> lines);
+  bool align(std::span<const LinePair> pairs);
+  bool align(std::size_t line, const Edge& other, const Point& p, std::map<Edge, Inner>& drawn);
+  bool merge_vertices(const Edge& edge, const Point& p, const Edge& other, const Point& q);
+  void keep(const Edge& edge, Inner& inner);
+  [[nodiscard]] const Edge& edge_of(std::size_t line) const;
+  [[nodiscard]] const Point& line_end(std::size_t line) const;
+  [[nodiscard]] bool is_end(const Edge& edge, const Point& p) const;
   bool merge(const Edge& edge, const ArcTolerance& tolerance);
   [[nodiscard]] bool has_changed_arc(std::size_t site);
   bool draw_ring(std::size_t site);
@@ -69,10 +84,11 @@ class CellMap {
   Point axis_{};                   // of the great circle of the sites in dimension 1
   std::size_t only_vertex_;
   std::vector<Index> representatives_;
-  std::map<Edge, std::vector<Point>> bisected_;  // from the lower point on
-  std::set<Index> merged_;                       // for a tip
-  Ring ring_;                                    // of the cell that is being drawn
-  Trace trace_;                                  // of that cell
+  std::map<Edge, std::vector<Point>> inner_points_;  // from the lower point on
+  std::set<Index> merged_;                           // where lines crossed
+  std::set<std::size_t> unresolved_;                 // cells whose lines cross
+  Ring ring_;                                        // of the cell that is being drawn
+  Trace trace_;                                      // of that cell
 };
 
 }  // namespace rondel::io

@@ -5,15 +5,16 @@
 #pragma once
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "io/lonlat_trace.h"
 
 namespace rondel::io {
 
-// The lines of a trace, named by their first points, that meet another line of it that is not next
-// to them. Two nearly parallel arcs that end in a sharp tip do so when they are densified
-// at different places.
-std::vector<std::size_t> crossing_lines(const Trace& trace);
+// The pairs of lines of a trace, named by their first points, that meet without being neighbors.
+// Two nearly parallel arcs have such lines where they are densified at different places.
+// Time: n log n, and the number of lines whose rectangles overlap.
+std::vector<std::pair<std::size_t, std::size_t>> crossing_lines(const Trace& trace);
 
 }  // namespace rondel::io

@@ -105,6 +105,16 @@ LonLat lonlat_of(const Point& p, bool east) {
   return {std::clamp(lon, -180.0, 180.0) + 0.0, std::clamp(lat, -90.0, 90.0) + 0.0};
 }
 
+std::optional<Point> foot_on_arc(const Point& v, const Point& p, const Point& q) {
+  const Point normal = normalized(cross(p, difference(q, p)));
+  const double height = dot(normal, difference(v, p));
+  const Point foot =
+      normalized({v.x - height * normal.x, v.y - height * normal.y, v.z - height * normal.z});
+  const bool is_inside = dot(normal, cross(p, difference(foot, p))) > 0 &&
+                         dot(normal, cross(foot, difference(q, foot))) > 0;
+  return is_inside ? std::optional(foot) : std::nullopt;
+}
+
 void append_arc(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
                 std::vector<MapPoint>& out) {
   const auto key = [](const Point& a) { return std::tie(a.x, a.y, a.z); };

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "rondel/types.h"
@@ -34,6 +35,9 @@ Point cross(const Point& p, const Point& q);
 double dot(const Point& p, const Point& q);
 double norm(const Point& p);
 Point normalized(const Point& p);
+
+// The point between p and q on their arc that is nearest to v; none if that is an end.
+std::optional<Point> foot_on_arc(const Point& v, const Point& p, const Point& q);
 
 struct MapPoint {
   Point point;

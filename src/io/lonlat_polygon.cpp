@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 namespace rondel::io {
 namespace {
@@ -46,8 +47,55 @@ double doubled_area(const std::vector<LonLat>& ring) {
   return area;
 }
 
-// Appends the loop as a polygon, without repeated positions and sides that run to and fro. A loop
-// without area lay along the antimeridian. Clockwise is only what is no wider than rounding.
+bool is_before(const LonLat& p, const LonLat& q) {
+  return p.lon_deg != q.lon_deg ? p.lon_deg < q.lon_deg : p.lat_deg < q.lat_deg;
+}
+
+// Few positions are compared faster than they are copied and sorted.
+bool visits_twice(std::span<const LonLat> positions) {
+  if (positions.size() <= 32) {
+    for (std::size_t i = 1; i < positions.size(); ++i) {
+      const auto earlier = positions.first(i);
+      if (std::find(earlier.begin(), earlier.end(), positions[i]) != earlier.end()) return true;
+    }
+    return false;
+  }
+  std::vector<LonLat> ring(positions.begin(), positions.end());
+  std::sort(ring.begin(), ring.end(), is_before);
+  return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
+}
+
+// Without area is what lay along the antimeridian; clockwise only what is no wider than rounding.
+void append_simple_loop(std::vector<LonLat> ring, bool is_part, std::vector<LonLatPolygon>& out) {
+  if (ring.size() < 3) return;
+  const double area = doubled_area(ring);
+  if (area == 0 || (area < 0 && is_part)) return;
+  if (area < 0) std::reverse(ring.begin(), ring.end());
+  ring.push_back(ring.front());
+  out.push_back({std::move(ring)});
+}
+
+// Takes the loops apart of which a ring consists that comes back to the same positions: one
+// between two visits of a position that has no such visits itself.
+void append_loops_of(const std::vector<LonLat>& ring, std::vector<LonLatPolygon>& out) {
+  const auto before = [](const LonLat& p, const LonLat& q) { return is_before(p, q); };
+  std::map<LonLat, std::size_t, decltype(before)> places(before);
+  std::vector<LonLat> open;
+  for (const LonLat& position : ring) {
+    const auto [place, is_new] = places.try_emplace(position, open.size());
+    if (!is_new) {
+      const auto first = open.begin() + static_cast<std::ptrdiff_t>(place->second);
+      append_simple_loop({first, open.end()}, true, out);
+      std::for_each(first + 1, open.end(), [&](const LonLat& p) { places.erase(p); });
+      open.erase(first + 1, open.end());
+      continue;
+    }
+    open.push_back(position);
+  }
+  append_simple_loop(std::move(open), true, out);
+}
+
+// Appends the loop as polygons, without repeated positions and sides that run to and fro.
 void append_loop(const std::vector<LonLat>& loop, std::vector<LonLatPolygon>& out) {
   std::vector<LonLat> ring;
   for (const LonLat& position : loop) {
@@ -59,12 +107,20 @@ void append_loop(const std::vector<LonLat>& loop, std::vector<LonLatPolygon>& ou
     ring.push_back(position);
   }
   while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
-  if (ring.size() < 3) return;
-  const double area = doubled_area(ring);
-  if (area == 0) return;
-  if (area < 0) std::reverse(ring.begin(), ring.end());
-  ring.push_back(ring.front());
-  out.push_back({std::move(ring)});
+  if (visits_twice(ring)) {
+    append_loops_of(ring, out);
+  } else {
+    append_simple_loop(std::move(ring), false, out);
+  }
+}
+
+// A convex region has none of its antipodes, and antipodes have the same area in the plane: it
+// covers at most half of the rectangle. What covers nearly all of it is the outside of a region no
+// wider than rounding.
+bool is_outside(const std::vector<LonLatPolygon>& polygons) {
+  double doubled = 0;
+  for (const LonLatPolygon& polygon : polygons) doubled += doubled_area(polygon.ring);
+  return doubled > 1.5 * 360 * 180;
 }
 
 // Joins chains along the border into loops. With the region to the left, the border belongs to it
@@ -132,6 +188,7 @@ std::vector<LonLatPolygon> polygons_of(const Trace& trace) {
   std::vector<LonLatPolygon> polygons;
   if (!trace.starts.empty()) {
     Stitching(trace).append_loops(polygons);
+    if (is_outside(polygons)) polygons.clear();
     return polygons;
   }
   std::vector<LonLat> loop;
