@@ -3,6 +3,7 @@
 
 #include "rondel/hull.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -17,7 +18,8 @@ namespace {
 
 using Vector = exact::Vector3<double>;
 
-// Twice the area of the triangle from the origin, as a vector, and six times the volume.
+// Sums over faces of which the origin is below or in the plane, so that no volume is negative
+// but by rounding.
 struct Sums {
   double area = 0;
   double volume = 0;
@@ -25,9 +27,19 @@ struct Sums {
   void add(const Vector& a, const Vector& b, const Vector& c) {
     const Vector n = cross(b - a, c - a);
     area += std::hypot(n.x, n.y, n.z) / 2;
-    volume += dot(a, n) / 6;
+    volume += std::max(dot(a, n), 0.0) / 6;
   }
 };
+
+// An exponent e such that no coordinate times 2^-e is larger than 1/2.
+int exponent_of(std::span<const Point> points) {
+  double largest = 0;
+  for (const Point& p : points) {
+    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  }
+  constexpr int least = -1000;  // 2^1000 is finite
+  return largest > 0 ? std::max(std::ilogb(largest) + 2, least) : 0;
+}
 
 }  // namespace
 
@@ -53,16 +65,22 @@ HullSize size_of_hull(const Triangulation& hull, std::span<const Point> points) 
         std::to_string(points.size()) + " points for a hull of " + std::to_string(hull.num_sites()),
         0);
   }
-  const Vector center = exact::to_vector(hull.sphere().center);
-  const auto at = [&](Index i) { return exact::to_vector(points[i]) - center; };
+  const int exponent = exponent_of(points);
+  const double scale = std::ldexp(1.0, -exponent);
+  const auto scaled = [scale](const Point& p) {
+    return Vector{scale * p.x, scale * p.y, scale * p.z};
+  };
+  const Vector center = scaled(hull.sphere().center);
+  const auto at = [&](Index i) { return scaled(points[i]) - center; };
   Sums sums;
   for (const auto& [a, b, c] : hull.faces()) sums.add(at(a), at(b), at(c));
   const auto ring = hull.ring();
   for (std::size_t i = 2; i < ring.size(); ++i) {
     sums.add(at(ring[0]), at(ring[i - 1]), at(ring[i]));
   }
-  if (hull.dimension() < 2) return {0, 2 * sums.area};
-  return {sums.volume, sums.area};
+  const bool is_flat = hull.dimension() < 2;
+  return {is_flat ? 0 : std::ldexp(sums.volume, 3 * exponent),
+          std::ldexp(is_flat ? 2 * sums.area : sums.area, 2 * exponent)};
 }
 
 }  // namespace rondel

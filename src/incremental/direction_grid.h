@@ -52,7 +52,7 @@ class DirectionGrid {
 
   // Precondition: d has a direction.
   [[nodiscard]] std::size_t cell(const Direction& d) const {
-    return (d.side * cells_ + step(d.u)) * cells_ + step(d.v);
+    return (std::size_t{d.side} * cells_ + step(d.u)) * cells_ + step(d.v);
   }
   // The cell along one edge; the far end belongs to the last one.
   [[nodiscard]] std::size_t step(double u) const {

@@ -59,12 +59,6 @@ class Insertion {
   [[nodiscard]] topology::Mesh& mesh() { return mesh_; }
   [[nodiscard]] const FaceKinds& kinds() const { return kinds_; }
 
-  // A solid face above p, a hidden site; successive calls for close sites are fast.
-  [[nodiscard]] Index face_above(Index p) {
-    solid_ = Location<T>(sites_, mesh_, kinds_).face_above(p, solid_);
-    return solid_;
-  }
-
  private:
   // Where the walks start next. A solid (near) face can only vanish if the star has one too:
   // what it covers, seen from the center, is covered by the star afterwards.

@@ -83,11 +83,6 @@ class Location {
     return {no_index, far_side.face, near_side.beyond == no_index ? near_side.face : no_index};
   }
 
-  // The solid face through which the ray of p leaves the hull, or the last one before the contour.
-  [[nodiscard]] Index face_above(Index p, Index solid) const {
-    return walk(p, walk_by_guess(p, solid), FaceKind::solid).face;
-  }
-
  private:
   struct Walk {
     Index face;

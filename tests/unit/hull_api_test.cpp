@@ -90,6 +90,20 @@ TEST(hull_api, measures_volume_and_area) {
   EXPECT_THROW(size_of_hull(convex_hull(square), points), InvalidInput);
 }
 
+TEST(hull_api, measures_at_both_ends_of_the_range) {
+  const auto scaled_size = [](double scale) {
+    auto points = cube_corners();
+    for (Point& p : points) p = {scale * (p.x - 1), scale * (p.y - 1), scale * (p.z - 1)};
+    return size_of_hull(convex_hull(points), points);
+  };
+  const double largest = std::numeric_limits<double>::max();
+  EXPECT_EQ(scaled_size(largest).volume, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(scaled_size(largest).area, std::numeric_limits<double>::infinity());
+  EXPECT_DOUBLE_EQ(scaled_size(0x1p300).volume, 0x1p903);
+  EXPECT_DOUBLE_EQ(scaled_size(0x1p-300).volume, 0x1p-897);
+  EXPECT_EQ(scaled_size(0x1p-1070).area, 0);
+}
+
 TEST(hull_api, does_not_depend_on_the_sign_of_zero) {
   std::vector<Point> points = {{0, 0, 0}, {-0.0, -0.0, -0.0}, {1, 0, 0}, {0, 1, 0}};
   const Point first = convex_hull(points).sphere().center;
