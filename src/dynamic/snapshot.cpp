@@ -50,8 +50,7 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
 
   topology::Mesh copy = mesh;
   rename_vertices(copy, rank_of_place);
-  const auto order = incremental::canonical_order(copy, num_ranks, std::move(rank_of_place));
-  incremental::write_canonical(copy, order, names, arrays);
+  incremental::write_canonical(copy, names, std::move(rank_of_place), arrays);
   arrays.num_sites = sites.size();
   arrays.dimension = 2;
   arrays.duplicates = std::move(duplicates);

@@ -4,6 +4,7 @@
 #include "incremental/canonical.h"
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -43,42 +44,65 @@ void walk_around(const Mesh& mesh, std::span<Halfedge> faces) {
   }
 }
 
-// Sorts the faces of one owner, given as 3*face + corner. Where each face meets the one before,
-// which is usual, their corners tell; otherwise a walk around the owner.
-void sort_around(const Mesh& mesh, std::span<Halfedge> faces) {
-  const auto vertex = [&mesh](Halfedge h, unsigned step) {
-    return mesh[face_of(h)].vertex[(edge_of(h) + step) % 3];
-  };
-  std::iter_swap(faces.begin(), std::ranges::min_element(
-                                    faces, {}, [&vertex](Halfedge h) { return vertex(h, 1); }));
-  if (faces.size() == 2) return;
-  // Looking for the next face is quadratic in their number, the walk linear in the owner's degree.
-  constexpr std::size_t many = 16;
-  if (faces.size() > many) {
-    walk_around(mesh, faces);
-    return;
-  }
-  for (std::size_t i = 1; i < faces.size(); ++i) {
-    const Index shared = vertex(faces[i - 1], 2);
-    const auto next = std::find_if(faces.begin() + static_cast<std::ptrdiff_t>(i), faces.end(),
-                                   [&](Halfedge h) { return vertex(h, 1) == shared; });
-    if (next == faces.end()) {
-      walk_around(mesh, faces);
-      return;
+// The faces of one owner, given as 3*face + corner, with their other corners.
+class OwnedFaces {
+ public:
+  explicit OwnedFaces(const Mesh& mesh) : mesh_(mesh) {}
+
+  // Sorts them. Where each face meets the one before, which is usual, their corners tell; otherwise
+  // a walk around the owner.
+  void sort(std::span<Halfedge> faces) {
+    // Looking for the next face is quadratic in their number, the walk linear in the owner's
+    // degree.
+    if (faces.size() > many || !chain(faces)) {
+      const auto second = [this](Halfedge h) {
+        return mesh_[face_of(h)].vertex[next_corner[edge_of(h)]];
+      };
+      std::iter_swap(faces.begin(), std::ranges::min_element(faces, {}, second));
+      walk_around(mesh_, faces);
     }
-    std::iter_swap(faces.begin() + static_cast<std::ptrdiff_t>(i), next);
   }
-}
 
-}  // namespace
+ private:
+  static constexpr std::size_t many = 16;
 
-std::vector<Halfedge> canonical_order(const Mesh& mesh, Index num_ranks,
-                                      std::vector<Index> scratch) {
-  std::vector<Index>& end = scratch;
-  end.assign(num_ranks, 0);
+  bool chain(std::span<Halfedge> faces) {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const auto& v = mesh_[face_of(faces[i])].vertex;
+      const unsigned b = next_corner[edge_of(faces[i])];
+      second_[i] = v[b];
+      third_[i] = v[next_corner[b]];
+      if (second_[i] < second_[first]) first = i;
+    }
+    move_to(faces, 0, first);
+    if (faces.size() == 2) return true;
+    for (std::size_t i = 1; i < faces.size(); ++i) {
+      std::size_t next = i;
+      while (next < faces.size() && second_[next] != third_[i - 1]) ++next;
+      if (next == faces.size()) return false;
+      move_to(faces, i, next);
+    }
+    return true;
+  }
+
+  void move_to(std::span<Halfedge> faces, std::size_t i, std::size_t j) {
+    std::swap(faces[i], faces[j]);
+    std::swap(second_[i], second_[j]);
+    std::swap(third_[i], third_[j]);
+  }
+
+  const Mesh& mesh_;
+  std::array<Index, many> second_{};
+  std::array<Index, many> third_{};
+};
+
+// For each rank, where its faces end in the order; then the faces themselves.
+std::vector<Halfedge> faces_by_owner(const Mesh& mesh, std::vector<Index>& end) {
   const Index num_slots = mesh.num_slots();
+  const auto last_rank = static_cast<Index>(end.size() - 1);
   const auto prefetch_end = [&](Index f) {
-    if (f < num_slots) blocks::prefetch(&end[std::min(owner(mesh[f]), num_ranks - 1)]);
+    if (f < num_slots) blocks::prefetch(&end[std::min(owner(mesh[f]), last_rank)]);
   };
   for (Index f = 0; f < num_slots; ++f) {
     prefetch_end(f + blocks::prefetch_distance);
@@ -94,42 +118,51 @@ std::vector<Halfedge> canonical_order(const Mesh& mesh, Index num_ranks,
     prefetch_end(f + blocks::prefetch_distance);
     if (mesh.is_alive(f)) order[end[owner(mesh[f])]++] = halfedge(f, first_corner(mesh[f]));
   }
-  Index begin = 0;
-  for (Index rank = 0; rank < num_ranks; ++rank) {
-    const Index ahead = begin + blocks::prefetch_distance;
-    if (ahead < order.size()) blocks::prefetch(&mesh[face_of(order[ahead])]);
-    const Index count = end[rank] - begin;
-    if (count > 1) sort_around(mesh, {&order[begin], count});
-    begin = end[rank];
-  }
   return order;
 }
 
-void write_canonical(Mesh& mesh, const std::vector<Halfedge>& order,
-                     const std::vector<Index>& names, TriangulationArrays& arrays) {
-  const auto rotated = [](const std::array<Index, 3>& values, unsigned a) {
-    const unsigned b = next_corner[a];
-    return Triple{values[a], values[b], values[next_corner[b]]};
-  };
-  system::reserve_large(arrays.faces, order.size());
-  arrays.faces.resize(order.size());
+// Sorts the faces of each owner and writes them.
+void write_faces(const Mesh& mesh, std::vector<Halfedge>& order, const std::vector<Index>& end,
+                 const std::vector<Index>& names, std::vector<Triple>& faces) {
+  system::reserve_large(faces, order.size());
+  OwnedFaces owned(mesh);
+  Index begin = 0;
+  for (Index rank = 0; rank < end.size(); ++rank) {
+    if (end[rank] - begin > 1) owned.sort({&order[begin], end[rank] - begin});
+    for (; begin < end[rank]; ++begin) {
+      const Index ahead = begin + blocks::prefetch_distance;
+      if (ahead < order.size()) blocks::prefetch(&mesh[face_of(order[ahead])]);
+      const auto& v = mesh[face_of(order[begin])].vertex;
+      const unsigned b = next_corner[edge_of(order[begin])];
+      faces.push_back({names[rank], names[v[b]], names[v[next_corner[b]]]});
+    }
+  }
+}
+
+}  // namespace
+
+void write_canonical(Mesh& mesh, const std::vector<Index>& names, std::vector<Index> scratch,
+                     TriangulationArrays& arrays) {
+  scratch.assign(names.size(), 0);
+  std::vector<Halfedge> order = faces_by_owner(mesh, scratch);
+  write_faces(mesh, order, scratch, names, arrays.faces);
+
   const auto prefetch_face = [&](std::size_t i) {
     if (i < order.size()) blocks::prefetch(&mesh[face_of(order[i])]);
   };
   for (std::size_t i = 0; i < order.size(); ++i) {
     prefetch_face(i + blocks::prefetch_distance);
-    auto& vertex = mesh[face_of(order[i])].vertex;
-    arrays.faces[i] = rotated(vertex, edge_of(order[i]));
-    for (Index& v : arrays.faces[i]) v = names[v];
-    vertex[0] = static_cast<Index>(i);
+    mesh[face_of(order[i])].vertex[0] = static_cast<Index>(i);
   }
   system::reserve_large(arrays.neighbors, order.size());
-  arrays.neighbors.resize(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     prefetch_face(i + blocks::prefetch_distance);
     const auto& opposite = mesh[face_of(order[i])].opposite;
-    arrays.neighbors[i] = rotated(opposite, edge_of(order[i]));
-    for (Index& g : arrays.neighbors[i]) g = mesh[face_of(g)].vertex[0];
+    const unsigned a = edge_of(order[i]);
+    const unsigned b = next_corner[a];
+    const auto place = [&mesh](Halfedge h) { return mesh[face_of(h)].vertex[0]; };
+    arrays.neighbors.push_back(
+        {place(opposite[a]), place(opposite[b]), place(opposite[next_corner[b]])});
   }
 }
 

@@ -32,20 +32,20 @@ class ConflictRegion {
     const auto& last = mesh[topology::face_of(face.opposite[2])].vertex;
     stack_.push_back(
         {{face.vertex[0], face.opposite[2]}, sites.is_in_conflict(last[0], last[1], last[2], p)});
-    push_edges(sites, mesh, p, face, 0, 1);
-    while (!stack_.empty()) {
-      const Crossing crossing = stack_.back();
-      stack_.pop_back();
-      if (!crossing.is_in_conflict) {
-        horizon_.push_back(crossing.edge);
+    Crossing next = cross_edges(sites, mesh, p, face, 0, 1);
+    for (;;) {
+      if (!next.is_in_conflict) horizon_.push_back(next.edge);
+      const Index f = topology::face_of(next.edge.outside);
+      if (next.is_in_conflict && !is_known(f)) {
+        add(f);
+        const unsigned entered = topology::edge_of(next.edge.outside);
+        next = cross_edges(sites, mesh, p, mesh[f], topology::next_corner[entered],
+                           topology::previous_corner[entered]);
         continue;
       }
-      const Index f = topology::face_of(crossing.edge.outside);
-      if (is_known(f)) continue;
-      add(f);
-      const unsigned entered = topology::edge_of(crossing.edge.outside);
-      push_edges(sites, mesh, p, mesh[f], topology::next_corner[entered],
-                 topology::previous_corner[entered]);
+      if (stack_.empty()) break;
+      next = stack_.back();
+      stack_.pop_back();
     }
     if (T::hides_sites && faces_.size() >= few) {
       for (const Index f : faces_) marks_[f] = false;
@@ -63,15 +63,15 @@ class ConflictRegion {
     bool is_in_conflict;  // the face behind it
   };
 
-  // Edge i runs from corner i+1.
-  void push_edges(const T& sites, const topology::Mesh& mesh, Index p, const topology::Face& face,
-                  unsigned first, unsigned second) {
+  // Returns the first crossing and leaves the second for later. Edge i runs from corner i+1.
+  Crossing cross_edges(const T& sites, const topology::Mesh& mesh, Index p,
+                       const topology::Face& face, unsigned first, unsigned second) {
     const topology::Halfedge a = face.opposite[first];
     const topology::Halfedge b = face.opposite[second];
     const auto [is_a, is_b] = sites.are_in_conflict(mesh[topology::face_of(a)].vertex,
                                                     mesh[topology::face_of(b)].vertex, p);
     stack_.push_back({{face.vertex[topology::next_corner[second]], b}, is_b});
-    stack_.push_back({{face.vertex[topology::next_corner[first]], a}, is_a});
+    return {{face.vertex[topology::next_corner[first]], a}, is_a};
   }
 
   // A region this small is searched faster than marks, which lie anywhere in memory.

@@ -53,7 +53,8 @@ void report_ghosts(const topology::Mesh& mesh, const FaceKinds& kinds, std::vect
 template <SphereTraits T>
 std::vector<Hidden> find_hidden(const topology::Mesh& mesh, Index num_ranks) {
   std::vector<Hidden> hidden;
-  if constexpr (T::hides_sites) {
+  // V vertices have 2V-4 faces.
+  if (T::hides_sites && mesh.num_faces() / 2 + 2 < num_ranks) {
     std::vector<bool> is_vertex(num_ranks, false);
     for (Index f = 0; f < mesh.num_slots(); ++f) {
       if (!mesh.is_alive(f)) continue;
@@ -86,10 +87,9 @@ Triangulated build(std::span<const Point> sites, std::vector<Index> order,
   Triangulated result;
   result.arrays.dimension = 2;
   result.arrays.hidden = find_hidden<T>(kernel.mesh(), num_ranks);
-  const auto canonical = canonical_order(kernel.mesh(), num_ranks, std::move(insertion));
   result.tally = traits->tally();
   traits.reset();
-  write_canonical(kernel.mesh(), canonical, order, result.arrays);
+  write_canonical(kernel.mesh(), order, std::move(insertion), result.arrays);
   report_ghosts(kernel.mesh(), kernel.kinds(), result.arrays.ghost_faces);
   for (Hidden& h : result.arrays.hidden) h.site = order[h.site];
   std::ranges::sort(result.arrays.hidden, {}, &Hidden::site);
