@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <numeric>
 
-#include "dual/arc_points.h"
 #include "blocks/prefetch.h"
+#include "dual/arc_points.h"
 #include "dual/great_circle.h"
 #include "dual/parts.h"
 #include "dual/ring_walk.h"
@@ -17,10 +17,10 @@
 namespace rondel {
 namespace {
 
-using dual::ArcPoint;
 using blocks::prefetch;
 using blocks::prefetch_distance;
 using blocks::prefetch_to_write;
+using dual::ArcPoint;
 
 // Positions in the rings: the faces and arc points around each site, summed.
 std::vector<std::uint64_t> ring_offsets(const Triangulation& triangulation,

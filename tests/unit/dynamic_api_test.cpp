@@ -270,19 +270,21 @@ TEST(dynamic, one_site_hides_many_below_many_faces) {
 
 // Along the circle, so that what spans it goes again and again.
 TEST(dynamic, a_great_circle_is_emptied_site_by_site) {
-  constexpr int size = 20000;
+  constexpr std::size_t size = 20000;
   for (const double start : {-135.0, 0.5, 45.0, 135.0}) {
     DynamicTriangulation changing;
     std::vector<Point> sites(size);
-    for (int i = 0; i < size; ++i) sites[i] = unit_vector({start + i * 360.0 / size, 0});
+    for (std::size_t i = 0; i < size; ++i) {
+      sites[i] = unit_vector({start + 360.0 * static_cast<double>(i) / size, 0});
+    }
     const auto ids = changing.insert(sites);
-    for (int i = 0; i < size - 3; ++i) changing.remove(ids[i]);
+    for (std::size_t i = 0; i < size - 3; ++i) changing.remove(ids[i]);
     EXPECT_EQ(changing.dimension(), 1);
     EXPECT_EQ(changing.num_vertices(), 3U);
     const Index pole = changing.insert({0, 0, 1});
     EXPECT_EQ(changing.num_faces(), 4U);
     changing.remove(pole);
-    for (int i = size - 3; i < size; ++i) changing.remove(ids[i]);
+    for (std::size_t i = size - 3; i < size; ++i) changing.remove(ids[i]);
     EXPECT_EQ(changing.dimension(), -1);
   }
 }
