@@ -24,7 +24,7 @@ std::vector<Point> vertices(const Triangulation& hull, const std::vector<Point>&
   }
   for (const Index corner : hull.ring()) result.push_back(points[corner]);
   std::ranges::sort(result, {}, key);
-  result.erase(std::ranges::unique(result).begin(), result.end());
+  result.erase(std::unique(result.begin(), result.end()), result.end());
   return result;
 }
 
