@@ -9,6 +9,7 @@
 
 #include "api/dynamic_impl.h"
 #include "api/validation.h"
+#include "dynamic/query_engine.h"
 #include "dynamic/snapshot.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
@@ -69,16 +70,23 @@ void DynamicTriangulation::Impl::assign(const Triangulation& triangulation,
   });
 }
 
+Snapshot DynamicTriangulation::Impl::live_sites() const {
+  Snapshot now;
+  now.ids = dynamic::live_sites(places());
+  now.sites.reserve(now.ids.size());
+  for (const Index id : now.ids) now.sites.push_back(places().point(id));
+  return now;
+}
+
 const Snapshot& DynamicTriangulation::Impl::flat_snapshot() const {
   const std::lock_guard guard(mutex);
   if (!flat) {
-    flat.emplace();
-    flat->ids = dynamic::live_sites(places());
-    for (const Index id : flat->ids) flat->sites.push_back(places().point(id));
+    flat = live_sites();
     flat->triangulation = delaunay(flat->sites, options);
   }
   return *flat;
 }
+
 std::vector<Index> DynamicTriangulation::Impl::flat_ring() const {
   const Snapshot& now = flat_snapshot();
   std::vector<Index> ring;
@@ -223,10 +231,11 @@ std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
     const Index before = ring[(i + ring.size() - 1) % ring.size()];
     return {std::min(next, before), std::max(next, before)};
   }
-  return impl_->visit([id](const auto& e) {
-    std::vector<Index> result = e.hull()->neighbors(e.places().place_of(id));
-    for (Index& place : result) place = e.places().names()[place];
-    std::rotate(result.begin(), std::ranges::min_element(result), result.end());
+  return impl_->visit([this, id](const auto& e) {
+    const Index place = e.places().place_of(id);
+    if (!e.hull()->is_vertex(place)) return std::vector<Index>();
+    std::vector<Index> result = dynamic::HullEngine(e, sphere()).neighbors(place);
+    for (Index& v : result) v = e.places().names()[v];
     return result;
   });
 }
@@ -245,10 +254,7 @@ Triple DynamicTriangulation::face(Index face) const {
 Snapshot DynamicTriangulation::snapshot() const {
   if (!impl_->has_hull()) return impl_->flat_snapshot();
   return impl_->visit([this](const auto& e) {
-    Snapshot now;
-    now.ids = dynamic::live_sites(e.places());
-    now.sites.reserve(now.ids.size());
-    for (const Index id : now.ids) now.sites.push_back(e.places().point(id));
+    Snapshot now = impl_->live_sites();
     now.triangulation = {dynamic::make_arrays(e.places(), now.ids, now.sites, e.hull()->mesh(),
                                               e.hull()->kinds(), e.hull()->hidden(),
                                               impl_->options.model, impl_->options.sphere.center),

@@ -43,6 +43,9 @@ struct DynamicTriangulation::Impl {
   void assign(const Triangulation& triangulation, std::span<const Point> sites);
   void changed() { flat.reset(); }
 
+  // A snapshot without its triangulation.
+  [[nodiscard]] Snapshot live_sites() const;
+
   // Below dimension 2 there is no hull to ask. A snapshot answers, made when first needed.
   [[nodiscard]] bool has_hull() const {
     return visit([](const auto& e) { return e.hull().has_value(); });

@@ -3,9 +3,9 @@
 
 #include "rondel/predicates.h"
 
-#include "exact/integer.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
+#include "predicates/ray_order.h"
 #include "predicates/side_of_circle.h"
 #include "predicates/side_of_plane.h"
 
@@ -36,8 +36,7 @@ bool is_in_conflict(const Point& a, const Point& b, const Point& c, const Point&
 bool is_same_site(const Point& a, const Point& b, Model model, const Sphere& sphere) {
   if (a == b) return true;
   if (model == Model::weighted) return false;
-  const auto v = exact::scaled_rays({a, b}, sphere.center);
-  return exact::is_zero(cross(v[0], v[1])) && dot(v[0], v[1]) > 0;
+  return predicates::are_on_one_ray(a, b, sphere.center);
 }
 
 }  // namespace rondel

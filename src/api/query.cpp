@@ -13,6 +13,7 @@
 
 #include "api/dynamic_impl.h"
 #include "api/validation.h"
+#include "dual/split_sites.h"
 #include "dynamic/query_engine.h"
 #include "query/batch.h"
 #include "query/directory.h"
@@ -25,14 +26,6 @@ namespace {
 
 using query::Cursor;
 using Limit = std::optional<predicates::Cosine>;
-
-void check_number(const Triangulation& triangulation, std::size_t num_sites) {
-  if (num_sites == triangulation.num_sites()) return;
-  throw InvalidInput("the triangulation was made from " +
-                         std::to_string(triangulation.num_sites()) + " sites, not from " +
-                         std::to_string(num_sites),
-                     std::min(num_sites, triangulation.num_sites()));
-}
 
 void check_angle(double angle) {
   if (angle >= 0) return;
@@ -85,7 +78,6 @@ class Locator::Impl {
   [[nodiscard]] const Sphere& sphere() const { return sphere_; }
   [[nodiscard]] Model model() const { return model_; }
   [[nodiscard]] Point site(Index i) const { return directory_->site(i); }
-  [[nodiscard]] std::size_t num_vertices() const { return directory_->num_vertices(); }
   [[nodiscard]] Index vertex_of(Index site) const { return directory_->vertex_of(site); }
 
   [[nodiscard]] Cursor cursor_at(const Point& p) const {
@@ -188,7 +180,7 @@ SiteLists Locator::Impl::within(std::span<const Point> queries, const Limit& lim
 }
 
 Locator::Locator(const Triangulation& triangulation, std::span<const Point> sites) {
-  check_number(triangulation, sites.size());
+  dual::check_size(triangulation, sites.size());
   impl_ = std::make_unique<const Impl>(triangulation, sites);
 }
 Locator::Locator(const DynamicTriangulation& triangulation) {

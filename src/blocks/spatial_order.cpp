@@ -51,12 +51,7 @@ class Ordering {
     Index site;
   };
 
-  // Sites on one ray must have one key. Rounded differences from a center would break that.
-  [[nodiscard]] HilbertKey key(Index i) const {
-    const bool is_rounding_harmless = model_ == Model::weighted || center_ == Point{};
-    return hilbert_key(is_rounding_harmless ? cube_position(sites_[i], center_)
-                                            : exact_cube_position(sites_[i], center_));
-  }
+  [[nodiscard]] HilbertKey key(Index i) const { return place_key(sites_[i], model_, center_); }
 
   [[nodiscard]] bool is_lexicographically_less(Index i, Index j) const {
     const Point& a = sites_[i];
@@ -126,6 +121,13 @@ class Ordering {
 };
 
 }  // namespace
+
+// Rounded differences from a center would give sites on one ray different keys.
+HilbertKey place_key(const Point& p, Model model, const Point& center) {
+  const bool is_rounding_harmless = model == Model::weighted || center == Point{};
+  return hilbert_key(is_rounding_harmless ? cube_position(p, center)
+                                          : exact_cube_position(p, center));
+}
 
 SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center) {
   return Ordering(sites, model, center).run();

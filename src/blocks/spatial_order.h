@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "blocks/hilbert.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
@@ -22,6 +23,9 @@ struct SpatialOrder {
   // The ranks named by another site than order[rank].
   std::vector<Duplicate> renamed;  // {rank, lowest index}
 };
+
+// The key of a site's place: all sites in one place have it.
+HilbertKey place_key(const Point& p, Model model, const Point& center);
 
 SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center);
 

@@ -34,6 +34,8 @@ exact::SplitPoint scaled_place(const Point& p, int shift) {
   return {{std::ldexp(p.x, shift), std::ldexp(p.y, shift), std::ldexp(p.z, shift)}, {}};
 }
 
+}  // namespace
+
 void check_size(const Triangulation& triangulation, std::size_t num_sites) {
   if (num_sites == triangulation.num_sites()) return;
   throw InvalidInput("the triangulation was made from " +
@@ -41,8 +43,6 @@ void check_size(const Triangulation& triangulation, std::size_t num_sites) {
                          std::to_string(num_sites),
                      std::min(num_sites, triangulation.num_sites()));
 }
-
-}  // namespace
 
 Vec normalized(const Vec& v) {
   const double square = dot(v, v);

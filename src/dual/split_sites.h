@@ -46,6 +46,9 @@ inline Offset offset(const exact::SplitPoint& a, const exact::SplitPoint& b) {
           {x.lo + (b.lo.x - a.lo.x), y.lo + (b.lo.y - a.lo.y), z.lo + (b.lo.z - a.lo.z)}};
 }
 
+// Throws InvalidInput if the triangulation was not made from so many sites.
+void check_size(const Triangulation& triangulation, std::size_t num_sites);
+
 // Vertices are named by their rank: the order in which the faces first come to them (below
 // dimension 2, the order of the ring). Faces are in spatial order and sites are not, so places by
 // rank are near in memory when they are near in space; by site, every corner would miss the caches.

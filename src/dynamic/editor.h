@@ -155,7 +155,7 @@ class Editor {
       leave_span(place);
     } else if (!hull_->is_vertex(place)) {
       hull_->remove_hidden(place);
-    } else if (!leaves_flat(place)) {
+    } else if (!leaves_flat(hull_->collect_star(place))) {
       hull_->remove_vertex(place);
     } else {
       hull_.reset();
@@ -163,10 +163,10 @@ class Editor {
     }
   }
 
-  // Whether the vertices but v lie in one plane with the center: then all are neighbors of v.
-  [[nodiscard]] bool leaves_flat(Index v) {
+  // Whether the vertices but the one with this link lie in one plane with the center: then all are
+  // in the link.
+  [[nodiscard]] bool leaves_flat(std::span<const Index> link) const {
     if (hull_->num_vertices() == 3) return true;
-    const auto link = hull_->neighbors(v);
     return link.size() + 1 == hull_->num_vertices() && find_span(link).size() < 3;
   }
 

@@ -72,24 +72,26 @@ class Hull {
 
   void remove_hidden(Index p) { hidden_.detach(p); }
 
-  // The neighbors of a vertex, counterclockwise seen from outside; none of a hidden place.
-  [[nodiscard]] std::vector<Index> neighbors(Index v) const {
-    std::vector<Index> result;
-    if (!is_vertex(v)) return result;
+  // The neighbors of a vertex, counterclockwise seen from outside, for remove_vertex().
+  std::span<const Index> collect_star(Index v) {
+    link_.clear();
+    outer_.clear();
+    star_.clear();
     topology::Halfedge h = corner_of_[v];
     do {
       const Index f = topology::face_of(h);
       const unsigned corner = topology::edge_of(h);
-      result.push_back(mesh_[f].vertex[topology::next_corner[corner]]);
+      link_.push_back(mesh_[f].vertex[topology::next_corner[corner]]);
+      outer_.push_back(mesh_[f].opposite[corner]);
+      star_.push_back(f);
       h = mesh_.next_around(f, corner);
     } while (h != corner_of_[v]);
-    return result;
+    return link_;
   }
 
-  // Precondition: v is a vertex, and the hull of the others has dimension 2.
+  // Precondition: collect_star(v) was the call before, and the hull of the others has dimension 2.
   void remove_vertex(Index v) {
     const bool was_all_solid = kinds_.all_solid();
-    collect_star(v);
     bool is_grazed = false;
     for (const Index f : star_) {
       is_grazed = is_grazed || kinds_[f] == incremental::FaceKind::grazing;
@@ -254,21 +256,6 @@ class Hull {
         incremental::Location<T>(sites_, mesh_, kinds_).locate(q, start.solid, start.near);
     assert(place.conflict == no_index);
     hidden_.attach(q, place.solid, place.near);
-  }
-
-  void collect_star(Index v) {
-    link_.clear();
-    outer_.clear();
-    star_.clear();
-    topology::Halfedge h = corner_of_[v];
-    do {
-      const Index f = topology::face_of(h);
-      const unsigned corner = topology::edge_of(h);
-      link_.push_back(mesh_[f].vertex[topology::next_corner[corner]]);
-      outer_.push_back(mesh_[f].opposite[corner]);
-      star_.push_back(f);
-      h = mesh_.next_around(f, corner);
-    } while (h != corner_of_[v]);
   }
 
   // Puts the triangulation of the link in the slots of the star.

@@ -9,7 +9,6 @@
 #include <iterator>
 #include <utility>
 
-#include "blocks/cube_position.h"
 #include "predicates/perturbation.h"
 #include "predicates/ray_order.h"
 
@@ -34,13 +33,6 @@ Index Places::add_site() {
 void Places::free_site(Index site) {
   assert(place_of_[site] == no_index);
   free_sites_.push_back(site);
-}
-
-blocks::HilbertKey Places::key(const Point& p) const {
-  // As in blocks/spatial_order.cpp: sites in one place must have one key.
-  const bool is_rounding_harmless = model_ == Model::weighted || center_ == Point{};
-  return blocks::hilbert_key(is_rounding_harmless ? blocks::cube_position(p, center_)
-                                                  : blocks::exact_cube_position(p, center_));
 }
 
 Index Places::find(const Point& p, const blocks::HilbertKey& key) const {
@@ -74,8 +66,6 @@ void Places::free_place(Index place, const blocks::HilbertKey& key) {
 bool Places::would_speak(Index site, Index place) const {
   return predicates::is_raised_more(points_[site], place_point(place));
 }
-
-bool Places::is_less(const Point& a, const Point& b) { return predicates::is_raised_more(a, b); }
 
 bool Places::SpeaksBefore::operator()(const Member& a, const Member& b) const {
   if (a.place != b.place) return a.place < b.place;

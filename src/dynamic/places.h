@@ -12,6 +12,8 @@
 
 #include "blocks/hilbert.h"
 #include "blocks/spatial_index.h"
+#include "blocks/spatial_order.h"
+#include "predicates/perturbation.h"
 #include "rondel/types.h"
 
 namespace rondel::dynamic {
@@ -40,7 +42,6 @@ class Places {
 
   // --- places ---
 
-  [[nodiscard]] std::size_t num_places() const { return speakers_.size() - free_places_.size(); }
   // Places are below this.
   [[nodiscard]] Index place_limit() const { return static_cast<Index>(speakers_.size()); }
   // For the traits class of the model: points by site, and the site that speaks for each place.
@@ -48,7 +49,9 @@ class Places {
   [[nodiscard]] std::span<const Index> speakers() const { return speakers_; }
   [[nodiscard]] const Point& place_point(Index place) const { return points_[speakers_[place]]; }
 
-  [[nodiscard]] blocks::HilbertKey key(const Point& p) const;
+  [[nodiscard]] blocks::HilbertKey key(const Point& p) const {
+    return blocks::place_key(p, model_, center_);
+  }
   // The place of p, exactly, or no_index.
   [[nodiscard]] Index find(const Point& p, const blocks::HilbertKey& key) const;
   // A place close to the key, or no_index.
@@ -95,10 +98,9 @@ class Places {
   // that they are few.
   [[nodiscard]] auto order_of(const Point& p) const {
     return [this, &p](Index place) {
-      return model_ == Model::weighted && is_less(place_point(place), p);
+      return model_ == Model::weighted && predicates::is_raised_more(place_point(place), p);
     };
   }
-  static bool is_less(const Point& a, const Point& b);
 
   void list(const Member& member);
   void strike(const Member& member);

@@ -54,13 +54,7 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
   arrays.num_sites = sites.size();
   arrays.dimension = 2;
   arrays.duplicates = std::move(duplicates);
-  // write_canonical has left the place of each face in its first vertex.
-  for (Index f = 0; f < mesh.num_slots() && !kinds.all_solid(); ++f) {
-    if (mesh.is_alive(f) && kinds[f] != incremental::FaceKind::solid) {
-      arrays.ghost_faces.push_back(copy[f].vertex[0]);
-    }
-  }
-  std::ranges::sort(arrays.ghost_faces);
+  incremental::report_ghosts(copy, kinds, arrays.ghost_faces);
   incremental::assign_hidden_faces(sites, center, arrays);
   return arrays;
 }

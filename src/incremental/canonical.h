@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "incremental/location.h"
 #include "rondel/triangulation.h"
 #include "topology/mesh.h"
 
@@ -20,5 +21,8 @@ namespace rondel::incremental {
 // needs no third array of the size of the mesh beside it. `scratch` lends its memory.
 void write_canonical(topology::Mesh& mesh, const std::vector<Index>& names,
                      std::vector<Index> scratch, TriangulationArrays& arrays);
+
+// Lists the faces that are not solid, in their order, once write_canonical has used up the mesh.
+void report_ghosts(const topology::Mesh& mesh, const FaceKinds& kinds, std::vector<Index>& ghosts);
 
 }  // namespace rondel::incremental

@@ -41,14 +41,6 @@ std::vector<Index> find_first(std::span<const Point> sites, std::span<const Inde
   return first;
 }
 
-void report_ghosts(const topology::Mesh& mesh, const FaceKinds& kinds, std::vector<Index>& ghosts) {
-  if (kinds.all_solid()) return;
-  for (Index f = 0; f < mesh.num_slots(); ++f) {
-    if (mesh.is_alive(f) && kinds[f] != FaceKind::solid) ghosts.push_back(mesh[f].vertex[0]);
-  }
-  std::ranges::sort(ghosts);
-}
-
 // The hidden ranks.
 template <SphereTraits T>
 std::vector<Hidden> find_hidden(const topology::Mesh& mesh, Index num_ranks) {

@@ -48,4 +48,9 @@ Sign compare_rays(const Point& a, const Point& b, const Point& center) {
       });
 }
 
+bool are_on_one_ray(const Point& a, const Point& b, const Point& center) {
+  const auto v = exact::scaled_rays({a, b}, center);
+  return exact::is_zero(cross(v[0], v[1])) && dot(v[0], v[1]) > 0;
+}
+
 }  // namespace rondel::predicates

@@ -14,4 +14,7 @@ namespace rondel::predicates {
 // sign.
 Sign compare_rays(const Point& a, const Point& b, const Point& center);
 
+// Whether two points are on one ray, exactly, without a precondition.
+bool are_on_one_ray(const Point& a, const Point& b, const Point& center);
+
 }  // namespace rondel::predicates

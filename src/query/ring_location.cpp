@@ -3,9 +3,10 @@
 
 #include "query/ring_location.h"
 
-#include "exact/integer.h"
 #include "incremental/great_circle.h"
 #include "predicates/orientation.h"
+#include "predicates/ray_order.h"
+#include "predicates/turn.h"
 
 namespace rondel::query {
 
@@ -21,9 +22,7 @@ RingLocation::RingLocation(std::span<const Point> points, const Point& center)
 }
 
 Sign RingLocation::turn(Index i, const Point& p) const {
-  const auto v = exact::scaled_rays({points_[i], p}, center_);
-  const exact::IntegerVector n = cross(v[0], v[1]);
-  return exact::sign_of(axis_ == 0 ? n.x : (axis_ == 1 ? n.y : n.z));
+  return predicates::turn(center_, points_[i], p, axis_);
 }
 
 bool RingLocation::is_solid(Index edge) const {
@@ -35,14 +34,10 @@ bool RingLocation::is_in_plane(const Point& p) const {
              .sign == Sign::zero;
 }
 
-bool RingLocation::is_on_ray(Index i, const Point& p) const {
-  const auto v = exact::scaled_rays({points_[i], p}, center_);
-  return exact::is_zero(cross(v[0], v[1])) && dot(v[0], v[1]) > 0;
-}
-
 RingLocation::Place RingLocation::locate(const Point& p, Index near) const {
   if (solid_ == no_index) {
-    if (is_on_ray(near, p)) return {Where::vertex, {near, no_index}};
+    if (predicates::are_on_one_ray(points_[near], p, center_))
+      return {Where::vertex, {near, no_index}};
     return {};
   }
   if (!is_in_plane(p)) return {};

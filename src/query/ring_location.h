@@ -38,7 +38,6 @@ class RingLocation {
   [[nodiscard]] Sign turn(Index i, const Point& p) const;
   [[nodiscard]] bool is_solid(Index edge) const;
   [[nodiscard]] bool is_in_plane(const Point& p) const;
-  [[nodiscard]] bool is_on_ray(Index i, const Point& p) const;
   [[nodiscard]] Place walk(const Point& p, Index edge) const;
 
   std::span<const Point> points_;

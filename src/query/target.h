@@ -8,12 +8,12 @@
 
 #include <array>
 
-#include "exact/integer.h"
 #include "incremental/projected_points.h"
 #include "incremental/sphere_traits.h"
 #include "predicates/compare_distance.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
+#include "predicates/ray_order.h"
 #include "predicates/side_of_circle.h"
 #include "predicates/side_of_plane.h"
 #include "predicates/within_angle.h"
@@ -159,8 +159,7 @@ bool Target<T>::is_duplicate(const Candidate& v) const {
   // Directions of one ray differ by at most twice `direction_error`.
   constexpr double far = 9 * predicates::direction_error * predicates::direction_error;
   if (v.value > far) return false;
-  const auto rays = exact::scaled_rays({a, point_}, sites_.center());
-  return exact::is_zero(cross(rays[0], rays[1])) && dot(rays[0], rays[1]) > 0;
+  return predicates::are_on_one_ray(a, point_, sites_.center());
 }
 
 }  // namespace rondel::query

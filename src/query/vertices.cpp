@@ -4,12 +4,12 @@
 #include "query/vertices.h"
 
 #include <algorithm>
-#include <tuple>
 #include <utility>
 
 #include "blocks/cube_position.h"
 #include "blocks/hilbert.h"
 #include "blocks/radix_sort.h"
+#include "predicates/perturbation.h"
 
 namespace rondel::query {
 namespace {
@@ -37,10 +37,6 @@ blocks::KeyedIndices sorted_by_key(std::vector<Index> indices, std::span<const P
   data.indices = std::move(indices);
   blocks::radix_sort(data, 3 + 2 * blocks::high_levels);
   return data;
-}
-
-bool is_less(const Point& a, const Point& b) {
-  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
 }  // namespace
@@ -73,7 +69,7 @@ Vertices list_vertices(const Triangulation& triangulation, std::span<const Point
     result.vertex_of[site] = v;
     if (v == no_index) continue;
     Index& speaker = result.speakers[v];
-    if (is_less(sites[site], sites[speaker])) speaker = site;
+    if (predicates::is_raised_more(sites[site], sites[speaker])) speaker = site;
   }
   return result;
 }
