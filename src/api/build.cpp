@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "incremental/inner_sites.h"
 #include "incremental/triangulate.h"
 #include "rondel/error.h"
+#include "system/parallel.h"
 
 namespace rondel::api {
 namespace {
@@ -28,10 +28,6 @@ double seconds_since(Clock::time_point start) {
 
 void announce(const Options& options, std::string_view stage, double fraction) {
   if (options.progress) options.progress(stage, fraction);
-}
-
-unsigned num_threads(const Options& options) {
-  return options.threads != 0 ? options.threads : std::max(1U, std::thread::hardware_concurrency());
 }
 
 // The sites to insert when others can be left out, or nothing if all are to be inserted.
@@ -100,7 +96,7 @@ std::vector<Point> select(std::span<const Point> sites, std::span<const Index> i
 Triangulation build(std::span<const Point> sites, const Options& options,
                     const incremental::InnerPoint* inner) {
   BuildReport report;
-  report.threads = num_threads(options);
+  report.threads = system::num_threads(options.threads);
   const auto start = Clock::now();
   announce(options, "order", 0);
   const auto rest = find_rest(sites, options, inner);

@@ -3,10 +3,10 @@
 
 #include <cstddef>
 
-#include "blocks/parallel.h"
 #include "dual/face_normal.h"
 #include "dual/parts.h"
 #include "rondel/diagram.h"
+#include "system/parallel.h"
 
 namespace rondel {
 
@@ -14,7 +14,7 @@ std::vector<Point> dual::circumcenters(const Triangulation& triangulation, const
                                        std::vector<FaceMeasure>& measures) {
   std::vector<Point> result(triangulation.num_faces());
   measures.resize(result.size());
-  blocks::parallel_for(0, result.size(), triangulation.report().threads,
+  system::parallel_for(triangulation.report().threads, result.size(), parallel_grain,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t f = begin; f < end; ++f) {
                            const auto [a, b, c] = sites.corners(static_cast<Index>(f));

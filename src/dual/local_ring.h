@@ -23,11 +23,11 @@
 #include <span>
 #include <vector>
 
-#include "blocks/parallel.h"
 #include "blocks/prefetch.h"
 #include "dual/face_normal.h"
 #include "dual/split_sites.h"
 #include "rondel/diagram.h"
+#include "system/parallel.h"
 
 namespace rondel::dual {
 
@@ -109,7 +109,7 @@ void measure_cells(const Triangulation& triangulation, const SplitSites& sites, 
       result[order[k]] = measure(localize(static_cast<Index>(k)));
     }
   };
-  blocks::parallel_for(0, order.size(), triangulation.report().threads, measure_range);
+  system::parallel_for(triangulation.report().threads, order.size(), parallel_grain, measure_range);
 }
 
 }  // namespace rondel::dual

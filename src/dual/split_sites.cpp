@@ -8,10 +8,10 @@
 #include <cstddef>
 #include <string>
 
-#include "blocks/parallel.h"
 #include "blocks/prefetch.h"
 #include "dual/exact_normal.h"
 #include "rondel/error.h"
+#include "system/parallel.h"
 
 namespace rondel::dual {
 
@@ -87,13 +87,14 @@ void SplitSites::set_places(unsigned threads) {
   places_ = std::make_unique_for_overwrite<exact::SplitPoint[]>(order_.size());
   const bool project = is_projected();
   const int shift = project ? 0 : scale_exponent(sites_);
-  blocks::parallel_for(0, order_.size(), threads, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      if (k + prefetch_distance < end) prefetch(&sites_[order_[k + prefetch_distance]]);
-      const Point& p = sites_[order_[k]];
-      places_[k] = project ? exact::unit_vector(p, center_) : scaled_place(p, shift);
-    }
-  });
+  system::parallel_for(
+      threads, order_.size(), parallel_grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) {
+          if (k + prefetch_distance < end) prefetch(&sites_[order_[k + prefetch_distance]]);
+          const Point& p = sites_[order_[k]];
+          places_[k] = project ? exact::unit_vector(p, center_) : scaled_place(p, shift);
+        }
+      });
 }
 
 // The places of projected sites are wrong by 2^-100 each, so offsets above 2^-45 are right to

@@ -11,6 +11,7 @@
 // n = N / |N| the circumcenter, u = 2^-53.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,6 +23,9 @@
 #include "rondel/types.h"
 
 namespace rondel::dual {
+
+// So many faces or sites are one thread's work at a time.
+inline constexpr std::size_t parallel_grain = 4096;
 
 using Vec = exact::Vector3<double>;
 using exact::to_vector;

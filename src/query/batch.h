@@ -2,31 +2,35 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Many queries at once: in spatial order, so that each starts where the one before ended and finds
-// what it needs in the cache; one range of that order for each thread.
+// what it needs in the cache; ranges of that order in parallel.
 #pragma once
 
 #include <span>
 
 #include "blocks/hilbert.h"
-#include "blocks/parallel.h"
 #include "blocks/prefetch.h"
 #include "blocks/radix_sort.h"
 #include "query/directory.h"
 #include "query/engine.h"
+#include "system/parallel.h"
 
 namespace rondel::query {
+
+// So many queries are one thread's work at a time.
+inline constexpr std::size_t queries_per_piece = 4096;
 
 inline blocks::KeyedIndices sort_queries(std::span<const Point> queries, const Point& center,
                                          unsigned threads) {
   blocks::KeyedIndices sorted;
   sorted.keys.resize(queries.size());
   sorted.indices.resize(queries.size());
-  blocks::parallel_for(0, queries.size(), threads, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i) {
-      sorted.keys[i] = spatial_key(queries[i], center);
-      sorted.indices[i] = static_cast<Index>(i);
-    }
-  });
+  system::parallel_for(threads, queries.size(), queries_per_piece,
+                       [&](std::size_t first, std::size_t last) {
+                         for (std::size_t i = first; i < last; ++i) {
+                           sorted.keys[i] = spatial_key(queries[i], center);
+                           sorted.indices[i] = static_cast<Index>(i);
+                         }
+                       });
   blocks::radix_sort(sorted, 3 + 2 * blocks::high_levels);
   return sorted;
 }
@@ -35,12 +39,12 @@ inline blocks::KeyedIndices sort_queries(std::span<const Point> queries, const P
 template <class Work>
 void for_each_range(const blocks::KeyedIndices& sorted, std::span<const Point> queries,
                     const Directory& directory, unsigned threads, const Work& work) {
-  blocks::parallel_for(0, sorted.indices.size(), threads, [&](std::size_t first, std::size_t last) {
-    if (first == last) return;
-    Cursor cursor;
-    cursor.vertex = directory.near(queries[sorted.indices[first]]);
-    work(std::span<const Index>(sorted.indices).subspan(first, last - first), cursor);
-  });
+  system::parallel_for(
+      threads, sorted.indices.size(), queries_per_piece, [&](std::size_t first, std::size_t last) {
+        Cursor cursor;
+        cursor.vertex = directory.near(queries[sorted.indices[first]]);
+        work(std::span<const Index>(sorted.indices).subspan(first, last - first), cursor);
+      });
 }
 
 // Calls answer(i, cursor) for the queries i of a range.

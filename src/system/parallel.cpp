@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "system/parallel.h"
+
+#include <algorithm>
+
+#if defined(RONDEL_HAS_TBB)
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_invoke.h>
+#include <oneapi/tbb/task_arena.h>
+#endif
+
+namespace rondel::system {
+namespace {
+
+#if defined(RONDEL_HAS_TBB)
+
+constexpr unsigned most_threads = 1U << 10;
+
+unsigned num_cores() { return static_cast<unsigned>(tbb::info::default_concurrency()); }
+
+// Runs `work` where at most so many threads help: here, if the arena of the caller is no larger.
+template <class Work>
+void run_in_arena(unsigned threads, const Work& work) {
+  const int limit = static_cast<int>(std::min(threads, most_threads));
+  if (tbb::this_task_arena::max_concurrency() <= limit) {
+    work();
+  } else {
+    tbb::task_arena(limit).execute(work);
+  }
+}
+
+template <class Run>
+void run_pieces(unsigned threads, std::size_t pieces, const Run& run) {
+  run_in_arena(threads, [&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, pieces),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t k = range.begin(); k != range.end(); ++k) run(k);
+        },
+        tbb::simple_partitioner());
+  });
+}
+
+void run_both(unsigned threads, const std::function<void()>& first,
+              const std::function<void()>& second) {
+  run_in_arena(threads, [&] { tbb::parallel_invoke(first, second); });
+}
+
+constexpr bool has_threads = true;
+
+#else
+
+unsigned num_cores() { return 1; }
+
+template <class Run>
+void run_pieces(unsigned, std::size_t, const Run&) {}
+
+void run_both(unsigned, const std::function<void()>&, const std::function<void()>&) {}
+
+constexpr bool has_threads = false;
+
+#endif
+
+}  // namespace
+
+unsigned num_threads(unsigned threads) {
+  return threads != 0 && has_threads ? threads : num_cores();
+}
+
+void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
+                  const std::function<void(std::size_t, std::size_t)>& piece) {
+  const std::size_t pieces = num_pieces(count, grain);
+  const auto run = [&](std::size_t k) { piece(k * grain, std::min(count, (k + 1) * grain)); };
+  threads = num_threads(threads);
+  if (threads > 1 && pieces > 1) {
+    run_pieces(threads, pieces, run);
+  } else {
+    for (std::size_t k = 0; k < pieces; ++k) run(k);
+  }
+}
+
+void parallel_invoke(unsigned threads, const std::function<void()>& first,
+                     const std::function<void()>& second) {
+  threads = num_threads(threads);
+  if (threads > 1) {
+    run_both(threads, first, second);
+  } else {
+    first();
+    second();
+  }
+}
+
+}  // namespace rondel::system
