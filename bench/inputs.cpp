@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "rondel/delaunay.h"
+#include "rondel/io.h"
 
 namespace rondel::bench {
 namespace {
@@ -151,6 +152,7 @@ std::vector<Point> make_input(const std::string& kind, std::size_t n) {
   if (kind == "grid") return grid(n);
   if (kind == "patch") return patch(n, random);
   if (kind == "paper-s") return paper_s(n);
+  if (kind.ends_with(".csv") || kind.ends_with(".npy")) return read_sites(kind).sites;
   throw std::invalid_argument("unknown kind of input: " + kind);
 }
 

@@ -5,7 +5,6 @@
 // uniform points as queries, in one batch of each kind, and one JSON object on standard output. The
 // check sum, of the nearest sites' indices, is the same for every program.
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -14,22 +13,8 @@
 #include <vector>
 
 #include "inputs.h"
+#include "measure.h"
 #include "rondel/rondel.h"
-
-namespace {
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-template <class Work>
-double seconds_of(const Work& work) {
-  const double start = now();
-  work();
-  return now() - start;
-}
-
-}  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 3) {
@@ -45,11 +30,14 @@ int main(int argc, char** argv) {
   if (argc > 3 && std::strcmp(argv[3], "weighted") == 0) options.model = rondel::Model::weighted;
   const unsigned threads = argc > 4 ? static_cast<unsigned>(std::atoi(argv[4])) : 1;
 
-  const double start = now();
+  const rondel::bench::Stopwatch build_watch;
   const auto triangulation = rondel::delaunay(sites, options);
-  const double built = now();
+  const double build = build_watch.seconds();
+  const rondel::bench::Stopwatch locator_watch;
   const rondel::Locator locator(triangulation, sites);
-  const double ready = now();
+  const double prepare = locator_watch.seconds();
+
+  using rondel::bench::seconds_of;
   std::vector<rondel::Index> nearest;
   const double nearest_seconds = seconds_of([&] { nearest = locator.nearest(queries, threads); });
   const double locate_seconds =
@@ -63,9 +51,13 @@ int main(int argc, char** argv) {
   });
   const auto sum = std::accumulate(nearest.begin(), nearest.end(), std::uint64_t{0});
   if (sum != single_sum) return 1;
-  std::printf(
-      "{\"sites\": %zu, \"queries\": %zu, \"build\": %.6f, \"locator\": %.6f, \"seconds\": %.6f, "
-      "\"locate\": %.6f, \"k_nearest_8\": %.6f, \"single\": %.6f, \"sum\": %llu}\n",
-      n, q, built - start, ready - built, nearest_seconds, locate_seconds, k_nearest_seconds,
-      single_seconds, static_cast<unsigned long long>(sum));
+  rondel::bench::print_json({{"sites", static_cast<double>(n)},
+                             {"queries", static_cast<double>(q)},
+                             {"build", build},
+                             {"locator", prepare},
+                             {"seconds", nearest_seconds},
+                             {"locate", locate_seconds},
+                             {"k_nearest_8", k_nearest_seconds},
+                             {"single", single_seconds},
+                             {"sum", static_cast<double>(sum)}});
 }

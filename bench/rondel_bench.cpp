@@ -1,70 +1,86 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel_bench KIND N [projected|weighted|hull] [dual] [THREADS]: one build in this process, and
-// one JSON object on standard output. Scripts repeat it in turns with the peers.
+// rondel_bench KIND N [projected|weighted|hull] [--threads T] [--dual]: order, triangulation and
+// canonical result of one input in memory; with --dual then its cells and areas.
 
-#include <sys/resource.h>
-
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <numeric>
+#include <string>
+#include <vector>
 
 #include "inputs.h"
+#include "measure.h"
 #include "rondel/rondel.h"
 
 namespace {
 
-long peak_kib() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return usage.ru_maxrss;
+using rondel::Point;
+
+struct Task {
+  std::string what = "projected";
+  unsigned threads = 1;
+  bool with_dual = false;
+};
+
+Task parse(int argc, char** argv) {
+  Task task;
+  for (int i = 3; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--dual") {
+      task.with_dual = true;
+    } else if (word == "--threads" && i + 1 < argc) {
+      task.threads = static_cast<unsigned>(std::atoi(argv[++i]));
+    } else {
+      task.what = word;
+    }
+  }
+  return task;
 }
 
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+rondel::Triangulation build(const std::vector<Point>& sites, const Task& task) {
+  if (task.what == "hull") return rondel::convex_hull(sites, {.threads = task.threads});
+  rondel::Options options;
+  options.threads = task.threads;
+  if (task.what == "weighted") options.model = rondel::Model::weighted;
+  return rondel::delaunay(sites, options);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
   if (argc < 3) {
-    std::fprintf(stderr, "usage: rondel_bench KIND N [projected|weighted|hull] [dual] [THREADS]\n");
+    std::fprintf(stderr,
+                 "usage: rondel_bench KIND N [projected|weighted|hull] [--threads T] [--dual]\n");
     return 2;
   }
+  const Task task = parse(argc, argv);
   const auto sites = rondel::bench::make_input(argv[1], std::strtoull(argv[2], nullptr, 10));
-  rondel::Options options;
-  options.threads = argc > 5 ? static_cast<unsigned>(std::atoi(argv[5])) : 1;
-  const char* const what = argc > 3 ? argv[3] : "projected";
-  if (std::strcmp(what, "weighted") == 0) options.model = rondel::Model::weighted;
+  const auto measured = rondel::bench::measure([&] { return build(sites, task); });
+  const rondel::Triangulation& triangulation = *measured.result;
 
-  const long before = peak_kib();
-  const double start = now();
-  const auto triangulation = std::strcmp(what, "hull") == 0
-                                 ? rondel::convex_hull(sites, {.threads = options.threads})
-                                 : rondel::delaunay(sites, options);
-  const double triangulated = now();
-  const long after = peak_kib();
   double dual = 0;
   double total_area = 0;
-  if (argc > 4) {
+  if (task.with_dual) {
+    const rondel::bench::Stopwatch watch;
     const auto diagram = rondel::diagram(triangulation, sites);
-    dual = now() - triangulated;
+    dual = watch.seconds();
     total_area = std::accumulate(diagram.areas.begin(), diagram.areas.end(), 0.0);
   }
-  const auto n = static_cast<double>(sites.size());
+  const auto number = [](auto value) { return static_cast<double>(value); };
   const auto& report = triangulation.report();
-  std::printf(
-      "{\"sites\": %zu, \"vertices\": %zu, \"faces\": %zu, \"seconds\": %.6f, \"order\": %.6f, "
-      "\"triangulate\": %.6f, \"dual\": %.6f, \"total_area\": %.15g, \"bytes_per_site\": %.1f, "
-      "\"rungs\": [%llu, %llu, %llu, %llu]}\n",
-      sites.size(), triangulation.num_vertices(), triangulation.num_faces(), triangulated - start,
-      report.order_seconds, report.triangulate_seconds, dual, total_area,
-      static_cast<double>(after - before) * 1024 / n,
-      static_cast<unsigned long long>(report.rungs.filter),
-      static_cast<unsigned long long>(report.rungs.double_double),
-      static_cast<unsigned long long>(report.rungs.exact),
-      static_cast<unsigned long long>(report.rungs.perturbed));
+  rondel::bench::print_json({{"sites", number(sites.size())},
+                             {"vertices", number(triangulation.num_vertices())},
+                             {"faces", number(triangulation.num_faces())},
+                             {"seconds", measured.seconds},
+                             {"order", report.order_seconds},
+                             {"triangulate", report.triangulate_seconds},
+                             {"dual", dual},
+                             {"total_area", total_area},
+                             {"bytes_per_site", measured.memory_bytes / number(sites.size())},
+                             {"filter", number(report.rungs.filter)},
+                             {"double_double", number(report.rungs.double_double)},
+                             {"exact", number(report.rungs.exact)},
+                             {"perturbed", number(report.rungs.perturbed)}});
 }

@@ -6,7 +6,6 @@
 // nearest in angle.
 
 #include <array>
-#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -16,12 +15,9 @@
 #include <vector>
 
 #include "inputs.h"
+#include "measure.h"
 
 namespace {
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 // The interface that nanoflann asks for.
 struct Cloud {
@@ -55,18 +51,21 @@ int main(int argc, char** argv) {
   const Cloud cloud{std::span(points).first(n)};
   const auto queries = std::span(points).last(q);
 
-  const double start = now();
+  const rondel::bench::Stopwatch build_watch;
   const Tree tree(3, cloud, nanoflann::KDTreeSingleIndexAdaptorParams(10));
-  const double built = now();
+  const double build = build_watch.seconds();
   std::vector<std::uint32_t> nearest(q);
-  for (std::size_t i = 0; i < q; ++i) {
-    const std::array<double, 3> at = {queries[i].x, queries[i].y, queries[i].z};
-    double squared_distance = 0;
-    tree.knnSearch(at.data(), 1, &nearest[i], &squared_distance);
-  }
-  const double done = now();
+  const double seconds = rondel::bench::seconds_of([&] {
+    for (std::size_t i = 0; i < q; ++i) {
+      const std::array<double, 3> at = {queries[i].x, queries[i].y, queries[i].z};
+      double squared_distance = 0;
+      tree.knnSearch(at.data(), 1, &nearest[i], &squared_distance);
+    }
+  });
   const auto sum = std::accumulate(nearest.begin(), nearest.end(), std::uint64_t{0});
-  std::printf(
-      "{\"sites\": %zu, \"queries\": %zu, \"build\": %.6f, \"seconds\": %.6f, \"sum\": %llu}\n", n,
-      q, built - start, done - built, static_cast<unsigned long long>(sum));
+  rondel::bench::print_json({{"sites", static_cast<double>(n)},
+                             {"queries", static_cast<double>(q)},
+                             {"build", build},
+                             {"seconds", seconds},
+                             {"sum", static_cast<double>(sum)}});
 }

@@ -1,0 +1,121 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""The benchmark suite: its arithmetic, its tables, and what it makes of programs that fail. The
+programs here are one-line scripts.
+
+    bench_suite_test.py SOURCE_FOLDER
+"""
+
+import csv
+import json
+import pathlib
+import sys
+import tempfile
+import time
+import unittest
+
+ROOT = pathlib.Path(sys.argv.pop(1))
+sys.path.insert(0, str(ROOT / "bench"))
+
+from suite import against_peers, compare  # noqa: E402
+from suite.runs import Limits, Outcome, Results, run_in_turns, run_once  # noqa: E402
+from suite.tables import Table, number, power, spread  # noqa: E402
+
+
+def python(code):
+    return [sys.executable, "-c", code]
+
+
+def printing(**values):
+    return python(f"print({json.dumps(json.dumps(values))})")
+
+
+def results_of(**seconds):
+    results = Results()
+    for name, values in seconds.items():
+        results.of[name] = [Outcome({"seconds": s, "sites": 1000}) for s in values]
+    return results
+
+
+class Processes(unittest.TestCase):
+    def test_what_is_printed_is_the_outcome(self):
+        outcome = run_once(printing(seconds=0.5, sites=2), 60)
+        self.assertEqual(outcome, Outcome({"seconds": 0.5, "sites": 2}))
+
+    def test_a_status_is_a_failure_with_the_first_line_of_the_errors(self):
+        outcome = run_once(python("import sys; sys.exit('no such site.\\nmore')"), 60)
+        self.assertEqual(outcome.failure, "stops: no such site")
+
+    def test_a_signal_is_a_failure_with_its_name(self):
+        outcome = run_once(python("import os; os.abort()"), 60)
+        self.assertEqual(outcome.failure, "ended by SIGABRT")
+
+    def test_a_run_that_takes_too_long_is_ended(self):
+        start = time.monotonic()
+        outcome = run_once(python("import time; time.sleep(60)"), 0.5)
+        self.assertEqual(outcome.failure, "over 0.5 s")
+        self.assertLess(time.monotonic() - start, 30)
+
+    def test_cases_run_in_turns_and_failures_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            log = pathlib.Path(folder, "log")
+
+            def case(name, then):
+                return python(f"open({str(log)!r}, 'a').write({name!r}); {then}")
+
+            results = run_in_turns({"a": case("a", "print('{}')"), "b": case("b", "exit(1)")},
+                                   Limits(seconds=60, runs=3, budget=60))
+            self.assertEqual(log.read_text(), "abaa")
+        self.assertEqual(results.failure("a"), "")
+        self.assertEqual(results.failure("b"), "stops: exit status 1")
+
+    def test_a_case_beyond_its_budget_is_not_repeated(self):
+        results = run_in_turns({"a": printing(seconds=1)}, Limits(seconds=60, runs=3, budget=0))
+        self.assertEqual(len(results.of["a"]), 1)
+
+
+class Arithmetic(unittest.TestCase):
+    def test_medians_and_extremes_are_per_site(self):
+        results = results_of(a=[3e-6, 1e-6, 2e-6, 8e-6])
+        for got, wanted in zip(results.ns_each("a"), (2.5, 1, 8), strict=True):
+            self.assertAlmostEqual(got, wanted)
+
+    def test_a_ratio_is_of_medians_and_has_those_of_single_turns(self):
+        results = results_of(a=[4, 9, 6], b=[2, 3, 1])
+        self.assertEqual(results.ratio("a", "b"), (3, 2, 6))
+
+    def test_a_result_with_other_vertices_or_an_open_surface_is_a_failure(self):
+        def failure(vertices, faces):
+            values = {"vertices": vertices, "faces": faces}
+            return against_peers.verdict(Outcome(values), 1000).failure
+
+        self.assertEqual(failure(1000, 1996), "")
+        self.assertEqual(failure(997, 1990), "997 vertices instead of 1,000")
+        self.assertEqual(failure(1000, 1995), "1,995 faces instead of 1,996")
+
+    def test_a_commit_is_slower_when_the_ratio_is_beyond_what_is_allowed(self):
+        self.assertTrue(compare.is_slower((1.06, 0.9, 1.2), 5))
+        self.assertFalse(compare.is_slower((1.04, 0.9, 1.2), 5))
+
+
+class Tables(unittest.TestCase):
+    def test_numbers_have_the_digits_that_matter(self):
+        self.assertEqual([number(x) for x in (0.126, 9.5, 45.67, 1234.5)],
+                         ["0.13", "9.50", "45.7", "1,234"])
+        self.assertEqual([power(2**20), power(1000)], ["2^20", "1,000"])
+        self.assertEqual(spread((2, 1, 3)), "2.00 (1.00 to 3.00)")
+        self.assertEqual(spread((2, 2, 2)), "2.00")
+
+    def test_a_table_is_markdown_and_csv(self):
+        table = Table("Title", ["a", "b"], [["1", "2|3"]], ["A note."])
+        self.assertEqual(table.markdown(), "### Title\n\n| a | b |\n| --- | --- |\n"
+                                           "| 1 | 2\\|3 |\n\nA note.\n")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "table.csv")
+            table.write_csv(path)
+            with open(path, newline="", encoding="utf-8") as file:
+                self.assertEqual(list(csv.reader(file)), [["a", "b"], ["1", "2|3"]])
+
+
+if __name__ == "__main__":
+    unittest.main()
