@@ -102,7 +102,8 @@ Triangulation build(std::span<const Point> sites, const Options& options,
   const auto rest = find_rest(sites, options, inner);
   const auto rest_points = select(sites, rest);
   const std::span<const Point> inserted = rest.empty() ? sites : rest_points;
-  auto order = blocks::spatial_order(inserted, options.model, options.sphere.center);
+  auto order =
+      blocks::spatial_order(inserted, options.model, options.sphere.center, options.threads);
   report.order_seconds = seconds_since(start);
 
   const auto order_end = Clock::now();

@@ -30,7 +30,7 @@ namespace hilbert_table {
 inline constexpr std::array<unsigned, 4> rank_of_quadrant = {0, 1, 3, 2};  // index 2u + v
 inline constexpr std::array<unsigned, 4> state_change = {1, 0, 0, 3};      // index rank
 
-consteval unsigned rank_in(unsigned state, unsigned u, unsigned v) {
+constexpr unsigned rank_in(unsigned state, unsigned u, unsigned v) {
   const bool is_exchanged = (state & 1) != 0;
   const unsigned quadrant = is_exchanged ? 2 * v + u : 2 * u + v;
   return rank_of_quadrant[(state & 2) != 0 ? 3 - quadrant : quadrant];
@@ -67,21 +67,23 @@ struct HilbertKey {
   friend auto operator<=>(const HilbertKey&, const HilbertKey&) = default;
 };
 
-// The position along the curve: all levels of one position are (high, low).
+// The position along the curve: all levels of one position are (high, low). What is not used of it
+// is not computed.
 inline HilbertKey hilbert_key(const CubePosition& p) {
-  HilbertKey key = {p.face, 0};
+  std::uint64_t key = p.face;
   unsigned state = 0;
   const auto advance = [&](int bit) {
     const unsigned u = static_cast<unsigned>(p.u >> bit) & 15U;
     const unsigned v = static_cast<unsigned>(p.v >> bit) & 15U;
     const hilbert_table::Step step = hilbert_table::steps[(state << 8) | (u << 4) | v];
     state = step.state;
-    return step.key;
+    key = key << 8 | step.key;
   };
   int bit = position_bits - 4;
-  for (; bit >= low_levels; bit -= 4) key.high = key.high << 8 | advance(bit);
-  for (; bit >= 0; bit -= 4) key.low = key.low << 8 | advance(bit);
-  return key;
+  for (; bit >= low_levels; bit -= 4) advance(bit);
+  const std::uint64_t high = key;
+  for (key = 0; bit >= 0; bit -= 4) advance(bit);
+  return {high, key};
 }
 
 }  // namespace rondel::blocks

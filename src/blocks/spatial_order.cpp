@@ -1,136 +1,209 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Two passes over little memory, whatever the distribution:
+//
+//   deal   each site becomes one word, [ the key below its leaf's prefix | index ], in the list of
+//          its leaf of the key tree; parts of the input in parallel, each with lists of its own
+//   sort   the words of a leaf fit the cache: sorted there, their indices are the order; leaves in
+//          parallel
+//
+// Words that agree in their part of the key, a few bits more than needed to tell spread-out sites
+// apart, are put in order by all of their keys and coordinates (CloseSites).
 #include "blocks/spatial_order.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <numeric>
-#include <tuple>
 
-#include "blocks/cube_position.h"
-#include "blocks/hilbert.h"
-#include "blocks/radix_sort.h"
-#include "predicates/ray_order.h"
+#include "blocks/chunk_lists.h"
+#include "blocks/close_sites.h"
+#include "blocks/key_tree.h"
+#include "blocks/word_sort.h"
 #include "system/huge_pages.h"
+#include "system/parallel.h"
 
 namespace rondel::blocks {
 namespace {
 
+constexpr int unused_bits = 64 - high_key_bits;
+constexpr std::size_t batch = 256;  // keys computed at once
+
 class Ordering {
  public:
-  Ordering(std::span<const Point> sites, Model model, const Point& center)
-      : sites_(sites), model_(model), center_(center) {}
+  Ordering(std::span<const Point> sites, Model model, const Point& center, unsigned threads)
+      : sites_(sites),
+        model_(model),
+        center_(center),
+        threads_(system::num_threads(threads)),
+        index_mask_(std::bit_ceil(std::max<std::size_t>(sites.size(), 2)) - 1),
+        tree_(make_tree()) {}
 
   SpatialOrder run() {
-    KeyedIndices data;
-    system::reserve_large(data.keys, sites_.size());
-    system::reserve_large(data.indices, sites_.size());
-    for (std::size_t i = 0; i < sites_.size(); ++i) {
-      data.keys.push_back(key(static_cast<Index>(i)).high);
-      data.indices.push_back(static_cast<Index>(i));
-    }
-    radix_sort(data, 3 + 2 * high_levels);
-    result_.order.reserve(sites_.size());
-    for (std::size_t i = 0; i < data.keys.size();) {
-      std::size_t end = i + 1;
-      while (end < data.keys.size() && data.keys[end] == data.keys[i]) ++end;
-      if (end - i == 1) {
-        result_.order.push_back(data.indices[i]);
-      } else {
-        order_close_sites({data.indices.data() + i, end - i});
-      }
-      i = end;
-    }
-    std::ranges::sort(result_.duplicates, {}, &Duplicate::site);
+    deal();
+    count();
+    sort();
+    close_gaps();
     return std::move(result_);
   }
 
  private:
-  struct Entry {
-    std::uint64_t low_key;
-    Index site;
+  // What a leaf holds, and what became of it.
+  struct Leaf {
+    std::size_t first_rank = 0;
+    std::size_t num_sites = 0;
+    std::size_t num_kept = 0;
   };
 
-  [[nodiscard]] HilbertKey key(Index i) const { return place_key(sites_[i], model_, center_); }
-
-  [[nodiscard]] bool is_lexicographically_less(Index i, Index j) const {
-    const Point& a = sites_[i];
-    const Point& b = sites_[j];
-    return std::tie(a.x, a.y, a.z, i) < std::tie(b.x, b.y, b.z, j);
-  }
-
-  [[nodiscard]] Sign compare_places(Index i, Index j) const {
-    if (model_ == Model::projected) {
-      return predicates::compare_rays(sites_[i], sites_[j], center_);
+  // The keys of evenly spread indices, one of 256.
+  [[nodiscard]] KeyTree make_tree() const {
+    constexpr std::size_t sites_per_sample = 256;
+    const int size_bits = static_cast<int>(std::bit_width(sites_.size()));
+    const int root_bits = std::clamp(size_bits - 10, 3, 13);
+    std::vector<std::uint64_t> sample;
+    for (std::size_t i = 0; i + sites_per_sample <= sites_.size(); i += sites_per_sample) {
+      // Any place within the stride: a constant one could meet the same column of every grid.
+      const std::size_t at = i + (i * 0x9e3779b97f4a7c15U >> 56);
+      sample.push_back(place_key(sites_[at], model_, center_).high << unused_bits);
     }
-    const auto order = std::tie(sites_[i].x, sites_[i].y, sites_[i].z) <=>
-                       std::tie(sites_[j].x, sites_[j].y, sites_[j].z);
-    return order < 0 ? Sign::negative : (order > 0 ? Sign::positive : Sign::zero);
+    std::ranges::sort(sample);
+    const std::size_t most = std::max<std::size_t>(12, 6 * sample.size() >> root_bits);
+    return {sample, high_key_bits, root_bits, most};
   }
 
-  // Sites whose high keys agree: by low key, and where these agree too by place, so
-  // that duplicates meet, with the lexicographically smallest in front.
-  void order_close_sites(std::span<const Index> group) {
-    std::vector<Entry> entries;
-    entries.reserve(group.size());
-    for (const Index i : group) entries.push_back({key(i).low, i});
-    std::ranges::sort(entries, [this](const Entry& a, const Entry& b) {
-      if (a.low_key != b.low_key) return a.low_key < b.low_key;
-      const Sign places = compare_places(a.site, b.site);
-      if (places != Sign::zero) return places == Sign::negative;
-      return is_lexicographically_less(a.site, b.site);
+  void deal() {
+    const std::size_t pieces = threads_ == 1 ? 1 : 4 * threads_;
+    const std::size_t grain =
+        std::max<std::size_t>(1 << 14, system::num_pieces(sites_.size(), pieces));
+    lists_.reserve(pieces);
+    for (std::size_t begin = 0; begin < sites_.size(); begin += grain) {
+      lists_.emplace_back(tree_.num_leaves(), std::min(grain, sites_.size() - begin));
+    }
+    system::parallel_for(threads_, sites_.size(), grain, [&](std::size_t begin, std::size_t end) {
+      deal(begin, end, lists_[begin / grain]);
     });
-    for (std::size_t i = 0; i < entries.size();) {
-      std::size_t end = i + 1;
-      while (end < entries.size() && entries[end].low_key == entries[i].low_key) ++end;
-      append_cell({entries.data() + i, end - i});
-      i = end;
-    }
   }
 
-  // Sites with one full key: merges duplicates, then orders the places lexicographically.
-  void append_cell(std::span<const Entry> cell) {
-    const std::size_t first_rank = result_.order.size();
-    std::vector<Duplicate> names;  // {site whose coordinates count, lowest index}
-    for (std::size_t i = 0; i < cell.size();) {
-      std::size_t end = i + 1;
-      while (end < cell.size() && compare_places(cell[i].site, cell[end].site) == Sign::zero) ++end;
-      const auto place = cell.subspan(i, end - i);
-      const Index lowest = std::ranges::min(place, {}, &Entry::site).site;
-      for (const Entry& e : place) {
-        if (e.site != lowest) result_.duplicates.push_back({e.site, lowest});
+  void deal(std::size_t begin, std::size_t end, ChunkLists& lists) const {
+    std::array<std::uint64_t, batch> keys;
+    for (std::size_t first = begin; first < end; first += batch) {
+      const std::size_t size = std::min(batch, end - first);
+      high_place_keys(sites_.subspan(first, size), model_, center_, std::span(keys).first(size));
+      for (std::size_t i = 0; i < size; ++i) {
+        const std::uint64_t key = keys[i] << unused_bits;
+        const std::uint32_t leaf = tree_.leaf(key);
+        lists.append(leaf, (key << tree_.prefix_bits(leaf) & ~index_mask_) | (first + i));
       }
-      names.push_back({cell[i].site, lowest});
+    }
+  }
+
+  void count() {
+    leaves_.resize(tree_.num_leaves());
+    std::size_t rank = 0;
+    for (std::size_t l = 0; l < leaves_.size(); ++l) {
+      leaves_[l].first_rank = rank;
+      for (const ChunkLists& lists : lists_) leaves_[l].num_sites += lists.size(l);
+      rank += leaves_[l].num_sites;
+    }
+  }
+
+  struct Merged {
+    std::vector<Duplicate> duplicates;
+    std::vector<Duplicate> renamed;  // ranks counted from the leaf's first
+  };
+
+  void sort() {
+    system::reserve_large(result_.order, sites_.size());
+    result_.order.resize(sites_.size());
+    merged_.resize(leaves_.size());
+    system::parallel_for(threads_, leaves_.size(), 8, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::uint64_t> words;
+      for (std::size_t l = begin; l < end; ++l) sort_leaf(l, words);
+    });
+  }
+
+  void sort_leaf(std::size_t l, std::vector<std::uint64_t>& buffer) {
+    Leaf& leaf = leaves_[l];
+    const std::size_t size = leaf.num_sites;
+    if (buffer.size() < 2 * size) buffer.resize(2 * size);
+    std::uint64_t* end = buffer.data();
+    for (const ChunkLists& lists : lists_) end = lists.copy(l, end);
+    const std::span words(buffer.data() + size, size);
+    sort_words({buffer.data(), size}, words);
+
+    const std::span<Index> order(result_.order.data() + leaf.first_rank, size);
+    bool has_ties = false;
+    for (std::size_t i = 0; i < size; ++i) {
+      order[i] = static_cast<Index>(words[i] & index_mask_);
+      has_ties |= i > 0 && (words[i] ^ words[i - 1]) <= index_mask_;
+    }
+    leaf.num_kept = has_ties ? order_ties(words, order, merged_[l]) : size;
+  }
+
+  std::size_t order_ties(std::span<const std::uint64_t> words, std::span<Index> order,
+                         Merged& merged) const {
+    const CloseSites close_sites(sites_, model_, center_);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < words.size();) {
+      std::size_t end = i + 1;
+      while (end < words.size() && (words[i] ^ words[end]) <= index_mask_) ++end;
+      const auto group = order.subspan(i, end - i);
+      const std::size_t size =
+          end - i == 1 ? 1 : close_sites.order(group, kept, merged.duplicates, merged.renamed);
+      std::ranges::copy(group.first(size), order.begin() + static_cast<std::ptrdiff_t>(kept));
+      kept += size;
       i = end;
     }
-    std::ranges::sort(names, [this](const Duplicate& a, const Duplicate& b) {
-      return is_lexicographically_less(a.site, b.site);
-    });
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      result_.order.push_back(names[i].site);
-      if (names[i].site == names[i].representative) continue;
-      const auto rank = static_cast<Index>(first_rank + i);
-      result_.renamed.push_back({rank, names[i].representative});
+    return kept;
+  }
+
+  // Duplicates have left gaps behind the order of their leaves.
+  void close_gaps() {
+    lists_.clear();
+    std::size_t rank = 0;
+    auto& order = result_.order;
+    for (std::size_t l = 0; l < leaves_.size(); ++l) {
+      const Leaf& leaf = leaves_[l];
+      if (rank != leaf.first_rank) {
+        std::copy_n(order.data() + leaf.first_rank, leaf.num_kept, order.data() + rank);
+      }
+      for (const Duplicate& r : merged_[l].renamed) {
+        result_.renamed.push_back({static_cast<Index>(rank + r.site), r.representative});
+      }
+      rank += leaf.num_kept;
     }
+    order.resize(rank);
+    if (rank < sites_.size()) collect_duplicates();
+  }
+
+  void collect_duplicates() {
+    result_.duplicates.reserve(sites_.size() - result_.order.size());
+    for (Merged& merged : merged_) {
+      result_.duplicates.insert(result_.duplicates.end(), merged.duplicates.begin(),
+                                merged.duplicates.end());
+      merged = {};
+    }
+    std::ranges::sort(result_.duplicates, {}, &Duplicate::site);
   }
 
   std::span<const Point> sites_;
   Model model_;
   Point center_;
+  unsigned threads_;
+  std::uint64_t index_mask_;
+  KeyTree tree_;
+  std::vector<ChunkLists> lists_;  // by piece of the input
+  std::vector<Leaf> leaves_;
+  std::vector<Merged> merged_;
   SpatialOrder result_;
 };
 
 }  // namespace
 
-// Rounded differences from a center would give sites on one ray different keys.
-HilbertKey place_key(const Point& p, Model model, const Point& center) {
-  const bool is_rounding_harmless = model == Model::weighted || center == Point{};
-  return hilbert_key(is_rounding_harmless ? cube_position(p, center)
-                                          : exact_cube_position(p, center));
-}
-
-SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center) {
-  return Ordering(sites, model, center).run();
+SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center,
+                           unsigned threads) {
+  return Ordering(sites, model, center, threads).run();
 }
 
 }  // namespace rondel::blocks

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "blocks/hilbert.h"
+#include "blocks/place_keys.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
@@ -24,9 +24,9 @@ struct SpatialOrder {
   std::vector<Duplicate> renamed;  // {rank, lowest index}
 };
 
-// The key of a site's place: all sites in one place have it.
-HilbertKey place_key(const Point& p, Model model, const Point& center);
-
-SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center);
+// The result does not depend on `threads`, of which 0 means one for each core. Needs 16 bytes for
+// each site, the order included, unless many sites lie within 2^-28 of each other.
+SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center,
+                           unsigned threads);
 
 }  // namespace rondel::blocks

@@ -35,7 +35,7 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
                                 std::span<const Point> sites, const topology::Mesh& mesh,
                                 const incremental::FaceKinds& kinds, const HiddenSites& hidden,
                                 Model model, const Point& center) {
-  auto [names, duplicates, renamed] = blocks::spatial_order(sites, model, center);
+  auto [names, duplicates, renamed] = blocks::spatial_order(sites, model, center, 1);
   const auto num_ranks = static_cast<Index>(names.size());
   std::vector<Index> rank_of_place(places.place_limit(), no_index);
   TriangulationArrays arrays;
@@ -61,7 +61,8 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
 
 Build make_build(const Triangulation& triangulation, std::span<const Point> sites) {
   Build build;
-  auto order = blocks::spatial_order(sites, triangulation.model(), triangulation.sphere().center);
+  auto order = blocks::spatial_order(sites, triangulation.model(), triangulation.sphere().center,
+                                     triangulation.report().threads);
   build.place_of_site.assign(sites.size(), no_index);
   build.speakers = std::move(order.order);
   for (Index place = 0; place < build.speakers.size(); ++place) {

@@ -31,7 +31,7 @@ TriangulationArrays hull_of(std::span<const Point> sites, const Point& center) {
   Options options;
   options.model = Model::weighted;
   options.sphere.center = center;
-  auto order = blocks::spatial_order(sites, options.model, center);
+  auto order = blocks::spatial_order(sites, options.model, center, options.threads);
   return triangulate(sites, std::move(order.order), order.renamed, options).arrays;
 }
 

@@ -27,7 +27,7 @@ TriangulationArrays insert_all(std::span<const Point> sites, const Point& center
   Options options;
   options.model = Model::weighted;
   options.sphere.center = center;
-  auto order = blocks::spatial_order(sites, options.model, center);
+  auto order = blocks::spatial_order(sites, options.model, center, options.threads);
   auto arrays =
       incremental::triangulate(sites, std::move(order.order), order.renamed, options).arrays;
   arrays.num_sites = sites.size();

@@ -5,5 +5,6 @@ rondel_add_test(kernel_test
   kernel_exact_test.cpp
   kernel_order_test.cpp
   spatial_index_test.cpp
+  spatial_order_test.cpp
   system_parallel_test.cpp
   LIBS rondel_test_support)

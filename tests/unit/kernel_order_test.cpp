@@ -124,7 +124,7 @@ TEST(spatial_radix_sort, sorts_spread_and_crowded_keys) {
 
 // All pairs, by the exact predicate.
 void expect_all_duplicates_found(std::span<const Point> sites, Model model, const Sphere& sphere) {
-  const auto order = blocks::spatial_order(sites, model, sphere.center);
+  const auto order = blocks::spatial_order(sites, model, sphere.center, 1);
   std::vector<Index> representative(sites.size());
   for (Index i = 0; i < sites.size(); ++i) {
     representative[i] = i;
