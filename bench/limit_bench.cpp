@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
   options.threads = 1;
   const auto triangulation = rondel::delaunay(sites, options);
   const auto sorted = rondel::bench::measure(
-      [&] { return rondel::blocks::spatial_order(sites, options.model, {}); });
+      [&] { return rondel::blocks::spatial_order(sites, options.model, {}, options.threads); });
   const auto& order = sorted.result->order;
   const auto ranks = invert(order, sites.size());
   if (order.size() != sites.size()) {

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Whole builds: order, triangulation, canonical result.
+
+#include "parts.h"
+#include "rondel/hull.h"
+
+namespace rondel::bench {
+namespace {
+
+void build(benchmark::State& state, const std::string& kind, Model model) {
+  const auto& sites = case_of(kind, state.range(0)).sites;
+  Options options;
+  options.model = model;
+  options.threads = 1;
+  for (auto _ : state) benchmark::DoNotOptimize(delaunay(sites, options));
+  report_each(state, sites.size());
+}
+
+void hull(benchmark::State& state, const std::string& kind) {
+  const auto points = make_input(kind, static_cast<std::size_t>(state.range(0)));
+  for (auto _ : state) benchmark::DoNotOptimize(convex_hull(points, {.threads = 1}));
+  report_each(state, points.size());
+}
+
+BENCHMARK_CAPTURE(build, uniform_projected, "uniform", Model::projected)
+    ->Arg(small_size)
+    ->Arg(large_size);
+BENCHMARK_CAPTURE(build, uniform_weighted, "uniform", Model::weighted)
+    ->Arg(small_size)
+    ->Arg(large_size);
+BENCHMARK_CAPTURE(build, grid_projected, "grid", Model::projected)->Arg(large_size);
+BENCHMARK_CAPTURE(build, fibonacci_projected, "fibonacci", Model::projected)->Arg(large_size);
+BENCHMARK_CAPTURE(hull, ball, "ball")->Arg(large_size);
+
+}  // namespace
+}  // namespace rondel::bench

@@ -1,0 +1,50 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the benchmarks of the parts share. Each measures one thread, and reports the time for one
+// site (face, query, call) as the counter "each".
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "inputs.h"
+#include "rondel/delaunay.h"
+
+namespace rondel::bench {
+
+inline constexpr std::int64_t small_size = std::int64_t{1} << 12;
+inline constexpr std::int64_t large_size = std::int64_t{1} << 20;
+
+// Sites and their triangulation, made once.
+struct Case {
+  std::vector<Point> sites;
+  Triangulation triangulation;
+};
+
+inline const Case& case_of(const std::string& kind, std::int64_t n) {
+  static std::map<std::pair<std::string, std::int64_t>, Case> cases;
+  const auto [entry, is_new] = cases.try_emplace({kind, n});
+  Case& found = entry->second;
+  if (is_new) {
+    found.sites = make_input(kind, static_cast<std::size_t>(n));
+    Options options;
+    options.threads = 1;
+    found.triangulation = delaunay(found.sites, options);
+  }
+  return found;
+}
+
+inline void report_each(benchmark::State& state, std::size_t count) {
+  state.counters["each"] =
+      benchmark::Counter(static_cast<double>(count), benchmark::Counter::kIsIterationInvariantRate |
+                                                         benchmark::Counter::kInvert);
+}
+
+}  // namespace rondel::bench
