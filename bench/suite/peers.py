@@ -3,10 +3,13 @@
 """Rondel and the programs with which it is compared: how each is run, and what it must find."""
 
 import dataclasses
+import functools
 import importlib.util
 import pathlib
 import shutil
 import sys
+
+from .runs import machine_memory
 
 COMPARE = pathlib.Path(__file__).resolve().parent.parent / "compare"
 
@@ -58,7 +61,9 @@ PEERS = [
 def command(peer, settings, kind, n, file):
     """`file` holds the sites of the same input as .npy."""
     if peer.program.endswith(".mjs"):
-        return ["node", COMPARE / peer.program, file, settings.node_packages]
+        # By itself Node.js stops at 4 GB.
+        return ["node", f"--max-old-space-size={machine_memory() * 3 // 4 // 2**20}",
+                COMPARE / peer.program, file, settings.node_packages]
     if peer.program.endswith(".py"):
         return [sys.executable, COMPARE / peer.program, file]
     return [settings.programs / peer.program, kind, n, *peer.arguments]
@@ -78,6 +83,7 @@ def missing(peer, settings):
     return "" if is_built else f"{peer.program} was not built: its library is not installed"
 
 
+@functools.cache
 def available(settings):
     """The peers that can be run; says which cannot."""
     there = []

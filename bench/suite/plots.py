@@ -30,7 +30,7 @@ def time_against_n(path, peers, by_size):
     pyplot = _pyplot()
     if pyplot is None:
         return
-    figure, axes = pyplot.subplots(figsize=(9, 6.5))
+    figure, axes = pyplot.subplots(figsize=(8, 8))
     failures = []
     for peer in peers:
         good = [(n, results.median(peer.label)) for n, results in by_size.items()
@@ -48,7 +48,7 @@ def time_against_n(path, peers, by_size):
     axes.set_xlabel("uniform sites")
     axes.set_ylabel("seconds; x: fails from here on")
     axes.grid(True, alpha=0.3)
-    axes.legend(fontsize=8, loc="upper left")
+    axes.legend(fontsize=8, ncol=2, loc="upper center", bbox_to_anchor=(0.5, -0.1))
     _save(figure, path)
     pyplot.close(figure)
 

@@ -13,45 +13,53 @@ from .tables import Table, number, power, spread
 HEAD = ["ratio", "input", "of medians (single turns)"]
 
 
-def _against(settings, name, kind, n, peers):
+def _against(settings, name, kind, n, peers, threads=1):
     """Peers that are not there are left out; failures stand in the place of the ratio."""
     peers = [p for p in peers if not peers_module.missing(p, settings)]
     if not peers:
         return []
     expected = expected_vertices(settings, kind, n)
     model = {p.label: p.model for p in (RONDEL, *peers)}
+    cases = {p.label: peers_module.command(p, settings, kind, n, None) for p in (RONDEL, *peers)}
+    cases[RONDEL.label] += ["--threads", threads]
     results = run_in_turns(
-        {p.label: peers_module.command(p, settings, kind, n, None) for p in (RONDEL, *peers)},
-        settings.limits, lambda label, outcome: verdict(outcome, expected[model[label]]))
-    return [[f"{p.label} / {RONDEL.label}", name,
+        cases, settings.limits, lambda label, outcome: verdict(outcome, expected[model[label]]))
+    rondel_label = RONDEL.label + (f", {threads} threads" if threads > 1 else "")
+    return [[f"{p.label} / {rondel_label}", name,
              results.failure(p.label) or spread(results.ratio(p.label, RONDEL.label))]
             for p in peers]
 
 
 def against_peers(settings):
-    largest = settings.peers_max_log2
     cgal = (CGAL_PROJECTED, CGAL_GIVEN)
-    wanted = {10: (*cgal, STRIPACK, STRIPACK_TRMESH), 14: cgal,
-              18: (STRIPACK, STRIPACK_TRMESH), 20: (*cgal, QHULL), 22: cgal}
+    stripack = (STRIPACK, STRIPACK_TRMESH)
+    last = settings.threads()[-1]
+    wanted = [(10, (*cgal, *stripack), 1), (14, cgal, 1), (18, stripack, 1), (20, (*cgal, QHULL), 1),
+              (20, cgal, last), (22, cgal, 1)]
     rows = []
-    for log2, peers in wanted.items():
-        if log2 <= largest:
-            rows += _against(settings, f"uniform 2^{log2}", "uniform", 2**log2, peers)
+    for log2, peers, threads in wanted:
+        if log2 <= settings.peers_max_log2:
+            rows += _against(settings, f"uniform 2^{log2}", "uniform", 2**log2, peers, threads)
     for path in settings.stations:
         rows += _against(settings, path.name, path, 0, cgal)
     return rows
 
 
+def of_threads(settings, n):
+    last = settings.threads()[-1]
+    results = run(settings, {t: rondel(settings, "uniform", n, "projected", "--threads", t)
+                             for t in sorted({1, last})})
+    return [f"1 thread / {last} threads", f"uniform {power(n)}", spread(results.ratio(1, last))]
+
+
 def of_rondel(settings):
     n = settings.size(2**20)
-    last = settings.threads()[-1]
     uniform = f"uniform {power(n)}"
     hard = {name: rondel(settings, kind, size, "projected")
             for name, kind, size in hard_inputs(settings)}
     results = run(settings, {
         uniform: rondel(settings, "uniform", n, "projected"),
         "weighted": rondel(settings, "uniform", n, "weighted"),
-        "threads": rondel(settings, "uniform", n, "projected", "--threads", last),
         "limit": [settings.programs / "limit_bench", "uniform", n],
         "dual": rondel(settings, "uniform", n, "projected", "--dual"),
         **hard,
@@ -59,7 +67,7 @@ def of_rondel(settings):
     error = max(abs(area / 12.566370614359172954 - 1) for area in results.all("dual", "total_area"))
     return [
         ["projected / weighted", uniform, spread(results.ratio(uniform, "weighted"))],
-        [f"1 thread / {last} threads", uniform, spread(results.ratio(uniform, "threads"))],
+        *(of_threads(settings, size) for size in (n, 4 * n)),
         ["Rondel / its limit", uniform, spread(results.ratio(uniform, "limit"))],
         ["cells and areas / triangulation", uniform, spread(results.ratio("dual", "dual", "dual",
                                                                           "seconds"))],

@@ -60,10 +60,10 @@ def over_threads(settings):
 
 
 def over_growing_sizes(settings):
-    """Cost and memory a site; sizes in turn, the largest of them as often as the budget allows."""
+    """Cost and memory a site; the largest sizes as often as the budget allows."""
     rows, points = [], []
+    one, more = "1 thread", f"{settings.threads()[-1]} threads"
     for n in settings.sizes(settings.max_log2):
-        one, more = "1 thread", f"{settings.threads()[-1]} threads"
         results = run(settings, {
             one: rondel(settings, "uniform", n, "projected"),
             more: rondel(settings, "uniform", n, "projected", "--threads", settings.threads()[-1]),
