@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "system/huge_pages.h"
@@ -22,27 +21,29 @@ class ChunkLists {
   ChunkLists(std::size_t num_lists, std::size_t capacity)
       : size_(most_words(num_lists, capacity)),
         words_(std::make_unique_for_overwrite<std::uint64_t[]>(size_)),
-        ends_(num_lists, 0) {
+        ends_(num_lists, 0),
+        num_chunks_(num_lists, 0) {
     system::advise_huge_pages(words_.get(), size_ * sizeof(std::uint64_t));
   }
 
   void append(std::size_t list, std::uint64_t word) {
     std::uint64_t& end = ends_[list];
-    if (end % chunk == 0) end = new_chunk(end);
+    if (end % chunk == 0) end = new_chunk(list);
     words_[end++] = word;
   }
 
   [[nodiscard]] std::size_t size(std::size_t list) const {
-    std::size_t words = 0;
-    for_each_chunk(list, [&](std::span<const std::uint64_t> part) { words += part.size(); });
-    return words;
+    const std::uint64_t end = ends_[list];
+    return end == 0 ? 0 : (num_chunks_[list] - 1) * (chunk - 1) + (end - 1) % chunk;
   }
 
   // Copies a list in no particular order. Returns where the copy ends.
   std::uint64_t* copy(std::size_t list, std::uint64_t* target) const {
-    for_each_chunk(list, [&](std::span<const std::uint64_t> part) {
-      target = std::ranges::copy(part, target).out;
-    });
+    for (std::uint64_t end = ends_[list]; end != 0;) {
+      const std::uint64_t begin = (end - 1) / chunk * chunk;
+      target = std::copy(words_.get() + begin + 1, words_.get() + end, target);
+      end = words_[begin];
+    }
     return target;
   }
 
@@ -54,25 +55,18 @@ class ChunkLists {
     return (capacity / (chunk - 1) + num_lists + 1) * chunk;
   }
 
-  std::uint64_t new_chunk(std::uint64_t end) {
-    words_[used_] = end;
+  std::uint64_t new_chunk(std::size_t list) {
+    words_[used_] = ends_[list];
     used_ += chunk;
+    ++num_chunks_[list];
     return used_ - chunk + 1;
-  }
-
-  template <class Work>
-  void for_each_chunk(std::size_t list, const Work& work) const {
-    for (std::uint64_t end = ends_[list]; end != 0;) {
-      const std::uint64_t begin = (end - 1) / chunk * chunk;
-      work(std::span<const std::uint64_t>(words_.get() + begin + 1, words_.get() + end));
-      end = words_[begin];
-    }
   }
 
   std::size_t size_;
   std::size_t used_ = 0;
   std::unique_ptr<std::uint64_t[]> words_;
   std::vector<std::uint64_t> ends_;  // 0: empty
+  std::vector<std::uint32_t> num_chunks_;
 };
 
 }  // namespace rondel::blocks

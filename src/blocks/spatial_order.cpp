@@ -30,6 +30,10 @@ namespace {
 constexpr int unused_bits = 64 - high_key_bits;
 constexpr std::size_t batch = 256;  // keys computed at once
 
+// Below a longer prefix the high key has fewer than 24 bits: too few for the sites of a leaf, which
+// are some thousands, so that their words continue with the low key.
+constexpr int most_shallow_prefix = high_key_bits - 24;
+
 class Ordering {
  public:
   Ordering(std::span<const Point> sites, Model model, const Point& center, unsigned threads)
@@ -41,7 +45,8 @@ class Ordering {
         tree_(make_tree()) {}
 
   SpatialOrder run() {
-    deal();
+    system::parallel_invoke(
+        threads_, [this] { deal(); }, [this] { make_room(); });
     count();
     sort();
     close_gaps();
@@ -61,15 +66,23 @@ class Ordering {
     constexpr std::size_t sites_per_sample = 256;
     const int size_bits = static_cast<int>(std::bit_width(sites_.size()));
     const int root_bits = std::clamp(size_bits - 10, 3, 13);
-    std::vector<std::uint64_t> sample;
+    std::vector<Point> points;
     for (std::size_t i = 0; i + sites_per_sample <= sites_.size(); i += sites_per_sample) {
       // Any place within the stride: a constant one could meet the same column of every grid.
-      const std::size_t at = i + (i * 0x9e3779b97f4a7c15U >> 56);
-      sample.push_back(place_key(sites_[at], model_, center_).high << unused_bits);
+      points.push_back(sites_[i + (i * 0x9e3779b97f4a7c15U >> 56)]);
     }
-    std::ranges::sort(sample);
+    std::vector<std::uint64_t> keys(points.size());
+    std::vector<std::uint64_t> sample(points.size());
+    high_place_keys(points, model_, center_, keys);
+    for (std::uint64_t& key : keys) key <<= unused_bits;
+    sort_words(keys, sample);
     const std::size_t most = std::max<std::size_t>(12, 6 * sample.size() >> root_bits);
     return {sample, high_key_bits, root_bits, most};
+  }
+
+  void make_room() {
+    system::reserve_large(result_.order, sites_.size());
+    result_.order.resize(sites_.size());
   }
 
   void deal() {
@@ -93,9 +106,18 @@ class Ordering {
       for (std::size_t i = 0; i < size; ++i) {
         const std::uint64_t key = keys[i] << unused_bits;
         const std::uint32_t leaf = tree_.leaf(key);
-        lists.append(leaf, (key << tree_.prefix_bits(leaf) & ~index_mask_) | (first + i));
+        const int prefix = tree_.prefix_bits(leaf);
+        std::uint64_t word = key << prefix;
+        if (prefix > most_shallow_prefix)
+          word |= low_key(sites_[first + i]) >> (high_key_bits - prefix);
+        lists.append(leaf, (word & ~index_mask_) | (first + i));
       }
     }
+  }
+
+  // In the upper bits of a word.
+  [[nodiscard]] std::uint64_t low_key(const Point& p) const {
+    return place_key(p, model_, center_).low << (64 - 2 * low_levels);
   }
 
   void count() {
@@ -114,8 +136,6 @@ class Ordering {
   };
 
   void sort() {
-    system::reserve_large(result_.order, sites_.size());
-    result_.order.resize(sites_.size());
     merged_.resize(leaves_.size());
     system::parallel_for(threads_, leaves_.size(), 8, [&](std::size_t begin, std::size_t end) {
       std::vector<std::uint64_t> words;
@@ -178,13 +198,15 @@ class Ordering {
   }
 
   void collect_duplicates() {
-    result_.duplicates.reserve(sites_.size() - result_.order.size());
+    std::vector<Index> representative(sites_.size(), no_index);
     for (Merged& merged : merged_) {
-      result_.duplicates.insert(result_.duplicates.end(), merged.duplicates.begin(),
-                                merged.duplicates.end());
+      for (const Duplicate& d : merged.duplicates) representative[d.site] = d.representative;
       merged = {};
     }
-    std::ranges::sort(result_.duplicates, {}, &Duplicate::site);
+    result_.duplicates.reserve(sites_.size() - result_.order.size());
+    for (Index i = 0; i < sites_.size(); ++i) {
+      if (representative[i] != no_index) result_.duplicates.push_back({i, representative[i]});
+    }
   }
 
   std::span<const Point> sites_;

@@ -36,7 +36,11 @@ void sort_words(std::span<std::uint64_t> words, std::span<std::uint64_t> result)
   }
   std::uint64_t differences = 0;
   for (const std::uint64_t word : words) differences |= word ^ words[0];
-  const int agreed = std::countl_zero(differences | 1);
+  if (differences == 0) {
+    std::ranges::copy(words, result.begin());
+    return;
+  }
+  const int agreed = std::countl_zero(differences);
   const int bits = std::min(most_bits, static_cast<int>(std::bit_width(words.size())));
   const std::size_t num_cells = std::size_t{1} << bits;
   const auto cell = [=](std::uint64_t word) { return word << agreed >> (64 - bits); };

@@ -1,0 +1,76 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Loops that the compiler turns into vector code, compiled for wider vectors too than every machine
+// has, and chosen at run time. The results are the same: fused multiply-adds are off everywhere.
+#pragma once
+
+#if defined(__GNUC__) && defined(__x86_64__)
+#define RONDEL_WIDE_VECTORS
+#define RONDEL_ALWAYS_INLINE __attribute__((always_inline))
+#else
+#define RONDEL_ALWAYS_INLINE
+#endif
+
+namespace rondel::system {
+
+#if defined(RONDEL_WIDE_VECTORS)
+
+namespace wide_vectors {
+
+enum class Width { bits_128, bits_256, bits_512 };
+
+inline Width widest() {
+  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
+    return Width::bits_512;
+  }
+  return __builtin_cpu_supports("avx2") ? Width::bits_256 : Width::bits_128;
+}
+
+// Found out once.
+inline Width width() {
+  static const Width result = widest();
+  return result;
+}
+
+template <class Work>
+__attribute__((target("avx2"))) void run_256(const Work& work) {
+  work();
+}
+
+template <class Work>
+__attribute__((target("avx2,avx512f,avx512dq,avx512vl"))) void run_512(const Work& work) {
+  work();
+}
+
+}  // namespace wide_vectors
+
+// Whether vectors are wider than every machine has. Choices by masks lose against branches and
+// tables where they are not.
+inline bool has_wide_vectors() { return wide_vectors::width() != wide_vectors::Width::bits_128; }
+
+// Calls work(), a lambda marked RONDEL_ALWAYS_INLINE that calls nothing but what is inlined.
+template <class Work>
+void with_wide_vectors(const Work& work) {
+  switch (wide_vectors::width()) {
+    case wide_vectors::Width::bits_512:
+      return wide_vectors::run_512(work);
+    case wide_vectors::Width::bits_256:
+      return wide_vectors::run_256(work);
+    case wide_vectors::Width::bits_128:
+      return work();
+  }
+}
+
+#else
+
+inline bool has_wide_vectors() { return false; }
+
+template <class Work>
+void with_wide_vectors(const Work& work) {
+  work();
+}
+
+#endif
+
+}  // namespace rondel::system
