@@ -152,9 +152,7 @@ void DynamicTriangulation::remove(Index id) {
 void DynamicTriangulation::remove(std::span<const Index> ids) {
   impl_->require_distinct_sites(ids);
   impl_->changed();
-  impl_->visit([&](auto& e) {
-    for (const Index id : ids) e.remove(id);
-  });
+  impl_->visit([&](auto& e) { e.remove(ids); });
 }
 
 void DynamicTriangulation::move(Index id, const Point& to) { move({&id, 1}, {&to, 1}); }

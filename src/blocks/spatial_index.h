@@ -1,13 +1,15 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Points in spatial order while they come and go: a search tree of two levels. Points that follow
-// each other on the Hilbert curve are close, so a neighbor in this order is where a walk should
-// start.
+// Points in spatial order while they come and go: a B-tree along the Hilbert curve (Bayer and
+// McCreight, Acta Informatica 1, 1972). Points that follow each other on the curve are close, so a
+// neighbor in this order is where a walk should start.
 #pragma once
 
+#include <array>
 #include <cassert>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "blocks/hilbert.h"
@@ -17,133 +19,171 @@ namespace rondel::blocks {
 
 // Keys and values, sorted by key.
 //
-//   leaves   |k v|k v|...|   |k v|...|   ...     at most `leaf_size` entries each
-//   firsts    ^               ^                  the first key of each leaf
+//               | k c | k c | ...          an inner node: for each child the first key below it
+//                  /     |
+//         |k v|k v|...  |k v|k v|...       the leaves, all at the same depth
 //
-// Search is a binary search twice. A change moves the entries of one leaf; now and then one leaf is
-// split in two or joined to its neighbor, which moves the list of leaves.
+// In a large set of random places a search misses the caches in the last node or two only, once
+// each: what the search of a node may read is asked for at once.
 //
 // Entries of equal keys can be ordered by what their values stand for: `is_before(value)` tells
 // whether an entry comes before the one that is meant. Where it is always false they are in no
 // order, and searched one by one.
 class SpatialIndex {
+  static constexpr unsigned node_size = 32;
+  // A new level takes at least 15 splits of the level below: 15^15 changes are never made.
+  static constexpr unsigned max_depth = 16;
+
  public:
+  // Where an entry is, or would be; until the next change.
+  class Position {
+    friend class SpatialIndex;
+    struct Step {
+      Index node = 0;
+      unsigned entry = 0;
+    };
+    std::array<Step, max_depth> path_;  // by height: the leaf first
+  };
+
   [[nodiscard]] std::size_t size() const { return size_; }
 
+  // The first entry that is not before the one that is meant, or the end.
   template <class IsBefore>
-  void insert(const HilbertKey& key, Index value, IsBefore is_before);
+  [[nodiscard]] Position seek(const HilbertKey& key, IsBefore is_before) const;
+
+  // The first value with this key, from the position of the key on, for which `is_wanted`;
+  // no_index if there is none.
+  template <class IsWanted>
+  [[nodiscard]] Index find(Position at, const HilbertKey& key, IsWanted is_wanted) const;
+
+  // The value of an entry next to the position; no_index when there is none.
+  [[nodiscard]] Index near(const Position& at) const;
+  [[nodiscard]] Index near(const HilbertKey& key) const;
+
+  // Asks for the memory that a search for the key reads last.
+  void prefetch(const HilbertKey& key) const;
+
+  // `at` is the position of the key.
+  void insert(Position at, const HilbertKey& key, Index value);
 
   // Precondition: the entry is there.
   template <class IsBefore>
   void erase(const HilbertKey& key, Index value, IsBefore is_before);
 
-  // The first value with this key, not before the one that is meant, for which `is_wanted`;
-  // no_index if there is none.
-  template <class IsBefore, class IsWanted>
-  [[nodiscard]] Index find(const HilbertKey& key, IsBefore is_before, IsWanted is_wanted) const;
-
-  // The value of an entry next to the key in this order; no_index when there is none.
-  [[nodiscard]] Index near(const HilbertKey& key) const;
-
   // All values in order.
   [[nodiscard]] std::vector<Index> values() const;
+
+  // Replaces the values: 0, 1, 2 ... in order.
+  void renumber();
 
   // Replaces everything. `keys` are sorted.
   void assign(const std::vector<HilbertKey>& keys, const std::vector<Index>& values);
 
  private:
-  static constexpr std::size_t leaf_size = 256;
+  // Keys in two halves: the high ones rarely tie.
+  struct Node {
+    unsigned size = 0;
+    std::array<std::uint64_t, node_size> highs;
+    std::array<Index, node_size> values;  // of an inner node: the children
+    std::array<std::uint64_t, node_size> lows;
 
-  struct Leaf {
-    std::vector<HilbertKey> keys;
-    std::vector<Index> values;
+    [[nodiscard]] HilbertKey key(unsigned i) const { return {highs[i], lows[i]}; }
+    void set(unsigned i, const HilbertKey& key, Index value);
+    void insert(unsigned i, const HilbertKey& key, Index value);
+    void erase(unsigned i);
+    // Moves the entries from `first` on to the end of another node.
+    void move_tail(unsigned first, Node& to);
   };
 
-  struct Position {
-    std::size_t leaf = 0;
-    std::size_t entry = 0;
-  };
-
-  // The first entry that is not before, perhaps the end of its leaf. Precondition: not empty.
+  // The value of the first leaf entry below entry i of a node.
+  [[nodiscard]] Index first_value(const Node& node, unsigned i, unsigned height) const;
+  static void prefetch(const Node& node);
+  // The first i in [first, last) for which is_before(i) is false, given that it is true before.
   template <class IsBefore>
-  [[nodiscard]] Position lower_bound(const HilbertKey& key, IsBefore is_before) const;
+  static unsigned partition_point(unsigned first, unsigned last, IsBefore is_before);
+  // The number of entries whose high key is less.
+  static unsigned count_below(const Node& node, std::uint64_t high);
+  // From the end of a leaf to the next leaf. Returns whether there is an entry.
+  bool skip_end(Position& at) const;
 
-  // The first i in [0, size) for which is_before(i) is false, given that it is true before that.
-  template <class IsBefore>
-  static std::size_t partition_point(std::size_t size, IsBefore is_before);
+  // The leaves in order, by their numbers.
+  [[nodiscard]] std::vector<Index> leaves() const;
 
-  void insert_at(const Position& at, const HilbertKey& key, Index value);
-  void erase_at(const Position& at);
-  void split(std::size_t i);
-  void join_if_small(std::size_t i);
+  Index new_node();
+  // Both end with the path at the entry: the one that is new, or the one behind.
+  void insert_at(Position& at, unsigned height, const HilbertKey& key, Index value);
+  void erase_at(Position& at, unsigned height);
+  void split(Position& at, unsigned height);
+  void join(Position& at, unsigned height);
+  void lower_root();
+  void update_parents(const Position& at, unsigned height);
 
-  std::vector<Leaf> leaves_;
-  std::vector<HilbertKey> firsts_;
+  std::vector<Node> nodes_;
+  std::vector<Index> free_nodes_;
+  Index root_ = no_index;
+  unsigned depth_ = 0;  // the number of levels; leaves have height 0
   std::size_t size_ = 0;
 };
 
 template <class IsBefore>
-std::size_t SpatialIndex::partition_point(std::size_t size, IsBefore is_before) {
-  std::size_t first = 0;
-  while (size > 0) {
-    const std::size_t half = size / 2;
-    if (is_before(first + half)) {
-      first += half + 1;
-      size -= half + 1;
+unsigned SpatialIndex::partition_point(unsigned first, unsigned last, IsBefore is_before) {
+  while (first < last) {
+    const unsigned middle = first + (last - first) / 2;
+    if (is_before(middle)) {
+      first = middle + 1;
     } else {
-      size = half;
+      last = middle;
     }
   }
   return first;
 }
 
 template <class IsBefore>
-SpatialIndex::Position SpatialIndex::lower_bound(const HilbertKey& key, IsBefore is_before) const {
-  const std::size_t next = partition_point(firsts_.size(), [&](std::size_t i) {
-    if (firsts_[i] != key) return firsts_[i] < key;
-    return is_before(leaves_[i].values.front());
-  });
-  const std::size_t i = next == 0 ? 0 : next - 1;
-  const Leaf& leaf = leaves_[i];
-  return {i, partition_point(leaf.keys.size(), [&](std::size_t k) {
-            if (leaf.keys[k] != key) return leaf.keys[k] < key;
-            return is_before(leaf.values[k]);
-          })};
-}
-
-template <class IsBefore>
-void SpatialIndex::insert(const HilbertKey& key, Index value, IsBefore is_before) {
-  insert_at(leaves_.empty() ? Position{} : lower_bound(key, is_before), key, value);
-}
-
-template <class IsBefore, class IsWanted>
-Index SpatialIndex::find(const HilbertKey& key, IsBefore is_before, IsWanted is_wanted) const {
-  if (leaves_.empty()) return no_index;
-  for (auto [i, k] = lower_bound(key, is_before);; ++k) {
-    if (k == leaves_[i].keys.size()) {
-      if (++i == leaves_.size()) return no_index;
-      k = 0;
+SpatialIndex::Position SpatialIndex::seek(const HilbertKey& key, IsBefore is_before) const {
+  Position at;
+  Index child = root_;
+  for (unsigned height = depth_; height-- > 0;) {
+    const Node& node = nodes_[child];
+    unsigned i = count_below(node, key.high);
+    if (i < node.size && node.highs[i] == key.high) {
+      i = partition_point(i, node.size, [&](unsigned k) {
+        if (node.key(k) != key) return node.key(k) < key;
+        return is_before(first_value(node, k, height));
+      });
     }
-    if (leaves_[i].keys[k] != key) return no_index;
-    if (is_wanted(leaves_[i].values[k])) return leaves_[i].values[k];
+    if (height > 0 && i > 0) --i;
+    at.path_[height] = {child, i};
+    if (height == 0) break;
+    child = node.values[i];
+    prefetch(nodes_[child]);
   }
+  return at;
+}
+
+template <class IsWanted>
+Index SpatialIndex::find(Position at, const HilbertKey& key, IsWanted is_wanted) const {
+  while (skip_end(at)) {
+    Position::Step& step = at.path_[0];
+    const Node& leaf = nodes_[step.node];
+    if (leaf.key(step.entry) != key) break;
+    if (is_wanted(leaf.values[step.entry])) return leaf.values[step.entry];
+    ++step.entry;
+  }
+  return no_index;
 }
 
 template <class IsBefore>
 void SpatialIndex::erase(const HilbertKey& key, Index value, IsBefore is_before) {
-  Position at = lower_bound(key, is_before);
+  Position at = seek(key, is_before);
   for (;;) {
-    if (at.entry == leaves_[at.leaf].keys.size()) {
-      at = {at.leaf + 1, 0};
-      assert(at.leaf < leaves_.size());
-    } else if (leaves_[at.leaf].values[at.entry] == value) {
-      break;
-    } else {
-      ++at.entry;
-    }
+    [[maybe_unused]] const bool is_entry = skip_end(at);
+    assert(is_entry);
+    Position::Step& step = at.path_[0];
+    if (nodes_[step.node].values[step.entry] == value) break;
+    ++step.entry;
   }
-  assert(leaves_[at.leaf].keys[at.entry] == key);
-  erase_at(at);
+  erase_at(at, 0);
+  --size_;
 }
 
 }  // namespace rondel::blocks

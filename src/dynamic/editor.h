@@ -16,6 +16,7 @@
 
 #include "dynamic/hull.h"
 #include "dynamic/places.h"
+#include "dynamic/renumbering.h"
 #include "incremental/brio.h"
 #include "incremental/great_circle.h"
 #include "incremental/sphere_traits.h"
@@ -40,6 +41,7 @@ class Editor {
     const Index site = places_.add_site();
     sites_.rebind(places_.points(), places_.speakers());
     arrive(site, p, hint);
+    renumber_if_due();
     return site;
   }
 
@@ -57,6 +59,7 @@ class Editor {
     for (const Index rank : incremental::insertion_order(size)) {
       const Index i = order[rank].second;
       arrive(ids[i], points[i], no_index);
+      renumber_if_due();
     }
     return ids;
   }
@@ -64,11 +67,25 @@ class Editor {
   void remove(Index site) {
     depart(site);
     places_.free_site(site);
+    renumber_if_due();
+  }
+
+  // Backwards in the order in which a range is inserted: what is close leaves together, and what
+  // remains is spread evenly. Numbers of places are close enough to the spatial order.
+  void remove(std::span<const Index> sites) {
+    std::vector<std::pair<Index, Index>> order;
+    order.reserve(sites.size());
+    for (const Index site : sites) order.emplace_back(places_.place_of(site), site);
+    std::ranges::sort(order);
+    std::vector<Index> ranks = incremental::insertion_order(static_cast<Index>(sites.size()));
+    std::ranges::reverse(ranks);
+    for (const Index rank : ranks) remove(order[rank].second);
   }
 
   void move(Index site, const Point& p) {
     depart(site);
     arrive(site, p, no_index);
+    renumber_if_due();
   }
 
   // Takes the result of a build, instead of inserting each: `mesh` has places for vertices,
@@ -77,6 +94,7 @@ class Editor {
               std::span<const Index> speakers) {
     places_.assign(points, place_of_site, speakers);
     for (Index place = 0; place < speakers.size(); ++place) refresh(place);
+    schedule_.done(places_.num_places());
   }
   void adopt(topology::Mesh mesh, std::span<const std::array<Index, 2>> hidden) {
     hull_.emplace(sites_, std::move(mesh));
@@ -87,13 +105,26 @@ class Editor {
  private:
   void refresh(Index place) { sites_.set(place, places_.points(), places_.speakers()); }
 
+  // Only between changes: it makes all numbers of places and faces invalid.
+  void renumber_if_due() {
+    if (!schedule_.is_due(places_.num_places())) return;
+    schedule_.done(places_.num_places());
+    const Renumbering renumbering(places_.in_order(), places_.place_limit());
+    places_.renumber(renumbering);
+    sites_.reorder(renumbering.old_place);
+    sites_.rebind(places_.points(), places_.speakers());
+    if (hull_) hull_->renumber(renumbering);
+    for (Index& place : span_) place = renumbering.new_place[place];
+  }
+
   void arrive(Index site, const Point& p, Index hint) {
     places_.set_point(site, p);
-    const blocks::HilbertKey key = places_.key(p);
-    Index place = places_.find(p, key);
+    const Places::Spot spot = places_.look_up(p);
+    Index place = spot.place;
     if (place == no_index) {
-      const Index close = hint != no_index ? places_.place_of(hint) : places_.near(key);
-      place = places_.add_place(site, key);
+      const Index close = hint != no_index ? places_.place_of(hint) : spot.close;
+      if (hull_ && close != no_index) hull_->prefetch(close);
+      place = places_.add_place(site, spot);
       refresh(place);
       put_in(place, close);
       return;
@@ -109,11 +140,16 @@ class Editor {
 
   void depart(Index site) {
     const Index place = places_.place_of(site);
+    places_.prefetch(site);
+    if (hull_) hull_->prefetch(place);
     const Index next = places_.next_speaker(site);
     if (next == no_index) {
+      const blocks::HilbertKey key = places_.key(places_.point(site));
+      if (hull_) hull_->prefetch_face(place);
+      places_.prefetch(key);
       take_out(place);
       places_.leave(site);
-      places_.free_place(place, places_.key(places_.point(site)));
+      places_.free_place(place, key);
       return;
     }
     // On one ray, other coordinates mean another rank among ties.
@@ -202,6 +238,7 @@ class Editor {
   T sites_;
   std::optional<Hull<T>> hull_;
   std::vector<Index> span_;  // without a hull
+  RenumberingSchedule schedule_;
 };
 
 }  // namespace rondel::dynamic

@@ -3,6 +3,8 @@
 
 #include "dynamic/hidden_sites.h"
 
+#include <utility>
+
 namespace rondel::dynamic {
 
 void HiddenSites::attach(Index p, Index solid, Index near) {
@@ -32,6 +34,16 @@ void HiddenSites::take_ungrounded(std::vector<Index>& sites) {
     sites.push_back(ungrounded_);
     detach(ungrounded_);
   }
+}
+
+void HiddenSites::renumber(std::span<const Index> new_site, std::span<const Index> new_face) {
+  HiddenSites renumbered;
+  for (Index p = 0; p < links_.size(); ++p) {
+    if (!contains(p)) continue;
+    const Index near = near_face(p) == no_index ? no_index : new_face[near_face(p)];
+    renumbered.attach(new_site[p], new_face[solid_face(p)], near);
+  }
+  *this = std::move(renumbered);
 }
 
 void HiddenSites::push(Index p, std::size_t side, Index face) {

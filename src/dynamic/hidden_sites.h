@@ -15,6 +15,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "rondel/types.h"
@@ -33,6 +34,9 @@ class HiddenSites {
   // `near` may be no_index.
   void attach(Index p, Index solid, Index near);
   void detach(Index p);
+
+  // New numbers of sites and faces, by old numbers.
+  void renumber(std::span<const Index> new_site, std::span<const Index> new_face);
 
   // Detach all sites of a face, or all that are ungrounded, and append them to `sites`.
   void take(Index face, std::vector<Index>& sites);

@@ -18,8 +18,10 @@
 
 #include "blocks/cube_position.h"
 #include "blocks/hilbert.h"
+#include "blocks/prefetch.h"
 #include "dynamic/hidden_sites.h"
 #include "dynamic/link_triangulation.h"
+#include "dynamic/renumbering.h"
 #include "incremental/brio.h"
 #include "incremental/conflict_region.h"
 #include "incremental/location.h"
@@ -64,6 +66,16 @@ class Hull {
   [[nodiscard]] Index solid_face() const { return solid_; }
   [[nodiscard]] Index near_face() const { return near_; }
 
+  // Asks for the memory where a walk from this place, or its removal, starts.
+  void prefetch(Index place) const {
+    sites_.prefetch(place);
+    if (place < corner_of_.size()) blocks::prefetch(&corner_of_[place]);
+  }
+  // What comes next, when that has arrived.
+  void prefetch_face(Index place) const {
+    if (is_vertex(place)) blocks::prefetch(&mesh_[topology::face_of(corner_of_[place])]);
+  }
+
   // `close` is a place close to p, or no_index.
   void insert(Index p, Index close) { insert_from(p, start_at(close)); }
 
@@ -78,13 +90,19 @@ class Hull {
     outer_.clear();
     star_.clear();
     topology::Halfedge h = corner_of_[v];
+    topology::Halfedge back = h;
     do {
       const Index f = topology::face_of(h);
       const unsigned corner = topology::edge_of(h);
       link_.push_back(mesh_[f].vertex[topology::next_corner[corner]]);
       outer_.push_back(mesh_[f].opposite[corner]);
       star_.push_back(f);
+      prefetch(link_.back());
+      blocks::prefetch_to_write(&mesh_[topology::face_of(outer_.back())]);
       h = mesh_.next_around(f, corner);
+      // The other way around, so that the second half of the star is there when it is needed.
+      back = mesh_.previous_around(topology::face_of(back), topology::edge_of(back));
+      blocks::prefetch(&mesh_[topology::face_of(back)]);
     } while (h != corner_of_[v]);
     return link_;
   }
@@ -107,6 +125,26 @@ class Hull {
     if (is_grazed || (was_all_solid && !kinds_.all_solid())) hidden_.take_ungrounded(displaced_);
     assert(solid_ != no_index);
     if (!displaced_.empty()) bring_back();
+  }
+
+  // After the places have new numbers: the same for vertices, and new ones for the faces.
+  void renumber(const Renumbering& places) {
+    RenumberedMesh renumbered = dynamic::renumber(mesh_, places);
+    mesh_ = std::move(renumbered.mesh);
+    const std::vector<Index>& new_face = renumbered.new_face;
+    hidden_.renumber(places.new_place, new_face);
+    solid_ = new_face[solid_];
+    if (near_ != no_index) near_ = new_face[near_];
+    const incremental::FaceKinds kinds = std::exchange(kinds_, {});
+    for (Index f = 0; f < new_face.size() && !kinds.all_solid(); ++f) {
+      if (new_face[f] != no_index) kinds_.add(new_face[f], kinds[f]);
+    }
+    corner_of_ = {};
+    system::reserve_large(corner_of_, places.old_place.size() + places.old_place.size() / 2);
+    corner_of_.assign(places.old_place.size(), no_index);
+    for (Index f = mesh_.num_slots(); f-- > 0;) {
+      for (unsigned i = 0; i < 3; ++i) corner_of_[mesh_[f].vertex[i]] = topology::halfedge(f, i);
+    }
   }
 
  private:

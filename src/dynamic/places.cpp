@@ -9,8 +9,10 @@
 #include <iterator>
 #include <utility>
 
+#include "blocks/gather.h"
 #include "predicates/perturbation.h"
 #include "predicates/ray_order.h"
+#include "system/huge_pages.h"
 
 namespace rondel::dynamic {
 namespace {
@@ -25,6 +27,8 @@ Index take_slot(std::vector<Index>& free_slots) {
 
 Index Places::add_site() {
   if (!free_sites_.empty()) return take_slot(free_sites_);
+  system::grow_large(points_);
+  system::grow_large(place_of_);
   points_.emplace_back();
   place_of_.push_back(no_index);
   return site_limit() - 1;
@@ -35,15 +39,20 @@ void Places::free_site(Index site) {
   free_sites_.push_back(site);
 }
 
-Index Places::find(const Point& p, const blocks::HilbertKey& key) const {
-  return index_.find(key, order_of(p), [&](Index place) {
+Places::Spot Places::look_up(const Point& p) const {
+  Spot spot;
+  spot.key = key(p);
+  spot.position = index_.seek(spot.key, order_of(p));
+  spot.close = index_.near(spot.position);
+  spot.place = index_.find(spot.position, spot.key, [&](Index place) {
     const Point& q = place_point(place);
     if (p == q) return true;
     return model_ == Model::projected && predicates::compare_rays(p, q, center_) == Sign::zero;
   });
+  return spot;
 }
 
-Index Places::add_place(Index site, const blocks::HilbertKey& key) {
+Index Places::add_place(Index site, const Spot& spot) {
   Index place = static_cast<Index>(speakers_.size());
   if (free_places_.empty()) {
     speakers_.push_back(site);
@@ -54,7 +63,7 @@ Index Places::add_place(Index site, const blocks::HilbertKey& key) {
     names_[place] = site;
   }
   place_of_[site] = place;
-  index_.insert(key, place, order_of(points_[site]));
+  index_.insert(spot.position, spot.key, place);
   return place;
 }
 
@@ -110,6 +119,19 @@ void Places::leave(Index site) {
   const auto second = std::next(first);
   const bool is_alone = second == by_name_.end() || second->place != place;
   if (is_alone) strike({place, names_[place]});
+}
+
+void Places::renumber(const Renumbering& places) {
+  speakers_ = blocks::gather(speakers_, places.old_place);
+  names_ = blocks::gather(names_, places.old_place);
+  free_places_ = {};
+  for (Index& place : place_of_) {
+    if (place != no_index) place = places.new_place[place];
+  }
+  index_.renumber();
+  const std::set<Member> members = std::exchange(by_name_, {});
+  by_triple_.clear();
+  for (const auto& [place, site] : members) list({places.new_place[place], site});
 }
 
 void Places::assign(std::span<const Point> points, std::span<const Index> place_of_site,

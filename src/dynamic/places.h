@@ -11,8 +11,10 @@
 #include <vector>
 
 #include "blocks/hilbert.h"
+#include "blocks/prefetch.h"
 #include "blocks/spatial_index.h"
 #include "blocks/spatial_order.h"
+#include "dynamic/renumbering.h"
 #include "predicates/perturbation.h"
 #include "rondel/types.h"
 
@@ -52,17 +54,31 @@ class Places {
   [[nodiscard]] blocks::HilbertKey key(const Point& p) const {
     return blocks::place_key(p, model_, center_);
   }
-  // The place of p, exactly, or no_index.
-  [[nodiscard]] Index find(const Point& p, const blocks::HilbertKey& key) const;
-  // A place close to the key, or no_index.
-  [[nodiscard]] Index near(const blocks::HilbertKey& key) const { return index_.near(key); }
+  // Where a point belongs; until the next change.
+  struct Spot {
+    blocks::HilbertKey key;
+    blocks::SpatialIndex::Position position;
+    Index place = no_index;  // of the point, exactly
+    Index close = no_index;  // some place close to it, if there is any
+  };
+  [[nodiscard]] Spot look_up(const Point& p) const;
+  // A place close to p, or no_index.
+  [[nodiscard]] Index near(const Point& p) const { return index_.near(key(p)); }
+  // Asks for the memory that changes at this site, or around this key, will need.
+  void prefetch(Index site) const {
+    blocks::prefetch(&points_[site]);
+    blocks::prefetch(&speakers_[place_of_[site]]);
+    blocks::prefetch(&names_[place_of_[site]]);
+  }
+  void prefetch(const blocks::HilbertKey& key) const { index_.prefetch(key); }
+  [[nodiscard]] std::size_t num_places() const { return index_.size(); }
   // All places in spatial order.
   [[nodiscard]] std::vector<Index> in_order() const { return index_.values(); }
   // By place, the lowest of its sites.
   [[nodiscard]] std::span<const Index> names() const { return names_; }
 
-  // A new place for the site alone.
-  Index add_place(Index site, const blocks::HilbertKey& key);
+  // A new place for the site alone, at the spot of its point.
+  Index add_place(Index site, const Spot& spot);
   // Precondition: the place has no site left.
   void free_place(Index place, const blocks::HilbertKey& key);
 
@@ -73,6 +89,8 @@ class Places {
   [[nodiscard]] Index next_speaker(Index site) const;
   void leave(Index site);
   void set_speaker(Index place, Index site) { speakers_[place] = site; }
+
+  void renumber(const Renumbering& places);
 
   // Takes the result of a build. Places are in spatial order.
   void assign(std::span<const Point> points, std::span<const Index> place_of_site,

@@ -24,7 +24,7 @@ class HullDirectory final : public query::Directory {
   }
   [[nodiscard]] Index name(Index vertex) const override { return places().names()[vertex]; }
   [[nodiscard]] Index near(const Point& p) const override {
-    const Index place = places().near(places().key(p));
+    const Index place = places().near(p);
     if (editor_.hull()->is_vertex(place)) return place;
     return editor_.hull()->mesh()[editor_.hull()->hidden().solid_face(place)].vertex[0];
   }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "blocks/prefetch.h"
 #include "incremental/sphere_traits.h"
 #include "topology/cavity.h"
 #include "topology/mesh.h"
@@ -68,10 +69,21 @@ class ConflictRegion {
                        const topology::Face& face, unsigned first, unsigned second) {
     const topology::Halfedge a = face.opposite[first];
     const topology::Halfedge b = face.opposite[second];
+    prefetch_beyond(mesh, a);
+    prefetch_beyond(mesh, b);
     const auto [is_a, is_b] = sites.are_in_conflict(mesh[topology::face_of(a)].vertex,
                                                     mesh[topology::face_of(b)].vertex, p);
     stack_.push_back({{face.vertex[topology::next_corner[second]], b}, is_b});
     return {{face.vertex[topology::next_corner[first]], a}, is_a};
+  }
+
+  // The faces that are tested next if the one behind h is in conflict: they arrive while the
+  // coordinates of its corner do.
+  static void prefetch_beyond(const topology::Mesh& mesh, topology::Halfedge h) {
+    const topology::Face& face = mesh[topology::face_of(h)];
+    const unsigned entered = topology::edge_of(h);
+    blocks::prefetch(&mesh[topology::face_of(face.opposite[topology::next_corner[entered]])]);
+    blocks::prefetch(&mesh[topology::face_of(face.opposite[topology::previous_corner[entered]])]);
   }
 
   // A region this small is searched faster than marks, which lie anywhere in memory.

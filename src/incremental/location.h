@@ -18,9 +18,11 @@
 
 #include <array>
 #include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
+#include "blocks/prefetch.h"
 #include "incremental/sphere_traits.h"
 #include "topology/mesh.h"
 
@@ -33,20 +35,26 @@ inline FaceKind kind_of(Sign orientation) {
   return orientation == Sign::negative ? FaceKind::near : FaceKind::grazing;
 }
 
-// The kinds of the faces, as long as some face is not solid. Once the center is strictly
-// inside the hull it stays there, and nothing is kept any more.
+// The kinds of the faces. Most hulls have the center strictly inside, and then all faces are solid:
+// so an entry is solid unless something else was added, and nothing is written, nor read, as long
+// as there is nothing else.
 class FaceKinds {
  public:
   [[nodiscard]] bool all_solid() const { return num_ghosts_ == 0; }
   [[nodiscard]] FaceKind operator[](Index f) const {
-    return all_solid() ? FaceKind::solid : kinds_[f];
+    return all_solid() || f >= kinds_.size() ? FaceKind::solid : kinds_[f];
   }
   void add(Index f, FaceKind kind) {
-    if (f >= kinds_.size()) kinds_.resize(f + 1);
+    if (kind == FaceKind::solid) return;
+    if (f >= kinds_.size()) kinds_.resize(f + std::size_t{1}, FaceKind::solid);
     kinds_[f] = kind;
-    num_ghosts_ += static_cast<std::size_t>(kind != FaceKind::solid);
+    ++num_ghosts_;
   }
-  void remove(Index f) { num_ghosts_ -= static_cast<std::size_t>(kinds_[f] != FaceKind::solid); }
+  void remove(Index f) {
+    if ((*this)[f] == FaceKind::solid) return;
+    kinds_[f] = FaceKind::solid;
+    --num_ghosts_;
+  }
   void release() { kinds_ = {}; }
 
  private:
@@ -103,6 +111,8 @@ class Location {
     unsigned entered = 3;
     for (Index steps = mesh_.num_faces(); steps > 0; --steps) {
       const topology::Face& face = mesh_[f];
+      for (const topology::Halfedge h : face.opposite)
+        blocks::prefetch(&mesh_[topology::face_of(h)]);
       const std::array<Vector, 3> to = {sites_.coordinates(face.vertex[0]) - origin,
                                         sites_.coordinates(face.vertex[1]) - origin,
                                         sites_.coordinates(face.vertex[2]) - origin};

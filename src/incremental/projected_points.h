@@ -11,6 +11,8 @@
 #include <span>
 #include <vector>
 
+#include "blocks/gather.h"
+#include "blocks/prefetch.h"
 #include "predicates/side_of_circle.h"
 #include "predicates/tally.h"
 #include "rondel/types.h"
@@ -36,8 +38,17 @@ class ProjectedPoints {
   // For sites that change: site a has become input[order[a]]; a <= size().
   void set(Index a, std::span<const Point> input, std::span<const Index> order);
 
+  // For sites that change: what was site old[a] becomes site a, and there are no others; rebind
+  // follows.
+  void reorder(std::span<const Index> old) {
+    directions_ = blocks::gather(directions_, old);
+    low_parts_ = {};
+  }
+
   [[nodiscard]] Index size() const { return static_cast<Index>(directions_.size()); }
   [[nodiscard]] const Point& center() const { return center_; }
+  // Asks for the memory of the coordinates.
+  void prefetch(Index a) const { blocks::prefetch(&directions_[a]); }
   // The site as given.
   [[nodiscard]] const Point& point(Index a) const { return input_[order_[a]]; }
   [[nodiscard]] predicates::Vector coordinates(Index a) const { return directions_[a]; }

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include "blocks/gather.h"
+#include "blocks/prefetch.h"
 #include "predicates/side_of_plane.h"
 #include "predicates/tally.h"
 #include "rondel/types.h"
@@ -28,9 +30,17 @@ class WeightedPoints {
   // For sites that change: site a has become input[order[a]]; a <= size().
   void set(Index a, std::span<const Point> input, std::span<const Index> order);
 
+  // For sites that change: what was site old[a] becomes site a, and there are no others; rebind
+  // follows.
+  void reorder(std::span<const Index> old) {
+    points_ = blocks::gather(points_, old);
+  }
+
   [[nodiscard]] Index size() const { return static_cast<Index>(points_.size()); }
   [[nodiscard]] Point center() const { return {center_.x, center_.y, center_.z}; }
   [[nodiscard]] Point point(Index a) const { return {points_[a].x, points_[a].y, points_[a].z}; }
+  // Asks for the memory of the coordinates.
+  void prefetch(Index a) const { blocks::prefetch(&points_[a]); }
   [[nodiscard]] predicates::Vector coordinates(Index a) const { return points_[a]; }
   [[nodiscard]] predicates::Vector from_center(Index a) const { return points_[a] - center_; }
 

@@ -5,6 +5,7 @@
 // translation buffer when they are read out of order.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -19,6 +20,16 @@ template <class T>
 void reserve_large(std::vector<T>& values, std::size_t size) {
   values.reserve(size);
   advise_huge_pages(values.data(), size * sizeof(T));
+}
+
+// Room for one more value where there is none, as push_back makes it.
+template <class T>
+void grow_large(std::vector<T>& values) {
+  if (values.size() < values.capacity()) return;
+  std::vector<T> longer;
+  reserve_large(longer, std::max<std::size_t>(2 * values.size(), 1));
+  longer.assign(values.begin(), values.end());
+  values.swap(longer);
 }
 
 }  // namespace rondel::system

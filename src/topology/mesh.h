@@ -83,6 +83,12 @@ class Mesh {
     return halfedge(face_of(h), next_corner[edge_of(h)]);
   }
 
+  // Clockwise: crosses the edge from corner i to corner i+1.
+  [[nodiscard]] Index previous_around(Index f, unsigned corner) const {
+    const Halfedge h = faces_[f].opposite[previous_corner[corner]];
+    return halfedge(face_of(h), previous_corner[edge_of(h)]);
+  }
+
  private:
   std::vector<Face> faces_;
   std::vector<Index> free_slots_;

@@ -108,6 +108,7 @@ void run_script(Model model, std::size_t steps, std::size_t limit) {
 }
 
 void soak(Model model) {
+  delaunay(tied_pool());  // what is made once and kept, for threads
   const std::size_t before = bytes_in_use;
   run_script(model, scaled(1'000'000), 150);
   run_script(model, scaled(100'000), 1000);

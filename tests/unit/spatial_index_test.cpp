@@ -19,6 +19,17 @@ using rondel::blocks::SpatialIndex;
 bool any(Index) { return true; }
 bool unordered(Index) { return false; }
 
+template <class IsBefore>
+void insert(SpatialIndex& index, const HilbertKey& key, Index value, IsBefore is_before) {
+  index.insert(index.seek(key, is_before), key, value);
+}
+
+template <class IsBefore, class IsWanted>
+Index find(const SpatialIndex& index, const HilbertKey& key, IsBefore is_before,
+           IsWanted is_wanted) {
+  return index.find(index.seek(key, is_before), key, is_wanted);
+}
+
 // The same by a standard container.
 using Model = std::multimap<HilbertKey, Index>;
 
@@ -45,7 +56,7 @@ void run_script(std::uint64_t range, int steps, std::uint32_t seed) {
     const bool is_growing = (step / 3000) % 2 == 0;
     if (live.empty() || random() % 10 < (is_growing ? 7 : 3)) {
       const HilbertKey key = {random() % range, random() % 2};
-      index.insert(key, next, unordered);
+      insert(index, key, next, unordered);
       model.emplace(key, next);
       live.emplace_back(key, next++);
     } else {
@@ -60,16 +71,16 @@ void run_script(std::uint64_t range, int steps, std::uint32_t seed) {
       }
       live[i] = live.back();
       live.pop_back();
-      ASSERT_EQ(index.find(key, unordered, [value = value](Index v) { return v == value; }),
+      ASSERT_EQ(find(index, key, unordered, [value = value](Index v) { return v == value; }),
                 no_index);
     }
     const HilbertKey probe = {random() % range, 0};
-    ASSERT_EQ(index.find(probe, unordered, any) == no_index, !model.contains(probe));
+    ASSERT_EQ(find(index, probe, unordered, any) == no_index, !model.contains(probe));
     ASSERT_EQ(index.near(probe) == no_index, model.empty());
     if (step % 500 == 0) expect_same(index, model);
   }
   for (const auto& [key, value] : live) {
-    ASSERT_EQ(index.find(key, unordered, [value = value](Index v) { return v == value; }), value);
+    ASSERT_EQ(find(index, key, unordered, [value = value](Index v) { return v == value; }), value);
   }
   expect_same(index, model);
 }
@@ -85,7 +96,7 @@ TEST(spatial_index, behaves_like_a_sorted_list_for_long_runs_of_equal_keys) {
 TEST(spatial_index, near_finds_a_neighbor) {
   SpatialIndex index;
   EXPECT_EQ(index.near({7, 0}), no_index);
-  for (Index i = 0; i < 1000; ++i) index.insert({std::uint64_t{10} * i, 0}, i, unordered);
+  for (Index i = 0; i < 1000; ++i) insert(index, {std::uint64_t{10} * i, 0}, i, unordered);
   EXPECT_EQ(index.near({0, 0}), 0U);
   EXPECT_EQ(index.near({100000, 0}), 999U);
   for (Index i = 1; i < 1000; ++i) {
@@ -102,7 +113,7 @@ TEST(spatial_index, is_filled_at_once) {
     values.push_back(i);
   }
   SpatialIndex index;
-  index.insert({1, 1}, 9999, unordered);
+  insert(index, {1, 1}, 9999, unordered);
   index.assign(keys, values);
   EXPECT_EQ(index.values(), values);
   for (Index i = 0; i < 5000; ++i) index.erase(keys[i], i, unordered);
@@ -115,16 +126,16 @@ TEST(spatial_index, orders_values_of_equal_keys) {
   std::vector<Index> values(5000);
   for (Index i = 0; i < 5000; ++i) values[i] = i;
   std::ranges::shuffle(values, std::mt19937(3));
-  for (const Index v : values) index.insert({7, 7}, v, before(v));
-  index.insert({7, 6}, 6000, unordered);
-  index.insert({7, 8}, 7000, unordered);
+  for (const Index v : values) insert(index, {7, 7}, v, before(v));
+  insert(index, {7, 6}, 6000, unordered);
+  insert(index, {7, 8}, 7000, unordered);
   const auto listed = index.values();
   EXPECT_TRUE(std::ranges::is_sorted(listed.begin() + 1, listed.end()));
   for (const Index v : values) {
     // The first entry that is not before is the wanted one.
-    EXPECT_EQ(index.find({7, 7}, before(v), any), v);
+    EXPECT_EQ(find(index, {7, 7}, before(v), any), v);
     index.erase({7, 7}, v, before(v));
-    EXPECT_NE(index.find({7, 7}, before(v), any), v);
+    EXPECT_NE(find(index, {7, 7}, before(v), any), v);
   }
   EXPECT_EQ(index.values(), (std::vector<Index>{6000, 7000}));
 }
