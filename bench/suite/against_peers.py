@@ -82,18 +82,20 @@ def over_sizes(settings):
         "Time against the number of uniform sites (the paper's figure 4)",
         ["ns a site: median (least to greatest)", *map(power, by_size)],
         [[p.label, *(text(results, p.label) for results in by_size.values())] for p in those])
-    plots.time_against_n(settings.out / "figure4.svg", those, by_size)
+    plots.time_against_n(settings.out / "figure4.svg", those, by_size, settings.limits.seconds)
     return [table, memory_table(those, by_size)]
 
 
 def memory_table(those, by_size):
-    """The paper's table 1, from the runs with more than 2^16 sites (all, if there are none)."""
-    large = {n: r for n, r in by_size.items() if n > 2**16} or by_size
+    """The paper's table 1, from the runs with more than 2^16 sites; where a peer has none, from its
+    largest."""
     rows = []
     for peer in those:
-        each = [bytes_per_vertex(r, peer.label) for r in large.values() if not r.failure(peer.label)]
+        good = {n: r for n, r in by_size.items() if not r.failure(peer.label)}
+        sizes = [n for n in good if n > 2**16] or list(good)[-1:]
+        each = [bytes_per_vertex(good[n], peer.label) for n in sizes]
         rows.append([peer.label, number(statistics.mean(each)) if each else "",
-                     ", ".join(power(n) for n, r in large.items() if not r.failure(peer.label))])
+                     ", ".join(map(power, sizes))])
     return Table("Bytes per vertex (the paper's table 1)",
                  ["program", "bytes per vertex", "mean of"], rows,
                  ["Growth of the peak of resident memory above the input, which is in memory."])

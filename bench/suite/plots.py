@@ -24,9 +24,9 @@ def _save(figure, path):
     figure.clf()
 
 
-def time_against_n(path, peers, by_size):
-    """Seconds against n, both logarithmic. A failure is a cross at the last time that there is, or
-    at the lower edge."""
+def time_against_n(path, peers, by_size, limit):
+    """Seconds against n, both logarithmic. The first failure is a cross: at the limit of time, or
+    for other failures at the last time that there is or the lower edge."""
     pyplot = _pyplot()
     if pyplot is None:
         return
@@ -39,12 +39,17 @@ def time_against_n(path, peers, by_size):
             else axes.plot([], [], peer.line, color=peer.color, label=peer.label)
         bad = [n for n, results in by_size.items() if results.failure(peer.label)]
         if bad:
-            failures.append((bad[0], good[-1][1] if good else None, peer.color))
+            too_long = by_size[bad[0]].failure(peer.label).startswith("over ")
+            last = good[-1][1] if good else None
+            failures.append(([*good[-1:], (bad[0], limit if too_long else last)], peer.color))
     axes.set_xscale("log", base=2)
     axes.set_yscale("log")
     lowest = axes.get_ylim()[0]
-    for n, seconds, color in failures:
-        axes.plot([n], [seconds or lowest], "x", color=color, markersize=9, markeredgewidth=2)
+    for points, color in failures:
+        sizes, seconds = zip(*((n, s or lowest) for n, s in points))
+        axes.plot(sizes, seconds, ":", color=color, linewidth=0.8)
+        axes.plot(sizes[-1:], seconds[-1:], "x", color=color, markersize=9, markeredgewidth=2)
+    axes.set_xticks(list(by_size))
     axes.set_xlabel("uniform sites")
     axes.set_ylabel("seconds; x: fails from here on")
     axes.grid(True, alpha=0.3)

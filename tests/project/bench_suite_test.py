@@ -18,6 +18,7 @@ ROOT = pathlib.Path(sys.argv.pop(1))
 sys.path.insert(0, str(ROOT / "bench"))
 
 from suite import against_peers, compare  # noqa: E402
+from suite.peers import Peer  # noqa: E402
 from suite.runs import Limits, Outcome, Results, run_in_turns, run_once  # noqa: E402
 from suite.tables import Table, number, power, spread  # noqa: E402
 
@@ -92,6 +93,23 @@ class Arithmetic(unittest.TestCase):
         self.assertEqual(failure(1000, 1996), "")
         self.assertEqual(failure(997, 1990), "997 vertices instead of 1,000")
         self.assertEqual(failure(1000, 1995), "1,995 faces instead of 1,996")
+
+    def test_memory_is_of_large_inputs_or_of_the_largest_that_went_well(self):
+        def results(**bytes_or_failure):
+            made = Results()
+            for name, value in bytes_or_failure.items():
+                values = {"bytes_per_site": value, "sites": 10, "vertices": 5}
+                made.of[name] = [Outcome(failure=value) if isinstance(value, str)
+                                 else Outcome(values)]
+            return made
+
+        by_size = {2**14: results(a=1, b=30), 2**18: results(a=10, b="over 2 s"),
+                   2**20: results(a=20, b="over 2 s at 2^18")}
+        those = [Peer("a", ""), Peer("b", ""), Peer("c", "")]
+        for r in by_size.values():
+            r.of["c"] = [Outcome(failure="stops")]
+        self.assertEqual(against_peers.memory_table(those, by_size).rows,
+                         [["a", "30.0", "2^18, 2^20"], ["b", "60.0", "2^14"], ["c", "", ""]])
 
     def test_a_commit_is_slower_when_the_ratio_is_beyond_what_is_allowed(self):
         self.assertTrue(compare.is_slower((1.06, 0.9, 1.2), 5))
