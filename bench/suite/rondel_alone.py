@@ -62,18 +62,26 @@ def over_threads(settings):
 def over_growing_sizes(settings):
     """Cost and memory a site; the largest sizes as often as the budget allows."""
     rows, points = [], []
-    one, more = "1 thread", f"{settings.threads()[-1]} threads"
+    last = settings.threads()[-1]
+    one, more = "1 thread", f"{last} threads"
     for n in settings.sizes(settings.max_log2):
         results = run(settings, {
             one: rondel(settings, "uniform", n, "projected"),
-            more: rondel(settings, "uniform", n, "projected", "--threads", settings.threads()[-1]),
+            more: rondel(settings, "uniform", n, "projected", "--threads", last),
         })
-        rows.append([power(n), *(value for name in (one, more) for value in (
-            spread(results.ns_each(name)), number(results.median(name, "bytes_per_site"))))])
-        points.append((n, {name: (results.ns_each(name)[0],
-                                  results.median(name, "bytes_per_site"))
-                           for name in (one, more)}))
+        times = {name: results.ns_each(name) for name in (one, more)}
+        memory = {name: results.median(name, "bytes_per_site") for name in (one, more)}
+        rows.append([power(n), *(cell for name in (one, more)
+                                 for cell in (spread(times[name]), number(memory[name])))])
+        points.append((n, {name: (times[name][0], memory[name]) for name in (one, more)}))
     plots.cost_and_memory(settings.out / "growth.svg", points)
-    return [Table("Cost and memory a site, uniform",
-                  ["sites", f"{one}: ns a site", "bytes a site", f"{more}: ns a site",
-                   "bytes a site"], rows)]
+    head = ["sites", *(cell for name in (one, more) for cell in (f"{name}: ns a site",
+                                                                 "bytes a site"))]
+    return [Table("Cost and memory a site, uniform", head, rows, _growth(points, one))]
+
+
+def _growth(points, name):
+    """What a site costs beyond 2^20 sites, beside its cost there."""
+    costs = {n: of[name][0] for n, of in points}
+    return [f"{power(n)} / 2^20, {name}, per site: {number(cost / costs[2**20])}"
+            for n, cost in costs.items() if n > 2**20]

@@ -17,7 +17,7 @@ import unittest
 ROOT = pathlib.Path(sys.argv.pop(1))
 sys.path.insert(0, str(ROOT / "bench"))
 
-from suite import against_peers, compare  # noqa: E402
+from suite import against_peers, compare, rondel_alone  # noqa: E402
 from suite.peers import Peer  # noqa: E402
 from suite.runs import Limits, Outcome, Results, run_in_turns, run_once  # noqa: E402
 from suite.tables import Table, number, power, spread  # noqa: E402
@@ -93,6 +93,12 @@ class Arithmetic(unittest.TestCase):
         self.assertEqual(failure(1000, 1996), "")
         self.assertEqual(failure(997, 1990), "997 vertices instead of 1,000")
         self.assertEqual(failure(1000, 1995), "1,995 faces instead of 1,996")
+
+    def test_growth_is_beside_the_cost_at_a_million(self):
+        points = [(2**k, {"1 thread": (ns, 90)}) for k, ns in ((18, 180), (20, 200), (22, 260))]
+        self.assertEqual(rondel_alone._growth(points, "1 thread"),
+                         ["2^22 / 2^20, 1 thread, per site: 1.30"])
+        self.assertEqual(rondel_alone._growth(points[:1], "1 thread"), [])
 
     def test_memory_is_of_large_inputs_or_of_the_largest_that_went_well(self):
         def results(**bytes_or_failure):
