@@ -71,7 +71,8 @@ bool can_write_sites(const std::string& path);
 /// Writes the triangles: .npy has input indices (m, 3) uint32; formats with vertices list every
 /// input site in input order with digits that round-trip.
 /// .stl repeats the corners as 32-bit floats, the only numbers that it has. GeoJSON has the solid
-/// faces: seen from the center, ghost faces are flat or reversed.
+/// faces: seen from the center, ghost faces are flat or reversed. Text is made by at most
+/// `triangulation.report().threads` threads, here and below, and does not depend on their number.
 void write_triangles(const std::string& path, const SiteTable& table,
                      const Triangulation& triangulation, const Progress& progress = {});
 
@@ -84,9 +85,11 @@ void write_cells(const std::string& path, const SiteTable& table,
 
 /// Writes sites, for generators: .csv and .tsv (lon,lat or x,y,z with a header), .xyz, .txt, .npy.
 /// With the radii of circles at `positions`, .csv and .tsv have lon,lat,radius, and .npy has
-/// `sites`, the polar points, as .xyz and .txt always do.
+/// `sites`, the polar points, as .xyz and .txt always do. At most `threads` threads make the text,
+/// 0: one for each core.
 void write_sites(const std::string& path, std::span<const Point> sites,
-                 std::span<const LonLat> positions = {}, std::span<const double> radii_deg = {});
+                 std::span<const LonLat> positions = {}, std::span<const double> radii_deg = {},
+                 unsigned threads = 0);
 
 /// Writes indices as .npy (uint32) of this shape, whose product is their number.
 void write_indices(const std::string& path, std::span<const Index> values,

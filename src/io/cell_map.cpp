@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "io/crossing_lines.h"
+#include "system/parallel.h"
 
 namespace rondel::io {
 namespace {
@@ -33,7 +34,8 @@ double largest_coordinate(const Point& p) {
 }  // namespace
 
 CellMap::CellMap(std::span<const Point> sites, const Triangulation& triangulation,
-                 const Cells& cells, double tolerance_deg, const Progress& progress)
+                 const Cells& cells, double tolerance_deg, unsigned threads,
+                 const Progress& progress)
     : sites_(sites),
       triangulation_(triangulation),
       cells_(cells),
@@ -42,17 +44,17 @@ CellMap::CellMap(std::span<const Point> sites, const Triangulation& triangulatio
       representatives_(cells.points.size()) {
   if (triangulation.dimension() == 1) prepare_great_circle();
   merge_close_points();
-  resolve_crossing_lines(progress);
+  resolve_crossing_lines(threads, progress);
 }
 
 bool CellMap::has_cell(std::size_t site) const {
   return site == only_vertex_ || !points_of(site).empty();
 }
 
-std::vector<LonLatPolygon> CellMap::polygons(std::size_t site) {
+std::vector<LonLatPolygon> CellMap::polygons(std::size_t site, Pen& pen) const {
   if (site == only_vertex_) return lonlat_polygons({}, tolerance_);
-  if (unresolved_.contains(site) || !draw_ring(site)) return {};
-  return polygons_of(trace_);
+  if (unresolved_.contains(site) || !draw_ring(site, pen.ring_, pen.trace_)) return {};
+  return polygons_of(pen.trace_);
 }
 
 std::span<const Index> CellMap::points_of(std::size_t site) const {
@@ -60,7 +62,13 @@ std::span<const Index> CellMap::points_of(std::size_t site) const {
   return std::span(cells_.rings).subspan(first, cells_.offsets[site + 1] - first);
 }
 
-Index CellMap::representative(Index point) {
+Index CellMap::representative(Index point) const {
+  while (representatives_[point] != point) point = representatives_[point];
+  return point;
+}
+
+// Shortens the way for the next time.
+Index CellMap::find_representative(Index point) {
   while (representatives_[point] != point) {
     representatives_[point] = representatives_[representatives_[point]];
     point = representatives_[point];
@@ -76,10 +84,11 @@ void CellMap::merge_close_points() {
       const Index p = ring[i];
       const Index q = ring[i + 1 == ring.size() ? 0 : i + 1];
       if (distance(cells_.points[p], cells_.points[q]) > merge_distance) continue;
-      const auto [low, high] = std::minmax({representative(p), representative(q)});
+      const auto [low, high] = std::minmax({find_representative(p), find_representative(q)});
       representatives_[high] = low;
     }
   }
+  for (Index& point : representatives_) point = representative(point);
 }
 
 // Scaled first, so that the largest and smallest doubles are normalized too.
@@ -129,16 +138,16 @@ ArcTolerance CellMap::great_circle_tolerance(Index from, Index to) const {
   return tolerance;
 }
 
-void CellMap::add_arc(Index from, Index to, const ArcTolerance& tolerance) {
+void CellMap::add_arc(Index from, Index to, const ArcTolerance& tolerance, Ring& ring) const {
   if (from == to) return;
   const Edge edge = std::minmax(from, to);
   const auto add = [&](const Point& point) {
-    if (!ring_.points.empty() && ring_.points.back() == point) ring_.points.pop_back();
-    ring_.points.push_back(point);
-    ring_.tolerances.resize(ring_.points.size(), tolerance);
-    ring_.tolerances.back() = tolerance;
-    ring_.edges.resize(ring_.points.size(), edge);
-    ring_.edges.back() = edge;
+    if (!ring.points.empty() && ring.points.back() == point) ring.points.pop_back();
+    ring.points.push_back(point);
+    ring.tolerances.resize(ring.points.size(), tolerance);
+    ring.tolerances.back() = tolerance;
+    ring.edges.resize(ring.points.size(), edge);
+    ring.edges.back() = edge;
   };
   add(snapped(cells_.points[from]));
   const auto inner = inner_points_.empty() ? inner_points_.end() : inner_points_.find(edge);
@@ -151,12 +160,12 @@ void CellMap::add_arc(Index from, Index to, const ArcTolerance& tolerance) {
   }
 }
 
-// Fills ring_ and trace_; false if fewer than three points are left.
+// Fills `ring` and `trace`; false if fewer than three points are left.
 //
 // In the ring of site a the arc that follows face (a, u, v) lies between a and v; positions beyond
 // the faces are points on such an arc.
-bool CellMap::draw_ring(std::size_t site) {
-  const std::span<const Index> ring = points_of(site);
+bool CellMap::draw_ring(std::size_t site, Ring& ring, Trace& trace) const {
+  const std::span<const Index> points = points_of(site);
   const Point own_direction = direction(site);
   const auto a = static_cast<Index>(site);
   ArcTolerance tolerance;
@@ -167,33 +176,64 @@ bool CellMap::draw_ring(std::size_t site) {
     tolerance = tolerance_between(own_direction, face[(corner + 2) % 3]);
     return true;
   };
-  ring_.points.clear();
-  ring_.tolerances.clear();
-  ring_.edges.clear();
+  ring.points.clear();
+  ring.tolerances.clear();
+  ring.edges.clear();
   // The arc at the seam of the ring.
-  static_cast<void>(std::find_if(ring.rbegin(), ring.rend(), read_face));
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    read_face(ring[i]);
-    const Index from = representative(ring[i]);
-    const Index to = representative(ring[(i + 1) % ring.size()]);
+  static_cast<void>(std::find_if(points.rbegin(), points.rend(), read_face));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    read_face(points[i]);
+    const Index from = representative(points[i]);
+    const Index to = representative(points[(i + 1) % points.size()]);
     add_arc(from, to,
-            triangulation_.dimension() == 2 ? tolerance : great_circle_tolerance(from, to));
+            triangulation_.dimension() == 2 ? tolerance : great_circle_tolerance(from, to), ring);
   }
-  if (ring_.points.size() > 1 && ring_.points.back() == ring_.points.front()) {
-    ring_.points.pop_back();
+  if (ring.points.size() > 1 && ring.points.back() == ring.points.front()) {
+    ring.points.pop_back();
   }
-  if (ring_.points.size() < 3) return false;
-  draw(ring_.points, ring_.tolerances, trace_);
+  if (ring.points.size() < 3) return false;
+  draw(ring.points, ring.tolerances, trace);
   return true;
 }
 
-void CellMap::resolve_crossing_lines(const Progress& progress) {
-  bool has_changed = false;
-  for (std::size_t site = 0; site < sites_.size(); ++site) {
-    has_changed |= resolve_crossing_lines(site);
-    if (progress && site % 4096 == 0) {
-      progress("outline", static_cast<double>(site) / static_cast<double>(sites_.size()));
+// The cells whose lines cross, in increasing order.
+std::vector<std::size_t> CellMap::find_crossing_lines(unsigned threads,
+                                                      const Progress& progress) const {
+  constexpr std::size_t grain = 1024;
+  constexpr std::size_t stretch = 64 * grain;  // between two reports
+  const std::size_t num_sites = sites_.size();
+  std::vector<std::vector<std::size_t>> found(system::num_pieces(num_sites, grain));
+  for (std::size_t first = 0; first < num_sites; first += stretch) {
+    if (progress) {
+      progress("outline", static_cast<double>(first) / static_cast<double>(num_sites));
     }
+    const std::size_t size = std::min(stretch, num_sites - first);
+    system::parallel_for(threads, size, grain, [&](std::size_t begin, std::size_t end) {
+      Pen pen;
+      for (std::size_t site = first + begin; site < first + end; ++site) {
+        if (draw_ring(site, pen.ring_, pen.trace_) && !crossing_lines(pen.trace_).empty()) {
+          found[site / grain].push_back(site);
+        }
+      }
+    });
+  }
+  std::vector<std::size_t> sites;
+  for (const auto& some : found) sites.insert(sites.end(), some.begin(), some.end());
+  return sites;
+}
+
+// What a cell's lines do depends on its points and their representatives alone. So the first pass
+// needs to look again only at cells whose lines crossed, and at those changed since by others: the
+// result is that of one pass over all cells in order.
+void CellMap::resolve_crossing_lines(unsigned threads, const Progress& progress) {
+  const std::vector<std::size_t> crossed = find_crossing_lines(threads, progress);
+  if (crossed.empty()) return;
+  bool has_changed = false;
+  auto next = crossed.begin();
+  for (std::size_t site = *next; site < sites_.size(); ++site) {
+    const bool has_crossed = next != crossed.end() && *next == site;
+    if (has_crossed) ++next;
+    if (has_crossed || has_changed_arc(site)) has_changed |= resolve_crossing_lines(site);
   }
   for (int pass = 0; has_changed && pass < max_passes; ++pass) {
     has_changed = false;
@@ -203,7 +243,7 @@ void CellMap::resolve_crossing_lines(const Progress& progress) {
   }
 }
 
-bool CellMap::has_changed_arc(std::size_t site) {
+bool CellMap::has_changed_arc(std::size_t site) const {
   const std::span<const Index> ring = points_of(site);
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Index p = representative(ring[i]);
@@ -215,7 +255,7 @@ bool CellMap::has_changed_arc(std::size_t site) {
 
 bool CellMap::resolve_crossing_lines(std::size_t site) {
   unresolved_.erase(site);
-  if (!draw_ring(site)) return false;
+  if (!draw_ring(site, ring_, trace_)) return false;
   const std::vector<LinePair> pairs = crossing_lines(trace_);
   if (pairs.empty()) return false;
   unresolved_.insert(site);

@@ -29,14 +29,18 @@ namespace rondel::io {
 // 4. What still crosses itself after that is not drawn.
 class CellMap {
  public:
+  // At most `threads` threads draw; 0: one for each core.
   CellMap(std::span<const Point> sites, const Triangulation& triangulation, const Cells& cells,
-          double tolerance_deg, const Progress& progress);
+          double tolerance_deg, unsigned threads, const Progress& progress);
 
   // Whether the site has a cell.
   [[nodiscard]] bool has_cell(std::size_t site) const;
 
+  // Memory for drawing a cell; one for each thread.
+  class Pen;
+
   // The polygons of a site's cell; none if the cell is no wider than rounding.
-  [[nodiscard]] std::vector<LonLatPolygon> polygons(std::size_t site);
+  [[nodiscard]] std::vector<LonLatPolygon> polygons(std::size_t site, Pen& pen) const;
 
  private:
   using Edge = std::pair<Index, Index>;  // two points, the lower one first
@@ -56,8 +60,11 @@ class CellMap {
   };
 
   void merge_close_points();
-  Index representative(Index point);
-  void resolve_crossing_lines(const Progress& progress);
+  [[nodiscard]] Index representative(Index point) const;
+  Index find_representative(Index point);
+  [[nodiscard]] std::vector<std::size_t> find_crossing_lines(unsigned threads,
+                                                             const Progress& progress) const;
+  void resolve_crossing_lines(unsigned threads, const Progress& progress);
   bool resolve_crossing_lines(std::size_t site);
   bool align(std::span<const LinePair> pairs);
   bool align(std::size_t line, const Edge& other, const Point& p, std::map<Edge, Inner>& drawn);
@@ -67,9 +74,9 @@ class CellMap {
   [[nodiscard]] const Point& line_end(std::size_t line) const;
   [[nodiscard]] bool is_end(const Edge& edge, const Point& p) const;
   bool merge(const Edge& edge, const ArcTolerance& tolerance);
-  [[nodiscard]] bool has_changed_arc(std::size_t site);
-  bool draw_ring(std::size_t site);
-  void add_arc(Index from, Index to, const ArcTolerance& tolerance);
+  [[nodiscard]] bool has_changed_arc(std::size_t site) const;
+  bool draw_ring(std::size_t site, Ring& ring, Trace& trace) const;
+  void add_arc(Index from, Index to, const ArcTolerance& tolerance, Ring& ring) const;
   [[nodiscard]] Point direction(std::size_t site) const;
   [[nodiscard]] ArcTolerance tolerance_between(const Point& own_direction, std::size_t other) const;
   void prepare_great_circle();
@@ -87,8 +94,14 @@ class CellMap {
   std::map<Edge, std::vector<Point>> inner_points_;  // from the lower point on
   std::set<Index> merged_;                           // where lines crossed
   std::set<std::size_t> unresolved_;                 // cells whose lines cross
-  Ring ring_;                                        // of the cell that is being drawn
+  Ring ring_;                                        // of the cell that is being resolved
   Trace trace_;                                      // of that cell
+};
+
+class CellMap::Pen {
+  friend class CellMap;
+  Ring ring_;
+  Trace trace_;
 };
 
 }  // namespace rondel::io

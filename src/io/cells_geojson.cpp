@@ -10,6 +10,7 @@
 #include "io/cell_map.h"
 #include "io/geojson_geometry.h"
 #include "io/number.h"
+#include "io/parallel_write.h"
 
 namespace rondel::io {
 namespace {
@@ -67,34 +68,44 @@ std::string hidden_member(const Triangulation& triangulation) {
 }  // namespace
 
 void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
+  constexpr std::size_t grain = 512;
   const std::vector<Column>& columns = cells.table.columns;
   const std::vector<std::string> keys = property_keys(columns);
   const std::size_t n = cells.table.sites.size();
-  CellMap map(cells.table.sites, cells.triangulation, cells.diagram.cells, cells.tolerance_deg,
-              cells.progress);
-  file.write(R"({"type":"FeatureCollection","features":[)");
-  std::string feature;
-  bool is_first = true;
-  for (std::size_t site = 0; site < n; ++site) {
-    if (cells.progress && site % 4096 == 0) {
-      cells.progress("write", static_cast<double>(site) / static_cast<double>(n));
-    }
-    if (!map.has_cell(site)) continue;
-    feature = is_first ? "\n" : ",\n";
-    is_first = false;
-    feature += R"({"type":"Feature","properties":{"site":)";
-    append_integer(feature, site);
-    feature += R"(,"area":)";
-    append_number(feature, cells.diagram.areas[site]);
+  const unsigned threads = cells.triangulation.report().threads;
+  const CellMap map(cells.table.sites, cells.triangulation, cells.diagram.cells,
+                    cells.tolerance_deg, threads, cells.progress);
+  std::size_t first_cell = 0;
+  while (first_cell < n && !map.has_cell(first_cell)) ++first_cell;
+
+  const auto append_feature = [&](std::string& text, std::size_t site, CellMap::Pen& pen) {
+    text += site == first_cell ? "\n" : ",\n";
+    text += R"({"type":"Feature","properties":{"site":)";
+    append_integer(text, site);
+    text += R"(,"area":)";
+    append_number(text, cells.diagram.areas[site]);
     for (std::size_t k = 0; k < columns.size(); ++k) {
-      feature += keys[k];
-      append_value(feature, columns[k], site);
+      text += keys[k];
+      append_value(text, columns[k], site);
     }
-    feature += R"(},"geometry":)";
-    append_geometry(feature, map.polygons(site));
-    feature += '}';
-    file.write(feature);
-  }
+    text += R"(},"geometry":)";
+    append_geometry(text, map.polygons(site, pen));
+    text += '}';
+  };
+  file.write(R"({"type":"FeatureCollection","features":[)");
+  write_in_parallel(
+      file, threads, n, grain,
+      [&](std::string& text, std::size_t begin, std::size_t end) {
+        CellMap::Pen pen;
+        for (std::size_t site = begin; site < end; ++site) {
+          if (map.has_cell(site)) append_feature(text, site, pen);
+        }
+      },
+      [&](std::size_t done) {
+        if (cells.progress) {
+          cells.progress("write", static_cast<double>(done) / static_cast<double>(n));
+        }
+      });
   file.write("\n]");
   file.write(hidden_member(cells.triangulation));
   file.write("}\n");

@@ -81,31 +81,29 @@ class Faces {
 
 void write_geojson(AtomicFile& file, const Mesh& mesh) {
   const Faces faces(mesh);
-  const std::span<const Triple> corners = mesh.triangulation.faces();
-  std::string_view separator = "\n";
-  std::string feature;
+  Index first_solid = 0;
+  while (first_solid < mesh.triangulation.num_faces() && mesh.triangulation.is_ghost(first_solid)) {
+    ++first_solid;
+  }
   file.write(R"({"type":"FeatureCollection","features":[)");
-  for (Index face = 0; face < corners.size(); ++face) {
-    if (mesh.triangulation.is_ghost(face)) continue;
-    feature = separator;
-    feature += R"({"type":"Feature","properties":{"sites":[)";
-    for (const Index corner : corners[face]) {
-      append_integer(feature, corner);
-      feature += ',';
+  mesh.write_faces(file, [&](std::string& text, Index face) {
+    if (mesh.triangulation.is_ghost(face)) return;
+    text += face == first_solid ? "\n" : ",\n";
+    text += R"({"type":"Feature","properties":{"sites":[)";
+    for (const Index corner : mesh.triangulation.faces()[face]) {
+      append_integer(text, corner);
+      text += ',';
     }
-    feature.back() = ']';
-    feature += R"(},"geometry":)";
+    text.back() = ']';
+    text += R"(},"geometry":)";
     const auto ring = faces.ring(face);
     if (faces.is_determined(ring)) {
-      append_geometry(feature, lonlat_polygons(ring, faces.tolerances(face)));
+      append_geometry(text, lonlat_polygons(ring, faces.tolerances(face)));
     } else {
-      append_geometry(feature, {});
+      append_geometry(text, {});
     }
-    feature += '}';
-    file.write(feature);
-    separator = ",\n";
-    mesh.report_progress(face);
-  }
+    text += '}';
+  });
   file.write("\n]}\n");
 }
 

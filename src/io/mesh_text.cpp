@@ -5,36 +5,35 @@
 #include <string>
 
 #include "io/number.h"
+#include "io/parallel_write.h"
 
 namespace rondel::io {
 
 void write_vertex_lines(AtomicFile& file, const Mesh& mesh, std::string_view prefix) {
-  std::string line;
-  for (const Point& site : mesh.table.sites) {
-    line = prefix;
-    append_number(line, site.x);
-    line += ' ';
-    append_number(line, site.y);
-    line += ' ';
-    append_number(line, site.z);
-    line += '\n';
-    file.write(line);
-  }
+  const std::span<const Point> sites = mesh.table.sites;
+  write_in_parallel(file, mesh.threads(), sites.size(), items_per_piece,
+                    [&](std::string& text, std::size_t begin, std::size_t end) {
+                      for (const Point& site : sites.subspan(begin, end - begin)) {
+                        text += prefix;
+                        append_number(text, site.x);
+                        text += ' ';
+                        append_number(text, site.y);
+                        text += ' ';
+                        append_number(text, site.z);
+                        text += '\n';
+                      }
+                    });
 }
 
 void write_face_lines(AtomicFile& file, const Mesh& mesh, std::string_view prefix, Index base) {
-  std::string line;
-  std::size_t done = 0;
-  for (const Triple& face : mesh.triangulation.faces()) {
-    line = prefix;
-    for (const Index corner : face) {
-      append_integer(line, corner + base);
-      line += ' ';
+  mesh.write_faces(file, [&](std::string& text, Index face) {
+    text += prefix;
+    for (const Index corner : mesh.triangulation.faces()[face]) {
+      append_integer(text, corner + base);
+      text += ' ';
     }
-    line.back() = '\n';
-    file.write(line);
-    mesh.report_progress(++done);
-  }
+    text.back() = '\n';
+  });
 }
 
 }  // namespace rondel::io

@@ -51,19 +51,20 @@ void read_npy_sites(std::string_view bytes, const ReadOptions& options, SiteTabl
 }
 
 void write_npy_sites(AtomicFile& file, const SitesToWrite& to_write) {
-  const auto& [sites, positions, radii_deg] = to_write;
+  const std::span<const Point> sites = to_write.sites;
+  const std::span<const LonLat> positions = to_write.positions;
   const std::uint64_t n = sites.size();
-  if (!positions.empty() && radii_deg.empty()) {
+  if (!positions.empty() && to_write.radii_deg.empty()) {
     file.write(make_npy_header("<f8", std::array<std::uint64_t, 2>{n, 2}));
     write_values<double>(file, 2 * positions.size(), [&](std::size_t i) {
-      const LonLat& position = to_write.positions[i / 2];
+      const LonLat& position = positions[i / 2];
       return i % 2 == 0 ? position.lon_deg : position.lat_deg;
     });
     return;
   }
   file.write(make_npy_header("<f8", std::array<std::uint64_t, 2>{n, 3}));
   write_values<double>(file, 3 * sites.size(), [&](std::size_t i) {
-    const Point& site = to_write.sites[i / 3];
+    const Point& site = sites[i / 3];
     return i % 3 == 0 ? site.x : i % 3 == 1 ? site.y : site.z;
   });
 }

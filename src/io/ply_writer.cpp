@@ -21,13 +21,11 @@ void write_ply(AtomicFile& file, const Mesh& mesh) {
   file.write({reinterpret_cast<const char*>(sites.data()), sites.size_bytes()});
   // A signed index is what most readers expect; it fits, as sites are fewer than 2^30.
   static_assert(max_sites < (std::size_t{1} << 30U));
-  std::size_t done = 0;
-  for (const Triple& face : mesh.triangulation.faces()) {
+  mesh.write_faces(file, [&](std::string& bytes, Index face) {
     std::array<char, 1 + sizeof(Triple)> record = {3};
-    std::memcpy(record.data() + 1, face.data(), sizeof(Triple));
-    file.write({record.data(), record.size()});
-    mesh.report_progress(++done);
-  }
+    std::memcpy(record.data() + 1, mesh.triangulation.faces()[face].data(), sizeof(Triple));
+    bytes.append(record.data(), record.size());
+  });
 }
 
 }  // namespace rondel::io

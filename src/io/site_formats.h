@@ -25,6 +25,7 @@ struct SitesToWrite {
   std::span<const Point> sites;
   std::span<const LonLat> positions;
   std::span<const double> radii_deg;
+  unsigned threads;
 };
 
 // Each writes the positions if there are any, otherwise the sites. Where there are radii, the

@@ -72,10 +72,11 @@ bool can_write_sites(const std::string& path) {
 }
 
 void write_sites(const std::string& path, std::span<const Point> sites,
-                 std::span<const LonLat> positions, std::span<const double> radii_deg) {
+                 std::span<const LonLat> positions, std::span<const double> radii_deg,
+                 unsigned threads) {
   const Writer& writer = io::require_format<Writer>(writers, path, "sites are written as");
   io::AtomicFile file(path);
-  writer.write(file, {sites, positions, radii_deg});
+  writer.write(file, {sites, positions, radii_deg, threads});
   file.commit();
 }
 

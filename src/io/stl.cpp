@@ -55,20 +55,21 @@ void write_stl(AtomicFile& file, const Mesh& mesh) {
   file.write(head);
   const auto num_faces = static_cast<std::uint32_t>(mesh.triangulation.num_faces());
   write_values<std::uint32_t>(file, 1, [=](std::size_t) { return num_faces; });
-  std::size_t done = 0;
-  for (const auto& [a, b, c] : mesh.triangulation.faces()) {
+  mesh.write_faces(file, [&](std::string& bytes, Index face) {
+    const auto& [a, b, c] = mesh.triangulation.faces()[face];
     const Vector n = normal(sites[a], sites[b], sites[c]);
-    const std::array<const Point*, 3> corners = {&sites[a], &sites[b], &sites[c]};
-    std::array<double, 12> numbers = {n[0], n[1], n[2]};
-    for (std::size_t i = 0; i < 3; ++i) {
-      numbers[3 * i + 3] = corners[i]->x;
-      numbers[3 * i + 4] = corners[i]->y;
-      numbers[3 * i + 5] = corners[i]->z;
+    std::array<float, 12> numbers = {};
+    std::size_t size = 0;
+    const auto append = [&](double value) { numbers[size++] = static_cast<float>(value); };
+    for (const double value : n) append(value);
+    for (const Index corner : {a, b, c}) {
+      append(sites[corner].x);
+      append(sites[corner].y);
+      append(sites[corner].z);
     }
-    write_values<float>(file, numbers.size(), [&](std::size_t i) { return numbers[i]; });
-    file.write(std::string_view("\0\0", 2));  // no attributes
-    mesh.report_progress(++done);
-  }
+    bytes.append(reinterpret_cast<const char*>(numbers.data()), sizeof(numbers));
+    bytes.append(2, '\0');  // no attributes
+  });
 }
 
 }  // namespace rondel::io

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "io/number.h"
+#include "io/parallel_write.h"
 #include "io/site_formats.h"
 
 namespace rondel::io {
@@ -18,17 +19,18 @@ void append_row(std::string& line, std::initializer_list<double> values, char de
   line.back() = '\n';
 }
 
-void write_points(AtomicFile& file, std::span<const Point> sites, char delimiter) {
-  std::string line;
-  for (const Point& site : sites) {
-    line.clear();
-    append_row(line, {site.x, site.y, site.z}, delimiter);
-    file.write(line);
-  }
+void write_points(AtomicFile& file, const SitesToWrite& to_write, char delimiter) {
+  write_in_parallel(file, to_write.threads, to_write.sites.size(), items_per_piece,
+                    [&](std::string& text, std::size_t begin, std::size_t end) {
+                      for (const Point& site : to_write.sites.subspan(begin, end - begin)) {
+                        append_row(text, {site.x, site.y, site.z}, delimiter);
+                      }
+                    });
 }
 
 void write_delimited(AtomicFile& file, const SitesToWrite& to_write, char delimiter) {
-  const auto& [sites, positions, radii_deg] = to_write;
+  const std::span<const LonLat> positions = to_write.positions;
+  const std::span<const double> radii_deg = to_write.radii_deg;
   std::string line = positions.empty()   ? "x,y,z\n"
                      : radii_deg.empty() ? "lon,lat\n"
                                          : "lon,lat,radius\n";
@@ -36,17 +38,18 @@ void write_delimited(AtomicFile& file, const SitesToWrite& to_write, char delimi
     if (c == ',') c = delimiter;
   }
   file.write(line);
-  if (positions.empty()) return write_points(file, sites, delimiter);
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const auto& [lon_deg, lat_deg] = positions[i];
-    line.clear();
-    if (radii_deg.empty()) {
-      append_row(line, {lon_deg, lat_deg}, delimiter);
-    } else {
-      append_row(line, {lon_deg, lat_deg, radii_deg[i]}, delimiter);
-    }
-    file.write(line);
-  }
+  if (positions.empty()) return write_points(file, to_write, delimiter);
+  write_in_parallel(file, to_write.threads, positions.size(), items_per_piece,
+                    [&](std::string& text, std::size_t begin, std::size_t end) {
+                      for (std::size_t i = begin; i < end; ++i) {
+                        const auto& [lon_deg, lat_deg] = positions[i];
+                        if (radii_deg.empty()) {
+                          append_row(text, {lon_deg, lat_deg}, delimiter);
+                        } else {
+                          append_row(text, {lon_deg, lat_deg, radii_deg[i]}, delimiter);
+                        }
+                      }
+                    });
 }
 
 }  // namespace
@@ -60,7 +63,7 @@ void write_tsv(AtomicFile& file, const SitesToWrite& to_write) {
 }
 
 void write_xyz(AtomicFile& file, const SitesToWrite& to_write) {
-  write_points(file, to_write.sites, ' ');
+  write_points(file, to_write, ' ');
 }
 
 }  // namespace rondel::io

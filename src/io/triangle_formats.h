@@ -4,7 +4,7 @@
 // The formats of triangles, one function each way.
 #pragma once
 
-#include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,8 +20,10 @@ struct Mesh {
   const Triangulation& triangulation;
   const Progress& progress;
 
-  // Reports, now and then, that `done` of the faces are written.
-  void report_progress(std::size_t done) const;
+  // Writes a text for every face, as write_in_parallel does, and reports how far it is.
+  void write_faces(AtomicFile& file,
+                   const std::function<void(std::string& text, Index face)>& append) const;
+  [[nodiscard]] unsigned threads() const { return triangulation.report().threads; }
 };
 
 void write_npy(AtomicFile& file, const Mesh& mesh);

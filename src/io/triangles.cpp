@@ -7,6 +7,7 @@
 #include "io/atomic_file.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
+#include "io/parallel_write.h"
 #include "io/triangle_formats.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
@@ -38,10 +39,17 @@ constexpr std::array<Writer, 7> writers = {{{".npy", &io::write_npy},
 
 }  // namespace
 
-void io::Mesh::report_progress(std::size_t done) const {
-  constexpr std::size_t interval = 65536;
-  if (done % interval != 0 || !progress) return;
-  progress("write", static_cast<double>(done) / static_cast<double>(triangulation.num_faces()));
+void io::Mesh::write_faces(AtomicFile& file,
+                           const std::function<void(std::string&, Index)>& append) const {
+  const std::size_t num_faces = triangulation.num_faces();
+  write_in_parallel(
+      file, threads(), num_faces, items_per_piece,
+      [&](std::string& text, std::size_t begin, std::size_t end) {
+        for (std::size_t face = begin; face < end; ++face) append(text, static_cast<Index>(face));
+      },
+      [&](std::size_t done) {
+        if (progress) progress("write", static_cast<double>(done) / static_cast<double>(num_faces));
+      });
 }
 
 std::vector<Triple> read_triangles(const std::string& path) {

@@ -33,10 +33,11 @@ void expect_map(const std::vector<Point>& sites, const std::string& name,
   const Triangulation triangulation = delaunay(sites, options);
   const Cells diagram = cells(triangulation, sites);
   const std::vector<double> own_areas = areas(triangulation, sites, diagram);
-  io::CellMap map(sites, triangulation, diagram, 0.01, {});
+  const io::CellMap map(sites, triangulation, diagram, 0.01, 2, {});
+  io::CellMap::Pen pen;
   double total = 0;
   for (std::size_t site = 0; site < sites.size(); ++site) {
-    const auto polygons = map.polygons(site);
+    const auto polygons = map.polygons(site, pen);
     const std::string where = name + ", site " + std::to_string(site);
     EXPECT_TRUE(map.has_cell(site) || own_areas[site] == 0) << where;
     EXPECT_TRUE(own_areas[site] > 0 || !map.has_cell(site) || !demands.has_area) << where;
