@@ -152,7 +152,10 @@ std::vector<Point> make_input(const std::string& kind, std::size_t n) {
   if (kind == "grid") return grid(n);
   if (kind == "patch") return patch(n, random);
   if (kind == "paper-s") return paper_s(n);
-  if (kind.ends_with(".csv") || kind.ends_with(".npy")) return read_sites(kind).sites;
+  if (kind.ends_with(".csv") || kind.ends_with(".npy")) {
+    const SiteTable table = read_sites(kind);
+    return {table.sites.begin(), table.sites.end()};
+  }
   throw std::invalid_argument("unknown kind of input: " + kind);
 }
 

@@ -49,7 +49,7 @@ Mesh compact(const SiteTable& table, const Triangulation& surface) {
   for (std::size_t i = 0; i < name.size(); ++i) {
     if (name[i] == no_index) continue;
     name[i] = static_cast<Index>(mesh.table.sites.size());
-    mesh.table.sites.push_back(table.sites[i]);
+    mesh.table.sites.owned().push_back(table.sites[i]);
   }
   TriangulationArrays arrays;
   arrays.num_sites = mesh.table.sites.size();

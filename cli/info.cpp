@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "report.h"
 #include "rondel/delaunay.h"
@@ -79,7 +80,7 @@ double length(double x, double y, double z) {
   return scale * std::sqrt(x * x + y * y + z * z);
 }
 
-Range heights_of(const std::vector<Point>& sites, const Sphere& sphere) {
+Range heights_of(std::span<const Point> sites, const Sphere& sphere) {
   const Point& c = sphere.center;
   const double radius = std::sqrt(sphere.squared_radius);
   Range range;
@@ -96,7 +97,7 @@ Facts find_facts(const SiteTable& table, Job& job, const Sphere& sphere) {
   facts.height = heights_of(table.sites, sphere);
   SiteTable rays;
   rays.name = table.name;
-  std::ranges::copy_if(table.sites, std::back_inserter(rays.sites),
+  std::ranges::copy_if(table.sites, std::back_inserter(rays.sites.owned()),
                        [&](const Point& site) { return site != sphere.center; });
   facts.at_center = table.sites.size() - rays.sites.size();
   facts.triangulation = job.triangulate(rays);

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,7 +28,7 @@ class QueryJob {
   void prepare();
 
   [[nodiscard]] const SiteTable& sites() const { return sites_; }
-  [[nodiscard]] const std::vector<Point>& queries() const { return queries_.sites; }
+  [[nodiscard]] std::span<const Point> queries() const { return queries_.sites; }
   [[nodiscard]] const Triangulation& triangulation() const { return triangulation_; }
   [[nodiscard]] const Locator& locator() const { return *locator_; }
   [[nodiscard]] unsigned threads() const { return options_.common.build.threads; }

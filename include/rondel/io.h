@@ -7,10 +7,13 @@
 /// goes to a temporary name beside the file and is renamed when it is complete.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "rondel/diagram.h"
@@ -39,10 +42,48 @@ struct Column {
   std::vector<std::uint64_t> ends;  ///< where each cell ends in `text`
 };
 
+/// Points of a vector, or of a file that is mapped into memory and stays so as long as it is
+/// needed.
+class PointArray {
+ public:
+  using value_type = Point;
+  using const_iterator = const Point*;
+  using iterator = const_iterator;
+
+  PointArray() = default;
+  PointArray(std::vector<Point> points) : owned_(std::move(points)) {}
+  /// Refers to points that live as long as `memory`.
+  PointArray(std::span<const Point> points, std::shared_ptr<const void> memory)
+      : mapped_(points), memory_(std::move(memory)) {}
+
+  [[nodiscard]] std::span<const Point> view() const noexcept {
+    return mapped_.empty() ? std::span<const Point>(owned_) : mapped_;
+  }
+  [[nodiscard]] const_iterator begin() const noexcept { return view().data(); }
+  [[nodiscard]] const_iterator end() const noexcept { return begin() + size(); }
+  [[nodiscard]] std::size_t size() const noexcept { return view().size(); }
+  [[nodiscard]] bool empty() const noexcept { return size() == 0; }
+  const Point& operator[](std::size_t i) const { return view()[i]; }
+
+  /// Whether the points are those of a mapped file.
+  [[nodiscard]] bool is_mapped() const noexcept { return !mapped_.empty(); }
+  /// The vector, to change it; not for mapped points.
+  std::vector<Point>& owned() { return owned_; }
+
+  friend bool operator==(const PointArray& a, const PointArray& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+  }
+
+ private:
+  std::vector<Point> owned_;
+  std::span<const Point> mapped_;
+  std::shared_ptr<const void> memory_;
+};
+
 /// The sites of a file.
 struct SiteTable {
   std::string name;                  ///< the file, for messages; "<stdin>" for "-"
-  std::vector<Point> sites;          ///< unit vectors for lon/lat input, otherwise as given;
+  PointArray sites;                  ///< unit vectors for lon/lat input, otherwise as given;
                                      ///< of circles the polar points
   std::vector<LonLat> positions;     ///< degrees as given; empty for xyz input
   std::vector<double> radii_deg;     ///< of circles; empty without a radius column
@@ -56,7 +97,9 @@ struct SiteTable {
   [[nodiscard]] std::string where(std::size_t site) const;
 };
 
-/// Reads .csv .tsv .xyz .txt .npy .geojson; "-" is CSV from standard input.
+/// Reads .csv .tsv .xyz .txt .npy .geojson; "-" is CSV from standard input. The numbers of a large
+/// .npy file, (n, 3) float64 little-endian in C order, are not copied: the sites are the mapped
+/// file, which must not be cut or changed as long as they are used.
 SiteTable read_sites(const std::string& path, const ReadOptions& options = {});
 
 /// Reads the faces (m, 3) of .npy .off .ply .obj .vtp.

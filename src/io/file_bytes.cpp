@@ -74,6 +74,10 @@ FileBytes::FileBytes(const std::string& path) {
   mapping_ = mapping;
 }
 
+void FileBytes::keep() const noexcept {
+  if (mapping_ != nullptr) ::madvise(mapping_, size_, MADV_NORMAL);
+}
+
 FileBytes::~FileBytes() {
   if (mapping_ != nullptr) ::munmap(mapping_, size_);
 }

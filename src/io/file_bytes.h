@@ -20,6 +20,9 @@ class FileBytes {
   FileBytes(const FileBytes&) = delete;
   FileBytes& operator=(const FileBytes&) = delete;
 
+  // The bytes will be read again, in any order.
+  void keep() const noexcept;
+
   [[nodiscard]] std::string_view text() const noexcept {
     return mapping_ ? std::string_view(static_cast<const char*>(mapping_), size_) : copy_;
   }

@@ -46,6 +46,15 @@ class NpyTable {
   [[nodiscard]] std::size_t num_columns() const { return header_.shape[1]; }
   [[nodiscard]] std::string shape() const { return shape_text(header_.shape); }
 
+  // Where the numbers of all rows lie one after the other as memory has them; nullptr if they do
+  // not.
+  template <typename T>
+  [[nodiscard]] const T* in_place() const {
+    const bool is_aligned = reinterpret_cast<std::uintptr_t>(data_) % alignof(T) == 0;
+    const bool is_native = order_ == std::endian::native && !header_.is_fortran_order;
+    return is_aligned && is_native ? reinterpret_cast<const T*>(data_) : nullptr;
+  }
+
   // Precondition: T is what type() says.
   template <typename T>
   [[nodiscard]] T at(std::size_t row, std::size_t column) const {

@@ -13,7 +13,7 @@
 namespace rondel::io {
 
 // Each reads `bytes`, the content of the file `table.name`, into `table`.
-// Throws FileError as read_sites does.
+// Throws FileError as read_sites does. The sites may refer to `bytes`: is_mapped() tells.
 void read_csv(std::string_view bytes, const ReadOptions& options, SiteTable& table);
 void read_tsv(std::string_view bytes, const ReadOptions& options, SiteTable& table);
 void read_xyz(std::string_view bytes, const ReadOptions& options, SiteTable& table);

@@ -3,6 +3,7 @@
 
 // read_sites, write_sites and write_file: which format, and what all have in common.
 #include <array>
+#include <memory>
 
 #include "io/atomic_file.h"
 #include "io/ending.h"
@@ -52,7 +53,7 @@ std::string SiteTable::where(std::size_t site) const {
 SiteTable read_sites(const std::string& path, const ReadOptions& options) {
   SiteTable table;
   table.name = path == "-" ? "<stdin>" : path;
-  const io::FileBytes file(path);
+  const auto file = std::make_shared<const io::FileBytes>(path);
   const Reader& reader =
       path == "-" ? readers[0] : io::require_format<Reader>(readers, path, "sites are read from");
   if (!reader.has_columns && names_a_column(options)) {
@@ -63,7 +64,11 @@ SiteTable read_sites(const std::string& path, const ReadOptions& options) {
     throw FileError(table.name + ": a radius is named, but " + std::string(reader.ending) +
                     " files have no names for columns; give weighted sites as x, y, z");
   }
-  reader.read(file.text(), options, table);
+  reader.read(file->text(), options, table);
+  if (table.sites.is_mapped()) {
+    file->keep();
+    table.sites = PointArray(table.sites, file);
+  }
   return table;
 }
 

@@ -108,12 +108,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   table.name = "sites";
   if (source.byte() % 2 == 0) {
     table.sites = fuzz::all_sites(source, 12);
-    fuzz::remove_center(table.sites, {});
+    fuzz::remove_center(table.sites.owned(), {});
   } else {
     while (!source.is_empty() && table.sites.size() < 12) {
       table.positions.push_back({source.small() * 1.5 + source.byte() / 256.0,
                                  source.small() % 90 + source.small() / 128.0});
-      table.sites.push_back(unit_vector(table.positions.back()));
+      table.sites.owned().push_back(unit_vector(table.positions.back()));
       table.radii_deg.push_back(source.byte() * 0.35);
     }
   }

@@ -75,7 +75,7 @@ TEST(read_sites, finds_columns_by_chosen_names) {
   EXPECT_EQ(read_sites(file, options).positions.at(0), (LonLat{2, 3}));
   options = {};
   options.x = "east";
-  EXPECT_EQ(read_sites(file, options).sites.at(0), (Point{1, 5, 6}));
+  EXPECT_EQ(read_sites(file, options).sites[0], (Point{1, 5, 6}));
   options.x = "west";
   EXPECT_EQ(message_of([&] { read_sites(file, options); }),
             file + ":1: no column \"west\"; found: lon, lat, East, north, up, x, y, z");
@@ -147,7 +147,7 @@ TEST(read_sites, converts_radians) {
   EXPECT_EQ(table.positions.at(0), (LonLat{90, 90}));
   EXPECT_EQ(table.positions.at(1), (LonLat{-180, -90}));
   EXPECT_NEAR(table.positions.at(2).lat_deg, 28.64788975654116, 1e-13);
-  EXPECT_EQ(table.sites.at(0), (Point{0, 0, 1}));
+  EXPECT_EQ(table.sites[0], (Point{0, 0, 1}));
   const std::string file = directory.with("b.csv", "lon,lat\n0,1.5707964\n");
   EXPECT_EQ(message_of([&] { read_sites(file, options); }),
             file + ":2: latitude 1.5707964 is outside [-pi/2, pi/2]");
@@ -178,7 +178,7 @@ TEST(read_sites, reads_a_pipe_to_its_end) {
   const SiteTable table = read_sites(pipe);
   ::pclose(writer);
   ASSERT_EQ(table.sites.size(), 20000U);
-  EXPECT_EQ(table.sites.back(), (Point{19999, 2, 3}));
+  EXPECT_EQ(table.sites[19999], (Point{19999, 2, 3}));
 }
 
 TEST(read_sites, reports_progress) {
