@@ -35,7 +35,9 @@ struct Snapshot {
 /// 5. Insertion takes O(log n) expected time for sites in random places, removal O(d) expected for
 ///    a vertex with d neighbors. Exceptions: the sites that a change hides, or that come back, are
 ///    inserted once more each; while all sites lie on one great circle, and when the center of the
-///    sphere leaves the hull of weighted sites, a change may take O(n).
+///    sphere leaves the hull of weighted sites, a change may take O(n). Whenever the number of
+///    sites has doubled or halved, one change takes O(n) to bring close sites together in memory.
+///    Ranges are faster than the same changes one by one.
 /// 6. A Locator (query.h) answers questions of place and distance.
 /// 7. Functions that are const may be called from several threads at once.
 class DynamicTriangulation {

@@ -14,12 +14,12 @@
 
 namespace rondel::blocks {
 
-// values[order[0]], values[order[1]] ... in memory for twice as many, which is not touched before
-// it is used.
+// values[order[0]], values[order[1]] ..., with room for more.
 template <class T>
-std::vector<T> gather(const std::vector<T>& values, std::span<const Index> order) {
+std::vector<T> gather(const std::vector<T>& values, std::span<const Index> order,
+                      std::size_t room) {
   std::vector<T> result;
-  system::reserve_large(result, order.size() + order.size() / 2);
+  system::reserve_large(result, room);
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i + prefetch_distance < order.size()) prefetch(&values[order[i + prefetch_distance]]);
     result.push_back(values[order[i]]);

@@ -88,6 +88,18 @@ Index SpatialIndex::near(const Position& at) const {
   return leaf.values[std::min(at.path_[0].entry, leaf.size - 1)];
 }
 
+std::array<Index, SpatialIndex::num_around> SpatialIndex::around(const Position& at) const {
+  std::array<Index, num_around> result;
+  result.fill(no_index);
+  if (size_ == 0) return result;
+  const Node& leaf = nodes_[at.path_[0].node];
+  const unsigned entry = at.path_[0].entry;
+  const unsigned first = entry > num_around / 2 ? entry - num_around / 2 : 0;
+  const unsigned last = std::min(first + num_around, leaf.size);
+  std::copy(leaf.values.data() + first, leaf.values.data() + last, result.data());
+  return result;
+}
+
 Index SpatialIndex::near(const HilbertKey& key) const {
   return near(seek(key, [](Index) { return false; }));
 }

@@ -63,6 +63,11 @@ class SpatialIndex {
   // Asks for the memory that a search for the key reads last.
   void prefetch(const HilbertKey& key) const;
 
+  // Some values of entries around the position, for what only guesses what is close; the rest is
+  // no_index.
+  static constexpr unsigned num_around = 10;
+  [[nodiscard]] std::array<Index, num_around> around(const Position& at) const;
+
   // `at` is the position of the key.
   void insert(Position at, const HilbertKey& key, Index value);
 

@@ -111,7 +111,7 @@ class Editor {
     schedule_.done(places_.num_places());
     const Renumbering renumbering(places_.in_order(), places_.place_limit());
     places_.renumber(renumbering);
-    sites_.reorder(renumbering.old_place);
+    sites_.reorder(renumbering.old_place, renumbering.room());
     sites_.rebind(places_.points(), places_.speakers());
     if (hull_) hull_->renumber(renumbering);
     for (Index& place : span_) place = renumbering.new_place[place];
@@ -123,9 +123,14 @@ class Editor {
     Index place = spot.place;
     if (place == no_index) {
       const Index close = hint != no_index ? places_.place_of(hint) : spot.close;
-      if (hull_ && close != no_index) hull_->prefetch(close);
+      if (hull_) {
+        for (const Index other : spot.around) hull_->prefetch(other);
+      }
       place = places_.add_place(site, spot);
       refresh(place);
+      if (hull_) {
+        for (const Index other : spot.around) hull_->prefetch_face(other);
+      }
       put_in(place, close);
       return;
     }

@@ -68,8 +68,9 @@ class Hull {
 
   // Asks for the memory where a walk from this place, or its removal, starts.
   void prefetch(Index place) const {
+    if (place >= corner_of_.size()) return;
     sites_.prefetch(place);
-    if (place < corner_of_.size()) blocks::prefetch(&corner_of_[place]);
+    blocks::prefetch(&corner_of_[place]);
   }
   // What comes next, when that has arrived.
   void prefetch_face(Index place) const {
@@ -140,7 +141,7 @@ class Hull {
       if (new_face[f] != no_index) kinds_.add(new_face[f], kinds[f]);
     }
     corner_of_ = {};
-    system::reserve_large(corner_of_, places.old_place.size() + places.old_place.size() / 2);
+    system::reserve_large(corner_of_, places.room());
     corner_of_.assign(places.old_place.size(), no_index);
     for (Index f = mesh_.num_slots(); f-- > 0;) {
       for (unsigned i = 0; i < 3; ++i) corner_of_[mesh_[f].vertex[i]] = topology::halfedge(f, i);

@@ -44,6 +44,7 @@ Places::Spot Places::look_up(const Point& p) const {
   spot.key = key(p);
   spot.position = index_.seek(spot.key, order_of(p));
   spot.close = index_.near(spot.position);
+  spot.around = index_.around(spot.position);
   spot.place = index_.find(spot.position, spot.key, [&](Index place) {
     const Point& q = place_point(place);
     if (p == q) return true;
@@ -122,8 +123,8 @@ void Places::leave(Index site) {
 }
 
 void Places::renumber(const Renumbering& places) {
-  speakers_ = blocks::gather(speakers_, places.old_place);
-  names_ = blocks::gather(names_, places.old_place);
+  speakers_ = blocks::gather(speakers_, places.old_place, places.room());
+  names_ = blocks::gather(names_, places.old_place, places.room());
   free_places_ = {};
   for (Index& place : place_of_) {
     if (place != no_index) place = places.new_place[place];

@@ -5,6 +5,7 @@
 // the lexicographically smallest of their triples speaks for it.
 #pragma once
 
+#include <array>
 #include <compare>
 #include <set>
 #include <span>
@@ -60,6 +61,7 @@ class Places {
     blocks::SpatialIndex::Position position;
     Index place = no_index;  // of the point, exactly
     Index close = no_index;  // some place close to it, if there is any
+    std::array<Index, blocks::SpatialIndex::num_around> around;  // more of them, or no_index
   };
   [[nodiscard]] Spot look_up(const Point& p) const;
   // A place close to p, or no_index.

@@ -38,7 +38,7 @@ RenumberedMesh renumber(const topology::Mesh& mesh, const Renumbering& places) {
     old_face[new_face[f]] = f;
   }
   topology::Mesh result;
-  result.reserve(old_face.size() + old_face.size() / 2);
+  result.reserve(2 * places.room());
   for (std::size_t i = 0; i < old_face.size(); ++i) {
     if (i + blocks::prefetch_distance < old_face.size()) {
       blocks::prefetch(&mesh[old_face[i + blocks::prefetch_distance]]);

@@ -17,24 +17,32 @@
 
 namespace rondel::dynamic {
 
-// Tells when: after the number of places has doubled or halved, so that the work is constant for
-// each change, whatever the changes are.
+// Tells when: after the number of places has grown or shrunk by a factor, so that the work is
+// constant for each change, whatever the changes are.
 class RenumberingSchedule {
  public:
+  // The largest number of places before it is due, if it was done with so many.
+  static constexpr std::size_t limit(std::size_t size) { return 2 * size + least; }
+
   // Whether it is due with so many places.
   [[nodiscard]] bool is_due(std::size_t size) const {
-    constexpr std::size_t least = 16;
-    return size > std::max(last_ + last_ / 2, least) || size + size / 2 + least < last_;
+    return size > limit(last_) || limit(size) < last_;
   }
   void done(std::size_t size) { last_ = size; }
 
  private:
+  // Small enough that each test of changes meets it.
+  static constexpr std::size_t least = 8;
+
   std::size_t last_ = 0;
 };
 
 // Numbers are dense afterwards.
 struct Renumbering {
   Renumbering(std::vector<Index> old_places, Index place_limit);
+
+  // How many places there may be before the next one.
+  [[nodiscard]] std::size_t room() const { return RenumberingSchedule::limit(old_place.size()); }
 
   std::vector<Index> old_place;  // by new number
   std::vector<Index> new_place;  // by old number; no_index for those that are not in use

@@ -40,8 +40,8 @@ class ProjectedPoints {
 
   // For sites that change: what was site old[a] becomes site a, and there are no others; rebind
   // follows.
-  void reorder(std::span<const Index> old) {
-    directions_ = blocks::gather(directions_, old);
+  void reorder(std::span<const Index> old, std::size_t room) {
+    directions_ = blocks::gather(directions_, old, room);
     low_parts_ = {};
   }
 

@@ -32,8 +32,8 @@ class WeightedPoints {
 
   // For sites that change: what was site old[a] becomes site a, and there are no others; rebind
   // follows.
-  void reorder(std::span<const Index> old) {
-    points_ = blocks::gather(points_, old);
+  void reorder(std::span<const Index> old, std::size_t room) {
+    points_ = blocks::gather(points_, old, room);
   }
 
   [[nodiscard]] Index size() const { return static_cast<Index>(points_.size()); }
