@@ -14,7 +14,7 @@ namespace {
 
 std::vector<std::uint64_t> keys_of(const std::vector<Point>& sites) {
   std::vector<std::uint64_t> keys(sites.size());
-  blocks::high_place_keys(sites, Model::projected, {}, keys);
+  blocks::place_keys(sites, Model::projected, {}, keys);
   return keys;
 }
 
@@ -22,7 +22,7 @@ void order_keys(benchmark::State& state, Model model) {
   const auto& sites = case_of("uniform", small_size).sites;
   std::vector<std::uint64_t> keys(sites.size());
   for (auto _ : state) {
-    blocks::high_place_keys(sites, model, {}, keys);
+    blocks::place_keys(sites, model, {}, keys);
     benchmark::DoNotOptimize(keys.data());
   }
   report_each(state, sites.size());

@@ -32,6 +32,7 @@ void KeyTree::grow(std::span<const std::uint64_t> sample, std::size_t first_entr
     } else {
       entries_[first_entry + digit] = static_cast<std::uint32_t>(prefix_bits_.size());
       prefix_bits_.push_back(static_cast<std::uint8_t>(prefix + bits));
+      longest_prefix_bits_ = std::max(longest_prefix_bits_, prefix + bits);
     }
     sample = sample.subspan(count);
   }

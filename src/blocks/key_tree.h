@@ -34,6 +34,7 @@ class KeyTree {
 
   // How many of their upper bits the keys of an interval have in common at least.
   [[nodiscard]] int prefix_bits(std::uint32_t leaf) const { return prefix_bits_[leaf]; }
+  [[nodiscard]] int longest_prefix_bits() const { return longest_prefix_bits_; }
 
  private:
   static constexpr int child_bits = 4;
@@ -47,6 +48,7 @@ class KeyTree {
   std::size_t most_;
   std::vector<std::uint32_t> entries_;  // leaves, or is_node | index of the first child
   std::vector<std::uint8_t> prefix_bits_;
+  int longest_prefix_bits_ = 0;
 };
 
 }  // namespace rondel::blocks

@@ -27,6 +27,8 @@ struct Positions {
   alignas(64) std::array<std::uint32_t, batch> face;
   alignas(64) std::array<std::uint32_t, batch> u;
   alignas(64) std::array<std::uint32_t, batch> v;
+  alignas(64) std::array<std::uint32_t, batch> low_u;  // the same for the low key
+  alignas(64) std::array<std::uint32_t, batch> low_v;
   alignas(64) std::array<std::uint32_t, batch> is_unsure;  // not 0: rounding may have changed it
 };
 
@@ -60,8 +62,9 @@ template <bool finds_unsure>
 RONDEL_ALWAYS_INLINE inline void set_positions(const Point* sites, const Point& center,
                                                std::size_t size, Positions& positions) {
   constexpr double largest = std::numeric_limits<double>::max();
-  constexpr double half_range = 0x1p27;  // high_levels - 1
-  constexpr double last = levels;
+  constexpr double half_range = 0x1p27;      // high_levels - 1
+  constexpr double low_range = 0x1p24;       // low_levels
+  constexpr double last = 0x1p28 - 0x1p-24;  // what position_bits hold
   constexpr double margin = 0x1p-23;
   for (std::size_t i = 0; i < size; ++i) {
     const double x = sites[i].x - center.x;
@@ -83,11 +86,15 @@ RONDEL_ALWAYS_INLINE inline void set_positions(const Point* sites, const Point& 
         choose(along_z, choose(back, y, -y), choose(along_y, z, choose(back, -y, z)));
     const double u = (choose(is_valid, across_u, -1) / length + 1) * half_range;
     const double v = (choose(is_valid, across_v, -1) / length + 1) * half_range;
-    const std::int32_t whole_u = truncate(choose(mask(u < last), u, last));
-    const std::int32_t whole_v = truncate(choose(mask(v < last), v, last));
+    const double cut_u = choose(mask(u < last), u, last);
+    const double cut_v = choose(mask(v < last), v, last);
+    const std::int32_t whole_u = truncate(cut_u);
+    const std::int32_t whole_v = truncate(cut_v);
     positions.face[i] = static_cast<std::uint32_t>(truncate(choose(is_valid, face, 0)));
     positions.u[i] = static_cast<std::uint32_t>(whole_u);
     positions.v[i] = static_cast<std::uint32_t>(whole_v);
+    positions.low_u[i] = static_cast<std::uint32_t>(truncate((cut_u - whole_u) * low_range));
+    positions.low_v[i] = static_cast<std::uint32_t>(truncate((cut_v - whole_v) * low_range));
     if constexpr (!finds_unsure) continue;
 
     const double from_u = std::abs(u - whole_u - 0.5);
@@ -136,33 +143,56 @@ RONDEL_ALWAYS_INLINE inline void prepend(Runs& runs, int length) {
   runs.b = (after.a & before.b) ^ (after.b & (before.a ^ before.b));
 }
 
-// hilbert_key(...).high of the positions.
-RONDEL_ALWAYS_INLINE inline void set_keys(const Positions& positions, std::size_t size,
-                                          std::uint64_t* keys) {
-  constexpr std::uint32_t even = 0x0aaaaaaa;  // the first level, bit 27, and every other one
+constexpr std::uint32_t even_levels = 0x0aaaaaaa;  // the first level, bit 27, and every other one
+
+RONDEL_ALWAYS_INLINE inline Runs runs_of(std::uint32_t u, std::uint32_t x) {
+  const std::uint32_t not_x = ~x & levels;
+  Runs runs = {x | (not_x & ~even_levels), not_x, (x & u) | (not_x & ~u & ~even_levels),
+               (x & u) | (not_x & ~u & even_levels)};
+  prepend(runs, 1);
+  prepend(runs, 2);
+  prepend(runs, 4);
+  prepend(runs, 8);
+  prepend(runs, 16);
+  return runs;
+}
+
+// The ranks of all levels, from the states (p, q) before them.
+RONDEL_ALWAYS_INLINE inline std::uint64_t ranks(std::uint32_t u, std::uint32_t x, std::uint32_t p,
+                                                std::uint32_t q) {
   constexpr int half = high_levels / 2;
   constexpr std::uint32_t lower_half = (std::uint32_t{1} << half) - 1;
+  const std::uint32_t exchange = (p ^ q) & ~even_levels;
+  const std::uint32_t a = u ^ ((p ^ exchange) & x) ^ q ^ exchange;
+  const std::uint32_t upper = spread(a >> half) << 1 | spread(x >> half);
+  const std::uint32_t lower = spread(a & lower_half) << 1 | spread(x & lower_half);
+  return std::uint64_t{upper} << high_levels | lower;
+}
+
+// hilbert_key() of the positions. The low levels are treated as upper ones of another position,
+// except that they begin where the high levels end.
+template <bool has_low>
+RONDEL_ALWAYS_INLINE inline void set_keys(const Positions& positions, std::size_t size,
+                                          std::uint64_t* keys, std::uint64_t* low_keys) {
+  constexpr int unused = high_levels - low_levels;
+  constexpr std::uint32_t first_level = std::uint32_t{1} << (high_levels - 1);
   for (std::size_t i = 0; i < size; ++i) {
     const std::uint32_t u = positions.u[i];
     const std::uint32_t x = u ^ positions.v[i];
-    const std::uint32_t not_x = ~x & levels;
-    Runs runs = {x | (not_x & ~even), not_x, (x & u) | (not_x & ~u & ~even),
-                 (x & u) | (not_x & ~u & even)};
-    prepend(runs, 1);
-    prepend(runs, 2);
-    prepend(runs, 4);
-    prepend(runs, 8);
-    prepend(runs, 16);
-    const std::uint32_t p = runs.p >> 1;
-    const std::uint32_t q = runs.q >> 1;
-    const std::uint32_t exchange = (p ^ q) & ~even;
-    const std::uint32_t s = p ^ exchange;
-    const std::uint32_t t = q ^ exchange;
-    const std::uint32_t a = u ^ (s & x) ^ t;
-    const std::uint32_t high = spread(a >> half) << 1 | spread(x >> half);
-    const std::uint32_t low = spread(a & lower_half) << 1 | spread(x & lower_half);
+    const Runs high = runs_of(u, x);
     keys[i] = std::uint64_t{positions.face[i]} << (2 * high_levels) |
-              std::uint64_t{high} << high_levels | low;
+              ranks(u, x, high.p >> 1, high.q >> 1);
+    if constexpr (!has_low) continue;
+
+    const std::uint32_t low_u = positions.low_u[i] << unused;
+    const std::uint32_t low_x = low_u ^ (positions.low_v[i] << unused);
+    const Runs low = runs_of(low_u, low_x);
+    const std::uint32_t s = 0 - (high.p & 1);
+    const std::uint32_t t = 0 - (high.q & 1);
+    const std::uint32_t p = low.p ^ (low.a & s) ^ (low.b & t);
+    const std::uint32_t q = low.q ^ (low.a & t) ^ (low.b & (s ^ t));
+    low_keys[i] =
+        ranks(low_u, low_x, p >> 1 | (s & first_level), q >> 1 | (t & first_level)) >> (2 * unused);
   }
 }
 
@@ -175,38 +205,54 @@ HilbertKey place_key(const Point& p, Model model, const Point& center) {
 
 namespace {
 
-void keys_of_rounded(std::span<const Point> sites, const Point& center, std::uint64_t* keys) {
+// low_keys may be nullptr.
+using KeysOfBatch = void (*)(std::span<const Point> sites, const Point& center, std::uint64_t* keys,
+                             std::uint64_t* low_keys);
+
+void keys_of_rounded(std::span<const Point> sites, const Point& center, std::uint64_t* keys,
+                     std::uint64_t* low_keys) {
   if (!system::has_wide_vectors()) {
-    for (const Point& p : sites) *keys++ = hilbert_key(cube_position(p, center)).high;
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      const CubePosition position = cube_position(sites[i], center);
+      keys[i] = hilbert_key(position).high;
+      if (low_keys != nullptr) low_keys[i] = hilbert_key(position).low;
+    }
     return;
   }
   Positions positions;
   system::with_wide_vectors([&]() RONDEL_ALWAYS_INLINE {
     set_positions<false>(sites.data(), center, sites.size(), positions);
-    set_keys(positions, sites.size(), keys);
+    if (low_keys == nullptr) {
+      set_keys<false>(positions, sites.size(), keys, nullptr);
+    } else {
+      set_keys<true>(positions, sites.size(), keys, low_keys);
+    }
   });
 }
 
-void keys_of_exact(std::span<const Point> sites, const Point& center, std::uint64_t* keys) {
+void keys_of_exact(std::span<const Point> sites, const Point& center, std::uint64_t* keys,
+                   std::uint64_t* low_keys) {
   Positions positions;
   system::with_wide_vectors([&]() RONDEL_ALWAYS_INLINE {
     set_positions<true>(sites.data(), center, sites.size(), positions);
-    set_keys(positions, sites.size(), keys);
+    set_keys<false>(positions, sites.size(), keys, nullptr);
   });
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (positions.is_unsure[i] != 0) {
-      keys[i] = hilbert_key(exact_cube_position(sites[i], center)).high;
-    }
+    if (positions.is_unsure[i] == 0 && low_keys == nullptr) continue;
+    const HilbertKey key = hilbert_key(exact_cube_position(sites[i], center));
+    keys[i] = key.high;
+    if (low_keys != nullptr) low_keys[i] = key.low;
   }
 }
 
 }  // namespace
 
-void high_place_keys(std::span<const Point> sites, Model model, const Point& center,
-                     std::span<std::uint64_t> keys) {
-  const auto work = is_rounding_harmless(model, center) ? keys_of_rounded : keys_of_exact;
+void place_keys(std::span<const Point> sites, Model model, const Point& center,
+                std::span<std::uint64_t> keys, std::span<std::uint64_t> low_keys) {
+  const KeysOfBatch work = is_rounding_harmless(model, center) ? keys_of_rounded : keys_of_exact;
   for (std::size_t i = 0; i < sites.size(); i += batch) {
-    work(sites.subspan(i, std::min(batch, sites.size() - i)), center, keys.data() + i);
+    work(sites.subspan(i, std::min(batch, sites.size() - i)), center, keys.data() + i,
+         low_keys.empty() ? nullptr : low_keys.data() + i);
   }
 }
 

@@ -32,7 +32,7 @@ constexpr std::size_t batch = 256;  // keys computed at once
 
 // Below a longer prefix the high key has fewer than 24 bits: too few for the sites of a leaf, which
 // are some thousands, so that their words continue with the low key.
-constexpr int most_shallow_prefix = high_key_bits - 24;
+constexpr int longest_shallow_prefix = high_key_bits - 24;
 
 class Ordering {
  public:
@@ -73,7 +73,7 @@ class Ordering {
     }
     std::vector<std::uint64_t> keys(points.size());
     std::vector<std::uint64_t> sample(points.size());
-    high_place_keys(points, model_, center_, keys);
+    place_keys(points, model_, center_, keys);
     for (std::uint64_t& key : keys) key <<= unused_bits;
     sort_words(keys, sample);
     const std::size_t most = std::max<std::size_t>(12, 6 * sample.size() >> root_bits);
@@ -100,24 +100,23 @@ class Ordering {
 
   void deal(std::size_t begin, std::size_t end, ChunkLists& lists) const {
     std::array<std::uint64_t, batch> keys;
+    std::array<std::uint64_t, batch> low_keys;
+    const bool has_low_keys = tree_.longest_prefix_bits() > longest_shallow_prefix;
     for (std::size_t first = begin; first < end; first += batch) {
       const std::size_t size = std::min(batch, end - first);
-      high_place_keys(sites_.subspan(first, size), model_, center_, std::span(keys).first(size));
+      place_keys(sites_.subspan(first, size), model_, center_, std::span(keys).first(size),
+                 std::span(low_keys).first(has_low_keys ? size : 0));
       for (std::size_t i = 0; i < size; ++i) {
         const std::uint64_t key = keys[i] << unused_bits;
         const std::uint32_t leaf = tree_.leaf(key);
         const int prefix = tree_.prefix_bits(leaf);
         std::uint64_t word = key << prefix;
-        if (prefix > most_shallow_prefix)
-          word |= low_key(sites_[first + i]) >> (high_key_bits - prefix);
+        if (prefix > longest_shallow_prefix) {
+          word |= low_keys[i] << (64 - 2 * low_levels) >> (high_key_bits - prefix);
+        }
         lists.append(leaf, (word & ~index_mask_) | (first + i));
       }
     }
-  }
-
-  // In the upper bits of a word.
-  [[nodiscard]] std::uint64_t low_key(const Point& p) const {
-    return place_key(p, model_, center_).low << (64 - 2 * low_levels);
   }
 
   void count() {

@@ -136,6 +136,41 @@ TEST(spatial_order, merges_rays_of_any_length_for_any_number_of_threads) {
   expect_order_by_definition(sites, Model::projected, {});
 }
 
+void expect_keys_of_each(std::span<const Point> sites, Model model, const Point& center) {
+  std::vector<std::uint64_t> keys(sites.size());
+  std::vector<std::uint64_t> keys_alone(sites.size());
+  std::vector<std::uint64_t> low_keys(sites.size());
+  blocks::place_keys(sites, model, center, keys, low_keys);
+  blocks::place_keys(sites, model, center, keys_alone);
+  EXPECT_EQ(keys_alone, keys);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const blocks::HilbertKey key = blocks::place_key(sites[i], model, center);
+    EXPECT_EQ(keys[i], key.high) << i;
+    EXPECT_EQ(low_keys[i], key.low) << i;
+  }
+}
+
+TEST(spatial_place_keys, of_many_sites_are_those_of_each) {
+  for (const test::Generator& generator : test::generators()) {
+    const test::SiteSet set = generator.make(300, 25);
+    SCOPED_TRACE(generator.name);
+    expect_keys_of_each(set.sites, Model::weighted, set.sphere.center);
+    if (!generator.weighted_only) {
+      expect_keys_of_each(set.sites, Model::projected, set.sphere.center);
+    }
+  }
+  // Edges and corners of the cube, its center, beyond the range of doubles.
+  std::vector<Point> sites;
+  for (const double x : {-1e308, -2.0, -1.0, -5e-324, -0.0, 0.0, 5e-324, 1.0, 2.0, 1e308}) {
+    for (const double y : {-1e308, -2.0, -1.0, -0.0, 0.0, 5e-324, 1.0, 0x1.fffffffffffffp0}) {
+      for (const double z : {-2.0, -1.0, 0.0, 1.0, 2.0}) sites.push_back({x, y, z});
+    }
+  }
+  expect_keys_of_each(sites, Model::weighted, {});
+  expect_keys_of_each(sites, Model::weighted, {1e308, -1e308, 1});
+  expect_keys_of_each(sites, Model::projected, {-1, 0.5, -1});
+}
+
 TEST(spatial_word_sort, sorts_words_that_agree_in_any_of_their_bits) {
   test::Random random(24);
   for (const std::size_t n : {0U, 1U, 2U, 24U, 25U, 700U, 5000U, 100000U}) {
