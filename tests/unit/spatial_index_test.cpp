@@ -105,6 +105,44 @@ TEST(spatial_index, near_finds_a_neighbor) {
   }
 }
 
+TEST(spatial_index, lists_values_around_a_position) {
+  SpatialIndex index;
+  const auto around = [&index](const HilbertKey& key) {
+    const auto listed = index.around(index.seek(key, unordered));
+    std::vector<Index> values(listed.begin(), std::ranges::find(listed, no_index));
+    EXPECT_TRUE(std::all_of(listed.begin() + static_cast<std::ptrdiff_t>(values.size()),
+                            listed.end(), [](Index v) { return v == no_index; }));
+    return values;
+  };
+  EXPECT_TRUE(around({7, 0}).empty());
+  for (Index i = 0; i < 3; ++i) insert(index, {i, 0}, i, unordered);
+  EXPECT_EQ(around({1, 0}), (std::vector<Index>{0, 1, 2}));
+  for (Index i = 3; i < 2000; ++i) insert(index, {i, 0}, i, unordered);
+  for (Index i = 0; i <= 2000; ++i) {
+    const auto values = around({i, 0});
+    ASSERT_FALSE(values.empty());
+    for (const Index v : values) {
+      EXPECT_LE(v > i ? v - i : i - v, SpatialIndex::num_around);
+    }
+  }
+}
+
+TEST(spatial_index, numbers_values_in_order) {
+  std::mt19937 random(9);
+  SpatialIndex index;
+  std::map<std::uint64_t, Index> model;
+  for (Index i = 0; i < 4000; ++i) {
+    const std::uint64_t key = random();
+    if (model.emplace(key, i).second) insert(index, {key, 0}, i, unordered);
+  }
+  index.renumber();
+  Index expected = 0;
+  for (const auto& [key, value] : model) {
+    EXPECT_EQ(find(index, {key, 0}, unordered, any), expected++);
+  }
+  EXPECT_EQ(expected, index.size());
+}
+
 TEST(spatial_index, is_filled_at_once) {
   std::vector<HilbertKey> keys;
   std::vector<Index> values;
