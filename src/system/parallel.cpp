@@ -11,6 +11,12 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_invoke.h>
 #include <oneapi/tbb/task_arena.h>
+#elif defined(RONDEL_HAS_THREADS)
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
 #endif
 
 namespace rondel::system {
@@ -48,6 +54,55 @@ void run_pieces(unsigned threads, std::size_t pieces, const Run& run) {
 void run_both(unsigned threads, const std::function<void()>& first,
               const std::function<void()>& second) {
   run_in_arena(threads, [&] { tbb::parallel_invoke(first, second); });
+}
+
+constexpr bool has_threads = true;
+
+#elif defined(RONDEL_HAS_THREADS)
+
+unsigned num_cores() { return std::max(1U, std::thread::hardware_concurrency()); }
+
+std::atomic<unsigned> num_helpers = 0;  // in all calls that run
+
+// Helpers start with the call and end with it. What orders the pieces of different threads is
+// nothing but their start and end, so that a sanitizer sees every race between them.
+template <class Run>
+void run_pieces(unsigned threads, std::size_t pieces, const Run& run) {
+  std::atomic<std::size_t> next = 0;
+  std::exception_ptr error;
+  std::mutex mutex;
+  const auto work = [&] {
+    try {
+      for (;;) {
+        const std::size_t k = next.fetch_add(1, std::memory_order_relaxed);
+        if (k >= pieces) return;
+        run(k);
+      }
+    } catch (...) {
+      const std::lock_guard lock(mutex);
+      error = std::current_exception();
+      next.store(pieces, std::memory_order_relaxed);
+    }
+  };
+  std::vector<std::jthread> helpers;
+  while (helpers.size() + 1 < std::min<std::size_t>(threads, pieces)) {
+    if (num_helpers.fetch_add(1) + 1 >= threads) {
+      --num_helpers;
+      break;
+    }
+    helpers.emplace_back([&] {
+      work();
+      --num_helpers;
+    });
+  }
+  work();
+  helpers.clear();
+  if (error) std::rethrow_exception(error);
+}
+
+void run_both(unsigned threads, const std::function<void()>& first,
+              const std::function<void()>& second) {
+  run_pieces(threads, 2, [&](std::size_t k) { k == 0 ? first() : second(); });
 }
 
 constexpr bool has_threads = true;

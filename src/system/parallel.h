@@ -3,8 +3,8 @@
 
 // All that the library knows of threads. What is promised:
 // 1. `threads` is an upper bound on the threads that work on one call, the caller among them; 0
-//    means one for each core. With 1, and in a build without oneTBB, the caller does everything, in
-//    order. No thread outlives its use for the caller: the pool behind it belongs to oneTBB.
+//    means one for each core. With 1, and in a build without threads, the caller does everything,
+//    in order. The pool of threads is oneTBB's; without oneTBB a call starts and ends its own.
 // 2. What is called, and with which arguments, does not depend on `threads`. So results do not
 //    either, if the calls write to disjoint places.
 // 3. A call returns when all of its work has ended, and has seen all that it wrote.
@@ -20,7 +20,7 @@
 
 namespace rondel::system {
 
-// How many threads a bound stands for: itself, or for 0 the number of cores; 1 without oneTBB.
+// How many threads a bound stands for: itself, or for 0 the number of cores; 1 without threads.
 unsigned num_threads(unsigned threads);
 
 // How many pieces parallel_for makes.

@@ -116,7 +116,8 @@ class LargeNpy : public testing::Test {
   static constexpr std::size_t n = std::size_t{1} << 22;
 
   // A file whose rows are zeros but for the last one.
-  std::string write(std::string_view dtype, std::size_t rows, const Point& last) const {
+  [[nodiscard]] std::string write(std::string_view dtype, std::size_t rows,
+                                  const Point& last) const {
     const std::string name = directory_.file("a.npy");
     std::ofstream file(name, std::ios::binary);
     file << io::make_npy_header(dtype, std::array<std::uint64_t, 2>{rows, 3});

@@ -18,7 +18,7 @@ constexpr unsigned thread_counts[] = {0, 1, 2, 3, 7, 16};
 
 TEST(parallel_for, cuts_the_range_into_the_same_pieces_for_any_number_of_threads) {
   for (const unsigned threads : thread_counts) {
-    for (const std::size_t count : {0, 1, 99, 100, 101, 1000, 12345}) {
+    for (const std::size_t count : {0U, 1U, 99U, 100U, 101U, 1000U, 12345U}) {
       std::vector<std::size_t> ends(num_pieces(count, 100));
       std::vector<int> visits(count);
       parallel_for(threads, count, 100, [&](std::size_t begin, std::size_t end) {
