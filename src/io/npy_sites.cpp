@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::array<std::string_view, 1> types = {"f8"};
 
-// Fewer sites are copied: into large pages, which are faster to read in any order.
+// Fewer sites are copied: that costs little, and their file may change meanwhile.
 constexpr std::size_t least_mapped = std::size_t{1} << 22;
 
 void refer_to(std::span<const Point> sites, const ReadOptions& options, SiteTable& table) {
