@@ -11,9 +11,9 @@
 
 #include "blocks/duplicates.h"
 #include "blocks/spatial_order.h"
+#include "bulk/triangulate.h"
 #include "incremental/hidden_faces.h"
 #include "incremental/inner_sites.h"
-#include "incremental/triangulate.h"
 #include "rondel/error.h"
 #include "system/parallel.h"
 
@@ -107,7 +107,7 @@ Triangulation build(std::span<const Point> sites, const Options& options,
   report.order_seconds = seconds_since(start);
 
   const auto order_end = Clock::now();
-  auto built = incremental::triangulate(inserted, std::move(order.order), order.renamed, options);
+  auto built = bulk::triangulate(inserted, std::move(order.order), order.renamed, options);
   built.arrays.num_sites = sites.size();
   built.arrays.duplicates = std::move(order.duplicates);
   if (!rest.empty()) add_inner_sites(sites, rest, built.arrays);

@@ -8,6 +8,7 @@
 #include <new>
 #include <utility>
 
+#include "blocks/prefetch.h"
 #include "incremental/sphere_traits.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
@@ -33,11 +34,21 @@ Vector direction(const Point& p, const Point& center) {
   return {v.x / length, v.y / length, v.z / length};
 }
 
-ProjectedPoints::ProjectedPoints(std::span<const Point> input, std::span<const Index> order,
-                                 const Point& center)
-    : input_(input), order_(order), center_(center) {
+void ProjectedPoints::assign(std::span<const Point> input, std::span<const Index> order,
+                             const Point& center) {
+  input_ = input;
+  order_ = order;
+  center_ = center;
+  directions_.clear();
   system::reserve_large(directions_, order.size());
-  for (const Index i : order) directions_.push_back(direction(input[i], center));
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + blocks::prefetch_distance < order.size()) {
+      blocks::prefetch(&input[order[i + blocks::prefetch_distance]]);
+    }
+    directions_.push_back(direction(input[order[i]], center));
+  }
+  low_parts_ = {};
+  tally_ = {};
 }
 
 void ProjectedPoints::set(Index a, std::span<const Point> input, std::span<const Index> order) {

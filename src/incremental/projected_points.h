@@ -26,8 +26,13 @@ class ProjectedPoints {
  public:
   static constexpr bool hides_sites = false;
 
+  ProjectedPoints() = default;
   // `order` lists the input index of each spatial rank.
-  ProjectedPoints(std::span<const Point> input, std::span<const Index> order, const Point& center);
+  ProjectedPoints(std::span<const Point> input, std::span<const Index> order, const Point& center) {
+    assign(input, order, center);
+  }
+  // The same anew, in the memory that is there.
+  void assign(std::span<const Point> input, std::span<const Index> order, const Point& center);
 
   // For sites that change: the arrays have moved or grown.
   void rebind(std::span<const Point> input, std::span<const Index> order) {
@@ -77,6 +82,9 @@ class ProjectedPoints {
     tally_.filter += 2;
     return {first == Sign::positive, second == Sign::positive};
   }
+
+  // A conflict test that the caller's own filter has decided.
+  void count_filtered() const { ++tally_.filter; }
 
   [[nodiscard]] const Tally& tally() const { return tally_; }
 

@@ -12,11 +12,13 @@ namespace rondel::incremental {
 
 static_assert(SphereTraits<WeightedPoints>);
 
-WeightedPoints::WeightedPoints(std::span<const Point> input, std::span<const Index> order,
-                               const Point& center)
-    : center_(exact::to_vector(center)) {
+void WeightedPoints::assign(std::span<const Point> input, std::span<const Index> order,
+                            const Point& center) {
+  center_ = exact::to_vector(center);
+  points_.clear();
   system::reserve_large(points_, order.size());
   for (const Index i : order) points_.push_back(exact::to_vector(input[i]));
+  tally_ = {};
 }
 
 void WeightedPoints::set(Index a, std::span<const Point> input, std::span<const Index> order) {

@@ -32,4 +32,11 @@ inline void count(Tally& tally, Rung rung) {
   }
 }
 
+inline void add(Tally& sum, const Tally& tally) {
+  sum.filter += tally.filter;
+  sum.double_double += tally.double_double;
+  sum.exact += tally.exact;
+  sum.perturbed += tally.perturbed;
+}
+
 }  // namespace rondel::predicates

@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "bulk/cell_sites.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "blocks/cube_position.h"
+#include "blocks/prefetch.h"
+#include "predicates/bounds.h"
+#include "predicates/tally.h"
+
+namespace rondel::bulk {
+namespace {
+
+using predicates::add;
+using predicates::unit_roundoff;
+
+// The largest distances in the space of (u, v, w) over a face of the cube: 2 in u and in v.
+constexpr double most_uv = 2.83;
+
+// u and v are off by at most 3 units: a difference in each coordinate, and the quotient. In units:
+// 2 * 2 * 3 sqrt(2) for the ends of two vectors, relative to the distance, and 5 * most_uv for the
+// roundings of differences, products and their difference; 1.2 for terms of higher order.
+constexpr double orientation_bound = 38 * unit_roundoff;
+
+// No bound is below this: products of what is smaller may lose bits to underflow.
+constexpr double least_bound = 1e-280;
+
+// The error of N.(y-l) relative to the square of the largest distance: 6 eta for the ends of three
+// vectors, where eta is the error of a point, and 8.8 units times the distance for the
+// roundings (docs/theory/filters.md); 1.2 for terms of higher order.
+double find_conflict_bound(double w_error, double most_w_distance) {
+  const double eta = unit_roundoff * std::sqrt(3 * 3 + 3 * 3 + w_error * w_error);
+  const double distance = std::sqrt(most_uv * most_uv + most_w_distance * most_w_distance);
+  return 1.2 * (6 * eta + 8.8 * unit_roundoff * distance);
+}
+
+double max_squared_distance(const CellVector& a, const CellVector& b, const CellVector& c) {
+  return std::max(std::max(dot(a, a), dot(b, b)), dot(c, c));
+}
+
+// Sites are given a traits class of their own for up to one question in so many sites.
+constexpr Index many = 32;
+
+template <class T>
+constexpr bool is_weighted = std::is_same_v<T, incremental::WeightedPoints>;
+
+}  // namespace
+
+template <incremental::SphereTraits T>
+void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> order,
+                          const Point& center, unsigned cube_face, const Extent& extent) {
+  sites_ = sites;
+  order_ = order;
+  center_ = center;
+  extent_ = extent;
+  num_unsure_ = 0;
+  num_filtered_ = 0;
+  tally_ = {};
+  exact_.assign({}, {}, center);
+  // |p| is off by 4.5 units with its differences, z and the quotient add 2; w is below sqrt(3)
+  // s/|p|.
+  const double most_w = 1.74 * (is_weighted<T> ? extent.most_size / extent.least_size : 1);
+  conflict_bound_ = find_conflict_bound(6.5 * most_w, most_w);
+
+  points_.resize(order.size());
+  positions_.resize(order.size());
+  const blocks::CubeAxes axes = blocks::cube_axes(cube_face);
+  const auto u_axis = exact::to_vector(axes.u);
+  const auto v_axis = exact::to_vector(axes.v);
+  const auto out = exact::to_vector(axes.out);
+  hand_ = det(u_axis, v_axis, out);
+  const auto origin = exact::to_vector(center);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + blocks::prefetch_distance < order.size()) {
+      blocks::prefetch(&sites[order[i + blocks::prefetch_distance]]);
+    }
+    // A product with an axis picks a coordinate, exactly.
+    const auto ray = exact::to_vector(sites[order[i]]) - origin;
+    const double z = dot(ray, out);
+    const double u = dot(ray, u_axis) / z;
+    const double v = dot(ray, v_axis) / z;
+    const double size = is_weighted<T> ? extent.most_size : std::sqrt(dot(ray, ray));
+    points_[i] = {u, hand_ * v, size / z, 0};
+    const auto position = [](double ratio) {
+      const double p = (ratio + 1) * 0x1p51;  // position_bits - 1
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::min(p, 0x1p52 - 1)));
+    };
+    positions_[i] = {position(u), position(v)};
+  }
+}
+
+// |dw| <= |d(u, v)| where w^2 = 1 + u^2 + v^2, and w is that times s/|p| for weighted sites.
+template <incremental::SphereTraits T>
+CellLimits CellSites<T>::limits(double length) const {
+  double distance = 2.01 * length;
+  if (is_weighted<T>) {
+    const double most_ratio = extent_.most_size / extent_.least_size;
+    distance = most_ratio * distance + 1.74 * (most_ratio - 1);
+  }
+  return {std::max(orientation_bound * distance, least_bound),
+          std::max(conflict_bound_ * (distance * distance), least_bound)};
+}
+
+template <incremental::SphereTraits T>
+template <std::size_t N, class Test>
+auto CellSites<T>::ask_traits(const std::array<Index, N>& indices, Test test) const {
+  if (num_unsure_ <= size() / many) ++num_unsure_;
+  if (num_unsure_ > size() / many) {
+    if (exact_.size() == 0) exact_.assign(sites_, order_, center_);
+    return test(exact_, indices);
+  }
+  std::array<Index, N> sites{};
+  std::array<Index, N> ranks{};
+  for (Index i = 0; i < N; ++i) {
+    sites[i] = order_[indices[i]];
+    ranks[i] = i;
+  }
+  few_.assign(sites_, sites, center_);
+  const auto answer = test(few_, ranks);
+  add(tally_, few_.tally());
+  return answer;
+}
+
+template <incremental::SphereTraits T>
+Sign CellSites<T>::orientation(Index a, Index b, Index c) const {
+  const CellVector ab = points_[b] - points_[a];
+  const CellVector ac = points_[c] - points_[a];
+  const double value = cross(ab, ac).w;
+  const double bound = orientation_bound * std::sqrt(std::max(dot(ab, ab), dot(ac, ac)));
+  if (std::abs(value) > std::max(bound, least_bound)) return exact::sign_of(value);
+  return ask_traits(std::array{a, b, c}, [](const T& t, const std::array<Index, 3>& i) {
+    return t.orientation(i[0], i[1], i[2]);
+  });
+}
+
+template <incremental::SphereTraits T>
+bool CellSites<T>::is_in_conflict(Index a, Index b, Index c, Index p) const {
+  const CellVector ab = points_[b] - points_[a];
+  const CellVector ac = points_[c] - points_[a];
+  const CellVector ap = points_[p] - points_[a];
+  const double value = dot(cross(ab, ac), ap);
+  const double bound = conflict_bound_ * max_squared_distance(ab, ac, ap);
+  if (std::abs(value) > std::max(bound, least_bound)) {
+    ++num_filtered_;
+    return value < 0;
+  }
+  return ask_traits(std::array{a, b, c, p}, [](const T& t, const std::array<Index, 4>& i) {
+    return t.is_in_conflict(i[0], i[1], i[2], i[3]);
+  });
+}
+
+template <incremental::SphereTraits T>
+Tally CellSites<T>::tally() const {
+  Tally tally = tally_;
+  if (num_unsure_ > size() / many) add(tally, exact_.tally());
+  tally.filter += num_filtered_;
+  return tally;
+}
+
+template class CellSites<incremental::ProjectedPoints>;
+template class CellSites<incremental::WeightedPoints>;
+
+}  // namespace rondel::bulk

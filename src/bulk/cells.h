@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The cells of the Hilbert curve, and blocks of sites in them.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "blocks/hilbert.h"
+#include "rondel/types.h"
+
+namespace rondel::bulk {
+
+// A square of 2^bits positions either way on a face of the cube.
+struct Cell {
+  blocks::CubePosition corner;  // the lowest position
+  int bits = 0;
+  unsigned state = 0;  // of the curve in this square, see blocks/hilbert.h
+};
+
+// The ranks begin ... end-1 are all sites of the cell.
+struct Block {
+  Index begin = 0;
+  Index end = 0;
+  Cell cell;
+};
+
+// Splits the ranks 0 ... num_ranks-1 into blocks of at most `max_sites`, in their order, as far as
+// positions can tell sites apart. `position` gives the position of a rank.
+std::vector<Block> make_blocks(Index num_ranks, std::size_t max_sites,
+                               const std::function<blocks::CubePosition(Index)>& position);
+
+// The block of at most so many sites to which a rank belongs.
+Block block_around(Index rank, Index num_ranks, std::size_t max_sites,
+                   const std::function<blocks::CubePosition(Index)>& position);
+
+}  // namespace rondel::bulk

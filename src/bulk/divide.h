@@ -1,0 +1,289 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The triangulation of the sites of one cell by divide and conquer (Guibas and Stolfi, ACM Trans.
+// Graph. 4, 1985), seen from the center: the faces of the hull of the sites and the center that are
+// not incident to the center. Radial projection turns it into a planar regular triangulation, as a
+// cell lies strictly within a hemisphere.
+//
+//      .----.   .----.     The curve splits a cell by a great circle into two parts, each an
+//      | L   l--r  R |     interval of the spatial order. A merge finds the lower common tangent
+//      |    / \/ \   |     of their outer boundaries and climbs: each step tries the first
+//      |   x--r'--\  |     neighbors of l and r above the edge (l, r), deletes those in front of
+//      '----'   '----'     which another one lies, and adds the edge of the lower face.
+//
+// docs/theory/blocks.md shows that this holds for weighted sites as well: the cells of the power
+// diagrams of L and R meet in one chain, and what lies behind it is never met again.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "blocks/hilbert.h"
+#include "bulk/collinear.h"
+#include "bulk/merge_step.h"
+#include "bulk/plane_graph.h"
+
+namespace rondel::bulk {
+
+// A site that rounding puts on the wrong side of the line that splits its cell at this bit.
+struct Misplaced {
+  Index site;
+  int bit;
+};
+
+template <incremental::SphereTraits T>
+class Divide {
+ public:
+  using Edge = PlaneGraph::Edge;
+
+  // Cells are split down to this bit.
+  static constexpr int least_bit = 14;
+
+  // Apart from the misplaced ones the positions of the sites tell, exactly, on which side of a
+  // split they lie.
+  Divide(const CellSites<T>& sites, std::span<const Misplaced> misplaced, PlaneGraph& graph)
+      : sites_(sites), positions_(sites.positions()), misplaced_(misplaced), graph_(graph) {
+    for (const Misplaced& m : misplaced) misplaced_bits_ |= std::uint64_t{1} << m.bit;
+    for (int bit = 0; bit <= blocks::position_bits; ++bit) {
+      limits_[bit] = sites.limits(std::ldexp(1, bit + 1 - blocks::position_bits));
+    }
+  }
+
+  // Returns an edge of the outer boundary, with the outer face on its right, or no_index if
+  // the sites are too close to be separated. Precondition: two sites or more, in the cell in which
+  // the curve is in `state` and the positions agree down to, but without, this bit.
+  Edge run(unsigned state, int bit) {
+    graph_.clear(positions_.size());
+    const Part all = solve(0, static_cast<Index>(positions_.size()), state, bit);
+    return has_failed_ ? no_index : all.edge;
+  }
+
+ private:
+  // A vertex of the outer boundary and the edge that leaves it there; no edge for a single vertex.
+  struct Part {
+    Index vertex = no_index;
+    Edge edge = no_index;
+  };
+
+  [[nodiscard]] std::uint64_t bit_of(Index i, unsigned axis, int bit) const {
+    return ((axis == 0 ? positions_[i].u : positions_[i].v) >> bit) & 1U;
+  }
+
+  // The first of the sites begin ... end-1 whose bit is `last`; those before have the other value.
+  [[nodiscard]] Index split(Index begin, Index end, unsigned axis, int bit, unsigned last) const {
+    while (begin < end) {
+      const Index middle = begin + (end - begin) / 2;
+      if (bit_of(middle, axis, bit) == last) {
+        end = middle;
+      } else {
+        begin = middle + 1;
+      }
+    }
+    return begin;
+  }
+
+  Part solve(Index begin, Index end, unsigned state, int bit) {
+    const Index count = end - begin;
+    if (count == 0 || has_failed_) return {};
+    if (count == 1) return {begin};
+    if (count == 2) return {begin, graph_.add(begin, begin + 1)};
+    if (count == 3) return solve_three(begin, limits_[bit + 1]);
+    if (bit < least_bit || is_misplaced(begin, end, bit)) return fail();
+    // The curve takes the quadrants (u, v) = 00, 01, 11, 10, with u and v exchanged when bit 0 of
+    // the state is set, and turned around when bit 1 is.
+    const unsigned axis = state & 1U;
+    const unsigned first = (state >> 1) & 1U;
+    const Index middle = split(begin, end, axis, bit, 1 - first);
+    const Index low = split(begin, middle, 1 - axis, bit, 1 - first);
+    const Index high = split(middle, end, 1 - axis, bit, first);
+    const auto child = [&](Index b, Index e, unsigned rank) {
+      return solve(b, e, state ^ blocks::hilbert_table::state_change[rank], bit - 1);
+    };
+    const CellLimits& limits = limits_[bit + 1];
+    const Part p0 = child(begin, low, 0);
+    const Part p1 = child(low, middle, 1);
+    const Part before = merge(p0, p1, limits);
+    const Part p2 = child(middle, high, 2);
+    const Part p3 = child(high, end, 3);
+    return merge(before, merge(p2, p3, limits), limits);
+  }
+
+  [[nodiscard]] bool is_misplaced(Index begin, Index end, int bit) const {
+    return (misplaced_bits_ >> bit & 1U) != 0 &&
+           std::ranges::any_of(misplaced_, [&](const Misplaced& m) {
+             return m.bit == bit && begin <= m.site && m.site < end;
+           });
+  }
+
+  Part fail() {
+    has_failed_ = true;
+    return {};
+  }
+
+  Part solve_three(Index a, const CellLimits& limits) {
+    Index b = a + 1;
+    Index c = a + 2;
+    const MergeStep<T> step(sites_, limits, a, b);
+    const Sign turn = step.orientation(step.face(c));
+    if (turn == Sign::zero) return solve_chain(a);
+    if (turn == Sign::negative) std::swap(b, c);
+    const Edge ab = graph_.add(a, b);
+    const Edge bc = graph_.add(b, c);
+    const Edge ca = graph_.add(c, a);
+    graph_.insert_after(ca ^ 1, ab);
+    graph_.insert_after(ab ^ 1, bc);
+    graph_.insert_after(bc ^ 1, ca);
+    return {a, ab};
+  }
+
+  // Three sites on one great circle.
+  Part solve_chain(Index a) {
+    const Index middle = middle_of(a, a + 1, a + 2);
+    if (has_failed_) return {};
+    const Edge e = graph_.add(middle, middle == a ? a + 1 : a);
+    graph_.insert_after(graph_.add(middle, middle == a + 2 ? a + 1 : a + 2), e);
+    return {middle, e};
+  }
+
+  // --- the outer boundary, counterclockwise, with the outer face on the right ---
+
+  [[nodiscard]] Index boundary_next(const Part& p) const { return graph_.target(p.edge); }
+  [[nodiscard]] Index boundary_previous(const Part& p) const {
+    return graph_.target(graph_.previous(p.edge));
+  }
+  bool move_on(Part& p) const {
+    p = {graph_.target(p.edge), graph_.next(p.edge ^ 1)};
+    return true;
+  }
+  bool move_back(Part& p) const {
+    p = {boundary_previous(p), graph_.previous(p.edge) ^ 1};
+    return true;
+  }
+
+  // Whether n, next to l or r on the boundary of its part, lies below the edge from l to r, or on
+  // it. Moving there lowers the point where the line meets the great circle between the parts, so
+  // such moves end; then all sites lie above the line.
+  [[nodiscard]] bool is_lower(const MergeStep<T>& step, Index n) {
+    const Sign side = step.orientation(step.face(n));
+    if (side != Sign::zero) return side == Sign::negative;
+    return middle_of(step.l(), step.r(), n) == n;
+  }
+
+  bool move_down(const MergeStep<T>& step, Part& l, Part& r) {
+    if (l.edge != no_index) {
+      if (is_lower(step, boundary_previous(l))) return move_back(l);
+      if (is_lower(step, boundary_next(l))) return move_on(l);
+    }
+    if (r.edge != no_index) {
+      if (is_lower(step, boundary_next(r))) return move_on(r);
+      if (is_lower(step, boundary_previous(r))) return move_back(r);
+    }
+    return false;
+  }
+
+  // Moves l and r to the ends of the lower common tangent.
+  void find_tangent(Part& l, Part& r, const CellLimits& limits) {
+    while (!has_failed_ && move_down(MergeStep<T>(sites_, limits, l.vertex, r.vertex), l, r)) {
+    }
+  }
+
+  // The middle one of three sites on one great circle. Weighted sites below the line of their
+  // neighbors would be hidden on the boundary, which the algorithm is not made for.
+  [[nodiscard]] Index middle_of(Index a, Index b, Index c) {
+    for (const auto& [x, m, y] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
+      const Between between =
+          is_between(sites_.site(x), sites_.site(m), sites_.site(y), sites_.center());
+      if (between == Between::no) continue;
+      if (between == Between::below && T::hides_sites) has_failed_ = true;
+      return m;
+    }
+    has_failed_ = true;
+    return no_index;
+  }
+
+  // Two parts that a great circle separates.
+  Part merge(Part l, Part r, const CellLimits& limits) {
+    if (has_failed_) return {};
+    if (l.vertex == no_index) return r;
+    if (r.vertex == no_index) return l;
+    if (l.edge == no_index && r.edge == no_index) {
+      return {l.vertex, graph_.add(l.vertex, r.vertex)};
+    }
+    find_tangent(l, r, limits);
+    if (has_failed_) return {};
+    const Edge base = graph_.add(l.vertex, r.vertex);
+    if (l.edge != no_index) graph_.insert_after(base, graph_.previous(l.edge));
+    if (r.edge != no_index) graph_.insert_after(base ^ 1, graph_.previous(r.edge));
+    climb(base, limits);
+    return {l.vertex, base};
+  }
+
+  using Face = typename MergeStep<T>::Face;
+
+  [[nodiscard]] bool is_above(const MergeStep<T>& step, const Face& face) {
+    const Sign side = step.orientation(face);
+    if (T::hides_sites && side == Sign::zero)
+      std::ignore = middle_of(step.l(), step.r(), face.apex);
+    return side == Sign::positive;
+  }
+
+  // Sews the parts together above the edge `base` from the left one to the right one.
+  void climb(Edge base, const CellLimits& limits) {
+    const PlaneGraph::Links* const links = graph_.links();
+    Index l = graph_.origin(base);
+    Index r = graph_.target(base);
+    for (;;) {
+      const MergeStep<T> step(sites_, limits, l, r);
+      Edge left = links[base].next;
+      Face left_face = step.face(links[left].target);
+      const bool has_left = left != base && is_above(step, left_face);
+      if (has_left) {
+        for (;;) {
+          const Edge next = links[left].next;
+          const Index y = links[next].target;
+          if (y == r || !step.is_in_conflict(left_face, y)) break;
+          graph_.remove(left);
+          left = next;
+          left_face = step.face(y);
+        }
+      }
+      Edge right = links[base ^ 1].previous;
+      Face right_face = step.face(links[right].target);
+      const bool has_right = right != (base ^ 1) && is_above(step, right_face);
+      if (has_right) {
+        for (;;) {
+          const Edge next = links[right].previous;
+          const Index y = links[next].target;
+          if (y == l || !step.is_in_conflict(right_face, y)) break;
+          graph_.remove(right);
+          right = next;
+          right_face = step.face(y);
+        }
+      }
+      if (!has_left && !has_right) return;
+      if (!has_left || (has_right && step.is_in_conflict(left_face, right_face.apex))) {
+        r = right_face.apex;
+        base = graph_.add(l, r, base, links[right ^ 1].previous);
+      } else {
+        l = left_face.apex;
+        base = graph_.add(l, r, left ^ 1, links[base ^ 1].previous);
+      }
+    }
+  }
+
+  const CellSites<T>& sites_;
+  std::span<const CellPosition> positions_;
+  std::span<const Misplaced> misplaced_;
+  std::uint64_t misplaced_bits_ = 0;
+  PlaneGraph& graph_;
+  std::array<CellLimits, blocks::position_bits + 1> limits_;  // for cells of 2^index positions
+  bool has_failed_ = false;
+};
+
+}  // namespace rondel::bulk

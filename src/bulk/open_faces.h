@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The certificate of a block: which faces of its triangulation are faces of the whole one.
+//
+// A face is final if no other site can be in conflict with it. All sites within the cell are in the
+// block, and all sites lie within the distance R of the center; so it is final if the cap that its
+// plane cuts off the ball of radius R lies in the cone of the cell. The others are open. A site
+// outside the cell is in conflict with a connected set of faces that reaches the outer boundary, so
+// a search from there meets all open faces.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "bulk/cells.h"
+#include "bulk/plane_graph.h"
+#include "predicates/filtered.h"
+
+namespace rondel::bulk {
+
+// The name of an open face in the graph, and of one that has no name yet.
+inline constexpr Index open_face = no_index - 1;
+inline constexpr Index unnamed_face = no_index;
+
+// The cone: inward normals of unit length of the planes that bound it.
+using Cone = std::array<predicates::Vector, 4>;
+
+// The cone of a cell, in the axes of CellSites::ray.
+Cone make_cone(const Cell& cell, double hand);
+
+class OpenFaces {
+ public:
+  // `ray` gives a site as seen from the center. `radius` is at least the length of every ray in
+  // the whole set; 0 if all rays stand for unit vectors.
+  using Ray = std::function<predicates::Vector(Index)>;
+  OpenFaces(PlaneGraph& graph, Ray ray, const Cone& cone, double radius)
+      : graph_(graph), ray_(std::move(ray)), cone_(cone), radius_(radius) {}
+
+  // Names the open faces in the graph, the outer one included; `boundary` is an edge with the outer
+  // face on its right. Returns the halfedges with an open face on the left.
+  const std::vector<PlaneGraph::Edge>& find(PlaneGraph::Edge boundary);
+
+ private:
+  [[nodiscard]] bool is_final(Index a, Index b, Index c) const;
+
+  PlaneGraph& graph_;
+  Ray ray_;
+  const Cone& cone_;
+  double radius_;
+  std::vector<PlaneGraph::Edge> open_;
+};
+
+}  // namespace rondel::bulk

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The faces that fill the seam, and the surface that they and the final faces of the blocks form.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "bulk/faces.h"
+
+namespace rondel::bulk {
+
+class SeamFaces {
+ public:
+  // `seam` is the triangulation of the seam sites. Links the faces of the region that `edges`
+  // bound to the final faces of the blocks.
+  SeamFaces(std::span<const BlockResult> results, FaceStore store, TriangulationArrays seam);
+
+  // Seam faces follow the faces of the blocks: a name below this is one of those.
+  [[nodiscard]] Index names_begin() const { return static_cast<Index>(store_.corners.size()); }
+  [[nodiscard]] std::span<const SeamSite> sites() const { return sites_; }
+  [[nodiscard]] std::size_t num_all() const { return seam_.faces.size(); }
+  // The faces that seam site s owns, counterclockwise.
+  [[nodiscard]] std::span<const Index> owned_by(Index s) const {
+    return std::span(owned_).subspan(owned_begin_[s], owned_begin_[s + 1] - owned_begin_[s]);
+  }
+  [[nodiscard]] std::size_t num_faces() const { return owned_.size(); }
+  [[nodiscard]] bool is_inside(Index seam_face) const { return is_inside_[seam_face]; }
+  // Corners as seam sites.
+  [[nodiscard]] const Triple& seam_corners(Index seam_face) const { return seam_.faces[seam_face]; }
+  [[nodiscard]] const std::vector<Index>& ghost_faces() const { return seam_.ghost_faces; }
+  // Whether each edge of the region was met, once.
+  [[nodiscard]] bool fits() const { return fits_; }
+
+  // Both kinds of faces, by name. Corners are ranks.
+  [[nodiscard]] Triple corners(Index face) const {
+    if (face < names_begin()) return store_.corners[face];
+    const Triple& v = seam_.faces[face - names_begin()];
+    return {sites_[v[0]].rank, sites_[v[1]].rank, sites_[v[2]].rank};
+  }
+  [[nodiscard]] const Triple& neighbors(Index face) const {
+    return face < names_begin() ? store_.neighbors[face] : seam_.neighbors[face - names_begin()];
+  }
+
+ private:
+  // Returns the edge of the region with the seam on its left that runs from site b to site a.
+  [[nodiscard]] const SeamEdge* find_edge(Index b, Index a) const;
+  void collect(std::span<const BlockResult> results);
+  void fill();
+  void list_owned();
+
+  FaceStore store_;
+  TriangulationArrays seam_;
+  std::vector<SeamSite> sites_;
+  std::vector<SeamEdge> edges_;     // sorted by b, then a
+  std::vector<Index> edges_begin_;  // by b
+  std::vector<bool> is_inside_;
+  std::vector<Index> owned_;
+  std::vector<Index> owned_begin_;
+  bool fits_ = true;
+};
+
+}  // namespace rondel::bulk

@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "bulk/stitch.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "bulk/seam_faces.h"
+#include "system/parallel.h"
+#include "topology/mesh.h"
+
+namespace rondel::bulk {
+namespace {
+
+using topology::next_corner;
+
+// Preliminary names begin ... end-1 become final, final + 1, ...
+struct Run {
+  Index begin;
+  Index end;
+  Index final;
+};
+
+// Puts all faces in canonical order.
+class Numbering {
+ public:
+  Numbering(std::span<const BlockResult> results, const SeamFaces& seam) : seam_(seam) {
+    Index site = 0;
+    for (const BlockResult& block : results) {
+      Index face = block.faces_begin;
+      for (const SeamSite& s : block.seam_sites) {
+        append(face, s.faces_begin);
+        append_owned(site++);
+        face = s.faces_end;
+      }
+      append(face, block.faces_end);
+    }
+  }
+
+  // Of faces of the blocks, in their order.
+  [[nodiscard]] std::span<const Run> block_runs() const { return block_runs_; }
+  // Of single faces of the seam.
+  [[nodiscard]] std::span<const Run> seam_runs() const { return seam_runs_; }
+  [[nodiscard]] Index num_faces() const { return num_faces_; }
+
+ private:
+  void append(Index begin, Index end) {
+    if (begin == end) return;
+    (begin < seam_.names_begin() ? block_runs_ : seam_runs_).push_back({begin, end, num_faces_});
+    num_faces_ += end - begin;
+  }
+
+  // Those of seam site s, from blocks and seam. The faces that a site owns start with the one with
+  // the smallest second corner.
+  void append_owned(Index s) {
+    const SeamSite& site = seam_.sites()[s];
+    const auto of_seam = seam_.owned_by(s);
+    if (of_seam.empty()) return append(site.faces_begin, site.faces_end);
+    faces_.clear();
+    if (site.faces_begin == site.faces_end) {
+      faces_.assign(of_seam.begin(), of_seam.end());
+    } else {
+      walk_around(site.rank, of_seam[0]);
+    }
+    const auto second = [this](Index f) { return seam_.corners(f)[1]; };
+    std::rotate(faces_.begin(), std::ranges::min_element(faces_, {}, second), faces_.end());
+    for (const Index f : faces_) append(f, f + 1);
+  }
+
+  // Lists the faces that the site of this rank owns, counterclockwise from one of them.
+  void walk_around(Index rank, Index start) {
+    Index f = start;
+    do {
+      const Triple v = seam_.corners(f);
+      const auto corner = static_cast<unsigned>(std::ranges::find(v, rank) - v.begin());
+      if (corner == 0) faces_.push_back(f);
+      f = seam_.neighbors(f)[next_corner[corner]];
+    } while (f != start);
+  }
+
+  const SeamFaces& seam_;
+  std::vector<Run> block_runs_;
+  std::vector<Run> seam_runs_;
+  std::vector<Index> faces_;
+  Index num_faces_ = 0;
+};
+
+// Calls piece(run) for all runs, in parallel.
+template <class Piece>
+void for_runs(std::span<const Run> runs, unsigned threads, Piece piece) {
+  constexpr std::size_t grain = 1024;
+  system::parallel_for(threads, runs.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) piece(runs[i]);
+  });
+}
+
+// Moves the runs to their places. Their order does not change, so no run moves over one that moves
+// the other way; of those that move the same way, the one in front goes first.
+void move_runs(std::span<const Run> runs, std::vector<Triple>& values) {
+  const auto move = [&values](const Run& run) {
+    const auto from = values.begin() + run.begin;
+    const auto to = values.begin() + run.final;
+    if (run.final < run.begin) {
+      std::copy(from, values.begin() + run.end, to);
+    } else {
+      std::copy_backward(from, values.begin() + run.end, to + (run.end - run.begin));
+    }
+  };
+  for (std::size_t i = 0; i < runs.size();) {
+    std::size_t end = i;
+    while (end < runs.size() && runs[end].final > runs[end].begin) ++end;
+    for (std::size_t j = end; j > i; --j) move(runs[j - 1]);
+    for (i = end; i < runs.size() && runs[i].final <= runs[i].begin; ++i) move(runs[i]);
+  }
+}
+
+// Seam sites that are on no face of the region have no face at all.
+void list_hidden(const SeamFaces& seam, std::span<const Index> names, TriangulationArrays& arrays) {
+  std::vector<bool> is_vertex(seam.sites().size(), false);
+  const Index first = seam.names_begin();
+  for (Index s = 0; s < seam.sites().size(); ++s) {
+    for (const Index f : seam.owned_by(s)) {
+      for (const Index v : seam.seam_corners(f - first)) is_vertex[v] = true;
+    }
+  }
+  for (Index s = 0; s < seam.sites().size(); ++s) {
+    if (!is_vertex[s]) arrays.hidden.push_back({names[seam.sites()[s].rank], no_index});
+  }
+  std::ranges::sort(arrays.hidden, {}, &Hidden::site);
+}
+
+}  // namespace
+
+bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_arrays,
+            std::span<const Index> names, unsigned threads, TriangulationArrays& arrays) {
+  const SeamFaces seam(results, {arrays.faces, arrays.neighbors}, std::move(seam_arrays));
+  list_hidden(seam, names, arrays);
+  const std::size_t expected = 2 * (names.size() - arrays.hidden.size()) - 4;
+  if (!seam.fits()) return false;
+  const Numbering numbering(results, seam);
+  if (numbering.num_faces() != expected) return false;
+
+  const Index names_begin = seam.names_begin();
+  const std::unique_ptr<Index[]> final_of(new Index[names_begin + seam.num_all()]);
+  const auto set_final = [&](const Run& run) {
+    for (Index f = run.begin; f < run.end; ++f) final_of[f] = run.final + (f - run.begin);
+  };
+  for_runs(numbering.block_runs(), threads, set_final);
+  for_runs(numbering.seam_runs(), threads, set_final);
+  const auto rename = [&](Triple v, Triple& faces, Triple n, Triple& neighbors) {
+    faces = {names[v[0]], names[v[1]], names[v[2]]};
+    neighbors = {final_of[n[0]], final_of[n[1]], final_of[n[2]]};
+  };
+  for_runs(numbering.block_runs(), threads, [&](const Run& run) {
+    for (Index f = run.begin; f < run.end; ++f) {
+      rename(arrays.faces[f], arrays.faces[f], arrays.neighbors[f], arrays.neighbors[f]);
+    }
+  });
+  system::parallel_invoke(
+      threads, [&] { move_runs(numbering.block_runs(), arrays.faces); },
+      [&] { move_runs(numbering.block_runs(), arrays.neighbors); });
+  for_runs(numbering.seam_runs(), threads, [&](const Run& run) {
+    rename(seam.corners(run.begin), arrays.faces[run.final], seam.neighbors(run.begin),
+           arrays.neighbors[run.final]);
+  });
+  arrays.faces.resize(expected);
+  arrays.neighbors.resize(expected);
+  arrays.dimension = 2;
+  for (const Index f : seam.ghost_faces()) {
+    if (seam.is_inside(f)) arrays.ghost_faces.push_back(final_of[names_begin + f]);
+  }
+  std::ranges::sort(arrays.ghost_faces);
+  return true;
+}
+
+}  // namespace rondel::bulk

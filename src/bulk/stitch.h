@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// From the final faces of the blocks and the triangulation of the seam sites to the result.
+//
+//      .-----.         The final faces leave a region open. All corners of the faces there are
+//     /final /|        seam sites; these faces have no site above them, so they are faces of the
+//    '------' |seam    triangulation of the seam sites as well. A search from the edges of the
+//     \final \|        region finds them among its faces, and so which ones to leave out.
+//      '-----'
+#pragma once
+
+#include <span>
+
+#include "bulk/faces.h"
+
+namespace rondel::bulk {
+
+// `results` are those of the blocks in their order, and `arrays.faces` and `arrays.neighbors` the
+// store that they wrote to; the result replaces it in place. `seam` is the triangulation of the
+// seam sites, named by their position in this order; `names` has the name to report for each rank.
+// Returns false if the parts do not fit, which cannot be as long as every final face is one.
+bool stitch(std::span<const BlockResult> results, TriangulationArrays seam,
+            std::span<const Index> names, unsigned threads, TriangulationArrays& arrays);
+
+}  // namespace rondel::bulk

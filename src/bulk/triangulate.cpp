@@ -1,0 +1,191 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "bulk/triangulate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "bulk/block.h"
+#include "bulk/stitch.h"
+#include "predicates/tally.h"
+#include "system/huge_pages.h"
+#include "system/parallel.h"
+
+namespace rondel::bulk {
+namespace {
+
+using incremental::Triangulated;
+
+// With fewer sites most would be in the seam.
+constexpr std::size_t least_sites = std::size_t{1} << 13;
+
+// The mesh of a block lies in the second cache, and its seam is a small part of it. A fixed number,
+// so that the work does not depend on the threads.
+constexpr std::size_t block_sites = std::size_t{1} << 15;
+
+// The distances of weighted sites from the center, rounded outwards.
+void find_sizes(Input& input) {
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  const predicates::Vector center = exact::to_vector(input.options.sphere.center);
+  for (const Point& p : input.sites) {
+    const predicates::Vector ray = exact::to_vector(p) - center;
+    const double size2 = dot(ray, ray);
+    least = std::min(least, size2);
+    most = std::max(most, size2);
+  }
+  input.extent.least_size = std::sqrt(least) * (1 - 0x1p-48);
+  input.extent.most_size = std::sqrt(most) * (1 + 0x1p-48);
+}
+
+Input make_input(std::span<const Point> sites, std::span<const Index> order,
+                 const Options& options) {
+  Input input = {sites, order, options};
+  if (options.model == Model::weighted) find_sizes(input);
+  return input;
+}
+
+// What the threads that work on blocks share.
+template <incremental::SphereTraits T>
+class Work {
+ public:
+  Work(const Progress& progress, std::size_t num_blocks)
+      : progress_(progress), num_blocks_(num_blocks) {}
+
+  // There are as many workspaces as threads at work.
+  std::unique_ptr<Workspace<T>> begin_block() {
+    const std::lock_guard guard(mutex_);
+    if (free_.empty()) return std::make_unique<Workspace<T>>();
+    auto workspace = std::move(free_.back());
+    free_.pop_back();
+    return workspace;
+  }
+
+  void end_block(std::unique_ptr<Workspace<T>> workspace) {
+    const std::lock_guard guard(mutex_);
+    free_.push_back(std::move(workspace));
+    ++num_done_;
+    if (progress_) {
+      progress_("triangulate", static_cast<double>(num_done_) / static_cast<double>(num_blocks_));
+    }
+  }
+
+ private:
+  const Progress& progress_;
+  std::size_t num_blocks_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace<T>>> free_;
+  std::size_t num_done_ = 0;
+};
+
+template <incremental::SphereTraits T>
+std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vector<Block>& blocks,
+                                            const FaceStore& store) {
+  std::vector<BlockResult> results(blocks.size());
+  Work<T> work(input.options.progress, blocks.size());
+  system::parallel_for(
+      input.options.threads, blocks.size(), 1, [&](std::size_t begin, std::size_t /*end*/) {
+        auto workspace = work.begin_block();
+        results[begin] = BlockTriangulation<T>(input, blocks[begin], *workspace).run(store);
+        work.end_block(std::move(workspace));
+      });
+  return results;
+}
+
+// Whether blocks would leave little to the seam, judged by some small ones. They do not where sites
+// lie on curves, or are hidden: then all is seam, and blocks are a detour.
+template <incremental::SphereTraits T>
+bool has_short_seams(const Input& input) {
+  constexpr std::size_t trial_sites = 1024;
+  constexpr std::size_t share = 32;  // of the sites, for all trials
+  const auto num_ranks = static_cast<Index>(input.order.size());
+  const auto position = [&](Index rank) { return input.position(rank); };
+  const auto num_trials = std::clamp<std::size_t>(num_ranks / (share * trial_sites), 1, 4);
+  Workspace<T> workspace;
+  std::vector<Triple> corners(2 * trial_sites);
+  std::vector<Triple> neighbors(2 * trial_sites);
+  std::size_t num_sites = 0;
+  std::size_t num_seam_sites = 0;
+  for (std::size_t i = 0; i < num_trials; ++i) {
+    const auto middle = static_cast<Index>((2 * i + 1) * num_ranks / (2 * num_trials));
+    const Block block = block_around(middle, num_ranks, trial_sites, position);
+    Input trial = input;
+    trial.order = input.order.subspan(block.begin, block.end - block.begin);
+    const BlockResult result =
+        BlockTriangulation<T>(trial, {0, block.end - block.begin, block.cell}, workspace)
+            .run({corners, neighbors});
+    num_sites += trial.order.size();
+    num_seam_sites += result.seam_sites.size();
+  }
+  return 3 * num_seam_sites < 2 * num_sites;
+}
+
+bool is_worthwhile(const Input& input) {
+  return input.options.model == Model::projected
+             ? has_short_seams<incremental::ProjectedPoints>(input)
+             : has_short_seams<incremental::WeightedPoints>(input);
+}
+
+void resize_large(std::vector<Triple>& values, std::size_t size) {
+  system::reserve_large(values, size);
+  values.resize(size);
+}
+
+}  // namespace
+
+std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
+                                                  std::span<const Index> order,
+                                                  std::span<const Duplicate> renamed,
+                                                  const Options& options,
+                                                  std::size_t max_block_sites) {
+  const Input input = make_input(sites, order, options);
+  const std::size_t num_ranks = input.order.size();
+  const unsigned threads = system::num_threads(input.options.threads);
+  const auto blocks = make_blocks(static_cast<Index>(num_ranks), max_block_sites,
+                                  [&](Index rank) { return input.position(rank); });
+  Triangulated result;
+  system::parallel_invoke(
+      threads, [&] { resize_large(result.arrays.faces, 2 * num_ranks); },
+      [&] { resize_large(result.arrays.neighbors, 2 * num_ranks); });
+  const FaceStore store = {result.arrays.faces, result.arrays.neighbors};
+  const auto results = input.options.model == Model::projected
+                           ? triangulate_blocks<incremental::ProjectedPoints>(input, blocks, store)
+                           : triangulate_blocks<incremental::WeightedPoints>(input, blocks, store);
+
+  std::vector<Point> seam_points;
+  for (const BlockResult& block : results) {
+    for (const SeamSite& s : block.seam_sites)
+      seam_points.push_back(input.sites[input.order[s.rank]]);
+  }
+  std::vector<Index> seam_order(seam_points.size());
+  std::iota(seam_order.begin(), seam_order.end(), Index{0});
+  Triangulated seam =
+      2 * seam_points.size() < num_ranks
+          ? triangulate(seam_points, std::move(seam_order), {}, input.options)
+          : incremental::triangulate(seam_points, std::move(seam_order), {}, input.options);
+  if (seam.arrays.dimension < 2) return std::nullopt;
+  result.tally = seam.tally;
+  for (const BlockResult& block : results) predicates::add(result.tally, block.tally);
+  std::vector<Index> names(input.order.begin(), input.order.end());
+  for (const auto& [rank, name] : renamed) names[rank] = name;
+  if (!stitch(results, std::move(seam.arrays), names, threads, result.arrays)) return std::nullopt;
+  return result;
+}
+
+Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
+                         std::span<const Duplicate> renamed, const Options& options) {
+  if (order.size() >= least_sites && is_worthwhile(make_input(sites, order, options))) {
+    auto result = triangulate_by_blocks(sites, order, renamed, options, block_sites);
+    if (result) return *std::move(result);
+  }
+  return incremental::triangulate(sites, std::move(order), renamed, options);
+}
+
+}  // namespace rondel::bulk

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The bulk build: from sites in spatial order to the arrays of the result, by certified blocks.
+//
+// 1. Blocks: the sites of a cell of the Hilbert curve, triangulated by divide and conquer.
+// 2. Certificate: the faces of a block that no site outside can be in conflict with are final.
+// 3. Seam: the sites of all other faces, some sqrt(n) of n, are triangulated by themselves.
+// 4. Stitch: the final faces and those of the seam in the region between them are the result.
+//
+// Since the triangulation is unique, neither the blocks nor the threads can change the result.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "incremental/triangulate.h"
+
+namespace rondel::bulk {
+
+// As incremental::triangulate.
+incremental::Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
+                                      std::span<const Duplicate> renamed, const Options& options);
+
+// The same with blocks of at most so many sites, or nothing if the sites do not suit this: when the
+// seam has no hull, because all its sites lie on one great circle.
+std::optional<incremental::Triangulated> triangulate_by_blocks(std::span<const Point> sites,
+                                                               std::span<const Index> order,
+                                                               std::span<const Duplicate> renamed,
+                                                               const Options& options,
+                                                               std::size_t max_block_sites);
+
+}  // namespace rondel::bulk
