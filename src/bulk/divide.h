@@ -71,21 +71,25 @@ class Divide {
     Edge edge = no_index;
   };
 
-  [[nodiscard]] std::uint64_t bit_of(Index i, unsigned axis, int bit) const {
-    return ((axis == 0 ? positions_[i].u : positions_[i].v) >> bit) & 1U;
-  }
-
   // The first of the sites begin ... end-1 whose bit is `last`; those before have the other value.
+  // Few are counted, as nothing would predict a search.
   [[nodiscard]] Index split(Index begin, Index end, unsigned axis, int bit, unsigned last) const {
-    while (begin < end) {
+    constexpr Index few = 16;
+    const std::uint64_t* const positions = &positions_.data()->u + axis;  // every other number
+    const auto is_last = [positions, bit, last](Index i) {
+      return ((positions[2 * std::size_t{i}] >> bit) & 1U) == last;
+    };
+    while (end - begin > few) {
       const Index middle = begin + (end - begin) / 2;
-      if (bit_of(middle, axis, bit) == last) {
+      if (is_last(middle)) {
         end = middle;
       } else {
         begin = middle + 1;
       }
     }
-    return begin;
+    Index count = 0;
+    for (Index i = begin; i < end; ++i) count += static_cast<Index>(is_last(i));
+    return end - count;
   }
 
   Part solve(Index begin, Index end, unsigned state, int bit) {

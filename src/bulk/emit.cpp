@@ -4,6 +4,8 @@
 #include "bulk/emit.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 
 #include "bulk/open_faces.h"
 
@@ -28,18 +30,22 @@ class Emission {
 
   void run(const std::vector<Edge>& open) {
     constexpr Index seam = 0;
-    for (Edge e = 0; e < graph_.edge_limit(); ++e) {
-      if (graph_.is_alive(e)) edge_at_[graph_.origin(e)] = e;
+    for (Edge e = 0; e < graph_.edge_limit(); e += 2) {
+      const Index a = graph_.target(e + 1);
+      if (a == no_index) continue;
+      edge_at_[a] = e;
+      edge_at_[graph_.target(e)] = e + 1;
     }
     for (const Edge e : open) seam_index_[graph_.origin(e)] = seam;
     result_.faces_begin = 2 * first_;
     Index face = result_.faces_begin;
-    for (Index v = 0; v < edge_at_.size(); ++v) {
-      const Index begin = face;
+    const auto num_sites = static_cast<Index>(edge_at_.size());
+    for (Index v = 0; v < num_sites; ++v) {
       if (seam_index_[v] == no_index && edge_at_[v] != no_index) {
         face = name_faces_of<false>(v, face);
         continue;
       }
+      const Index begin = face;
       if (edge_at_[v] != no_index) face = name_faces_of<true>(v, face);
       seam_index_[v] = static_cast<Index>(result_.seam_sites.size());
       result_.seam_sites.push_back({first_ + v, begin, face});
@@ -54,9 +60,10 @@ class Emission {
   // which faces these are, so the loop has no branch for it.
   template <bool has_open_faces>
   Index name_faces_of(Index v, Index face) {
-    const PlaneGraph::Links* const links = graph_.links();
-    Owned* owned = owned_.data();
-    std::size_t count = 0;
+    PlaneGraph::Links* const links = graph_.links();
+    Edge* owned = owned_.data();
+    Index count = 0;
+    std::uint64_t first = ~std::uint64_t{0};  // second corner and place in `owned`
     const Edge start = edge_at_[v];
     Edge e = start;
     Index b = links[e].target;
@@ -64,54 +71,57 @@ class Emission {
       const PlaneGraph::Links& edge = links[e];
       const Index c = links[edge.next].target;
       if (count == owned_.size()) {
-        owned_.resize(2 * count);
+        owned_.resize(2 * owned_.size());
         owned = owned_.data();
       }
-      owned[count] = {e, b, c};
+      owned[count] = e;
       const bool is_final = !has_open_faces || edge.face != open_face;
-      count += static_cast<std::size_t>(v < std::min(b, c)) & static_cast<std::size_t>(is_final);
+      const auto is_owned = static_cast<Index>(v < std::min(b, c)) & static_cast<Index>(is_final);
+      const std::uint64_t place = std::uint64_t{b} << 32 | count;
+      first = std::min(first, place | (std::uint64_t{is_owned} - 1));
+      count += is_owned;
       e = edge.next;
       b = c;
     } while (e != start);
-    std::size_t i = 0;
-    for (std::size_t j = 1; j < count; ++j) i = owned_[j].b < owned_[i].b ? j : i;
-    for (std::size_t n = 0; n < count; ++n) {
-      const Owned& o = owned_[i];
+    Triple* const corners = store_.corners.data();
+    Triple* const neighbors = store_.neighbors.data();
+    auto i = static_cast<Index>(first);
+    for (Index n = 0; n < count; ++n, ++face) {
+      const Edge from = owned[i];
       i = i + 1 == count ? 0 : i + 1;
-      store_.corners[face] = {first_ + v, first_ + o.b, first_ + o.c};
-      store_.neighbors[face][0] = o.edge;
-      const Edge g = graph_.face_next(o.edge);
-      graph_.set_face(o.edge, face);
-      graph_.set_face(g, face);
-      graph_.set_face(graph_.face_next(g), face);
-      ++face;
+      const Edge to = links[from].next ^ 1;
+      corners[face] = {first_ + v, first_ + links[from].target, first_ + links[to ^ 1].target};
+      neighbors[face][0] = from;
+      links[from].face = face;
+      links[links[from ^ 1].previous].face = face;
+      links[to].face = face;
     }
     return face;
   }
 
   void link() {
+    const PlaneGraph::Links* const links = graph_.links();
+    Triple* const neighbors = store_.neighbors.data();
     for (Index face = result_.faces_begin; face < result_.faces_end; ++face) {
-      const Edge f = store_.neighbors[face][0];
-      const Edge g = graph_.face_next(f);
-      const Edge h = graph_.face_next(g);
-      store_.neighbors[face] = {across(g, face, 0), across(h, face, 1), across(f, face, 2)};
+      const Edge f = neighbors[face][0];
+      const Edge g = links[f ^ 1].previous;
+      const Edge h = links[g ^ 1].previous;
+      const Triple across = {links[g ^ 1].face, links[h ^ 1].face, links[f ^ 1].face};
+      neighbors[face] = across;
+      if (std::max({across[0], across[1], across[2]}) == open_face) link_seam({g, h, f}, face);
     }
   }
 
-  Index across(Edge e, Index face, unsigned corner) {
-    const Index other = graph_.face(e ^ 1);
-    if (other != open_face) return other;
-    result_.seam_edges.push_back(
-        {seam_index_[graph_.origin(e)], seam_index_[graph_.target(e)], face, corner});
-    return no_index;
+  // Its halfedges, by the opposite corners.
+  void link_seam(const std::array<Edge, 3>& halfedges, Index face) {
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const Edge e = halfedges[corner];
+      if (graph_.face(e ^ 1) != open_face) continue;
+      store_.neighbors[face][corner] = no_index;
+      result_.seam_edges.push_back(
+          {seam_index_[graph_.origin(e)], seam_index_[graph_.target(e)], face, corner});
+    }
   }
-
-  // The face to the left of `edge`, which leads from v to b; its third corner is c.
-  struct Owned {
-    Edge edge;
-    Index b;
-    Index c;
-  };
 
   PlaneGraph& graph_;
   Index first_;
@@ -119,7 +129,7 @@ class Emission {
   BlockResult& result_;
   std::vector<Edge>& edge_at_;
   std::vector<Index>& seam_index_;
-  std::vector<Owned> owned_ = std::vector<Owned>(16);
+  std::vector<Edge> owned_ = std::vector<Edge>(16);
 };
 
 }  // namespace

@@ -48,6 +48,7 @@ class PlaneGraph {
 
   // For loops: the same links without a look at this object for each.
   [[nodiscard]] const Links* links() const { return edges_.get(); }
+  [[nodiscard]] Links* links() { return edges_.get(); }
 
   [[nodiscard]] Edge next(Edge e) const { return edges_[e].next; }
   [[nodiscard]] Edge previous(Edge e) const { return edges_[e].previous; }

@@ -96,23 +96,22 @@ void for_runs(std::span<const Run> runs, unsigned threads, Piece piece) {
   });
 }
 
-// Moves the runs to their places. Their order does not change, so no run moves over one that moves
-// the other way; of those that move the same way, the one in front goes first.
-void move_runs(std::span<const Run> runs, std::vector<Triple>& values) {
-  const auto move = [&values](const Run& run) {
-    const auto from = values.begin() + run.begin;
-    const auto to = values.begin() + run.final;
-    if (run.final < run.begin) {
-      std::copy(from, values.begin() + run.end, to);
-    } else {
-      std::copy_backward(from, values.begin() + run.end, to + (run.end - run.begin));
-    }
+// Calls move(f, g) for all faces of the runs, preliminary and final name, so that no face is moved
+// to where another one waits. The order of the runs does not change, so no run moves over one that
+// moves the other way; of those that move the same way, the one in front goes first.
+template <class Move>
+void move_runs(std::span<const Run> runs, Move move) {
+  const auto move_down = [&move](const Run& run) {
+    for (Index f = run.begin; f < run.end; ++f) move(f, run.final + (f - run.begin));
+  };
+  const auto move_up = [&move](const Run& run) {
+    for (Index f = run.end; f > run.begin; --f) move(f - 1, run.final + (f - 1 - run.begin));
   };
   for (std::size_t i = 0; i < runs.size();) {
     std::size_t end = i;
     while (end < runs.size() && runs[end].final > runs[end].begin) ++end;
-    for (std::size_t j = end; j > i; --j) move(runs[j - 1]);
-    for (i = end; i < runs.size() && runs[i].final <= runs[i].begin; ++i) move(runs[i]);
+    for (std::size_t j = end; j > i; --j) move_up(runs[j - 1]);
+    for (i = end; i < runs.size() && runs[i].final <= runs[i].begin; ++i) move_down(runs[i]);
   }
 }
 
@@ -149,21 +148,35 @@ bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_array
   };
   for_runs(numbering.block_runs(), threads, set_final);
   for_runs(numbering.seam_runs(), threads, set_final);
-  const auto rename = [&](Triple v, Triple& faces, Triple n, Triple& neighbors) {
-    faces = {names[v[0]], names[v[1]], names[v[2]]};
-    neighbors = {final_of[n[0]], final_of[n[1]], final_of[n[2]]};
+  std::vector<Triple>& faces = arrays.faces;
+  std::vector<Triple>& neighbors = arrays.neighbors;
+  const auto set_face = [&](const Triple& v, Index to) {
+    faces[to] = {names[v[0]], names[v[1]], names[v[2]]};
   };
-  for_runs(numbering.block_runs(), threads, [&](const Run& run) {
-    for (Index f = run.begin; f < run.end; ++f) {
-      rename(arrays.faces[f], arrays.faces[f], arrays.neighbors[f], arrays.neighbors[f]);
-    }
-  });
-  system::parallel_invoke(
-      threads, [&] { move_runs(numbering.block_runs(), arrays.faces); },
-      [&] { move_runs(numbering.block_runs(), arrays.neighbors); });
+  const auto set_neighbors = [&](const Triple& n, Index to) {
+    neighbors[to] = {final_of[n[0]], final_of[n[1]], final_of[n[2]]};
+  };
+  if (threads == 1) {
+    move_runs(numbering.block_runs(), [&](Index from, Index to) {
+      set_face(faces[from], to);
+      set_neighbors(neighbors[from], to);
+    });
+  } else {
+    for_runs(numbering.block_runs(), threads, [&](const Run& run) {
+      for (Index f = run.begin; f < run.end; ++f) {
+        set_face(faces[f], f);
+        set_neighbors(neighbors[f], f);
+      }
+    });
+    const auto move_all = [&](std::vector<Triple>& values) {
+      move_runs(numbering.block_runs(), [&](Index from, Index to) { values[to] = values[from]; });
+    };
+    system::parallel_invoke(
+        threads, [&] { move_all(faces); }, [&] { move_all(neighbors); });
+  }
   for_runs(numbering.seam_runs(), threads, [&](const Run& run) {
-    rename(seam.corners(run.begin), arrays.faces[run.final], seam.neighbors(run.begin),
-           arrays.neighbors[run.final]);
+    set_face(seam.corners(run.begin), run.final);
+    set_neighbors(seam.neighbors(run.begin), run.final);
   });
   arrays.faces.resize(expected);
   arrays.neighbors.resize(expected);
