@@ -51,7 +51,8 @@ class Divide {
       : sites_(sites), positions_(sites.positions()), misplaced_(misplaced), graph_(graph) {
     for (const Misplaced& m : misplaced) misplaced_bits_ |= std::uint64_t{1} << m.bit;
     for (int bit = 0; bit <= blocks::position_bits; ++bit) {
-      limits_[bit] = sites.limits(std::ldexp(1, bit + 1 - blocks::position_bits));
+      limits_[static_cast<std::size_t>(bit)] =
+          sites.limits(std::ldexp(1, bit + 1 - blocks::position_bits));
     }
   }
 
@@ -97,7 +98,7 @@ class Divide {
     if (count == 0 || has_failed_) return {};
     if (count == 1) return {begin};
     if (count == 2) return {begin, graph_.add(begin, begin + 1)};
-    if (count == 3) return solve_three(begin, limits_[bit + 1]);
+    if (count == 3) return solve_three(begin, limits_of(bit + 1));
     if (bit < least_bit || is_misplaced(begin, end, bit)) return fail();
     // The curve takes the quadrants (u, v) = 00, 01, 11, 10, with u and v exchanged when bit 0 of
     // the state is set, and turned around when bit 1 is.
@@ -109,7 +110,7 @@ class Divide {
     const auto child = [&](Index b, Index e, unsigned rank) {
       return solve(b, e, state ^ blocks::hilbert_table::state_change[rank], bit - 1);
     };
-    const CellLimits& limits = limits_[bit + 1];
+    const CellLimits& limits = limits_of(bit + 1);
     const Part p0 = child(begin, low, 0);
     const Part p1 = child(low, middle, 1);
     const Part before = merge(p0, p1, limits);
@@ -123,6 +124,11 @@ class Divide {
            std::ranges::any_of(misplaced_, [&](const Misplaced& m) {
              return m.bit == bit && begin <= m.site && m.site < end;
            });
+  }
+
+  // For a cell of 2^bits positions either way.
+  [[nodiscard]] const CellLimits& limits_of(int bits) const {
+    return limits_[static_cast<std::size_t>(bits)];
   }
 
   Part fail() {
@@ -286,7 +292,7 @@ class Divide {
   std::span<const Misplaced> misplaced_;
   std::uint64_t misplaced_bits_ = 0;
   PlaneGraph& graph_;
-  std::array<CellLimits, blocks::position_bits + 1> limits_;  // for cells of 2^index positions
+  std::array<CellLimits, blocks::position_bits + 1> limits_;  // by bits
   bool has_failed_ = false;
 };
 

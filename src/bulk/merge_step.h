@@ -36,18 +36,20 @@ class MergeStep {
 
   // Positive if the apex lies to the left of the edge, seen from outside.
   [[nodiscard]] Sign orientation(const Face& face) const {
-    if (face.normal.w > limits_.orientation) return Sign::positive;
-    if (face.normal.w < -limits_.orientation) return Sign::negative;
-    return sites_.orientation(l_, r_, face.apex);
+    // Overflow leaves infinities and what is not a number: unsure, too.
+    if (!(std::abs(face.normal.w) > limits_.orientation)) [[unlikely]] {
+      return sites_.orientation(l_, r_, face.apex);
+    }
+    return face.normal.w > 0 ? Sign::positive : Sign::negative;
   }
 
   [[nodiscard]] bool is_in_conflict(const Face& face, Index y) const {
     const double value = dot(face.normal, from_l(y));
-    if (std::abs(value) > limits_.conflict) {
-      sites_.count_filtered();
-      return value < 0;
+    if (!(std::abs(value) > limits_.conflict)) [[unlikely]] {
+      return sites_.is_in_conflict(l_, r_, face.apex, y);
     }
-    return sites_.is_in_conflict(l_, r_, face.apex, y);
+    sites_.count_filtered();
+    return value < 0;
   }
 
  private:

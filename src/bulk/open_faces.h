@@ -44,7 +44,7 @@ class OpenFaces {
   const std::vector<PlaneGraph::Edge>& find(PlaneGraph::Edge boundary);
 
  private:
-  [[nodiscard]] bool is_final(Index a, Index b, Index c) const;
+  [[nodiscard]] bool is_final(Index i, Index j, Index k) const;
 
   PlaneGraph& graph_;
   Ray ray_;

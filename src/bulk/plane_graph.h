@@ -38,7 +38,7 @@ class PlaneGraph {
     // Deleted pairs are used again, and a plane graph has less than three edges a vertex.
     if (capacity_ < max_vertices) {
       edges_.reset();
-      edges_.reset(new Links[6 * max_vertices]);
+      edges_ = std::make_unique_for_overwrite<Links[]>(6 * max_vertices);
       system::advise_huge_pages(edges_.get(), 6 * max_vertices * sizeof(Links));
       capacity_ = max_vertices;
     }
@@ -107,7 +107,7 @@ class PlaneGraph {
 
  private:
   Edge new_pair() {
-    if (free_ == no_index) {
+    if (free_ == no_index) [[likely]] {
       limit_ += 2;
       return limit_ - 2;
     }

@@ -28,7 +28,7 @@ constexpr std::size_t least_sites = std::size_t{1} << 13;
 
 // The mesh of a block lies in the second cache, and its seam is a small part of it. A fixed number,
 // so that the work does not depend on the threads.
-constexpr std::size_t block_sites = std::size_t{1} << 15;
+constexpr std::size_t block_sites = 3 << 14;
 
 // The distances of weighted sites from the center, rounded outwards.
 void find_sizes(Input& input) {
@@ -173,9 +173,15 @@ std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
   if (seam.arrays.dimension < 2) return std::nullopt;
   result.tally = seam.tally;
   for (const BlockResult& block : results) predicates::add(result.tally, block.tally);
-  std::vector<Index> names(input.order.begin(), input.order.end());
-  for (const auto& [rank, name] : renamed) names[rank] = name;
-  if (!stitch(results, std::move(seam.arrays), names, threads, result.arrays)) return std::nullopt;
+  std::vector<Index> names;
+  if (!renamed.empty()) {
+    names.assign(order.begin(), order.end());
+    for (const auto& [rank, name] : renamed) names[rank] = name;
+  }
+  if (!stitch(results, std::move(seam.arrays), names.empty() ? order : names, threads,
+              result.arrays)) {
+    return std::nullopt;
+  }
   return result;
 }
 
