@@ -28,6 +28,7 @@
 #include "bulk/collinear.h"
 #include "bulk/merge_step.h"
 #include "bulk/plane_graph.h"
+#include "predicates/ray_order.h"
 
 namespace rondel::bulk {
 
@@ -97,7 +98,7 @@ class Divide {
     const Index count = end - begin;
     if (count == 0 || has_failed_) return {};
     if (count == 1) return {begin};
-    if (count == 2) return {begin, graph_.add(begin, begin + 1)};
+    if (count == 2) return solve_two(begin);
     if (count == 3) return solve_three(begin, limits_of(bit + 1));
     if (bit < least_bit || is_misplaced(begin, end, bit)) return fail();
     // The curve takes the quadrants (u, v) = 00, 01, 11, 10, with u and v exchanged when bit 0 of
@@ -134,6 +135,23 @@ class Divide {
   Part fail() {
     has_failed_ = true;
     return {};
+  }
+
+  // Of two weighted sites on one ray the lower one is hidden, which no cell tells from the other.
+  Part solve_two(Index a) {
+    if (T::hides_sites && is_close(a, a + 1) &&
+        predicates::are_on_one_ray(sites_.site(a), sites_.site(a + 1), sites_.center())) {
+      return fail();
+    }
+    return {a, graph_.add(a, a + 1)};
+  }
+
+  // Whether two positions are those of one ray, but for roundings.
+  [[nodiscard]] bool is_close(Index a, Index b) const {
+    constexpr std::uint64_t roundings = 16;
+    const CellPosition& p = positions_[a];
+    const CellPosition& q = positions_[b];
+    return p.u - q.u + roundings < 2 * roundings && p.v - q.v + roundings < 2 * roundings;
   }
 
   Part solve_three(Index a, const CellLimits& limits) {
@@ -248,7 +266,7 @@ class Divide {
     const PlaneGraph::Links* const links = graph_.links();
     Index l = graph_.origin(base);
     Index r = graph_.target(base);
-    for (;;) {
+    while (!graph_.is_full()) {
       const MergeStep<T> step(sites_, limits, l, r);
       Edge left = links[base].next;
       Face left_face = step.face(links[left].target);
@@ -285,6 +303,7 @@ class Divide {
         base = graph_.add(l, r, left ^ 1, links[base ^ 1].previous);
       }
     }
+    has_failed_ = true;
   }
 
   const CellSites<T>& sites_;

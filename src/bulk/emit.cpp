@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 
+#include "blocks/prefetch.h"
 #include "bulk/open_faces.h"
 
 namespace rondel::bulk {
@@ -40,7 +41,11 @@ class Emission {
     result_.faces_begin = 2 * first_;
     Index face = result_.faces_begin;
     const auto num_sites = static_cast<Index>(edge_at_.size());
+    const auto prefetch_edge = [this](Edge e) {
+      if (e < graph_.edge_limit()) blocks::prefetch(&graph_.links()[e]);
+    };
     for (Index v = 0; v < num_sites; ++v) {
+      prefetch_edge(edge_at_[std::min<std::size_t>(v + blocks::prefetch_distance, num_sites - 1)]);
       if (seam_index_[v] == no_index && edge_at_[v] != no_index) {
         face = name_faces_of<false>(v, face);
         continue;
@@ -103,6 +108,8 @@ class Emission {
     const PlaneGraph::Links* const links = graph_.links();
     Triple* const neighbors = store_.neighbors.data();
     for (Index face = result_.faces_begin; face < result_.faces_end; ++face) {
+      const Index ahead = std::min<Index>(face + blocks::prefetch_distance, result_.faces_end - 1);
+      if (ahead > face) blocks::prefetch(&links[neighbors[ahead][0]]);
       const Edge f = neighbors[face][0];
       const Edge g = links[f ^ 1].previous;
       const Edge h = links[g ^ 1].previous;

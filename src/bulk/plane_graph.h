@@ -64,6 +64,9 @@ class PlaneGraph {
   [[nodiscard]] Edge edge_limit() const { return limit_; }
   [[nodiscard]] bool is_alive(Edge e) const { return edges_[e].target != no_index; }
 
+  // Whether there are as many edges as a plane graph can have, so that no more may be added.
+  [[nodiscard]] bool is_full() const { return limit_ == 6 * capacity_; }
+
   // A new pair from a to b, each alone in its ring. Returns the halfedge from a.
   Edge add(Index a, Index b) {
     const Edge e = new_pair();
