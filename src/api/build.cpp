@@ -111,7 +111,7 @@ Triangulation build(std::span<const Point> sites, const Options& options,
   built.arrays.num_sites = sites.size();
   built.arrays.duplicates = std::move(order.duplicates);
   if (!rest.empty()) add_inner_sites(sites, rest, built.arrays);
-  incremental::assign_hidden_faces(sites, options.sphere.center, built.arrays);
+  incremental::assign_hidden_faces(sites, options.sphere.center, built.arrays, options.threads);
   announce(options, "triangulate", 1);
   report.triangulate_seconds = seconds_since(order_end);
   report.rungs = built.tally;

@@ -55,7 +55,7 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
   arrays.dimension = 2;
   arrays.duplicates = std::move(duplicates);
   incremental::report_ghosts(copy, kinds, arrays.ghost_faces);
-  incremental::assign_hidden_faces(sites, center, arrays);
+  incremental::assign_hidden_faces(sites, center, arrays, 1);
   return arrays;
 }
 

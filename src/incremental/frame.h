@@ -36,6 +36,12 @@ class Frame {
     return {v.x * scale_.x, v.y * scale_.y, v.z * scale_.z};
   }
 
+  // to(q) - to(p), off by at most 2^-53 of itself and the same absolute error.
+  [[nodiscard]] predicates::Vector between(const Point& p, const Point& q) const {
+    const predicates::Vector v = half(q) - half(p);
+    return {v.x * scale_.x, v.y * scale_.y, v.z * scale_.z};
+  }
+
  private:
   // Halves, so that no difference overflows.
   static predicates::Vector half(const Point& p) { return {p.x / 2, p.y / 2, p.z / 2}; }

@@ -17,7 +17,8 @@ namespace rondel::incremental {
 //
 // The hidden sites of a regular triangulation in dimension 2 lie in its hull, so their rays do
 // meet solid faces. Expected time is constant for each site. All else in `arrays` must be final.
+// The result does not depend on `threads`, of which 0 means one for each core.
 void assign_hidden_faces(std::span<const Point> sites, const Point& center,
-                         TriangulationArrays& arrays);
+                         TriangulationArrays& arrays, unsigned threads);
 
 }  // namespace rondel::incremental

@@ -32,7 +32,7 @@ TriangulationArrays insert_all(std::span<const Point> sites, const Point& center
       incremental::triangulate(sites, std::move(order.order), order.renamed, options).arrays;
   arrays.num_sites = sites.size();
   arrays.duplicates = std::move(order.duplicates);
-  incremental::assign_hidden_faces(sites, center, arrays);
+  incremental::assign_hidden_faces(sites, center, arrays, options.threads);
   return arrays;
 }
 
