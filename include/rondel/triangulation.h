@@ -34,7 +34,7 @@ struct Hidden {
 /// What a build did and how long it took.
 struct BuildReport {
   Tally rungs{};
-  unsigned threads = 1;  ///< at most; the construction uses one, its duals all
+  unsigned threads = 1;  ///< at most
   double order_seconds = 0;
   double triangulate_seconds = 0;
 };
