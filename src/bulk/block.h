@@ -60,8 +60,7 @@ class BlockTriangulation {
     }
     const Cone cone = make_cone(block_.cell, sites_.hand());
     OpenFaces open(
-        work_.graph, [this](Index i) { return sites_.ray(i); }, cone,
-        T::hides_sites ? input_.extent.most_size : 0);
+        work_.graph, [this](Index i) { return sites_.ray(i); }, cone, T::hides_sites);
     emit_faces(work_.graph, block_.begin, num_sites(), open.find(boundary), work_.emission, store,
                result);
     return result;
@@ -93,8 +92,11 @@ class BlockTriangulation {
   }
 
   // Rounding moves positions by less than `rounding`. Divide does not look at the lowest bits.
+  static constexpr std::uint64_t rounding = 4;
+  static bool is_close(std::uint64_t p, std::uint64_t q) {
+    return p < q + rounding && q < p + rounding;
+  }
   static bool is_doubtful(std::uint64_t p) {
-    constexpr std::uint64_t rounding = 4;
     constexpr std::uint64_t mask = (std::uint64_t{1} << Divide<T>::least_bit) - 1;
     return ((p + rounding) & mask) < 2 * rounding;
   }
@@ -104,6 +106,7 @@ class BlockTriangulation {
     const CellPosition& p = sites_.positions()[i];
     const blocks::CubePosition q = blocks::exact_cube_position(sites_.site(i), sites_.center());
     if (q.face != block_.cell.corner.face) return false;
+    if (!is_close(p.u, q.u) || !is_close(p.v, q.v)) return false;
     const std::uint64_t difference = ((p.u ^ q.u) | (p.v ^ q.v)) >> Divide<T>::least_bit;
     if (difference != 0) {
       work_.misplaced.push_back(

@@ -62,10 +62,9 @@ void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> o
   num_filtered_ = 0;
   tally_ = {};
   exact_.assign({}, {}, center);
-  // |p| is off by 4.5 units with its differences, z and the quotient add 2; w is below sqrt(3)
-  // s/|p|.
+  // w is off by at most 4.4 units, or 2 with weights; it is below sqrt(3) s/|p|.
   const double most_w = 1.74 * (is_weighted<T> ? extent.most_size / extent.least_size : 1);
-  conflict_bound_ = find_conflict_bound(6.5 * most_w, most_w);
+  conflict_bound_ = find_conflict_bound(4.5 * most_w, most_w);
 
   points_.resize(order.size());
   positions_.resize(order.size());
@@ -84,11 +83,13 @@ void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> o
     const double z = dot(ray, out);
     const double u = dot(ray, u_axis) / z;
     const double v = dot(ray, v_axis) / z;
-    const double size = is_weighted<T> ? extent.most_size : std::sqrt(dot(ray, ray));
-    points_[i] = {u, hand_ * v, size / z, 0};
+    const double w = is_weighted<T> ? extent.most_size / z : std::sqrt(1 + (u * u + v * v));
+    points_[i] = {u, hand_ * v, w, 0};
+    // Where a difference overflows, or z is 0, the position is the last one and wrong.
     const auto position = [](double ratio) {
+      constexpr double last = 0x1p52 - 1;
       const double p = (ratio + 1) * 0x1p51;  // position_bits - 1
-      return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::min(p, 0x1p52 - 1)));
+      return static_cast<std::uint64_t>(static_cast<std::int64_t>(p < last ? p : last));
     };
     positions_[i] = {position(u), position(v)};
   }

@@ -91,7 +91,7 @@ class CellSites {
   // direction of positions if hand() is -1. Of unit length in the projected model.
   [[nodiscard]] predicates::Vector ray(Index i) const {
     const CellPoint& p = points_[i];
-    const double z = extent_.most_size / p.w;
+    const double z = 1 / p.w;
     return {z * p.u, z * p.v, z};
   }
   [[nodiscard]] double hand() const { return hand_; }

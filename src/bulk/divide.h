@@ -261,6 +261,30 @@ class Divide {
     return side == Sign::positive;
   }
 
+  // An edge that leaves l or r into the face below `base` leads to a site that this face hides. It
+  // lies between `base` and the lower side q of that face, but comes after `base` in its ring.
+  void remove_covered(Edge base, const MergeStep<T>& step, const CellLimits& limits) {
+    for (;;) {
+      const Edge e = graph_.next(base);
+      const Edge q = graph_.previous(base);
+      if (e == base || e == q || step.orientation(step.face(graph_.target(e))) != Sign::negative)
+        break;
+      const MergeStep<T> side(sites_, limits, step.l(), graph_.target(q));
+      if (side.orientation(side.face(graph_.target(e))) != Sign::positive) break;
+      graph_.remove(e);
+    }
+    for (;;) {
+      const Edge e = graph_.previous(base ^ 1);
+      const Edge q = graph_.next(base ^ 1);
+      if (e == (base ^ 1) || e == q ||
+          step.orientation(step.face(graph_.target(e))) != Sign::negative)
+        break;
+      const MergeStep<T> side(sites_, limits, graph_.target(q), step.r());
+      if (side.orientation(side.face(graph_.target(e))) != Sign::positive) break;
+      graph_.remove(e);
+    }
+  }
+
   // Sews the parts together above the edge `base` from the left one to the right one.
   void climb(Edge base, const CellLimits& limits) {
     const PlaneGraph::Links* const links = graph_.links();
@@ -268,6 +292,7 @@ class Divide {
     Index r = graph_.target(base);
     while (!graph_.is_full()) {
       const MergeStep<T> step(sites_, limits, l, r);
+      if constexpr (T::hides_sites) remove_covered(base, step, limits);
       Edge left = links[base].next;
       Face left_face = step.face(links[left].target);
       const bool has_left = left != base && is_above(step, left_face);

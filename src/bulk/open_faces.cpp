@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "predicates/bounds.h"
+
 namespace rondel::bulk {
 namespace {
 
@@ -31,13 +33,13 @@ Cone make_cone(const Cell& cell, double hand) {
           plane(0, -hand, hand * ratio(cell.corner.v + size))};
 }
 
-// The plane of the face cuts the sphere of radius R in a circle with center a + x, where x is in
-// the plane and 2 x.B = |B|^2 + w_b - w_a, 2 x.C = |C|^2 + w_c - w_a, w = R^2 - |p|^2. The cap,
-// less than half of the sphere, lies in the ball around this center with the radius of the circle.
-// `margin` is more than the roundings of a face without very small angles; others are not final.
+// The plane of the face cuts the ball in a circle with center a + x, where x is in the plane and
+// 2 x.B = |B|^2 + w_b - w_a, 2 x.C = |C|^2 + w_c - w_a, w = 1 - |p|^2. The cap, less than half of
+// the sphere, lies in the ball around this center with the radius of the circle.
+// docs/theory/blocks.md derives `slack`, the error of x.
 bool OpenFaces::is_final(Index i, Index j, Index k) const {
-  constexpr double margin = 1e-12;
-  constexpr double thin = 1e-3;
+  constexpr double unit = predicates::unit_roundoff;
+  constexpr double margin = 0x1p-43;
   const Vector a = ray_(i);
   const Vector b = ray_(j);
   const Vector c = ray_(k);
@@ -47,17 +49,23 @@ bool OpenFaces::is_final(Index i, Index j, Index k) const {
   const double n2 = dot(normal, normal);
   double b2 = dot(to_b, to_b);
   double c2 = dot(to_c, to_c);
-  if (!(n2 > thin * (b2 * c2)) || !(dot(normal, a) > 0)) return false;
+  const double n = std::sqrt(n2);
+  const double sides = std::sqrt(b2) + std::sqrt(c2);
+  if (!(sides < 0x1p44 * n)) return false;
+  const double square = b2 * c2 / n2;  // 1 / sin^2 of the angle at a
   double wa = 0;
-  if (radius_ > 0) {
-    wa = radius_ * radius_ - dot(a, a);
+  if (has_weights_) {
+    wa = 1 - dot(a, a) + 0x1p-48;
     b2 -= dot(to_b, a + b);
     c2 -= dot(to_c, a + c);
   }
   const Vector x = (0.5 / n2) * (b2 * cross(to_c, normal) + c2 * cross(normal, to_b));
   const Vector middle = a + x;
-  const double size = std::sqrt(std::max(dot(x, x) + wa, 0.0));
-  const double least = size * (1 + margin) + margin * (radius_ > 0 ? radius_ : 1);
+  const double size = std::sqrt(dot(x, x));
+  const double slack = has_weights_ ? 160 * unit * (sides / n + square)
+                                    : 96 * unit * (sides / n) * (size + square * n);
+  const double least =
+      std::sqrt(std::max((size + slack) * (size + slack) + wa, 0.0)) + slack + margin;
   return std::ranges::all_of(cone_,
                              [&](const Vector& inward) { return dot(inward, middle) > least; });
 }

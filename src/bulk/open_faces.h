@@ -33,11 +33,11 @@ Cone make_cone(const Cell& cell, double hand);
 
 class OpenFaces {
  public:
-  // `ray` gives a site as seen from the center. `radius` is at least the length of every ray in
-  // the whole set; 0 if all rays stand for unit vectors.
+  // `ray` gives a site as seen from the center: within 11 units of a unit vector, or, with weights,
+  // within 7 units of a vector of at most unit length.
   using Ray = std::function<predicates::Vector(Index)>;
-  OpenFaces(PlaneGraph& graph, Ray ray, const Cone& cone, double radius)
-      : graph_(graph), ray_(std::move(ray)), cone_(cone), radius_(radius) {}
+  OpenFaces(PlaneGraph& graph, Ray ray, const Cone& cone, bool has_weights)
+      : graph_(graph), ray_(std::move(ray)), cone_(cone), has_weights_(has_weights) {}
 
   // Names the open faces in the graph, the outer one included; `boundary` is an edge with the outer
   // face on its right. Returns the halfedges with an open face on the left.
@@ -49,7 +49,7 @@ class OpenFaces {
   PlaneGraph& graph_;
   Ray ray_;
   const Cone& cone_;
-  double radius_;
+  bool has_weights_;
   std::vector<PlaneGraph::Edge> open_;
 };
 

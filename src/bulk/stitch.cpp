@@ -41,6 +41,9 @@ class Numbering {
 
   // Of faces of the blocks, in their order.
   [[nodiscard]] std::span<const Run> block_runs() const { return block_runs_; }
+  // Of single faces of the blocks that come later than in their order, since the owner's first face
+  // is one of the seam.
+  [[nodiscard]] std::span<const Run> late_runs() const { return late_runs_; }
   // Of single faces of the seam.
   [[nodiscard]] std::span<const Run> seam_runs() const { return seam_runs_; }
   [[nodiscard]] Index num_faces() const { return num_faces_; }
@@ -48,8 +51,13 @@ class Numbering {
  private:
   void append(Index begin, Index end) {
     if (begin == end) return;
-    (begin < seam_.names_begin() ? block_runs_ : seam_runs_).push_back({begin, end, num_faces_});
+    runs_of(begin).push_back({begin, end, num_faces_});
     num_faces_ += end - begin;
+  }
+
+  std::vector<Run>& runs_of(Index face) {
+    if (face >= seam_.names_begin()) return seam_runs_;
+    return block_runs_.empty() || block_runs_.back().begin < face ? block_runs_ : late_runs_;
   }
 
   // Those of seam site s, from blocks and seam. The faces that a site owns start with the one with
@@ -82,6 +90,7 @@ class Numbering {
 
   const SeamFaces& seam_;
   std::vector<Run> block_runs_;
+  std::vector<Run> late_runs_;
   std::vector<Run> seam_runs_;
   std::vector<Index> faces_;
   Index num_faces_ = 0;
@@ -147,6 +156,7 @@ bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_array
     for (Index f = run.begin; f < run.end; ++f) final_of[f] = run.final + (f - run.begin);
   };
   for_runs(numbering.block_runs(), threads, set_final);
+  for_runs(numbering.late_runs(), threads, set_final);
   for_runs(numbering.seam_runs(), threads, set_final);
   std::vector<Triple>& faces = arrays.faces;
   std::vector<Triple>& neighbors = arrays.neighbors;
@@ -156,6 +166,13 @@ bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_array
   const auto set_neighbors = [&](const Triple& n, Index to) {
     neighbors[to] = {final_of[n[0]], final_of[n[1]], final_of[n[2]]};
   };
+  struct Late {
+    Triple corners;
+    Triple neighbors;
+  };
+  std::vector<Late> late;
+  for (const Run& run : numbering.late_runs())
+    late.push_back({faces[run.begin], neighbors[run.begin]});
   if (threads == 1) {
     move_runs(numbering.block_runs(), [&](Index from, Index to) {
       set_face(faces[from], to);
@@ -173,6 +190,10 @@ bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_array
     };
     system::parallel_invoke(
         threads, [&] { move_all(faces); }, [&] { move_all(neighbors); });
+  }
+  for (std::size_t i = 0; i < late.size(); ++i) {
+    set_face(late[i].corners, numbering.late_runs()[i].final);
+    set_neighbors(late[i].neighbors, numbering.late_runs()[i].final);
   }
   for_runs(numbering.seam_runs(), threads, [&](const Run& run) {
     set_face(seam.corners(run.begin), run.final);

@@ -41,8 +41,11 @@ void find_sizes(Input& input) {
     least = std::min(least, size2);
     most = std::max(most, size2);
   }
-  input.extent.least_size = std::sqrt(least) * (1 - 0x1p-48);
-  input.extent.most_size = std::sqrt(most) * (1 + 0x1p-48);
+  // Where squares lose bits no bound is finite, and the exact rungs decide.
+  constexpr double least_square = 1e-280;
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  input.extent.least_size = least > least_square ? std::sqrt(least) * (1 - 0x1p-48) : 0;
+  input.extent.most_size = most > least_square ? std::sqrt(most) * (1 + 0x1p-48) : infinity;
 }
 
 Input make_input(std::span<const Point> sites, std::span<const Index> order,

@@ -1,0 +1,9 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+rondel_add_test(bulk_test
+  bulk_bounds_test.cpp
+  bulk_divide_test.cpp
+  bulk_nasty_test.cpp
+  bulk_same_test.cpp
+  bulk_scale_test.cpp
+  LIBS rondel_test_support)

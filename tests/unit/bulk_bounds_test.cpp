@@ -1,0 +1,220 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Recomputes the filters of divide and conquer and the certificate, and compares them with values
+// of 400 bits: no error exceeds the bounds that docs/theory/blocks.md derives.
+#include <gmpxx.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <iostream>
+
+#include "blocks/cube_position.h"
+#include "bulk/cell_sites.h"
+#include "bulk/open_faces.h"
+#include "support/adversarial.h"
+#include "support/generators.h"
+
+namespace rondel::test {
+namespace {
+
+using predicates::Vector;
+using Big = mpf_class;
+using BigVector = std::array<Big, 3>;
+
+Big big(double v) { return {v, 400}; }
+BigVector minus(const BigVector& a, const BigVector& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Big dot_of(const BigVector& a, const BigVector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+BigVector cross_of(const BigVector& a, const BigVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+BigVector times(const Big& s, const BigVector& v) { return {s * v[0], s * v[1], s * v[2]}; }
+
+constexpr Model models[] = {Model::projected, Model::weighted};
+constexpr bulk::Extent weights = {0.4, 4};
+
+// Sites of one face of the cube, as divide and conquer sees them, and exactly.
+template <class T>
+class Cell {
+ public:
+  Cell(std::vector<Point> sites, const Point& center, bool has_weights)
+      : points_(std::move(sites)), order_(points_.size()), center_(center) {
+    for (Index i = 0; i < order_.size(); ++i) order_[i] = i;
+    has_weights_ = has_weights;
+    const unsigned face = blocks::exact_cube_position(points_[0], center).face;
+    axes_ = blocks::cube_axes(face);
+    sites_.assign(points_, order_, center, face, has_weights ? weights : bulk::Extent{});
+  }
+
+  [[nodiscard]] const bulk::CellSites<T>& sites() const { return sites_; }
+
+  // In the axes of CellSites::ray: of unit length, or relative to the largest one.
+  [[nodiscard]] BigVector ray(Index i) const {
+    const Point& p = points_[i];
+    const BigVector d = {big(p.x) - big(center_.x), big(p.y) - big(center_.y),
+                         big(p.z) - big(center_.z)};
+    const auto along = [&](const Point& axis) {
+      return Big(d[0] * axis.x + d[1] * axis.y + d[2] * axis.z);
+    };
+    const BigVector v = {along(axes_.u), sites_.hand() * along(axes_.v), along(axes_.out)};
+    const Big length = has_weights_ ? big(weights.most_size) : Big(sqrt(dot_of(v, v)));
+    return times(1 / length, v);
+  }
+
+  // (u, v, w).
+  [[nodiscard]] BigVector point(Index i) const {
+    const BigVector r = ray(i);
+    return {r[0] / r[2], r[1] / r[2], 1 / r[2]};
+  }
+
+ private:
+  std::vector<Point> points_;
+  std::vector<Index> order_;
+  Point center_;
+  blocks::CubeAxes axes_;
+  bool has_weights_ = false;
+  bulk::CellSites<T> sites_;
+};
+
+// Up to `distance` apart, on the face around (0, 0, 1), with a center or without.
+std::vector<Point> close_sites(Random& random, std::size_t n, double distance, bool has_weights,
+                               const Point& center) {
+  const double u = (1 - distance) * random.signed_unit();
+  const double v = (1 - distance) * random.signed_unit();
+  std::vector<Point> sites;
+  const double size = random.coin() ? 4 : 1;
+  while (sites.size() < n) {
+    const Point p = {u + distance * random.signed_unit() / 2,
+                     v + distance * random.signed_unit() / 2, 1};
+    const double length = has_weights ? size * (1 - distance * random.unit() / 2) : 1;
+    sites.push_back(center + length * normalized(p));
+  }
+  return sites;
+}
+
+struct Largest {
+  double orientation = 0;
+  double conflict = 0;
+};
+
+template <class T>
+Largest largest_errors(bool has_weights) {
+  Random random(31);
+  Largest largest;
+  const double ratio = has_weights ? weights.most_size / weights.least_size : 1;
+  for (std::size_t i = 0; i < scaled(20000); ++i) {
+    const double distance = std::min(random_distance(random, 1e-15), 0.99);
+    const Point center = random.coin() ? Point{} : random.signed_unit() * random_direction(random);
+    const Cell<T> cell(close_sites(random, 4, distance, has_weights, center), center, has_weights);
+    const bulk::CellPoint* p = cell.sites().points();
+    const auto ab = p[1] - p[0];
+    const auto ac = p[2] - p[0];
+    const auto ad = p[3] - p[0];
+    const auto normal = cross(ab, ac);
+    const BigVector a = cell.point(0);
+    const BigVector exact_normal = cross_of(minus(cell.point(1), a), minus(cell.point(2), a));
+    const Big exact_value = dot_of(exact_normal, minus(cell.point(3), a));
+    // What limits() says for a length of 1, undone: the bounds relative to distances.
+    const double unit_distance = 2.01 * ratio + 1.74 * (ratio - 1);
+    const auto limits = cell.sites().limits(1);
+    const double orientation_bound = limits.orientation / unit_distance;
+    const double conflict_bound = limits.conflict / (unit_distance * unit_distance);
+    const double h2 = std::max({dot(ab, ab), dot(ac, ac), dot(ad, ad)});
+    const double uv2 = std::max(ab.u * ab.u + ab.v * ab.v, ac.u * ac.u + ac.v * ac.v);
+    const double orientation_error = Big(abs(big(normal.w) - exact_normal[2])).get_d();
+    const double conflict_error = Big(abs(big(dot(normal, ad)) - exact_value)).get_d();
+    largest.orientation =
+        std::max(largest.orientation, orientation_error / (orientation_bound * std::sqrt(uv2)));
+    largest.conflict = std::max(largest.conflict, conflict_error / (conflict_bound * h2));
+    // No distance in the cell exceeds what limits() takes for its length.
+    const auto of_cell = cell.sites().limits(distance);
+    EXPECT_LE(conflict_bound * h2, of_cell.conflict);
+    EXPECT_LE(orientation_bound * std::sqrt(uv2), of_cell.orientation);
+  }
+  return largest;
+}
+
+TEST(bulk_bounds, filters_hold) {
+  for (const Model model : models) {
+    const Largest largest = model == Model::projected
+                                ? largest_errors<incremental::ProjectedPoints>(false)
+                                : largest_errors<incremental::WeightedPoints>(true);
+    std::cout << "orientation: largest error " << largest.orientation
+              << " of the bound, conflict: " << largest.conflict << "\n";
+    EXPECT_LE(largest.orientation, 1.0);
+    EXPECT_LE(largest.conflict, 1.0);
+    EXPECT_GT(largest.orientation, 0.02);
+    EXPECT_GT(largest.conflict, model == Model::projected ? 0.02 : 0.002);
+  }
+}
+
+template <class T>
+void expect_true_certificates(bool has_weights) {
+  Random random(32);
+  std::size_t num_final = 0;
+  for (std::size_t i = 0; i < scaled(20000); ++i) {
+    // Edges of very different lengths, the site a anywhere.
+    const double distance = std::min(random_distance(random, 1e-8), 0.5);
+    auto points = close_sites(random, 3, distance, has_weights, {});
+    const double ratio = random_distance(random, 1e-7);
+    const std::size_t moved = random.below(3);
+    const Point& other = points[(moved + 1) % 3];
+    points[moved] = other + ratio * (points[moved] - other);
+    const Cell<T> cell(points, {}, has_weights);
+    Index b = 1;
+    Index c = 2;
+    if (cell.sites().orientation(0, b, c) == Sign::zero) continue;
+    if (cell.sites().orientation(0, b, c) == Sign::negative) std::swap(b, c);
+
+    // The circle exactly: its center is the foot of the perpendicular from the center.
+    const BigVector a = cell.ray(0);
+    const BigVector normal = cross_of(minus(cell.ray(b), a), minus(cell.ray(c), a));
+    const BigVector middle = times(Big(dot_of(normal, a) / dot_of(normal, normal)), normal);
+    const Big square = 1 - dot_of(middle, middle);
+    const Big size = square > 0 ? Big(sqrt(square)) : big(0);
+
+    // A plane that touches the cap, up to an error.
+    const Vector axis = {middle[0].get_d(), middle[1].get_d(), middle[2].get_d()};
+    const double length = std::sqrt(dot(axis, axis));
+    const double off = (random.coin() ? 1 : -1) * random_distance(random, 1e-16);
+    const double sine = size.get_d() / length * (1 + off) + (random.coin() ? off : 0);
+    if (!(sine > 0 && sine < 1)) continue;
+    const Point side =
+        normalized(cross_product({axis.x, axis.y, axis.z}, random_direction(random)));
+    const double cosine = std::sqrt(1 - sine * sine);
+    const Vector inward = {sine * axis.x / length + cosine * side.x,
+                           sine * axis.y / length + cosine * side.y,
+                           sine * axis.z / length + cosine * side.z};
+    const bulk::Cone cone = {inward, inward, inward, inward};
+
+    bulk::PlaneGraph graph;
+    graph.clear(3);
+    const auto e = graph.add(0, b);
+    const auto f = graph.add(b, c);
+    const auto g = graph.add(c, 0);
+    graph.insert_after(g ^ 1, e);
+    graph.insert_after(e ^ 1, f);
+    graph.insert_after(f ^ 1, g);
+    bulk::OpenFaces open(
+        graph, [&](Index k) { return cell.sites().ray(k); }, cone, has_weights);
+    open.find(e);
+    if (graph.face(e) == bulk::open_face) continue;
+    ++num_final;
+    const BigVector exact_inward = {big(inward.x), big(inward.y), big(inward.z)};
+    ASSERT_TRUE(dot_of(exact_inward, middle) >= size);
+  }
+  EXPECT_GT(num_final, scaled(20000) / 100);
+}
+
+TEST(bulk_bounds, final_faces_have_their_caps_in_the_cone) {
+  expect_true_certificates<incremental::ProjectedPoints>(false);
+  expect_true_certificates<incremental::WeightedPoints>(true);
+}
+
+}  // namespace
+}  // namespace rondel::test

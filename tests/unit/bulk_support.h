@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The bulk build and the incremental one, side by side: the result is unique, so all bits agree.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "blocks/spatial_order.h"
+#include "bulk/triangulate.h"
+#include "support/generators.h"
+
+namespace rondel::test {
+
+// Sites as the bulk build takes them, and what it must give.
+class BulkCase {
+ public:
+  BulkCase(const SiteSet& set, Model model) : sites_(set.sites) {
+    options_.model = model;
+    options_.sphere = set.sphere;
+    options_.threads = 1;
+    order_ = blocks::spatial_order(sites_, model, set.sphere.center, 1);
+    expected_ = incremental::triangulate(sites_, order_.order, order_.renamed, options_).arrays;
+  }
+
+  [[nodiscard]] const TriangulationArrays& expected() const { return expected_; }
+  [[nodiscard]] std::size_t num_ranks() const { return order_.order.size(); }
+
+  // Returns whether there was no need to fall back. What is returned is compared bit by bit.
+  bool run(std::size_t max_block_sites, unsigned threads = 1) {
+    options_.threads = threads;
+    const auto result = bulk::triangulate_by_blocks(sites_, order_.order, order_.renamed, options_,
+                                                    max_block_sites);
+    if (!result) return false;
+    const TriangulationArrays& arrays = result->arrays;
+    EXPECT_EQ(arrays.dimension, expected_.dimension);
+    EXPECT_TRUE(arrays.faces == expected_.faces);
+    EXPECT_TRUE(arrays.neighbors == expected_.neighbors);
+    EXPECT_TRUE(arrays.ghost_faces == expected_.ghost_faces);
+    EXPECT_TRUE(arrays.hidden == expected_.hidden);
+    EXPECT_TRUE(arrays.ring == expected_.ring);
+    return true;
+  }
+
+ private:
+  std::vector<Point> sites_;
+  Options options_;
+  blocks::SpatialOrder order_;
+  TriangulationArrays expected_;
+};
+
+inline std::string text_of(Model model) {
+  return model == Model::projected ? "projected" : "weighted";
+}
+
+}  // namespace rondel::test
