@@ -26,6 +26,7 @@
 
 #include "blocks/hilbert.h"
 #include "bulk/collinear.h"
+#include "bulk/few_sites.h"
 #include "bulk/merge_step.h"
 #include "bulk/plane_graph.h"
 #include "predicates/ray_order.h"
@@ -94,30 +95,52 @@ class Divide {
     return end - count;
   }
 
+  // The sites of the cell in which the curve is in `state` and all positions agree above this bit.
   Part solve(Index begin, Index end, unsigned state, int bit) {
-    const Index count = end - begin;
-    if (count == 0 || has_failed_) return {};
-    if (count == 1) return {begin};
-    if (count == 2) return solve_two(begin);
-    if (count == 3) return solve_three(begin, limits_of(bit + 1));
+    Part part;
+    if (solve_few(begin, end, bit, part)) return part;
     if (bit < least_bit || is_misplaced(begin, end, bit)) return fail();
-    // The curve takes the quadrants (u, v) = 00, 01, 11, 10, with u and v exchanged when bit 0 of
-    // the state is set, and turned around when bit 1 is.
-    const unsigned axis = state & 1U;
-    const unsigned first = (state >> 1) & 1U;
-    const Index middle = split(begin, end, axis, bit, 1 - first);
-    const Index low = split(begin, middle, 1 - axis, bit, 1 - first);
-    const Index high = split(middle, end, 1 - axis, bit, first);
+    const Index middle = split(begin, end, state & 1U, bit, 1 - turn_of(state));
+    const Part before = solve_half(begin, middle, state, bit, 0);
+    const Part after = solve_half(middle, end, state, bit, 1);
+    return merge(before, after, limits_of(bit + 1));
+  }
+
+  // The first or the second half of such a cell. The curve takes the quadrants (u, v) = 00, 01, 11,
+  // 10, with u and v exchanged when bit 0 of the state is set, and turned around when bit 1 is.
+  Part solve_half(Index begin, Index end, unsigned state, int bit, unsigned half) {
+    Part part;
+    if (solve_few(begin, end, bit, part)) return part;
+    const Index middle = split(begin, end, 1 - (state & 1U), bit, 1 - (turn_of(state) ^ half));
     const auto child = [&](Index b, Index e, unsigned rank) {
       return solve(b, e, state ^ blocks::hilbert_table::state_change[rank], bit - 1);
     };
-    const CellLimits& limits = limits_of(bit + 1);
-    const Part p0 = child(begin, low, 0);
-    const Part p1 = child(low, middle, 1);
-    const Part before = merge(p0, p1, limits);
-    const Part p2 = child(middle, high, 2);
-    const Part p3 = child(high, end, 3);
-    return merge(before, merge(p2, p3, limits), limits);
+    const Part before = child(begin, middle, 2 * half);
+    const Part after = child(middle, end, 2 * half + 1);
+    return merge(before, after, limits_of(bit + 1));
+  }
+
+  [[nodiscard]] static unsigned turn_of(unsigned state) { return state >> 1 & 1U; }
+
+  // Whether there is nothing to divide, or an error.
+  bool solve_few(Index begin, Index end, int bit, Part& part) {
+    switch (end - begin) {
+      case 0:
+        return true;
+      case 1:
+        part = {begin};
+        return true;
+      case 2:
+        part = solve_two(begin);
+        return true;
+      case 3:
+        part = solve_three(begin, limits_of(bit + 1));
+        return true;
+      case 4:
+        return solve_four(begin, limits_of(bit + 1), part);
+      default:
+        return has_failed_;
+    }
   }
 
   [[nodiscard]] bool is_misplaced(Index begin, Index end, int bit) const {
@@ -155,19 +178,46 @@ class Divide {
   }
 
   Part solve_three(Index a, const CellLimits& limits) {
-    Index b = a + 1;
-    Index c = a + 2;
-    const MergeStep<T> step(sites_, limits, a, b);
-    const Sign turn = step.orientation(step.face(c));
+    const MergeStep<T> step(sites_, limits, a, a + 1);
+    const Sign turn = step.orientation(step.face(a + 2));
     if (turn == Sign::zero) return solve_chain(a);
-    if (turn == Sign::negative) std::swap(b, c);
-    const Edge ab = graph_.add(a, b);
-    const Edge bc = graph_.add(b, c);
-    const Edge ca = graph_.add(c, a);
-    graph_.insert_after(ca ^ 1, ab);
-    graph_.insert_after(ab ^ 1, bc);
-    graph_.insert_after(bc ^ 1, ca);
-    return {a, ab};
+    const auto is_turned = static_cast<Index>(turn == Sign::negative);
+    return {a, draw_triangle(graph_, {a, a + 1 + is_turned, a + 2 - is_turned})};
+  }
+
+  // Returns whether no three are on one great circle.
+  bool solve_four(Index a, const CellLimits& limits, Part& part) {
+    const MergeStep<T> ab(sites_, limits, a, a + 1);
+    const MergeStep<T> ac(sites_, limits, a, a + 2);
+    const MergeStep<T> bc(sites_, limits, a + 1, a + 2);
+    const std::array turns = {ab.orientation(ab.face(a + 2)), ab.orientation(ab.face(a + 3)),
+                              ac.orientation(ac.face(a + 3)), bc.orientation(bc.face(a + 3))};
+    unsigned signs = 0;
+    bool is_zero = false;
+    for (unsigned i = 0; i < 4; ++i) {
+      signs |= static_cast<unsigned>(turns[i] == Sign::positive) << i;
+      is_zero |= turns[i] == Sign::zero;
+    }
+    if (is_zero) [[unlikely]]
+      return false;
+    const FourPoints& four = few_sites::orders[signs];
+    std::array<Index, 4> p{};
+    for (std::size_t i = 0; i < 4; ++i) p[i] = a + four.order[i];
+    const auto is_last_in_conflict = [&] {
+      const MergeStep<T> step(sites_, limits, p[0], p[1]);
+      return step.is_in_conflict(step.face(p[2]), p[3]);
+    };
+    if (!four.has_inner_point) {
+      const auto turn = static_cast<std::size_t>(is_last_in_conflict());
+      part.edge =
+          draw_quadrilateral(graph_, {p[turn], p[1 + turn], p[2 + turn], p[3 * (1 - turn)]});
+    } else if (!T::hides_sites || is_last_in_conflict()) {
+      part.edge = draw_triangle_around(graph_, p);
+    } else {
+      part.edge = draw_triangle(graph_, {p[0], p[1], p[2]});
+    }
+    part.vertex = graph_.origin(part.edge);
+    return true;
   }
 
   // Three sites on one great circle.

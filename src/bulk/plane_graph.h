@@ -13,6 +13,8 @@
 // (Guibas and Stolfi, ACM Trans. Graph. 4, 1985, without the dual graph.)
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <memory>
 #include <utility>
@@ -37,13 +39,15 @@ class PlaneGraph {
   void clear(std::size_t max_vertices) {
     // Deleted pairs are used again, and a plane graph has less than three edges a vertex.
     if (capacity_ < max_vertices) {
+      const std::size_t size = 6 * max_vertices + 1;
       edges_.reset();
-      edges_ = std::make_unique_for_overwrite<Links[]>(6 * max_vertices);
-      system::advise_huge_pages(edges_.get(), 6 * max_vertices * sizeof(Links));
+      edges_ = std::make_unique_for_overwrite<Links[]>(size);
+      system::advise_huge_pages(edges_.get(), size * sizeof(Links));
       capacity_ = max_vertices;
     }
     limit_ = 0;
-    free_ = no_index;
+    free_ = 0;
+    edges_[0].next = 2;
   }
 
   // For loops: the same links without a look at this object for each.
@@ -67,11 +71,32 @@ class PlaneGraph {
   // Whether there are as many edges as a plane graph can have, so that no more may be added.
   [[nodiscard]] bool is_full() const { return limit_ == 6 * capacity_; }
 
+  // Pairs without ends and rings.
+  template <std::size_t N>
+  std::array<Edge, N> new_pairs() {
+    std::array<Edge, N> pairs;
+    for (Edge& e : pairs) e = new_pair();
+    return pairs;
+  }
+
+  struct Spoke {
+    Edge edge;
+    Index target;
+  };
+  // All halfedges of a vertex, counterclockwise.
+  template <std::size_t N>
+  void set_ring(const std::array<Spoke, N>& ring) {
+    for (std::size_t i = 0; i < N; ++i) {
+      edges_[ring[i].edge] = {ring[(i + 1) % N].edge, ring[(i + N - 1) % N].edge, ring[i].target,
+                              no_index};
+    }
+  }
+
   // A new pair from a to b, each alone in its ring. Returns the halfedge from a.
   Edge add(Index a, Index b) {
     const Edge e = new_pair();
-    edges_[e] = {e, e, b, no_index};
-    edges_[e ^ 1] = {e ^ 1, e ^ 1, a, no_index};
+    set_ring<1>({{{e, b}}});
+    set_ring<1>({{{e ^ 1, a}}});
     return e;
   }
 
@@ -109,12 +134,13 @@ class PlaneGraph {
   }
 
  private:
+  // The list of deleted pairs runs on with those never used, which saves a branch that would depend
+  // on the input: the first of these is always ready.
   Edge new_pair() {
-    if (free_ == no_index) [[likely]] {
-      limit_ += 2;
-      return limit_ - 2;
-    }
-    return std::exchange(free_, edges_[free_].next);
+    const Edge e = std::exchange(free_, edges_[free_].next);
+    limit_ = std::max(limit_, e + 2);
+    edges_[limit_].next = limit_ + 2;
+    return e;
   }
 
   void unlink(Edge e) {
@@ -126,7 +152,7 @@ class PlaneGraph {
   std::unique_ptr<Links[]> edges_;  // not initialized
   std::size_t capacity_ = 0;        // in vertices
   Edge limit_ = 0;
-  Edge free_ = no_index;
+  Edge free_ = 0;  // at most limit_
 };
 
 }  // namespace rondel::bulk
