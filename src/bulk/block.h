@@ -61,8 +61,8 @@ class BlockTriangulation {
     const Cone cone = make_cone(block_.cell, sites_.hand());
     OpenFaces open(
         work_.graph, [this](Index i) { return sites_.ray(i); }, cone, T::hides_sites);
-    emit_faces(work_.graph, block_.begin, num_sites(), open.find(boundary), work_.emission, store,
-               result);
+    emit_faces(work_.graph, block_.begin, num_sites(), open.find(boundary), hidden_, work_.emission,
+               store, result);
     return result;
   }
 
@@ -77,7 +77,7 @@ class BlockTriangulation {
     if (num_sites() < least_sites || !check_positions()) return no_index;
     Divide<T> divide(sites_, work_.misplaced, work_.graph);
     const PlaneGraph::Edge boundary = divide.run(block_.cell.state, block_.cell.bits - 1);
-    if (boundary != no_index && T::hides_sites) forget_hidden(boundary);
+    if (boundary != no_index && T::hides_sites) find_hidden(boundary);
     return boundary;
   }
 
@@ -115,8 +115,8 @@ class BlockTriangulation {
     return true;
   }
 
-  // Deletes the edges that the boundary does not reach: their ends are hidden.
-  void forget_hidden(PlaneGraph::Edge boundary);
+  // Lists the sites that the boundary does not reach, which are hidden, and deletes their edges.
+  void find_hidden(PlaneGraph::Edge boundary);
 
   void leave_to_seam(BlockResult& result) const {
     result.faces_begin = 2 * block_.begin;
@@ -130,11 +130,12 @@ class BlockTriangulation {
   const Block& block_;
   Workspace<T>& work_;
   CellSites<T>& sites_;
+  std::vector<Index> hidden_;
 };
 
 // A triangulated disc of V vertices, h of them on the boundary, has 3V-3-h edges.
 template <incremental::SphereTraits T>
-void BlockTriangulation<T>::forget_hidden(PlaneGraph::Edge boundary) {
+void BlockTriangulation<T>::find_hidden(PlaneGraph::Edge boundary) {
   PlaneGraph& graph = work_.graph;
   std::size_t length = 0;
   PlaneGraph::Edge e = boundary;
@@ -160,6 +161,9 @@ void BlockTriangulation<T>::forget_hidden(PlaneGraph::Edge boundary) {
       }
       e = graph.next(e);
     } while (e != first);
+  }
+  for (Index i = 0; i < num_sites(); ++i) {
+    if (!is_reached[i]) hidden_.push_back(i);
   }
   for (e = 0; e < graph.edge_limit(); e += 2) {
     if (graph.is_alive(e) && !is_reached[graph.origin(e)]) graph.remove(e);

@@ -337,32 +337,33 @@ class Divide {
 
   // Sews the parts together above the edge `base` from the left one to the right one.
   void climb(Edge base, const CellLimits& limits) {
-    const PlaneGraph::Links* const links = graph_.links();
+    const PlaneGraph::Ring* const rings = graph_.rings();
+    const PlaneGraph::End* const ends = graph_.ends();
     Index l = graph_.origin(base);
     Index r = graph_.target(base);
     while (!graph_.is_full()) {
       const MergeStep<T> step(sites_, limits, l, r);
       if constexpr (T::hides_sites) remove_covered(base, step, limits);
-      Edge left = links[base].next;
-      Face left_face = step.face(links[left].target);
+      Edge left = rings[base].next;
+      Face left_face = step.face(ends[left].target);
       const bool has_left = left != base && is_above(step, left_face);
       if (has_left) {
         for (;;) {
-          const Edge next = links[left].next;
-          const Index y = links[next].target;
+          const Edge next = rings[left].next;
+          const Index y = ends[next].target;
           if (y == r || !step.is_in_conflict(left_face, y)) break;
           graph_.remove(left);
           left = next;
           left_face = step.face(y);
         }
       }
-      Edge right = links[base ^ 1].previous;
-      Face right_face = step.face(links[right].target);
+      Edge right = rings[base ^ 1].previous;
+      Face right_face = step.face(ends[right].target);
       const bool has_right = right != (base ^ 1) && is_above(step, right_face);
       if (has_right) {
         for (;;) {
-          const Edge next = links[right].previous;
-          const Index y = links[next].target;
+          const Edge next = rings[right].previous;
+          const Index y = ends[next].target;
           if (y == l || !step.is_in_conflict(right_face, y)) break;
           graph_.remove(right);
           right = next;
@@ -372,10 +373,10 @@ class Divide {
       if (!has_left && !has_right) return;
       if (!has_left || (has_right && step.is_in_conflict(left_face, right_face.apex))) {
         r = right_face.apex;
-        base = graph_.add(l, r, base, links[right ^ 1].previous);
+        base = graph_.add(l, r, base, rings[right ^ 1].previous);
       } else {
         l = left_face.apex;
-        base = graph_.add(l, r, left ^ 1, links[base ^ 1].previous);
+        base = graph_.add(l, r, left ^ 1, rings[base ^ 1].previous);
       }
     }
     has_failed_ = true;

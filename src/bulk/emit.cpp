@@ -4,7 +4,6 @@
 #include "bulk/emit.h"
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "blocks/prefetch.h"
@@ -15,135 +14,145 @@ namespace {
 
 using Edge = PlaneGraph::Edge;
 
+using Owned = EmissionSpace::Owned;
+
+// Three passes, over edges, sites, and edges. The first one finds out, without branches, how many
+// faces a site owns and which is the first, so that the second one need not go around sites twice.
 class Emission {
  public:
-  Emission(PlaneGraph& graph, Index first, Index num_sites, EmissionSpace& space,
-           const FaceStore& store, BlockResult& result)
+  Emission(PlaneGraph& graph, Index first, EmissionSpace& space, const FaceStore& store,
+           BlockResult& result)
       : graph_(graph),
         first_(first),
-        store_(store),
-        result_(result),
-        edge_at_(space.edge_at),
-        seam_index_(space.seam_index) {
-    edge_at_.assign(num_sites, no_index);
-    seam_index_.assign(num_sites, no_index);
-  }
+        owned_(space.owned),
+        owners_(space.owners),
+        corners_(store.corners.data() + result.faces_begin),
+        neighbors_(store.neighbors.data() + result.faces_begin),
+        result_(result) {}
 
-  void run(const std::vector<Edge>& open) {
-    constexpr Index seam = 0;
-    for (Edge e = 0; e < graph_.edge_limit(); e += 2) {
-      const Index a = graph_.target(e + 1);
-      if (a == no_index) continue;
-      edge_at_[a] = e;
-      edge_at_[graph_.target(e)] = e + 1;
-    }
-    for (const Edge e : open) seam_index_[graph_.origin(e)] = seam;
-    result_.faces_begin = 2 * first_;
-    Index face = result_.faces_begin;
-    const auto num_sites = static_cast<Index>(edge_at_.size());
-    const auto prefetch_edge = [this](Edge e) {
-      if (e < graph_.edge_limit()) blocks::prefetch(&graph_.links()[e]);
-    };
-    for (Index v = 0; v < num_sites; ++v) {
-      prefetch_edge(edge_at_[std::min<std::size_t>(v + blocks::prefetch_distance, num_sites - 1)]);
-      if (seam_index_[v] == no_index && edge_at_[v] != no_index) {
-        face = name_faces_of<false>(v, face);
-        continue;
-      }
-      const Index begin = face;
-      if (edge_at_[v] != no_index) face = name_faces_of<true>(v, face);
-      seam_index_[v] = static_cast<Index>(result_.seam_sites.size());
-      result_.seam_sites.push_back({first_ + v, begin, face});
-    }
-    result_.faces_end = face;
-    link();
+  void run(const std::vector<Edge>& open, const std::vector<Index>& hidden) {
+    find_owned();
+    list_sites(open, hidden);
+    write_corners();
+    write_neighbors();
   }
 
  private:
-  // Names the final faces that v owns, from `face` on; the first one is that with the smallest
-  // second corner. Leaves their halfedges from v in place of the neighbors. Nothing predicts
-  // which faces these are, so the loop has no branch for it.
-  template <bool has_open_faces>
-  Index name_faces_of(Index v, Index face) {
-    PlaneGraph::Links* const links = graph_.links();
-    Edge* owned = owned_.data();
-    Index count = 0;
-    std::uint64_t first = ~std::uint64_t{0};  // second corner and place in `owned`
-    const Edge start = edge_at_[v];
-    Edge e = start;
-    Index b = links[e].target;
-    do {
-      const PlaneGraph::Links& edge = links[e];
-      const Index c = links[edge.next].target;
-      if (count == owned_.size()) {
-        owned_.resize(2 * owned_.size());
-        owned = owned_.data();
+  void find_owned() {
+    const PlaneGraph::Ring* const rings = graph_.rings();
+    const PlaneGraph::End* const ends = graph_.ends();
+    for (Edge e = 0; e < graph_.edge_limit(); e += 2) {
+      if (!graph_.is_alive(e)) continue;
+      // From the end with the lower rank: only this one can own the face on the left.
+      const Edge f = e + static_cast<Edge>(ends[e].target < ends[e + 1].target);
+      const Index a = ends[f ^ 1].target;
+      const Index b = ends[f].target;
+      const Index c = ends[rings[f].next].target;
+      const auto is_owned =
+          static_cast<Index>(a < c) & static_cast<Index>(ends[f].face != open_face);
+      Owned& owned = owned_[a];
+      const std::uint64_t key = std::uint64_t{b} << 32 | f;
+      owned.first = std::min(owned.first, key | (std::uint64_t{is_owned} - 1));
+      owned.count += is_owned;
+    }
+  }
+
+  // Lists owners and seam sites.
+  void list_sites(const std::vector<Edge>& open, const std::vector<Index>& hidden) {
+    constexpr Index seam = 0;
+    for (const Edge e : open) owned_[graph_.origin(e)].seam = seam;
+    for (const Index v : hidden) owned_[v].seam = seam;
+    const auto num_sites = static_cast<Index>(owned_.size());
+    Index num_owners = 0;
+    Index face = result_.faces_begin;
+    for (Index v = 0; v < num_sites; ++v) {
+      const Index count = owned_[v].count;
+      owners_[num_owners] = v;
+      num_owners += static_cast<Index>(count != 0);
+      if (owned_[v].seam == seam) {
+        owned_[v].seam = static_cast<Index>(result_.seam_sites.size());
+        result_.seam_sites.push_back({first_ + v, face, face + count});
       }
-      owned[count] = e;
-      const bool is_final = !has_open_faces || edge.face != open_face;
-      const auto is_owned = static_cast<Index>(v < std::min(b, c)) & static_cast<Index>(is_final);
-      const std::uint64_t place = std::uint64_t{b} << 32 | count;
-      first = std::min(first, place | (std::uint64_t{is_owned} - 1));
-      count += is_owned;
-      e = edge.next;
-      b = c;
-    } while (e != start);
-    Triple* const corners = store_.corners.data();
-    Triple* const neighbors = store_.neighbors.data();
-    auto i = static_cast<Index>(first);
-    for (Index n = 0; n < count; ++n, ++face) {
-      const Edge from = owned[i];
-      i = i + 1 == count ? 0 : i + 1;
-      const Edge to = links[from].next ^ 1;
-      corners[face] = {first_ + v, first_ + links[from].target, first_ + links[to ^ 1].target};
-      neighbors[face][0] = from;
-      links[from].face = face;
-      links[links[from ^ 1].previous].face = face;
-      links[to].face = face;
+      face += count;
     }
-    return face;
+    owners_.resize(num_owners);
+    result_.faces_end = face;
   }
 
-  void link() {
-    const PlaneGraph::Links* const links = graph_.links();
-    Triple* const neighbors = store_.neighbors.data();
-    for (Index face = result_.faces_begin; face < result_.faces_end; ++face) {
-      const Index ahead = std::min<Index>(face + blocks::prefetch_distance, result_.faces_end - 1);
-      if (ahead > face) blocks::prefetch(&links[neighbors[ahead][0]]);
-      const Edge f = neighbors[face][0];
-      const Edge g = links[f ^ 1].previous;
-      const Edge h = links[g ^ 1].previous;
-      const Triple across = {links[g ^ 1].face, links[h ^ 1].face, links[f ^ 1].face};
-      neighbors[face] = across;
-      if (std::max({across[0], across[1], across[2]}) == open_face) link_seam({g, h, f}, face);
+  // Names the faces in the order of their owners. A name is kept with the three halfedges, four
+  // times, plus the number of the corner opposite to the halfedge.
+  void write_corners() {
+    const PlaneGraph::Ring* const rings = graph_.rings();
+    PlaneGraph::End* const ends = graph_.ends();
+    Index face = 0;
+    for (std::size_t i = 0; i < owners_.size(); ++i) {
+      const Index ahead = owners_[std::min(i + blocks::prefetch_distance, owners_.size() - 1)];
+      const auto edge_ahead = static_cast<Edge>(owned_[ahead].first);
+      blocks::prefetch(&rings[edge_ahead]);
+      blocks::prefetch(&ends[edge_ahead]);
+      const Index v = owners_[i];
+      const Index end = face + owned_[v].count;
+      auto e = static_cast<Edge>(owned_[v].first);
+      Index b = ends[e].target;
+      do {
+        const Edge next = rings[e].next;
+        const Index c = ends[next].target;
+        if (v < std::min(b, c) && ends[e].face != open_face) {
+          corners_[face] = {first_ + v, first_ + b, first_ + c};
+          ends[rings[e ^ 1].previous].face = 4 * face;
+          ends[next ^ 1].face = 4 * face + 1;
+          ends[e].face = 4 * face + 2;
+          ++face;
+        }
+        e = next;
+        b = c;
+      } while (face != end);
     }
   }
 
-  // Its halfedges, by the opposite corners.
-  void link_seam(const std::array<Edge, 3>& halfedges, Index face) {
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      const Edge e = halfedges[corner];
-      if (graph_.face(e ^ 1) != open_face) continue;
-      store_.neighbors[face][corner] = no_index;
-      result_.seam_edges.push_back(
-          {seam_index_[graph_.origin(e)], seam_index_[graph_.target(e)], face, corner});
+  void write_neighbors() {
+    const PlaneGraph::End* const ends = graph_.ends();
+    for (Edge e = 0; e < graph_.edge_limit(); e += 2) {
+      if (!graph_.is_alive(e)) continue;
+      const Index left = ends[e].face;
+      const Index right = ends[e ^ 1].face;
+      if (std::max(left, right) == open_face) {
+        if (left != open_face) write_seam_edge(e);
+        if (right != open_face) write_seam_edge(e ^ 1);
+        continue;
+      }
+      neighbors_[left / 4][left % 4] = result_.faces_begin + right / 4;
+      neighbors_[right / 4][right % 4] = result_.faces_begin + left / 4;
     }
+  }
+
+  // A halfedge with a final face on its left and an open one on its right.
+  void write_seam_edge(Edge e) {
+    const Index face = graph_.face(e) / 4;
+    const unsigned corner = graph_.face(e) % 4;
+    neighbors_[face][corner] = no_index;
+    result_.seam_edges.push_back({owned_[graph_.origin(e)].seam, owned_[graph_.target(e)].seam,
+                                  result_.faces_begin + face, corner});
   }
 
   PlaneGraph& graph_;
   Index first_;
-  const FaceStore& store_;
+  std::vector<Owned>& owned_;
+  std::vector<Index>& owners_;
+  Triple* corners_;
+  Triple* neighbors_;
   BlockResult& result_;
-  std::vector<Edge>& edge_at_;
-  std::vector<Index>& seam_index_;
-  std::vector<Edge> owned_ = std::vector<Edge>(16);
 };
 
 }  // namespace
 
 void emit_faces(PlaneGraph& graph, Index first, Index num_sites, const std::vector<Edge>& open,
-                EmissionSpace& space, const FaceStore& store, BlockResult& result) {
-  Emission(graph, first, num_sites, space, store, result).run(open);
+                const std::vector<Index>& hidden, EmissionSpace& space, const FaceStore& store,
+                BlockResult& result) {
+  result.faces_begin = 2 * first;
+  space.owned.assign(num_sites, {~std::uint64_t{0}, 0, no_index});
+  space.owners.resize(num_sites);
+  Emission(graph, first, space, store, result).run(open, hidden);
 }
 
 }  // namespace rondel::bulk

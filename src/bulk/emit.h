@@ -4,6 +4,7 @@
 // Writes the final faces of a block in canonical order.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "bulk/faces.h"
@@ -13,15 +14,22 @@ namespace rondel::bulk {
 
 // Arrays that one block after the other uses.
 struct EmissionSpace {
-  std::vector<PlaneGraph::Edge> edge_at;
-  std::vector<Index> seam_index;
+  // The final faces that a site owns: those of which it is the corner with the lowest rank.
+  struct Owned {
+    std::uint64_t first;  // second corner, the smallest one, and halfedge to it, which is the key
+    Index count;
+    Index seam;  // the place of a seam site in the result
+  };
+  std::vector<Owned> owned;
+  std::vector<Index> owners;
 };
 
 // The graph of the block with the ranks first ... first + num_sites - 1. It names the open faces
-// (open_faces.h) and no others; `open` lists the halfedges with an open face on their left. Sites
-// without edges belong to the seam. Names all faces in the graph.
+// (open_faces.h) and no others; `open` lists the halfedges with an open face on their left,
+// `hidden` the sites without edges. Names all faces in the graph. Precondition: less than 2^28
+// sites.
 void emit_faces(PlaneGraph& graph, Index first, Index num_sites,
-                const std::vector<PlaneGraph::Edge>& open, EmissionSpace& space,
-                const FaceStore& store, BlockResult& result);
+                const std::vector<PlaneGraph::Edge>& open, const std::vector<Index>& hidden,
+                EmissionSpace& space, const FaceStore& store, BlockResult& result);
 
 }  // namespace rondel::bulk

@@ -28,9 +28,12 @@ class PlaneGraph {
  public:
   using Edge = Index;  // a halfedge
 
-  struct alignas(16) Links {
+  // Two arrays with elements of eight bytes, which machines address by their index.
+  struct Ring {
     Edge next;
     Edge previous;
+  };
+  struct End {
     Index target;
     Index face;
   };
@@ -40,36 +43,40 @@ class PlaneGraph {
     // Deleted pairs are used again, and a plane graph has less than three edges a vertex.
     if (capacity_ < max_vertices) {
       const std::size_t size = 6 * max_vertices + 1;
-      edges_.reset();
-      edges_ = std::make_unique_for_overwrite<Links[]>(size);
-      system::advise_huge_pages(edges_.get(), size * sizeof(Links));
+      rings_.reset();
+      rings_ = std::make_unique_for_overwrite<Ring[]>(size);
+      system::advise_huge_pages(rings_.get(), size * sizeof(Ring));
+      ends_.reset();
+      ends_ = std::make_unique_for_overwrite<End[]>(size);
+      system::advise_huge_pages(ends_.get(), size * sizeof(End));
       capacity_ = max_vertices;
     }
+    full_ = 6 * capacity_;
     limit_ = 0;
     free_ = 0;
-    edges_[0].next = 2;
+    rings_[0].next = 2;
   }
 
-  // For loops: the same links without a look at this object for each.
-  [[nodiscard]] const Links* links() const { return edges_.get(); }
-  [[nodiscard]] Links* links() { return edges_.get(); }
+  // For loops: the same arrays without a look at this object for each element.
+  [[nodiscard]] const Ring* rings() const { return rings_.get(); }
+  [[nodiscard]] End* ends() { return ends_.get(); }
 
-  [[nodiscard]] Edge next(Edge e) const { return edges_[e].next; }
-  [[nodiscard]] Edge previous(Edge e) const { return edges_[e].previous; }
-  [[nodiscard]] Index target(Edge e) const { return edges_[e].target; }
-  [[nodiscard]] Index origin(Edge e) const { return edges_[e ^ 1].target; }
-  [[nodiscard]] Edge face_next(Edge e) const { return edges_[e ^ 1].previous; }
+  [[nodiscard]] Edge next(Edge e) const { return rings_[e].next; }
+  [[nodiscard]] Edge previous(Edge e) const { return rings_[e].previous; }
+  [[nodiscard]] Index target(Edge e) const { return ends_[e].target; }
+  [[nodiscard]] Index origin(Edge e) const { return ends_[e ^ 1].target; }
+  [[nodiscard]] Edge face_next(Edge e) const { return rings_[e ^ 1].previous; }
 
   // What the user wants to remember of the face on the left; no_index of a new halfedge.
-  [[nodiscard]] Index face(Edge e) const { return edges_[e].face; }
-  void set_face(Edge e, Index face) { edges_[e].face = face; }
+  [[nodiscard]] Index face(Edge e) const { return ends_[e].face; }
+  void set_face(Edge e, Index face) { ends_[e].face = face; }
 
   // Halfedges are below this; those of deleted pairs have no target.
-  [[nodiscard]] Edge edge_limit() const { return limit_; }
-  [[nodiscard]] bool is_alive(Edge e) const { return edges_[e].target != no_index; }
+  [[nodiscard]] Edge edge_limit() const { return static_cast<Edge>(limit_); }
+  [[nodiscard]] bool is_alive(Edge e) const { return ends_[e].target != no_index; }
 
   // Whether there are as many edges as a plane graph can have, so that no more may be added.
-  [[nodiscard]] bool is_full() const { return limit_ == 6 * capacity_; }
+  [[nodiscard]] bool is_full() const { return limit_ == full_; }
 
   // Pairs without ends and rings.
   template <std::size_t N>
@@ -87,8 +94,8 @@ class PlaneGraph {
   template <std::size_t N>
   void set_ring(const std::array<Spoke, N>& ring) {
     for (std::size_t i = 0; i < N; ++i) {
-      edges_[ring[i].edge] = {ring[(i + 1) % N].edge, ring[(i + N - 1) % N].edge, ring[i].target,
-                              no_index};
+      rings_[ring[i].edge] = {ring[(i + 1) % N].edge, ring[(i + N - 1) % N].edge};
+      ends_[ring[i].edge] = {ring[i].target, no_index};
     }
   }
 
@@ -103,33 +110,35 @@ class PlaneGraph {
   // A new pair from a to b, counterclockwise after f around a and after g around b.
   Edge add(Index a, Index b, Edge f, Edge g) {
     const Edge e = new_pair();
-    const Edge after_f = edges_[f].next;
-    const Edge after_g = edges_[g].next;
-    edges_[e] = {after_f, f, b, no_index};
-    edges_[e ^ 1] = {after_g, g, a, no_index};
-    edges_[f].next = e;
-    edges_[after_f].previous = e;
-    edges_[g].next = e ^ 1;
-    edges_[after_g].previous = e ^ 1;
+    const Edge after_f = rings_[f].next;
+    const Edge after_g = rings_[g].next;
+    rings_[e] = {after_f, f};
+    rings_[e + 1] = {after_g, g};
+    ends_[e] = {b, no_index};
+    ends_[e + 1] = {a, no_index};
+    rings_[f].next = e;
+    rings_[after_f].previous = e;
+    rings_[g].next = e + 1;
+    rings_[after_g].previous = e + 1;
     return e;
   }
 
   // Puts e, alone in its ring, into the ring of f counterclockwise after f.
   void insert_after(Edge e, Edge f) {
-    const Edge g = edges_[f].next;
-    edges_[e].previous = f;
-    edges_[e].next = g;
-    edges_[f].next = e;
-    edges_[g].previous = e;
+    const Edge g = rings_[f].next;
+    rings_[e].previous = f;
+    rings_[e].next = g;
+    rings_[f].next = e;
+    rings_[g].previous = e;
   }
 
   // Takes the pair of e out of both rings.
   void remove(Edge e) {
     unlink(e);
     unlink(e ^ 1);
-    edges_[e].target = no_index;
-    edges_[e ^ 1].target = no_index;
-    edges_[e & ~Edge{1}].next = free_;
+    ends_[e].target = no_index;
+    ends_[e ^ 1].target = no_index;
+    rings_[e & ~Edge{1}].next = static_cast<Edge>(free_);
     free_ = e & ~Edge{1};
   }
 
@@ -137,22 +146,25 @@ class PlaneGraph {
   // The list of deleted pairs runs on with those never used, which saves a branch that would depend
   // on the input: the first of these is always ready.
   Edge new_pair() {
-    const Edge e = std::exchange(free_, edges_[free_].next);
+    const std::size_t e = std::exchange(free_, rings_[free_].next);
     limit_ = std::max(limit_, e + 2);
-    edges_[limit_].next = limit_ + 2;
-    return e;
+    rings_[limit_].next = static_cast<Edge>(limit_ + 2);
+    return static_cast<Edge>(e);
   }
 
   void unlink(Edge e) {
-    const Links& links = edges_[e];
-    edges_[links.previous].next = links.next;
-    edges_[links.next].previous = links.previous;
+    const Ring links = rings_[e];
+    rings_[links.previous].next = links.next;
+    rings_[links.next].previous = links.previous;
   }
 
-  std::unique_ptr<Links[]> edges_;  // not initialized
-  std::size_t capacity_ = 0;        // in vertices
-  Edge limit_ = 0;
-  Edge free_ = 0;  // at most limit_
+  std::unique_ptr<Ring[]> rings_;  // not initialized
+  std::unique_ptr<End[]> ends_;
+  std::size_t capacity_ = 0;  // in vertices
+  // Of another type than the links, so that these are not read again after each link is written.
+  std::size_t full_ = 0;
+  std::size_t limit_ = 0;
+  std::size_t free_ = 0;  // at most limit_
 };
 
 }  // namespace rondel::bulk
