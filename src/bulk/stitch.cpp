@@ -139,6 +139,19 @@ void list_hidden(const SeamFaces& seam, std::span<const Index> names, Triangulat
   std::ranges::sort(arrays.hidden, {}, &Hidden::site);
 }
 
+// The number of every face when all are in their places, by its number before.
+std::unique_ptr<Index[]> final_numbers(const Numbering& numbering, std::size_t num_faces,
+                                       unsigned threads) {
+  std::unique_ptr<Index[]> final_of(new Index[num_faces]);
+  const auto set_final = [&](const Run& run) {
+    for (Index f = run.begin; f < run.end; ++f) final_of[f] = run.final + (f - run.begin);
+  };
+  for_runs(numbering.block_runs(), threads, set_final);
+  for_runs(numbering.late_runs(), threads, set_final);
+  for_runs(numbering.seam_runs(), threads, set_final);
+  return final_of;
+}
+
 }  // namespace
 
 bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_arrays,
@@ -151,13 +164,7 @@ bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_array
   if (numbering.num_faces() != expected) return false;
 
   const Index names_begin = seam.names_begin();
-  const std::unique_ptr<Index[]> final_of(new Index[names_begin + seam.num_all()]);
-  const auto set_final = [&](const Run& run) {
-    for (Index f = run.begin; f < run.end; ++f) final_of[f] = run.final + (f - run.begin);
-  };
-  for_runs(numbering.block_runs(), threads, set_final);
-  for_runs(numbering.late_runs(), threads, set_final);
-  for_runs(numbering.seam_runs(), threads, set_final);
+  const auto final_of = final_numbers(numbering, names_begin + seam.num_all(), threads);
   std::vector<Triple>& faces = arrays.faces;
   std::vector<Triple>& neighbors = arrays.neighbors;
   const auto set_face = [&](const Triple& v, Index to) {

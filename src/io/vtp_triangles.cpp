@@ -18,15 +18,16 @@ void write_vtp_triangles(AtomicFile& file, const Mesh& mesh) {
   vtp.points = {"Points", "Float64", 3, sites.size_bytes(), [=](AtomicFile& out) {
                   out.write({reinterpret_cast<const char*>(sites.data()), sites.size_bytes()});
                 }};
-  vtp.connectivity = {
-      "connectivity", "Int64", 1, 3 * m * sizeof(std::int64_t), [=, &mesh](AtomicFile& out) {
-        write_values<std::int64_t>(out, 3 * m, [&](std::size_t i) {
-          if (mesh.progress && i % 196608 == 0) {
-            mesh.progress("write", static_cast<double>(i / 3) / static_cast<double>(m));
-          }
-          return faces[i / 3][i % 3];
-        });
-      }};
+  vtp.connectivity = {"connectivity", "Int64", 1, 3 * m * sizeof(std::int64_t),
+                      [=, &mesh](AtomicFile& out) {
+                        write_values<std::int64_t>(out, 3 * m, [&](std::size_t i) {
+                          const std::size_t f = i / 3;
+                          if (mesh.progress && i % 196608 == 0) {
+                            mesh.progress("write", static_cast<double>(f) / static_cast<double>(m));
+                          }
+                          return faces[f][i % 3];
+                        });
+                      }};
   vtp.offsets = {"offsets", "Int64", 1, m * sizeof(std::int64_t), [=](AtomicFile& out) {
                    write_values<std::int64_t>(out, m, [](std::size_t i) { return 3 * (i + 1); });
                  }};
