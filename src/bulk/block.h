@@ -103,10 +103,13 @@ class BlockTriangulation {
 
   bool check_position(Index i) {
     if (sites_.site(i) == sites_.center()) return false;
-    const CellPosition& p = sites_.positions()[i];
+    // The one by which the site is in its place. It may be exact, or none if a difference
+    // overflows.
+    const blocks::CubePosition p = input_.position(block_.begin + i);
     const blocks::CubePosition q = blocks::exact_cube_position(sites_.site(i), sites_.center());
-    if (q.face != block_.cell.corner.face) return false;
+    if (p.face != q.face || q.face != block_.cell.corner.face) return false;
     if (!is_close(p.u, q.u) || !is_close(p.v, q.v)) return false;
+    sites_.set_position(i, {p.u, p.v});
     const std::uint64_t difference = ((p.u ^ q.u) | (p.v ^ q.v)) >> Divide<T>::least_bit;
     if (difference != 0) {
       work_.misplaced.push_back(

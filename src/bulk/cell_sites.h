@@ -85,6 +85,7 @@ class CellSites {
   [[nodiscard]] const Point& site(Index i) const { return sites_[order_[i]]; }
   [[nodiscard]] const Point& center() const { return center_; }
   [[nodiscard]] const std::vector<CellPosition>& positions() const { return positions_; }
+  void set_position(Index i, const CellPosition& position) { positions_[i] = position; }
 
   // The vector from the center to a site, within a few units: in right-handed axes of which the
   // third leads to the middle of the face, and the others run along it, the second one against the

@@ -92,6 +92,36 @@ TEST(bulk_nasty, sites_near_lines_in_all_directions_of_rounding) {
   }
 }
 
+// With a center the order knows exact positions, and differences rounded to doubles may lie beyond
+// the line at which a block ends. Few sites on lines, so that most blocks have none on others.
+TEST(bulk_nasty, sites_on_the_lines_where_blocks_end) {
+  Random random(1);
+  const std::array<Point, 6> centers = {{{0.1, 0.2, -0.3},
+                                         {1e6, 1, -0.1},
+                                         {0x1p-30, 0, 0},
+                                         {1e-20, 1, 2},
+                                         {0.5, 0.25, 8},
+                                         {1e3, 3, 7}}};
+  for (std::size_t i = 0; i < scaled(100); ++i) {
+    SiteSet set;
+    set.sphere.center = centers[i % centers.size()];
+    for (int k = 0; k < 1500; ++k) {
+      set.sites.push_back(set.sphere.center + random_direction(random));
+    }
+    for (int k = random.between(1, 60); k > 0; --k) {
+      const double u = on_line(random, 1 + static_cast<int>(i % 3));
+      const double v = random.signed_unit();
+      const auto face = static_cast<unsigned>(random.below(6));
+      const Point p =
+          set.sphere.center + normalized(random.coin() ? on_cube(face, u, v) : on_cube(face, v, u));
+      set.sites.push_back(random.coin() ? moved_by_one_ulp(random, p) : p);
+    }
+    SCOPED_TRACE(i);
+    expect_same(set, {40, 100, 300});
+    ASSERT_FALSE(testing::Test::HasFailure());
+  }
+}
+
 TEST(bulk_nasty, great_circles_through_corners_of_cells) {
   Random random(13);
   for (std::size_t i = 0; i < scaled(20); ++i) {
