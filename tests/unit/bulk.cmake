@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(bulk_test
+  bulk_api_test.cpp
   bulk_bounds_test.cpp
   bulk_divide_test.cpp
   bulk_nasty_test.cpp

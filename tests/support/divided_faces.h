@@ -1,0 +1,105 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Divide and conquer by itself: all its triangles against the faces that the center sees, of the
+// same sites in the incremental build.
+#pragma once
+
+#include <algorithm>
+#include <set>
+#include <type_traits>
+#include <vector>
+
+#include "blocks/cube_position.h"
+#include "blocks/spatial_order.h"
+#include "bulk/cell_sites.h"
+#include "bulk/divide.h"
+#include "incremental/triangulate.h"
+#include "support/generators.h"
+
+namespace rondel::test {
+
+inline Triple lowest_corner_first(Triple t) {
+  std::rotate(t.begin(), std::ranges::min_element(t), t.end());
+  return t;
+}
+
+// The faces of the part of the graph that the boundary reaches, by rank. Adds {} if a face has not
+// three sides.
+inline std::set<Triple> faces_of(const bulk::PlaneGraph& graph, bulk::PlaneGraph::Edge boundary) {
+  using Edge = bulk::PlaneGraph::Edge;
+  std::set<Edge> outer;
+  Edge e = boundary;
+  do {
+    outer.insert(e ^ 1);
+    e = graph.next(e ^ 1);
+  } while (e != boundary);
+  std::set<Triple> faces;
+  std::vector<Edge> stack = {boundary};
+  std::set<Edge> seen = {boundary};
+  while (!stack.empty()) {
+    const Edge f = stack.back();
+    stack.pop_back();
+    const Edge g = graph.face_next(f);
+    if (outer.count(f) == 0) {
+      const bool is_triangle = graph.face_next(graph.face_next(g)) == f;
+      faces.insert(is_triangle
+                       ? lowest_corner_first({graph.origin(f), graph.origin(g), graph.target(g)})
+                       : Triple{});
+    }
+    for (const Edge next : {f ^ 1, g}) {
+      if (seen.insert(next).second) stack.push_back(next);
+    }
+  }
+  return faces;
+}
+
+// The faces that the center sees, by rank.
+inline std::set<Triple> solid_faces(const SiteSet& set, const blocks::SpatialOrder& order,
+                                    Model model) {
+  Options options;
+  options.model = model;
+  options.sphere = set.sphere;
+  const auto arrays = incremental::triangulate(set.sites, order.order, {}, options).arrays;
+  std::vector<Index> rank(set.sites.size(), no_index);
+  for (Index i = 0; i < order.order.size(); ++i) rank[order.order[i]] = i;
+  std::set<Triple> faces;
+  for (Index f = 0; f < arrays.faces.size(); ++f) {
+    if (std::ranges::binary_search(arrays.ghost_faces, f)) continue;
+    const Triple& v = arrays.faces[f];
+    faces.insert(lowest_corner_first({rank[v[0]], rank[v[1]], rank[v[2]]}));
+  }
+  return faces;
+}
+
+enum class Divided { same, different, left_to_seam, misplaced, too_few };
+
+// Sites of one face of the cube. `extent` holds for the weighted model.
+template <class T>
+Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
+  constexpr bool is_weighted = std::is_same_v<T, incremental::WeightedPoints>;
+  constexpr Model model = is_weighted ? Model::weighted : Model::projected;
+  constexpr int least_bit = bulk::Divide<T>::least_bit;
+  const Point& center = set.sphere.center;
+  const auto order = blocks::spatial_order(set.sites, model, center, 1);
+  if (order.order.size() < 2) return Divided::too_few;
+  bulk::CellSites<T> sites;
+  const auto first = blocks::exact_cube_position(set.sites[order.order[0]], center);
+  sites.assign(set.sites, order.order, center, first.face, is_weighted ? extent : bulk::Extent{});
+  for (Index i = 0; i < sites.size(); ++i) {
+    const auto exact = blocks::exact_cube_position(sites.site(i), center);
+    const auto& p = sites.positions()[i];
+    if (blocks::cube_position(sites.site(i), center).face != first.face) return Divided::misplaced;
+    if (exact.u >> least_bit != p.u >> least_bit || exact.v >> least_bit != p.v >> least_bit) {
+      return Divided::misplaced;
+    }
+  }
+  bulk::PlaneGraph graph;
+  bulk::Divide<T> divide(sites, {}, graph);
+  const auto boundary = divide.run(0, blocks::position_bits - 1);
+  if (boundary == no_index) return Divided::left_to_seam;
+  return faces_of(graph, boundary) == solid_faces(set, order, model) ? Divided::same
+                                                                     : Divided::different;
+}
+
+}  // namespace rondel::test

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// delaunay() of so many sites that it works by blocks: all that it tells is right, whatever the
+// threads and the input order.
+#include "bulk_support.h"
+#include "rondel/check.h"
+#include "rondel/delaunay.h"
+
+namespace rondel::test {
+namespace {
+
+struct Case {
+  std::string_view generator;
+  Model model;
+  bool has_blocks;
+};
+
+// The last ones suit the incremental build better.
+constexpr Case cases[] = {
+    {"uniform", Model::projected, true},    {"uniform", Model::weighted, true},
+    {"clustered", Model::projected, true},  {"globe_grid", Model::weighted, true},
+    {"hemisphere", Model::projected, true}, {"hemisphere", Model::weighted, true},
+    {"near_sphere", Model::weighted, true}, {"ball", Model::projected, true},
+    {"ball", Model::weighted, false},       {"great_circle_and_some", Model::projected, false}};
+
+// Whether the first sign of progress is that of a block: without blocks it is 0 at first.
+bool has_blocks(const SiteSet& set, Options options) {
+  double first = -1;
+  options.progress = [&first](std::string_view stage, double fraction) {
+    if (stage == "triangulate" && first < 0) first = fraction;
+  };
+  const auto order = blocks::spatial_order(set.sites, options.model, set.sphere.center, 1);
+  bulk::triangulate(set.sites, order.order, order.renamed, options);
+  return first > 0;
+}
+
+void expect_equal(const Triangulation& a, const Triangulation& b) {
+  EXPECT_TRUE(std::ranges::equal(a.faces(), b.faces()));
+  EXPECT_TRUE(std::ranges::equal(a.neighbors(), b.neighbors()));
+  EXPECT_TRUE(std::ranges::equal(a.ghost_faces(), b.ghost_faces()));
+  EXPECT_TRUE(std::ranges::equal(a.duplicates(), b.duplicates()));
+  EXPECT_TRUE(std::ranges::equal(a.hidden(), b.hidden()));
+}
+
+TEST(bulk_api, what_many_sites_give) {
+  for (const Case& c : cases) {
+    SCOPED_TRACE(std::string(c.generator) + " " + text_of(c.model));
+    SiteSet set = generator(c.generator).make(16000, 1);
+    for (std::size_t i = 0; i < 500; ++i) set.sites.push_back(set.sites[7 * i]);
+    Options options;
+    options.model = c.model;
+    options.sphere = set.sphere;
+    EXPECT_EQ(has_blocks(set, options), c.has_blocks);
+    options.threads = 1;
+    const Triangulation built = delaunay(set.sites, options);
+    const CheckReport report = check(set.sites, built.faces(), options);
+    EXPECT_TRUE(report.is_valid) << report.reason;
+    EXPECT_EQ(report.num_vertices, built.num_vertices());
+    EXPECT_EQ(report.num_hidden, built.hidden().size());
+    EXPECT_EQ(report.num_duplicates, built.duplicates().size());
+    options.threads = 3;
+    expect_equal(delaunay(set.sites, options), built);
+    // In another order, duplicates first, the vertices have other names.
+    std::ranges::reverse(set.sites);
+    const auto last = static_cast<Index>(set.sites.size() - 1);
+    std::vector<Index> name(set.sites.size());
+    for (Index i = 0; i <= last; ++i) name[i] = last - i;
+    const Triangulation reversed = delaunay(set.sites, options);
+    for (const Duplicate& d : built.duplicates()) name[last - d.site] = d.representative;
+    EXPECT_TRUE(std::ranges::equal(reversed.faces(), built.faces(), {}, [&](const Triple& f) {
+      return Triple{name[f[0]], name[f[1]], name[f[2]]};
+    }));
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test
