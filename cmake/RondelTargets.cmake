@@ -18,3 +18,11 @@ function(rondel_target_settings target)
     target_link_options(${target} PUBLIC -fsanitize=${RONDEL_SANITIZE})
   endif()
 endfunction()
+
+# Lint and the sanitizers compile the files of a target together (CMAKE_UNITY_BUILD), to read what they
+# include once. These files stay alone: names in their unnamed namespaces mean something else in their
+# neighbours'.
+function(rondel_compile_alone target)
+  set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target}
+                              PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
