@@ -47,7 +47,7 @@ class BlockTriangulation {
   BlockTriangulation(const Input& input, const Block& block, Workspace<T>& workspace)
       : input_(input), block_(block), work_(workspace), sites_(workspace.sites) {
     sites_.assign(input.sites, input.order.subspan(block.begin, num_sites()),
-                  input.options.sphere.center, block.cell.corner.face, input.extent);
+                  input.options.sphere.center, block.cell, input.extent);
   }
 
   BlockResult run(const FaceStore& store) {

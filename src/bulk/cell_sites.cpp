@@ -19,29 +19,56 @@ namespace {
 using predicates::add;
 using predicates::unit_roundoff;
 
-// The largest distances in the space of (u, v, w) over a face of the cube: 2 in u and in v.
-constexpr double most_uv = 2.83;
-
 // u and v are off by at most 3 units: a difference in each coordinate, and the quotient. In units:
-// 2 * 2 * 3 sqrt(2) for the ends of two vectors, relative to the distance, and 5 * most_uv for the
-// roundings of differences, products and their difference; 1.2 for terms of higher order.
+// 2 * 2 * 3 sqrt(2) for the ends of two vectors, relative to the distance, and 5 * 2.83, the
+// largest distance, for the roundings of differences, products and their difference; 1.2 for terms
+// of higher order.
 constexpr double orientation_bound = 38 * unit_roundoff;
 
 // No bound is below this: products of what is smaller may lose bits to underflow.
 constexpr double least_bound = 1e-280;
 
-// The error of N.(y-l) relative to the square of the largest distance: 6 eta for the ends of three
-// vectors, where eta is the error of a point, and 8.8 units times the distance for the
-// roundings (docs/theory/filters.md); 1.2 for terms of higher order.
-double find_conflict_bound(double w_error, double most_w_distance) {
+// The error of N.(y-l) with weights, relative to the square of the largest distance: 6 eta for the
+// ends of three vectors, where eta is the error of a point, and 8.8 units times the distance for
+// the roundings (docs/theory/filters.md); 1.2 for terms of higher order.
+double find_weighted_bound(double w_error, double most_w_distance) {
+  constexpr double most_uv = 2.83;
   const double eta = unit_roundoff * std::sqrt(3 * 3 + 3 * 3 + w_error * w_error);
   const double distance = std::sqrt(most_uv * most_uv + most_w_distance * most_w_distance);
   return 1.2 * (6 * eta + 8.8 * unit_roundoff * distance);
 }
 
-double max_squared_distance(const CellVector& a, const CellVector& b, const CellVector& c) {
-  return std::max(std::max(dot(a, a), dot(b, b)), dot(c, c));
-}
+double squared_in_plane(const CellVector& a) { return a.u * a.u + a.v * a.v; }
+
+// The surface w = sqrt(1 + u^2 + v^2) and its tangent plane above the middle of a cell.
+class Tangent {
+ public:
+  Tangent(const Cell& cell, double hand) {
+    const auto ratio = [&cell](std::uint64_t position) {
+      const auto middle = static_cast<double>(position) + std::ldexp(0.5, cell.bits);
+      return std::ldexp(middle, 1 - blocks::position_bits) - 1;
+    };
+    u_ = ratio(cell.corner.u);
+    v_ = hand * ratio(cell.corner.v);
+    w_ = std::sqrt(1 + (u_ * u_ + v_ * v_));
+  }
+
+  // The height of the surface over the plane, where w is the third coordinate of the surface. The
+  // differences of w and of the plane from w_ nearly cancel, so they are not computed.
+  [[nodiscard]] double height(double u, double v, double w) const {
+    const double du = u - u_;
+    const double dv = v - v_;
+    const double squared = du * du + dv * dv;
+    const double along = u_ * du + v_ * dv;
+    const double sum = w + w_;
+    return (squared * w_ - along * (2 * along + squared) / sum) / (w_ * sum);
+  }
+
+ private:
+  double u_;
+  double v_;
+  double w_;
+};
 
 // Sites are given a traits class of their own for up to one question in so many sites.
 constexpr Index many = 32;
@@ -53,7 +80,7 @@ constexpr bool is_weighted = std::is_same_v<T, incremental::WeightedPoints>;
 
 template <incremental::SphereTraits T>
 void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> order,
-                          const Point& center, unsigned cube_face, const Extent& extent) {
+                          const Point& center, const Cell& cell, const Extent& extent) {
   sites_ = sites;
   order_ = order;
   center_ = center;
@@ -62,17 +89,28 @@ void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> o
   num_filtered_ = 0;
   tally_ = {};
   exact_.assign({}, {}, center);
-  // w is off by at most 4.4 units, or 2 with weights; it is below sqrt(3) s/|p|.
-  const double most_w = 1.74 * (is_weighted<T> ? extent.most_size / extent.least_size : 1);
-  conflict_bound_ = find_conflict_bound(4.5 * most_w, most_w);
+  if (is_weighted<T>) {
+    // w is off by at most 2 units; it is below sqrt(3) s/|p|.
+    const double most_w = 1.74 * extent.most_size / extent.least_size;
+    square_bound_ = find_weighted_bound(2.1 * most_w, most_w);
+    cube_bound_ = 0;
+  } else {
+    // In units: 54 length^2 for the error of w, 39 for those of u and v, 34 length for roundings;
+    // half of it more for terms of higher order (docs/theory/blocks.md).
+    const double length = std::ldexp(1, cell.bits + 1 - blocks::position_bits);
+    square_bound_ = 1.5 * 54 * unit_roundoff * (length * length);
+    cube_bound_ = 1.5 * (39 + 34 * length) * unit_roundoff;
+  }
 
   points_.resize(order.size());
   positions_.resize(order.size());
+  const unsigned cube_face = cell.corner.face;
   const blocks::CubeAxes axes = blocks::cube_axes(cube_face);
   const auto u_axis = exact::to_vector(axes.u);
   const auto v_axis = exact::to_vector(axes.v);
   const auto out = exact::to_vector(axes.out);
   hand_ = det(u_axis, v_axis, out);
+  const Tangent tangent(cell, hand_);
   const auto origin = exact::to_vector(center);
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i + blocks::prefetch_distance < order.size()) {
@@ -83,8 +121,9 @@ void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> o
     const double z = dot(ray, out);
     const double u = dot(ray, u_axis) / z;
     const double v = dot(ray, v_axis) / z;
-    const double w = is_weighted<T> ? extent.most_size / z : std::sqrt(1 + (u * u + v * v));
-    points_[i] = {u, hand_ * v, w, 0};
+    const double size = is_weighted<T> ? extent.most_size / z : std::sqrt(1 + (u * u + v * v));
+    const double w = is_weighted<T> ? size : tangent.height(u, hand_ * v, size);
+    points_[i] = {u, hand_ * v, w, size};
     // Where a difference overflows, or z is 0, the position is the last one and wrong.
     const auto position = [](double ratio) {
       constexpr double last = 0x1p52 - 1;
@@ -93,18 +132,20 @@ void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> o
     };
     positions_[i] = {position(u), position(v)};
   }
+  accurate_.assign(points_, sites, order, center, cube_face);
 }
 
-// |dw| <= |d(u, v)| where w^2 = 1 + u^2 + v^2, and w is that times s/|p| for weighted sites.
+// With weights w is sqrt(1 + u^2 + v^2) s/|p|, and the change of the root is at most that of (u,
+// v).
 template <incremental::SphereTraits T>
 CellLimits CellSites<T>::limits(double length) const {
-  double distance = 2.01 * length;
+  double distance = 1.42 * length;
   if (is_weighted<T>) {
     const double most_ratio = extent_.most_size / extent_.least_size;
-    distance = most_ratio * distance + 1.74 * (most_ratio - 1);
+    distance = most_ratio * 2.01 * length + 1.74 * (most_ratio - 1);
   }
   return {std::max(orientation_bound * distance, least_bound),
-          std::max(conflict_bound_ * (distance * distance), least_bound)};
+          std::max(conflict_limit(distance), least_bound)};
 }
 
 template <incremental::SphereTraits T>
@@ -129,10 +170,15 @@ auto CellSites<T>::ask_traits(const std::array<Index, N>& indices, Test test) co
 
 template <incremental::SphereTraits T>
 Sign CellSites<T>::orientation(Index a, Index b, Index c) const {
+  if (!is_weighted<T>) {
+    const Sign sign = accurate_.orientation(a, b, c);
+    if (sign != Sign::zero) return sign;
+  }
   const CellVector ab = points_[b] - points_[a];
   const CellVector ac = points_[c] - points_[a];
   const double value = cross(ab, ac).w;
-  const double bound = orientation_bound * std::sqrt(std::max(dot(ab, ab), dot(ac, ac)));
+  const double bound =
+      orientation_bound * std::sqrt(std::max(squared_in_plane(ab), squared_in_plane(ac)));
   if (std::abs(value) > std::max(bound, least_bound)) return exact::sign_of(value);
   return ask_traits(std::array{a, b, c}, [](const T& t, const std::array<Index, 3>& i) {
     return t.orientation(i[0], i[1], i[2]);
@@ -140,15 +186,22 @@ Sign CellSites<T>::orientation(Index a, Index b, Index c) const {
 }
 
 template <incremental::SphereTraits T>
-bool CellSites<T>::is_in_conflict(Index a, Index b, Index c, Index p) const {
-  const CellVector ab = points_[b] - points_[a];
-  const CellVector ac = points_[c] - points_[a];
-  const CellVector ap = points_[p] - points_[a];
-  const double value = dot(cross(ab, ac), ap);
-  const double bound = conflict_bound_ * max_squared_distance(ab, ac, ap);
-  if (std::abs(value) > std::max(bound, least_bound)) {
+bool CellSites<T>::is_in_conflict(Index a, Index b, Index c, Index p, double value) const {
+  const auto squared_from_a = [&](Index i) {
+    const CellVector x = points_[i] - points_[a];
+    return is_weighted<T> ? dot(x, x) : squared_in_plane(x);
+  };
+  const double squared = std::max({squared_from_a(b), squared_from_a(c), squared_from_a(p)});
+  if (std::abs(value) > std::max(conflict_limit(std::sqrt(squared)), least_bound)) {
     ++num_filtered_;
     return value < 0;
+  }
+  if (!is_weighted<T>) {
+    const Sign side = accurate_.side_of_face(a, b, c, p);
+    if (side != Sign::zero) {
+      ++tally_.double_double;
+      return side == Sign::negative;
+    }
   }
   return ask_traits(std::array{a, b, c, p}, [](const T& t, const std::array<Index, 4>& i) {
     return t.is_in_conflict(i[0], i[1], i[2], i[3]);

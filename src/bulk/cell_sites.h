@@ -15,8 +15,10 @@
 //       | l------r---x        N.(y-l) < 0    y lies beyond the face, away from the center.
 //       +------------ (u, v)
 //
-// In the projected model s = |p|, so w^2 = 1 + u^2 + v^2. In the weighted model s is one number for
-// all. Doubles decide when they can (docs/theory/blocks.md), else the traits class does.
+// In the weighted model s is one number for all. In the projected model s = |p|, and w is the
+// height of w = sqrt(1 + u^2 + v^2) over its tangent plane in the middle of the cell: no plane
+// becomes another one, and small cells have small numbers with small errors. Doubles decide when
+// they can (docs/theory/blocks.md), else the traits class does.
 #pragma once
 
 #include <array>
@@ -24,35 +26,14 @@
 #include <span>
 #include <vector>
 
+#include "bulk/accurate_places.h"
+#include "bulk/cell_point.h"
+#include "bulk/cells.h"
 #include "incremental/projected_points.h"
 #include "incremental/sphere_traits.h"
 #include "incremental/weighted_points.h"
 
 namespace rondel::bulk {
-
-// In the space of (u, v, w); with a fourth number an index becomes an address by a shift.
-struct alignas(32) CellPoint {
-  double u;
-  double v;
-  double w;
-  double padding;
-};
-
-struct CellVector {
-  double u;
-  double v;
-  double w;
-};
-
-inline CellVector operator-(const CellPoint& a, const CellPoint& b) {
-  return {a.u - b.u, a.v - b.v, a.w - b.w};
-}
-inline double dot(const CellVector& a, const CellVector& b) {
-  return a.u * b.u + a.v * b.v + a.w * b.w;
-}
-inline CellVector cross(const CellVector& a, const CellVector& b) {
-  return {a.v * b.w - a.w * b.v, a.w * b.u - a.u * b.w, a.u * b.v - a.v * b.u};
-}
 
 // Values beyond these are proven for all sites of a cell, which saves the lengths of the vectors.
 struct CellLimits {
@@ -75,10 +56,10 @@ struct Extent {
 template <incremental::SphereTraits T>
 class CellSites {
  public:
-  // The sites sites[order[0]], sites[order[1]], ... on this face of the cube. Also finds their
-  // positions, which are those of the spatial order.
+  // The sites sites[order[0]], sites[order[1]], ... of this cell. Also finds their positions, which
+  // are those of the spatial order.
   void assign(std::span<const Point> sites, std::span<const Index> order, const Point& center,
-              unsigned cube_face, const Extent& extent);
+              const Cell& cell, const Extent& extent);
 
   [[nodiscard]] Index size() const { return static_cast<Index>(points_.size()); }
   [[nodiscard]] const CellPoint* points() const { return points_.data(); }
@@ -92,7 +73,7 @@ class CellSites {
   // direction of positions if hand() is -1. Of unit length in the projected model.
   [[nodiscard]] predicates::Vector ray(Index i) const {
     const CellPoint& p = points_[i];
-    const double z = 1 / p.w;
+    const double z = 1 / p.size;
     return {z * p.u, z * p.v, z};
   }
   [[nodiscard]] double hand() const { return hand_; }
@@ -100,9 +81,15 @@ class CellSites {
   // For the sites of a cell that is this long in u and v.
   [[nodiscard]] CellLimits limits(double length) const;
 
-  // The rest of the ladder: the filter with the real distances, then the traits class.
+  // For sites with this largest distance: in u and v in the projected model, in space with weights.
+  [[nodiscard]] double conflict_limit(double distance) const {
+    return distance * distance * (square_bound_ + distance * cube_bound_);
+  }
+
+  // The rest of the ladder: the filter with the real distances, accurate places, the traits class.
   [[nodiscard]] Sign orientation(Index a, Index b, Index c) const;
-  [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p) const;
+  // `value` is N.(p-a).
+  [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p, double value) const;
 
   // Of all conflict tests, given that this is called for those that did not come here.
   void count_filtered() const { ++num_filtered_; }
@@ -121,7 +108,9 @@ class CellSites {
   Point center_;
   Extent extent_;
   double hand_ = 1;
-  double conflict_bound_ = 0;
+  double square_bound_ = 0;
+  double cube_bound_ = 0;
+  mutable AccuratePlaces accurate_;
   mutable T exact_;
   mutable T few_;
   mutable Index num_unsure_ = 0;

@@ -46,7 +46,7 @@ class MergeStep {
   [[nodiscard]] bool is_in_conflict(const Face& face, Index y) const {
     const double value = dot(face.normal, from_l(y));
     if (!(std::abs(value) > limits_.conflict)) [[unlikely]] {
-      return sites_.is_in_conflict(l_, r_, face.apex, y);
+      return sites_.is_in_conflict(l_, r_, face.apex, y, value);
     }
     sites_.count_filtered();
     return value < 0;

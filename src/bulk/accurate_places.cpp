@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "bulk/accurate_places.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "exact/eft.h"
+#include "exact/vector.h"
+
+namespace rondel::bulk {
+namespace {
+
+using exact::DoubleDouble;
+
+// Relative to the distance, in units of 2^-64: 16 and 256. Steps between places have a small
+// relative error from this distance on.
+constexpr long double orientation_bound = 0x1p-60L;
+constexpr long double conflict_bound = 0x1p-56L;
+constexpr long double least_squared_distance = 0x1p-80L;
+
+// Not so with other types, with the processor set to 53 bits, or in some emulators.
+bool find_extended_precision() {
+  if constexpr (std::numeric_limits<long double>::digits != 64) return false;
+  const volatile long double one = 1;
+  const volatile long double unit = std::numeric_limits<long double>::epsilon();
+  return one + unit != one;
+}
+
+// The coordinate of a difference along an axis.
+DoubleDouble along(const Point& axis, const Point& p, const Point& center) {
+  if (axis.x != 0) return exact::two_diff(axis.x * p.x, axis.x * center.x);
+  if (axis.y != 0) return exact::two_diff(axis.y * p.y, axis.y * center.y);
+  return exact::two_diff(axis.z * p.z, axis.z * center.z);
+}
+
+// x/z - quotient, where the quotient is x.hi/z.hi rounded.
+double rest(const DoubleDouble& x, const DoubleDouble& z, double quotient) {
+  const DoubleDouble product = exact::two_product(quotient, z.hi);
+  return (((x.hi - product.hi) - product.lo) + (x.lo - quotient * z.lo)) / z.hi;
+}
+
+Sign sign_beyond(long double value, long double bound) {
+  return std::abs(value) > bound ? static_cast<Sign>(value > 0 ? 1 : -1) : Sign::zero;
+}
+
+}  // namespace
+
+bool AccuratePlaces::is_available() {
+  static const bool result = find_extended_precision();
+  return result;
+}
+
+void AccuratePlaces::assign(std::span<const CellPoint> points, std::span<const Point> sites,
+                            std::span<const Index> order, const Point& center, unsigned cube_face) {
+  points_ = points;
+  sites_ = sites;
+  order_ = order;
+  center_ = center;
+  axes_ = blocks::cube_axes(cube_face);
+  hand_ = det(exact::to_vector(axes_.u), exact::to_vector(axes_.v), exact::to_vector(axes_.out));
+  lows_.clear();
+}
+
+void AccuratePlaces::find_low(Index i) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Point& p = sites_[order_[i]];
+  const CellPoint& point = points_[i];
+  const DoubleDouble z = along(axes_.out, p, center_);
+  if (!(z.hi > 0x1p-900 && z.hi < 0x1p900)) {
+    lows_[i] = {infinity, infinity, infinity};
+    return;
+  }
+  const double u = rest(along(axes_.u, p, center_), z, point.u);
+  const double v = hand_ * rest(along(axes_.v, p, center_), z, hand_ * point.v);
+  const long double x = static_cast<long double>(point.u) + u;
+  const long double y = static_cast<long double>(point.v) + v;
+  lows_[i] = {u, v, static_cast<double>(std::sqrt(1 + (x * x + y * y)) - point.size)};
+}
+
+void AccuratePlaces::reserve_lows() {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  lows_.resize(points_.size(), {unknown, unknown, unknown});
+}
+
+// From the site a. With the places x and y of two sites, d = y - x, and w(x) the square root of
+// 1 + |x|^2, the height times w(x), which is the same for all steps, is
+//
+//     w(x) w(y) - w(x)^2 - x.d = (|d|^2 w(x) - x.d (2 x.d + |d|^2) / (w(x) + w(y))) / (w(x) +
+//     w(y)).
+class AccuratePlaces::Steps {
+ public:
+  Steps(AccuratePlaces& places, Index a) : places_(places), point_(places.points_[a]) {
+    if (places.lows_.empty()) places.reserve_lows();
+    low_ = known_low(a);
+    u_ = static_cast<long double>(point_.u) + low_.u;
+    v_ = static_cast<long double>(point_.v) + low_.v;
+    size_ = static_cast<long double>(point_.size) + low_.size;
+  }
+
+  [[nodiscard]] Step to(Index b) const {
+    const CellPoint& point = places_.points_[b];
+    const Low& low = known_low(b);
+    const long double u = (static_cast<long double>(point.u) - point_.u) + (low.u - low_.u);
+    const long double v = (static_cast<long double>(point.v) - point_.v) + (low.v - low_.v);
+    const long double squared = u * u + v * v;
+    const long double along = u_ * u + v_ * v;
+    const long double factor = 1 / (size_ + (static_cast<long double>(point.size) + low.size));
+    const long double height = (squared * size_ - along * (2 * along + squared) * factor) * factor;
+    return {u, v, height, squared};
+  }
+
+ private:
+  [[nodiscard]] const Low& known_low(Index i) const {
+    const Low& low = places_.lows_[i];
+    if (std::isnan(low.u)) places_.find_low(i);
+    return low;
+  }
+
+  AccuratePlaces& places_;
+  const CellPoint& point_;
+  Low low_{};
+  long double u_ = 0;
+  long double v_ = 0;
+  long double size_ = 0;
+};
+
+Sign AccuratePlaces::orientation(Index a, Index b, Index c) {
+  if (!is_available()) return Sign::zero;
+  const Steps from(*this, a);
+  const Step ab = from.to(b);
+  const Step ac = from.to(c);
+  const long double squared = std::max(ab.squared, ac.squared);
+  if (!(squared > least_squared_distance)) return Sign::zero;
+  return sign_beyond(ab.u * ac.v - ab.v * ac.u, orientation_bound * squared);
+}
+
+Sign AccuratePlaces::side_of_face(Index a, Index b, Index c, Index p) {
+  if (!is_available()) return Sign::zero;
+  const Steps from(*this, a);
+  const Step ab = from.to(b);
+  const Step ac = from.to(c);
+  const Step ap = from.to(p);
+  const long double squared = std::max({ab.squared, ac.squared, ap.squared});
+  if (!(squared > least_squared_distance)) return Sign::zero;
+  const long double value = ab.height * (ac.u * ap.v - ac.v * ap.u) +
+                            ac.height * (ap.u * ab.v - ap.v * ab.u) +
+                            ap.height * (ab.u * ac.v - ab.v * ac.u);
+  return sign_beyond(value, conflict_bound * (squared * squared));
+}
+
+}  // namespace rondel::bulk

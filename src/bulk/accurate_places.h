@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A filter for sites that are almost on one great circle or one circle, as those of grids are, in
+// the projected model: with numbers of 64 bits, where the machine has them. Double-double numbers,
+// which the next rung calculates with, take several times as long. Differences of places have a
+// small relative error, and so has the height of the sphere over its tangent plane at one of the
+// sites (docs/theory/blocks.md).
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "blocks/cube_position.h"
+#include "bulk/cell_point.h"
+
+namespace rondel::bulk {
+
+class AccuratePlaces {
+ public:
+  // Whether the processor has such numbers. If not, nothing is certain.
+  static bool is_available();
+
+  // The sites sites[order[0]], ... with points[0], ... on this face of the cube.
+  void assign(std::span<const CellPoint> points, std::span<const Point> sites,
+              std::span<const Index> order, const Point& center, unsigned cube_face);
+
+  // Positive if c lies to the left of the edge from a to b, zero if this is not certain.
+  [[nodiscard]] Sign orientation(Index a, Index b, Index c);
+
+  // Negative if p lies beyond the face (a, b, c), zero if this is not certain.
+  [[nodiscard]] Sign side_of_face(Index a, Index b, Index c, Index p);
+
+ private:
+  // What the numbers of a CellPoint lack, the third one of sqrt(1 + u^2 + v^2); NaN if this is not
+  // known yet, infinite if it never is.
+  struct Low {
+    double u;
+    double v;
+    double size;
+  };
+  // From one site to another: places, and the height over the tangent plane at the first one.
+  struct Step {
+    long double u;
+    long double v;
+    long double height;
+    long double squared;
+  };
+  class Steps;
+
+  void reserve_lows();
+  void find_low(Index i);
+
+  std::span<const CellPoint> points_;
+  std::span<const Point> sites_;
+  std::span<const Index> order_;
+  Point center_;
+  blocks::CubeAxes axes_;
+  double hand_ = 1;
+  std::vector<Low> lows_;  // empty until the first question
+};
+
+}  // namespace rondel::bulk
