@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "exact/eft.h"
+#include "exact/extended.h"
 #include "exact/vector.h"
 
 namespace rondel::bulk {
@@ -20,14 +21,6 @@ using exact::DoubleDouble;
 constexpr long double orientation_bound = 0x1p-60L;
 constexpr long double conflict_bound = 0x1p-56L;
 constexpr long double least_squared_distance = 0x1p-80L;
-
-// Not so with other types, with the processor set to 53 bits, or in some emulators.
-bool find_extended_precision() {
-  if constexpr (std::numeric_limits<long double>::digits != 64) return false;
-  const volatile long double one = 1;
-  const volatile long double unit = std::numeric_limits<long double>::epsilon();
-  return one + unit != one;
-}
 
 // The coordinate of a difference along an axis.
 DoubleDouble along(const Point& axis, const Point& p, const Point& center) {
@@ -47,11 +40,6 @@ Sign sign_beyond(long double value, long double bound) {
 }
 
 }  // namespace
-
-bool AccuratePlaces::is_available() {
-  static const bool result = find_extended_precision();
-  return result;
-}
 
 void AccuratePlaces::assign(std::span<const CellPoint> points, std::span<const Point> sites,
                             std::span<const Index> order, const Point& center, unsigned cube_face) {
@@ -128,7 +116,7 @@ class AccuratePlaces::Steps {
 };
 
 Sign AccuratePlaces::orientation(Index a, Index b, Index c) {
-  if (!is_available()) return Sign::zero;
+  if (!exact::has_extended_precision()) return Sign::zero;
   const Steps from(*this, a);
   const Step ab = from.to(b);
   const Step ac = from.to(c);
@@ -138,7 +126,7 @@ Sign AccuratePlaces::orientation(Index a, Index b, Index c) {
 }
 
 Sign AccuratePlaces::side_of_face(Index a, Index b, Index c, Index p) {
-  if (!is_available()) return Sign::zero;
+  if (!exact::has_extended_precision()) return Sign::zero;
   const Steps from(*this, a);
   const Step ab = from.to(b);
   const Step ac = from.to(c);

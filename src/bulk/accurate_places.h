@@ -18,9 +18,6 @@ namespace rondel::bulk {
 
 class AccuratePlaces {
  public:
-  // Whether the processor has such numbers. If not, nothing is certain.
-  static bool is_available();
-
   // The sites sites[order[0]], ... with points[0], ... on this face of the cube.
   void assign(std::span<const CellPoint> points, std::span<const Point> sites,
               std::span<const Index> order, const Point& center, unsigned cube_face);

@@ -89,8 +89,12 @@ exact::SplitPoint ProjectedPoints::split_direction(Index a) const {
 }
 
 bool ProjectedPoints::climb(Index a, Index b, Index c, Index p) const {
-  Sign sign = predicates::side_of_circle_double_double(split_direction(a), split_direction(b),
-                                                       split_direction(c), split_direction(p));
+  const exact::SplitPoint u = split_direction(a);
+  const exact::SplitPoint v = split_direction(b);
+  const exact::SplitPoint w = split_direction(c);
+  const exact::SplitPoint x = split_direction(p);
+  Sign sign = predicates::side_of_circle_extended(u, v, w, x);
+  if (sign == Sign::zero) sign = predicates::side_of_circle_double_double(u, v, w, x);
   if (sign != Sign::zero) {
     ++tally_.double_double;
     return sign == Sign::positive;

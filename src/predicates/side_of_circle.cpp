@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "exact/expansion.h"
+#include "exact/extended.h"
 #include "exact/integer.h"
 
 namespace rondel::predicates {
@@ -31,6 +32,31 @@ DoubleDoubleVector difference(const SplitPoint& a, const SplitPoint& b) {
 }
 
 Vector rounded(const DoubleDoubleVector& v) { return {v.x.hi, v.y.hi, v.z.hi}; }
+
+using Coordinates = std::array<double, 3>;
+
+Coordinates coordinates(const Point& p) { return {p.x, p.y, p.z}; }
+
+// The difference q - p of split unit vectors, in axes of which the last one is the longest of p.
+struct ExtendedStep {
+  long double x;
+  long double y;
+  long double squared;
+
+  ExtendedStep(const SplitPoint& q, const SplitPoint& p, unsigned last) {
+    const Coordinates q_hi = coordinates(q.hi);
+    const Coordinates q_lo = coordinates(q.lo);
+    const Coordinates p_hi = coordinates(p.hi);
+    const Coordinates p_lo = coordinates(p.lo);
+    const auto along = [&](unsigned i) {
+      return (static_cast<long double>(q_hi[i]) - p_hi[i]) + (q_lo[i] - p_lo[i]);
+    };
+    x = along((last + 1) % 3);
+    y = along((last + 2) % 3);
+    const long double z = along(last);
+    squared = x * x + y * y + z * z;
+  }
+};
 
 using Row = Expansion<1>[3];
 
@@ -85,6 +111,29 @@ std::optional<Sign> sign_by_equal_lengths(const Point& pb, const Point& pc, cons
 }
 
 }  // namespace
+
+// For a coordinate p_z of p that is not 0, p.B = -|B|^2 / 2 turns the third column of det(B, C, D)
+// into -|B|^2 / (2 p_z), ... (docs/theory/filters.md).
+Sign side_of_circle_extended(const SplitPoint& b, const SplitPoint& c, const SplitPoint& d,
+                             const SplitPoint& p) {
+  constexpr long double bound = 128 * exact::extended_unit_roundoff;
+  constexpr long double least_squared_distance = 0x1p-72L;
+  if (!exact::has_extended_precision()) return Sign::zero;
+  const Coordinates along = coordinates(p.hi);
+  const auto longer = [&](unsigned i, unsigned j) {
+    return std::abs(along[i]) < std::abs(along[j]) ? j : i;
+  };
+  const unsigned last = longer(longer(0, 1), 2);
+  const ExtendedStep pb(b, p, last);
+  const ExtendedStep pc(c, p, last);
+  const ExtendedStep pd(d, p, last);
+  const long double m = std::max({pb.squared, pc.squared, pd.squared});
+  const long double value = pb.squared * (pc.x * pd.y - pc.y * pd.x) +
+                            pc.squared * (pd.x * pb.y - pd.y * pb.x) +
+                            pd.squared * (pb.x * pc.y - pb.y * pc.x);
+  if (!(m > least_squared_distance && std::abs(value) > bound * (m * m))) return Sign::zero;
+  return (value > 0) == (along[last] > 0) ? Sign::positive : Sign::negative;
+}
 
 Sign side_of_circle_double_double(const SplitPoint& b, const SplitPoint& c, const SplitPoint& d,
                                   const SplitPoint& p) {

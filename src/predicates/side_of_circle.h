@@ -15,8 +15,8 @@
 //
 // Rungs: the left side in doubles, which decides while the sites are not close;
 // the right side in doubles, whose error is of order u H^3 against a value of order H^4 at
-// any distance H; the left side in double-double; the sign of a sum of
-// four square roots in integers.
+// any distance H; the right side with 64 bits, from split unit vectors; the left side in
+// double-double; the sign of a sum of four square roots in integers.
 #pragma once
 
 #include "exact/unit_vector.h"
@@ -48,7 +48,12 @@ inline Sign side_of_circle_filter(const Vector& b, const Vector& c, const Vector
   return unless_unsure(value, value * value > bound * (m * m * m));
 }
 
-// The second rung. The unit vectors must be within 2^-100 of the exact ones.
+// The second rung, where the processor has numbers of 64 bits; zero elsewhere. It decides what the
+// roundings of coordinates leave of ties. The unit vectors must be within 2^-100 of the exact ones.
+Sign side_of_circle_extended(const exact::SplitPoint& b, const exact::SplitPoint& c,
+                             const exact::SplitPoint& d, const exact::SplitPoint& p);
+
+// The third rung, for the same.
 Sign side_of_circle_double_double(const exact::SplitPoint& b, const exact::SplitPoint& c,
                                   const exact::SplitPoint& d, const exact::SplitPoint& p);
 

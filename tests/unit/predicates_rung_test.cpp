@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iostream>
 
+#include "exact/extended.h"
 #include "predicates/orientation.h"
 #include "predicates/side_of_circle.h"
 #include "predicates/side_of_plane.h"
@@ -143,6 +145,24 @@ TEST(rungs, double_double_decides_near_ties) {
   }
   EXPECT_GT(unsure, 1000U);
   EXPECT_EQ(decided, unsure);
+}
+
+// Sites on one circle but for the roundings of their coordinates, as those of grids.
+TEST(rungs, numbers_of_64_bits_do_not_err_and_decide_ties_of_rounded_sites) {
+  Random random(35);
+  std::size_t decided = 0;
+  const std::size_t num_sets = scaled(4000);
+  for (std::size_t i = 0; i < num_sets; ++i) {
+    const double radius = random_distance(random, 1e-12);
+    const Four four = near_one_circle(random, radius);
+    const auto split = [&four](std::size_t k) { return exact::unit_vector(four[k], {}); };
+    const Sign sign = predicates::side_of_circle_extended(split(0), split(1), split(2), split(3));
+    if (sign == Sign::zero) continue;
+    ++decided;
+    EXPECT_EQ(sign, predicates::side_of_circle_exact(four[0], four[1], four[2], four[3], {}));
+  }
+  std::cout << decided << " of " << num_sets << " decided\n";
+  EXPECT_TRUE(decided > num_sets / 2 || !exact::has_extended_precision());
 }
 
 TEST(rungs, exact_decides_what_lies_below_twice_double_precision) {
