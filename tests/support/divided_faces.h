@@ -85,7 +85,8 @@ Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
   if (order.order.size() < 2) return Divided::too_few;
   bulk::CellSites<T> sites;
   const auto first = blocks::exact_cube_position(set.sites[order.order[0]], center);
-  sites.assign(set.sites, order.order, center, first.face, is_weighted ? extent : bulk::Extent{});
+  const bulk::Cell whole_face = {{first.face, 0, 0}, blocks::position_bits, 0};
+  sites.assign(set.sites, order.order, center, whole_face, is_weighted ? extent : bulk::Extent{});
   for (Index i = 0; i < sites.size(); ++i) {
     const auto exact = blocks::exact_cube_position(sites.site(i), center);
     const auto& p = sites.positions()[i];
