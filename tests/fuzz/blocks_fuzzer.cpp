@@ -86,8 +86,7 @@ Point next_point(Instruction& i, const std::vector<Point>& earlier) {
       return i.b % 2 == 0 ? test::unit_vector_deg(random.between(0, 360), i.a % 90)
                           : test::unit_vector_deg(i.a, random.between(-90, 90));
     case 10:  // in other scales
-      return std::ldexp(1, random.between(-width, width) * (1 + i.b % 6)) *
-             any_of(random, earlier);
+      return std::ldexp(1, random.between(-width, width) * (1 + i.b % 6)) * any_of(random, earlier);
     default:  // integers on a sphere
       return on_cube(i.face, digit(random, 12), digit(random, 12)) +
              (12.0 + i.a % 4) * on_cube(i.face, 0, 0);
