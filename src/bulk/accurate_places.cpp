@@ -20,7 +20,7 @@ using exact::DoubleDouble;
 // relative error from this distance on.
 constexpr long double orientation_bound = 0x1p-60L;
 constexpr long double conflict_bound = 0x1p-56L;
-constexpr long double least_squared_distance = 0x1p-80L;
+constexpr long double least_squared_distance = 0x1p-76L;
 
 // The coordinate of a difference along an axis.
 DoubleDouble along(const Point& axis, const Point& p, const Point& center) {

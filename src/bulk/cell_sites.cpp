@@ -95,10 +95,10 @@ void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> o
     square_bound_ = find_weighted_bound(2.1 * most_w, most_w);
     cube_bound_ = 0;
   } else {
-    // In units: 54 length^2 for the error of w, 39 for those of u and v, 34 length for roundings;
-    // half of it more for terms of higher order (docs/theory/blocks.md).
+    // In units: 71 length^2 for the error of w, 39 for those of u and v, 34 length for roundings;
+    // half of the last two more for terms of higher order (docs/theory/blocks.md).
     const double length = std::ldexp(1, cell.bits + 1 - blocks::position_bits);
-    square_bound_ = 1.5 * 54 * unit_roundoff * (length * length);
+    square_bound_ = 81 * unit_roundoff * (length * length);
     cube_bound_ = 1.5 * (39 + 34 * length) * unit_roundoff;
   }
 
