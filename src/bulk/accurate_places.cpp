@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bulk/tangent_step.h"
 #include "exact/eft.h"
 #include "exact/extended.h"
 #include "exact/vector.h"
@@ -73,31 +74,24 @@ void AccuratePlaces::reserve_lows() {
   lows_.resize(points_.size(), {unknown, unknown, unknown});
 }
 
-// From the site a. With the places x and y of two sites, d = y - x, and w(x) the square root of
-// 1 + |x|^2, the height times w(x), which is the same for all steps, is
-//
-//     w(x) w(y) - w(x)^2 - x.d = (|d|^2 w(x) - x.d (2 x.d + |d|^2) / (w(x) + w(y))) / (w(x) +
-//     w(y)).
+// From the site a.
 class AccuratePlaces::Steps {
  public:
   Steps(AccuratePlaces& places, Index a) : places_(places), point_(places.points_[a]) {
     if (places.lows_.empty()) places.reserve_lows();
     low_ = known_low(a);
-    u_ = static_cast<long double>(point_.u) + low_.u;
-    v_ = static_cast<long double>(point_.v) + low_.v;
-    size_ = static_cast<long double>(point_.size) + low_.size;
+    from_ = {static_cast<long double>(point_.u) + low_.u,
+             static_cast<long double>(point_.v) + low_.v,
+             static_cast<long double>(point_.size) + low_.size};
   }
 
-  [[nodiscard]] Step to(Index b) const {
+  [[nodiscard]] TangentStep<long double> to(Index b) const {
     const CellPoint& point = places_.points_[b];
     const Low& low = known_low(b);
-    const long double u = (static_cast<long double>(point.u) - point_.u) + (low.u - low_.u);
-    const long double v = (static_cast<long double>(point.v) - point_.v) + (low.v - low_.v);
-    const long double squared = u * u + v * v;
-    const long double along = u_ * u + v_ * v;
-    const long double factor = 1 / (size_ + (static_cast<long double>(point.size) + low.size));
-    const long double height = (squared * size_ - along * (2 * along + squared) * factor) * factor;
-    return {u, v, height, squared};
+    return tangent_step<long double>(
+        from_, (static_cast<long double>(point.u) - point_.u) + (low.u - low_.u),
+        (static_cast<long double>(point.v) - point_.v) + (low.v - low_.v),
+        static_cast<long double>(point.size) + low.size);
   }
 
  private:
@@ -110,16 +104,14 @@ class AccuratePlaces::Steps {
   AccuratePlaces& places_;
   const CellPoint& point_;
   Low low_{};
-  long double u_ = 0;
-  long double v_ = 0;
-  long double size_ = 0;
+  SurfacePoint<long double> from_{};
 };
 
 Sign AccuratePlaces::orientation(Index a, Index b, Index c) {
   if (!exact::has_extended_precision()) return Sign::zero;
   const Steps from(*this, a);
-  const Step ab = from.to(b);
-  const Step ac = from.to(c);
+  const auto ab = from.to(b);
+  const auto ac = from.to(c);
   const long double squared = std::max(ab.squared, ac.squared);
   if (!(squared > least_squared_distance)) return Sign::zero;
   return sign_beyond(ab.u * ac.v - ab.v * ac.u, orientation_bound * squared);
@@ -128,15 +120,12 @@ Sign AccuratePlaces::orientation(Index a, Index b, Index c) {
 Sign AccuratePlaces::side_of_face(Index a, Index b, Index c, Index p) {
   if (!exact::has_extended_precision()) return Sign::zero;
   const Steps from(*this, a);
-  const Step ab = from.to(b);
-  const Step ac = from.to(c);
-  const Step ap = from.to(p);
-  const long double squared = std::max({ab.squared, ac.squared, ap.squared});
+  const auto ab = from.to(b);
+  const auto ac = from.to(c);
+  const auto ap = from.to(p);
+  const long double squared = max_squared(ab, ac, ap);
   if (!(squared > least_squared_distance)) return Sign::zero;
-  const long double value = ab.height * (ac.u * ap.v - ac.v * ap.u) +
-                            ac.height * (ap.u * ab.v - ap.v * ab.u) +
-                            ap.height * (ab.u * ac.v - ab.v * ac.u);
-  return sign_beyond(value, conflict_bound * (squared * squared));
+  return sign_beyond(volume(ab, ac, ap), conflict_bound * (squared * squared));
 }
 
 }  // namespace rondel::bulk

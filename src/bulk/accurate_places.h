@@ -36,13 +36,6 @@ class AccuratePlaces {
     double v;
     double size;
   };
-  // From one site to another: places, and the height over the tangent plane at the first one.
-  struct Step {
-    long double u;
-    long double v;
-    long double height;
-    long double squared;
-  };
   class Steps;
 
   void reserve_lows();

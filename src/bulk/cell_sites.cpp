@@ -10,6 +10,7 @@
 
 #include "blocks/cube_position.h"
 #include "blocks/prefetch.h"
+#include "bulk/tangent_step.h"
 #include "predicates/bounds.h"
 #include "predicates/tally.h"
 
@@ -37,6 +38,10 @@ double find_weighted_bound(double w_error, double most_w_distance) {
   const double distance = std::sqrt(most_uv * most_uv + most_w_distance * most_w_distance);
   return 1.2 * (6 * eta + 8.8 * unit_roundoff * distance);
 }
+
+// The error of volume() of steps from a site: for places, times w; for heights and roundings.
+constexpr double tangent_cube_bound = 1.5 * 68 * unit_roundoff;
+constexpr double tangent_bound = 256 * unit_roundoff;
 
 double squared_in_plane(const CellVector& a) { return a.u * a.u + a.v * a.v; }
 
@@ -186,18 +191,41 @@ Sign CellSites<T>::orientation(Index a, Index b, Index c) const {
 }
 
 template <incremental::SphereTraits T>
-bool CellSites<T>::is_in_conflict(Index a, Index b, Index c, Index p, double value) const {
-  const auto squared_from_a = [&](Index i) {
-    const CellVector x = points_[i] - points_[a];
-    return is_weighted<T> ? dot(x, x) : squared_in_plane(x);
+Sign CellSites<T>::side_over_tangent(Index a, Index b, Index c, Index p) const {
+  const CellPoint& x = points_[a];
+  const auto step_to = [&](Index i) {
+    const CellPoint& y = points_[i];
+    return tangent_step<double>({x.u, x.v, x.size}, y.u - x.u, y.v - x.v, y.size);
   };
-  const double squared = std::max({squared_from_a(b), squared_from_a(c), squared_from_a(p)});
-  if (std::abs(value) > std::max(conflict_limit(std::sqrt(squared)), least_bound)) {
-    ++num_filtered_;
-    return value < 0;
-  }
-  if (!is_weighted<T>) {
-    const Sign side = accurate_.side_of_face(a, b, c, p);
+  const auto ab = step_to(b);
+  const auto ac = step_to(c);
+  const auto ap = step_to(p);
+  const double value = volume(ab, ac, ap);
+  const double squared = max_squared(ab, ac, ap);
+  const double bound =
+      (tangent_cube_bound * std::sqrt(squared) + tangent_bound * squared) * squared;
+  return std::abs(value) > std::max(bound, least_bound) ? exact::sign_of(value) : Sign::zero;
+}
+
+template <incremental::SphereTraits T>
+bool CellSites<T>::is_in_conflict(Index a, Index b, Index c, Index p, double value) const {
+  if constexpr (is_weighted<T>) {
+    const auto squared = [&](Index i) {
+      const CellVector x = points_[i] - points_[a];
+      return dot(x, x);
+    };
+    const double distance = std::sqrt(std::max({squared(b), squared(c), squared(p)}));
+    if (std::abs(value) > std::max(conflict_limit(distance), least_bound)) {
+      ++num_filtered_;
+      return value < 0;
+    }
+  } else {
+    Sign side = side_over_tangent(a, b, c, p);
+    if (side != Sign::zero) {
+      ++num_filtered_;
+      return side == Sign::negative;
+    }
+    side = accurate_.side_of_face(a, b, c, p);
     if (side != Sign::zero) {
       ++tally_.double_double;
       return side == Sign::negative;

@@ -86,10 +86,14 @@ class CellSites {
     return distance * distance * (square_bound_ + distance * cube_bound_);
   }
 
-  // The rest of the ladder: the filter with the real distances, accurate places, the traits class.
+  // The rest of the ladder: a filter for the sites themselves, accurate places, the traits class.
   [[nodiscard]] Sign orientation(Index a, Index b, Index c) const;
   // `value` is N.(p-a).
   [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p, double value) const;
+
+  // In the projected model: positive if p lies above the face, over the tangent plane at a; zero if
+  // this is not certain.
+  [[nodiscard]] Sign side_over_tangent(Index a, Index b, Index c, Index p) const;
 
   // Of all conflict tests, given that this is called for those that did not come here.
   void count_filtered() const { ++num_filtered_; }

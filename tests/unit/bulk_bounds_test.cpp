@@ -191,7 +191,8 @@ TEST(bulk_bounds, accurate_places_do_not_err_and_decide_ties) {
   std::size_t num_decided = 0;
   const std::size_t num_sets = scaled(20000);
   for (std::size_t i = 0; i < num_sets; ++i) {
-    const double distance = random_distance(random, 1e-9);
+    const double distance =
+        std::min(random_distance(random, 1e-9), 1.0);  // on one face of the cube
     const Point center = random.coin() ? Point{} : 0.1 * random_direction(random);
     auto points = almost_tied(random, distance, random.coin());
     for (Point& p : points) p = center + p;
@@ -207,10 +208,32 @@ TEST(bulk_bounds, accurate_places_do_not_err_and_decide_ties) {
     const auto found_side = static_cast<int>(cell.accurate().side_of_face(0, 1, 2, 3));
     EXPECT_TRUE(found_turn == 0 || found_turn == turn);
     EXPECT_TRUE(found_side == 0 || found_side == side);
+    const auto filtered_side = static_cast<int>(cell.sites().side_over_tangent(0, 1, 2, 3));
+    EXPECT_TRUE(filtered_side == 0 || filtered_side == side);
     num_decided += static_cast<std::size_t>(found_turn != 0 && found_side != 0);
   }
   std::cout << num_decided << " of " << num_sets << " decided\n";
   EXPECT_TRUE(num_decided > num_sets * 3 / 4 || !exact::has_extended_precision());
+}
+
+// In a cell that is much longer than the distances of sites its own limits decide nothing.
+TEST(bulk_bounds, the_filter_over_a_tangent_decides_close_sites_in_any_cell) {
+  Random random(34);
+  std::size_t num_decided = 0;
+  const std::size_t num_sets = scaled(20000);
+  for (std::size_t i = 0; i < num_sets; ++i) {
+    const double distance = random_distance(random, 1e-11);
+    const Cell<incremental::ProjectedPoints> cell(close_sites(random, 4, distance / 2, false, {}),
+                                                  {}, false);
+    const BigVector a = cell.point(0);
+    const BigVector normal = cross_of(minus(cell.point(1), a), minus(cell.point(2), a));
+    const int side = sgn(dot_of(normal, minus(cell.point(3), a)));
+    const auto found = static_cast<int>(cell.sites().side_over_tangent(0, 1, 2, 3));
+    EXPECT_TRUE(found == 0 || found == side);
+    num_decided += static_cast<std::size_t>(found != 0);
+  }
+  std::cout << num_decided << " of " << num_sets << " decided\n";
+  EXPECT_GT(num_decided, num_sets * 3 / 4);
 }
 
 template <class T>
