@@ -75,9 +75,10 @@ class Work {
     const std::lock_guard guard(mutex_);
     free_.push_back(std::move(workspace));
     ++num_done_;
-    if (progress_) {
-      progress_("triangulate", static_cast<double>(num_done_) / static_cast<double>(num_blocks_));
-    }
+    // The seam counts as one more block.
+    if (progress_)
+      progress_("triangulate",
+                static_cast<double>(num_done_) / static_cast<double>(num_blocks_ + 1));
   }
 
  private:
@@ -169,10 +170,12 @@ std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
   }
   std::vector<Index> seam_order(seam_points.size());
   std::iota(seam_order.begin(), seam_order.end(), Index{0});
+  Options of_seam = input.options;
+  of_seam.progress = {};
   Triangulated seam =
       2 * seam_points.size() < num_ranks
-          ? triangulate(seam_points, std::move(seam_order), {}, input.options)
-          : incremental::triangulate(seam_points, std::move(seam_order), {}, input.options);
+          ? triangulate(seam_points, std::move(seam_order), {}, of_seam)
+          : incremental::triangulate(seam_points, std::move(seam_order), {}, of_seam);
   if (seam.arrays.dimension < 2) return std::nullopt;
   result.tally = seam.tally;
   for (const BlockResult& block : results) predicates::add(result.tally, block.tally);

@@ -74,5 +74,20 @@ TEST(bulk_api, what_many_sites_give) {
   }
 }
 
+TEST(bulk_api, progress_never_goes_back_and_ends_once) {
+  const SiteSet set = generator("uniform").make(100000, 1);
+  std::vector<double> fractions;
+  Options options;
+  options.threads = 2;
+  options.progress = [&fractions](std::string_view stage, double fraction) {
+    if (stage == "triangulate") fractions.push_back(fraction);
+  };
+  const Triangulation built = delaunay(set.sites, options);
+  EXPECT_EQ(built.num_vertices(), set.sites.size());
+  EXPECT_GE(fractions.size(), 4U);
+  EXPECT_TRUE(std::ranges::is_sorted(fractions));
+  EXPECT_EQ(std::ranges::count(fractions, 1.0), 1);
+}
+
 }  // namespace
 }  // namespace rondel::test
