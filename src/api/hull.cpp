@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "api/build.h"
@@ -50,8 +51,10 @@ Triangulation convex_hull(std::span<const Point> points, const HullOptions& opti
   build_options.progress = options.progress;
   api::validate(points, build_options);
   const auto inner = incremental::find_inner_point(points);
+  const Point center =
+      (inner.is_inside ? incremental::find_middle(points) : std::nullopt).value_or(inner.point);
   // Adding 0 turns -0 into 0: which of them is found first depends on the order of input.
-  build_options.sphere.center = {inner.point.x + 0.0, inner.point.y + 0.0, inner.point.z + 0.0};
+  build_options.sphere.center = {center.x + 0.0, center.y + 0.0, center.z + 0.0};
   return api::build(points, build_options, &inner);
 }
 

@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "incremental/frame.h"
 #include "incremental/great_circle.h"
+#include "incremental/triangulate.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
 
@@ -103,7 +106,49 @@ InnerPoint inner_point_of(const Tetrahedron& t) {
   return {t[0]};
 }
 
+struct Extremes {
+  Point lowest;
+  Point highest;
+};
+
+// Along an axis; of several the lexicographically smallest.
+Extremes extremes(std::span<const Point> sites, double Point::*x) {
+  Extremes e = {sites.front(), sites.front()};
+  for (const Point& p : sites) {
+    if (p.*x <= e.lowest.*x && (p.*x < e.lowest.*x || is_raised_more(p, e.lowest))) e.lowest = p;
+    if (p.*x >= e.highest.*x && (p.*x > e.highest.*x || is_raised_more(p, e.highest)))
+      e.highest = p;
+  }
+  return e;
+}
+
+bool is_strictly_inside_hull(const Point& p, std::vector<Point> sites) {
+  std::ranges::sort(sites, is_raised_more);
+  sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
+  std::vector<Index> order(sites.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  Options options;
+  options.model = Model::weighted;
+  options.sphere.center = p;
+  options.threads = 1;
+  const auto hull = triangulate(sites, std::move(order), {}, options).arrays;
+  return hull.dimension == 2 && hull.ghost_faces.empty();
+}
+
 }  // namespace
+
+std::optional<Point> find_middle(std::span<const Point> sites) {
+  if (sites.empty()) return std::nullopt;
+  Point middle;
+  std::vector<Point> touching;
+  for (double Point::*const x : {&Point::x, &Point::y, &Point::z}) {
+    const Extremes e = extremes(sites, x);
+    middle.*x = e.lowest.*x / 2 + e.highest.*x / 2;
+    touching.insert(touching.end(), {e.lowest, e.highest});
+  }
+  if (!is_strictly_inside_hull(middle, std::move(touching))) return std::nullopt;
+  return middle;
+}
 
 InnerPoint find_inner_point(std::span<const Point> sites) {
   if (sites.empty()) return {};

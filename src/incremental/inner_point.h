@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include "rondel/types.h"
@@ -31,5 +32,11 @@ struct InnerPoint {
 };
 
 InnerPoint find_inner_point(std::span<const Point> sites);
+
+// The middle of the smallest box with edges along the axes that holds the sites, if it lies
+// strictly inside the hull of those that touch the box first. Seen from there, sites on a sphere
+// are about equally far, which the triangulation by blocks needs. Also a function of the set of
+// sites.
+std::optional<Point> find_middle(std::span<const Point> sites);
 
 }  // namespace rondel::incremental
