@@ -30,8 +30,8 @@ namespace rondel::blocks {
 // whether an entry comes before the one that is meant. Where it is always false they are in no
 // order, and searched one by one.
 class SpatialIndex {
-  static constexpr unsigned node_size = 32;
-  // A new level takes at least 15 splits of the level below: 15^15 changes are never made.
+  static constexpr unsigned node_size = 64;
+  // A new level takes at least 31 splits of the level below: 31^15 changes are never made.
   static constexpr unsigned max_depth = 16;
 
  public:
