@@ -5,6 +5,7 @@
 // memory, and takes no more than its largest set of sites needed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cstdlib>
 #include <map>
@@ -82,7 +83,8 @@ void run_script(Model model, std::size_t steps, std::size_t limit) {
   std::vector<Index> live;
   live.reserve(limit);
   Random random(steps);
-  std::size_t most = 0;  // in the first fifth, which meets the limit often
+  std::size_t most = 0;  // in the first swings, which meet the limit often
+  const std::size_t first_swings = std::max(steps / 5, 16 * limit);
   for (std::size_t step = 0; step < steps; ++step) {
     // The number of sites swings between none and the limit.
     const bool is_growing = (step / (2 * limit)) % 2 == 0;
@@ -98,7 +100,7 @@ void run_script(Model model, std::size_t steps, std::size_t limit) {
       live[i] = live.back();
       live.pop_back();
     }
-    if (step < steps / 5) most = std::max<std::size_t>(most, bytes_in_use);
+    if (step < first_swings) most = std::max<std::size_t>(most, bytes_in_use);
     ASSERT_LE(bytes_in_use, most + most / 8) << "step " << step;
     if (step % 500 != 0) continue;
     ASSERT_EQ(changing.num_sites(), live.size());
