@@ -129,7 +129,7 @@ void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> o
     const double size = is_weighted<T> ? extent.most_size / z : std::sqrt(1 + (u * u + v * v));
     const double w = is_weighted<T> ? size : tangent.height(u, hand_ * v, size);
     points_[i] = {u, hand_ * v, w, size};
-    // Where a difference overflows, or z is 0, the position is the last one and wrong.
+    // Where a difference overflows, or z is 0, the position is wrong: the last or the middle one.
     const auto position = [](double ratio) {
       constexpr double last = 0x1p52 - 1;
       const double p = (ratio + 1) * 0x1p51;  // position_bits - 1
@@ -175,16 +175,16 @@ auto CellSites<T>::ask_traits(const std::array<Index, N>& indices, Test test) co
 
 template <incremental::SphereTraits T>
 Sign CellSites<T>::orientation(Index a, Index b, Index c) const {
-  if (!is_weighted<T>) {
-    const Sign sign = accurate_.orientation(a, b, c);
-    if (sign != Sign::zero) return sign;
-  }
   const CellVector ab = points_[b] - points_[a];
   const CellVector ac = points_[c] - points_[a];
   const double value = cross(ab, ac).w;
   const double bound =
       orientation_bound * std::sqrt(std::max(squared_in_plane(ab), squared_in_plane(ac)));
   if (std::abs(value) > std::max(bound, least_bound)) return exact::sign_of(value);
+  if (!is_weighted<T>) {
+    const Sign sign = accurate_.orientation(a, b, c);
+    if (sign != Sign::zero) return sign;
+  }
   return ask_traits(std::array{a, b, c}, [](const T& t, const std::array<Index, 3>& i) {
     return t.orientation(i[0], i[1], i[2]);
   });

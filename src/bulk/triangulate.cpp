@@ -142,14 +142,8 @@ void resize_large(std::vector<Triple>& values, std::size_t size) {
   values.resize(size);
 }
 
-}  // namespace
-
-std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
-                                                  std::span<const Index> order,
-                                                  std::span<const Duplicate> renamed,
-                                                  const Options& options,
-                                                  std::size_t max_block_sites) {
-  const Input input = make_input(sites, order, options);
+std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplicate> renamed,
+                                      std::size_t max_block_sites) {
   const std::size_t num_ranks = input.order.size();
   const unsigned threads = system::num_threads(input.options.threads);
   const auto blocks = make_blocks(static_cast<Index>(num_ranks), max_block_sites,
@@ -181,21 +175,34 @@ std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
   for (const BlockResult& block : results) predicates::add(result.tally, block.tally);
   std::vector<Index> names;
   if (!renamed.empty()) {
-    names.assign(order.begin(), order.end());
+    names.assign(input.order.begin(), input.order.end());
     for (const auto& [rank, name] : renamed) names[rank] = name;
   }
-  if (!stitch(results, std::move(seam.arrays), names.empty() ? order : names, threads,
+  if (!stitch(results, std::move(seam.arrays), names.empty() ? input.order : names, threads,
               result.arrays)) {
     return std::nullopt;
   }
   return result;
 }
 
+}  // namespace
+
+std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
+                                                  std::span<const Index> order,
+                                                  std::span<const Duplicate> renamed,
+                                                  const Options& options,
+                                                  std::size_t max_block_sites) {
+  return by_blocks(make_input(sites, order, options), renamed, max_block_sites);
+}
+
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                          std::span<const Duplicate> renamed, const Options& options) {
-  if (order.size() >= least_sites && is_worthwhile(make_input(sites, order, options))) {
-    auto result = triangulate_by_blocks(sites, order, renamed, options, block_sites);
-    if (result) return *std::move(result);
+  if (order.size() >= least_sites) {
+    const Input input = make_input(sites, order, options);
+    if (is_worthwhile(input)) {
+      auto result = by_blocks(input, renamed, block_sites);
+      if (result) return *std::move(result);
+    }
   }
   return incremental::triangulate(sites, std::move(order), renamed, options);
 }
