@@ -62,8 +62,8 @@ class Locator {
   /// \throws InvalidInput if their number differs from triangulation.num_sites().
   Locator(const Triangulation& triangulation, std::span<const Point> sites);
 
-  /// O(1) in dimension 2. Keeps a reference, and is of no use any more after the next change. Sites
-  /// have their ids, faces numbers for DynamicTriangulation::face().
+  /// O(1) in dimension 2. Keeps a reference, and is of no use any more after the next change, even
+  /// one that failed. Sites have their ids, faces numbers for DynamicTriangulation::face().
   explicit Locator(const DynamicTriangulation& triangulation);
   ~Locator();
   Locator(Locator&& other) noexcept;

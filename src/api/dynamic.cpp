@@ -4,6 +4,7 @@
 #include "rondel/dynamic.h"
 
 #include <algorithm>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,8 @@ DynamicTriangulation::Impl::Impl(Options wanted)
     : options(std::move(wanted)),
       editor(std::in_place_index<0>, Model::projected, options.sphere.center) {
   options.progress = {};
+  // What is built later is built under a lock, which no thread may hold while it waits for others.
+  options.threads = 1;
   if (options.model == Model::weighted) {
     editor.emplace<1>(Model::weighted, options.sphere.center);
   }
@@ -58,16 +61,30 @@ void DynamicTriangulation::Impl::require_room(std::size_t more) const {
 }
 
 void DynamicTriangulation::Impl::assign(const Triangulation& triangulation,
-                                        std::span<const Point> sites) {
+                                        std::span<const Point> sites, std::span<const Index> ids) {
   dynamic::Build build = dynamic::make_build(triangulation, sites);
+  std::vector<Index> place_of_id(places().site_limit(), no_index);
+  for (std::size_t i = 0; i < ids.size(); ++i) place_of_id[ids[i]] = build.place_of_site[i];
+  for (Index& speaker : build.speakers) speaker = ids[speaker];
   visit([&](auto& e) {
-    e.assign(sites, build.place_of_site, build.speakers);
+    e.assign(place_of_id, build.speakers);
     if (triangulation.dimension() == 2) {
       e.adopt(std::move(build.mesh), build.hidden);
     } else {
       e.adopt_flat();
     }
   });
+}
+
+DynamicTriangulation::Impl& DynamicTriangulation::Impl::current() {
+  if (!is_in_pieces) return *this;
+  const std::lock_guard guard(mutex);
+  if (is_in_pieces) {
+    const Snapshot now = live_sites();
+    assign(delaunay(now.sites, options), now.sites, now.ids);
+    is_in_pieces = false;
+  }
+  return *this;
 }
 
 Snapshot DynamicTriangulation::Impl::live_sites() const {
@@ -114,7 +131,10 @@ DynamicTriangulation::DynamicTriangulation(const Triangulation& triangulation,
   options.model = triangulation.model();
   options.sphere = triangulation.sphere();
   impl_ = std::make_unique<Impl>(options);
-  impl_->assign(triangulation, sites);
+  impl_->visit([&](auto& e) { e.assign_points(sites); });
+  std::vector<Index> ids(sites.size());
+  std::iota(ids.begin(), ids.end(), Index{0});
+  impl_->assign(triangulation, sites, ids);
 }
 
 DynamicTriangulation::~DynamicTriangulation() = default;
@@ -124,35 +144,30 @@ DynamicTriangulation& DynamicTriangulation::operator=(DynamicTriangulation&&) no
 Index DynamicTriangulation::insert(const Point& site) {
   api::validate({&site, 1}, impl_->options);
   impl_->require_room(1);
-  impl_->changed();
-  return impl_->visit([&](auto& e) { return e.insert(site, no_index); });
+  return impl_->change([&](auto& e) { return e.insert(site, no_index); });
 }
 
 Index DynamicTriangulation::insert(const Point& site, Index hint) {
   api::validate({&site, 1}, impl_->options);
   impl_->require_site(hint, 0);
   impl_->require_room(1);
-  impl_->changed();
-  return impl_->visit([&](auto& e) { return e.insert(site, hint); });
+  return impl_->change([&](auto& e) { return e.insert(site, hint); });
 }
 
 std::vector<Index> DynamicTriangulation::insert(std::span<const Point> sites) {
   api::validate(sites, impl_->options);
   impl_->require_room(sites.size());
-  impl_->changed();
-  return impl_->visit([&](auto& e) { return e.insert(sites); });
+  return impl_->change([&](auto& e) { return e.insert(sites); });
 }
 
 void DynamicTriangulation::remove(Index id) {
   impl_->require_site(id, 0);
-  impl_->changed();
-  impl_->visit([&](auto& e) { e.remove(id); });
+  impl_->change([&](auto& e) { e.remove(id); });
 }
 
 void DynamicTriangulation::remove(std::span<const Index> ids) {
   impl_->require_distinct_sites(ids);
-  impl_->changed();
-  impl_->visit([&](auto& e) { e.remove(ids); });
+  impl_->change([&](auto& e) { e.remove(ids); });
 }
 
 void DynamicTriangulation::move(Index id, const Point& to) { move({&id, 1}, {&to, 1}); }
@@ -165,28 +180,25 @@ void DynamicTriangulation::move(std::span<const Index> ids, std::span<const Poin
   }
   for (std::size_t i = 0; i < ids.size(); ++i) impl_->require_site(ids[i], i);
   api::validate(to, impl_->options);
-  impl_->changed();
-  impl_->visit([&](auto& e) {
-    for (std::size_t i = 0; i < ids.size(); ++i) e.move(ids[i], to[i]);
-  });
+  impl_->change([&](auto& e) { e.move(ids, to); });
 }
 
 Model DynamicTriangulation::model() const noexcept { return impl_->options.model; }
 const Sphere& DynamicTriangulation::sphere() const noexcept { return impl_->options.sphere; }
 
 int DynamicTriangulation::dimension() const {
-  return impl_->has_hull() ? 2 : impl_->flat_snapshot().triangulation.dimension();
+  return impl_->current().has_hull() ? 2 : impl_->flat_snapshot().triangulation.dimension();
 }
 
 std::size_t DynamicTriangulation::num_sites() const noexcept { return impl_->places().num_sites(); }
 
 std::size_t DynamicTriangulation::num_vertices() const {
-  if (!impl_->has_hull()) return impl_->flat_snapshot().triangulation.num_vertices();
+  if (!impl_->current().has_hull()) return impl_->flat_snapshot().triangulation.num_vertices();
   return impl_->visit([](const auto& e) { return e.hull()->num_vertices(); });
 }
 
 std::size_t DynamicTriangulation::num_faces() const {
-  return impl_->visit(
+  return impl_->current().visit(
       [](const auto& e) -> std::size_t { return e.hull() ? e.hull()->mesh().num_faces() : 0; });
 }
 
@@ -205,12 +217,13 @@ Point DynamicTriangulation::site(Index id) const {
 
 Index DynamicTriangulation::representative(Index id) const {
   impl_->require_site(id, 0);
-  return impl_->places().names()[impl_->places().place_of(id)];
+  const dynamic::Places& places = impl_->current().places();
+  return places.names()[places.place_of(id)];
 }
 
 bool DynamicTriangulation::is_vertex(Index id) const {
   impl_->require_site(id, 0);
-  if (!impl_->has_hull()) {
+  if (!impl_->current().has_hull()) {
     const auto ring = impl_->flat_ring();
     return std::ranges::find(ring, representative(id)) != ring.end();
   }
@@ -219,7 +232,7 @@ bool DynamicTriangulation::is_vertex(Index id) const {
 
 std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
   impl_->require_site(id, 0);
-  if (!impl_->has_hull()) {
+  if (!impl_->current().has_hull()) {
     const auto ring = impl_->flat_ring();
     const auto at = std::ranges::find(ring, representative(id));
     if (at == ring.end() || ring.size() == 1) return {};
@@ -239,7 +252,7 @@ std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
 }
 
 Triple DynamicTriangulation::face(Index face) const {
-  return impl_->visit([face](const auto& e) {
+  return impl_->current().visit([face](const auto& e) {
     if (!e.hull() || face >= e.hull()->mesh().num_slots() || !e.hull()->mesh().is_alive(face)) {
       throw InvalidInput("face " + std::to_string(face) + " does not exist", 0);
     }
@@ -250,7 +263,7 @@ Triple DynamicTriangulation::face(Index face) const {
 }
 
 Snapshot DynamicTriangulation::snapshot() const {
-  if (!impl_->has_hull()) return impl_->flat_snapshot();
+  if (!impl_->current().has_hull()) return impl_->flat_snapshot();
   return impl_->visit([this](const auto& e) {
     Snapshot now = impl_->live_sites();
     now.triangulation = {dynamic::make_arrays(e.places(), now.ids, now.sites, e.hull()->mesh(),

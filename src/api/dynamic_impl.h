@@ -4,6 +4,7 @@
 // What a DynamicTriangulation holds: the editor of its model.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <mutex>
 #include <optional>
@@ -40,8 +41,26 @@ struct DynamicTriangulation::Impl {
   void require_distinct_sites(std::span<const Index> ids) const;
   void require_room(std::size_t more) const;
 
-  void assign(const Triangulation& triangulation, std::span<const Point> sites);
-  void changed() { flat.reset(); }
+  // Takes a build of sites; `ids` are theirs, of all that are there.
+  void assign(const Triangulation& triangulation, std::span<const Point> sites,
+              std::span<const Index> ids);
+
+  // This, in pieces no longer: what follows from the sites is made anew if a change has failed.
+  // Several threads may ask.
+  Impl& current();
+
+  // A change that throws leaves the sites as they were.
+  template <class Change>
+  decltype(auto) change(const Change& change) {
+    current();
+    flat.reset();
+    try {
+      return visit(change);
+    } catch (...) {
+      is_in_pieces = true;
+      throw;
+    }
+  }
 
   // A snapshot without its triangulation.
   [[nodiscard]] Snapshot live_sites() const;
@@ -57,6 +76,7 @@ struct DynamicTriangulation::Impl {
   std::variant<dynamic::Editor<incremental::ProjectedPoints>,
                dynamic::Editor<incremental::WeightedPoints>>
       editor;
+  std::atomic<bool> is_in_pieces = false;
   mutable std::mutex mutex;
   mutable std::optional<Snapshot> flat;
 };

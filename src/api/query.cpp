@@ -184,7 +184,7 @@ Locator::Locator(const Triangulation& triangulation, std::span<const Point> site
   impl_ = std::make_unique<const Impl>(triangulation, sites);
 }
 Locator::Locator(const DynamicTriangulation& triangulation) {
-  const DynamicTriangulation::Impl& changing = *triangulation.impl_;
+  const DynamicTriangulation::Impl& changing = triangulation.impl_->current();
   if (!changing.has_hull()) {
     impl_ = std::make_unique<const Impl>(changing.flat_snapshot());
     return;

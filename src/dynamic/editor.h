@@ -6,6 +6,10 @@
 //
 // While all places lie in one plane with the center there is no hull (dimension 1 and below). The
 // first place off that plane starts it; when the last one leaves, it is given up.
+//
+// A change may throw, for want of memory, while places and hull are in pieces. Then the sites are
+// what they were before the change, and nothing else can be asked for, until a build from these
+// sites is assigned.
 #pragma once
 
 #include <algorithm>
@@ -39,9 +43,14 @@ class Editor {
   // `hint` is a site close to p, or no_index: the place to start is looked up.
   Index insert(const Point& p, Index hint) {
     const Index site = places_.add_site();
-    sites_.rebind(places_.points(), places_.speakers());
-    arrive(site, p, hint);
-    renumber_if_due();
+    try {
+      sites_.rebind(places_.points(), places_.speakers());
+      arrive(site, p, hint);
+      renumber_if_due();
+    } catch (...) {
+      places_.roll_back({&site, 1}, false);
+      throw;
+    }
     return site;
   }
 
@@ -49,25 +58,36 @@ class Editor {
   std::vector<Index> insert(std::span<const Point> points) {
     const auto size = static_cast<Index>(points.size());
     std::vector<std::pair<blocks::HilbertKey, Index>> order(size);
-    std::vector<Index> ids(size);
-    for (Index i = 0; i < size; ++i) {
-      order[i] = {places_.key(points[i]), i};
-      ids[i] = places_.add_site();
-    }
-    sites_.rebind(places_.points(), places_.speakers());
-    std::ranges::sort(order);
-    for (const Index rank : incremental::insertion_order(size)) {
-      const Index i = order[rank].second;
-      arrive(ids[i], points[i], no_index);
-      renumber_if_due();
+    std::vector<Index> ids;
+    ids.reserve(size);
+    try {
+      for (Index i = 0; i < size; ++i) {
+        order[i] = {places_.key(points[i]), i};
+        ids.push_back(places_.add_site());
+      }
+      sites_.rebind(places_.points(), places_.speakers());
+      std::ranges::sort(order);
+      for (const Index rank : incremental::insertion_order(size)) {
+        const Index i = order[rank].second;
+        arrive(ids[i], points[i], no_index);
+        renumber_if_due();
+      }
+    } catch (...) {
+      places_.roll_back(ids, false);
+      throw;
     }
     return ids;
   }
 
   void remove(Index site) {
-    depart(site);
-    places_.free_site(site);
-    renumber_if_due();
+    try {
+      depart(site);
+      places_.free_site(site);
+      renumber_if_due();
+    } catch (...) {
+      places_.roll_back({&site, 1}, true);
+      throw;
+    }
   }
 
   // Backwards in the order in which a range is inserted: what is close leaves together, and what
@@ -79,20 +99,40 @@ class Editor {
     std::ranges::sort(order);
     std::vector<Index> ranks = incremental::insertion_order(static_cast<Index>(sites.size()));
     std::ranges::reverse(ranks);
-    for (const Index rank : ranks) remove(order[rank].second);
+    try {
+      for (const Index rank : ranks) remove(order[rank].second);
+    } catch (...) {
+      places_.roll_back(sites, true);
+      throw;
+    }
   }
 
-  void move(Index site, const Point& p) {
-    depart(site);
-    arrive(site, p, no_index);
-    renumber_if_due();
+  // One after the other; a site may appear again.
+  void move(std::span<const Index> sites, std::span<const Point> to) {
+    std::vector<Point> from;
+    from.reserve(sites.size());
+    try {
+      for (std::size_t i = 0; i < sites.size(); ++i) {
+        from.push_back(places_.point(sites[i]));
+        depart(sites[i]);
+        arrive(sites[i], to[i], no_index);
+        renumber_if_due();
+      }
+    } catch (...) {
+      for (std::size_t i = from.size(); i-- > 0;) places_.set_point(sites[i], from[i]);
+      places_.roll_back(sites, true);
+      throw;
+    }
   }
 
-  // Takes the result of a build, instead of inserting each: `mesh` has places for vertices,
-  // `hidden` are pairs of a place and a vertex close to it.
-  void assign(std::span<const Point> points, std::span<const Index> place_of_site,
-              std::span<const Index> speakers) {
-    places_.assign(points, place_of_site, speakers);
+  // Takes the result of a build, instead of inserting each. At first assign_points(); then
+  // `mesh` has places for vertices, `hidden` are pairs of a place and a vertex close to it.
+  void assign_points(std::span<const Point> points) { places_.assign_points(points); }
+  void assign(std::span<const Index> place_of_site, std::span<const Index> speakers) {
+    hull_.reset();
+    span_.clear();
+    places_.assign(place_of_site, speakers);
+    sites_.assign({}, {}, center_);
     for (Index place = 0; place < speakers.size(); ++place) refresh(place);
     schedule_.done(places_.num_places());
   }

@@ -26,17 +26,31 @@ Index take_slot(std::vector<Index>& free_slots) {
 }  // namespace
 
 Index Places::add_site() {
-  if (!free_sites_.empty()) return take_slot(free_sites_);
-  system::grow_large(points_);
-  system::grow_large(place_of_);
-  points_.emplace_back();
-  place_of_.push_back(no_index);
-  return site_limit() - 1;
+  if (free_sites_.empty()) {
+    system::grow_large(points_);
+    system::grow_large(place_of_);
+    points_.emplace_back();
+    place_of_.push_back(no_index);
+    ++num_sites_;
+    return site_limit() - 1;
+  }
+  ++num_sites_;
+  return take_slot(free_sites_);
 }
 
 void Places::free_site(Index site) {
   assert(place_of_[site] == no_index);
   free_sites_.push_back(site);
+  --num_sites_;
+}
+
+void Places::roll_back(std::span<const Index> sites, bool are_there) noexcept {
+  for (const Index site : sites) place_of_[site] = are_there ? 0 : no_index;
+  count_sites();
+}
+
+void Places::count_sites() noexcept {
+  num_sites_ = place_of_.size() - static_cast<std::size_t>(std::ranges::count(place_of_, no_index));
 }
 
 Places::Spot Places::look_up(const Point& p) const {
@@ -135,15 +149,26 @@ void Places::renumber(const Renumbering& places) {
   for (const auto& [place, site] : members) list({places.new_place[place], site});
 }
 
-void Places::assign(std::span<const Point> points, std::span<const Index> place_of_site,
-                    std::span<const Index> speakers) {
+void Places::assign_points(std::span<const Point> points) {
   points_.assign(points.begin(), points.end());
+}
+
+void Places::assign(std::span<const Index> place_of_site, std::span<const Index> speakers) {
+  place_of_.assign(place_of_site.begin(), place_of_site.end());
+  count_sites();
   speakers_.assign(speakers.begin(), speakers.end());
   names_ = speakers_;
-  place_of_.assign(points.size(), no_index);
-  for (Index place = 0; place < speakers.size(); ++place) place_of_[speakers[place]] = place;
-  for (Index site = 0; site < points.size(); ++site) {
-    if (place_of_[site] == no_index) join(site, place_of_site[site]);
+  free_sites_.clear();
+  free_places_.clear();
+  by_name_.clear();
+  by_triple_.clear();
+  for (Index site = 0; site < site_limit(); ++site) {
+    const Index place = place_of_[site];
+    if (place == no_index) {
+      free_sites_.push_back(site);
+    } else if (speakers_[place] != site) {
+      join(site, place);
+    }
   }
   std::vector<blocks::HilbertKey> keys(speakers.size());
   std::vector<Index> places(speakers.size());

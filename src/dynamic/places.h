@@ -29,7 +29,7 @@ class Places {
 
   // --- sites ---
 
-  [[nodiscard]] std::size_t num_sites() const { return points_.size() - free_sites_.size(); }
+  [[nodiscard]] std::size_t num_sites() const { return num_sites_; }
   // Ids are below this.
   [[nodiscard]] Index site_limit() const { return static_cast<Index>(points_.size()); }
   [[nodiscard]] bool is_alive(Index site) const {
@@ -42,6 +42,10 @@ class Places {
   Index add_site();
   void free_site(Index site);
   void set_point(Index site, const Point& p) { points_[site] = p; }
+
+  // After a change that failed: these sites are there, or not, as before. Places, and what is made
+  // of them, mean nothing then, until assign() makes them anew.
+  void roll_back(std::span<const Index> sites, bool are_there) noexcept;
 
   // --- places ---
 
@@ -94,9 +98,11 @@ class Places {
 
   void renumber(const Renumbering& places);
 
-  // Takes the result of a build. Places are in spatial order.
-  void assign(std::span<const Point> points, std::span<const Index> place_of_site,
-              std::span<const Index> speakers);
+  // The sites 0, 1, 2 ... of an object that has none. assign() follows.
+  void assign_points(std::span<const Point> points);
+  // Takes the result of a build: of each site the place, of those that are not there no_index.
+  // Places are in spatial order. If it throws, nothing is lost but places.
+  void assign(std::span<const Index> place_of_site, std::span<const Index> speakers);
 
  private:
   // Places with several sites list them twice, so that whoever leaves has a successor at once: by
@@ -122,13 +128,17 @@ class Places {
     };
   }
 
+  void count_sites() noexcept;
   void list(const Member& member);
   void strike(const Member& member);
 
   Model model_;
   Point center_;
+  // The sites themselves, and whether they are there; all else follows from these two.
   std::vector<Point> points_;
   std::vector<Index> place_of_;
+  std::size_t num_sites_ = 0;
+
   std::vector<Index> speakers_;
   std::vector<Index> names_;
   std::vector<Index> free_sites_;

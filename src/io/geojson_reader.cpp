@@ -7,10 +7,10 @@
 #include <cstddef>
 #include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "io/column_text.h"
+#include "io/json_tree.h"
 #include "io/number.h"
 #include "io/site_collector.h"
 #include "io/site_formats.h"
@@ -51,17 +51,13 @@ class CursorIterator {
   Cursor* cursor_;
 };
 
-// The member of an object, null if there is none.
-const json& member(const json& object, const char* name) {
-  static const json null;
-  if (!object.is_object()) return null;
-  const auto found = object.find(name);
-  return found == object.end() ? null : *found;
+std::string type_of(const JsonTree& object) {
+  const JsonTree& type = object.member("type");
+  return type.is_string() ? type.string() : std::string();
 }
 
-std::string type_of(const json& object) {
-  const json& type = member(object, "type");
-  return type.is_string() ? type.get<std::string>() : std::string();
+std::string unquoted(const JsonTree& value) {
+  return value.is_string() ? value.string() : value.text();
 }
 
 class PropertyColumns {
@@ -69,14 +65,13 @@ class PropertyColumns {
   explicit PropertyColumns(std::vector<Column>& columns) : columns_(columns) {}
 
   // Adds the properties of site number `site`.
-  void add(const json& properties, std::size_t site) {
-    if (!properties.is_object()) return;
-    for (const auto& [name, value] : properties.items()) {
+  void add(const JsonTree& properties, std::size_t site) {
+    for (const auto& [name, value] : properties.members) {
       const auto [entry, is_new] = index_.try_emplace(name, columns_.size());
       if (is_new) columns_.push_back(make_column(name));
       Column& column = columns_[entry->second];
       pad(column, site);
-      append_cell(column, text(value));
+      append_cell(column, value.is_null() ? std::string() : unquoted(value));
       if (!value.is_number() && !value.is_null()) column.is_numeric = false;
     }
   }
@@ -86,11 +81,6 @@ class PropertyColumns {
   }
 
  private:
-  static std::string text(const json& value) {
-    if (value.is_null()) return {};
-    return value.is_string() ? value.get<std::string>() : value.dump();
-  }
-
   static void pad(Column& column, std::size_t size) {
     column.ends.resize(size, column.text.size());
   }
@@ -113,13 +103,15 @@ class GeoJsonReader {
   [[nodiscard]] std::uint64_t line() const { return item_line_ != 0 ? item_line_ : cursor_.line; }
 
  private:
-  bool on_event(int depth, json::parse_event_t event, json& parsed);
-  void on_item(const json& item);
-  void on_root(const json& root);
-  void add_feature(const json& feature);
-  void add_geometry(const json& geometry, const json& properties);
-  void add_coordinates(const json& coordinates, const json& properties);
-  [[nodiscard]] double radius_in(const json& properties) const;
+  [[nodiscard]] static bool is_item(std::size_t depth, const std::string& list) {
+    return depth == 2 && (list == "features" || list == "geometries");
+  }
+  void on_item(const std::string& list, const JsonTree& item);
+  void on_root(const JsonTree& root);
+  void add_feature(const JsonTree& feature);
+  void add_geometry(const JsonTree& geometry, const JsonTree& properties);
+  void add_coordinates(const JsonTree& coordinates, const JsonTree& properties);
+  [[nodiscard]] double radius_in(const JsonTree& properties) const;
 
   std::string_view bytes_;
   std::string radius_;  // the property
@@ -129,44 +121,32 @@ class GeoJsonReader {
   Cursor cursor_;                // of the parser
   std::uint64_t item_line_ = 0;  // of the feature or geometry in work, 0 between them
   std::size_t num_items_ = 0;
-  std::string list_;  // the member of the root in work: "features", "geometries" ...
 };
 
+// The members of the root have depth 1, the elements of their arrays depth 2.
 void GeoJsonReader::read() {
   const char* const end = bytes_.data() + bytes_.size();
-  const auto callback = [this](int depth, json::parse_event_t event, json& parsed) {
-    return on_event(depth, event, parsed);
-  };
+  JsonTreeBuilder builder(
+      {[this](std::size_t depth, const std::string& list) {
+         if (depth == 0 || is_item(depth, list)) item_line_ = cursor_.line;
+       },
+       [this](std::size_t depth, const std::string& list, const JsonTree& object) {
+         if (!is_item(depth, list)) return false;
+         on_item(list, object);
+         return true;
+       }});
   try {
-    const json root =
-        json::parse(CursorIterator(bytes_.data(), cursor_), CursorIterator(end, cursor_), callback);
-    on_root(root);
-  } catch (const json::exception& error) {
+    json::sax_parse(CursorIterator(bytes_.data(), cursor_), CursorIterator(end, cursor_), &builder);
+  } catch (const JsonError&) {
     item_line_ = 0;
-    // Without "[json.exception.parse_error.101] parse error at line 1, column 2: "
-    std::string_view reason = error.what();
-    reason.remove_prefix(std::min(reason.find("] ") + 2, reason.size()));
-    if (reason.starts_with("parse error at")) reason.remove_prefix(reason.find(": ") + 2);
-    throw BadValue("not JSON: " + one_line(reason, 200));
+    throw;
   }
+  on_root(builder.root());
   columns_.finish(collector_.size());
 }
 
-// The members of the root have depth 1, the elements of their arrays depth 2.
-bool GeoJsonReader::on_event(int depth, json::parse_event_t event, json& parsed) {
-  using Event = json::parse_event_t;
-  if (event == Event::key && depth == 1) list_ = parsed.get<std::string>();
-  const bool is_item = depth == 2 && (list_ == "features" || list_ == "geometries");
-  if (event == Event::object_start && (is_item || depth == 0)) item_line_ = cursor_.line;
-  if (event != Event::object_end || !is_item) return true;
-  on_item(parsed);
-  ++num_items_;
-  item_line_ = 0;
-  return false;
-}
-
-void GeoJsonReader::on_item(const json& item) {
-  const bool is_feature = list_ == "features";
+void GeoJsonReader::on_item(const std::string& list, const JsonTree& item) {
+  const bool is_feature = list == "features";
   try {
     if (is_feature) {
       add_feature(item);
@@ -177,17 +157,20 @@ void GeoJsonReader::on_item(const json& item) {
     throw BadValue((is_feature ? "feature " : "geometry ") + std::to_string(num_items_) + ": " +
                    bad.what());
   }
+  ++num_items_;
+  item_line_ = 0;
 }
 
-void GeoJsonReader::on_root(const json& root) {
+void GeoJsonReader::on_root(const JsonTree& root) {
   item_line_ = 1;
   const std::string type = type_of(root);
   const bool is_features = type == "FeatureCollection";
   if (is_features || type == "GeometryCollection") {
     const char* const list = is_features ? "features" : "geometries";
-    const json& rest = member(root, list);
+    const JsonTree& rest = root.member(list);
     if (!rest.is_array()) throw BadValue(type + " without an array \"" + list + "\"");
-    if (!rest.empty()) throw BadValue(std::string(list) + " has members that are not objects");
+    if (!rest.items.empty())
+      throw BadValue(std::string(list) + " has members that are not objects");
   } else if (type == "Feature") {
     add_feature(root);
   } else {
@@ -195,24 +178,24 @@ void GeoJsonReader::on_root(const json& root) {
   }
 }
 
-void GeoJsonReader::add_feature(const json& feature) {
+void GeoJsonReader::add_feature(const JsonTree& feature) {
   const std::string type = type_of(feature);
   if (type != "Feature") throw BadValue("type " + in_quotes(type) + " where a Feature is needed");
-  if (member(feature, "geometry").is_null()) throw BadValue("no geometry");
-  add_geometry(member(feature, "geometry"), member(feature, "properties"));
+  if (feature.member("geometry").is_null()) throw BadValue("no geometry");
+  add_geometry(feature.member("geometry"), feature.member("properties"));
 }
 
-void GeoJsonReader::add_geometry(const json& geometry, const json& properties) {
+void GeoJsonReader::add_geometry(const JsonTree& geometry, const JsonTree& properties) {
   const std::string type = type_of(geometry);
-  const json& coordinates = member(geometry, "coordinates");
+  const JsonTree& coordinates = geometry.member("coordinates");
   if (type == "Point") return add_coordinates(coordinates, properties);
   const bool is_collection = type == "GeometryCollection";
   if (!is_collection && type != "MultiPoint") {
     throw BadValue("type " + in_quotes(type) + " where a Point is needed");
   }
-  const json& members = is_collection ? member(geometry, "geometries") : coordinates;
+  const JsonTree& members = is_collection ? geometry.member("geometries") : coordinates;
   if (!members.is_array()) throw BadValue(type + " without members");
-  for (const json& part : members) {
+  for (const JsonTree& part : members.items) {
     // Collections in collections are not Points: this bounds the recursion.
     if (is_collection && type_of(part) == type) throw BadValue("nested GeometryCollection");
     if (is_collection) {
@@ -223,23 +206,23 @@ void GeoJsonReader::add_geometry(const json& geometry, const json& properties) {
   }
 }
 
-void GeoJsonReader::add_coordinates(const json& coordinates, const json& properties) {
-  if (!coordinates.is_array() || coordinates.size() < 2 || !coordinates[0].is_number() ||
-      !coordinates[1].is_number()) {
-    throw BadValue("coordinates " + in_quotes(coordinates.dump()) + " are not [lon, lat]");
+void GeoJsonReader::add_coordinates(const JsonTree& coordinates, const JsonTree& properties) {
+  if (!coordinates.is_array() || coordinates.items.size() < 2 ||
+      !coordinates.items[0].is_number() || !coordinates.items[1].is_number()) {
+    throw BadValue("coordinates " + in_quotes(coordinates.text()) + " are not [lon, lat]");
   }
   if (keep_columns_) columns_.add(properties, collector_.size());
-  collector_.add_position(coordinates[0].get<double>(), coordinates[1].get<double>(), line());
+  collector_.add_position(coordinates.items[0].number(), coordinates.items[1].number(), line());
   if (!radius_.empty()) collector_.make_circle(radius_in(properties));
   collector_.report_progress(static_cast<std::size_t>(cursor_.position - bytes_.data()),
                              bytes_.size());
 }
 
-double GeoJsonReader::radius_in(const json& properties) const {
-  const json& value = member(properties, radius_.c_str());
+double GeoJsonReader::radius_in(const JsonTree& properties) const {
+  const JsonTree& value = properties.member(radius_);
   if (value.is_null()) throw BadValue("no property " + in_quotes(radius_));
-  if (value.is_number()) return value.get<double>();
-  return parse_number(value.is_string() ? value.get<std::string>() : value.dump(), "radius");
+  if (value.is_number()) return value.number();
+  return parse_number(unquoted(value), "radius");
 }
 
 }  // namespace

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// JSON as a tree, parsed by nlohmann's parser but without its trees: their destructors ask for
+// memory, and end the program where there is none.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/number.h"
+
+namespace rondel::io {
+
+// The text is not JSON, or no JSON for this reader; where the parser stands.
+class JsonError : public BadValue {
+ public:
+  using BadValue::BadValue;
+};
+
+struct JsonTree {
+  enum class Kind : std::uint8_t { scalar, array, object };
+
+  Kind kind = Kind::scalar;
+  nlohmann::json scalar;  // null, a number, a string ...
+  std::vector<JsonTree> items;
+  std::map<std::string, JsonTree> members;
+
+  [[nodiscard]] bool is_null() const { return kind == Kind::scalar && scalar.is_null(); }
+  [[nodiscard]] bool is_number() const { return kind == Kind::scalar && scalar.is_number(); }
+  [[nodiscard]] bool is_string() const { return kind == Kind::scalar && scalar.is_string(); }
+  [[nodiscard]] bool is_array() const { return kind == Kind::array; }
+  [[nodiscard]] bool is_object() const { return kind == Kind::object; }
+  [[nodiscard]] double number() const { return scalar.get<double>(); }
+  [[nodiscard]] std::string string() const { return scalar.get<std::string>(); }
+
+  // The member of an object, null if there is none.
+  [[nodiscard]] const JsonTree& member(const std::string& name) const;
+  // As text, without white space.
+  [[nodiscard]] std::string text() const;
+};
+
+// Builds the tree from the parser's events (nlohmann::json::sax_parse). Throws JsonError.
+class JsonTreeBuilder : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  // Trees deeper than this are refused: they are read and destroyed by recursion.
+  static constexpr std::size_t max_depth = 512;
+
+  // What is asked of the user, with the number of values that a new one is in, and the name of the
+  // member of the root that these are in.
+  struct Listener {
+    std::function<void(std::size_t depth, const std::string& member)> on_object_start;
+    // Whether the object was used and goes.
+    std::function<bool(std::size_t depth, const std::string& member, const JsonTree&)> on_object;
+  };
+  explicit JsonTreeBuilder(Listener listener) : listener_(std::move(listener)) {}
+
+  [[nodiscard]] const JsonTree& root() const { return root_; }
+
+  bool null() override { return add_scalar(nullptr); }
+  bool boolean(bool value) override { return add_scalar(value); }
+  bool number_integer(std::int64_t value) override { return add_scalar(value); }
+  bool number_unsigned(std::uint64_t value) override { return add_scalar(value); }
+  bool number_float(double value, const std::string& /*text*/) override {
+    return add_scalar(value);
+  }
+  bool string(std::string& value) override { return add_scalar(std::move(value)); }
+  bool binary(nlohmann::json::binary_t& /*value*/) override { return false; }
+  bool start_object(std::size_t /*size*/) override { return open(JsonTree::Kind::object); }
+  bool start_array(std::size_t /*size*/) override { return open(JsonTree::Kind::array); }
+  bool key(std::string& name) override;
+  bool end_object() override;
+  bool end_array() override;
+  bool parse_error(std::size_t position, const std::string& token,
+                   const nlohmann::json::exception& error) override;
+
+ private:
+  struct Level {
+    JsonTree tree;
+    std::string key;  // of an object: of the member that comes
+  };
+
+  bool open(JsonTree::Kind kind);
+  bool add(JsonTree value);
+  bool add_scalar(nlohmann::json value);
+  [[nodiscard]] const std::string& root_member() const;
+
+  Listener listener_;
+  std::vector<Level> open_;
+  JsonTree root_;
+};
+
+}  // namespace rondel::io

@@ -1,0 +1,79 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Readers and writers without enough memory: std::bad_alloc, no leak, and no file.
+
+#include <string>
+
+#include "faults/failing_allocation.h"
+#include "rondel/delaunay.h"
+#include "unit/io_support.h"
+
+namespace rondel::test {
+namespace {
+
+TEST(allocation_of_files, sites_are_read_or_bad_alloc) {
+  for (const auto& file : files_in(corpus / "good")) {
+    SCOPED_TRACE(file.string());
+    ReadOptions options;
+    options.keep_columns = true;
+    if (file.stem() == "radius") options.radius = "radius";
+    expect_result_or_bad_alloc([&] { return read_sites(file.string(), options).sites; });
+  }
+}
+
+TEST(allocation_of_files, triangles_are_read_or_bad_alloc) {
+  for (const auto& file : files_in(corpus / "good_triangles")) {
+    SCOPED_TRACE(file.string());
+    expect_result_or_bad_alloc([&] { return read_triangles(file.string()); });
+  }
+}
+
+// Each attempt writes the whole file or none.
+template <class Write>
+void expect_file_or_bad_alloc(const std::string& ending, const Write& write) {
+  SCOPED_TRACE(ending);
+  const TemporaryDirectory directory;
+  const std::filesystem::path path = directory.file("out" + ending);
+  write(path.string());
+  const std::string expected = read_all(path);
+  std::filesystem::remove(path);
+  fail_each_allocation([&](std::size_t n, Shortage shortage) {
+    bool is_written = false;
+    FailingAllocation failing(n, shortage);
+    try {
+      write(path.string());
+      is_written = true;
+    } catch (const std::bad_alloc&) {  // as it should be
+    }
+    const bool has_failed = failing.stop();
+    EXPECT_TRUE(has_failed || is_written);
+    EXPECT_EQ(is_written ? expected : std::string(), read_all(path));
+    EXPECT_EQ(directory.num_files(), is_written ? 1U : 0U);
+    std::filesystem::remove(path);
+    return has_failed;
+  });
+}
+
+TEST(allocation_of_files, are_written_or_bad_alloc) {
+  ReadOptions options;
+  options.keep_columns = true;
+  const SiteTable table = read_sites((corpus / "good" / "features.geojson").string(), options);
+  const Triangulation built = delaunay(table.sites, {.threads = 1});
+  const Diagram cells = diagram(built, table.sites);
+  for (const char* ending : {".npy", ".off", ".ply", ".obj", ".stl", ".vtp", ".geojson"}) {
+    expect_file_or_bad_alloc(ending,
+                             [&](const auto& path) { write_triangles(path, table, built); });
+  }
+  for (const char* ending : {".geojson", ".vtp", ".npz"}) {
+    expect_file_or_bad_alloc(ending,
+                             [&](const auto& path) { write_cells(path, table, built, cells); });
+  }
+  for (const char* ending : {".csv", ".xyz", ".npy"}) {
+    expect_file_or_bad_alloc(
+        ending, [&](const auto& path) { write_sites(path, table.sites, table.positions, {}, 1); });
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test
