@@ -142,7 +142,9 @@ void write_indices(const std::string& path, std::span<const Index> values,
 void write_file(const std::string& path, std::string_view bytes);
 
 /// For programs, once, at their start: SIGHUP, SIGINT and SIGTERM will remove all temporary files
-/// before they end the process, and a limit on the size of files will be an error, no signal.
+/// before they end the process, a limit on the size of files will be an error, no signal, and a
+/// file that is cut while read_sites() or the use of its sites reads it (SIGBUS) ends the process
+/// with status 1 and the line "rondel: sites.npy: the file was cut while it was read".
 void remove_temporaries_on_signal();
 
 }  // namespace rondel

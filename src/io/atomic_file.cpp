@@ -15,6 +15,7 @@
 #include <memory>
 #include <system_error>
 
+#include "io/file_bytes.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
 
@@ -53,11 +54,29 @@ void forget_temporary(std::size_t slot) noexcept {
   if (slot < num_slots) slots[slot].state.store(SlotState::free);
 }
 
-extern "C" void rondel_remove_temporaries_and_end(int signal) {
+void remove_temporaries() noexcept {
   for (const Slot& slot : slots) {
     if (slot.state.load() == SlotState::in_use) ::unlink(slot.name);
   }
+}
+
+extern "C" void rondel_remove_temporaries_and_end(int signal) {
+  remove_temporaries();
   std::raise(signal);  // its default action has been restored (SA_RESETHAND)
+}
+
+// Memory that is mapped from a file is no longer there.
+extern "C" void rondel_report_cut_file(int signal, siginfo_t* info, void* /*context*/) {
+  remove_temporaries();
+  const char* const name = mapped_file_at(info->si_addr);
+  if (name == nullptr) {
+    std::raise(signal);
+    return;
+  }
+  for (const char* text : {"rondel: ", name, ": the file was cut while it was read\n"}) {
+    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
+  }
+  ::_exit(1);
 }
 
 // Short and independent of the target's name, which may be as long as a name can be.
@@ -191,6 +210,9 @@ void remove_temporaries_on_signal() {
     ::sigaction(signal, nullptr, &before);
     if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
   }
+  action.sa_sigaction = &io::rondel_report_cut_file;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_SIGINFO);
+  ::sigaction(SIGBUS, &action, nullptr);
   std::signal(SIGXFSZ, SIG_IGN);
 }
 

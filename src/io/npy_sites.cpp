@@ -37,6 +37,7 @@ void read_table(std::string_view bytes, const ReadOptions& options, SiteTable& t
   if (!is_lonlat && array.num_columns() != 3) {
     throw BadValue("shape " + array.shape() + " where (n, 3) or (n, 2) is needed");
   }
+  require_indices(array.num_rows());
   table.first_line = 0;
   const double* const numbers = array.in_place<double>();
   if (!is_lonlat && numbers != nullptr && array.num_rows() >= least_mapped) {

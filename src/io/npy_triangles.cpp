@@ -32,6 +32,10 @@ std::vector<Triple> read_table(const NpyTable& array, const std::string& name) {
   if (array.num_columns() != 3) {
     throw BadValue("shape " + array.shape() + " where (m, 3) is needed");
   }
+  if (array.num_rows() > 2 * max_sites) {
+    throw BadValue(std::to_string(array.num_rows()) + " triangles are more than the " +
+                   std::to_string(2 * max_sites) + " that one triangulation can hold");
+  }
   if (array.type() == "u4") return rows_of<std::uint32_t>(array, name);
   if (array.type() == "i4") return rows_of<std::int32_t>(array, name);
   if (array.type() == "u8") return rows_of<std::uint64_t>(array, name);

@@ -2,13 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/site_collector.h"
 
+#include <algorithm>
+#include <string>
+
 #include "io/number.h"
 #include "rondel/delaunay.h"
 #include "system/huge_pages.h"
 
 namespace rondel::io {
 
+void require_indices(std::uint64_t n) {
+  if (n <= max_sites) return;
+  throw BadValue(std::to_string(n) + " sites are more than the " + std::to_string(max_sites) +
+                 " that one triangulation can hold");
+}
+
 void SiteCollector::reserve(std::size_t n, bool is_lonlat) {
+  n = std::min(n, max_sites);
   system::reserve_large(table_.sites.owned(), n);
   if (is_lonlat) table_.positions.reserve(n);
 }
@@ -37,6 +47,7 @@ void SiteCollector::make_circle(double radius) {
 // The lines of the sites are listed from the first one on that does not follow its predecessor.
 void SiteCollector::note_line(std::uint64_t line) {
   const std::size_t n = table_.sites.size();
+  require_indices(n + 1);
   if (n == 0) table_.first_line = line;
   if (table_.lines.empty()) {
     if (line == 0 || line == table_.first_line + n) return;

@@ -11,12 +11,15 @@
 
 namespace rondel::io {
 
+// Throws BadValue if no triangulation can hold n sites, before any of them is read.
+void require_indices(std::uint64_t n);
+
 class SiteCollector {
  public:
   // Fills `table`, whose name is set.
   SiteCollector(SiteTable& table, const ReadOptions& options) : table_(table), options_(options) {}
 
-  // Room for n sites.
+  // Room for n sites, as far as one triangulation can hold them.
   void reserve(std::size_t n, bool is_lonlat);
 
   // Adds the next site, which stands in `line` (0: the format has no lines). Throws BadValue.

@@ -90,10 +90,15 @@ void run_pieces(unsigned threads, std::size_t pieces, const Run& run) {
       --num_helpers;
       break;
     }
-    helpers.emplace_back([&] {
-      work();
+    try {
+      helpers.emplace_back([&] {
+        work();
+        --num_helpers;
+      });
+    } catch (const std::exception&) {  // no memory for one more: those that are there suffice
       --num_helpers;
-    });
+      break;
+    }
   }
   work();
   helpers.clear();
