@@ -2,10 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Loops that the compiler turns into vector code, compiled for wider vectors too than every machine
-// has, and chosen at run time. The results are the same: fused multiply-adds are off everywhere.
+// has, and chosen at run time (RONDEL_WIDE_VECTORS=OFF: never). The results are the same: fused
+// multiply-adds are off everywhere.
 #pragma once
 
-#if defined(__GNUC__) && defined(__x86_64__)
+#if defined(__GNUC__) && defined(__x86_64__) && !defined(RONDEL_NARROW_VECTORS)
 #define RONDEL_WIDE_VECTORS
 #define RONDEL_ALWAYS_INLINE __attribute__((always_inline))
 #else
