@@ -43,13 +43,53 @@ IntegerVector to_integers(const Point& p, int lowest) {
           to_integer(decompose(p.z), lowest)};
 }
 
+struct Root {
+  Integer floor;
+  Integer remainder;  // of the number, less the square of the floor
+};
+
+// \pre n < 2^62.
+Root small_root(const Integer& n) {
+  const auto value = static_cast<std::int64_t>(n);
+  auto root = static_cast<std::int64_t>(std::sqrt(static_cast<double>(value)));
+  while (root * root > value) --root;
+  while ((root + 1) * (root + 1) <= value) ++root;
+  return {root, value - root * root};
+}
+
+// Zimmermann, Karatsuba Square Root, INRIA RR-3805, 1999: n = high b^2 + middle b + low, b = 2^k, and
+// the root of `high` is s with the remainder r. For the quotient q and the remainder u of
+// r b + middle by 2 s,
+//
+//     n = (s b + q)^2 + u b + low - q^2.
+//
+// high >= b^2, hence s >= b and q <= b: the remainder is at most 2 s b, and if it is negative, the
+// root less 1 has one that is not. One division of half the length at each level.
+Root root_of(const Integer& n) {
+  const unsigned size = n == 0 ? 0 : static_cast<unsigned>(msb(n)) + 1;
+  if (size <= 62) return small_root(n);
+  const unsigned k = (size - 1) / 4;
+  const Integer mask = (Integer(1) << k) - 1;
+  const auto [s, r] = root_of(n >> (2 * k));
+  Integer q;
+  Integer u;
+  divide_qr(Integer((r << k) + ((n >> k) & mask)), Integer(s << 1), q, u);
+  Root root = {(s << k) + q, (u << k) + (n & mask) - q * q};
+  if (root.remainder < 0) {
+    root.remainder += 2 * root.floor - 1;
+    --root.floor;
+  }
+  return root;
+}
+
 // The low bits of a square are those of 0, 1, 4, 9, 16, 17, 25, 33, 36, 41, 49 or 57 modulo 64.
 bool is_square(const Integer& n, Integer& root) {
   constexpr std::uint64_t squares_modulo_64 = 0x0202021202030213U;
   const auto low_bits = static_cast<unsigned>(n & 63U);
   if ((squares_modulo_64 >> low_bits & 1U) == 0) return false;
-  root = floor_sqrt(n);
-  return root * root == n;
+  auto [floor, remainder] = root_of(n);
+  root = std::move(floor);
+  return remainder == 0;
 }
 
 // Sets `sign` and returns true when 2^bits times the sum lies outside of the error bound: each
@@ -87,22 +127,7 @@ bool is_zero_by_classes(std::span<const Integer> coefficients, std::span<const I
 
 }  // namespace
 
-// Newton's iteration from above: it decreases while it is larger than the floor of the
-// root, doubling the correct bits each time (the library's sqrt goes bit by bit).
-Integer floor_sqrt(const Integer& n) {
-  if (n == 0) return 0;
-  constexpr unsigned leading_bits = 100;  // the root of these is exact to 50 bits
-  const unsigned size = static_cast<unsigned>(msb(n)) + 1;
-  const unsigned shift = size > leading_bits ? (size - leading_bits + 1) / 2 : 0;
-  const double leading = static_cast<double>(Integer(n >> (2 * shift)));
-  Integer root = Integer(static_cast<std::int64_t>(std::sqrt(leading) * (1 + 0x1p-50)) + 1)
-                 << shift;
-  for (;;) {
-    Integer next = (root + n / root) >> 1;
-    if (next >= root) return root;
-    root = std::move(next);
-  }
-}
+Integer floor_sqrt(const Integer& n) { return root_of(n).floor; }
 
 std::vector<IntegerVector> scaled_differences(std::initializer_list<Point> points,
                                               const Point& center) {

@@ -135,7 +135,11 @@ LonLat checked_position(double lon, double lat, bool is_radians) {
   if (std::abs(lat) > limit) {
     throw BadValue("latitude " + text_of(lat) + " is outside [-pi/2, pi/2]");
   }
-  return {lon * degrees_per_radian, std::clamp(lat * degrees_per_radian, -90.0, 90.0)};
+  const double lon_deg = lon * degrees_per_radian;
+  if (!std::isfinite(lon_deg)) {
+    throw BadValue("longitude " + text_of(lon) + " is too large for degrees");
+  }
+  return {lon_deg, std::clamp(lat * degrees_per_radian, -90.0, 90.0)};
 }
 
 double checked_radius(double radius, bool is_radians) {

@@ -43,6 +43,11 @@ TEST(number, digits_round_trip) {
   }
 }
 
+TEST(number, degrees_of_a_longitude_in_radians_are_finite) {
+  EXPECT_GT(checked_position(1e306, 0, true).lon_deg, 5e307);
+  EXPECT_THROW(checked_position(1e308, 0, true), BadValue);
+}
+
 TEST(number, quotes_stay_on_one_line) {
   EXPECT_EQ(in_quotes("a\nb\x7F"), "\"a?b?\"");
   EXPECT_EQ(in_quotes(std::string(61, 'x')), '"' + std::string(60, 'x') + "...\"");

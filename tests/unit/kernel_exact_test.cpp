@@ -178,6 +178,32 @@ TEST(exact_expansion, determinants_equal_those_of_integers) {
   }
 }
 
+// Of numbers of any length; those next to squares are the hardest.
+TEST(exact_floor_sqrt, is_the_largest_integer_with_no_larger_square) {
+  using exact::Integer;
+  test::Random random(4);
+  const auto expect_floor = [](const Integer& n) {
+    const Integer root = exact::floor_sqrt(n);
+    EXPECT_LE(root * root, n);
+    EXPECT_GT((root + 1) * (root + 1), n);
+  };
+  for (int n = 0; n < 300; ++n) expect_floor(n);
+  for (int i = 0; i < 2000; ++i) {
+    Integer root = 0;
+    for (std::size_t word = 1 + random.below(40); word > 0; --word) {
+      root = (root << 64) + (random.below(3) == 0 ? ~std::uint64_t{0} : random.next());
+    }
+    root >>= random.below(64);
+    if (random.below(4) == 0) root = Integer(1) << random.below(2000);
+    for (int step = -2; step <= 2; ++step) {
+      if (root > 1) expect_floor(root * root + step);
+    }
+    expect_floor(root * root + root);
+    expect_floor(root * root + 2 * root);
+    expect_floor(root);
+  }
+}
+
 TEST(exact_root_sum, finds_zeros_and_signs_next_to_zero) {
   using exact::Integer;
   const auto sign = [](std::array<Integer, 3> c, std::array<Integer, 3> r) {
