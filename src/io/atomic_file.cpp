@@ -8,7 +8,6 @@
 
 #include <atomic>
 #include <cerrno>
-#include <climits>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
@@ -16,6 +15,7 @@
 #include <system_error>
 
 #include "io/file_bytes.h"
+#include "io/signal_slots.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
 
@@ -24,40 +24,15 @@ namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
-// The registry of temporaries: a signal handler may touch neither the heap nor a lock, so the
-// names lie in fixed buffers. A slot goes free -> claimed -> in_use -> free; the handler reads
-// slots in use only, whose names do not change. A file beyond the last slot is not removed by a
-// signal.
-enum class SlotState : int { free, claimed, in_use };
-struct Slot {
-  std::atomic<SlotState> state{SlotState::free};
-  char name[PATH_MAX] = {};
-};
+// A file beyond the last slot is not removed by a signal.
 constexpr std::size_t num_slots = 8;
-Slot slots[num_slots];
-static_assert(std::atomic<SlotState>::is_always_lock_free);
-
-std::size_t register_temporary(const std::string& name) {
-  if (name.size() >= PATH_MAX) return num_slots;
-  for (std::size_t i = 0; i < num_slots; ++i) {
-    SlotState expected = SlotState::free;
-    if (slots[i].state.compare_exchange_strong(expected, SlotState::claimed)) {
-      std::memcpy(slots[i].name, name.c_str(), name.size() + 1);
-      slots[i].state.store(SlotState::in_use);
-      return i;
-    }
-  }
-  return num_slots;
-}
-
-void forget_temporary(std::size_t slot) noexcept {
-  if (slot < num_slots) slots[slot].state.store(SlotState::free);
-}
+SignalSlots<num_slots> temporaries;
 
 void remove_temporaries() noexcept {
-  for (const Slot& slot : slots) {
-    if (slot.state.load() == SlotState::in_use) ::unlink(slot.name);
-  }
+  static_cast<void>(temporaries.find([](const auto& file) {
+    ::unlink(file.name.data());
+    return false;
+  }));
 }
 
 extern "C" void rondel_remove_temporaries_and_end(int signal) {
@@ -131,10 +106,10 @@ void AtomicFile::create(const std::string& directory) {
 void AtomicFile::make_temporary(const std::function<bool(const char*)>& make) {
   for (;;) {
     temporary_ = temporary_name(directory_);
-    slot_ = register_temporary(temporary_);
+    slot_ = temporaries.remember(temporary_);
     if (make(temporary_.c_str())) return;
     const int error = errno;
-    forget_temporary(slot_);
+    temporaries.forget(slot_);
     temporary_.clear();
     if (error != EEXIST) fail(error);
   }
@@ -178,7 +153,7 @@ void AtomicFile::commit() {
   if (closed != 0) fail(errno);
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-  forget_temporary(slot_);
+  temporaries.forget(slot_);
   temporary_.clear();
 }
 
@@ -192,7 +167,7 @@ void AtomicFile::discard() noexcept {
   descriptor_ = -1;
   if (temporary_.empty()) return;
   ::unlink(temporary_.c_str());
-  forget_temporary(slot_);
+  temporaries.forget(slot_);
   temporary_.clear();
 }
 

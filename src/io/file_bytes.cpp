@@ -7,48 +7,17 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
-#include <climits>
-#include <cstring>
 #include <functional>
 #include <system_error>
 
+#include "io/signal_slots.h"
 #include "rondel/error.h"
 
 namespace rondel::io {
 namespace {
 
-// The registry of mapped files, for a signal handler: in fixed buffers, without a lock. A slot goes
-// free -> claimed -> in_use -> free; the handler reads slots in use only.
-enum class SlotState : int { free, claimed, in_use };
-struct Slot {
-  std::atomic<SlotState> state{SlotState::free};
-  const char* begin = nullptr;
-  const char* end = nullptr;
-  char name[PATH_MAX] = {};
-};
-constexpr std::size_t num_slots = 4;
-Slot slots[num_slots];
-static_assert(std::atomic<SlotState>::is_always_lock_free);
-
-std::size_t register_mapping(const void* mapping, std::size_t size, const std::string& name) {
-  if (name.size() >= PATH_MAX) return num_slots;
-  for (std::size_t i = 0; i < num_slots; ++i) {
-    SlotState expected = SlotState::free;
-    if (!slots[i].state.compare_exchange_strong(expected, SlotState::claimed)) continue;
-    slots[i].begin = static_cast<const char*>(mapping);
-    slots[i].end = slots[i].begin + size;
-    std::memcpy(slots[i].name, name.c_str(), name.size() + 1);
-    slots[i].state.store(SlotState::in_use);
-    return i;
-  }
-  return num_slots;
-}
-
-void forget_mapping(std::size_t slot) noexcept {
-  if (slot < num_slots) slots[slot].state.store(SlotState::free);
-}
+SignalSlots<4> mapped_files;
 
 [[noreturn]] void fail(const std::string& path, int error) {
   throw FileError((path == "-" ? "<stdin>" : path) + ": " + std::generic_category().message(error));
@@ -107,7 +76,8 @@ FileBytes::FileBytes(const std::string& path) {
   if (mapping == MAP_FAILED) fail(path, errno);
   ::madvise(mapping, size_, MADV_SEQUENTIAL);
   mapping_ = mapping;
-  slot_ = register_mapping(mapping, size_, path);
+  const auto* const bytes = static_cast<const char*>(mapping);
+  slot_ = mapped_files.remember(path, bytes, bytes + size_);
 }
 
 void FileBytes::keep() const noexcept {
@@ -116,17 +86,16 @@ void FileBytes::keep() const noexcept {
 
 FileBytes::~FileBytes() {
   if (mapping_ == nullptr) return;
-  forget_mapping(slot_);
+  mapped_files.forget(slot_);
   ::munmap(mapping_, size_);
 }
 
 const char* mapped_file_at(const void* address) noexcept {
   const auto* const byte = static_cast<const char*>(address);
-  for (const Slot& slot : slots) {
-    if (slot.state.load() != SlotState::in_use) continue;
-    if (std::less_equal<>()(slot.begin, byte) && std::less<>()(byte, slot.end)) return slot.name;
-  }
-  return nullptr;
+  const auto* const slot = mapped_files.find([&](const auto& file) {
+    return std::less_equal<>()(file.begin, byte) && std::less<>()(byte, file.end);
+  });
+  return slot == nullptr ? nullptr : slot->name.data();
 }
 
 }  // namespace rondel::io
