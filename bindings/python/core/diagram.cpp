@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/diagram.h"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/tuple.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "module.h"
+
+namespace rondel::python {
+namespace {
+
+// Stars in compressed rows.
+struct Lists {
+  std::vector<std::uint64_t> offsets;
+  std::vector<Index> items;
+};
+using ListsOut = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
+
+Diagram make_diagram(const Triangulation& t, const PointsIn& points, const nb::object& listener) {
+  return watched(points.shape(0), listener,
+                 [&](const Progress&) { return diagram(t, points_of(points)); });
+}
+
+Lists ring_neighbors(const Triangulation& t) {
+  const auto ring = t.ring();
+  const std::size_t count = ring.size();
+  Lists lists{std::vector<std::uint64_t>(t.num_sites() + 1, 0), {}};
+  const std::uint64_t degree = std::min<std::size_t>(count - std::min<std::size_t>(count, 1), 2);
+  for (const Index v : ring) lists.offsets[v + 1] = degree;
+  std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
+  lists.items.resize(degree * count);
+  for (std::size_t j = 0; degree > 0 && j < count; ++j) {
+    const Index next = ring[(j + 1) % count];
+    const Index previous = ring[(j + count - 1) % count];
+    Index* out = &lists.items[lists.offsets[ring[j]]];
+    out[0] = std::min(previous, next);
+    if (degree > 1) out[1] = std::max(previous, next);
+  }
+  return lists;
+}
+
+// The neighbors of each vertex, counterclockwise from the lowest index: a turn through the faces
+// around it. Face f has corner i; the next face counterclockwise around that corner is across the
+// edge to the corner before it.
+void write_star(const Triangulation& t, Index first_face, Index site, Index* out) {
+  Index face = first_face;
+  Index* end = out;
+  do {
+    const Triple& corners = t.faces()[face];
+    const auto i =
+        static_cast<std::size_t>(std::find(corners.begin(), corners.end(), site) - corners.begin());
+    *end++ = corners[(i + 1) % 3];
+    face = t.neighbors()[face][(i + 1) % 3];
+  } while (face != first_face);
+  std::rotate(out, std::min_element(out, end), end);
+}
+
+Lists neighbor_lists(const Triangulation& t) {
+  if (t.dimension() < 2) return ring_neighbors(t);
+  Lists lists{std::vector<std::uint64_t>(t.num_sites() + 1, 0), {}};
+  std::vector<Index> a_face(t.num_sites(), no_index);
+  for (std::size_t f = 0; f < t.num_faces(); ++f) {
+    for (const Index v : t.faces()[f]) {
+      ++lists.offsets[v + 1];
+      a_face[v] = static_cast<Index>(f);
+    }
+  }
+  std::partial_sum(lists.offsets.begin(), lists.offsets.end(), lists.offsets.begin());
+  lists.items.resize(lists.offsets.back());
+  for (std::size_t v = 0; v < t.num_sites(); ++v) {
+    if (a_face[v] == no_index) continue;
+    write_star(t, a_face[v], static_cast<Index>(v), &lists.items[lists.offsets[v]]);
+  }
+  return lists;
+}
+
+// The largest | |p - center| - radius |; a number that is not finite counts as infinite.
+double largest_discrepancy(const PointsIn& points, const std::array<double, 3>& center,
+                           double radius) {
+  return unlocked([&] {
+    double largest = 0;
+    for (const Point& p : points_of(points)) {
+      const double x = p.x - center[0];
+      const double y = p.y - center[1];
+      const double z = p.z - center[2];
+      const double off = std::abs(std::sqrt(x * x + y * y + z * z) - radius);
+      if (!(off <= largest)) largest = std::isnan(off) ? HUGE_VAL : off;
+    }
+    return largest;
+  });
+}
+
+ListsOut lists_out(Lists&& lists) {
+  return {offsets_out(std::move(lists.offsets)), indices_out(std::move(lists.items))};
+}
+
+template <class T, class Row>
+auto array_getter(const std::vector<Row> Cells::*member) {
+  return [member](const nb::object& self) {
+    const std::vector<Row>& rows = nb::cast<const Diagram&>(self).cells.*member;
+    return array_of<T>(self, std::span<const Row>(rows));
+  };
+}
+
+void add_diagram_class(nb::module_& module) {
+  nb::class_<Diagram>(module, "Diagram")
+      .def_prop_ro("offsets", array_getter<std::int64_t, std::uint64_t>(&Cells::offsets))
+      .def_prop_ro("rings", array_getter<std::int32_t, Index>(&Cells::rings))
+      .def_prop_ro("points", array_getter<double, Point>(&Cells::points))
+      .def_prop_ro("areas", [](const nb::object& self) {
+        return array_of<double>(self,
+                                std::span<const double>(nb::cast<const Diagram&>(self).areas));
+      });
+}
+
+}  // namespace
+
+void add_diagram(nb::module_& module) {
+  add_diagram_class(module);
+  module.def("diagram", &make_diagram, nb::arg("triangulation"), nb::arg("points").noconvert(),
+             nb::arg("progress").none());
+  module.def(
+      "circumcenters",
+      [](const Triangulation& t, const PointsIn& points) {
+        return points_out(unlocked([&] { return circumcenters(t, points_of(points)); }));
+      },
+      nb::arg("triangulation"), nb::arg("points").noconvert());
+  module.def(
+      "centroids",
+      [](const Triangulation& t, const PointsIn& points, const Diagram& diagram) {
+        return points_out(unlocked([&] { return centroids(t, points_of(points), diagram.cells); }));
+      },
+      nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"));
+  module.def(
+      "edges",
+      [](const Triangulation& t) {
+        return to_array<std::int32_t>(unlocked([&] { return edges(t); }));
+      },
+      nb::arg("triangulation"));
+  module.def(
+      "neighbor_lists",
+      [](const Triangulation& t) { return lists_out(unlocked([&] { return neighbor_lists(t); })); },
+      nb::arg("triangulation"));
+  module.def(
+      "merge_cocircular",
+      [](const Triangulation& t, const PointsIn& points) -> ListsOut {
+        Polygons polygons = unlocked([&] { return merge_cocircular(t, points_of(points)); });
+        return {offsets_out(std::move(polygons.offsets)), indices_out(std::move(polygons.corners))};
+      },
+      nb::arg("triangulation"), nb::arg("points").noconvert());
+  module.def("largest_discrepancy", &largest_discrepancy, nb::arg("points").noconvert(),
+             nb::arg("center"), nb::arg("radius"));
+}
+
+}  // namespace rondel::python

@@ -1,0 +1,128 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "interrupt.h"
+
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <string>
+#include <thread>
+
+namespace rondel::python {
+namespace {
+
+namespace nb = nanobind;
+using namespace std::chrono_literals;
+
+constexpr std::size_t many_items = std::size_t{1} << 16;  // some hundredths of a second
+constexpr auto nap = 50ms;
+
+struct Cancelled {};
+
+// What the thread that works and the one that watches share.
+class Work {
+ public:
+  explicit Work(const std::function<void(const Progress&)>& work)
+      : thread_([this, &work] { run(work); }) {}
+
+  // Whether the work ended within a nap.
+  bool wait() {
+    std::unique_lock lock(mutex_);
+    return ended_.wait_for(lock, nap, [this] { return has_ended_; });
+  }
+  void cancel() {
+    const std::lock_guard lock(mutex_);
+    is_cancelled_ = true;
+  }
+  void tell(const nb::object& listener) {
+    std::string stage;
+    double fraction = 0;
+    {
+      const std::lock_guard lock(mutex_);
+      stage = stage_;
+      fraction = fraction_;
+    }
+    if (!stage.empty()) listener(stage.c_str(), fraction);
+  }
+  // After the end, and without the lock of the interpreter.
+  std::exception_ptr join() {
+    thread_.join();
+    return error_;
+  }
+
+ private:
+  void run(const std::function<void(const Progress&)>& work) {
+    std::exception_ptr error;
+    try {
+      work([this](std::string_view stage, double fraction) { report(stage, fraction); });
+    } catch (const Cancelled&) {
+      error = nullptr;
+    } catch (...) {
+      error = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    error_ = error;
+    has_ended_ = true;
+    ended_.notify_one();
+  }
+  void report(std::string_view stage, double fraction) {
+    const std::lock_guard lock(mutex_);
+    if (is_cancelled_) throw Cancelled();
+    stage_ = stage;
+    fraction_ = fraction;
+  }
+
+  std::mutex mutex_;
+  std::condition_variable ended_;
+  bool has_ended_ = false;
+  bool is_cancelled_ = false;
+  std::string stage_;
+  double fraction_ = 0;
+  std::exception_ptr error_;
+  std::thread thread_;  // last: it uses the others
+};
+
+// Handlers of signals, then the listener; what one of them raises.
+std::exception_ptr watch(Work& work, const nb::object& listener) {
+  try {
+    if (PyErr_CheckSignals() != 0) throw nb::python_error();
+    if (!listener.is_none()) work.tell(listener);
+  } catch (const nb::python_error&) {
+    return std::current_exception();
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+void run_watched(std::size_t size, const nb::object& listener,
+                 const std::function<void(const Progress&)>& work) {
+  if (size < many_items && listener.is_none()) {
+    const nb::gil_scoped_release released;
+    work({});
+    return;
+  }
+  std::exception_ptr raised;
+  std::exception_ptr error;
+  {
+    const nb::gil_scoped_release released;
+    Work running(work);
+    while (!running.wait()) {
+      if (raised) continue;
+      const nb::gil_scoped_acquire acquired;
+      raised = watch(running, listener);
+      if (raised) running.cancel();
+    }
+    error = running.join();
+    if (!raised && !error) {
+      const nb::gil_scoped_acquire acquired;
+      raised = watch(running, listener);
+    }
+  }
+  if (raised) std::rethrow_exception(raised);
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace rondel::python

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Long work that Python can watch and interrupt.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <type_traits>
+
+#include "rondel/types.h"
+
+namespace rondel::python {
+
+// Runs the work on `size` items without the lock of the interpreter. Where there are many items, or
+// somebody listens, another thread does it, and this one wakes some times a second
+// 1. to run the handlers of signals: Ctrl-C ends the work at its next report of progress, and then
+//    raises KeyboardInterrupt;
+// 2. to tell `listener`, if it is not None, the stage and the fraction done. An exception of the
+//    listener ends the work, too.
+// Called with the lock of the interpreter.
+void run_watched(std::size_t size, const nanobind::object& listener,
+                 const std::function<void(const Progress&)>& work);
+
+// The same for work that returns something.
+template <class Work>
+auto watched(std::size_t size, const nanobind::object& listener, const Work& work) {
+  std::optional<std::invoke_result_t<Work, const Progress&>> result;
+  run_watched(size, listener, [&](const Progress& progress) { result.emplace(work(progress)); });
+  return std::move(*result);
+}
+
+// Work that is not watched, without the lock of the interpreter.
+template <class Work>
+auto unlocked(const Work& work) {
+  const nanobind::gil_scoped_release released;
+  return work();
+}
+
+}  // namespace rondel::python

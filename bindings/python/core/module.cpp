@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "module.h"
+
+#include <exception>
+
+#include "rondel/error.h"
+#include "rondel/version.h"
+
+namespace {
+
+namespace nb = nanobind;
+
+// rondel.InvalidInput(message, index), a ValueError that the package defines.
+void raise_invalid_input(const rondel::InvalidInput& error) {
+  const nb::object type = nb::module_::import_("rondel._errors").attr("InvalidInput");
+  const nb::object value = type(error.what(), error.index());
+  PyErr_SetObject(type.ptr(), value.ptr());
+}
+
+void translate(const std::exception_ptr& pointer, void* /*payload*/) {
+  try {
+    std::rethrow_exception(pointer);
+  } catch (const rondel::InvalidInput& error) {
+    raise_invalid_input(error);
+  } catch (const rondel::FileError& error) {
+    PyErr_SetString(PyExc_OSError, error.what());
+  }
+}
+
+}  // namespace
+
+NB_MODULE(_core, module) {
+  module.doc() =
+      "The C++ library behind the package rondel. Use that: arguments are not converted here.";
+  module.attr("version") = rondel::version;
+  nb::register_exception_translator(translate);
+  rondel::python::add_triangulation(module);
+  rondel::python::add_diagram(module);
+  rondel::python::add_query(module);
+  rondel::python::add_dynamic(module);
+  rondel::python::add_files(module);
+}

@@ -1,0 +1,32 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What each file adds to the module rondel._core.
+#pragma once
+
+#include <nanobind/nanobind.h>
+
+#include <array>
+#include <string>
+
+#include "rondel/types.h"
+
+namespace rondel::python {
+
+void add_triangulation(nanobind::module_& module);
+void add_diagram(nanobind::module_& module);
+void add_query(nanobind::module_& module);
+void add_dynamic(nanobind::module_& module);
+void add_files(nanobind::module_& module);
+
+// The options of a build, from what the package passes.
+inline Options make_options(bool is_weighted, const std::array<double, 3>& center,
+                            double squared_radius, unsigned threads = 0,
+                            const Progress& progress = {}) {
+  return {.model = is_weighted ? Model::weighted : Model::projected,
+          .sphere = {{center[0], center[1], center[2]}, squared_radius},
+          .threads = threads,
+          .progress = progress};
+}
+
+}  // namespace rondel::python

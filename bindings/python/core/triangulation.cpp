@@ -1,0 +1,168 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/triangulation.h"
+
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+
+#include <span>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "module.h"
+#include "rondel/check.h"
+#include "rondel/delaunay.h"
+#include "rondel/hull.h"
+
+namespace rondel::python {
+namespace {
+
+using Center = std::array<double, 3>;
+
+Triangulation build(const PointsIn& points, bool is_weighted, const Center& center,
+                    double squared_radius, unsigned threads, const nb::object& listener) {
+  return watched(points.shape(0), listener, [&](const Progress& progress) {
+    return delaunay(points_of(points),
+                    make_options(is_weighted, center, squared_radius, threads, progress));
+  });
+}
+
+Triangulation build_hull(const PointsIn& points, unsigned threads, const nb::object& listener) {
+  return watched(points.shape(0), listener, [&](const Progress& progress) {
+    return convex_hull(points_of(points), {.threads = threads, .progress = progress});
+  });
+}
+
+template <class Row, class Array>
+std::vector<Row> copied_rows(const Array& array) {
+  const auto rows = rows_of<Row>(array);
+  return {rows.begin(), rows.end()};
+}
+
+// For pickle: the arrays of a triangulation that the library made.
+Triangulation from_arrays(std::size_t num_sites, int dimension, bool is_weighted,
+                          const Center& center, double squared_radius, const TriplesIn& faces,
+                          const TriplesIn& neighbors, const IndicesIn& ghost_faces,
+                          const IndicesIn& ring, const IndexPairsIn& duplicates,
+                          const IndexPairsIn& hidden) {
+  TriangulationArrays arrays{.num_sites = num_sites,
+                             .dimension = dimension,
+                             .faces = copied_rows<Triple>(faces),
+                             .neighbors = copied_rows<Triple>(neighbors),
+                             .ghost_faces = copied_rows<Index>(ghost_faces),
+                             .ring = copied_rows<Index>(ring),
+                             .duplicates = copied_rows<Duplicate>(duplicates),
+                             .hidden = copied_rows<Hidden>(hidden)};
+  return {std::move(arrays), make_options(is_weighted, center, squared_radius), {}};
+}
+
+nb::dict report_of(const Triangulation& t) {
+  const BuildReport& report = t.report();
+  nb::dict rungs;
+  rungs["filter"] = report.rungs.filter;
+  rungs["double_double"] = report.rungs.double_double;
+  rungs["exact"] = report.rungs.exact;
+  rungs["perturbed"] = report.rungs.perturbed;
+  nb::dict result;
+  result["threads"] = report.threads;
+  result["order_seconds"] = report.order_seconds;
+  result["triangulate_seconds"] = report.triangulate_seconds;
+  result["rungs"] = rungs;
+  return result;
+}
+
+// Functions that return an array of the object `self`.
+template <class T, auto Get>
+auto array_getter() {
+  return [](const nb::object& self) {
+    const auto rows = (nb::cast<const Triangulation&>(self).*Get)();
+    return array_of<T>(self, rows);
+  };
+}
+
+std::tuple<double, double> volume_and_area(const Triangulation& hull, const PointsIn& points) {
+  const HullSize size = unlocked([&] { return size_of_hull(hull, points_of(points)); });
+  return {size.volume, size.area};
+}
+
+std::tuple<bool, std::string, std::size_t, std::size_t, std::size_t, std::size_t> check_faces(
+    const PointsIn& points, const TriplesIn& faces, bool is_weighted, const Center& center,
+    double squared_radius, unsigned threads) {
+  const CheckReport report = unlocked([&] {
+    return check(points_of(points), rows_of<Triple>(faces),
+                 make_options(is_weighted, center, squared_radius, threads));
+  });
+  return {report.is_valid,  report.reason,         report.num_vertices,
+          report.num_edges, report.num_duplicates, report.num_hidden};
+}
+
+void add_triangulation_class(nb::module_& module) {
+  nb::class_<Triangulation>(module, "Triangulation")
+      .def_static("from_arrays", &from_arrays, nb::arg("num_sites"), nb::arg("dimension"),
+                  nb::arg("is_weighted"), nb::arg("center"), nb::arg("squared_radius"),
+                  nb::arg("faces").noconvert(), nb::arg("neighbors").noconvert(),
+                  nb::arg("ghost_faces").noconvert(), nb::arg("ring").noconvert(),
+                  nb::arg("duplicates").noconvert(), nb::arg("hidden").noconvert())
+      .def_prop_ro("dimension", &Triangulation::dimension)
+      .def_prop_ro("is_weighted",
+                   [](const Triangulation& t) { return t.model() == Model::weighted; })
+      .def_prop_ro("center",
+                   [](const Triangulation& t) {
+                     const Point& c = t.sphere().center;
+                     return std::tuple(c.x, c.y, c.z);
+                   })
+      .def_prop_ro("squared_radius",
+                   [](const Triangulation& t) { return t.sphere().squared_radius; })
+      .def_prop_ro("num_sites", &Triangulation::num_sites)
+      .def_prop_ro("num_vertices", &Triangulation::num_vertices)
+      .def_prop_ro("num_faces", &Triangulation::num_faces)
+      .def_prop_ro("faces", array_getter<std::int32_t, &Triangulation::faces>())
+      .def_prop_ro("neighbors", array_getter<std::int32_t, &Triangulation::neighbors>())
+      .def_prop_ro("ghost_faces", array_getter<std::int32_t, &Triangulation::ghost_faces>())
+      .def_prop_ro("ring", array_getter<std::int32_t, &Triangulation::ring>())
+      .def_prop_ro("duplicates", array_getter<std::int32_t, &Triangulation::duplicates>())
+      .def_prop_ro("hidden", array_getter<std::int32_t, &Triangulation::hidden>())
+      .def_prop_ro("report", &report_of);
+}
+
+}  // namespace
+
+void add_triangulation(nb::module_& module) {
+  add_triangulation_class(module);
+  module.def("delaunay", &build, nb::arg("points").noconvert(), nb::arg("is_weighted"),
+             nb::arg("center"), nb::arg("squared_radius"), nb::arg("threads"),
+             nb::arg("progress").none());
+  module.def("convex_hull", &build_hull, nb::arg("points").noconvert(), nb::arg("threads"),
+             nb::arg("progress").none());
+  module.def("size_of_hull", &volume_and_area, nb::arg("hull"), nb::arg("points").noconvert());
+  module.def("check", &check_faces, nb::arg("points").noconvert(), nb::arg("faces").noconvert(),
+             nb::arg("is_weighted"), nb::arg("center"), nb::arg("squared_radius"),
+             nb::arg("threads"));
+  module.def(
+      "unit_vectors",
+      [](const PairsIn& lonlat) {
+        return points_out(unlocked([&] { return unit_vectors(rows_of<LonLat>(lonlat)); }));
+      },
+      nb::arg("lonlat").noconvert());
+  module.def(
+      "polar_points",
+      [](const PointsIn& centers, const NumbersIn& radii_deg) {
+        return points_out(
+            unlocked([&] { return polar_points(points_of(centers), rows_of<double>(radii_deg)); }));
+      },
+      nb::arg("centers").noconvert(), nb::arg("radii_deg").noconvert());
+  module.def(
+      "polar_points_lonlat",
+      [](const PairsIn& lonlat, const NumbersIn& radii_deg) {
+        return points_out(unlocked(
+            [&] { return polar_points(rows_of<LonLat>(lonlat), rows_of<double>(radii_deg)); }));
+      },
+      nb::arg("lonlat").noconvert(), nb::arg("radii_deg").noconvert());
+}
+
+}  // namespace rondel::python

@@ -1,0 +1,59 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Exact Delaunay triangulations and Voronoi diagrams of points on the sphere.
+
+Functions
+---------
+delaunay, delaunay_lonlat
+    Triangulate points, or longitudes and latitudes.
+power_diagram
+    The cells of circles.
+convex_hull
+    The hull of any points in space.
+unit_vectors, lonlat
+    Degrees to unit vectors and back.
+
+Classes
+-------
+SphericalVoronoi
+    In place of `scipy.spatial.SphericalVoronoi`.
+SphericalDelaunay, PowerDiagram, ConvexHull
+    Results.
+DynamicTriangulation
+    Sites that come, go and move.
+"""
+
+from . import _core
+from ._arrays import lonlat, unit_vectors
+from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
+from ._dynamic import DynamicTriangulation, Snapshot
+from ._errors import InvalidInput
+from ._hull import ConvexHull, convex_hull
+from ._mesh import Lists
+from ._plot import LonLatTriangles
+from ._queries import Where
+from ._voronoi import Cells, PowerDiagram, SphericalVoronoi, power_diagram
+
+__version__ = _core.version
+
+__all__ = [
+    "Cells",
+    "CheckReport",
+    "ConvexHull",
+    "DynamicTriangulation",
+    "InvalidInput",
+    "Lists",
+    "Location",
+    "LonLatTriangles",
+    "PowerDiagram",
+    "Snapshot",
+    "SphericalDelaunay",
+    "SphericalVoronoi",
+    "Where",
+    "convex_hull",
+    "delaunay",
+    "delaunay_lonlat",
+    "lonlat",
+    "power_diagram",
+    "unit_vectors",
+]

@@ -1,0 +1,147 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""What users pass, as the arrays that the C++ library takes. What already is one is not copied."""
+
+from __future__ import annotations
+
+import operator
+
+import numpy as np
+
+from . import _core
+from ._errors import InvalidInput
+from ._types import ArrayLike, FloatArray, IntArray, Model
+
+MODELS = ("projected", "weighted")
+ORIGIN = (0.0, 0.0, 0.0)
+
+
+def as_floats(values: ArrayLike, name: str) -> FloatArray:
+    """C-contiguous float64, the same memory if it is that already."""
+    if np.ma.is_masked(values):
+        first = int(np.flatnonzero(np.ma.getmaskarray(np.ma.asarray(values)))[0])
+        row = first // max(1, int(np.prod(np.shape(values)[1:])))
+        raise InvalidInput(f"{name}[{row}] is masked", row)
+    array = np.asarray(values)
+    if array.dtype.kind not in "biufO":
+        raise TypeError(f"{name} must be real numbers, not {array.dtype}")
+    return np.require(array, np.float64, ["C", "A"])
+
+
+def as_rows(values: ArrayLike, columns: int, name: str) -> FloatArray:
+    """Rows of that many numbers; an empty list is no row."""
+    array = as_floats(values, name)
+    if array.shape == (0,):
+        array = array.reshape(0, columns)
+    if array.ndim != 2 or array.shape[1] != columns:
+        raise ValueError(f"{name} must have shape (n, {columns}), not {array.shape}")
+    return array
+
+
+def as_points(points: ArrayLike, name: str = "points") -> FloatArray:
+    """An array of shape (n, 3)."""
+    return as_rows(points, 3, name)
+
+
+def as_queries(xi: ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
+    """Query points as (q, 3), and the shape of the answers."""
+    array = as_floats(xi, "xi")
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise ValueError(f"xi must have shape (..., 3), not {array.shape}")
+    return array.reshape(-1, 3), array.shape[:-1]
+
+
+def as_lonlat(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
+    """Longitudes and latitudes as (n, 2) degrees."""
+    lon, lat = as_floats(lon, "lon"), as_floats(lat, "lat")
+    if lon.shape != lat.shape:
+        raise ValueError(f"lon and lat differ in shape: {lon.shape} and {lat.shape}")
+    return np.stack([lon.ravel(), lat.ravel()], axis=1)
+
+
+def as_indices(values: ArrayLike, name: str) -> IntArray:
+    """One-dimensional int32."""
+    array = np.asarray(values)
+    if array.size == 0:
+        return np.zeros(0, np.int32)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be integers, not {array.dtype}")
+    bad = np.flatnonzero((array < 0) | (array > np.iinfo(np.int32).max))
+    if bad.size:
+        raise InvalidInput(f"there is no site {array.ravel()[bad[0]]}", int(bad[0]))
+    return np.require(array, np.int32, ["C", "A"]).reshape(-1)
+
+
+def as_threads(threads: int | None) -> int:
+    """The number of threads, 0 for one for each core."""
+    if threads is None:
+        return 0
+    threads = operator.index(threads)
+    if threads < 1:
+        raise ValueError(f"threads must be at least 1, or None for all cores, not {threads}")
+    return min(threads, 1024)
+
+
+def as_center(center: ArrayLike | None) -> tuple[float, float, float]:
+    """The center of the sphere as three floats."""
+    if center is None:
+        return ORIGIN
+    array = as_floats(center, "center")
+    if array.shape != (3,):
+        raise ValueError(f"center must have shape (3,), not {array.shape}")
+    x, y, z = array.tolist()
+    return x, y, z
+
+
+def is_weighted(model: Model) -> bool:
+    """Whether the model is that of circles."""
+    if model not in MODELS:
+        raise ValueError(f"model must be 'projected' or 'weighted', not {model!r}")
+    return model == "weighted"
+
+
+def unit_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
+    """Unit vectors of longitudes and latitudes in degrees.
+
+    The same bits on every platform, and quadrants are exact: every longitude at latitude 90 gives
+    (0, 0, 1), and the longitudes -180, 180 and 540 the same vector.
+
+    Parameters
+    ----------
+    lon, lat : array_like, shape (...)
+        Degrees; latitudes from -90 to 90.
+
+    Returns
+    -------
+    ndarray of float64, shape (..., 3)
+
+    Raises
+    ------
+    InvalidInput
+        If an angle is not finite or a latitude is outside [-90, 90].
+
+    """
+    shape = np.shape(lon)
+    return _core.unit_vectors(as_lonlat(lon, lat)).reshape(*shape, 3)
+
+
+def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
+    """Longitudes and latitudes, in degrees, of the rays from `center` through points.
+
+    Parameters
+    ----------
+    points : array_like, shape (..., 3)
+    center : array_like, shape (3,), optional
+
+    Returns
+    -------
+    ndarray of float64, shape (..., 2)
+        Longitudes from -180 to 180, latitudes from -90 to 90.
+
+    """
+    xyz = as_floats(points, "points")
+    origin = as_center(center)
+    if any(origin):
+        xyz = xyz - np.asarray(origin)
+    x, y, z = xyz[..., 0], xyz[..., 1], xyz[..., 2]
+    return np.degrees(np.stack([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))], axis=-1))

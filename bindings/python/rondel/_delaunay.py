@@ -1,0 +1,371 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Delaunay and regular triangulations."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from . import _core, _geo, _plot
+from ._arrays import (
+    as_center,
+    as_floats,
+    as_lonlat,
+    as_points,
+    as_queries,
+    as_threads,
+    is_weighted,
+    lonlat,
+)
+from ._mesh import Mesh
+from ._queries import Queries
+from ._types import ArrayLike, FloatArray, IntArray, Model, Progress
+
+if TYPE_CHECKING:
+    from ._voronoi import PowerDiagram, SphericalVoronoi
+
+
+class Location(NamedTuple):
+    """Where query points are: kinds of place (`Where`), faces and the sites there."""
+
+    where: IntArray
+    face: IntArray
+    sites: IntArray
+
+
+class CheckReport(NamedTuple):
+    """The verdict of an independent check; as a truth value, whether it is valid."""
+
+    is_valid: bool
+    reason: str
+    num_vertices: int
+    num_edges: int
+    num_duplicates: int
+    num_hidden: int
+
+    def __bool__(self) -> bool:
+        return self.is_valid
+
+
+class SphericalDelaunay(Mesh, Queries):
+    """The Delaunay or regular triangulation of points on or close to a sphere.
+
+    Exact for every finite input, and unique: it depends on the set of points alone, not on their
+    order, the number of threads or the machine. Duplicates, points on one circle, in one
+    hemisphere, or a millimetre apart have an answer like all others.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        A C-contiguous array of float64 is not copied, and must not be changed as long as the
+        object lives. Points need not lie on the sphere exactly.
+    model : {'projected', 'weighted'}, optional
+        What a point stands for: its exact projection on the sphere, so that every distinct
+        direction is a vertex; or the circle whose pole it is, so that the result is the convex
+        hull, and points inside are `hidden`.
+    radius : float, optional
+        Of the sphere. It matters for weighted sites only.
+    center : array_like, shape (3,), optional
+        Of the sphere; by default the origin.
+    threads : int, optional
+        At most so many threads; by default one for each core. The result is the same.
+    progress : callable, optional
+        Called as ``progress(stage, fraction)`` some times a second. What it raises ends the work.
+
+    Raises
+    ------
+    InvalidInput
+        A `ValueError` with the first bad `index`: if a coordinate is not finite, a projected
+        point is the center, or there are more than 715,827,882 points.
+    KeyboardInterrupt
+        Ctrl-C ends the work within a short time.
+
+    Notes
+    -----
+    Incremental insertion and exact predicates after Caroli et al. [1]_, section 4; large inputs in
+    certified blocks. Ties (cocircular points) are broken by a symbolic perturbation.
+
+    References
+    ----------
+    .. [1] M. Caroli, P. M. M. de Castro, S. Loriot, O. Rouiller, M. Teillaud, C. Wormser, "Robust
+       and Efficient Delaunay Triangulations of Points on Or Close to a Sphere", SEA 2010.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> tri = rondel.delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
+    >>> tri
+    <rondel.SphericalDelaunay: 4 points, 4 faces, projected>
+    >>> sorted(tri.simplices[tri.find_simplex([3, 2, 2])].tolist())
+    [0, 1, 2]
+
+    """
+
+    def __init__(
+        self,
+        points: ArrayLike,
+        model: Model = "projected",
+        *,
+        radius: float = 1.0,
+        center: ArrayLike | None = None,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> None:
+        points = as_points(points)
+        radius = float(radius)
+        built = _core.delaunay(
+            points,
+            is_weighted(model),
+            as_center(center),
+            radius * radius,
+            as_threads(threads),
+            progress,
+        )
+        self._keep(points, built, radius)
+
+    def _keep(
+        self,
+        points: FloatArray,
+        triangulation: _core.Triangulation,
+        radius: float,
+        degrees: FloatArray | None = None,
+    ) -> None:
+        Mesh.__init__(self, points, triangulation)
+        self._radius = radius
+        self._degrees = degrees
+
+    @classmethod
+    def _from_parts(
+        cls,
+        points: FloatArray,
+        triangulation: _core.Triangulation,
+        radius: float,
+        degrees: FloatArray | None = None,
+    ) -> SphericalDelaunay:
+        self = cls.__new__(cls)
+        self._keep(points, triangulation, radius, degrees)
+        return self
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**super().__getstate__(), "radius": self._radius, "degrees": self._degrees}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        super().__setstate__(state)
+        self._radius = state["radius"]
+        self._degrees = state["degrees"]
+
+    @property
+    def model(self) -> Model:
+        """str: 'projected' or 'weighted'."""
+        return "weighted" if self._triangulation.is_weighted else "projected"
+
+    @property
+    def radius(self) -> float:
+        """float: the radius of the sphere."""
+        return self._radius
+
+    @property
+    def center(self) -> FloatArray:
+        """Ndarray of float64, shape (3,): the center of the sphere."""
+        return np.array(self._triangulation.center)
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """dict: the threads used, seconds of the stages, and how many predicates each rung of the
+        ladder of precisions decided.
+        """
+        return self._triangulation.report
+
+    @cached_property
+    def lonlat(self) -> FloatArray:
+        """Ndarray of float64, shape (n, 2): longitudes and latitudes of the points in degrees, as
+        given to `delaunay_lonlat`, or of the rays through the points.
+        """
+        if self._degrees is not None:
+            return self._degrees
+        return lonlat(self.points, self._triangulation.center)
+
+    @cached_property
+    def circumcenters(self) -> FloatArray:
+        """Ndarray of float64, shape (m, 3): the outward unit normals of the faces, which are the
+        centers of their circles (model 'weighted': their power centers), seen from the center of
+        the sphere. Within 4 ulp, whatever the shape of the face.
+        """
+        return _core.circumcenters(self._triangulation, self._points)
+
+    @cached_property
+    def _lazy_locator(self) -> _core.Locator:
+        return _core.Locator(self._triangulation, self._points)
+
+    def _locator(self) -> _core.Locator:
+        return self._lazy_locator
+
+    def locate(self, xi: ArrayLike, *, threads: int | None = None) -> Location:
+        """What each query point meets: a vertex, an edge, a face or nothing.
+
+        Parameters
+        ----------
+        xi : array_like, shape (..., 3)
+            Only directions from the center of the sphere count.
+        threads : int, optional
+
+        Returns
+        -------
+        Location
+            `where` (a `Where`), `face` (of several the first; -1 outside) and `sites`, one for a
+            vertex, two for an edge, three for a face, filled up with -1. Shapes (...), (...) and
+            (..., 3).
+
+        Raises
+        ------
+        InvalidInput
+            If a query is not finite or is the center.
+
+        """
+        queries, shape = as_queries(xi)
+        where, face, sites = self._locator().locate(queries, as_threads(threads))
+        return Location(where.reshape(shape)[()], face.reshape(shape)[()], sites.reshape(*shape, 3))
+
+    def find_simplex(self, xi: ArrayLike, *, threads: int | None = None) -> IntArray:
+        """The face that each query point lies in, as `scipy.spatial.Delaunay.find_simplex`.
+
+        Parameters
+        ----------
+        xi : array_like, shape (..., 3)
+        threads : int, optional
+
+        Returns
+        -------
+        ndarray of int32, shape (...)
+            -1 where there is no face: outside of sites that do not surround the center, and below
+            dimension 2. On edges and vertices the first of the faces there.
+
+        """
+        return self.locate(xi, threads=threads).face
+
+    def conflict_region(self, point: ArrayLike) -> IntArray:
+        """The faces that would go if a point were inserted, in increasing order.
+
+        Parameters
+        ----------
+        point : array_like, shape (3,)
+
+        Returns
+        -------
+        ndarray of int32
+
+        """
+        return self._locator().conflict_region(tuple(as_floats(point, "point").tolist()))
+
+    def voronoi(self) -> SphericalVoronoi | PowerDiagram:
+        """The dual of this triangulation.
+
+        Returns
+        -------
+        SphericalVoronoi or PowerDiagram
+            Nothing is triangulated again. Duplicates are merged.
+
+        """
+        from ._voronoi import PowerDiagram, SphericalVoronoi
+
+        kind = PowerDiagram if self._triangulation.is_weighted else SphericalVoronoi
+        return kind._from_delaunay(self)
+
+    def validate(self, *, threads: int | None = None) -> CheckReport:
+        """Proves or refutes, by another algorithm, that this is the triangulation of the points.
+
+        Returns
+        -------
+        CheckReport
+            True or False; `reason` says in one line what is wrong.
+
+        """
+        t = self._triangulation
+        return CheckReport(
+            *_core.check(
+                self._points,
+                t.faces,
+                t.is_weighted,
+                t.center,
+                t.squared_radius,
+                as_threads(threads),
+            )
+        )
+
+    def _facts(self) -> list[tuple[str, str]]:
+        return [*super()._facts(), ("model", self.model)]
+
+    to_geojson = _geo.triangles_to_geojson
+    to_geopandas = _geo.to_geopandas
+    to_xarray = _geo.triangles_to_xarray
+    lonlat_triangles = _plot.lonlat_triangles
+    plot = _plot.plot_triangles
+
+
+def delaunay(
+    points: ArrayLike,
+    model: Model = "projected",
+    *,
+    radius: float = 1.0,
+    center: ArrayLike | None = None,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> SphericalDelaunay:
+    """The Delaunay triangulation of points on or close to a sphere: see `SphericalDelaunay`.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+    model : {'projected', 'weighted'}, optional
+    radius : float, optional
+    center : array_like, shape (3,), optional
+    threads : int, optional
+    progress : callable, optional
+
+    Returns
+    -------
+    SphericalDelaunay
+
+    """
+    return SphericalDelaunay(
+        points, model, radius=radius, center=center, threads=threads, progress=progress
+    )
+
+
+def delaunay_lonlat(
+    lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None, progress: Progress = None
+) -> SphericalDelaunay:
+    """The Delaunay triangulation of longitudes and latitudes in degrees.
+
+    Parameters
+    ----------
+    lon, lat : array_like, shape (n,)
+        Degrees; latitudes from -90 to 90. Arrays of more dimensions are flattened.
+    threads : int, optional
+    progress : callable, optional
+
+    Returns
+    -------
+    SphericalDelaunay
+        Its `points` are the unit vectors, its `lonlat` the degrees as given.
+
+    Raises
+    ------
+    InvalidInput
+        If an angle is not finite or a latitude is outside [-90, 90].
+
+    Examples
+    --------
+    >>> import rondel
+    >>> tri = rondel.delaunay_lonlat([2.35, -74.01, 139.69, 151.21], [48.86, 40.71, 35.69, -33.87])
+    >>> int(tri.nearest(rondel.unit_vectors(-0.13, 51.51)))  # London is closest to Paris
+    0
+
+    """
+    degrees = as_lonlat(lon, lat)
+    points = _core.unit_vectors(degrees)
+    built = _core.delaunay(points, False, (0.0, 0.0, 0.0), 1.0, as_threads(threads), progress)
+    return SphericalDelaunay._from_parts(points, built, 1.0, degrees)

@@ -1,0 +1,25 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""What Rondel raises."""
+
+from __future__ import annotations
+
+__all__ = ["InvalidInput"]
+
+
+class InvalidInput(ValueError):
+    """An argument breaks its contract; degenerate input never does.
+
+    Attributes
+    ----------
+    index : int
+        The first offending position in the array that the message names.
+
+    """
+
+    def __init__(self, message: str, index: int = 0) -> None:
+        super().__init__(message, index)
+        self.index: int = index
+
+    def __str__(self) -> str:
+        return str(self.args[0])

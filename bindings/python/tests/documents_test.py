@@ -1,0 +1,52 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""The examples of the documents do what is printed there."""
+
+import doctest
+import pathlib
+import pkgutil
+import re
+
+import pytest
+
+import rondel
+
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+OPTIONS = doctest.NORMALIZE_WHITESPACE | doctest.ELLIPSIS
+
+
+@pytest.fixture(autouse=True)
+def _at_the_root(monkeypatch):
+    monkeypatch.chdir(ROOT)
+
+
+def modules():
+    return sorted(module.name for module in pkgutil.iter_modules(rondel.__path__, "rondel."))
+
+
+@pytest.mark.parametrize("name", modules())
+def test_docstrings(name):
+    if name != "rondel._core":
+        failed, _ = doctest.testmod(__import__(name, fromlist=["_"]), optionflags=OPTIONS)
+        assert failed == 0
+
+
+@pytest.mark.parametrize("document", ["docs/guide/python.md", "README.md"])
+def test_documents(document):
+    blocks = re.findall(
+        r"^```python\n(.*?)^```$", (ROOT / document).read_text("utf-8"), re.M | re.S
+    )
+    assert blocks
+    examples = doctest.DocTestParser().get_doctest("".join(blocks), {}, document, document, 0)
+    assert examples.examples
+    said = []
+    failed, _ = doctest.DocTestRunner(optionflags=OPTIONS).run(examples, out=said.append)
+    assert failed == 0, "".join(said)
+
+
+def test_the_list_of_deviations_is_in_the_guide():
+    from scipy_suite_test import DEVIATIONS
+
+    guide = (ROOT / "docs/guide/python.md").read_text("utf-8")
+    for pattern in DEVIATIONS:
+        assert re.match(r"\w+", pattern).group() in guide

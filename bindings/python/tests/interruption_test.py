@@ -1,0 +1,78 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Long work lets others run, says how far it is, and ends when it is asked to."""
+
+import signal
+import threading
+import time
+
+import clouds
+import numpy as np
+import pytest
+
+import rondel
+
+MANY = clouds.uniform(1 << 18)
+
+
+@pytest.fixture
+def alarm():
+    """Raises KeyboardInterrupt in the main thread after a time, as Ctrl-C does."""
+    before = signal.signal(signal.SIGALRM, signal.default_int_handler)
+    yield lambda seconds: signal.setitimer(signal.ITIMER_REAL, seconds)
+    signal.setitimer(signal.ITIMER_REAL, 0)
+    signal.signal(signal.SIGALRM, before)
+
+
+@pytest.mark.parametrize("make", [rondel.delaunay, rondel.SphericalVoronoi])
+def test_an_interrupt_ends_the_work(alarm, make):
+    alarm(0.01)
+    with pytest.raises(KeyboardInterrupt):
+        make(MANY, threads=1)
+
+
+def test_progress_is_told():
+    told = []
+    rondel.delaunay(MANY, threads=1, progress=lambda *what: told.append(what))
+    assert told
+    assert {stage for stage, _ in told} <= {"order", "triangulate"}
+    fractions = [fraction for _, fraction in told]
+    assert all(0 <= fraction <= 1 for fraction in fractions)
+    assert told[-1] == ("triangulate", 1)
+
+
+def test_what_a_listener_raises_ends_the_work():
+    def stop(stage, fraction):
+        raise RuntimeError(f"enough of {stage}")
+
+    with pytest.raises(RuntimeError, match="enough of"):
+        rondel.delaunay(MANY, progress=stop)
+    with pytest.raises(TypeError):
+        rondel.delaunay(MANY, progress=lambda: None)
+
+
+def test_errors_come_through_from_the_other_thread():
+    points = MANY.copy()
+    points[100_000, 2] = np.nan
+    with pytest.raises(rondel.InvalidInput) as caught:
+        rondel.delaunay(points)
+    assert caught.value.index == 100_000
+
+
+def test_other_threads_run_meanwhile():
+    ticks = []
+    done = threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.perf_counter())
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    begin = time.perf_counter()
+    rondel.delaunay(MANY, threads=1)
+    end = time.perf_counter()
+    done.set()
+    thread.join()
+    assert sum(begin < at < end for at in ticks) >= 5
