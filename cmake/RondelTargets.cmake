@@ -26,3 +26,18 @@ function(rondel_compile_alone target)
   set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target}
                               PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
+
+# For what reads files of strangers. A sanitizer checks more, and cannot look through _FORTIFY_SOURCE,
+# which needs an optimizing build.
+function(rondel_harden target)
+  if(RONDEL_SANITIZE)
+    return()
+  endif()
+  target_compile_options(${target} PRIVATE -fstack-protector-strong)
+  target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS
+    $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:_FORTIFY_SOURCE=2>)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL EXECUTABLE)
+    target_link_options(${target} PRIVATE -pie -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
+  endif()
+endfunction()

@@ -41,7 +41,7 @@ struct RingPoint {
 };
 
 struct LocalRing {
-  Vec origin;  // q
+  Vec origin{};  // q
   std::vector<RingPoint> points;
   double error = 0;  // of r, beyond the relative rounding errors
 };
