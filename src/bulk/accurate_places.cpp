@@ -42,15 +42,18 @@ Sign sign_beyond(long double value, long double bound) {
 
 }  // namespace
 
-void AccuratePlaces::assign(std::span<const CellPoint> points, std::span<const Point> sites,
-                            std::span<const Index> order, const Point& center, unsigned cube_face) {
-  points_ = points;
+void AccuratePlaces::assign(std::span<const Point> sites, std::span<const Index> order,
+                            const Point& center) {
   sites_ = sites;
   order_ = order;
   center_ = center;
+  lows_.clear();
+}
+
+void AccuratePlaces::enter(const CellPoint* points, unsigned cube_face) {
+  points_ = points;
   axes_ = blocks::cube_axes(cube_face);
   hand_ = det(exact::to_vector(axes_.u), exact::to_vector(axes_.v), exact::to_vector(axes_.out));
-  lows_.clear();
 }
 
 void AccuratePlaces::find_low(Index i) {
@@ -71,7 +74,7 @@ void AccuratePlaces::find_low(Index i) {
 
 void AccuratePlaces::reserve_lows() {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  lows_.resize(points_.size(), {unknown, unknown, unknown});
+  lows_.resize(order_.size(), {unknown, unknown, unknown});
 }
 
 // From the site a.

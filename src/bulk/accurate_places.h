@@ -18,9 +18,10 @@ namespace rondel::bulk {
 
 class AccuratePlaces {
  public:
-  // The sites sites[order[0]], ... with points[0], ... on this face of the cube.
-  void assign(std::span<const CellPoint> points, std::span<const Point> sites,
-              std::span<const Index> order, const Point& center, unsigned cube_face);
+  // The sites sites[order[0]], ...
+  void assign(std::span<const Point> sites, std::span<const Index> order, const Point& center);
+  // From now on questions are about those on this face of the cube, which are points[i].
+  void enter(const CellPoint* points, unsigned cube_face);
 
   // Positive if c lies to the left of the edge from a to b, zero if this is not certain.
   [[nodiscard]] Sign orientation(Index a, Index b, Index c);
@@ -41,7 +42,7 @@ class AccuratePlaces {
   void reserve_lows();
   void find_low(Index i);
 
-  std::span<const CellPoint> points_;
+  const CellPoint* points_ = nullptr;
   std::span<const Point> sites_;
   std::span<const Index> order_;
   Point center_;

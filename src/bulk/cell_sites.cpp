@@ -84,31 +84,51 @@ constexpr bool is_weighted = std::is_same_v<T, incremental::WeightedPoints>;
 }  // namespace
 
 template <incremental::SphereTraits T>
-void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> order,
-                          const Point& center, const Cell& cell, const Extent& extent) {
+void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> order, Index first,
+                          Index num_sites, const Point& center, const Extent& extent,
+                          CellCoordinates& coordinates) {
+  points_ = coordinates.points();
+  positions_ = coordinates.positions();
   sites_ = sites;
   order_ = order;
+  first_ = first;
+  num_sites_ = num_sites;
+  next_ = first;
   center_ = center;
   extent_ = extent;
+  bits_ = -1;
   num_unsure_ = 0;
   num_filtered_ = 0;
   tally_ = {};
   exact_.assign({}, {}, center);
+  accurate_.assign(sites, order.subspan(first, num_sites), center);
+}
+
+template <incremental::SphereTraits T>
+void CellSites<T>::find_bounds(int bits) {
+  bits_ = bits;
   if (is_weighted<T>) {
     // w is off by at most 2 units; it is below sqrt(3) s/|p|.
-    const double most_w = 1.74 * extent.most_size / extent.least_size;
+    const double most_w = 1.74 * extent_.most_size / extent_.least_size;
     square_bound_ = find_weighted_bound(2.1 * most_w, most_w);
     cube_bound_ = 0;
   } else {
     // In units: 71 length^2 for the error of w, 39 for those of u and v, 34 length for roundings;
     // half of the last two more for terms of higher order (docs/theory/blocks.md).
-    const double length = std::ldexp(1, cell.bits + 1 - blocks::position_bits);
+    const double length = std::ldexp(1, bits + 1 - blocks::position_bits);
     square_bound_ = 81 * unit_roundoff * (length * length);
     cube_bound_ = 1.5 * (39 + 34 * length) * unit_roundoff;
   }
+  double part = std::ldexp(1, 1 - blocks::position_bits);
+  for (int i = 0; i <= bits; ++i) {
+    limits_[static_cast<std::size_t>(i)] = limits(part);
+    part *= 2;
+  }
+}
 
-  points_.resize(order.size());
-  positions_.resize(order.size());
+template <incremental::SphereTraits T>
+void CellSites<T>::enter(const Cell& cell, Index num_sites) {
+  if (bits_ != cell.bits) find_bounds(cell.bits);
   const unsigned cube_face = cell.corner.face;
   const blocks::CubeAxes axes = blocks::cube_axes(cube_face);
   const auto u_axis = exact::to_vector(axes.u);
@@ -116,17 +136,20 @@ void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> o
   const auto out = exact::to_vector(axes.out);
   hand_ = det(u_axis, v_axis, out);
   const Tangent tangent(cell, hand_);
-  const auto origin = exact::to_vector(center);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    if (i + blocks::prefetch_distance < order.size()) {
-      blocks::prefetch(&sites[order[i + blocks::prefetch_distance]]);
+  const auto origin = exact::to_vector(center_);
+  const std::size_t begin = next_;
+  const std::size_t end = begin + num_sites;
+  next_ += num_sites;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (i + blocks::prefetch_distance < end) {
+      blocks::prefetch(&sites_[order_[i + blocks::prefetch_distance]]);
     }
     // A product with an axis picks a coordinate, exactly.
-    const auto ray = exact::to_vector(sites[order[i]]) - origin;
+    const auto ray = exact::to_vector(sites_[order_[i]]) - origin;
     const double z = dot(ray, out);
     const double u = dot(ray, u_axis) / z;
     const double v = dot(ray, v_axis) / z;
-    const double size = is_weighted<T> ? extent.most_size / z : std::sqrt(1 + (u * u + v * v));
+    const double size = is_weighted<T> ? extent_.most_size / z : std::sqrt(1 + (u * u + v * v));
     const double w = is_weighted<T> ? size : tangent.height(u, hand_ * v, size);
     points_[i] = {u, hand_ * v, w, size};
     // Where a difference overflows, or z is 0, the position is wrong: the last or the middle one.
@@ -137,7 +160,7 @@ void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> o
     };
     positions_[i] = {position(u), position(v)};
   }
-  accurate_.assign(points_, sites, order, center, cube_face);
+  accurate_.enter(points_ + first_, cube_face);
 }
 
 // With weights w is sqrt(1 + u^2 + v^2) s/|p|, and the change of the root is at most that of (u,
@@ -156,19 +179,20 @@ CellLimits CellSites<T>::limits(double length) const {
 template <incremental::SphereTraits T>
 template <std::size_t N, class Test>
 auto CellSites<T>::ask_traits(const std::array<Index, N>& indices, Test test) const {
-  if (num_unsure_ <= size() / many) ++num_unsure_;
-  if (num_unsure_ > size() / many) {
-    if (exact_.size() == 0) exact_.assign(sites_, order_, center_);
-    return test(exact_, indices);
+  std::array<Index, N> names{};
+  if (num_unsure_ <= num_sites_ / many) ++num_unsure_;
+  if (num_unsure_ > num_sites_ / many) {
+    if (exact_.size() == 0) exact_.assign(sites_, order_.subspan(first_, num_sites_), center_);
+    for (std::size_t i = 0; i < N; ++i) names[i] = indices[i] - first_;
+    return test(exact_, names);
   }
   std::array<Index, N> sites{};
-  std::array<Index, N> ranks{};
   for (Index i = 0; i < N; ++i) {
     sites[i] = order_[indices[i]];
-    ranks[i] = i;
+    names[i] = i;
   }
   few_.assign(sites_, sites, center_);
-  const auto answer = test(few_, ranks);
+  const auto answer = test(few_, names);
   add(tally_, few_.tally());
   return answer;
 }
@@ -182,7 +206,7 @@ Sign CellSites<T>::orientation(Index a, Index b, Index c) const {
       orientation_bound * std::sqrt(std::max(squared_in_plane(ab), squared_in_plane(ac)));
   if (std::abs(value) > std::max(bound, least_bound)) return exact::sign_of(value);
   if (!is_weighted<T>) {
-    const Sign sign = accurate_.orientation(a, b, c);
+    const Sign sign = accurate_.orientation(a - first_, b - first_, c - first_);
     if (sign != Sign::zero) return sign;
   }
   return ask_traits(std::array{a, b, c}, [](const T& t, const std::array<Index, 3>& i) {
@@ -225,7 +249,7 @@ bool CellSites<T>::is_in_conflict(Index a, Index b, Index c, Index p, double val
       ++num_filtered_;
       return side == Sign::negative;
     }
-    side = accurate_.side_of_face(a, b, c, p);
+    side = accurate_.side_of_face(a - first_, b - first_, c - first_, p - first_);
     if (side != Sign::zero) {
       ++tally_.double_double;
       return side == Sign::negative;
@@ -239,7 +263,7 @@ bool CellSites<T>::is_in_conflict(Index a, Index b, Index c, Index p, double val
 template <incremental::SphereTraits T>
 Tally CellSites<T>::tally() const {
   Tally tally = tally_;
-  if (num_unsure_ > size() / many) add(tally, exact_.tally());
+  if (exact_.size() != 0) add(tally, exact_.tally());
   tally.filter += num_filtered_;
   return tally;
 }

@@ -22,9 +22,10 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "bulk/accurate_places.h"
 #include "bulk/cell_point.h"
@@ -47,6 +48,27 @@ struct CellPosition {
   std::uint64_t v;
 };
 
+// Memory for the coordinates of sites; not initialized.
+class CellCoordinates {
+ public:
+  // For so many; forgets what there was if it has to grow.
+  void reserve(std::size_t size) {
+    if (size <= size_) return;
+    points_.reset();
+    points_ = std::make_unique_for_overwrite<CellPoint[]>(size);
+    positions_.reset();
+    positions_ = std::make_unique_for_overwrite<CellPosition[]>(size);
+    size_ = size;
+  }
+  [[nodiscard]] CellPoint* points() { return points_.get(); }
+  [[nodiscard]] CellPosition* positions() { return positions_.get(); }
+
+ private:
+  std::unique_ptr<CellPoint[]> points_;
+  std::unique_ptr<CellPosition[]> positions_;
+  std::size_t size_ = 0;
+};
+
 // What the sites of all blocks have in common.
 struct Extent {
   double least_size = 1;  // distances from the center, at least and at most, for weighted sites
@@ -56,16 +78,21 @@ struct Extent {
 template <incremental::SphereTraits T>
 class CellSites {
  public:
-  // The sites sites[order[0]], sites[order[1]], ... of this cell. Also finds their positions, which
-  // are those of the spatial order.
-  void assign(std::span<const Point> sites, std::span<const Index> order, const Point& center,
-              const Cell& cell, const Extent& extent);
+  // The sites sites[order[first]], sites[order[first + 1]], ..., num_sites of them in one or
+  // several cells. They are named by their place in `order`, which is also that of their
+  // coordinates.
+  void assign(std::span<const Point> sites, std::span<const Index> order, Index first,
+              Index num_sites, const Point& center, const Extent& extent,
+              CellCoordinates& coordinates);
 
-  [[nodiscard]] Index size() const { return static_cast<Index>(points_.size()); }
-  [[nodiscard]] const CellPoint* points() const { return points_.data(); }
+  // From now on questions are about so many of the sites that follow, which are in this cell. Finds
+  // their coordinates, and their positions, which are those of the spatial order.
+  void enter(const Cell& cell, Index num_sites);
+
+  [[nodiscard]] const CellPoint* points() const { return points_; }
   [[nodiscard]] const Point& site(Index i) const { return sites_[order_[i]]; }
   [[nodiscard]] const Point& center() const { return center_; }
-  [[nodiscard]] const std::vector<CellPosition>& positions() const { return positions_; }
+  [[nodiscard]] const CellPosition* positions() const { return positions_; }
   void set_position(Index i, const CellPosition& position) { positions_[i] = position; }
 
   // The vector from the center to a site, within a few units: in right-handed axes of which the
@@ -78,8 +105,12 @@ class CellSites {
   }
   [[nodiscard]] double hand() const { return hand_; }
 
-  // For the sites of a cell that is this long in u and v.
+  // For the sites of a square that is this long in u and v.
   [[nodiscard]] CellLimits limits(double length) const;
+  // For those of a part of this cell that has 2^bits positions either way.
+  [[nodiscard]] const CellLimits& limits_of(int bits) const {
+    return limits_[static_cast<std::size_t>(bits)];
+  }
 
   // For sites with this largest distance: in u and v in the projected model, in space with weights.
   [[nodiscard]] double conflict_limit(double distance) const {
@@ -100,18 +131,25 @@ class CellSites {
   [[nodiscard]] Tally tally() const;
 
  private:
+  void find_bounds(int bits);
+
   // Calls test(traits, a, b, ...) of the sites with these indices: few are given a traits class of
-  // their own, many one for all sites of the block.
+  // their own, many one for all sites.
   template <std::size_t N, class Test>
   auto ask_traits(const std::array<Index, N>& indices, Test test) const;
 
-  std::vector<CellPoint> points_;
-  std::vector<CellPosition> positions_;
+  CellPoint* points_ = nullptr;
+  CellPosition* positions_ = nullptr;
   std::span<const Point> sites_;
   std::span<const Index> order_;
+  Index first_ = 0;
+  Index num_sites_ = 0;
+  Index next_ = 0;  // the first site of the next cell
   Point center_;
   Extent extent_;
   double hand_ = 1;
+  int bits_ = -1;  // of the cells for which there are bounds
+  std::array<CellLimits, blocks::position_bits + 1> limits_;
   double square_bound_ = 0;
   double cube_bound_ = 0;
   mutable AccuratePlaces accurate_;

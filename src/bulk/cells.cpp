@@ -63,18 +63,6 @@ std::array<Block, 4> quarters(const Block& block, const Position& position) {
   return result;
 }
 
-std::array<Block, 6> cube_faces(Index num_ranks, const Position& position) {
-  std::array<Block, 6> result{};
-  Index begin = 0;
-  for (unsigned face = 0; face < 6; ++face) {
-    const Index end =
-        find_first(begin, num_ranks, [&](Index i) { return position(i).face > face; });
-    result[face] = {begin, end, {{face, 0, 0}, blocks::position_bits, 0}};
-    begin = end;
-  }
-  return result;
-}
-
 void split(const Block& block, std::size_t max_sites, const Position& position,
            std::vector<Block>& blocks) {
   if (block.begin == block.end) return;
@@ -88,6 +76,18 @@ void split(const Block& block, std::size_t max_sites, const Position& position,
 }
 
 }  // namespace
+
+std::array<Block, 6> cube_faces(Index num_ranks, const Position& position) {
+  std::array<Block, 6> result{};
+  Index begin = 0;
+  for (unsigned face = 0; face < 6; ++face) {
+    const Index end =
+        find_first(begin, num_ranks, [&](Index i) { return position(i).face > face; });
+    result[face] = {begin, end, {{face, 0, 0}, blocks::position_bits, 0}};
+    begin = end;
+  }
+  return result;
+}
 
 std::vector<Block> make_blocks(Index num_ranks, std::size_t max_sites, const Position& position) {
   std::vector<Block> blocks;

@@ -4,6 +4,7 @@
 // The cells of the Hilbert curve, and blocks of sites in them.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -25,6 +26,10 @@ struct Block {
   Index end = 0;
   Cell cell;
 };
+
+// The sites on each face of the cube, empty blocks included.
+std::array<Block, 6> cube_faces(Index num_ranks,
+                                const std::function<blocks::CubePosition(Index)>& position);
 
 // Splits the ranks 0 ... num_ranks-1 into blocks of at most `max_sites`, in their order, as far as
 // positions can tell sites apart. `position` gives the position of a rank.

@@ -17,6 +17,10 @@ namespace rondel::bulk {
 template <incremental::SphereTraits T>
 class MergeStep {
  public:
+  using Sites = CellSites<T>;
+  using Limits = CellLimits;
+  static constexpr bool hides_sites = T::hides_sites;
+
   struct Face {
     Index apex;
     CellVector normal;
@@ -31,6 +35,9 @@ class MergeStep {
 
   [[nodiscard]] Index l() const { return l_; }
   [[nodiscard]] Index r() const { return r_; }
+
+  // The step of another edge.
+  [[nodiscard]] MergeStep from_to(Index l, Index r) const { return {sites_, limits_, l, r}; }
 
   [[nodiscard]] Face face(Index x) const { return {x, cross(edge_, from_l(x))}; }
 

@@ -17,7 +17,9 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include "rondel/types.h"
 #include "system/huge_pages.h"
@@ -39,27 +41,53 @@ class PlaneGraph {
   };
 
   // Forgets all edges.
-  void clear(std::size_t max_vertices) {
-    // Deleted pairs are used again, and a plane graph has less than three edges a vertex.
-    if (capacity_ < max_vertices) {
-      const std::size_t size = 6 * max_vertices + 1;
-      rings_.reset();
-      rings_ = std::make_unique_for_overwrite<Ring[]>(size);
-      system::advise_huge_pages(rings_.get(), size * sizeof(Ring));
-      ends_.reset();
-      ends_ = std::make_unique_for_overwrite<End[]>(size);
-      system::advise_huge_pages(ends_.get(), size * sizeof(End));
-      capacity_ = max_vertices;
+  void clear(std::size_t num_vertices) {
+    reserve(size_of(num_vertices));
+    begin(0, num_vertices);
+  }
+
+  // The same for a graph that is made in parts, which may be drawn by several threads at a time:
+  // part i has so many vertices. Parts use the memory of this graph, which is then of no use before
+  // it has taken over all parts, in their order.
+  std::vector<PlaneGraph> clear_parts(std::span<const Index> num_vertices) {
+    std::size_t size = 0;
+    for (const Index n : num_vertices) size += size_of(n);
+    reserve(size);
+    std::vector<PlaneGraph> parts;
+    std::size_t first = 0;
+    for (const Index n : num_vertices) {
+      PlaneGraph& part = parts.emplace_back();
+      part.rings_ = rings_;
+      part.ends_ = ends_;
+      part.begin(first, n);
+      first += size_of(n);
     }
-    full_ = 6 * capacity_;
-    limit_ = 0;
-    free_ = 0;
-    rings_[0].next = 2;
+    return parts;
+  }
+
+  // Takes over the edges of a part of this graph: the first one.
+  void take(const PlaneGraph& part) {
+    begin_ = part.begin_;
+    full_ = part.full_;
+    limit_ = part.limit_;
+    free_ = part.free_;
+  }
+  // The same of the part that follows in memory. Parts can do this with each other, too.
+  void append(const PlaneGraph& next) {
+    // Pairs that were never used become deleted ones.
+    for (std::size_t e = limit_; e < next.begin_; e += 2) {
+      ends_[e].target = no_index;
+      ends_[e + 1].target = no_index;
+      const std::size_t following = e + 2 < next.begin_ ? e + 2 : next.free_;
+      rings_[e].next = static_cast<Edge>(following);
+    }
+    full_ = next.full_;
+    limit_ = next.limit_;
   }
 
   // For loops: the same arrays without a look at this object for each element.
-  [[nodiscard]] const Ring* rings() const { return rings_.get(); }
-  [[nodiscard]] End* ends() { return ends_.get(); }
+  [[nodiscard]] const Ring* rings() const { return rings_; }
+  [[nodiscard]] End* ends() { return ends_; }
 
   [[nodiscard]] Edge next(Edge e) const { return rings_[e].next; }
   [[nodiscard]] Edge previous(Edge e) const { return rings_[e].previous; }
@@ -74,6 +102,12 @@ class PlaneGraph {
   // Halfedges are below this; those of deleted pairs have no target.
   [[nodiscard]] Edge edge_limit() const { return static_cast<Edge>(limit_); }
   [[nodiscard]] bool is_alive(Edge e) const { return ends_[e].target != no_index; }
+
+  [[nodiscard]] std::size_t num_edges() const {
+    std::size_t count = 0;
+    for (Edge e = 0; e < edge_limit(); e += 2) count += static_cast<std::size_t>(is_alive(e));
+    return count;
+  }
 
   // Whether there are as many edges as a plane graph can have, so that no more may be added.
   [[nodiscard]] bool is_full() const { return limit_ == full_; }
@@ -143,6 +177,31 @@ class PlaneGraph {
   }
 
  private:
+  // Deleted pairs are used again, and a plane graph has less than three edges a vertex. One pair is
+  // always ready (new_pair()).
+  static std::size_t size_of(std::size_t num_vertices) { return 6 * num_vertices + 2; }
+
+  void reserve(std::size_t size) {
+    if (size <= size_) return;
+    // One piece: glibc keeps freed memory in proportion to the largest piece, so that the next
+    // build need not get it from the system again.
+    const std::size_t bytes = size * (sizeof(Ring) + sizeof(End));
+    memory_.reset();
+    memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
+    system::advise_huge_pages(memory_.get(), bytes);
+    rings_ = reinterpret_cast<Ring*>(memory_.get());
+    ends_ = reinterpret_cast<End*>(memory_.get() + size * sizeof(Ring));
+    size_ = size;
+  }
+
+  void begin(std::size_t first, std::size_t num_vertices) {
+    begin_ = first;
+    full_ = first + 6 * num_vertices;
+    limit_ = first;
+    free_ = first;
+    rings_[first].next = static_cast<Edge>(first + 2);
+  }
+
   // The list of deleted pairs runs on with those never used, which saves a branch that would depend
   // on the input: the first of these is always ready.
   Edge new_pair() {
@@ -158,10 +217,12 @@ class PlaneGraph {
     rings_[links.next].previous = links.previous;
   }
 
-  std::unique_ptr<Ring[]> rings_;  // not initialized
-  std::unique_ptr<End[]> ends_;
-  std::size_t capacity_ = 0;  // in vertices
+  std::unique_ptr<std::byte[]> memory_;  // of both arrays, not initialized
+  Ring* rings_ = nullptr;
+  End* ends_ = nullptr;
+  std::size_t size_ = 0;  // of both arrays
   // Of another type than the links, so that these are not read again after each link is written.
+  std::size_t begin_ = 0;
   std::size_t full_ = 0;
   std::size_t limit_ = 0;
   std::size_t free_ = 0;  // at most limit_

@@ -4,8 +4,6 @@
 #include "bulk/triangulate.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -13,6 +11,7 @@
 #include <utility>
 
 #include "bulk/block.h"
+#include "bulk/sphere.h"
 #include "bulk/stitch.h"
 #include "predicates/tally.h"
 #include "system/huge_pages.h"
@@ -23,37 +22,17 @@ namespace {
 
 using incremental::Triangulated;
 
+// The whole sphere at once from so many sites on, or its parts would be too small to pay, and up to
+// so many, or its mesh would not fit into the second cache, more or less.
+constexpr std::size_t least_sphere_sites = 128;
+constexpr std::size_t sphere_sites = std::size_t{1} << 16;
+
 // With fewer sites most would be in the seam.
-constexpr std::size_t least_sites = std::size_t{1} << 13;
+constexpr std::size_t least_block_sites = std::size_t{1} << 13;
 
 // The mesh of a block lies in the second cache, and its seam is a small part of it. A fixed number,
 // so that the work does not depend on the threads.
 constexpr std::size_t block_sites = 3 << 14;
-
-// The distances of weighted sites from the center, rounded outwards.
-void find_sizes(Input& input) {
-  double least = std::numeric_limits<double>::infinity();
-  double most = 0;
-  const predicates::Vector center = exact::to_vector(input.options.sphere.center);
-  for (const Point& p : input.sites) {
-    const predicates::Vector ray = exact::to_vector(p) - center;
-    const double size2 = dot(ray, ray);
-    least = std::min(least, size2);
-    most = std::max(most, size2);
-  }
-  // Where squares lose bits no bound is finite, and the exact rungs decide.
-  constexpr double least_square = 1e-280;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  input.extent.least_size = least > least_square ? std::sqrt(least) * (1 - 0x1p-48) : 0;
-  input.extent.most_size = most > least_square ? std::sqrt(most) * (1 + 0x1p-48) : infinity;
-}
-
-Input make_input(std::span<const Point> sites, std::span<const Index> order,
-                 const Options& options) {
-  Input input = {sites, order, options};
-  if (options.model == Model::weighted) find_sizes(input);
-  return input;
-}
 
 // What the threads that work on blocks share.
 template <incremental::SphereTraits T>
@@ -142,6 +121,16 @@ void resize_large(std::vector<Triple>& values, std::size_t size) {
   values.resize(size);
 }
 
+// The whole sphere at once, if the sites suit this.
+std::optional<Triangulated> try_sphere(const Input& input, std::span<const Duplicate> renamed) {
+  const std::size_t num_sites = input.order.size();
+  if (num_sites < least_sphere_sites || num_sites > sphere_sites ||
+      !surround_center(input.sites, input.options.sphere.center)) {
+    return std::nullopt;
+  }
+  return triangulate_sphere(input, renamed);
+}
+
 std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplicate> renamed,
                                       std::size_t max_block_sites) {
   const std::size_t num_ranks = input.order.size();
@@ -197,14 +186,13 @@ std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                          std::span<const Duplicate> renamed, const Options& options) {
-  if (order.size() >= least_sites) {
-    const Input input = make_input(sites, order, options);
-    if (is_worthwhile(input)) {
-      auto result = by_blocks(input, renamed, block_sites);
-      if (result) return *std::move(result);
-    }
+  const Input input = make_input(sites, order, options);
+  auto result = try_sphere(input, renamed);
+  if (!result && order.size() >= least_block_sites && is_worthwhile(input)) {
+    result = by_blocks(input, renamed, block_sites);
   }
-  return incremental::triangulate(sites, std::move(order), renamed, options);
+  return result ? *std::move(result)
+                : incremental::triangulate(sites, std::move(order), renamed, options);
 }
 
 }  // namespace rondel::bulk

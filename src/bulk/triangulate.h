@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The bulk build: from sites in spatial order to the arrays of the result, by certified blocks.
+// The bulk build: from sites in spatial order to the arrays of the result. Few sites that surround
+// the center are triangulated at once (sphere.h), many by certified blocks:
 //
 // 1. Blocks: the sites of a cell of the Hilbert curve, triangulated by divide and conquer.
 // 2. Certificate: the faces of a block that no site outside can be in conflict with are final.
-// 3. Seam: the sites of all other faces, some sqrt(n) of n, are triangulated by themselves.
+// 3. Seam: the sites of all other faces, some sqrt(n) of n, are triangulated in the same way.
 // 4. Stitch: the final faces and those of the seam in the region between them are the result.
 //
 // Since the triangulation is unique, neither the blocks nor the threads can change the result.

@@ -86,8 +86,13 @@ Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
   bulk::CellSites<T> sites;
   const auto first = blocks::exact_cube_position(set.sites[order.order[0]], center);
   const bulk::Cell whole_face = {{first.face, 0, 0}, blocks::position_bits, 0};
-  sites.assign(set.sites, order.order, center, whole_face, is_weighted ? extent : bulk::Extent{});
-  for (Index i = 0; i < sites.size(); ++i) {
+  const auto num_sites = static_cast<Index>(order.order.size());
+  bulk::CellCoordinates coordinates;
+  coordinates.reserve(num_sites);
+  sites.assign(set.sites, order.order, 0, num_sites, center, is_weighted ? extent : bulk::Extent{},
+               coordinates);
+  sites.enter(whole_face, num_sites);
+  for (Index i = 0; i < num_sites; ++i) {
     const auto exact = blocks::exact_cube_position(sites.site(i), center);
     const auto& p = sites.positions()[i];
     if (blocks::cube_position(sites.site(i), center).face != first.face) return Divided::misplaced;
@@ -96,10 +101,11 @@ Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
     }
   }
   bulk::PlaneGraph graph;
+  graph.clear(num_sites);
   bulk::Divide<T> divide(sites, {}, graph);
-  const auto boundary = divide.run(0, blocks::position_bits - 1);
-  if (boundary == no_index) return Divided::left_to_seam;
-  return faces_of(graph, boundary) == solid_faces(set, order, model) ? Divided::same
+  const auto all = divide.run(0, num_sites, 0, blocks::position_bits - 1);
+  if (divide.has_failed()) return Divided::left_to_seam;
+  return faces_of(graph, all.edge) == solid_faces(set, order, model) ? Divided::same
                                                                      : Divided::different;
 }
 

@@ -7,4 +7,5 @@ rondel_add_test(bulk_test
   bulk_nasty_test.cpp
   bulk_same_test.cpp
   bulk_scale_test.cpp
+  bulk_sphere_test.cpp
   LIBS rondel_test_support)

@@ -61,8 +61,13 @@ class Cell {
                  static_cast<int>(blocks::position_bits));
     const bulk::Cell cell = {
         {first.face, first.u >> bits << bits, first.v >> bits << bits}, bits, 0};
-    sites_.assign(points_, order_, center, cell, has_weights ? weights : bulk::Extent{});
-    accurate_.assign({sites_.points(), points_.size()}, points_, order_, center, first.face);
+    const auto num_sites = static_cast<Index>(points_.size());
+    coordinates_.reserve(num_sites);
+    sites_.assign(points_, order_, 0, num_sites, center, has_weights ? weights : bulk::Extent{},
+                  coordinates_);
+    sites_.enter(cell, num_sites);
+    accurate_.assign(points_, order_, center);
+    accurate_.enter(sites_.points(), first.face);
   }
 
   [[nodiscard]] const bulk::CellSites<T>& sites() const { return sites_; }
@@ -93,6 +98,7 @@ class Cell {
   Point center_;
   blocks::CubeAxes axes_;
   bool has_weights_ = false;
+  bulk::CellCoordinates coordinates_;
   bulk::CellSites<T> sites_;
   bulk::AccuratePlaces accurate_;
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "blocks/spatial_order.h"
+#include "bulk/sphere.h"
 #include "bulk/triangulate.h"
 #include "support/generators.h"
 
@@ -34,8 +35,19 @@ class BulkCase {
   // Returns whether there was no need to fall back. What is returned is compared bit by bit.
   bool run(std::size_t max_block_sites, unsigned threads = 1) {
     options_.threads = threads;
-    const auto result = bulk::triangulate_by_blocks(sites_, order_.order, order_.renamed, options_,
-                                                    max_block_sites);
+    return compare(bulk::triangulate_by_blocks(sites_, order_.order, order_.renamed, options_,
+                                               max_block_sites));
+  }
+
+  // The same for the whole sphere at once, which the sites must surround.
+  bool run_whole(unsigned threads = 1) {
+    options_.threads = threads;
+    const bulk::Input input = bulk::make_input(sites_, order_.order, options_);
+    return compare(bulk::triangulate_sphere(input, order_.renamed));
+  }
+
+ private:
+  bool compare(const std::optional<incremental::Triangulated>& result) {
     if (!result) return false;
     const TriangulationArrays& arrays = result->arrays;
     EXPECT_EQ(arrays.dimension, expected_.dimension);
@@ -47,7 +59,6 @@ class BulkCase {
     return true;
   }
 
- private:
   std::vector<Point> sites_;
   Options options_;
   blocks::SpatialOrder order_;

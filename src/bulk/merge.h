@@ -1,0 +1,212 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Two triangulations that a great circle separates become one (Guibas and Stolfi, ACM Trans. Graph.
+// 4, 1985): the conquest of divide and conquer.
+//
+//      .----.   .----.     A merge finds the lower common tangent of the outer boundaries and
+//      climbs: | L   l--r  R |     each step tries the first neighbors of l and r above the edge
+//      (l, r), |    / \/ \   |     deletes those in front of which another one lies, and adds the
+//      edge of |   x--r'--\  |     the lower face.
+//      '----'   '----'
+//
+// docs/theory/blocks.md shows that this holds for weighted sites as well: the cells of the power
+// diagrams of L and R meet in one chain, and what lies behind it is never met again.
+#pragma once
+
+#include <array>
+#include <tuple>
+
+#include "bulk/collinear.h"
+#include "bulk/plane_graph.h"
+
+namespace rondel::bulk {
+
+// A vertex of the outer boundary and the edge that leaves it there, with the outer face on its
+// right; no edge for a single vertex, no vertex for no sites.
+struct Part {
+  Index vertex = no_index;
+  PlaneGraph::Edge edge = no_index;
+};
+
+// An edge that leaves l or r into the face below `base` leads to a site that this face hides. It
+// lies between `base` and the lower side q of that face, but comes after `base` in its ring. The
+// edge `kept` stays.
+template <class Step>
+void remove_covered(PlaneGraph& graph, PlaneGraph::Edge base, const Step& step,
+                    PlaneGraph::Edge kept = no_index) {
+  using Edge = PlaneGraph::Edge;
+  for (;;) {
+    const Edge e = graph.next(base);
+    const Edge q = graph.previous(base);
+    if (e == base || e == q || e == kept ||
+        step.orientation(step.face(graph.target(e))) != Sign::negative)
+      break;
+    const Step side = step.from_to(step.l(), graph.target(q));
+    if (side.orientation(side.face(graph.target(e))) != Sign::positive) break;
+    graph.remove(e);
+  }
+  for (;;) {
+    const Edge e = graph.previous(base ^ 1);
+    const Edge q = graph.next(base ^ 1);
+    if (e == (base ^ 1) || e == q || (e ^ 1) == kept ||
+        step.orientation(step.face(graph.target(e))) != Sign::negative)
+      break;
+    const Step side = step.from_to(graph.target(q), step.r());
+    if (side.orientation(side.face(graph.target(e))) != Sign::positive) break;
+    graph.remove(e);
+  }
+}
+
+// `Step` asks the questions of one step, see merge_step.h and sphere_step.h.
+template <class Step>
+class Merge {
+ public:
+  using Edge = PlaneGraph::Edge;
+  using Face = typename Step::Face;
+  using Limits = typename Step::Limits;
+  using Sites = typename Step::Sites;
+
+  Merge(const Sites& sites, PlaneGraph& graph) : sites_(sites), graph_(graph) {}
+
+  // Whether sites met that this cannot cope with; then the graph is worth nothing.
+  [[nodiscard]] bool has_failed() const { return has_failed_; }
+  Part fail() {
+    has_failed_ = true;
+    return {};
+  }
+
+  // Two parts that a great circle separates.
+  Part merge(Part l, Part r, const Limits& limits) {
+    if (has_failed_) return {};
+    if (l.vertex == no_index) return r;
+    if (r.vertex == no_index) return l;
+    if (l.edge == no_index && r.edge == no_index) {
+      return {l.vertex, graph_.add(l.vertex, r.vertex)};
+    }
+    find_tangent(l, r, limits);
+    if (has_failed_) return {};
+    const Edge base = graph_.add(l.vertex, r.vertex);
+    if (l.edge != no_index) graph_.insert_after(base, graph_.previous(l.edge));
+    if (r.edge != no_index) graph_.insert_after(base ^ 1, graph_.previous(r.edge));
+    climb(base, limits);
+    return {l.vertex, base};
+  }
+
+  // The middle one of three sites on one great circle. Weighted sites below the line of their
+  // neighbors would be hidden on the boundary, which the algorithm is not made for.
+  [[nodiscard]] Index middle_of(Index a, Index b, Index c) {
+    for (const auto& [x, m, y] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
+      const Between between =
+          is_between(sites_.site(x), sites_.site(m), sites_.site(y), sites_.center());
+      if (between == Between::no) continue;
+      if (between == Between::below && Step::hides_sites) has_failed_ = true;
+      return m;
+    }
+    has_failed_ = true;
+    return no_index;
+  }
+
+ private:
+  // --- the outer boundary, counterclockwise, with the outer face on the right ---
+
+  [[nodiscard]] Index boundary_next(const Part& p) const { return graph_.target(p.edge); }
+  [[nodiscard]] Index boundary_previous(const Part& p) const {
+    return graph_.target(graph_.previous(p.edge));
+  }
+  bool move_on(Part& p) const {
+    p = {graph_.target(p.edge), graph_.next(p.edge ^ 1)};
+    return true;
+  }
+  bool move_back(Part& p) const {
+    p = {boundary_previous(p), graph_.previous(p.edge) ^ 1};
+    return true;
+  }
+
+  // Whether n, next to l or r on the boundary of its part, lies below the edge from l to r, or on
+  // it. Moving there lowers the point where the line meets the great circle between the parts, so
+  // such moves end; then all sites lie above the line.
+  [[nodiscard]] bool is_lower(const Step& step, Index n) {
+    const Sign side = step.orientation(step.face(n));
+    if (side != Sign::zero) return side == Sign::negative;
+    return middle_of(step.l(), step.r(), n) == n;
+  }
+
+  bool move_down(const Step& step, Part& l, Part& r) {
+    if (l.edge != no_index) {
+      if (is_lower(step, boundary_previous(l))) return move_back(l);
+      if (is_lower(step, boundary_next(l))) return move_on(l);
+    }
+    if (r.edge != no_index) {
+      if (is_lower(step, boundary_next(r))) return move_on(r);
+      if (is_lower(step, boundary_previous(r))) return move_back(r);
+    }
+    return false;
+  }
+
+  // Moves l and r to the ends of the lower common tangent.
+  void find_tangent(Part& l, Part& r, const Limits& limits) {
+    while (!has_failed_ && move_down(Step(sites_, limits, l.vertex, r.vertex), l, r)) {
+    }
+  }
+
+  [[nodiscard]] bool is_above(const Step& step, const Face& face) {
+    const Sign side = step.orientation(face);
+    if (Step::hides_sites && side == Sign::zero)
+      std::ignore = middle_of(step.l(), step.r(), face.apex);
+    return side == Sign::positive;
+  }
+
+  // Sews the parts together above the edge `base` from the left one to the right one.
+  void climb(Edge base, const Limits& limits) {
+    const PlaneGraph::Ring* const rings = graph_.rings();
+    const PlaneGraph::End* const ends = graph_.ends();
+    Index l = graph_.origin(base);
+    Index r = graph_.target(base);
+    while (!graph_.is_full()) {
+      const Step step(sites_, limits, l, r);
+      if constexpr (Step::hides_sites) remove_covered(graph_, base, step);
+      Edge left = rings[base].next;
+      Face left_face = step.face(ends[left].target);
+      const bool has_left = left != base && is_above(step, left_face);
+      if (has_left) {
+        for (;;) {
+          const Edge next = rings[left].next;
+          const Index y = ends[next].target;
+          if (y == r || !step.is_in_conflict(left_face, y)) break;
+          graph_.remove(left);
+          left = next;
+          left_face = step.face(y);
+        }
+      }
+      Edge right = rings[base ^ 1].previous;
+      Face right_face = step.face(ends[right].target);
+      const bool has_right = right != (base ^ 1) && is_above(step, right_face);
+      if (has_right) {
+        for (;;) {
+          const Edge next = rings[right].previous;
+          const Index y = ends[next].target;
+          if (y == l || !step.is_in_conflict(right_face, y)) break;
+          graph_.remove(right);
+          right = next;
+          right_face = step.face(y);
+        }
+      }
+      if (!has_left && !has_right) return;
+      if (!has_left || (has_right && step.is_in_conflict(left_face, right_face.apex))) {
+        r = right_face.apex;
+        base = graph_.add(l, r, base, rings[right ^ 1].previous);
+      } else {
+        l = left_face.apex;
+        base = graph_.add(l, r, left ^ 1, rings[base ^ 1].previous);
+      }
+    }
+    has_failed_ = true;
+  }
+
+  const Sites& sites_;
+  PlaneGraph& graph_;
+  bool has_failed_ = false;
+};
+
+}  // namespace rondel::bulk

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The sites of one cell, from positions that rounding may have moved to a triangulation.
+#pragma once
+
+#include <bit>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bulk/cells.h"
+#include "bulk/divide.h"
+#include "bulk/input.h"
+
+namespace rondel::bulk {
+
+// Positions that may be wrong, as far as divide and conquer would notice.
+template <incremental::SphereTraits T>
+class PositionCheck {
+ public:
+  PositionCheck(const Input& input, const Block& block, CellSites<T>& sites,
+                std::vector<Misplaced>& misplaced)
+      : input_(input), block_(block), sites_(sites), misplaced_(misplaced) {}
+
+  // Returns whether all sites can be told apart by positions, but for those listed as misplaced.
+  // The site of rank block.begin is site `first` of the cell.
+  bool run(Index first) {
+    misplaced_.clear();
+    for (Index rank = block_.begin; rank < block_.end; ++rank) {
+      const Index i = first + (rank - block_.begin);
+      const CellPosition& p = sites_.positions()[i];
+      if ((is_doubtful(p.u) || is_doubtful(p.v)) && !check_position(rank, i)) return false;
+    }
+    return true;
+  }
+
+ private:
+  // Rounding moves positions by less than `rounding`. Divide does not look at the lowest bits.
+  static constexpr std::uint64_t rounding = 4;
+  static bool is_close(std::uint64_t p, std::uint64_t q) {
+    return p < q + rounding && q < p + rounding;
+  }
+  static bool is_doubtful(std::uint64_t p) {
+    constexpr std::uint64_t mask = (std::uint64_t{1} << Divide<T>::least_bit) - 1;
+    return ((p + rounding) & mask) < 2 * rounding;
+  }
+
+  bool check_position(Index rank, Index i) {
+    if (sites_.site(i) == sites_.center()) return false;
+    // The one by which the site is in its place. It may be exact, or none if a difference
+    // overflows.
+    const blocks::CubePosition p = input_.position(rank);
+    const blocks::CubePosition q = blocks::exact_cube_position(sites_.site(i), sites_.center());
+    if (p.face != q.face || q.face != block_.cell.corner.face) return false;
+    if (!is_close(p.u, q.u) || !is_close(p.v, q.v)) return false;
+    sites_.set_position(i, {p.u, p.v});
+    const std::uint64_t difference = ((p.u ^ q.u) | (p.v ^ q.v)) >> Divide<T>::least_bit;
+    if (difference != 0) {
+      misplaced_.push_back(
+          {i, Divide<T>::least_bit + static_cast<int>(std::bit_width(difference)) - 1});
+    }
+    return true;
+  }
+
+  const Input& input_;
+  const Block& block_;
+  CellSites<T>& sites_;
+  std::vector<Misplaced>& misplaced_;
+};
+
+// Triangulates the sites of a block, which are the sites first, first + 1, ... of `sites` and of
+// the graph; or returns nothing if this does not work.
+template <incremental::SphereTraits T>
+std::optional<Part> solve_cell(const Input& input, const Block& block, Index first,
+                               CellSites<T>& sites, std::vector<Misplaced>& misplaced,
+                               PlaneGraph& graph) {
+  if (!PositionCheck<T>(input, block, sites, misplaced).run(first)) return std::nullopt;
+  Divide<T> divide(sites, misplaced, graph);
+  const Part all =
+      divide.run(first, first + (block.end - block.begin), block.cell.state, block.cell.bits - 1);
+  if (divide.has_failed()) return std::nullopt;
+  return all;
+}
+
+}  // namespace rondel::bulk

@@ -1,0 +1,313 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "bulk/sphere.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "bulk/closing.h"
+#include "bulk/emit.h"
+#include "bulk/merge.h"
+#include "bulk/reach.h"
+#include "bulk/solve_cell.h"
+#include "bulk/sphere_step.h"
+#include "exact/eft.h"
+#include "predicates/tally.h"
+#include "system/parallel.h"
+
+namespace rondel::bulk {
+namespace {
+
+using incremental::Triangulated;
+using predicates::Vector;
+
+// The lunes: of the positive x axis, the positive y axis, and the negative ones. Each has three
+// parts: a face around the cube, and the parts of the top and of the bottom.
+constexpr std::size_t num_lunes = 4;
+constexpr std::size_t parts_of_lune = 3;
+constexpr std::size_t num_parts = num_lunes * parts_of_lune;
+
+// For fewer it takes longer to start threads than to wait for one.
+constexpr Index least_parallel_sites = 4096;
+
+// The part of a ray on this face of the cube. A ray with |x| = |y| belongs to a lune of the x axis,
+// and the z axis, as an end of it, to the half of its sign.
+class Parts {
+ public:
+  explicit Parts(const Point& center) : center_(center) {
+    for (unsigned face = 0; face < faces_.size(); ++face) {
+      faces_[face] = blocks::cube_axes(face).out;
+      const Point& out = faces_[face];
+      for (std::size_t i = 0; i < num_lunes; ++i) {
+        if (out.z != 0) face_of_[parts_of_lune * i + (out.z > 0 ? 1 : 2)] = face;
+      }
+      if (out.z == 0) face_of_[parts_of_lune * lune(out.x, out.y)] = face;
+    }
+  }
+
+  [[nodiscard]] bool is_one_part(unsigned face) const { return faces_[face].z == 0; }
+
+  [[nodiscard]] unsigned face_of(std::size_t part) const { return face_of_[part]; }
+  // Of a site on the top or the bottom.
+  [[nodiscard]] std::size_t part_of(unsigned face, const Point& site) const {
+    const double z = faces_[face].z;
+    const exact::DoubleDouble x = size_of(exact::two_diff(site.x, center_.x));
+    const exact::DoubleDouble y = size_of(exact::two_diff(site.y, center_.y));
+    const bool is_y_longer = x.hi < y.hi || (x.hi == y.hi && x.lo < y.lo);
+    const bool is_on_axis = x.hi == 0 && y.hi == 0;
+    const std::size_t of_site = is_on_axis ? lune(z, 0)
+                                           : lune(is_y_longer ? 0 : site.x - center_.x,
+                                                  is_y_longer ? site.y - center_.y : 0);
+    return parts_of_lune * of_site + (z > 0 ? 1 : 2);
+  }
+
+ private:
+  static std::size_t lune(double x, double y) { return x > 0 ? 0 : (y > 0 ? 1 : (x < 0 ? 2 : 3)); }
+  static exact::DoubleDouble size_of(const exact::DoubleDouble& a) {
+    return a.hi < 0 ? exact::DoubleDouble{-a.hi, -a.lo} : a;
+  }
+
+  Point center_;
+  std::array<Point, 6> faces_;
+  std::array<unsigned, num_parts> face_of_{};
+};
+
+template <incremental::SphereTraits T>
+class SphereTriangulation {
+ public:
+  SphereTriangulation(const Input& input, std::span<const Duplicate> renamed)
+      : input_(input), renamed_(renamed), num_sites_(static_cast<Index>(input.order.size())) {}
+
+  std::optional<Triangulated> run() {
+    divide();
+    const PlaneGraph::Edge edge = conquer();
+    if (edge == no_index) return std::nullopt;
+    // A triangulation of the sphere with V vertices has 3V-6 edges.
+    std::vector<Index> hidden;
+    const auto is_complete = [&] {
+      return graph_.num_edges() + 6 == 3 * (num_sites_ - hidden.size());
+    };
+    if (!is_complete()) hidden = remove_unreached(graph_, edge, num_sites_);
+    if (!is_complete()) return std::nullopt;
+    // Their memory serves the result.
+    coordinates_ = {};
+    directions_.reset();
+    Triangulated result;
+    result.tally = tally_;
+    write(hidden, result.arrays);
+    return result;
+  }
+
+ private:
+  // Orders the sites by parts.
+  void divide();
+
+  // Triangulates the parts and merges them. Returns an edge, or no_index if this does not work.
+  PlaneGraph::Edge conquer();
+  // These return nothing if this does not work.
+  std::optional<Part> solve_lune(std::size_t lune, PlaneGraph& graph);
+  std::optional<Part> merge_lunes(const Part& left, const Part& right, PlaneGraph& graph);
+
+  void find_directions(Index begin, Index end) {
+    for (Index i = begin; i < end; ++i) {
+      directions_[i] =
+          incremental::direction(input_.sites[order_[i]], input_.options.sphere.center);
+    }
+  }
+  [[nodiscard]] SphereSites<T> sphere_sites() const {
+    return {input_.sites, order_, input_.options.sphere.center, directions_.get()};
+  }
+  void count(const Tally& tally) {
+    const std::lock_guard guard(mutex_);
+    predicates::add(tally_, tally);
+  }
+  void report_progress();
+
+  void write(const std::vector<Index>& hidden, TriangulationArrays& arrays);
+
+  const Input& input_;
+  std::span<const Duplicate> renamed_;
+  Index num_sites_;
+  std::vector<Index> order_;              // by parts
+  std::vector<Index> ranks_;              // of the same
+  std::array<Block, num_parts> parts_{};  // ranks in the order by parts
+  CellCoordinates coordinates_;
+  std::unique_ptr<Vector[]> directions_;
+  PlaneGraph graph_;
+  std::mutex mutex_;  // of what follows
+  Tally tally_;
+  std::size_t num_steps_ = 0;
+};
+
+template <incremental::SphereTraits T>
+void SphereTriangulation<T>::divide() {
+  const Parts parts(input_.options.sphere.center);
+  const auto faces = cube_faces(num_sites_, [this](Index rank) { return input_.position(rank); });
+  std::array<std::vector<Index>, num_parts> ranks;  // of those that share a face
+  for (const Block& face : faces) {
+    if (parts.is_one_part(face.cell.corner.face)) continue;
+    for (Index rank = face.begin; rank < face.end; ++rank) {
+      ranks[parts.part_of(face.cell.corner.face, input_.sites[input_.order[rank]])].push_back(rank);
+    }
+  }
+  order_.reserve(num_sites_);
+  ranks_.reserve(num_sites_ + 1);
+  const auto add = [this](Index rank) {
+    order_.push_back(input_.order[rank]);
+    ranks_.push_back(rank);
+  };
+  for (std::size_t part = 0; part < num_parts; ++part) {
+    Block& block = parts_[part];
+    block.begin = static_cast<Index>(order_.size());
+    const Block& face = faces[parts.face_of(part)];
+    block.cell = face.cell;
+    if (parts.is_one_part(face.cell.corner.face)) {
+      for (Index rank = face.begin; rank < face.end; ++rank) add(rank);
+    } else {
+      for (const Index rank : ranks[part]) add(rank);
+    }
+    block.end = static_cast<Index>(order_.size());
+  }
+}
+
+template <incremental::SphereTraits T>
+void SphereTriangulation<T>::report_progress() {
+  const std::lock_guard guard(mutex_);
+  ++num_steps_;
+  // The rest counts as one more step.
+  if (input_.options.progress)
+    input_.options.progress("triangulate",
+                            static_cast<double>(num_steps_) / static_cast<double>(num_lunes + 1));
+}
+
+template <incremental::SphereTraits T>
+std::optional<Part> SphereTriangulation<T>::solve_lune(std::size_t lune, PlaneGraph& graph) {
+  const std::span parts = std::span(parts_).subspan(parts_of_lune * lune, parts_of_lune);
+  const Index first = parts.front().begin;
+  Input input = input_;
+  input.order = order_;
+  CellSites<T> sites;
+  sites.assign(input.sites, order_, first, parts.back().end - first, input.options.sphere.center,
+               input.extent, coordinates_);
+  if (directions_) find_directions(first, parts.back().end);
+  const SphereSites<T> all = sphere_sites();
+  Merge<SphereStep<T>> merge(all, graph);
+  std::vector<Misplaced> misplaced;
+  Part result;
+  for (const Block& block : parts) {
+    if (block.begin == block.end) continue;
+    sites.enter(block.cell, block.end - block.begin);
+    const auto part = solve_cell(input, block, block.begin, sites, misplaced, graph);
+    if (!part) return std::nullopt;
+    result = merge.merge(result, *part, {});
+  }
+  if (merge.has_failed()) return std::nullopt;
+  count(sites.tally());
+  count(all.tally());
+  report_progress();
+  return result;
+}
+
+template <incremental::SphereTraits T>
+std::optional<Part> SphereTriangulation<T>::merge_lunes(const Part& left, const Part& right,
+                                                        PlaneGraph& graph) {
+  const SphereSites<T> sites = sphere_sites();
+  Merge<SphereStep<T>> merge(sites, graph);
+  const Part result = merge.merge(left, right, {});
+  if (merge.has_failed()) return std::nullopt;
+  count(sites.tally());
+  return result;
+}
+
+template <incremental::SphereTraits T>
+PlaneGraph::Edge SphereTriangulation<T>::conquer() {
+  const unsigned threads = num_sites_ < least_parallel_sites ? 1 : input_.options.threads;
+  coordinates_.reserve(num_sites_);
+  if (SphereSites<T>::has_directions) {
+    directions_ = std::make_unique_for_overwrite<Vector[]>(num_sites_);
+  }
+  std::array<Index, num_lunes> sizes{};
+  for (std::size_t i = 0; i < num_parts; ++i) {
+    sizes[i / parts_of_lune] += parts_[i].end - parts_[i].begin;
+  }
+  std::vector<PlaneGraph> graphs = graph_.clear_parts(sizes);
+  std::array<std::optional<Part>, num_lunes> lunes;
+  system::parallel_for(threads, num_lunes, 1, [&](std::size_t lune, std::size_t /*end*/) {
+    lunes[lune] = solve_lune(lune, graphs[lune]);
+  });
+  if (!std::ranges::all_of(lunes, [](const auto& lune) { return lune.has_value(); })) {
+    return no_index;
+  }
+  std::array<std::optional<Part>, 2> halves;
+  system::parallel_for(threads, halves.size(), 1, [&](std::size_t half, std::size_t /*end*/) {
+    const std::size_t left = 2 * half;
+    graphs[left].append(graphs[left + 1]);
+    halves[half] = merge_lunes(*lunes[left], *lunes[left + 1], graphs[left]);
+  });
+  if (!halves[0] || !halves[1]) return no_index;
+  graph_.take(graphs[0]);
+  graph_.append(graphs[2]);
+  // No direction in which sites tend to be regular.
+  const double half = std::sqrt(0.5);
+  const SphereSites<T> sites = sphere_sites();
+  const PlaneGraph::Edge edge =
+      Closing<T>(sites, graph_)
+          .run(*halves[0], *halves[1], {half, half, 0}, {0.8 * half, -0.8 * half, 0.6});
+  count(sites.tally());
+  return edge;
+}
+
+template <incremental::SphereTraits T>
+void SphereTriangulation<T>::write(const std::vector<Index>& hidden, TriangulationArrays& arrays) {
+  ranks_.push_back(no_index);  // of the ends of deleted edges
+  PlaneGraph::End* const ends = graph_.ends();
+  for (PlaneGraph::Edge e = 0; e < graph_.edge_limit(); ++e) {
+    ends[e].target = ranks_[std::min(ends[e].target, num_sites_)];
+  }
+  arrays.faces.resize(2 * std::size_t{num_sites_});
+  arrays.neighbors.resize(2 * std::size_t{num_sites_});
+  EmissionSpace space;
+  BlockResult all;
+  emit_faces(graph_, 0, num_sites_, {}, {}, space, {arrays.faces, arrays.neighbors}, all);
+  arrays.faces.resize(all.faces_end);
+  arrays.neighbors.resize(all.faces_end);
+  arrays.dimension = 2;
+  std::vector<Index> names;
+  if (!renamed_.empty()) names.assign(input_.order.begin(), input_.order.end());
+  for (const auto& [rank, name] : renamed_) names[rank] = name;
+  const std::span<const Index> of_ranks =
+      renamed_.empty() ? input_.order : std::span<const Index>(names);
+  for (Triple& face : arrays.faces)
+    face = {of_ranks[face[0]], of_ranks[face[1]], of_ranks[face[2]]};
+  for (const Index i : hidden) arrays.hidden.push_back({of_ranks[ranks_[i]], no_index});
+  std::ranges::sort(arrays.hidden, {}, &Hidden::site);
+}
+
+}  // namespace
+
+bool surround_center(std::span<const Point> sites, const Point& center) {
+  constexpr unsigned all = 255;
+  unsigned octants = 0;
+  for (const Point& p : sites) {
+    const auto d = exact::to_vector(p) - exact::to_vector(center);
+    if (d.x == 0 || d.y == 0 || d.z == 0) continue;
+    octants |= 1U << ((d.x > 0 ? 1U : 0U) + (d.y > 0 ? 2U : 0U) + (d.z > 0 ? 4U : 0U));
+    if (octants == all) return true;
+  }
+  return false;
+}
+
+std::optional<Triangulated> triangulate_sphere(const Input& input,
+                                               std::span<const Duplicate> renamed) {
+  return input.options.model == Model::projected
+             ? SphereTriangulation<incremental::ProjectedPoints>(input, renamed).run()
+             : SphereTriangulation<incremental::WeightedPoints>(input, renamed).run();
+}
+
+}  // namespace rondel::bulk

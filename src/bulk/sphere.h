@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A triangulation of the whole sphere by divide and conquer, of sites that surround the center.
+//
+// Great circles divide the sphere into halves, lunes and the faces of the cube or parts of them:
+//
+//      +---------+         The planes x = y and x = -y make four lunes. Each consists of one of the
+//      | \     / |         four faces around the cube and of triangles of its top and its bottom,
+//      |   \ /   |         beyond the planes z = x and z = -x (for the lune of x > |y|).
+//      |   / \   |
+//      | /     \ |         Two neighboring lunes are a half. A ray on a plane belongs to one side,
+//      so
+//      +---------+         that no two rays of a half are opposite: the hulls of disjoint parts of
+//      a | x > |y| |         half are disjoint, as in the plane. The halves are then closed
+//      (closing.h).
+//      +---------+
+#pragma once
+
+#include <optional>
+
+#include "bulk/input.h"
+#include "incremental/triangulate.h"
+
+namespace rondel::bulk {
+
+// Whether the center is inside the hull of the sites, told by the octants in which they are: all.
+bool surround_center(std::span<const Point> sites, const Point& center);
+
+// As incremental::triangulate, or nothing if this does not work: it does for sites in general, but
+// not if weighted sites are hidden in such a way that only exact numbers tell. Precondition: the
+// sites surround the center.
+std::optional<incremental::Triangulated> triangulate_sphere(const Input& input,
+                                                            std::span<const Duplicate> renamed);
+
+}  // namespace rondel::bulk

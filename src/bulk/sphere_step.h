@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The questions of one step of a merge, as in merge_step.h, for parts that are in several cells:
+// the filters of the predicates, which hold for all sites, applied to what the questions of a step
+// have in common.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "bulk/sphere_sites.h"
+#include "predicates/bounds.h"
+
+namespace rondel::bulk {
+
+template <incremental::SphereTraits T>
+class SphereStep {
+ public:
+  using Sites = SphereSites<T>;
+  struct Limits {};
+  struct Face {
+    Index apex;
+    predicates::Vector normal;  // outward
+    double squared;             // the longer of the sides at l
+  };
+  static constexpr bool hides_sites = T::hides_sites;
+
+  SphereStep(const Sites& sites, const Limits& /*limits*/, Index l, Index r)
+      : sites_(sites),
+        l_(l),
+        r_(r),
+        origin_(sites.ray(l)),
+        edge_(sites.ray(r) - origin_),
+        squared_(dot(edge_, edge_)) {}
+
+  [[nodiscard]] Index l() const { return l_; }
+  [[nodiscard]] Index r() const { return r_; }
+  [[nodiscard]] SphereStep from_to(Index l, Index r) const { return {sites_, {}, l, r}; }
+
+  [[nodiscard]] Face face(Index x) const {
+    const predicates::Vector side = sites_.ray(x) - origin_;
+    return {x, cross(edge_, side), std::max(squared_, dot(side, side))};
+  }
+
+  // Positive if the apex lies to the left of the edge from l to r, seen from outside.
+  [[nodiscard]] Sign orientation(const Face& face) const {
+    if constexpr (Sites::has_directions) {
+      constexpr double bound = predicates::direction_orientation_bound;
+      const double value = dot(origin_, face.normal);
+      if (value * value > bound * bound * face.squared) return exact::sign_of(value);
+    }
+    return sites_.orientation(l_, r_, face.apex);
+  }
+
+  [[nodiscard]] bool is_in_conflict(const Face& face, Index y) const {
+    if constexpr (Sites::has_directions) {
+      const predicates::Vector to_y = sites_.ray(y) - origin_;
+      const double value = dot(face.normal, to_y);
+      const double squared = std::max(face.squared, dot(to_y, to_y));
+      if (std::abs(value) > predicates::circle_plane_bound * squared) {
+        sites_.count_filtered();
+        return value > 0;
+      }
+    }
+    return sites_.is_in_conflict(l_, r_, face.apex, y);
+  }
+
+ private:
+  const Sites& sites_;
+  Index l_;
+  Index r_;
+  predicates::Vector origin_;
+  predicates::Vector edge_;
+  double squared_;
+};
+
+}  // namespace rondel::bulk

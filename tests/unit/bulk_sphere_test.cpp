@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The whole sphere by divide and conquer: the same bits as the incremental build.
+#include "bulk/sphere.h"
+#include "bulk_support.h"
+
+namespace rondel::test {
+namespace {
+
+struct Count {
+  int solved = 0;
+  int failed = 0;
+  int open = 0;  // the center is not known to be inside
+};
+
+void compare(const SiteSet& set, Model model, Count& count) {
+  BulkCase sites(set, model);
+  if (!bulk::surround_center(set.sites, set.sphere.center)) {
+    ++count.open;
+    return;
+  }
+  ++(sites.run_whole() ? count.solved : count.failed);
+}
+
+class bulk_sphere : public testing::TestWithParam<Generator> {};
+
+TEST_P(bulk_sphere, as_the_incremental_build) {
+  const Generator& generator = GetParam();
+  for (const Model model : {Model::projected, Model::weighted}) {
+    if (model == Model::projected && generator.weighted_only) continue;
+    Count count;
+    for (const std::size_t size : {12, 60, 400}) {
+      for (std::uint64_t seed = 0; seed < 5; ++seed) {
+        SCOPED_TRACE(text_of(model) + " " + std::to_string(size) + " " + std::to_string(seed));
+        compare(generator.make(size, seed), model, count);
+        ASSERT_FALSE(HasFailure());
+      }
+    }
+    RecordProperty(text_of(model) + "_solved", count.solved);
+    RecordProperty(text_of(model) + "_failed", count.failed);
+    RecordProperty(text_of(model) + "_open", count.open);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(generators, bulk_sphere, testing::ValuesIn(generators()),
+                         [](const auto& g) { return std::string(g.param.name); });
+
+// Uniform sites never make it fail, however few, and wherever the bridge is.
+TEST(bulk_sphere_general, any_number_of_sites) {
+  for (const Model model : {Model::projected, Model::weighted}) {
+    Count count;
+    for (int i = 0; i < static_cast<int>(scaled(3000)); ++i) {
+      SCOPED_TRACE(text_of(model) + " " + std::to_string(i));
+      Random random(static_cast<std::uint64_t>(i));
+      SiteSet set;
+      const int n = random.between(8, 8 + i % 90);
+      for (int k = 0; k < n; ++k) set.sites.push_back(random_direction(random));
+      compare(set, model, count);
+      ASSERT_FALSE(HasFailure());
+    }
+    EXPECT_GT(count.solved, 100 * count.failed);
+  }
+}
+
+// Enough sites for threads to be used.
+TEST(bulk_sphere_general, any_number_of_threads) {
+  for (const char* name : {"uniform", "clustered", "globe_grid", "ball", "patch_and_globe"}) {
+    for (const Model model : {Model::projected, Model::weighted}) {
+      SCOPED_TRACE(std::string(name) + " " + text_of(model));
+      const SiteSet set = generator(name).make(6000, 1);
+      BulkCase sites(set, model);
+      const bool is_solved = sites.run_whole();
+      for (const unsigned threads : {2U, 3U, 16U}) EXPECT_EQ(sites.run_whole(threads), is_solved);
+    }
+  }
+}
+
+TEST(bulk_sphere_general, what_surrounds_the_center) {
+  std::vector<Point> corners;
+  for (const double x : {-1, 1}) {
+    for (const double y : {-1, 1}) {
+      for (const double z : {-1, 1}) corners.push_back({x, y, z});
+    }
+  }
+  EXPECT_TRUE(bulk::surround_center(corners, {}));
+  EXPECT_TRUE(bulk::surround_center(corners, {0.9, -0.9, 0.9}));
+  EXPECT_FALSE(bulk::surround_center(corners, {1, 0, 0}));
+  corners.pop_back();
+  EXPECT_FALSE(bulk::surround_center(corners, {}));
+}
+
+// Sites on the planes that divide the sphere, on the axes, in grids: all is degenerate.
+TEST(bulk_sphere_general, small_integers) {
+  for (const Model model : {Model::projected, Model::weighted}) {
+    Count count;
+    for (int i = 0; i < static_cast<int>(scaled(3000)); ++i) {
+      SCOPED_TRACE(text_of(model) + " " + std::to_string(i));
+      Random random(static_cast<std::uint64_t>(i));
+      SiteSet set;
+      const int size = random.between(1, 5);
+      const int n = random.between(8, 120);
+      for (int k = 0; k < n; ++k) {
+        const auto coordinate = [&] { return static_cast<double>(random.between(-size, size)); };
+        Point p = {coordinate(), coordinate(), coordinate()};
+        if (random.coin()) p.y = random.coin() ? p.x : -p.x;
+        if (p != Point{}) set.sites.push_back(p);
+      }
+      if (random.coin()) set.sites.push_back({0, -0.0, 1});
+      if (random.coin()) set.sites.push_back({-0.0, 0, -1});
+      compare(set, model, count);
+      ASSERT_FALSE(HasFailure());
+    }
+    if (model == Model::projected) {
+      EXPECT_GT(count.solved, count.failed);
+    }
+    RecordProperty(text_of(model) + "_solved", count.solved);
+    RecordProperty(text_of(model) + "_failed", count.failed);
+  }
+}
+
+// A center that is no sum of few bits: differences are rounded.
+TEST(bulk_sphere_general, remote_center) {
+  for (const Model model : {Model::projected, Model::weighted}) {
+    Count count;
+    for (int i = 0; i < static_cast<int>(scaled(200)); ++i) {
+      SCOPED_TRACE(text_of(model) + " " + std::to_string(i));
+      Random random(static_cast<std::uint64_t>(i));
+      SiteSet set;
+      set.sphere.center = {0.1, 1 / 3.0, -0.7};
+      for (int k = 0; k < 60; ++k) {
+        Point d = random_direction(random);
+        if (random.coin()) d.y = random.coin() ? d.x : -d.x;
+        set.sites.push_back({d.x + 0.1, d.y + 1 / 3.0, d.z - 0.7});
+      }
+      compare(set, model, count);
+      ASSERT_FALSE(HasFailure());
+    }
+    if (model == Model::projected) {
+      EXPECT_GT(count.solved, 10 * count.failed);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test
