@@ -10,6 +10,7 @@
 #include <cmath>
 #include <limits>
 
+#include "bulk/sphere.h"
 #include "bulk/triangulate.h"
 #include "fuzz/fuzz_input.h"
 #include "support/divided_faces.h"
@@ -100,7 +101,7 @@ bool is_finite(const Point& p) {
 void add_sites(ByteSource& source, std::vector<Point>& sites) {
   const std::uint8_t kind = source.byte();
   if (kind >= 240) {
-    sites.push_back(next_site(source, sites));
+    sites.push_back(next_site(source, sites, Scales::all));
     return;
   }
   const unsigned face = kind / 12;
@@ -128,6 +129,14 @@ void move_center(ByteSource& source, SiteSet& set) {
   for (Point& p : set.sites) p = p + set.sphere.center;
 }
 
+void require_same(const TriangulationArrays& built, const TriangulationArrays& expected) {
+  require(built.dimension == expected.dimension, "the dimension");
+  require(built.faces == expected.faces, "the faces");
+  require(built.neighbors == expected.neighbors, "the neighbors");
+  require(built.ghost_faces == expected.ghost_faces, "the ghost faces");
+  require(built.hidden == expected.hidden, "the hidden sites");
+}
+
 void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsigned threads) {
   Options options;
   options.model = model;
@@ -141,12 +150,11 @@ void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsig
   const auto built =
       bulk::triangulate_by_blocks(set.sites, order.order, order.renamed, options, block_sites);
   require(built.has_value() || expected.dimension < 2, "blocks fit");
-  if (!built) return;
-  require(built->arrays.dimension == expected.dimension, "the dimension");
-  require(built->arrays.faces == expected.faces, "the faces");
-  require(built->arrays.neighbors == expected.neighbors, "the neighbors");
-  require(built->arrays.ghost_faces == expected.ghost_faces, "the ghost faces");
-  require(built->arrays.hidden == expected.hidden, "the hidden sites");
+  if (built) require_same(built->arrays, expected);
+  if (!bulk::surround_center(set.sites, set.sphere.center)) return;
+  const auto whole = bulk::triangulate_sphere(bulk::make_input(set.sites, order.order, options),
+                                              order.renamed);
+  if (whole) require_same(whole->arrays, expected);
 }
 
 // The sites of the cube's face that the first one is on, and their distances from the center.
