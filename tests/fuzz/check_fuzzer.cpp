@@ -72,8 +72,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t num_changes = source.below(8);
   std::vector<std::uint8_t> changes(3 * num_changes);
   for (std::uint8_t& byte : changes) byte = source.byte();
-  options.sphere = fuzz::next_sphere(source);
-  std::vector<Point> sites = fuzz::all_sites(source, 14);
+  options.threads = 1;
+  const fuzz::Scales scales = fuzz::next_scales(source);
+  options.sphere = fuzz::next_sphere(source, scales);
+  std::vector<Point> sites = fuzz::all_sites(source, 14, scales);
   if (options.model == Model::projected) fuzz::remove_center(sites, options.sphere);
 
   const Triangulation built = delaunay(sites, options);

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// circumcenters, cells, areas, centroids, edges, merge_cocircular: what rondel/diagram.h promises
-// of any triangulation.
+// circumcenters, cells, areas, diagram, centroids, edges, merge_cocircular: what rondel/diagram.h
+// promises of any triangulation.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -48,8 +49,7 @@ void test_cells(const Triangulation& t, const Cells& cells) {
   }
 }
 
-void test_areas(const Triangulation& t, std::span<const Point> sites, const Cells& cells) {
-  const std::vector<double> area = areas(t, sites, cells);
+void test_areas(const Triangulation& t, const std::vector<double>& area) {
   require(area.size() == t.num_sites(), "an area for each site");
   const std::vector<bool> is_vertex = vertices(t);
   for (std::size_t i = 0; i < area.size(); ++i) {
@@ -88,22 +88,39 @@ void test_polygons(const Triangulation& t, std::span<const Point> sites) {
   require(num_triangles <= t.num_faces(), "merging adds no triangles");
 }
 
-void test(std::vector<Point> sites, const Options& options) {
-  const Triangulation t = delaunay(sites, options);
+void test_cells_alone(const Triangulation& t, const std::vector<Point>& sites) {
   const std::vector<Point> centers = circumcenters(t, sites);
   require(centers.size() == t.num_faces(), "a circumcenter for each face");
-  const Cells diagram = cells(t, sites);
-  require(diagram.points.size() >= centers.size() &&
-              std::ranges::equal(centers, std::span(diagram.points).first(centers.size())),
+  const Cells cells_only = cells(t, sites);
+  require(cells_only.points.size() >= centers.size() &&
+              std::ranges::equal(centers, std::span(cells_only.points).first(centers.size())),
           "the points start with the circumcenters");
-  test_cells(t, diagram);
-  test_areas(t, sites, diagram);
-  test_centroids(t, sites, diagram);
+  test_cells(t, cells_only);
+  test_areas(t, areas(t, sites, cells_only));
+}
+
+void test_diagram(const Triangulation& t, const std::vector<Point>& sites) {
+  const Diagram both = diagram(t, sites);
+  test_cells(t, both.cells);
+  test_areas(t, both.areas);
+  test_centroids(t, sites, both.cells);
+}
+
+void test_both_ways(const Triangulation& t, const std::vector<Point>& sites) {
+  const Cells cells_only = cells(t, sites);
+  const Diagram both = diagram(t, sites);
+  require(both.cells.offsets == cells_only.offsets && both.cells.rings == cells_only.rings &&
+              both.cells.points == cells_only.points,
+          "cells are the same with areas");
+}
+
+void test_edges_and_polygons(const Triangulation& t, const std::vector<Point>& sites) {
   test_edges(t);
   test_polygons(t, sites);
-  sites.push_back({1, 2, 3});
+  std::vector<Point> more = sites;
+  more.push_back({1, 2, 3});
   try {
-    static_cast<void>(cells(t, sites));
+    static_cast<void>(cells(t, more));
     require(false, "a wrong number of sites is refused");
   } catch (const InvalidInput&) {
   }
@@ -116,12 +133,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rondel;
   fuzz::ByteSource source(data, size);
   Options options;
-  options.sphere = fuzz::next_sphere(source);
-  std::vector<Point> sites = fuzz::all_sites(source, 30);
-  for (const Model model : {Model::weighted, Model::projected}) {
-    options.model = model;
-    if (model == Model::projected) fuzz::remove_center(sites, options.sphere);
-    fuzz::test(sites, options);
-  }
+  options.threads = 1;
+  const std::uint8_t what = source.byte();
+  options.model = what % 2 == 0 ? Model::weighted : Model::projected;
+  const fuzz::Scales scales = fuzz::next_scales(source);
+  const std::size_t limit = fuzz::next_limit(source, 30);
+  options.sphere = fuzz::next_sphere(source, scales);
+  std::vector<Point> sites = fuzz::all_sites(source, limit, scales);
+  if (options.model == Model::projected) fuzz::remove_center(sites, options.sphere);
+  constexpr std::array tests = {fuzz::test_cells_alone, fuzz::test_diagram,
+                                fuzz::test_edges_and_polygons, fuzz::test_both_ways};
+  tests[what / 2 % tests.size()](delaunay(sites, options), sites);
   return 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// DynamicTriangulation: after every step of a script of changes it is what delaunay() makes of the
+// DynamicTriangulation: after the steps of a script of changes it is what delaunay() makes of the
 // sites that are there, and all that it tells about a site agrees with that.
 #include <algorithm>
 #include <cmath>
@@ -49,20 +49,25 @@ std::map<Index, std::vector<Index>> expected_neighbors(const Triangulation& buil
 
 class Script {
  public:
-  Script(ByteSource source, const Options& options)
-      : source_(source), options_(options), changing_(options) {}
+  Script(ByteSource source, Scales scales, std::size_t steps_between, const Options& options)
+      : source_(source),
+        scales_(scales),
+        steps_between_(steps_between),
+        options_(options),
+        changing_(options) {}
 
   void run() {
     for (std::size_t n = 1 + source_.below(16); n > 0; --n) add_to_pool();
-    for (std::size_t step = 0; step < most_steps && !source_.is_empty(); ++step) {
+    for (std::size_t step = 1; step <= most_steps && !source_.is_empty(); ++step) {
       do_step(source_.byte() % 14);
-      compare();
+      if (step % steps_between_ == 0) compare();
     }
+    compare();
   }
 
  private:
   void add_to_pool() {
-    const Point p = next_site(source_, pool_);
+    const Point p = next_site(source_, pool_, scales_);
     const bool has_no_ray = options_.model == Model::projected && p == options_.sphere.center;
     if (!has_no_ray) pool_.push_back(p);
   }
@@ -212,6 +217,10 @@ class Script {
     require(now.sites == sites, "the sites are where they were put");
     const Triangulation built = delaunay(sites, options_);
     const Triangulation& t = now.triangulation;
+    require(changing_.model() == options_.model && t.model() == options_.model &&
+                changing_.sphere().center == options_.sphere.center &&
+                changing_.sphere().squared_radius == options_.sphere.squared_radius,
+            "the model and the sphere stay");
     require(t.num_sites() == built.num_sites(), "the same number of sites");
     require(t.dimension() == built.dimension(), "the same dimension");
     require(std::ranges::equal(t.duplicates(), built.duplicates()), "the same duplicates");
@@ -250,6 +259,8 @@ class Script {
   }
 
   ByteSource source_;
+  Scales scales_;
+  std::size_t steps_between_;  // from one comparison to the next
   Options options_;
   DynamicTriangulation changing_;
   std::vector<Point> pool_;
@@ -263,11 +274,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rondel;
   fuzz::ByteSource source(data, size);
   Options options;
-  options.sphere = fuzz::next_sphere(source);
   options.threads = 1;
-  for (const Model model : {Model::weighted, Model::projected}) {
-    options.model = model;
-    fuzz::Script(source, options).run();
-  }
+  options.model = source.byte() % 2 == 0 ? Model::weighted : Model::projected;
+  const fuzz::Scales scales = fuzz::next_scales(source);
+  const std::size_t steps_between = 1 + source.below(4);
+  options.sphere = fuzz::next_sphere(source, scales);
+  fuzz::Script(source, scales, steps_between, options).run();
   return 0;
 }

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
+#include <string_view>
 #include <utility>
 
 #include "rondel/delaunay.h"
@@ -46,10 +47,19 @@ Point mirrored(Point p, ByteSource& source) {
   return p;
 }
 
-// A few bits of mantissa and any exponent.
-double short_double(ByteSource& source) {
+// A few bits of mantissa.
+double short_double(ByteSource& source, Scales scales) {
   const double mantissa = source.small();
-  return clamped(std::ldexp(mantissa, 9 * source.small()));
+  const int exponent = source.small();
+  return clamped(std::ldexp(mantissa, scales == Scales::all ? 9 * exponent : exponent / 16));
+}
+
+// All bits of mantissa.
+double full_double(ByteSource& source, Scales scales) {
+  const double value = source.any_double();
+  if (scales == Scales::all) return std::isfinite(value) ? value : 0;
+  const auto bits = std::bit_cast<std::uint64_t>(value);
+  return static_cast<double>(bits >> 11) * 0x1p-52 - 1;
 }
 
 }  // namespace
@@ -72,7 +82,13 @@ double ByteSource::finite_double() {
   return std::isfinite(value) ? value : 0;
 }
 
-Point next_site(ByteSource& source, std::span<const Point> earlier) {
+Scales next_scales(ByteSource& source) {
+  static const char* const wanted = std::getenv("RONDEL_FUZZ_SCALES");
+  static const bool is_near = wanted != nullptr && std::string_view(wanted) == "near";
+  return source.byte() % 8 == 0 && !is_near ? Scales::all : Scales::near;
+}
+
+Point next_site(ByteSource& source, std::span<const Point> earlier, Scales scales) {
   const std::uint8_t kind = source.byte();
   const Point model = earlier.empty() ? Point{1, 0, 0} : earlier[source.below(earlier.size())];
   switch (kind % 10) {
@@ -89,28 +105,38 @@ Point next_site(ByteSource& source, std::span<const Point> earlier) {
       return moved_by_ulps(model, source);
     case 5:
       return scaled(model, 1 + static_cast<double>(source.below(5)));
-    case 6:
-      return scaled(model, std::ldexp(1.0, 8 * source.small()));
+    case 6: {
+      const int exponent = source.small();
+      return scaled(model, std::ldexp(1.0, scales == Scales::all ? 8 * exponent : exponent / 16));
+    }
     case 7:
       return mirrored(model, source);
     case 8:
-      return {short_double(source), short_double(source), short_double(source)};
+      return {short_double(source, scales), short_double(source, scales),
+              short_double(source, scales)};
     default:
-      return {source.finite_double(), source.finite_double(), source.finite_double()};
+      return {full_double(source, scales), full_double(source, scales),
+              full_double(source, scales)};
   }
 }
 
-std::vector<Point> all_sites(ByteSource& source, std::size_t limit) {
+std::vector<Point> all_sites(ByteSource& source, std::size_t limit, Scales scales) {
   std::vector<Point> sites;
-  while (!source.is_empty() && sites.size() < limit) sites.push_back(next_site(source, sites));
+  while (!source.is_empty() && sites.size() < limit) {
+    sites.push_back(next_site(source, sites, scales));
+  }
   return sites;
 }
 
-Sphere next_sphere(ByteSource& source) {
+std::size_t next_limit(ByteSource& source, std::size_t most) {
+  return source.byte() % 8 == 0 ? most : 12;
+}
+
+Sphere next_sphere(ByteSource& source, Scales scales) {
   Sphere sphere;
   switch (source.byte() % 8) {
     case 0:
-      sphere.center = next_site(source, {});
+      sphere.center = next_site(source, {}, scales);
       sphere.squared_radius = 1 + source.byte();
       break;
     case 1:

@@ -33,14 +33,29 @@ class ByteSource {
   std::span<const std::uint8_t> bytes_;
 };
 
+// How far apart the exponents of an input's coordinates may be. Numbers that are
+// hundreds of orders of magnitude apart make exact arithmetic a thousand times slower, so that most
+// inputs have none.
+enum class Scales : std::uint8_t {
+  near,  // exponents from -60 to 20
+  all,   // any double
+};
+
+// One byte: of 8 inputs one has all scales. RONDEL_FUZZ_SCALES=near in the environment: none has,
+// for many inputs in a short time.
+Scales next_scales(ByteSource& source);
+
 // The next site; it may refer to the earlier ones. Finite.
-Point next_site(ByteSource& source, std::span<const Point> earlier);
+Point next_site(ByteSource& source, std::span<const Point> earlier, Scales scales);
 
 // Until the bytes end, at most `limit`.
-std::vector<Point> all_sites(ByteSource& source, std::size_t limit);
+std::vector<Point> all_sites(ByteSource& source, std::size_t limit, Scales scales);
+
+// One byte: mostly 12, at times `most`. Small inputs are many inputs.
+std::size_t next_limit(ByteSource& source, std::size_t most);
 
 // Mostly the unit sphere.
-Sphere next_sphere(ByteSource& source);
+Sphere next_sphere(ByteSource& source, Scales scales);
 
 // Where the projected model cannot have a site: removes these.
 void remove_center(std::vector<Point>& sites, const Sphere& sphere);

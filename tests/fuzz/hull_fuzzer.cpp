@@ -28,8 +28,12 @@ std::vector<Point> vertices(const Triangulation& hull, const std::vector<Point>&
   return result;
 }
 
-void test(std::vector<Point> points) {
-  const Triangulation hull = convex_hull(points);
+Triangulation hull_of(const std::vector<Point>& points) {
+  return convex_hull(points, {.threads = 1, .progress = {}});
+}
+
+void test(const std::vector<Point>& points) {
+  const Triangulation hull = hull_of(points);
   const Point& center = hull.sphere().center;
   if (hull.dimension() == 2) {
     const CheckReport report =
@@ -42,15 +46,20 @@ void test(std::vector<Point> points) {
   }
   const std::vector<Point> corners = vertices(hull, points);
   require(corners.size() == hull.num_vertices(), "every site is accounted for");
-  require(convex_hull(corners).num_vertices() == corners.size(), "vertices are extreme");
+  require(hull_of(corners).num_vertices() == corners.size(), "vertices are extreme");
 
   const HullSize size = size_of_hull(hull, points);
   require(size.volume >= 0 && size.area >= 0, "volume and area are not negative");
+}
 
+void test_order(std::vector<Point> points) {
+  const Triangulation hull = hull_of(points);
+  const std::vector<Point> corners = vertices(hull, points);
   std::ranges::reverse(points);
-  const Triangulation reversed = convex_hull(points);
+  const Triangulation reversed = hull_of(points);
   require(vertices(reversed, points) == corners, "input order changes no vertex");
-  require(reversed.sphere().center == center, "input order does not change the center");
+  require(reversed.sphere().center == hull.sphere().center,
+          "input order does not change the center");
   require(std::ranges::equal(reversed.neighbors(), hull.neighbors()),
           "input order changes no face");
 }
@@ -75,8 +84,17 @@ void test_validation(ByteSource source) {
 }  // namespace rondel::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  rondel::fuzz::ByteSource source(data, size);
-  rondel::fuzz::test_validation(source);
-  rondel::fuzz::test(rondel::fuzz::all_sites(source, 40));
+  using namespace rondel;
+  fuzz::ByteSource source(data, size);
+  const std::uint8_t what = source.byte();
+  const fuzz::Scales scales = fuzz::next_scales(source);
+  const std::size_t limit = fuzz::next_limit(source, 40);
+  if (scales == fuzz::Scales::all) fuzz::test_validation(source);
+  const std::vector<Point> points = fuzz::all_sites(source, limit, scales);
+  if (what % 2 == 0) {
+    fuzz::test(points);
+  } else {
+    fuzz::test_order(points);
+  }
   return 0;
 }

@@ -13,8 +13,6 @@
 namespace rondel::fuzz {
 namespace {
 
-constexpr std::array models = {Model::projected, Model::weighted};
-
 int number(Sign sign) { return static_cast<int>(sign); }
 
 struct Question {
@@ -99,6 +97,8 @@ void test_chirotope(const Question& q, bool is_perturbed) {
   require((least == 0 && most == 0) || (least < 0 && most > 0), "five sites have a Radon point");
 }
 
+void test_exact_signs(const Question& q) { test_chirotope(q, false); }
+
 void test_ties(const Question& q) {
   bool are_general = true;
   for (std::size_t a = 0; a < 6; ++a) {
@@ -150,22 +150,20 @@ void test_symmetry(const Question& q) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace rondel;
   fuzz::ByteSource source(data, size);
-  const Sphere sphere = fuzz::next_sphere(source);
+  const std::uint8_t what = source.byte();
+  const fuzz::Scales scales = fuzz::next_scales(source);
+  const Sphere sphere = fuzz::next_sphere(source, scales);
   std::vector<Point> sites;
-  while (sites.size() < 6) sites.push_back(fuzz::next_site(source, sites));
-  for (const Model model : fuzz::models) {
-    if (model == Model::projected) {
-      std::vector<Point> rays = sites;
-      fuzz::remove_center(rays, sphere);
-      if (rays.size() < sites.size()) continue;
-    }
-    const fuzz::Question q{sites, model, sphere};
-    fuzz::test_orientation(q);
-    fuzz::test_same_site(q);
-    fuzz::test_permutations(q);
-    fuzz::test_chirotope(q, false);
-    fuzz::test_ties(q);
-    fuzz::test_symmetry(q);
+  while (sites.size() < 6) sites.push_back(fuzz::next_site(source, sites, scales));
+  const Model model = what % 2 == 0 ? Model::projected : Model::weighted;
+  if (model == Model::projected) {
+    std::vector<Point> rays = sites;
+    fuzz::remove_center(rays, sphere);
+    if (rays.size() < sites.size()) return 0;
   }
+  constexpr std::array laws = {fuzz::test_orientation,  fuzz::test_same_site,
+                               fuzz::test_permutations, fuzz::test_exact_signs,
+                               fuzz::test_ties,         fuzz::test_symmetry};
+  laws[what / 2 % laws.size()]({sites, model, sphere});
   return 0;
 }

@@ -6,7 +6,11 @@
 // from which half of the stream is made by changing a few bytes.
 //
 //     NAME [--runs N] [--seed S] [--longest BYTES] [FILE|FOLDER]...
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <csignal>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -20,6 +24,10 @@
 #include "support/random.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+
+// There with a sanitizer only, which ends the program without a signal.
+// NOLINTNEXTLINE(bugprone-reserved-identifier)
+extern "C" void __sanitizer_set_death_callback(void (*callback)()) __attribute__((weak));
 
 namespace {
 
@@ -64,14 +72,45 @@ void change(Bytes& bytes, Random& random) {
   }
 }
 
-// The input is left in a file while it runs, so that a crash leaves its reproducer.
-void run(const Bytes& bytes, const std::string& name) {
-  const std::string path = name + ".input";
-  std::ofstream(path, std::ios::binary)
-      .write(reinterpret_cast<const char*>(bytes.data()),
-             static_cast<std::streamsize>(bytes.size()));
+// What runs, and where a crash leaves it.
+struct Reproducer {
+  const std::uint8_t* data = nullptr;
+  std::size_t size = 0;
+  char path[256] = {};
+};
+Reproducer reproducer;
+
+// Signal handlers may do little more than this.
+void leave_input() {
+  const int file = ::open(reproducer.path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+  if (file < 0) return;
+  const ssize_t written = ::write(file, reproducer.data, reproducer.size);
+  static_cast<void>(written);
+  ::close(file);
+}
+
+extern "C" void leave_input_and_end(int signal) {
+  leave_input();
+  std::raise(signal);  // its default action has been restored (SA_RESETHAND)
+}
+
+void prepare_for_crashes(const std::string& name) {
+  std::snprintf(reproducer.path, sizeof reproducer.path, "%s.input", name.c_str());
+  struct sigaction action {};
+  action.sa_handler = leave_input_and_end;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  for (const int signal : {SIGABRT, SIGBUS, SIGFPE, SIGILL, SIGSEGV, SIGTERM}) {
+    ::sigaction(signal, &action, nullptr);
+  }
+  if (__sanitizer_set_death_callback != nullptr) __sanitizer_set_death_callback(leave_input);
+}
+
+// Of its own length, so that a sanitizer sees what is read beyond the end.
+void run(const Bytes& input) {
+  const Bytes bytes(input);
+  reproducer.data = bytes.data();
+  reproducer.size = bytes.size();
   LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
-  std::filesystem::remove(path);
 }
 
 }  // namespace
@@ -95,13 +134,14 @@ int main(int argc, char** argv) {
       for (const auto& path : files_of(argument)) seeds.push_back(read(path));
     }
   }
-  for (const Bytes& bytes : seeds) run(bytes, name);
+  prepare_for_crashes(name);
+  for (const Bytes& bytes : seeds) run(bytes);
   Random random(seed);
   for (std::size_t i = 0; i < runs; ++i) {
-    Bytes bytes = seeds.empty() || random.coin() ? invented(random, longest)
-                                                 : seeds[random.below(seeds.size())];
-    if (i % 2 == 1) change(bytes, random);
-    run(bytes, name);
+    const bool is_new = seeds.empty() || random.coin();
+    Bytes bytes = is_new ? invented(random, longest) : seeds[random.below(seeds.size())];
+    if (!is_new) change(bytes, random);
+    run(bytes);
   }
   std::printf("%zu files and %zu generated inputs\n", seeds.size(), runs);
   return 0;

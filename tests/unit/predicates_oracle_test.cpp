@@ -7,6 +7,7 @@
 #include "support/adversarial.h"
 #include "support/generators.h"
 #include "support/hull_oracle.h"
+#include "support/integer_oracle.h"
 #include "support/oracle.h"
 #include "support/root_sum.h"
 
@@ -44,6 +45,30 @@ TEST(root_sum, near_zero_sums_are_told_from_zero) {
   sum.c[0] -= 1;
   EXPECT_EQ(sign_by_squaring(sum), -1);
   EXPECT_EQ(sign_by_mpfr(sum), -1);
+}
+
+// Small integers in 128 bits, often in one plane or at one distance.
+TEST(integer_oracle, agrees_with_the_other) {
+  Random random(7);
+  for (std::size_t i = 0; i < scaled(4000); ++i) {
+    const int most = random.between(1, static_cast<int>(most_for_roots));
+    std::array<IntegerRay, 4> q;
+    std::vector<Point> sites;
+    for (IntegerRay& a : q) {
+      do {
+        a = {random.between(-most, most), random.between(-most, most), random.between(-most, most)};
+      } while (a == IntegerRay{});
+      sites.push_back(
+          {static_cast<double>(a.x), static_cast<double>(a.y), static_cast<double>(a.z)});
+    }
+    const auto& [a, b, c, p] = q;
+    const Oracle projected(sites, Model::projected, {});
+    const Oracle weighted(sites, Model::weighted, {});
+    ASSERT_EQ(side_of_circle(a, b, c, p), projected.side_of_circle(0, 1, 2, 3));
+    ASSERT_EQ(side_of_plane(a, b, c, p), weighted.side_of_circle(0, 1, 2, 3));
+    ASSERT_EQ(sign_of(determinant(a, b, c)), projected.orientation(0, 1, 2));
+    ASSERT_EQ(are_on_one_ray(a, b), projected.is_same_site(0, 1));
+  }
 }
 
 TEST(oracle, known_sides) {

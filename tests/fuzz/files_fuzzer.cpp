@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// write_file, write_indices, read_sites, read_triangles, SiteTable::where, PointArray on files of
+// any bytes and any ending: what a file holds, and messages of one line that begin with its name.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "fuzz/scratch_folder.h"
+#include "fuzz/table_input.h"
+#include "rondel/error.h"
+
+namespace rondel::fuzz {
+namespace {
+
+constexpr std::array endings = {".csv", ".tsv", ".xyz", ".txt", ".npy", ".geojson", ".NPY",
+                                ".off", ".ply", ".obj", ".vtp", ".stl", ".dat",     ""};
+
+void require_message(const FileError& error, const std::string& path) {
+  const std::string what = error.what();
+  require(what.starts_with(path + ":"), "a message starts with the file: " + what);
+  require(what.find('\n') == std::string::npos, "a message is one line: " + what);
+}
+
+void test_sites(const std::string& path) {
+  try {
+    const SiteTable table = read_sites(path);
+    require(table.name == path, "a table has the file's name");
+    require(!table.sites.empty(), "no sites are no table");
+    require(table.is_lonlat() == !table.positions.empty(), "positions are those of the file");
+    const auto view = table.sites.view();
+    require(
+        view.size() == table.sites.size() && view.data() == table.sites.begin() &&
+            table.sites.end() - table.sites.begin() == static_cast<std::ptrdiff_t>(view.size()) &&
+            view.back() == table.sites[view.size() - 1],
+        "an array of points is its view");
+    for (const Point& p : table.sites) {
+      require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "sites are finite");
+    }
+    require(table.where(view.size() - 1).starts_with(path + ":"), "a site is somewhere");
+  } catch (const FileError& error) {
+    require_message(error, path);
+  }
+}
+
+void test_triangles(const std::string& path) {
+  try {
+    static_cast<void>(read_triangles(path));
+  } catch (const FileError& error) {
+    require_message(error, path);
+  }
+}
+
+// Rows of three are read back as triangles.
+void test_indices(const std::string& path, const std::string& bytes) {
+  std::vector<Index> values;
+  for (const char byte : bytes) {
+    values.push_back(static_cast<Index>(static_cast<unsigned char>(byte)) * 16'843'009U);
+  }
+  values.resize(values.size() - values.size() % 3);
+  write_indices(path, values, std::array<std::uint64_t, 2>{values.size() / 3, 3});
+  if (values.empty() || std::ranges::find(values, no_index) != values.end()) return;
+  std::vector<Index> back;
+  for (const Triple& row : read_triangles(path)) back.insert(back.end(), row.begin(), row.end());
+  require(back == values, "indices survive");
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rondel;
+  static const fuzz::ScratchFolder folder;
+  if (size == 0) return 0;
+  const std::string ending = fuzz::endings[data[0] % fuzz::endings.size()];
+  const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+  const std::string path = folder.file("bytes" + ending);
+  write_file(path, bytes);
+  fuzz::require(fuzz::content(path) == bytes, "a file holds what was written");
+  fuzz::test_sites(path);
+  fuzz::test_triangles(path);
+  fuzz::test_indices(folder.file("indices.npy"), bytes);
+  return 0;
+}

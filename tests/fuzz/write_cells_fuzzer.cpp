@@ -1,0 +1,85 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// write_cells, can_write_cells: .geojson is a map of the whole sphere with a feature for each cell,
+// .npz and .vtp hold the bytes of the diagram.
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "fuzz/json_check.h"
+#include "fuzz/scratch_folder.h"
+#include "fuzz/table_input.h"
+#include "rondel/diagram.h"
+
+namespace rondel::fuzz {
+namespace {
+
+constexpr std::array endings = {".geojson", ".vtp", ".npz"};
+
+template <typename T>
+std::string bytes_of(const std::vector<T>& values) {
+  return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+void require_bytes(const std::string& file, const std::string& bytes) {
+  require(file.find(bytes) != std::string::npos, "the file holds the diagram");
+}
+
+// A cell that is not drawn is thinner than the tolerance: at most a lune of that width.
+void test_geojson(const std::string& text, const Triangulation& t, const Diagram& both,
+                  double tolerance_deg) {
+  const FeatureCount found = check_geojson(text);
+  require(found.features == t.num_vertices(), "a feature for each vertex");
+  std::vector<double> areas;
+  for (std::size_t i = 0; i < both.areas.size(); ++i) {
+    const bool has_ring = both.cells.offsets[i] != both.cells.offsets[i + 1];
+    if (has_ring) areas.push_back(both.areas[i]);
+  }
+  for (const std::size_t i : found.not_drawn) {
+    require(areas.at(i) <= 2 * tolerance_deg * std::numbers::pi / 180, "what is thin is not drawn");
+  }
+  if (!found.not_drawn.empty()) return;
+  const double area = std::accumulate(both.areas.begin(), both.areas.end(), 0.0);
+  const double expected = area == 0 ? 0 : 360.0 * 180.0;
+  require(std::abs(found.square_degrees - expected) < 1e-4,
+          "the cells cover the map, not " + std::to_string(found.square_degrees));
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rondel;
+  static const fuzz::ScratchFolder folder;
+  fuzz::ByteSource source(data, size);
+  const std::string ending = fuzz::endings[source.below(fuzz::endings.size())];
+  const std::string path = folder.file("cells" + ending);
+  Options options;
+  options.threads = 1;
+  options.model = source.byte() % 2 == 0 ? Model::projected : Model::weighted;
+  const double tolerance_deg = source.below(4) == 0 ? 0.1 : 5;
+  // A map takes a thousand times longer than a list.
+  const std::size_t limit = fuzz::next_limit(source, 30);
+  const std::size_t most = ending != ".geojson" ? limit : limit == 30 ? 12 : 5;
+  const SiteTable table = fuzz::next_table(source, most);
+  const Triangulation t = delaunay(table.sites, options);
+  const Diagram both = diagram(t, table.sites);
+  fuzz::require(can_write_cells(path), "a format of cells can be written");
+  fuzz::require(!can_write_cells(folder.file("cells.obj")), "other formats cannot");
+  write_cells(path, table, t, both, tolerance_deg);
+  const std::string written = fuzz::content(path);
+  if (ending == ".geojson") {
+    fuzz::test_geojson(written, t, both, tolerance_deg);
+    return 0;
+  }
+  fuzz::require_bytes(written, fuzz::bytes_of(both.cells.points));
+  if (ending == ".npz") {
+    fuzz::require_bytes(written, fuzz::bytes_of(both.cells.offsets));
+    fuzz::require_bytes(written, fuzz::bytes_of(both.cells.rings));
+    fuzz::require_bytes(written, fuzz::bytes_of(both.areas));
+  }
+  return 0;
+}

@@ -1,0 +1,65 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// write_triangles, can_write_triangles against read_triangles: the triangles survive every format
+// that can be read; .geojson is JSON with a feature for each solid face, and .stl has their number.
+#include <algorithm>
+#include <array>
+#include <string>
+
+#include "fuzz/json_check.h"
+#include "fuzz/scratch_folder.h"
+#include "fuzz/table_input.h"
+#include "rondel/error.h"
+
+namespace rondel::fuzz {
+namespace {
+
+constexpr std::array endings = {".npy", ".off", ".ply", ".obj", ".vtp", ".stl", ".geojson"};
+
+void test_stl(const std::string& path, const SiteTable& table, const Triangulation& t) {
+  try {
+    write_triangles(path, table, t);
+  } catch (const FileError& error) {
+    require(std::string(error.what()).ends_with("does not fit the 32-bit floats of .stl"),
+            "only the range of .stl is limited");
+    return;
+  }
+  require(content(path).size() == 84 + 50 * t.num_faces(), "50 bytes for each triangle");
+}
+
+void test_geojson(const std::string& path, const SiteTable& table, const Triangulation& t) {
+  write_triangles(path, table, t);
+  const FeatureCount found = check_geojson(content(path));
+  require(found.features == t.num_faces() - t.num_ghost_faces(), "a feature for each solid face");
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rondel;
+  static const fuzz::ScratchFolder folder;
+  fuzz::ByteSource source(data, size);
+  const std::string ending = fuzz::endings[source.below(fuzz::endings.size())];
+  const std::string path = folder.file("triangles" + ending);
+  Options options;
+  options.threads = 1;
+  // A map takes a thousand times longer than a list.
+  const std::size_t limit = fuzz::next_limit(source, 40);
+  const std::size_t most = ending != ".geojson" ? limit : limit == 40 ? 12 : 5;
+  const SiteTable table = fuzz::next_table(source, most);
+  const Triangulation t = delaunay(table.sites, options);
+  fuzz::require(can_write_triangles(path), "a format of triangles can be written");
+  fuzz::require(!can_write_triangles(folder.file("triangles.csv")), "other formats cannot");
+  if (ending == ".stl") {
+    fuzz::test_stl(path, table, t);
+  } else if (ending == ".geojson") {
+    fuzz::test_geojson(path, table, t);
+  } else {
+    write_triangles(path, table, t);
+    if (t.num_faces() == 0) return 0;  // some formats refuse to be read without triangles
+    fuzz::require(std::ranges::equal(read_triangles(path), t.faces()), "triangles survive");
+  }
+  return 0;
+}
