@@ -19,7 +19,7 @@ TEST(check_api, accepts_what_delaunay_builds) {
   for (const Generator& kind : generators()) {
     for (const Model model : {Model::projected, Model::weighted}) {
       if (kind.weighted_only && model == Model::projected) continue;
-      for (const std::size_t n : {50U, 700U}) {
+      for (const std::size_t n : {std::size_t{50}, scaled(700)}) {
         const SiteSet set = kind.make(n, 21);
         Options options;
         options.model = model;

@@ -34,6 +34,7 @@ struct Case {
 void for_each_case(std::size_t n, const std::function<void(const Case&)>& work) {
   Random random(3);
   for (const Generator& generator : generators()) {
+    if (generator.has_long_integers && scaled(10) < 10) continue;
     const std::size_t size = generator.has_long_integers ? std::min<std::size_t>(n, 12) : n;
     for (const Model model : {Model::projected, Model::weighted}) {
       if (generator.weighted_only && model == Model::projected) continue;
