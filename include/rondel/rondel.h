@@ -11,6 +11,7 @@
 #include "rondel/dynamic.h"        // IWYU pragma: export
 #include "rondel/error.h"          // IWYU pragma: export
 #include "rondel/hull.h"           // IWYU pragma: export
+#include "rondel/interrupt.h"      // IWYU pragma: export
 #include "rondel/predicates.h"     // IWYU pragma: export
 #include "rondel/query.h"          // IWYU pragma: export
 #include "rondel/triangulation.h"  // IWYU pragma: export

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "rondel/interrupt.h"
+
 #if defined(RONDEL_HAS_TBB)
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/info.h>
@@ -125,7 +127,28 @@ constexpr bool has_threads = false;
 
 #endif
 
+// What the thread obeys.
+thread_local const std::atomic<bool>* current_stop = nullptr;
+
+// A piece of a call that obeys `stop`.
+template <class Piece>
+void run_piece(const std::atomic<bool>* stop, const Piece& piece) {
+  if (stop == nullptr && current_stop == nullptr) {
+    piece();
+    return;
+  }
+  const StopScope scope(stop);
+  if (stop != nullptr && stop->load(std::memory_order_relaxed)) throw Interrupted();
+  piece();
+}
+
 }  // namespace
+
+StopScope::StopScope(const std::atomic<bool>* stop) noexcept : before_(current_stop) {
+  current_stop = stop;
+}
+
+StopScope::~StopScope() { current_stop = before_; }
 
 unsigned num_threads(unsigned threads) {
   return threads != 0 && has_threads ? threads : num_cores();
@@ -134,7 +157,10 @@ unsigned num_threads(unsigned threads) {
 void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
                   const std::function<void(std::size_t, std::size_t)>& piece) {
   const std::size_t pieces = num_pieces(count, grain);
-  const auto run = [&](std::size_t k) { piece(k * grain, std::min(count, (k + 1) * grain)); };
+  const auto* const stop = current_stop;
+  const auto run = [&](std::size_t k) {
+    run_piece(stop, [&] { piece(k * grain, std::min(count, (k + 1) * grain)); });
+  };
   threads = num_threads(threads);
   if (threads > 1 && pieces > 1) {
     run_pieces(threads, pieces, run);
@@ -146,11 +172,14 @@ void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
 void parallel_invoke(unsigned threads, const std::function<void()>& first,
                      const std::function<void()>& second) {
   threads = num_threads(threads);
+  const auto* const stop = current_stop;
+  const auto run_first = [&] { run_piece(stop, first); };
+  const auto run_second = [&] { run_piece(stop, second); };
   if (threads > 1) {
-    run_both(threads, first, second);
+    run_both(threads, run_first, run_second);
   } else {
-    first();
-    second();
+    run_first();
+    run_second();
   }
 }
 

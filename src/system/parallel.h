@@ -13,8 +13,11 @@
 // 5. Calls may be nested and made by any thread. A nested call shares the threads of the outer one.
 //    While a thread waits it may run other pieces of an outer call, so hold no lock over a call,
 //    and expect nothing of thread_local values behind it.
+// 6. Where the flag of a StopScope is true, a call throws Interrupted instead of beginning another
+//    piece.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <functional>
 
@@ -38,5 +41,18 @@ void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
 // through it as long as the work is much longer.
 void parallel_invoke(unsigned threads, const std::function<void()>& first,
                      const std::function<void()>& second);
+
+// While it lives, calls that its thread makes obey the flag, wherever their pieces run; and no
+// other flag. Scopes are nested.
+class StopScope {
+ public:
+  explicit StopScope(const std::atomic<bool>* stop) noexcept;
+  ~StopScope();
+  StopScope(const StopScope&) = delete;
+  StopScope& operator=(const StopScope&) = delete;
+
+ private:
+  const std::atomic<bool>* before_;
+};
 
 }  // namespace rondel::system

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "gtest/gtest.h"
+#include "rondel/interrupt.h"
 #include "system/parallel.h"
 
 namespace rondel::system {
@@ -55,6 +56,47 @@ TEST(parallel_for, never_uses_more_threads_than_allowed) {
     --running;
   });
   EXPECT_LE(most, 2);
+}
+
+TEST(parallel_for, begins_no_piece_when_its_flag_is_set) {
+  for (const unsigned threads : thread_counts) {
+    std::atomic<bool> stop = false;
+    std::atomic<int> begun = 0;
+    const auto count_pieces = [&] {
+      parallel_for(threads, 1000, 1, [&](std::size_t i, std::size_t) {
+        ++begun;
+        if (i == 100) stop = true;
+        parallel_for(threads, 10, 1, [&](std::size_t, std::size_t) {});
+      });
+    };
+    EXPECT_THROW(call_interruptible(stop, count_pieces), Interrupted);
+    EXPECT_GE(begun, 1);
+    EXPECT_LT(begun, 1000);
+    count_pieces();  // outside of the scope nobody obeys the flag
+    EXPECT_GE(begun, 1001);
+  }
+}
+
+TEST(parallel_for, obeys_the_innermost_flag) {
+  const std::atomic<bool> stop = true;
+  const std::atomic<bool> go = false;
+  int pieces = 0;
+  const auto work = [&] { parallel_for(1, 5, 1, [&](std::size_t, std::size_t) { ++pieces; }); };
+  call_interruptible(go, [&] { EXPECT_THROW(call_interruptible(stop, work), Interrupted); });
+  EXPECT_EQ(pieces, 0);
+  EXPECT_NO_THROW(call_interruptible(stop, [&] { call_interruptible(go, work); }));
+  EXPECT_EQ(pieces, 5);
+}
+
+TEST(parallel_invoke, calls_nothing_when_its_flag_is_set) {
+  const std::atomic<bool> stop = true;
+  for (const unsigned threads : thread_counts) {
+    bool called = false;
+    const auto call = [&] { called = true; };
+    EXPECT_THROW(call_interruptible(stop, [&] { parallel_invoke(threads, call, call); }),
+                 Interrupted);
+    EXPECT_FALSE(called);
+  }
 }
 
 TEST(parallel_for, rethrows_when_nothing_runs_any_more) {

@@ -132,13 +132,15 @@ void add_diagram(nb::module_& module) {
   module.def(
       "circumcenters",
       [](const Triangulation& t, const PointsIn& points) {
-        return points_out(unlocked([&] { return circumcenters(t, points_of(points)); }));
+        return points_out(
+            watched_quietly(points.shape(0), [&] { return circumcenters(t, points_of(points)); }));
       },
       nb::arg("triangulation"), nb::arg("points").noconvert());
   module.def(
       "centroids",
       [](const Triangulation& t, const PointsIn& points, const Diagram& diagram) {
-        return points_out(unlocked([&] { return centroids(t, points_of(points), diagram.cells); }));
+        return points_out(watched_quietly(
+            points.shape(0), [&] { return centroids(t, points_of(points), diagram.cells); }));
       },
       nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"));
   module.def(
@@ -154,7 +156,8 @@ void add_diagram(nb::module_& module) {
   module.def(
       "merge_cocircular",
       [](const Triangulation& t, const PointsIn& points) -> ListsOut {
-        Polygons polygons = unlocked([&] { return merge_cocircular(t, points_of(points)); });
+        Polygons polygons = watched_quietly(points.shape(0),
+                                            [&] { return merge_cocircular(t, points_of(points)); });
         return {offsets_out(std::move(polygons.offsets)), indices_out(std::move(polygons.corners))};
       },
       nb::arg("triangulation"), nb::arg("points").noconvert());

@@ -3,12 +3,15 @@
 
 #include "interrupt.h"
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <string>
 #include <thread>
+
+#include "rondel/interrupt.h"
 
 namespace rondel::python {
 namespace {
@@ -18,8 +21,6 @@ using namespace std::chrono_literals;
 
 constexpr std::size_t many_items = std::size_t{1} << 16;  // some hundredths of a second
 constexpr auto nap = 50ms;
-
-struct Cancelled {};
 
 // What the thread that works and the one that watches share.
 class Work {
@@ -32,10 +33,7 @@ class Work {
     std::unique_lock lock(mutex_);
     return ended_.wait_for(lock, nap, [this] { return has_ended_; });
   }
-  void cancel() {
-    const std::lock_guard lock(mutex_);
-    is_cancelled_ = true;
-  }
+  void stop() { stop_ = true; }
   void tell(const nb::object& listener) {
     std::string stage;
     double fraction = 0;
@@ -56,8 +54,10 @@ class Work {
   void run(const std::function<void(const Progress&)>& work) {
     std::exception_ptr error;
     try {
-      work([this](std::string_view stage, double fraction) { report(stage, fraction); });
-    } catch (const Cancelled&) {
+      call_interruptible(stop_, [&] {
+        work([this](std::string_view stage, double fraction) { report(stage, fraction); });
+      });
+    } catch (const Interrupted&) {
       error = nullptr;
     } catch (...) {
       error = std::current_exception();
@@ -68,8 +68,8 @@ class Work {
     ended_.notify_one();
   }
   void report(std::string_view stage, double fraction) {
+    if (stop_) throw Interrupted();
     const std::lock_guard lock(mutex_);
-    if (is_cancelled_) throw Cancelled();
     stage_ = stage;
     fraction_ = fraction;
   }
@@ -77,7 +77,7 @@ class Work {
   std::mutex mutex_;
   std::condition_variable ended_;
   bool has_ended_ = false;
-  bool is_cancelled_ = false;
+  std::atomic<bool> stop_ = false;
   std::string stage_;
   double fraction_ = 0;
   std::exception_ptr error_;
@@ -113,7 +113,7 @@ void run_watched(std::size_t size, const nb::object& listener,
       if (raised) continue;
       const nb::gil_scoped_acquire acquired;
       raised = watch(running, listener);
-      if (raised) running.cancel();
+      if (raised) running.stop();
     }
     error = running.join();
     if (!raised && !error) {

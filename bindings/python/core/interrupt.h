@@ -17,8 +17,8 @@ namespace rondel::python {
 
 // Runs the work on `size` items without the lock of the interpreter. Where there are many items, or
 // somebody listens, another thread does it, and this one wakes some times a second
-// 1. to run the handlers of signals: Ctrl-C ends the work at its next report of progress, and then
-//    raises KeyboardInterrupt;
+// 1. to run the handlers of signals: Ctrl-C ends the work at its next piece, and then raises
+//    KeyboardInterrupt;
 // 2. to tell `listener`, if it is not None, the stage and the fraction done. An exception of the
 //    listener ends the work, too.
 // Called with the lock of the interpreter.
@@ -31,6 +31,12 @@ auto watched(std::size_t size, const nanobind::object& listener, const Work& wor
   std::optional<std::invoke_result_t<Work, const Progress&>> result;
   run_watched(size, listener, [&](const Progress& progress) { result.emplace(work(progress)); });
   return std::move(*result);
+}
+
+// Work on many items without progress.
+template <class Work>
+auto watched_quietly(std::size_t size, const Work& work) {
+  return watched(size, nanobind::none(), [&](const Progress&) { return work(); });
 }
 
 // Work that is not watched, without the lock of the interpreter.

@@ -55,36 +55,37 @@ void add_query(nb::module_& module) {
       .def(
           "__init__",
           [](Locator* self, const Triangulation& t, const PointsIn& points) {
-            const nb::gil_scoped_release released;
-            new (self) Locator(t, points_of(points));
+            new (self) Locator(
+                watched_quietly(points.shape(0), [&] { return Locator(t, points_of(points)); }));
           },
           nb::arg("triangulation"), nb::arg("points").noconvert(),
           nb::keep_alive<1, 3>())  // it refers to the sites
       .def(
           "locate",
           [](const Locator& self, const PointsIn& queries, unsigned threads) {
-            const nb::gil_scoped_release released;
-            return locate_all(self, points_of(queries), threads);
+            return watched_quietly(queries.shape(0),
+                                   [&] { return locate_all(self, points_of(queries), threads); });
           },
           nb::arg("queries").noconvert(), nb::arg("threads"))
       .def(
           "nearest",
           [](const Locator& self, const PointsIn& queries, unsigned threads) {
-            return indices_out(unlocked([&] { return self.nearest(points_of(queries), threads); }));
+            return indices_out(watched_quietly(
+                queries.shape(0), [&] { return self.nearest(points_of(queries), threads); }));
           },
           nb::arg("queries").noconvert(), nb::arg("threads"))
       .def(
           "k_nearest",
           [](const Locator& self, const PointsIn& queries, std::size_t k, unsigned threads) {
-            return indices_out(
-                unlocked([&] { return self.k_nearest(points_of(queries), k, threads); }));
+            return indices_out(watched_quietly(
+                queries.shape(0), [&] { return self.k_nearest(points_of(queries), k, threads); }));
           },
           nb::arg("queries").noconvert(), nb::arg("k"), nb::arg("threads"))
       .def(
           "within",
           [](const Locator& self, const PointsIn& queries, double angle, unsigned threads) {
-            return site_lists_out(
-                unlocked([&] { return self.within(points_of(queries), angle, threads); }));
+            return site_lists_out(watched_quietly(
+                queries.shape(0), [&] { return self.within(points_of(queries), angle, threads); }));
           },
           nb::arg("queries").noconvert(), nb::arg("angle"), nb::arg("threads"))
       .def(

@@ -93,7 +93,7 @@ std::tuple<double, double> volume_and_area(const Triangulation& hull, const Poin
 std::tuple<bool, std::string, std::size_t, std::size_t, std::size_t, std::size_t> check_faces(
     const PointsIn& points, const TriplesIn& faces, bool is_weighted, const Center& center,
     double squared_radius, unsigned threads) {
-  const CheckReport report = unlocked([&] {
+  const CheckReport report = watched_quietly(points.shape(0), [&] {
     return check(points_of(points), rows_of<Triple>(faces),
                  make_options(is_weighted, center, squared_radius, threads));
   });

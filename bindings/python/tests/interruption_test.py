@@ -31,6 +31,35 @@ def test_an_interrupt_ends_the_work(alarm, make):
         make(MANY, threads=1)
 
 
+@pytest.mark.parametrize(
+    "ask",
+    [
+        lambda tri: tri.voronoi().areas,
+        lambda tri: tri.within(MANY, 0.01),
+        lambda tri: tri.validate(),
+    ],
+    ids=["areas", "within", "validate"],
+)
+def test_an_interrupt_ends_questions_too(alarm, ask):
+    tri = rondel.delaunay(MANY)
+    alarm(0.01)
+    with pytest.raises(KeyboardInterrupt):
+        ask(tri)
+
+
+def test_an_interrupt_ends_the_work_early(alarm):
+    tri = rondel.delaunay(MANY)
+    tri.nearest(MANY[:1])
+    begin = time.perf_counter()
+    tri.k_nearest(MANY, 8)
+    whole = time.perf_counter() - begin
+    alarm(0.01)
+    begin = time.perf_counter()
+    with pytest.raises(KeyboardInterrupt):
+        tri.k_nearest(MANY, 8)
+    assert time.perf_counter() - begin < whole
+
+
 def test_progress_is_told():
     told = []
     rondel.delaunay(MANY, threads=1, progress=lambda *what: told.append(what))
