@@ -46,10 +46,10 @@ class SharedDynamic {
   DynamicTriangulation triangulation_;
 };
 
-template <auto Get>
+template <auto get>
 auto number_getter() {
   return [](const SharedDynamic& self) {
-    return self.ask([](const DynamicTriangulation& t) { return (t.*Get)(); });
+    return self.ask([](const DynamicTriangulation& t) { return (t.*get)(); });
   };
 }
 

@@ -77,10 +77,10 @@ nb::dict report_of(const Triangulation& t) {
 }
 
 // Functions that return an array of the object `self`.
-template <class T, auto Get>
+template <class T, auto get>
 auto array_getter() {
   return [](const nb::object& self) {
-    const auto rows = (nb::cast<const Triangulation&>(self).*Get)();
+    const auto rows = (nb::cast<const Triangulation&>(self).*get)();
     return array_of<T>(self, rows);
   };
 }
