@@ -75,12 +75,14 @@ Cells lunes(const SplitSites& sites, std::span<const Index> ring, std::size_t nu
   return cells;
 }
 
-// Half the angle from a to b about the axis, up to pi.
+// Half the angle from a to b about the axis, up to pi. The side is that of the direction, since the
+// difference may be below the smallest double.
 double half_angle(const SplitSites& sites, const Vec& axis, Index a, Index b) {
   const Vec d = sites.difference(a, b);
   const Vec s = to_vector(sites[a].hi) + to_vector(sites[b].hi);
   const double half = std::atan2(std::sqrt(dot(d, d)), std::sqrt(dot(s, s)));
-  return det(axis, to_vector(sites[a].hi), d) < 0 ? pi - half : half;
+  const Vec e = sites.direction(a, b);
+  return det(axis, to_vector(sites[a].hi), e) < 0 ? pi - half : half;
 }
 
 // The exterior angle of the polygon between the edges from a to b and from b to c.

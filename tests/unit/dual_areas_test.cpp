@@ -105,6 +105,15 @@ TEST(areas, of_thin_lunes_are_relatively_right) {
   }
 }
 
+// The angles between these rays are below the smallest double; the outer two share the sphere.
+TEST(areas, of_rays_that_doubles_cannot_tell_apart_sum_to_the_sphere) {
+  const std::vector<Point> sites = {{5, 0, 0}, {20, 0, 1e-323}, {20, 0, -5e-324}};
+  const auto result = areas_of(sites);
+  EXPECT_EQ(result[0], 0);
+  EXPECT_EQ(result[1], sphere_area / 2);
+  EXPECT_EQ(result[2], sphere_area / 2);
+}
+
 TEST(areas, of_hidden_and_duplicate_sites_are_zero) {
   std::vector<Point> sites = cube();
   sites.push_back({0.5, 0.25, 0});
