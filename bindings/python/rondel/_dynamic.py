@@ -20,6 +20,7 @@ from ._arrays import (
     is_weighted,
 )
 from ._delaunay import SphericalDelaunay
+from ._errors import InvalidInput
 from ._queries import Queries
 from ._repr import Described, count
 from ._types import ArrayLike, FloatArray, IntArray, Model
@@ -34,7 +35,9 @@ class Snapshot(NamedTuple):
 
 def _as_id(site: int) -> int:
     site = operator.index(site)
-    return site if 0 <= site < 2**31 else 2**32 - 1  # no site has that id
+    if not 0 <= site < 2**31:
+        raise InvalidInput(f"there is no site {site}", 0)
+    return site
 
 
 class DynamicTriangulation(Described, Queries):
@@ -43,7 +46,7 @@ class DynamicTriangulation(Described, Queries):
     At any time it is the triangulation that `delaunay` makes of the sites that are there. Each
     site has an id that keeps its meaning until the site is removed; then the id may be given to a
     new site. The sites of the constructor have the ids 0 to n - 1. A call that raises changes
-    nothing. Several threads may use one object.
+    nothing, and Ctrl-C waits for a change to end. Several threads may use one object.
 
     Parameters
     ----------
@@ -245,7 +248,8 @@ class DynamicTriangulation(Described, Queries):
         return self._state.num_sites
 
     def __contains__(self, site: int) -> bool:
-        return self._state.contains(_as_id(site))
+        site = operator.index(site)
+        return 0 <= site < 2**31 and self._state.contains(site)
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [

@@ -48,6 +48,8 @@ def test_ranges():
     assert len(sites) == 75
     assert 50 not in sites
     assert 51 in sites
+    assert -1 not in sites
+    assert 2**40 not in sites
     assert same_as_built(sites)
 
 
