@@ -24,7 +24,7 @@ class JsonError : public BadValue {
   using BadValue::BadValue;
 };
 
-struct JsonTree {
+struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's values does not throw
   enum class Kind : std::uint8_t { scalar, array, object };
 
   Kind kind = Kind::scalar;
@@ -81,7 +81,7 @@ class JsonTreeBuilder : public nlohmann::json_sax<nlohmann::json> {
                    const nlohmann::json::exception& error) override;
 
  private:
-  struct Level {
+  struct Level {  // NOLINT(bugprone-exception-escape)
     JsonTree tree;
     std::string key;  // of an object: of the member that comes
   };

@@ -86,7 +86,7 @@ class AllocationOfChange : public testing::TestWithParam<Case> {
   }
 
   // One attempt; tells whether an allocation failed.
-  bool attempt(const Change& change, std::size_t n, Shortage shortage) const {
+  [[nodiscard]] bool attempt(const Change& change, std::size_t n, Shortage shortage) const {
     DynamicTriangulation changing(sites_, options_);
     const State before = state_of(changing);
     bool is_done = false;

@@ -81,7 +81,9 @@ void operator delete(void* block, std::size_t, std::align_val_t) noexcept {
 void operator delete(void* block, const std::nothrow_t&) noexcept { rondel::test::release(block); }
 
 // What is asked for by calloc is given back by free, which is not counted.
+// NOLINTBEGIN(readability-identifier-naming): the linker's names
 extern "C" void* __real_calloc(std::size_t count, std::size_t size);
 extern "C" void* __wrap_calloc(std::size_t count, std::size_t size) {
   return rondel::test::is_to_fail() ? nullptr : __real_calloc(count, size);
 }
+// NOLINTEND(readability-identifier-naming)

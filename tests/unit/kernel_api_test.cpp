@@ -10,6 +10,8 @@
 #include <limits>
 #include <string>
 
+#include "incremental/projected_points.h"
+#include "predicates/tally.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "support/generators.h"
@@ -132,6 +134,24 @@ TEST(delaunay_large, sites_crowded_in_a_patch_are_all_vertices) {
   EXPECT_EQ(t.num_faces(), 2 * t.num_vertices() - 4);
   EXPECT_EQ(t.num_ghost_faces(), 0U);
   EXPECT_GT(t.report().rungs.filter, 100 * t.report().rungs.double_double);
+}
+
+// Closer than the longest of the machine's numbers can tell; hardly any of them needs integers.
+TEST(projected_points, double_doubles_decide_for_sites_within_1e_12) {
+  test::Random random(31);
+  const Point pole = test::normalized({0.6, 0.1, 0.8});
+  const std::vector<Index> order = {0, 1, 2, 3};
+  Tally sum;
+  for (int i = 0; i < 200; ++i) {
+    std::vector<Point> points;
+    for (int k = 0; k < 4; ++k) points.push_back(test::random_near(random, pole, 1e-12));
+    const incremental::ProjectedPoints sites(points, order, {});
+    const bool is_turned = sites.orientation(0, 1, 2) == Sign::negative;
+    static_cast<void>(sites.is_in_conflict(0, is_turned ? 2 : 1, is_turned ? 1 : 2, 3));
+    predicates::add(sum, sites.tally());
+  }
+  EXPECT_GT(sum.double_double, 50U);
+  EXPECT_LT(sum.exact, 5U);
 }
 
 TEST(delaunay_progress, is_told_in_stages_that_begin_and_end) {
