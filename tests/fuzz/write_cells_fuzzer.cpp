@@ -3,7 +3,6 @@
 
 // write_cells, can_write_cells: .geojson is a map of the whole sphere with a feature for each cell,
 // .npz and .vtp hold the bytes of the diagram.
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -17,7 +16,11 @@
 namespace rondel::fuzz {
 namespace {
 
-constexpr std::array endings = {".geojson", ".vtp", ".npz"};
+// A map takes a thousand times longer than an array, so that one of 16 inputs makes one.
+std::string next_ending(ByteSource& source) {
+  const std::size_t which = source.below(16);
+  return which == 0 ? ".geojson" : which % 2 == 0 ? ".vtp" : ".npz";
+}
 
 template <typename T>
 std::string bytes_of(const std::vector<T>& values) {
@@ -29,7 +32,8 @@ void require_bytes(const std::string& file, const std::string& bytes) {
 }
 
 // A cell that is not drawn is thinner than the tolerance: at most a lune of that width. Cells of
-// circles, which may be far narrower than their sites are close, may overlap within it.
+// circles, which may be far narrower than their sites are close, may overlap where it is as coarse
+// as here.
 void test_geojson(const std::string& text, const Triangulation& t, const Diagram& both,
                   double tolerance_deg) {
   const FeatureCount found = check_geojson(text);
@@ -42,11 +46,10 @@ void test_geojson(const std::string& text, const Triangulation& t, const Diagram
   for (const std::size_t i : found.not_drawn) {
     require(areas.at(i) <= 2 * tolerance_deg * std::numbers::pi / 180, "what is thin is not drawn");
   }
-  if (!found.not_drawn.empty()) return;
+  if (!found.not_drawn.empty() || t.model() == Model::weighted) return;
   const double area = std::accumulate(both.areas.begin(), both.areas.end(), 0.0);
   const double expected = area == 0 ? 0 : 360.0 * 180.0;
-  const double most = t.model() == Model::projected ? 1e-6 : tolerance_deg;
-  require(std::abs(found.square_degrees - expected) < most,
+  require(std::abs(found.square_degrees - expected) < 1e-6,
           "the cells cover the map, not " + std::to_string(found.square_degrees));
 }
 
@@ -57,13 +60,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rondel;
   static const fuzz::ScratchFolder folder;
   fuzz::ByteSource source(data, size);
-  const std::string ending = fuzz::endings[source.below(fuzz::endings.size())];
+  const std::string ending = fuzz::next_ending(source);
   const std::string path = folder.file("cells" + ending);
   Options options;
   options.threads = 1;
   options.model = source.byte() % 2 == 0 ? Model::projected : Model::weighted;
   const double tolerance_deg = source.below(4) == 0 ? 0.1 : 5;
-  // A map takes a thousand times longer than a list.
   const std::size_t limit = fuzz::next_limit(source, 30);
   const std::size_t most = ending != ".geojson" ? limit : limit == 30 ? 12 : 5;
   const SiteTable table = fuzz::next_table(source, most);
