@@ -64,10 +64,10 @@ class Closing {
     bool has_moved = false;
     for (std::size_t steps = 0; steps < sites_.size(); ++steps) {
       Edge best = no_index;
-      double height = dot(up, sites_.ray(graph_.origin(from)));
+      double height = dot(up, sites_.from_center(graph_.origin(from)));
       Edge e = from;
       do {
-        const double other = dot(up, sites_.ray(graph_.target(e)));
+        const double other = dot(up, sites_.from_center(graph_.target(e)));
         if (other > height) {
           height = other;
           best = e;
@@ -86,8 +86,8 @@ class Closing {
   bool look_along(const Vector& side, const Vector& normal, Bridge& bridge) const {
     constexpr int enough = 1000;
     for (int i = 0; i < enough; ++i) {
-      const Vector step =
-          sites_.ray(graph_.origin(bridge.left)) - sites_.ray(graph_.origin(bridge.right));
+      const Vector step = sites_.from_center(graph_.origin(bridge.left)) -
+                          sites_.from_center(graph_.origin(bridge.right));
       const double out = dot(step, normal);
       const double over = -dot(step, side);
       const Vector up = {out * side.x + over * normal.x, out * side.y + over * normal.y,
@@ -185,7 +185,11 @@ class Closing {
     Index r = graph_.target(base);
     while (!graph_.is_full()) {
       const Step step(sites_, {}, l, r);
-      if constexpr (T::hides_sites) remove_covered(graph_, base, step, bridge);
+      if constexpr (T::hides_sites) {
+        remove_covered_left(graph_, base, step, bridge);
+        remove_covered_right(graph_, base ^ 1, step, bridge ^ 1);
+        remove_on_line(step, base);
+      }
       const Edge left = first_stable<true>(step, base, bridge);
       const Edge right = first_stable<false>(step, base ^ 1, bridge ^ 1);
       if (left == no_index && right == no_index) return false;
@@ -213,6 +217,20 @@ class Closing {
       }
     }
     return false;
+  }
+
+  // A weighted neighbor of l or r on the line between them is below it, as the line is an edge of
+  // the hull. Its edge runs along the base and is the first one beyond it.
+  void remove_on_line(const Step& step, Edge base) {
+    const auto is_on_line = [&](Edge e, Edge own) {
+      const Index n = graph_.target(e);
+      return e != own && step.orientation(step.face(n)) == Sign::zero &&
+             is_between(sites_.site(step.l()), sites_.site(n), sites_.site(step.r()),
+                        sites_.center()) != Between::no;
+    };
+    if (is_on_line(graph_.next(base), base)) graph_.remove(graph_.next(base));
+    const Edge back = base ^ 1;
+    if (is_on_line(graph_.previous(back), back)) graph_.remove(graph_.previous(back));
   }
 
   void remove_between(Edge e, Edge f) {

@@ -29,31 +29,38 @@ struct Part {
   PlaneGraph::Edge edge = no_index;
 };
 
-// An edge that leaves l or r into the face below `base` leads to a site that this face hides. It
-// lies between `base` and the lower side q of that face, but comes after `base` in its ring. The
-// edge `kept` stays.
+// An edge that leaves l into the face below `base` leads to a site that this face hides. It lies
+// between `base` and the lower side q of that face, but comes after `base` in its ring. Deletes
+// such edges, but for `kept`. Returns whether there were any.
 template <class Step>
-void remove_covered(PlaneGraph& graph, PlaneGraph::Edge base, const Step& step,
-                    PlaneGraph::Edge kept = no_index) {
-  using Edge = PlaneGraph::Edge;
-  for (;;) {
-    const Edge e = graph.next(base);
-    const Edge q = graph.previous(base);
+bool remove_covered_left(PlaneGraph& graph, PlaneGraph::Edge base, const Step& step,
+                         PlaneGraph::Edge kept = no_index) {
+  for (bool has_removed = false;; has_removed = true) {
+    const PlaneGraph::Edge e = graph.next(base);
+    const PlaneGraph::Edge q = graph.previous(base);
     if (e == base || e == q || e == kept ||
-        step.orientation(step.face(graph.target(e))) != Sign::negative)
-      break;
+        step.orientation(step.face(graph.target(e))) != Sign::negative) {
+      return has_removed;
+    }
     const Step side = step.from_to(step.l(), graph.target(q));
-    if (side.orientation(side.face(graph.target(e))) != Sign::positive) break;
+    if (side.orientation(side.face(graph.target(e))) != Sign::positive) return has_removed;
     graph.remove(e);
   }
-  for (;;) {
-    const Edge e = graph.previous(base ^ 1);
-    const Edge q = graph.next(base ^ 1);
-    if (e == (base ^ 1) || e == q || (e ^ 1) == kept ||
-        step.orientation(step.face(graph.target(e))) != Sign::negative)
-      break;
+}
+
+// The same at r, where the other halfedge of `base` leaves.
+template <class Step>
+bool remove_covered_right(PlaneGraph& graph, PlaneGraph::Edge base, const Step& step,
+                          PlaneGraph::Edge kept = no_index) {
+  for (bool has_removed = false;; has_removed = true) {
+    const PlaneGraph::Edge e = graph.previous(base);
+    const PlaneGraph::Edge q = graph.next(base);
+    if (e == base || e == q || e == kept ||
+        step.orientation(step.face(graph.target(e))) != Sign::negative) {
+      return has_removed;
+    }
     const Step side = step.from_to(graph.target(q), step.r());
-    if (side.orientation(side.face(graph.target(e))) != Sign::positive) break;
+    if (side.orientation(side.face(graph.target(e))) != Sign::positive) return has_removed;
     graph.remove(e);
   }
 }
@@ -165,10 +172,14 @@ class Merge {
     Index r = graph_.target(base);
     while (!graph_.is_full()) {
       const Step step(sites_, limits, l, r);
-      if constexpr (Step::hides_sites) remove_covered(graph_, base, step);
       Edge left = rings[base].next;
       Face left_face = step.face(ends[left].target);
-      const bool has_left = left != base && is_above(step, left_face);
+      bool has_left = left != base && is_above(step, left_face);
+      if (Step::hides_sites && !has_left && remove_covered_left(graph_, base, step)) {
+        left = rings[base].next;
+        left_face = step.face(ends[left].target);
+        has_left = left != base && is_above(step, left_face);
+      }
       if (has_left) {
         for (;;) {
           const Edge next = rings[left].next;
@@ -181,7 +192,12 @@ class Merge {
       }
       Edge right = rings[base ^ 1].previous;
       Face right_face = step.face(ends[right].target);
-      const bool has_right = right != (base ^ 1) && is_above(step, right_face);
+      bool has_right = right != (base ^ 1) && is_above(step, right_face);
+      if (Step::hides_sites && !has_right && remove_covered_right(graph_, base ^ 1, step)) {
+        right = rings[base ^ 1].previous;
+        right_face = step.face(ends[right].target);
+        has_right = right != (base ^ 1) && is_above(step, right_face);
+      }
       if (has_right) {
         for (;;) {
           const Edge next = rings[right].previous;

@@ -110,7 +110,7 @@ class PlaneGraph {
   }
 
   // Whether there are as many edges as a plane graph can have, so that no more may be added.
-  [[nodiscard]] bool is_full() const { return limit_ == full_; }
+  [[nodiscard]] bool is_full() const { return free_ == full_; }
 
   // Pairs without ends and rings.
   template <std::size_t N>

@@ -57,8 +57,12 @@ class Parts {
   // Of a site on the top or the bottom.
   [[nodiscard]] std::size_t part_of(unsigned face, const Point& site) const {
     const double z = faces_[face].z;
-    const exact::DoubleDouble x = size_of(exact::two_diff(site.x, center_.x));
-    const exact::DoubleDouble y = size_of(exact::two_diff(site.y, center_.y));
+    exact::DoubleDouble x = size_of(exact::two_diff(site.x, center_.x));
+    exact::DoubleDouble y = size_of(exact::two_diff(site.y, center_.y));
+    if (std::isinf(x.hi) && std::isinf(y.hi)) {  // halves of what is so large are exact
+      x = size_of(exact::two_diff(site.x / 2, center_.x / 2));
+      y = size_of(exact::two_diff(site.y / 2, center_.y / 2));
+    }
     const bool is_y_longer = x.hi < y.hi || (x.hi == y.hi && x.lo < y.lo);
     const bool is_on_axis = x.hi == 0 && y.hi == 0;
     const std::size_t of_site = is_on_axis ? lune(z, 0)
@@ -229,7 +233,7 @@ template <incremental::SphereTraits T>
 PlaneGraph::Edge SphereTriangulation<T>::conquer() {
   const unsigned threads = num_sites_ < least_parallel_sites ? 1 : input_.options.threads;
   coordinates_.reserve(num_sites_);
-  if (SphereSites<T>::has_directions) {
+  if (!SphereSites<T>::has_weights) {
     directions_ = std::make_unique_for_overwrite<Vector[]>(num_sites_);
   }
   std::array<Index, num_lunes> sizes{};

@@ -18,8 +18,7 @@ namespace rondel::bulk {
 template <incremental::SphereTraits T>
 class SphereSites {
  public:
-  // Whether rays are directions, so that the filters of directions hold.
-  static constexpr bool has_directions = std::is_same_v<T, incremental::ProjectedPoints>;
+  static constexpr bool has_weights = std::is_same_v<T, incremental::WeightedPoints>;
 
   // The sites sites[order[0]], sites[order[1]], ... with their directions, if these are of use.
   SphereSites(std::span<const Point> sites, std::span<const Index> order, const Point& center,
@@ -30,16 +29,21 @@ class SphereSites {
   [[nodiscard]] const Point& site(Index i) const { return sites_[order_[i]]; }
   [[nodiscard]] const Point& center() const { return center_; }
 
-  // The vector from the center, or its direction.
-  [[nodiscard]] predicates::Vector ray(Index i) const {
-    if constexpr (has_directions) {
-      return directions_[i];
+  // As in SphereTraits.
+  [[nodiscard]] predicates::Vector coordinates(Index i) const {
+    if constexpr (has_weights) {
+      return exact::to_vector(site(i));
     } else {
-      return exact::to_vector(site(i)) - exact::to_vector(center_);
+      return directions_[i];
     }
   }
-
-  // As in SphereTraits.
+  [[nodiscard]] predicates::Vector from_center(Index i) const {
+    if constexpr (has_weights) {
+      return coordinates(i) - exact::to_vector(center_);
+    } else {
+      return directions_[i];
+    }
+  }
   [[nodiscard]] Sign orientation(Index a, Index b, Index c) const {
     return ask(std::array{a, b, c}).orientation(0, 1, 2);
   }

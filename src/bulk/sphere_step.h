@@ -11,6 +11,7 @@
 
 #include "bulk/sphere_sites.h"
 #include "predicates/bounds.h"
+#include "predicates/filtered.h"
 
 namespace rondel::bulk {
 
@@ -22,7 +23,7 @@ class SphereStep {
   struct Face {
     Index apex;
     predicates::Vector normal;  // outward
-    double squared;             // the longer of the sides at l
+    double squared;             // of the side from l to the apex
   };
   static constexpr bool hides_sites = T::hides_sites;
 
@@ -30,8 +31,8 @@ class SphereStep {
       : sites_(sites),
         l_(l),
         r_(r),
-        origin_(sites.ray(l)),
-        edge_(sites.ray(r) - origin_),
+        origin_(sites.coordinates(l)),
+        edge_(sites.coordinates(r) - origin_),
         squared_(dot(edge_, edge_)) {}
 
   [[nodiscard]] Index l() const { return l_; }
@@ -39,29 +40,34 @@ class SphereStep {
   [[nodiscard]] SphereStep from_to(Index l, Index r) const { return {sites_, {}, l, r}; }
 
   [[nodiscard]] Face face(Index x) const {
-    const predicates::Vector side = sites_.ray(x) - origin_;
-    return {x, cross(edge_, side), std::max(squared_, dot(side, side))};
+    const predicates::Vector side = sites_.coordinates(x) - origin_;
+    return {x, cross(edge_, side), dot(side, side)};
   }
 
   // Positive if the apex lies to the left of the edge from l to r, seen from outside.
   [[nodiscard]] Sign orientation(const Face& face) const {
-    if constexpr (Sites::has_directions) {
+    if constexpr (!Sites::has_weights) {
       constexpr double bound = predicates::direction_orientation_bound;
       const double value = dot(origin_, face.normal);
-      if (value * value > bound * bound * face.squared) return exact::sign_of(value);
+      if (value * value > bound * bound * std::max(squared_, face.squared)) {
+        return exact::sign_of(value);
+      }
     }
     return sites_.orientation(l_, r_, face.apex);
   }
 
   [[nodiscard]] bool is_in_conflict(const Face& face, Index y) const {
-    if constexpr (Sites::has_directions) {
-      const predicates::Vector to_y = sites_.ray(y) - origin_;
-      const double value = dot(face.normal, to_y);
-      const double squared = std::max(face.squared, dot(to_y, to_y));
-      if (std::abs(value) > predicates::circle_plane_bound * squared) {
-        sites_.count_filtered();
-        return value > 0;
-      }
+    const predicates::Vector to_y = sites_.coordinates(y) - origin_;
+    const double value = dot(face.normal, to_y);
+    const double squared = dot(to_y, to_y);
+    const bool is_sure =
+        Sites::has_weights
+            ? predicates::is_beyond(value, predicates::plane_bound, squared_, face.squared, squared)
+            : std::abs(value) > predicates::circle_plane_bound *
+                                    std::max(std::max(squared_, face.squared), squared);
+    if (is_sure) {
+      sites_.count_filtered();
+      return value > 0;
     }
     return sites_.is_in_conflict(l_, r_, face.apex, y);
   }

@@ -121,11 +121,24 @@ void resize_large(std::vector<Triple>& values, std::size_t size) {
   values.resize(size);
 }
 
-// The whole sphere at once, if the sites suit this.
+// Whether few sites can be hidden, as far as their distances from the center tell: between
+// neighbors on a sphere the squared distance is 4 pi / n on average, and weights must differ by as
+// much.
+bool are_weights_close(const Input& input) {
+  const Extent& extent = input.extent;
+  const auto num_sites = static_cast<double>(input.order.size());
+  return num_sites * (extent.most_size - extent.least_size) < 4 * extent.least_size;
+}
+
+// The whole sphere at once, if the sites suit this. Where many are hidden the incremental algorithm
+// is faster.
 std::optional<Triangulated> try_sphere(const Input& input, std::span<const Duplicate> renamed) {
   const std::size_t num_sites = input.order.size();
   if (num_sites < least_sphere_sites || num_sites > sphere_sites ||
       !surround_center(input.sites, input.options.sphere.center)) {
+    return std::nullopt;
+  }
+  if (!are_weights_close(input) && (num_sites < least_block_sites || !is_worthwhile(input))) {
     return std::nullopt;
   }
   return triangulate_sphere(input, renamed);

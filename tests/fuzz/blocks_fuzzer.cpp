@@ -152,8 +152,8 @@ void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsig
   require(built.has_value() || expected.dimension < 2, "blocks fit");
   if (built) require_same(built->arrays, expected);
   if (!bulk::surround_center(set.sites, set.sphere.center)) return;
-  const auto whole = bulk::triangulate_sphere(bulk::make_input(set.sites, order.order, options),
-                                              order.renamed);
+  const auto whole =
+      bulk::triangulate_sphere(bulk::make_input(set.sites, order.order, options), order.renamed);
   if (whole) require_same(whole->arrays, expected);
 }
 

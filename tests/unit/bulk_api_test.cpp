@@ -22,7 +22,7 @@ constexpr Case cases[] = {
     {"clustered", Model::projected, true},    {"globe_grid", Model::weighted, true},
     {"hemisphere", Model::projected, true},   {"hemisphere", Model::weighted, true},
     {"near_sphere", Model::weighted, true},   {"ball", Model::projected, true},
-    {"ball", Model::weighted, true},          {"great_circle_and_some", Model::projected, true},
+    {"ball", Model::weighted, false},         {"great_circle_and_some", Model::projected, true},
     {"small_circle", Model::projected, false}};
 
 // Whether the first sign of progress is that of a block or of a part of the sphere: the incremental

@@ -8,13 +8,13 @@
 namespace rondel::test {
 namespace {
 
-struct Count {
+struct Outcomes {
   int solved = 0;
   int failed = 0;
   int open = 0;  // the center is not known to be inside
 };
 
-void compare(const SiteSet& set, Model model, Count& count) {
+void compare(const SiteSet& set, Model model, Outcomes& count) {
   BulkCase sites(set, model);
   if (!bulk::surround_center(set.sites, set.sphere.center)) {
     ++count.open;
@@ -29,17 +29,17 @@ TEST_P(bulk_sphere, as_the_incremental_build) {
   const Generator& generator = GetParam();
   for (const Model model : {Model::projected, Model::weighted}) {
     if (model == Model::projected && generator.weighted_only) continue;
-    Count count;
-    for (const std::size_t size : {12, 60, 400}) {
+    Outcomes count;
+    for (const std::size_t size : {12U, 60U, 400U}) {
       for (std::uint64_t seed = 0; seed < 5; ++seed) {
         SCOPED_TRACE(text_of(model) + " " + std::to_string(size) + " " + std::to_string(seed));
         compare(generator.make(size, seed), model, count);
         ASSERT_FALSE(HasFailure());
       }
     }
-    RecordProperty(text_of(model) + "_solved", count.solved);
-    RecordProperty(text_of(model) + "_failed", count.failed);
-    RecordProperty(text_of(model) + "_open", count.open);
+    RecordProperty(text_of(model) + "_solved", std::to_string(count.solved));
+    RecordProperty(text_of(model) + "_failed", std::to_string(count.failed));
+    RecordProperty(text_of(model) + "_open", std::to_string(count.open));
   }
 }
 
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(generators, bulk_sphere, testing::ValuesIn(generators()
 // Uniform sites never make it fail, however few, and wherever the bridge is.
 TEST(bulk_sphere_general, any_number_of_sites) {
   for (const Model model : {Model::projected, Model::weighted}) {
-    Count count;
+    Outcomes count;
     for (int i = 0; i < static_cast<int>(scaled(3000)); ++i) {
       SCOPED_TRACE(text_of(model) + " " + std::to_string(i));
       Random random(static_cast<std::uint64_t>(i));
@@ -93,7 +93,7 @@ TEST(bulk_sphere_general, what_surrounds_the_center) {
 // Sites on the planes that divide the sphere, on the axes, in grids: all is degenerate.
 TEST(bulk_sphere_general, small_integers) {
   for (const Model model : {Model::projected, Model::weighted}) {
-    Count count;
+    Outcomes count;
     for (int i = 0; i < static_cast<int>(scaled(3000)); ++i) {
       SCOPED_TRACE(text_of(model) + " " + std::to_string(i));
       Random random(static_cast<std::uint64_t>(i));
@@ -114,15 +114,15 @@ TEST(bulk_sphere_general, small_integers) {
     if (model == Model::projected) {
       EXPECT_GT(count.solved, count.failed);
     }
-    RecordProperty(text_of(model) + "_solved", count.solved);
-    RecordProperty(text_of(model) + "_failed", count.failed);
+    RecordProperty(text_of(model) + "_solved", std::to_string(count.solved));
+    RecordProperty(text_of(model) + "_failed", std::to_string(count.failed));
   }
 }
 
 // A center that is no sum of few bits: differences are rounded.
 TEST(bulk_sphere_general, remote_center) {
   for (const Model model : {Model::projected, Model::weighted}) {
-    Count count;
+    Outcomes count;
     for (int i = 0; i < static_cast<int>(scaled(200)); ++i) {
       SCOPED_TRACE(text_of(model) + " " + std::to_string(i));
       Random random(static_cast<std::uint64_t>(i));
