@@ -4,6 +4,7 @@
 // Readers of sites: what good files mean, and what is said of bad ones.
 #include <sys/stat.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -156,6 +157,20 @@ TEST(read_sites, converts_radians) {
 TEST(read_sites, accepts_endings_in_capitals) {
   const TemporaryDirectory directory;
   EXPECT_EQ(read_sites(directory.with("A.B.CSV", "x,y,z\n1,2,3\n")).sites.size(), 1U);
+}
+
+TEST(read_sites, names_each_coordinate_that_is_not_finite) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("sites.npy");
+  const double nan = std::nan("");
+  const std::array<Point, 3> bad = {{{nan, 0, 0}, {0, nan, 0}, {0, 0, nan}}};
+  constexpr std::array names = {"x", "y", "z"};
+  for (std::size_t i = 0; i < bad.size(); ++i) {
+    const std::array<Point, 2> sites = {{{1, 0, 0}, bad[i]}};
+    write_sites(path, sites);
+    EXPECT_EQ(message_of([&] { read_sites(path); }),
+              path + ": row 1: " + names[i] + " nan is not finite");
+  }
 }
 
 TEST(read_sites, says_why_a_file_cannot_be_opened) {
