@@ -4,6 +4,7 @@
 // delaunay (both forms): the validator accepts the result, which depends on nothing but the
 // set of sites; invalid input is refused with its first bad index.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <tuple>
 
@@ -11,6 +12,7 @@
 #include "rondel/check.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/interrupt.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -70,6 +72,21 @@ void test_order(std::vector<Point> sites, const Options& options) {
   require(shape(delaunay(sites, options), sites) == before, "input order changes nothing");
 }
 
+// A build that somebody wants to end either ends or is done, and the next one is not concerned.
+void test_interrupted(const std::vector<Point>& sites, const Options& options) {
+  const std::atomic<bool> stop = true;
+  Triangulation built;
+  bool is_done = true;
+  try {
+    call_interruptible(stop, [&] { built = delaunay(sites, options); });
+  } catch (const Interrupted& interrupted) {
+    is_done = false;
+    require(std::string(interrupted.what()) == "interrupted", "it says so");
+  }
+  const Triangulation again = delaunay(sites, options);
+  require(!is_done || shape(built, sites) == shape(again, sites), "what is done is right");
+}
+
 std::size_t first_bad(const std::vector<Point>& sites, const Options& options) {
   const auto bad = std::ranges::find_if(sites, [&](const Point& p) {
     return !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) ||
@@ -115,7 +132,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (scales == fuzz::Scales::all) fuzz::test_validation(source, options);
   std::vector<Point> sites = fuzz::all_sites(source, limit, scales);
   if (options.model == Model::projected) fuzz::remove_center(sites, options.sphere);
-  if (what / 2 % 2 == 0) {
+  if (what % 16 < 2) {
+    fuzz::test_interrupted(sites, options);
+  } else if (what / 2 % 2 == 0) {
     fuzz::test_valid(sites, options);
   } else {
     fuzz::test_order(sites, options);
