@@ -57,9 +57,9 @@ Root small_root(const Integer& n) {
   return {root, value - root * root};
 }
 
-// Zimmermann, Karatsuba Square Root, INRIA RR-3805, 1999: n = high b^2 + middle b + low, b = 2^k, and
-// the root of `high` is s with the remainder r. For the quotient q and the remainder u of
-// r b + middle by 2 s,
+// Zimmermann, Karatsuba Square Root, INRIA RR-3805, 1999: n = high b^2 + middle b + low, b = 2^k,
+// and the root of `high` is s with the remainder r. For the quotient q and the remainder u of r b +
+// middle by 2 s,
 //
 //     n = (s b + q)^2 + u b + low - q^2.
 //
