@@ -195,23 +195,25 @@ class Closing {
       if (left == no_index && right == no_index) return false;
       const Index a = left == no_index ? no_index : graph_.target(left);
       const Index b = right == no_index ? no_index : graph_.target(right);
-      if (a == b) {
-        // The last face; what is left in its third corner leads to sites that it hides.
-        if (left == bridge) {
+      // The bridge leads to a candidate of one side, and is what the other side comes to; but the
+      // search there may have stopped before, at a site that the last face hides. What is left in
+      // its corners leads to such sites.
+      if (left == no_index || left == bridge ||
+          (right != no_index && right != (bridge ^ 1) && step.is_in_conflict(step.face(a), b))) {
+        if (right == no_index || right == (bridge ^ 1)) return false;
+        if (l == graph_.origin(bridge) && b == graph_.target(bridge)) {
+          remove_between(base, bridge);
           remove_between(bridge ^ 1, right ^ 1);
-        } else if (right == (bridge ^ 1)) {
-          remove_between(left ^ 1, bridge);
-        } else {
-          return false;
+          return true;
         }
-        return true;
-      }
-      if (left == no_index || (right != no_index && step.is_in_conflict(step.face(a), b))) {
-        if (right == (bridge ^ 1)) return false;
         r = b;
         base = graph_.add(l, r, base, graph_.previous(right ^ 1));
       } else {
-        if (left == bridge) return false;
+        if (r == graph_.target(bridge) && a == graph_.origin(bridge)) {
+          remove_between(left ^ 1, bridge);
+          remove_between(bridge ^ 1, base ^ 1);
+          return true;
+        }
         l = a;
         base = graph_.add(l, r, left ^ 1, graph_.previous(base ^ 1));
       }

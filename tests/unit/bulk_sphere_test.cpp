@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The whole sphere by divide and conquer: the same bits as the incremental build.
+#include <utility>
+
 #include "bulk/sphere.h"
 #include "bulk_support.h"
 
@@ -117,6 +119,43 @@ TEST(bulk_sphere_general, small_integers) {
     RecordProperty(text_of(model) + "_solved", std::to_string(count.solved));
     RecordProperty(text_of(model) + "_failed", std::to_string(count.failed));
   }
+}
+
+void expect_solved(std::vector<Point> sites, Model model, const Point& center = {}) {
+  SiteSet set;
+  set.sites = std::move(sites);
+  set.sphere.center = center;
+  BulkCase whole(set, model);
+  EXPECT_TRUE(whole.run_whole());
+}
+
+// Where earlier versions were wrong or gave up.
+TEST(bulk_sphere_general, hidden_sites_on_the_line_of_an_edge) {
+  expect_solved({{1, 1, -2}, {1, -2, 1}, {-1, 2, 1}, {-1, -2, 1}, {-1, 1, 1}, {0.7, 0.5, 0.5}},
+                Model::weighted);
+  expect_solved(
+      {{-1, 2, 0}, {2, 1, -1}, {0, -1, 0}, {-1, 1, -1}, {1, 1, -1}, {1, -1, 1}, {-1, 1, 1}},
+      Model::weighted);
+}
+
+TEST(bulk_sphere_general, hidden_sites_at_the_end_of_the_ring) {
+  expect_solved({{0.67406687916206887, -0.72545549016955102, -0.13909771457348019},
+                 {-0.0050966110162312984, -0.72771619659034381, -0.68585943295709884},
+                 {-6.6654291535475592, -10.308088285811827, -10.262327713094495},
+                 {16, 16, -16},
+                 {-16, 16, 16},
+                 {4.4767623692466367, 1.4103983184039344, 15.296057507499787}},
+                Model::weighted);
+}
+
+TEST(bulk_sphere_general, differences_from_the_center_that_overflow) {
+  SiteSet set;
+  set.sphere.center = {-9e307, -9e307, -9e307};
+  set.sites = {{-6.02e307, -7.54e307, -1.2e308}, {-1.68e308, -4.9e307, -1.1e308},
+               {1.04e308, 1.53e308, 1.61e308},   {-4.1e307, -1.4e308, -7.54e307},
+               {1.35e308, 1.43e308, 9.83e307},   {1.38e308, 1.42e308, 1.57e308}};
+  BulkCase sites(set, Model::projected);
+  sites.run_whole();  // may give nothing, but ends
 }
 
 // A center that is no sum of few bits: differences are rounded.
