@@ -50,7 +50,8 @@ Point random_direction(Random& random) {
 }
 
 Point random_near(Random& random, const Point& pole, double radius) {
-  return normalized(pole + (radius * random.unit()) * random_direction(random));
+  const Point direction = random_direction(random);  // first: compilers order operands as they like
+  return normalized(pole + (radius * random.unit()) * direction);
 }
 
 namespace {

@@ -43,7 +43,8 @@ SiteSet ends_of_range(std::size_t n, Seed seed) {
                                            0x1p1000, Limits::max() / 2,    Limits::max()};
   Random random(seed);
   const auto coordinate = [&] {
-    return (random.coin() ? 1 : -1) * sizes[random.below(sizes.size())];
+    const double sign = random.coin() ? 1 : -1;
+    return sign * sizes[random.below(sizes.size())];
   };
   SiteSet set;
   if (seed % 3 == 1) set.sphere.center = {Limits::max(), 0, -1};

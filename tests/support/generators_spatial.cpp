@@ -198,7 +198,8 @@ SiteSet near_sphere(std::size_t n, Seed seed) {
   SiteSet set;
   const double spread = std::ldexp(1.0, -random.between(4, 50));
   while (set.sites.size() < n) {
-    set.sites.push_back((1 + spread * random.signed_unit()) * random_direction(random));
+    const Point direction = random_direction(random);
+    set.sites.push_back((1 + spread * random.signed_unit()) * direction);
   }
   return set;
 }
@@ -221,7 +222,8 @@ SiteSet mixed_magnitudes(std::size_t n, Seed seed) {
   SiteSet set;
   while (set.sites.size() < n) {
     const bool is_huge = random.below(8) == 0;
-    const double length = is_huge ? std::ldexp(1 + random.unit(), random.between(0, 49)) : 1;
+    const int exponent = is_huge ? random.between(0, 49) : 0;
+    const double length = is_huge ? std::ldexp(1 + random.unit(), exponent) : 1;
     set.sites.push_back(length * random_direction(random));
   }
   return set;
