@@ -36,8 +36,8 @@ SiteSet clustered(std::size_t n, Seed seed) {
 // Small integer combinations of two integer vectors, so exactly in one plane with the center.
 Point on_plane(Random& random, const Point& a, const Point& b) {
   for (;;) {
-    const Point p = static_cast<double>(random.between(-9, 9)) * a +
-                    static_cast<double>(random.between(-9, 9)) * b;
+    const Point along_b = static_cast<double>(random.between(-9, 9)) * b;
+    const Point p = static_cast<double>(random.between(-9, 9)) * a + along_b;
     if (p != Point{}) return p;
   }
 }
