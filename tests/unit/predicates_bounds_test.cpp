@@ -234,7 +234,8 @@ class bounds : public testing::TestWithParam<Filter> {};
 TEST_P(bounds, hold_against_a_search) {
   Random random(41);
   double largest = 0;
-  for (std::size_t start = 0; start < scaled(100); ++start) {
+  const std::size_t num_searches = std::max<std::size_t>(25, scaled(100));  // fewer find too little
+  for (std::size_t start = 0; start < num_searches; ++start) {
     FourStored best = random_configuration(random);
     double best_ratio = 0;
     for (int step = 0; step < 400; ++step) {
