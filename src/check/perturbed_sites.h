@@ -29,7 +29,6 @@ class PerturbedSites {
   PerturbedSites(std::span<const Point> sites, const Places& places, Model model,
                  const Sphere& sphere);
 
-  [[nodiscard]] std::size_t size() const { return sites_.size(); }
   [[nodiscard]] const Point& point(Index place) const { return sites_[places_.speaker[place]]; }
 
   // -1 without sites, 0 with one place, 1 when all lie on one great circle (in one

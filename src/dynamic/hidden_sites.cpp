@@ -11,14 +11,12 @@ void HiddenSites::attach(Index p, Index solid, Index near) {
   if (p >= links_.size()) links_.resize(p + std::size_t{1});
   push(p, 0, solid);
   push(p, 1, near);
-  ++size_;
 }
 
 void HiddenSites::detach(Index p) {
   unlink(p, 0);
   unlink(p, 1);
   links_[p] = {};
-  --size_;
 }
 
 void HiddenSites::take(Index face, std::vector<Index>& sites) {

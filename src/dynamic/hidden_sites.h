@@ -29,7 +29,6 @@ class HiddenSites {
   }
   [[nodiscard]] Index solid_face(Index p) const { return links_[p][0].face; }
   [[nodiscard]] Index near_face(Index p) const { return links_[p][1].face; }
-  [[nodiscard]] std::size_t size() const { return size_; }
 
   // `near` may be no_index.
   void attach(Index p, Index solid, Index near);
@@ -57,7 +56,6 @@ class HiddenSites {
   std::vector<std::array<Link, 2>> links_;  // by site
   std::vector<Index> heads_;                // by face
   Index ungrounded_ = no_index;
-  std::size_t size_ = 0;
 };
 
 }  // namespace rondel::dynamic
