@@ -22,7 +22,11 @@ class ByteSource {
 
   [[nodiscard]] bool is_empty() const { return bytes_.empty(); }
   std::uint8_t byte();
-  std::int8_t small() { return static_cast<std::int8_t>(byte()); }
+  // From -128 to 127.
+  int small() {
+    const int value = byte();
+    return value < 128 ? value : value - 256;
+  }
   std::size_t below(std::size_t bound) { return byte() % bound; }
   // Any bit pattern.
   double any_double();
