@@ -7,12 +7,6 @@
 namespace rondel::test {
 namespace {
 
-// These take the exact rungs most of the time.
-bool is_extreme(const Generator& generator) {
-  return std::ranges::find(extreme_generators(), generator.name, &Generator::name) !=
-         extreme_generators().end();
-}
-
 class bulk_same : public testing::TestWithParam<Generator> {};
 
 TEST_P(bulk_same, as_the_incremental_build) {

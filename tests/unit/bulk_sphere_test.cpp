@@ -32,7 +32,7 @@ TEST_P(bulk_sphere, as_the_incremental_build) {
   for (const Model model : {Model::projected, Model::weighted}) {
     if (model == Model::projected && generator.weighted_only) continue;
     Outcomes count;
-    for (const std::size_t size : {12U, 60U, 400U}) {
+    for (const std::size_t size : {12U, 60U, is_extreme(generator) ? 100U : 400U}) {
       for (std::uint64_t seed = 0; seed < 5; ++seed) {
         SCOPED_TRACE(text_of(model) + " " + std::to_string(size) + " " + std::to_string(seed));
         compare(generator.make(size, seed), model, count);

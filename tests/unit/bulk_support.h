@@ -65,6 +65,12 @@ class BulkCase {
   TriangulationArrays expected_;
 };
 
+// These take the exact rungs most of the time.
+inline bool is_extreme(const Generator& generator) {
+  return std::ranges::find(extreme_generators(), generator.name, &Generator::name) !=
+         extreme_generators().end();
+}
+
 inline std::string text_of(Model model) {
   return model == Model::projected ? "projected" : "weighted";
 }
