@@ -130,18 +130,11 @@ bool are_weights_close(const Input& input) {
   return num_sites * (extent.most_size - extent.least_size) < 4 * extent.least_size;
 }
 
-// The whole sphere at once, if the sites suit this. Where many are hidden the incremental algorithm
-// is faster.
-std::optional<Triangulated> try_sphere(const Input& input, std::span<const Duplicate> renamed) {
+// Whether these may be triangulated over the whole sphere at once.
+bool suit_sphere(const Input& input) {
   const std::size_t num_sites = input.order.size();
-  if (num_sites < least_sphere_sites || num_sites > sphere_sites ||
-      !surround_center(input.sites, input.options.sphere.center)) {
-    return std::nullopt;
-  }
-  if (!are_weights_close(input) && (num_sites < least_block_sites || !is_worthwhile(input))) {
-    return std::nullopt;
-  }
-  return triangulate_sphere(input, renamed);
+  return num_sites >= least_sphere_sites && num_sites <= sphere_sites &&
+         surround_center(input.sites, input.options.sphere.center);
 }
 
 std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplicate> renamed,
@@ -200,10 +193,17 @@ std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                          std::span<const Duplicate> renamed, const Options& options) {
   const Input input = make_input(sites, order, options);
-  auto result = try_sphere(input, renamed);
-  if (!result && order.size() >= least_block_sites && is_worthwhile(input)) {
-    result = by_blocks(input, renamed, block_sites);
+  std::optional<bool> trial;  // it takes time, and may not be needed
+  const auto have_blocks = [&] {
+    if (!trial) trial = order.size() >= least_block_sites && is_worthwhile(input);
+    return *trial;
+  };
+  std::optional<Triangulated> result;
+  // Where many are hidden the incremental algorithm is faster.
+  if (suit_sphere(input) && (are_weights_close(input) || have_blocks())) {
+    result = triangulate_sphere(input, renamed);
   }
+  if (!result && have_blocks()) result = by_blocks(input, renamed, block_sites);
   return result ? *std::move(result)
                 : incremental::triangulate(sites, std::move(order), renamed, options);
 }
