@@ -21,7 +21,7 @@
 
 namespace rondel::bench {
 
-inline constexpr double enough_seconds = 0.05;
+inline constexpr double enough_seconds = 0.25;
 
 class Stopwatch {
  public:
