@@ -17,7 +17,7 @@
 
 namespace rondel::io {
 
-// Three things concern more than one cell:
+// Four things concern more than one cell:
 // 1. Points nearer to each other than merge_distance become one point, for all cells: between
 //    cocircular sites the order of the circumcenters is rounding.
 // 2. Between close sites the arc between their cells is densified to an eighth of the angle between
@@ -26,7 +26,10 @@ namespace rondel::io {
 //    the points opposite those of the other, for the cells on both sides of it: lines between
 //    opposite points are as good as parallel, however near. Where they are nearer than
 //    merge_distance they become the same. An arc at a tip that is very short shrinks to a point.
-// 4. What still crosses itself after that is not drawn.
+// 4. Cells of circles need not contain their sites, and may be far narrower than sites are apart:
+//    2 says nothing about them. Where their lines cross, or all have passed those of the
+//    other side, they are bisected on their arcs before 3, until they are short.
+// 5. What still crosses itself after that is not drawn.
 class CellMap {
  public:
   // At most `threads` threads draw; 0: one for each core.
@@ -62,10 +65,13 @@ class CellMap {
   void merge_close_points();
   [[nodiscard]] Index representative(Index point) const;
   Index find_representative(Index point);
+  [[nodiscard]] std::vector<LinePair> crossed_lines(const Trace& trace) const;
   [[nodiscard]] std::vector<std::size_t> find_crossing_lines(unsigned threads,
                                                              const Progress& progress) const;
   void resolve_crossing_lines(unsigned threads, const Progress& progress);
   bool resolve_crossing_lines(std::size_t site);
+  bool bisect(std::span<const LinePair> pairs, double shortest);
+  [[nodiscard]] std::map<Edge, Inner> drawn_points(std::span<const LinePair> pairs) const;
   bool align(std::span<const LinePair> pairs);
   bool align(std::size_t line, const Edge& other, const Point& p, std::map<Edge, Inner>& drawn);
   bool merge_vertices(const Edge& edge, const Point& p, const Edge& other, const Point& q);

@@ -85,6 +85,7 @@ Point cross(const Point& p, const Point& q) {
 
 double dot(const Point& p, const Point& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
 double norm(const Point& p) { return std::sqrt(squared_norm(p)); }
+double distance(const Point& p, const Point& q) { return norm(difference(p, q)); }
 
 Point normalized(const Point& p) {
   const double length = norm(p);

@@ -34,6 +34,7 @@ Point difference(const Point& p, const Point& q);
 Point cross(const Point& p, const Point& q);
 double dot(const Point& p, const Point& q);
 double norm(const Point& p);
+double distance(const Point& p, const Point& q);
 Point normalized(const Point& p);
 
 // The point between p and q on their arc that is nearest to v; none if that is an end.

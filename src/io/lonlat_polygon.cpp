@@ -65,19 +65,29 @@ bool visits_twice(std::span<const LonLat> positions) {
   return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
 }
 
-// Without area is what lay along the antimeridian; clockwise only what is no wider than rounding.
-void append_simple_loop(std::vector<LonLat> ring, bool is_part, std::vector<LonLatPolygon>& out) {
+// Twice what a sliver as wide as rounding covers, from one end of the map to the other.
+constexpr double area_of_rounding = 1e-9;  // square degrees
+
+struct Loops {
+  std::vector<LonLatPolygon> polygons;
+  bool is_turned_over = false;  // one is clockwise, and wider than rounding
+};
+
+// Without area is what lay along the antimeridian; clockwise only what is narrower than its lines
+// resolve.
+void append_simple_loop(std::vector<LonLat> ring, bool is_part, Loops& out) {
   if (ring.size() < 3) return;
   const double area = doubled_area(ring);
+  out.is_turned_over = out.is_turned_over || area < -area_of_rounding;
   if (area == 0 || (area < 0 && is_part)) return;
   if (area < 0) std::reverse(ring.begin(), ring.end());
   ring.push_back(ring.front());
-  out.push_back({std::move(ring)});
+  out.polygons.push_back({std::move(ring)});
 }
 
 // Takes the loops apart of which a ring consists that comes back to the same positions: one
 // between two visits of a position that has no such visits itself.
-void append_loops_of(const std::vector<LonLat>& ring, std::vector<LonLatPolygon>& out) {
+void append_loops_of(const std::vector<LonLat>& ring, Loops& out) {
   const auto before = [](const LonLat& p, const LonLat& q) { return is_before(p, q); };
   std::map<LonLat, std::size_t, decltype(before)> places(before);
   std::vector<LonLat> open;
@@ -96,7 +106,7 @@ void append_loops_of(const std::vector<LonLat>& ring, std::vector<LonLatPolygon>
 }
 
 // Appends the loop as polygons, without repeated positions and sides that run to and fro.
-void append_loop(const std::vector<LonLat>& loop, std::vector<LonLatPolygon>& out) {
+void append_loop(const std::vector<LonLat>& loop, Loops& out) {
   std::vector<LonLat> ring;
   for (const LonLat& position : loop) {
     if (!ring.empty() && ring.back() == position) continue;
@@ -147,7 +157,7 @@ class Stitching {
     }
   }
 
-  void append_loops(std::vector<LonLatPolygon>& out) const {
+  void append_loops(Loops& out) const {
     std::vector<bool> is_used(next_.size(), false);
     std::vector<LonLat> loop;
     for (std::size_t first = 0; first < next_.size(); ++first) {
@@ -182,20 +192,24 @@ class Stitching {
   std::vector<Step> next_;
 };
 
-}  // namespace
-
-std::vector<LonLatPolygon> polygons_of(const Trace& trace) {
-  std::vector<LonLatPolygon> polygons;
+Loops loops_of(const Trace& trace) {
+  Loops loops;
   if (!trace.starts.empty()) {
-    Stitching(trace).append_loops(polygons);
-    if (is_outside(polygons)) polygons.clear();
-    return polygons;
+    Stitching(trace).append_loops(loops);
+    if (!is_outside(loops.polygons)) return loops;
+    return {.polygons = {}, .is_turned_over = true};
   }
   std::vector<LonLat> loop;
   for (const MapPoint& point : trace.points) loop.push_back(point.position);
-  append_loop(loop, polygons);
-  return polygons;
+  append_loop(loop, loops);
+  return loops;
 }
+
+}  // namespace
+
+std::vector<LonLatPolygon> polygons_of(const Trace& trace) { return loops_of(trace).polygons; }
+
+bool is_turned_over(const Trace& trace) { return loops_of(trace).is_turned_over; }
 
 std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring,
                                            std::span<const double> tolerances_deg) {

@@ -35,4 +35,8 @@ std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring, double t
 // The polygons that a drawn ring bounds.
 std::vector<LonLatPolygon> polygons_of(const Trace& trace);
 
+// Whether the drawn ring, which does not cross itself, has its region to the right: the lines of
+// opposite sides have passed each other from end to end.
+bool is_turned_over(const Trace& trace);
+
 }  // namespace rondel::io

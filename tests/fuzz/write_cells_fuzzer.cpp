@@ -31,9 +31,7 @@ void require_bytes(const std::string& file, const std::string& bytes) {
   require(file.find(bytes) != std::string::npos, "the file holds the diagram");
 }
 
-// A cell that is not drawn is thinner than the tolerance: at most a lune of that width. Cells of
-// circles, which may be far narrower than their sites are close, may overlap where it is as coarse
-// as here.
+// A cell that is not drawn is thinner than the tolerance: at most a lune of that width.
 void test_geojson(const std::string& text, const Triangulation& t, const Diagram& both,
                   double tolerance_deg) {
   const FeatureCount found = check_geojson(text);
@@ -46,7 +44,7 @@ void test_geojson(const std::string& text, const Triangulation& t, const Diagram
   for (const std::size_t i : found.not_drawn) {
     require(areas.at(i) <= 2 * tolerance_deg * std::numbers::pi / 180, "what is thin is not drawn");
   }
-  if (!found.not_drawn.empty() || t.model() == Model::weighted) return;
+  if (!found.not_drawn.empty()) return;
   const double area = std::accumulate(both.areas.begin(), both.areas.end(), 0.0);
   const double expected = area == 0 ? 0 : 360.0 * 180.0;
   require(std::abs(found.square_degrees - expected) < 1e-6,
