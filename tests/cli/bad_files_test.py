@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every bad file of the corpus, through the tool: status 1, the recorded line that names file, line and
-value, no output. The transcripts do the same for bad command lines; both sets together are counted."""
+"""Every bad file of the corpus, through the tool: status 1, the recorded line that names file, line
+and value, no output. The transcripts do the same for bad command lines; both sets are counted."""
 
 import os
 import pathlib
@@ -27,8 +27,8 @@ class BadFiles(unittest.TestCase):
     def assert_refused(self, folder, name, line, *command):
         path = CORPUS / folder / name
         with tempfile.TemporaryDirectory() as empty, self.subTest(file=name):
-            done = subprocess.run([TOOL, *command, path], cwd=empty, capture_output=True, timeout=60,
-                                  check=False)
+            done = subprocess.run([TOOL, *command, path], cwd=empty, capture_output=True,
+                                  timeout=60, check=False)
             expected = f"rondel: {path.parent}/{line}\n"
             self.assertEqual((done.returncode, done.stdout, done.stderr.decode()),
                              (1, b"", expected))
