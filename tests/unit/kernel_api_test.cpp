@@ -4,16 +4,20 @@
 // rondel/delaunay.h: misuse, small and flat configurations, what the result says of itself.
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 
 #include "incremental/projected_points.h"
 #include "predicates/tally.h"
 #include "rondel/delaunay.h"
+#include "rondel/dynamic.h"
 #include "rondel/error.h"
+#include "rondel/hull.h"
 #include "support/generators.h"
 
 namespace rondel {
@@ -167,6 +171,32 @@ TEST(delaunay_progress, is_told_in_stages_that_begin_and_end) {
   ASSERT_GE(calls.size(), 3U);
   EXPECT_EQ(calls.front().first, "order");
   EXPECT_EQ(calls.back(), (std::pair<std::string, double>("triangulate", 1)));
+}
+
+// The memory of these sites may not even be read.
+TEST(delaunay, more_sites_than_indices_are_refused_before_they_are_read) {
+  constexpr std::size_t count = std::size_t{1} << 32;
+  void* const memory = ::mmap(nullptr, count * sizeof(Point), PROT_NONE,
+                              MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+  if (memory == MAP_FAILED) GTEST_SKIP() << "addresses are limited";
+  const std::span<const Point> sites(static_cast<const Point*>(memory), count);
+  DynamicTriangulation changing;
+  const auto expect_refused = [](const auto& action) {
+    try {
+      action();
+      ADD_FAILURE() << "accepted";
+    } catch (const InvalidInput& error) {
+      EXPECT_EQ(std::string(error.what()), "4294967296 sites are more than the " +
+                                               std::to_string(max_sites) +
+                                               " that one triangulation can hold");
+      EXPECT_EQ(error.index(), max_sites);
+    }
+  };
+  expect_refused([&] { delaunay(sites, {}); });
+  expect_refused([&] { convex_hull(sites); });
+  expect_refused([&] { static_cast<void>(changing.insert(sites)); });
+  EXPECT_EQ(changing.num_sites(), 0U);
+  ::munmap(memory, count * sizeof(Point));
 }
 
 }  // namespace

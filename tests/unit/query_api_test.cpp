@@ -279,8 +279,12 @@ TEST(query_batch, fills_up_what_is_missing) {
 TEST(query_batch, a_locator_may_be_moved) {
   const Asked s(octahedron());
   Locator from(s.triangulation, s.sites);
-  const Locator to = std::move(from);
+  Locator to = std::move(from);
   EXPECT_EQ(to.nearest({0, 0, 1}), 4U);
+  const Asked one({{1, 0, 0}});
+  Locator other(one.triangulation, one.sites);
+  other = std::move(to);
+  EXPECT_EQ(other.nearest({0, 0, 1}), 4U);
 }
 
 // A dense patch, where directions differ by a few ulp: the walk from the far side ends, and
