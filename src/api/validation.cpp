@@ -4,11 +4,13 @@
 #include "api/validation.h"
 
 #include <array>
+#include <atomic>
 #include <charconv>
 #include <cmath>
 #include <string>
 
 #include "rondel/error.h"
+#include "system/parallel.h"
 
 namespace rondel::api {
 namespace {
@@ -17,11 +19,24 @@ bool is_finite(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
-// Faster than to ask for each: a coordinate that is not finite makes its sum NaN.
-bool are_finite(std::span<const Point> sites) {
-  Point sum;
-  for (const Point& p : sites) sum = {sum.x + 0 * p.x, sum.y + 0 * p.y, sum.z + 0 * p.z};
-  return sum == Point{};
+// Whether all sites are finite and, in the projected model, none is the center. Faster than to ask
+// for each: a coordinate that is not finite makes its sum NaN, and nothing branches.
+bool are_valid(std::span<const Point> sites, const Options& options) {
+  constexpr std::size_t grain = std::size_t{1} << 16;
+  const Point center = options.sphere.center;
+  const bool is_projected = options.model == Model::projected;
+  std::atomic<bool> are_valid = true;
+  system::parallel_for(options.threads, sites.size(), grain, [&](std::size_t i, std::size_t end) {
+    Point sum;
+    bool is_center = false;
+    for (; i < end; ++i) {
+      const Point& p = sites[i];
+      sum = {sum.x + 0 * p.x, sum.y + 0 * p.y, sum.z + 0 * p.z};
+      is_center |= (p.x == center.x) & (p.y == center.y) & (p.z == center.z);
+    }
+    if (sum != Point{} || (is_projected && is_center)) are_valid = false;
+  });
+  return are_valid;
 }
 
 std::string coordinates(const Point& p) {
@@ -51,7 +66,7 @@ void validate(std::span<const Point> sites, const Options& options) {
                            std::to_string(max_sites) + " that one triangulation can hold",
                        max_sites);
   }
-  if (options.model == Model::weighted && are_finite(sites)) return;
+  if (are_valid(sites, options)) return;
   for (std::size_t i = 0; i < sites.size(); ++i) {
     if (!is_finite(sites[i])) {
       throw InvalidInput(

@@ -46,8 +46,8 @@ class BlockTriangulation {
     const Cone cone = make_cone(block_.cell, sites_.hand());
     OpenFaces open(
         work_.graph, [this](Index i) { return sites_.ray(i); }, cone, T::hides_sites);
-    emit_faces(work_.graph, block_.begin, num_sites(), open.find(boundary), hidden_, work_.emission,
-               store, result);
+    emit_faces(work_.graph, {block_.begin, num_sites(), {}}, open.find(boundary), hidden_,
+               work_.emission, store, result);
     return result;
   }
 

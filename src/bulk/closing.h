@@ -2,17 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The last merge: two parts that fill the two sides of a great circle become a triangulation of
-// the sphere. There is no lower common tangent; the new faces form a ring.
+// the sphere. There is no lower common tangent; the new faces form a ring:
 //
-//        .--------.        A bridge (l, r) is an edge of the result between the parts. The climb
-//        from
-//       /  .----.  \       there goes around and comes back to it. To find one, look along a line
-//       that
-//      |  |  L   |  |      is parallel to the plane of the great circle: an edge of the outline is
-//      one |  |   l--+--r      of the hull, and two edges of the outline cross the plane. Doubles
-//      guess
-//       \  '----'  / R     the bridge, and exact predicates prove it.
-//        '--------'
+//      .---------.
+//     /   .---.   \        A bridge (l, r) is an edge of the result between the parts. The climb
+//    |   |  L  |   |       from there goes around and comes back to it.
+//    |   |     l---r
+//    |   |     |   |
+//     \   '---'   / R
+//      '---------'
+//
+// To find a bridge, look along a line that is parallel to the plane of the great circle: an edge of
+// the outline is one of the hull, and two edges of the outline cross the plane. Doubles guess the
+// bridge, and exact predicates prove it.
 #pragma once
 
 #include <array>

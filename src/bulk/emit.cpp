@@ -20,10 +20,10 @@ using Owned = EmissionSpace::Owned;
 // faces a site owns and which is the first, so that the second one need not go around sites twice.
 class Emission {
  public:
-  Emission(PlaneGraph& graph, Index first, EmissionSpace& space, const FaceStore& store,
-           BlockResult& result)
+  Emission(PlaneGraph& graph, const EmittedSites& sites, EmissionSpace& space,
+           const FaceStore& store, BlockResult& result)
       : graph_(graph),
-        first_(first),
+        sites_(sites),
         owned_(space.owned),
         owners_(space.owners),
         corners_(store.corners.data() + result.faces_begin),
@@ -33,7 +33,12 @@ class Emission {
   void run(const std::vector<Edge>& open, const std::vector<Index>& hidden) {
     find_owned();
     list_sites(open, hidden);
-    write_corners();
+    if (owners_.empty()) return;
+    if (sites_.names.empty()) {
+      write_corners([first = sites_.first](Index v) { return first + v; });
+    } else {
+      write_corners([names = sites_.names.data()](Index v) { return names[v]; });
+    }
     write_neighbors();
   }
 
@@ -41,19 +46,22 @@ class Emission {
   void find_owned() {
     const PlaneGraph::Ring* const rings = graph_.rings();
     const PlaneGraph::End* const ends = graph_.ends();
-    for (Edge e = 0; e < graph_.edge_limit(); e += 2) {
-      if (!graph_.is_alive(e)) continue;
+    Owned* const owned = owned_.data();
+    const Edge limit = graph_.edge_limit();
+    for (Edge e = 0; e < limit; e += 2) {
+      const Index to = ends[e].target;
+      const Index from = ends[e + 1].target;
+      if (to == no_index) continue;
       // From the end with the lower rank: only this one can own the face on the left.
-      const Edge f = e + static_cast<Edge>(ends[e].target < ends[e + 1].target);
-      const Index a = ends[f ^ 1].target;
-      const Index b = ends[f].target;
+      const Edge f = e + static_cast<Edge>(to < from);
+      const Index a = std::min(to, from);
+      const std::uint64_t b = std::max(to, from);
       const Index c = ends[rings[f].next].target;
       const auto is_owned =
           static_cast<Index>(a < c) & static_cast<Index>(ends[f].face != open_face);
-      Owned& owned = owned_[a];
-      const std::uint64_t key = std::uint64_t{b} << 32 | f;
-      owned.first = std::min(owned.first, key | (std::uint64_t{is_owned} - 1));
-      owned.count += is_owned;
+      const std::uint64_t key = b << 32 | f | (std::uint64_t{is_owned} - 1);
+      owned[a].first = std::min(owned[a].first, key);
+      owned[a].count += is_owned;
     }
   }
 
@@ -71,7 +79,7 @@ class Emission {
       num_owners += static_cast<Index>(count != 0);
       if (owned_[v].seam == seam) {
         owned_[v].seam = static_cast<Index>(result_.seam_sites.size());
-        result_.seam_sites.push_back({first_ + v, face, face + count});
+        result_.seam_sites.push_back({sites_.first + v, face, face + count});
       }
       face += count;
     }
@@ -81,24 +89,28 @@ class Emission {
 
   // Names the faces in the order of their owners. A name is kept with the three halfedges, four
   // times, plus the number of the corner opposite to the halfedge.
-  void write_corners() {
+  template <class Name>
+  void write_corners(Name name) {
     const PlaneGraph::Ring* const rings = graph_.rings();
     PlaneGraph::End* const ends = graph_.ends();
+    const Owned* const owned = owned_.data();
+    Triple* const corners = corners_;
+    const std::size_t last = owners_.size() - 1;
     Index face = 0;
-    for (std::size_t i = 0; i < owners_.size(); ++i) {
-      const Index ahead = owners_[std::min(i + blocks::prefetch_distance, owners_.size() - 1)];
-      const auto edge_ahead = static_cast<Edge>(owned_[ahead].first);
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Index ahead = owners_[std::min(i + blocks::prefetch_distance, last)];
+      const auto edge_ahead = static_cast<Edge>(owned[ahead].first);
       blocks::prefetch(&rings[edge_ahead]);
       blocks::prefetch(&ends[edge_ahead]);
       const Index v = owners_[i];
-      const Index end = face + owned_[v].count;
-      auto e = static_cast<Edge>(owned_[v].first);
+      const Index end = face + owned[v].count;
+      auto e = static_cast<Edge>(owned[v].first);
       Index b = ends[e].target;
       do {
         const Edge next = rings[e].next;
         const Index c = ends[next].target;
         if (v < std::min(b, c) && ends[e].face != open_face) {
-          corners_[face] = {first_ + v, first_ + b, first_ + c};
+          corners[face] = {name(v), name(b), name(c)};
           ends[rings[e ^ 1].previous].face = 4 * face;
           ends[next ^ 1].face = 4 * face + 1;
           ends[e].face = 4 * face + 2;
@@ -112,17 +124,21 @@ class Emission {
 
   void write_neighbors() {
     const PlaneGraph::End* const ends = graph_.ends();
-    for (Edge e = 0; e < graph_.edge_limit(); e += 2) {
-      if (!graph_.is_alive(e)) continue;
+    const Edge limit = graph_.edge_limit();
+    const Index begin = result_.faces_begin;
+    Index* const neighbors = neighbors_->data();
+    for (Edge e = 0; e < limit; e += 2) {
+      if (ends[e].target == no_index) continue;
       const Index left = ends[e].face;
-      const Index right = ends[e ^ 1].face;
+      const Index right = ends[e + 1].face;
       if (std::max(left, right) == open_face) {
         if (left != open_face) write_seam_edge(e);
         if (right != open_face) write_seam_edge(e ^ 1);
         continue;
       }
-      neighbors_[left / 4][left % 4] = result_.faces_begin + right / 4;
-      neighbors_[right / 4][right % 4] = result_.faces_begin + left / 4;
+      // Corner c of face f is 4f + c here and 3f + c there.
+      neighbors[left - left / 4] = begin + right / 4;
+      neighbors[right - right / 4] = begin + left / 4;
     }
   }
 
@@ -136,7 +152,7 @@ class Emission {
   }
 
   PlaneGraph& graph_;
-  Index first_;
+  const EmittedSites& sites_;
   std::vector<Owned>& owned_;
   std::vector<Index>& owners_;
   Triple* corners_;
@@ -146,13 +162,13 @@ class Emission {
 
 }  // namespace
 
-void emit_faces(PlaneGraph& graph, Index first, Index num_sites, const std::vector<Edge>& open,
+void emit_faces(PlaneGraph& graph, const EmittedSites& sites, const std::vector<Edge>& open,
                 const std::vector<Index>& hidden, EmissionSpace& space, const FaceStore& store,
                 BlockResult& result) {
-  result.faces_begin = 2 * first;
-  space.owned.assign(num_sites, {~std::uint64_t{0}, 0, no_index});
-  space.owners.resize(num_sites);
-  Emission(graph, first, space, store, result).run(open, hidden);
+  result.faces_begin = 2 * sites.first;
+  space.owned.assign(sites.num, {~std::uint64_t{0}, 0, no_index});
+  space.owners.resize(sites.num);
+  Emission(graph, sites, space, store, result).run(open, hidden);
 }
 
 }  // namespace rondel::bulk

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bulk/faces.h"
@@ -24,11 +25,17 @@ struct EmissionSpace {
   std::vector<Index> owners;
 };
 
-// The graph of the block with the ranks first ... first + num_sites - 1. It names the open faces
-// (open_faces.h) and no others; `open` lists the halfedges with an open face on their left,
-// `hidden` the sites without edges. Names all faces in the graph. Precondition: less than 2^28
-// sites.
-void emit_faces(PlaneGraph& graph, Index first, Index num_sites,
+// The sites of a graph have the ranks first, first + 1, ..., and perhaps names that are not ranks.
+struct EmittedSites {
+  Index first;
+  Index num;
+  std::span<const Index> names;
+};
+
+// The graph names the open faces (open_faces.h) and no others; `open` lists the halfedges with an
+// open face on their left, `hidden` the sites without edges. Names all faces in the graph. Corners
+// are written as ranks or, if sites have names, by these. Precondition: less than 2^28 sites.
+void emit_faces(PlaneGraph& graph, const EmittedSites& sites,
                 const std::vector<PlaneGraph::Edge>& open, const std::vector<Index>& hidden,
                 EmissionSpace& space, const FaceStore& store, BlockResult& result);
 

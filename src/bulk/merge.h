@@ -133,13 +133,13 @@ class Merge {
   // Whether n, next to l or r on the boundary of its part, lies below the edge from l to r, or on
   // it. Moving there lowers the point where the line meets the great circle between the parts, so
   // such moves end; then all sites lie above the line.
-  [[nodiscard]] bool is_lower(const Step& step, Index n) {
+  [[nodiscard, gnu::always_inline]] bool is_lower(const Step& step, Index n) {
     const Sign side = step.orientation(step.face(n));
     if (side != Sign::zero) return side == Sign::negative;
     return middle_of(step.l(), step.r(), n) == n;
   }
 
-  bool move_down(const Step& step, Part& l, Part& r) {
+  [[gnu::always_inline]] bool move_down(const Step& step, Part& l, Part& r) {
     if (l.edge != no_index) {
       if (is_lower(step, boundary_previous(l))) return move_back(l);
       if (is_lower(step, boundary_next(l))) return move_on(l);
@@ -157,52 +157,54 @@ class Merge {
     }
   }
 
-  [[nodiscard]] bool is_above(const Step& step, const Face& face) {
+  [[nodiscard, gnu::always_inline]] bool is_above(const Step& step, const Face& face) {
     const Sign side = step.orientation(face);
-    if (Step::hides_sites && side == Sign::zero)
+    if (Step::hides_sites && side == Sign::zero && face.apex != step.l() && face.apex != step.r())
       std::ignore = middle_of(step.l(), step.r(), face.apex);
     return side == Sign::positive;
   }
 
-  // Sews the parts together above the edge `base` from the left one to the right one.
+  // Sews the parts together above the edge `base` from the left one to the right one. Where the
+  // next step begins is known from this one: to read it from links just written would take longer
+  // than all else.
   void climb(Edge base, const Limits& limits) {
     const PlaneGraph::Ring* const rings = graph_.rings();
     const PlaneGraph::End* const ends = graph_.ends();
     Index l = graph_.origin(base);
     Index r = graph_.target(base);
+    Edge left = rings[base].next;
+    Edge right = rings[base ^ 1].previous;
     while (!graph_.is_full()) {
       const Step step(sites_, limits, l, r);
-      Edge left = rings[base].next;
       Face left_face = step.face(ends[left].target);
-      bool has_left = left != base && is_above(step, left_face);
+      bool has_left = is_above(step, left_face);
       if (Step::hides_sites && !has_left && remove_covered_left(graph_, base, step)) {
         left = rings[base].next;
         left_face = step.face(ends[left].target);
-        has_left = left != base && is_above(step, left_face);
+        has_left = is_above(step, left_face);
       }
       if (has_left) {
         for (;;) {
           const Edge next = rings[left].next;
           const Index y = ends[next].target;
-          if (y == r || !step.is_in_conflict(left_face, y)) break;
+          if (!step.is_in_conflict(left_face, y)) break;
           graph_.remove(left);
           left = next;
           left_face = step.face(y);
         }
       }
-      Edge right = rings[base ^ 1].previous;
       Face right_face = step.face(ends[right].target);
-      bool has_right = right != (base ^ 1) && is_above(step, right_face);
+      bool has_right = is_above(step, right_face);
       if (Step::hides_sites && !has_right && remove_covered_right(graph_, base ^ 1, step)) {
         right = rings[base ^ 1].previous;
         right_face = step.face(ends[right].target);
-        has_right = right != (base ^ 1) && is_above(step, right_face);
+        has_right = is_above(step, right_face);
       }
       if (has_right) {
         for (;;) {
           const Edge next = rings[right].previous;
           const Index y = ends[next].target;
-          if (y == l || !step.is_in_conflict(right_face, y)) break;
+          if (!step.is_in_conflict(right_face, y)) break;
           graph_.remove(right);
           right = next;
           right_face = step.face(y);
@@ -210,11 +212,15 @@ class Merge {
       }
       if (!has_left && !has_right) return;
       if (!has_left || (has_right && step.is_in_conflict(left_face, right_face.apex))) {
+        const Edge across = rings[right ^ 1].previous;
         r = right_face.apex;
-        base = graph_.add(l, r, base, rings[right ^ 1].previous);
+        base = graph_.add(l, r, {left, base}, {right ^ 1, across});
+        right = across;
       } else {
+        const Edge across = rings[left ^ 1].next;
         l = left_face.apex;
-        base = graph_.add(l, r, left ^ 1, rings[base ^ 1].previous);
+        base = graph_.add(l, r, {across, left ^ 1}, {base ^ 1, right});
+        left = across;
       }
     }
     has_failed_ = true;

@@ -6,6 +6,9 @@
 //        x         face(x): the face (l, r, x); its normal tells on which side of the edge x lies,
 //       / \        so the orientation costs nothing beyond what the conflict test needs.
 //      l-->r       A conflict test costs one dot product once the normal is known.
+//
+// All that the filters decide is inlined by force: one call left over, and the compiler keeps the
+// vectors in memory.
 #pragma once
 
 #include <cmath>
@@ -27,7 +30,12 @@ class MergeStep {
   };
 
   MergeStep(const CellSites<T>& sites, const CellLimits& limits, Index l, Index r)
-      : sites_(sites), points_(sites.points()), limits_(limits), l_(l), r_(r) {
+      : sites_(sites),
+        points_(sites.points()),
+        orientation_limit_(limits.orientation),
+        conflict_limit_(limits.conflict),
+        l_(l),
+        r_(r) {
     const CellPoint& origin = points_[l];
     origin_ = {origin.u, origin.v, origin.w};
     edge_ = from_l(r);
@@ -37,37 +45,49 @@ class MergeStep {
   [[nodiscard]] Index r() const { return r_; }
 
   // The step of another edge.
-  [[nodiscard]] MergeStep from_to(Index l, Index r) const { return {sites_, limits_, l, r}; }
-
-  [[nodiscard]] Face face(Index x) const { return {x, cross(edge_, from_l(x))}; }
-
-  // Positive if the apex lies to the left of the edge, seen from outside.
-  [[nodiscard]] Sign orientation(const Face& face) const {
-    // Overflow leaves infinities and what is not a number: unsure, too.
-    if (!(std::abs(face.normal.w) > limits_.orientation)) [[unlikely]] {
-      return sites_.orientation(l_, r_, face.apex);
-    }
-    return face.normal.w > 0 ? Sign::positive : Sign::negative;
+  [[nodiscard]] MergeStep from_to(Index l, Index r) const {
+    return {sites_, {orientation_limit_, conflict_limit_}, l, r};
   }
 
-  [[nodiscard]] bool is_in_conflict(const Face& face, Index y) const {
+  [[nodiscard, gnu::always_inline]] Face face(Index x) const {
+    return {x, cross(edge_, from_l(x))};
+  }
+
+  // Positive if the apex lies to the left of the edge, seen from outside; zero if it is l or r.
+  [[nodiscard, gnu::always_inline]] Sign orientation(const Face& face) const {
+    if (face.normal.w > orientation_limit_) return Sign::positive;
+    if (face.normal.w < -orientation_limit_) return Sign::negative;
+    // Overflow leaves infinities and what is not a number: unsure, too.
+    return is_end(face.apex) ? Sign::zero : sites_.orientation(l_, r_, face.apex);
+  }
+
+  // Not if y is l or r.
+  [[nodiscard, gnu::always_inline]] bool is_in_conflict(const Face& face, Index y) const {
     const double value = dot(face.normal, from_l(y));
-    if (!(std::abs(value) > limits_.conflict)) [[unlikely]] {
-      return sites_.is_in_conflict(l_, r_, face.apex, y, value);
+    if (value > conflict_limit_) {
+      sites_.count_filtered();
+      return false;
     }
-    sites_.count_filtered();
-    return value < 0;
+    if (value < -conflict_limit_) {
+      sites_.count_filtered();
+      return true;
+    }
+    return !is_end(y) && sites_.is_in_conflict(l_, r_, face.apex, y, value);
   }
 
  private:
-  [[nodiscard]] CellVector from_l(Index x) const {
+  // Of the ends no value is beyond the limits, which are never exceeded where zero is right.
+  [[nodiscard]] bool is_end(Index x) const { return x == l_ || x == r_; }
+
+  [[nodiscard, gnu::always_inline]] CellVector from_l(Index x) const {
     const CellPoint& p = points_[x];
     return {p.u - origin_.u, p.v - origin_.v, p.w - origin_.w};
   }
 
   const CellSites<T>& sites_;
   const CellPoint* points_;
-  CellLimits limits_;
+  double orientation_limit_;
+  double conflict_limit_;
   Index l_;
   Index r_;
   CellVector origin_;

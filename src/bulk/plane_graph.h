@@ -104,8 +104,8 @@ class PlaneGraph {
   [[nodiscard]] bool is_alive(Edge e) const { return ends_[e].target != no_index; }
 
   [[nodiscard]] std::size_t num_edges() const {
-    std::size_t count = 0;
-    for (Edge e = 0; e < edge_limit(); e += 2) count += static_cast<std::size_t>(is_alive(e));
+    std::size_t count = (limit_ - begin_) / 2;
+    for (std::size_t e = free_; e != limit_; e = rings_[e].next) --count;
     return count;
   }
 
@@ -143,17 +143,19 @@ class PlaneGraph {
 
   // A new pair from a to b, counterclockwise after f around a and after g around b.
   Edge add(Index a, Index b, Edge f, Edge g) {
+    return add(a, b, {rings_[f].next, f}, {rings_[g].next, g});
+  }
+  // The same with the edges next to it in both rings.
+  [[gnu::always_inline]] Edge add(Index a, Index b, const Ring& at_a, const Ring& at_b) {
     const Edge e = new_pair();
-    const Edge after_f = rings_[f].next;
-    const Edge after_g = rings_[g].next;
-    rings_[e] = {after_f, f};
-    rings_[e + 1] = {after_g, g};
+    rings_[e] = at_a;
+    rings_[e + 1] = at_b;
     ends_[e] = {b, no_index};
     ends_[e + 1] = {a, no_index};
-    rings_[f].next = e;
-    rings_[after_f].previous = e;
-    rings_[g].next = e + 1;
-    rings_[after_g].previous = e + 1;
+    rings_[at_a.previous].next = e;
+    rings_[at_a.next].previous = e;
+    rings_[at_b.previous].next = e + 1;
+    rings_[at_b.next].previous = e + 1;
     return e;
   }
 
@@ -167,7 +169,7 @@ class PlaneGraph {
   }
 
   // Takes the pair of e out of both rings.
-  void remove(Edge e) {
+  [[gnu::always_inline]] void remove(Edge e) {
     unlink(e);
     unlink(e ^ 1);
     ends_[e].target = no_index;
@@ -204,14 +206,14 @@ class PlaneGraph {
 
   // The list of deleted pairs runs on with those never used, which saves a branch that would depend
   // on the input: the first of these is always ready.
-  Edge new_pair() {
+  [[gnu::always_inline]] Edge new_pair() {
     const std::size_t e = std::exchange(free_, rings_[free_].next);
     limit_ = std::max(limit_, e + 2);
     rings_[limit_].next = static_cast<Edge>(limit_ + 2);
     return static_cast<Edge>(e);
   }
 
-  void unlink(Edge e) {
+  [[gnu::always_inline]] void unlink(Edge e) {
     const Ring links = rings_[e];
     rings_[links.previous].next = links.next;
     rings_[links.next].previous = links.previous;

@@ -97,8 +97,10 @@ class SphereTriangulation {
     const auto is_complete = [&] {
       return graph_.num_edges() + 6 == 3 * (num_sites_ - hidden.size());
     };
-    if (!is_complete()) hidden = remove_unreached(graph_, edge, num_sites_);
-    if (!is_complete()) return std::nullopt;
+    if (!is_complete()) {
+      hidden = remove_unreached(graph_, edge, num_sites_);
+      if (!is_complete()) return std::nullopt;
+    }
     // Their memory serves the result.
     coordinates_ = {};
     directions_.reset();
@@ -160,15 +162,17 @@ void SphereTriangulation<T>::divide() {
       ranks[parts.part_of(face.cell.corner.face, input_.sites[input_.order[rank]])].push_back(rank);
     }
   }
-  order_.reserve(num_sites_);
-  ranks_.reserve(num_sites_ + 1);
-  const auto add = [this](Index rank) {
-    order_.push_back(input_.order[rank]);
-    ranks_.push_back(rank);
+  order_.resize(num_sites_);
+  ranks_.resize(num_sites_);
+  Index next = 0;
+  const auto add = [&, order = order_.data(), all_ranks = ranks_.data(),
+                    all = input_.order.data()](Index rank) {
+    order[next] = all[rank];
+    all_ranks[next++] = rank;
   };
   for (std::size_t part = 0; part < num_parts; ++part) {
     Block& block = parts_[part];
-    block.begin = static_cast<Index>(order_.size());
+    block.begin = next;
     const Block& face = faces[parts.face_of(part)];
     block.cell = face.cell;
     if (parts.is_one_part(face.cell.corner.face)) {
@@ -176,7 +180,7 @@ void SphereTriangulation<T>::divide() {
     } else {
       for (const Index rank : ranks[part]) add(rank);
     }
-    block.end = static_cast<Index>(order_.size());
+    block.end = next;
   }
 }
 
@@ -276,19 +280,18 @@ void SphereTriangulation<T>::write(const std::vector<Index>& hidden, Triangulati
   }
   arrays.faces.resize(2 * std::size_t{num_sites_});
   arrays.neighbors.resize(2 * std::size_t{num_sites_});
-  EmissionSpace space;
-  BlockResult all;
-  emit_faces(graph_, 0, num_sites_, {}, {}, space, {arrays.faces, arrays.neighbors}, all);
-  arrays.faces.resize(all.faces_end);
-  arrays.neighbors.resize(all.faces_end);
-  arrays.dimension = 2;
   std::vector<Index> names;
   if (!renamed_.empty()) names.assign(input_.order.begin(), input_.order.end());
   for (const auto& [rank, name] : renamed_) names[rank] = name;
   const std::span<const Index> of_ranks =
       renamed_.empty() ? input_.order : std::span<const Index>(names);
-  for (Triple& face : arrays.faces)
-    face = {of_ranks[face[0]], of_ranks[face[1]], of_ranks[face[2]]};
+  EmissionSpace space;
+  BlockResult all;
+  emit_faces(graph_, {0, num_sites_, of_ranks}, {}, {}, space, {arrays.faces, arrays.neighbors},
+             all);
+  arrays.faces.resize(all.faces_end);
+  arrays.neighbors.resize(all.faces_end);
+  arrays.dimension = 2;
   for (const Index i : hidden) arrays.hidden.push_back({of_ranks[ranks_[i]], no_index});
   std::ranges::sort(arrays.hidden, {}, &Hidden::site);
 }

@@ -53,7 +53,7 @@ class SphereStep {
         return exact::sign_of(value);
       }
     }
-    return sites_.orientation(l_, r_, face.apex);
+    return is_end(face.apex) ? Sign::zero : sites_.orientation(l_, r_, face.apex);
   }
 
   [[nodiscard]] bool is_in_conflict(const Face& face, Index y) const {
@@ -69,10 +69,12 @@ class SphereStep {
       sites_.count_filtered();
       return value > 0;
     }
-    return sites_.is_in_conflict(l_, r_, face.apex, y);
+    return !is_end(y) && sites_.is_in_conflict(l_, r_, face.apex, y);
   }
 
  private:
+  [[nodiscard]] bool is_end(Index x) const { return x == l_ || x == r_; }
+
   const Sites& sites_;
   Index l_;
   Index r_;
