@@ -3,6 +3,7 @@
 
 // delaunay() of so many sites that it works by blocks: all that it tells is right, whatever the
 // threads and the input order.
+#include "bulk/sphere.h"
 #include "bulk_support.h"
 #include "rondel/check.h"
 #include "rondel/delaunay.h"
@@ -89,6 +90,21 @@ TEST(bulk_api, progress_never_goes_back_and_ends_once) {
   EXPECT_GE(fractions.size(), 4U);
   EXPECT_TRUE(std::ranges::is_sorted(fractions));
   EXPECT_EQ(std::ranges::count(fractions, 1.0), 1);
+}
+
+// A plane through the center that is parallel to two axes belongs to no octant, whichever it is.
+TEST(bulk_sphere_octants, hold_no_site_on_their_planes) {
+  std::vector<Point> corners;
+  for (const double x : {-1, 1}) {
+    for (const double y : {-1, 1}) {
+      for (const double z : {-1, 1}) corners.push_back({x, y, z});
+    }
+  }
+  EXPECT_TRUE(bulk::surround_center(corners, {}));
+  for (const Point& center : {Point{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}) {
+    EXPECT_FALSE(bulk::surround_center(corners, center));
+    EXPECT_FALSE(bulk::surround_center(corners, -1.0 * center));
+  }
 }
 
 }  // namespace
