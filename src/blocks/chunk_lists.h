@@ -20,11 +20,9 @@ class ChunkLists {
   // Room for `capacity` words in all.
   ChunkLists(std::size_t num_lists, std::size_t capacity)
       : size_(most_words(num_lists, capacity)),
-        words_(std::make_unique_for_overwrite<std::uint64_t[]>(size_)),
+        words_(system::make_large_array<std::uint64_t>(size_)),
         ends_(num_lists, 0),
-        num_chunks_(num_lists, 0) {
-    system::advise_huge_pages(words_.get(), size_ * sizeof(std::uint64_t));
-  }
+        num_chunks_(num_lists, 0) {}
 
   void append(std::size_t list, std::uint64_t word) {
     std::uint64_t& end = ends_[list];
@@ -64,7 +62,7 @@ class ChunkLists {
 
   std::size_t size_;
   std::size_t used_ = 0;
-  std::unique_ptr<std::uint64_t[]> words_;
+  system::LargeArray<std::uint64_t> words_;
   std::vector<std::uint64_t> ends_;  // 0: empty
   std::vector<std::uint32_t> num_chunks_;
 };

@@ -24,7 +24,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 
 #include "bulk/accurate_places.h"
@@ -33,6 +32,7 @@
 #include "incremental/projected_points.h"
 #include "incremental/sphere_traits.h"
 #include "incremental/weighted_points.h"
+#include "system/huge_pages.h"
 
 namespace rondel::bulk {
 
@@ -48,25 +48,33 @@ struct CellPosition {
   std::uint64_t v;
 };
 
-// Memory for the coordinates of sites; not initialized.
+// Memory for the coordinates of sites, not initialized, in one piece.
 class CellCoordinates {
  public:
+  static constexpr std::size_t bytes_of_site = sizeof(CellPoint) + sizeof(CellPosition);
+
   // For so many; forgets what there was if it has to grow.
   void reserve(std::size_t size) {
     if (size <= size_) return;
-    points_.reset();
-    points_ = std::make_unique_for_overwrite<CellPoint[]>(size);
-    positions_.reset();
-    positions_ = std::make_unique_for_overwrite<CellPosition[]>(size);
+    memory_.reset();
+    memory_ = system::make_large_array<std::byte>(size * bytes_of_site);
+    place(memory_.get(), size);
     size_ = size;
   }
-  [[nodiscard]] CellPoint* points() { return points_.get(); }
-  [[nodiscard]] CellPosition* positions() { return positions_.get(); }
+  // In memory of the caller.
+  void place(std::byte* memory, std::size_t size) {
+    points_ = reinterpret_cast<CellPoint*>(memory);
+    positions_ = reinterpret_cast<CellPosition*>(memory + size * sizeof(CellPoint));
+  }
+
+  [[nodiscard]] CellPoint* points() { return points_; }
+  [[nodiscard]] CellPosition* positions() { return positions_; }
 
  private:
-  std::unique_ptr<CellPoint[]> points_;
-  std::unique_ptr<CellPosition[]> positions_;
-  std::size_t size_ = 0;
+  system::LargeArray<std::byte> memory_;
+  std::size_t size_ = 0;  // of its own memory
+  CellPoint* points_ = nullptr;
+  CellPosition* positions_ = nullptr;
 };
 
 // What the sites of all blocks have in common.

@@ -43,6 +43,7 @@ class Divide {
   Divide(const CellSites<T>& sites, std::span<const Misplaced> misplaced, PlaneGraph& graph)
       : sites_(sites),
         positions_(sites.positions()),
+        down_{1, -1, -sites.hand(), sites.hand()},
         misplaced_(misplaced),
         graph_(graph),
         sewing_(sites, graph) {
@@ -88,7 +89,7 @@ class Divide {
     const Index middle = split(begin, end, state & 1U, bit, 1 - turn_of(state));
     const Part before = solve_half(begin, middle, state, bit, 0);
     const Part after = solve_half(middle, end, state, bit, 1);
-    return sewing_.merge(before, after, limits_of(bit + 1));
+    return merge(before, after, bit, state & 1U, 1 - turn_of(state));
   }
 
   // The first or the second half of such a cell. The curve takes the quadrants (u, v) = 00, 01, 11,
@@ -102,7 +103,26 @@ class Divide {
     };
     const Part before = child(begin, middle, 2 * half);
     const Part after = child(middle, end, 2 * half + 1);
-    return sewing_.merge(before, after, limits_of(bit + 1));
+    return merge(before, after, bit, 1 - (state & 1U), 1 - (turn_of(state) ^ half));
+  }
+
+  // Two parts of which the second one has the bit `last` along this axis.
+  Part merge(const Part& before, const Part& after, int bit, unsigned axis, unsigned last) {
+    const double down = down_[2 * axis + last];
+    return sewing_.merge(lower_end(before, axis, down), lower_end(after, axis, down),
+                         limits_of(bit + 1));
+  }
+
+  // The part by that end of its edge which lies further down along the other axis, where the
+  // tangent is closer. Without branches, as nothing would predict them.
+  [[nodiscard]] Part lower_end(const Part& part, unsigned axis, double down) const {
+    constexpr std::array across = {&CellPoint::v, &CellPoint::u};
+    if (part.edge == no_index) return part;
+    const Part other = {graph_.target(part.edge), graph_.next(part.edge ^ 1)};
+    const auto depth = [&](Index i) { return down * (sites_.points()[i].*across[axis]); };
+    const auto is_other = -static_cast<Index>(depth(part.vertex) < depth(other.vertex));
+    const auto choose = [is_other](Index x, Index y) { return x ^ ((x ^ y) & is_other); };
+    return {choose(part.vertex, other.vertex), choose(part.edge, other.edge)};
   }
 
   [[nodiscard]] static unsigned turn_of(unsigned state) { return state >> 1 & 1U; }
@@ -209,6 +229,8 @@ class Divide {
 
   const CellSites<T>& sites_;
   const CellPosition* positions_;
+  // On which side of the way from one part to the next is down: by axis, then by direction.
+  std::array<double, 4> down_;
   std::span<const Misplaced> misplaced_;
   std::uint64_t misplaced_bits_ = 0;
   PlaneGraph& graph_;

@@ -49,13 +49,12 @@ class Emission {
     Owned* const owned = owned_.data();
     const Edge limit = graph_.edge_limit();
     for (Edge e = 0; e < limit; e += 2) {
-      const Index to = ends[e].target;
-      const Index from = ends[e + 1].target;
-      if (to == no_index) continue;
-      // From the end with the lower rank: only this one can own the face on the left.
-      const Edge f = e + static_cast<Edge>(to < from);
-      const Index a = std::min(to, from);
-      const std::uint64_t b = std::max(to, from);
+      if (ends[e].target == no_index) continue;
+      // From the end with the lower rank: only this one can own the face on the left. An index that
+      // is computed takes no branch.
+      const Edge f = e + static_cast<Edge>(ends[e].target < ends[e + 1].target);
+      const Index a = ends[f ^ 1].target;
+      const std::uint64_t b = ends[f].target;
       const Index c = ends[rings[f].next].target;
       const auto is_owned =
           static_cast<Index>(a < c) & static_cast<Index>(ends[f].face != open_face);

@@ -47,14 +47,17 @@ class PlaneGraph {
   }
 
   // The same for a graph that is made in parts, which may be drawn by several threads at a time:
-  // part i has so many vertices. Parts use the memory of this graph, which is then of no use before
-  // it has taken over all parts, in their order.
-  std::vector<PlaneGraph> clear_parts(std::span<const Index> num_vertices) {
+  // part i has so many vertices. Parts use the memory given, of size_of_parts() bytes, and this
+  // graph, too, when it has taken over all parts, in their order.
+  static std::size_t size_of_parts(std::span<const Index> num_vertices) {
     std::size_t size = 0;
     for (const Index n : num_vertices) size += size_of(n);
-    reserve(size);
-    std::vector<PlaneGraph> parts;
+    return size * halfedge_bytes;
+  }
+  std::vector<PlaneGraph> clear_parts(std::span<const Index> num_vertices, std::byte* memory) {
+    place(memory, size_of_parts(num_vertices) / halfedge_bytes);
     std::size_t first = 0;
+    std::vector<PlaneGraph> parts;
     for (const Index n : num_vertices) {
       PlaneGraph& part = parts.emplace_back();
       part.rings_ = rings_;
@@ -181,19 +184,20 @@ class PlaneGraph {
  private:
   // Deleted pairs are used again, and a plane graph has less than three edges a vertex. One pair is
   // always ready (new_pair()).
+  static constexpr std::size_t halfedge_bytes = sizeof(Ring) + sizeof(End);
   static std::size_t size_of(std::size_t num_vertices) { return 6 * num_vertices + 2; }
 
   void reserve(std::size_t size) {
     if (size <= size_) return;
-    // One piece: glibc keeps freed memory in proportion to the largest piece, so that the next
-    // build need not get it from the system again.
-    const std::size_t bytes = size * (sizeof(Ring) + sizeof(End));
     memory_.reset();
-    memory_ = std::make_unique_for_overwrite<std::byte[]>(bytes);
-    system::advise_huge_pages(memory_.get(), bytes);
-    rings_ = reinterpret_cast<Ring*>(memory_.get());
-    ends_ = reinterpret_cast<End*>(memory_.get() + size * sizeof(Ring));
+    memory_ = system::make_large_array<std::byte>(size * halfedge_bytes);
+    place(memory_.get(), size);
     size_ = size;
+  }
+
+  void place(std::byte* memory, std::size_t size) {
+    rings_ = reinterpret_cast<Ring*>(memory);
+    ends_ = reinterpret_cast<End*>(memory + size * sizeof(Ring));
   }
 
   void begin(std::size_t first, std::size_t num_vertices) {
@@ -219,10 +223,10 @@ class PlaneGraph {
     rings_[links.next].previous = links.previous;
   }
 
-  std::unique_ptr<std::byte[]> memory_;  // of both arrays, not initialized
+  system::LargeArray<std::byte> memory_;  // of both arrays, not initialized
   Ring* rings_ = nullptr;
   End* ends_ = nullptr;
-  std::size_t size_ = 0;  // of both arrays
+  std::size_t size_ = 0;  // of both arrays in its own memory
   // Of another type than the links, so that these are not read again after each link is written.
   std::size_t begin_ = 0;
   std::size_t full_ = 0;

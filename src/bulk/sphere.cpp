@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -19,6 +18,7 @@
 #include "bulk/sphere_step.h"
 #include "exact/eft.h"
 #include "predicates/tally.h"
+#include "system/huge_pages.h"
 #include "system/parallel.h"
 
 namespace rondel::bulk {
@@ -101,9 +101,6 @@ class SphereTriangulation {
       hidden = remove_unreached(graph_, edge, num_sites_);
       if (!is_complete()) return std::nullopt;
     }
-    // Their memory serves the result.
-    coordinates_ = {};
-    directions_.reset();
     Triangulated result;
     result.tally = tally_;
     write(hidden, result.arrays);
@@ -113,6 +110,9 @@ class SphereTriangulation {
  private:
   // Orders the sites by parts.
   void divide();
+
+  // Makes room for all that is needed before the result, and graphs of so many vertices.
+  std::vector<PlaneGraph> allot(std::span<const Index> sizes);
 
   // Triangulates the parts and merges them. Returns an edge, or no_index if this does not work.
   PlaneGraph::Edge conquer();
@@ -127,7 +127,7 @@ class SphereTriangulation {
     }
   }
   [[nodiscard]] SphereSites<T> sphere_sites() const {
-    return {input_.sites, order_, input_.options.sphere.center, directions_.get()};
+    return {input_.sites, order_, input_.options.sphere.center, directions_};
   }
   void count(const Tally& tally) {
     const std::lock_guard guard(mutex_);
@@ -143,8 +143,9 @@ class SphereTriangulation {
   std::vector<Index> order_;              // by parts
   std::vector<Index> ranks_;              // of the same
   std::array<Block, num_parts> parts_{};  // ranks in the order by parts
+  system::LargeArray<std::byte> memory_;  // of the next three
   CellCoordinates coordinates_;
-  std::unique_ptr<Vector[]> directions_;
+  Vector* directions_ = nullptr;  // not with weights
   PlaneGraph graph_;
   std::mutex mutex_;  // of what follows
   Tally tally_;
@@ -203,7 +204,7 @@ std::optional<Part> SphereTriangulation<T>::solve_lune(std::size_t lune, PlaneGr
   CellSites<T> sites;
   sites.assign(input.sites, order_, first, parts.back().end - first, input.options.sphere.center,
                input.extent, coordinates_);
-  if (directions_) find_directions(first, parts.back().end);
+  if (!SphereSites<T>::has_weights) find_directions(first, parts.back().end);
   const SphereSites<T> all = sphere_sites();
   Merge<SphereStep<T>> merge(all, graph);
   std::vector<Misplaced> misplaced;
@@ -233,18 +234,27 @@ std::optional<Part> SphereTriangulation<T>::merge_lunes(const Part& left, const 
   return result;
 }
 
+// All in one piece: glibc keeps freed memory in proportion to the largest piece, so that the next
+// build need not get it from the system again.
+template <incremental::SphereTraits T>
+std::vector<PlaneGraph> SphereTriangulation<T>::allot(std::span<const Index> sizes) {
+  const std::size_t of_coordinates = num_sites_ * CellCoordinates::bytes_of_site;
+  const std::size_t of_directions = SphereSites<T>::has_weights ? 0 : num_sites_ * sizeof(Vector);
+  memory_ = system::make_large_array<std::byte>(of_coordinates + of_directions +
+                                                PlaneGraph::size_of_parts(sizes));
+  coordinates_.place(memory_.get(), num_sites_);
+  directions_ = reinterpret_cast<Vector*>(memory_.get() + of_coordinates);
+  return graph_.clear_parts(sizes, memory_.get() + of_coordinates + of_directions);
+}
+
 template <incremental::SphereTraits T>
 PlaneGraph::Edge SphereTriangulation<T>::conquer() {
   const unsigned threads = num_sites_ < least_parallel_sites ? 1 : input_.options.threads;
-  coordinates_.reserve(num_sites_);
-  if (!SphereSites<T>::has_weights) {
-    directions_ = std::make_unique_for_overwrite<Vector[]>(num_sites_);
-  }
   std::array<Index, num_lunes> sizes{};
   for (std::size_t i = 0; i < num_parts; ++i) {
     sizes[i / parts_of_lune] += parts_[i].end - parts_[i].begin;
   }
-  std::vector<PlaneGraph> graphs = graph_.clear_parts(sizes);
+  std::vector<PlaneGraph> graphs = allot(sizes);
   std::array<std::optional<Part>, num_lunes> lunes;
   system::parallel_for(threads, num_lunes, 1, [&](std::size_t lune, std::size_t /*end*/) {
     lunes[lune] = solve_lune(lune, graphs[lune]);

@@ -4,10 +4,10 @@
 #include "bulk/stitch.h"
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "bulk/seam_faces.h"
+#include "system/huge_pages.h"
 #include "system/parallel.h"
 #include "topology/mesh.h"
 
@@ -140,9 +140,9 @@ void list_hidden(const SeamFaces& seam, std::span<const Index> names, Triangulat
 }
 
 // The number of every face when all are in their places, by its number before.
-std::unique_ptr<Index[]> final_numbers(const Numbering& numbering, std::size_t num_faces,
-                                       unsigned threads) {
-  std::unique_ptr<Index[]> final_of(new Index[num_faces]);
+system::LargeArray<Index> final_numbers(const Numbering& numbering, std::size_t num_faces,
+                                        unsigned threads) {
+  auto final_of = system::make_large_array<Index>(num_faces);
   const auto set_final = [&](const Run& run) {
     for (Index f = run.begin; f < run.end; ++f) final_of[f] = run.final + (f - run.begin);
   };

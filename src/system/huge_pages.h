@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace rondel::system {
@@ -15,11 +17,52 @@ namespace rondel::system {
 // support for it nothing happens. Small ranges are left alone.
 void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
 
+// Memory for a large array that does not grow, not initialized: it begins with a huge page if it
+// fills one.
+class FreeLarge {
+ public:
+  explicit FreeLarge(void* allocated = nullptr) noexcept : allocated_(allocated) {}
+  void operator()(void* memory) const noexcept;
+
+ private:
+  void* allocated_;
+};
+template <class T>
+using LargeArray = std::unique_ptr<T[], FreeLarge>;
+
+std::unique_ptr<void, FreeLarge> allocate_large(std::size_t bytes);
+
+template <class T>
+LargeArray<T> make_large_array(std::size_t size) {
+  static_assert(std::is_trivially_default_constructible_v<T> &&
+                std::is_trivially_destructible_v<T>);
+  auto memory = allocate_large(size * sizeof(T));
+  const FreeLarge free = memory.get_deleter();
+  return {static_cast<T*>(memory.release()), free};
+}
+
 // Reserves room in an empty vector.
 template <class T>
 void reserve_large(std::vector<T>& values, std::size_t size) {
   values.reserve(size);
   advise_huge_pages(values.data(), size * sizeof(T));
+}
+
+// A vector of so many zeros.
+template <class T>
+std::vector<T> large_vector(std::size_t size) {
+  std::vector<T> result;
+  reserve_large(result, size);
+  result.resize(size);
+  return result;
+}
+
+// An array of so many values, none set yet.
+template <class T>
+std::unique_ptr<T[]> large_array(std::size_t size) {
+  auto result = std::make_unique_for_overwrite<T[]>(size);
+  advise_huge_pages(result.get(), size * sizeof(T));
+  return result;
 }
 
 // Room for one more value where there is none, as push_back makes it.
