@@ -54,25 +54,14 @@ double area_of(const LocalRing& ring) {
 
 }  // namespace
 
-std::vector<double> dual::areas(const Triangulation& triangulation, const SplitSites& sites,
-                                const Cells& cells, std::span<const FaceMeasure> measures) {
-  if (triangulation.dimension() < 2) return great_circle_areas(triangulation, sites);
-  std::vector<double> result(triangulation.num_sites(), 0.0);
-  measure_cells(triangulation, sites, cells, measures, area_of, result);
-  return result;
-}
+double dual::careful_area(RingLocalizer& localize, Index rank) { return area_of(localize(rank)); }
 
 std::vector<double> areas(const Triangulation& triangulation, std::span<const Point> sites,
                           const Cells& cells) {
-  return dual::areas(triangulation, dual::SplitSites(triangulation, sites), cells, {});
-}
-
-Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites) {
   const dual::SplitSites split_sites(triangulation, sites);
-  std::vector<dual::FaceMeasure> measures;
-  Diagram result;
-  result.cells = dual::cells(triangulation, split_sites, measures);
-  result.areas = dual::areas(triangulation, split_sites, result.cells, measures);
+  if (triangulation.dimension() < 2) return dual::great_circle_areas(triangulation, split_sites);
+  std::vector<double> result(triangulation.num_sites(), 0.0);
+  dual::measure_cells(triangulation, split_sites, cells, area_of, result);
   return result;
 }
 

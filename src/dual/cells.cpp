@@ -6,13 +6,18 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
+#include <span>
+#include <vector>
 
 #include "blocks/prefetch.h"
 #include "dual/arc_points.h"
 #include "dual/great_circle.h"
+#include "dual/local_ring.h"
 #include "dual/parts.h"
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
+#include "system/huge_pages.h"
+#include "system/parallel.h"
 
 namespace rondel {
 namespace {
@@ -27,74 +32,138 @@ std::vector<std::uint64_t> ring_offsets(const Triangulation& triangulation,
                                         const dual::SplitSites& sites,
                                         std::span<const ArcPoint> arc_points) {
   const auto order = sites.order();
-  std::vector<Index> sizes(order.size(), 0);
-  for (Index f = 0; f < triangulation.num_faces(); ++f) {
-    for (const Index rank : sites.corners(f)) ++sizes[rank];
+  auto offsets = system::large_vector<std::uint64_t>(triangulation.num_sites() + 1);
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    if (k + prefetch_distance < order.size()) {
+      prefetch_to_write(&offsets[order[k + prefetch_distance] + 1]);
+    }
+    offsets[order[k] + 1] = sites.degree(static_cast<Index>(k));
   }
   // A ring leaves a face across the edge that ends at its site, so the halfedge's head counts it.
+  const auto faces = triangulation.faces();
   for (const ArcPoint& p : arc_points) {
-    ++sizes[sites.corners(p.halfedge / 3)[dual::previous_corner(p.halfedge % 3)]];
+    ++offsets[faces[p.halfedge / 3][dual::previous_corner(p.halfedge % 3)] + 1];
   }
-  std::vector<std::uint64_t> offsets(triangulation.num_sites() + 1, 0);
-  for (std::size_t k = 0; k < order.size(); ++k) offsets[order[k] + 1] = sizes[k];
   std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
   return offsets;
 }
 
-// Writes the ring of `site` from face `first` on, counterclockwise.
-void write_ring(const Triangulation& triangulation, std::span<const ArcPoint> arc_points,
-                Index site, Index first, Index* ring) {
-  const auto faces = triangulation.faces();
-  const auto neighbors = triangulation.neighbors();
-  Index f = first;
-  do {
-    *ring++ = f;
-    const Index i = dual::next_corner(dual::corner_of(faces[f], site));
-    if (!arc_points.empty()) {
-      const auto p = std::ranges::lower_bound(arc_points, 3 * f + i, {}, &ArcPoint::halfedge);
-      if (p != arc_points.end() && p->halfedge == 3 * f + i) *ring++ = p->point;
-    }
-    f = neighbors[f][i];
-  } while (f != first);
-}
+// Writes rings and areas for ranges of ranks.
+class CellWriter {
+ public:
+  CellWriter(const Triangulation& triangulation, const dual::SplitSites& sites, Cells& cells)
+      : faces_(triangulation.faces()),
+        neighbors_(triangulation.neighbors()),
+        sites_(sites),
+        cells_(cells),
+        localize_(triangulation, sites, cells) {}
 
-Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& sites,
-                    std::vector<dual::FaceMeasure>& measures) {
-  Cells result;
-  result.points = dual::circumcenters(triangulation, sites, measures);
-  const auto arc_points = dual::add_arc_points(triangulation, sites, result.points);
-  result.offsets = ring_offsets(triangulation, sites, arc_points);
-  result.rings.resize(result.offsets.back());
-  const auto order = sites.order();
-  Index next = 0;  // the rank that the faces have not come to yet
-  for (Index f = 0; f < triangulation.num_faces(); ++f) {
-    for (const Index rank : sites.corners(f)) {
-      if (rank != next) continue;
-      ++next;
-      if (rank + 2 * prefetch_distance < order.size()) {
-        prefetch(&result.offsets[order[rank + 2 * prefetch_distance]]);
-        const Index ahead = order[rank + prefetch_distance];
-        prefetch_to_write(&result.rings[result.offsets[ahead]]);
-        prefetch_to_write(&result.rings[result.offsets[ahead + 1] - 1]);
+  void write(std::size_t begin, std::size_t end, std::span<const ArcPoint> arc_points,
+             const dual::Kites* kites, double* areas) {
+    const auto order = sites_.order();
+    for (std::size_t k = begin; k < end; ++k) {
+      if (k + 2 * prefetch_distance < end) {
+        prefetch(&cells_.offsets[order[k + 2 * prefetch_distance]]);
+        const Index ahead = order[k + prefetch_distance];
+        prefetch_to_write(&cells_.rings[cells_.offsets[ahead]]);
+        prefetch_to_write(&cells_.rings[cells_.offsets[ahead + 1] - 1]);
+        if (areas != nullptr) prefetch_to_write(&areas[ahead]);
+        const Index face = sites_.first_face(static_cast<Index>(k + 2 * prefetch_distance));
+        prefetch(&faces_[face]);
+        prefetch(&neighbors_[face]);
+        if (kites != nullptr) prefetch(&kites[face]);
       }
-      const Index site = order[rank];
-      write_ring(triangulation, arc_points, site, f, result.rings.data() + result.offsets[site]);
+      const auto rank = static_cast<Index>(k);
+      const double area = write_ring(rank, arc_points, kites);
+      if (areas != nullptr) areas[order[k]] = area > 0 ? area : careful_area(localize_, rank);
     }
   }
+
+ private:
+  // visit(f, i) for the faces around a vertex, which is their corner i, counterclockwise. The
+  // number of steps is known, so that the next turn can begin before the last one has come to its
+  // end.
+  template <class Visit>
+  void turn(Index rank, const Visit& visit) const {
+    const Index site = sites_.order()[rank];
+    Index f = sites_.first_face(rank);
+    for (Index left = sites_.degree(rank); left > 0; --left) {
+      const Index i = dual::corner_of(faces_[f], site);
+      visit(f, i);
+      f = neighbors_[f][dual::next_corner(i)];
+    }
+  }
+
+  // Returns the sum of the kites, nan where one of them is; 0 without kites.
+  double write_ring(Index rank, std::span<const ArcPoint> arc_points, const dual::Kites* kites) {
+    Index* out = &cells_.rings[cells_.offsets[sites_.order()[rank]]];
+    double area = 0;
+    if (arc_points.empty() && kites == nullptr) {
+      turn(rank, [&](Index f, Index) { *out++ = f; });
+    } else if (arc_points.empty()) {
+      turn(rank, [&](Index f, Index i) {
+        *out++ = f;
+        area += kites[f][i];
+      });
+    } else {
+      turn(rank, [&](Index f, Index i) {
+        *out++ = f;
+        const Index across = 3 * f + dual::next_corner(i);
+        const auto p = std::ranges::lower_bound(arc_points, across, {}, &ArcPoint::halfedge);
+        if (p != arc_points.end() && p->halfedge == across) *out++ = p->point;
+        if (kites != nullptr) area += kites[f][i];
+      });
+    }
+    return area;
+  }
+
+  std::span<const Triple> faces_;
+  std::span<const Triple> neighbors_;
+  const dual::SplitSites& sites_;
+  Cells& cells_;
+  dual::RingLocalizer localize_;
+};
+
+Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& sites,
+                    std::vector<double>* areas) {
+  Cells result;
+  dual::FaceKites kites;
+  const bool with_kites = sites.is_projected();
+  result.points = with_kites ? dual::circumcenters(triangulation, sites, kites)
+                             : dual::circumcenters(triangulation, sites);
+  std::vector<ArcPoint> arc_points;
+  if (!with_kites || kites.has_careful) {
+    arc_points = dual::add_arc_points(triangulation, sites, result.points);
+  }
+  result.offsets = ring_offsets(triangulation, sites, arc_points);
+  result.rings = system::large_vector<Index>(result.offsets.back());
+  if (areas != nullptr) *areas = system::large_vector<double>(triangulation.num_sites());
+  system::parallel_for(triangulation.report().threads, sites.order().size(), dual::parallel_grain,
+                       [&](std::size_t begin, std::size_t end) {
+                         CellWriter(triangulation, sites, result)
+                             .write(begin, end, arc_points, kites.of.get(),
+                                    areas == nullptr ? nullptr : areas->data());
+                       });
   return result;
 }
 
 }  // namespace
 
 Cells dual::cells(const Triangulation& triangulation, const SplitSites& sites,
-                  std::vector<FaceMeasure>& measures) {
-  return triangulation.dimension() == 2 ? surface_cells(triangulation, sites, measures)
-                                        : great_circle_cells(triangulation, sites);
+                  std::vector<double>* areas) {
+  if (triangulation.dimension() == 2) return surface_cells(triangulation, sites, areas);
+  if (areas != nullptr) *areas = great_circle_areas(triangulation, sites);
+  return great_circle_cells(triangulation, sites);
 }
 
 Cells cells(const Triangulation& triangulation, std::span<const Point> sites) {
-  std::vector<dual::FaceMeasure> measures;
-  return dual::cells(triangulation, dual::SplitSites(triangulation, sites), measures);
+  return dual::cells(triangulation, dual::SplitSites(triangulation, sites), nullptr);
+}
+
+Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites) {
+  Diagram result;
+  result.cells = dual::cells(triangulation, dual::SplitSites(triangulation, sites), &result.areas);
+  return result;
 }
 
 }  // namespace rondel

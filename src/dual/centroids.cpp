@@ -74,7 +74,7 @@ std::vector<Point> centroids(const Triangulation& triangulation, std::span<const
     return dual::great_circle_centroids(triangulation, split_sites);
   }
   std::vector<Point> result(sites.size());
-  dual::measure_cells(triangulation, split_sites, cells, {}, centroid_of, result);
+  dual::measure_cells(triangulation, split_sites, cells, centroid_of, result);
   return result;
 }
 

@@ -39,17 +39,10 @@ double split_dot(const SplitNormal& n, const Offset& d) {
 }
 
 Point unit_normal(const SplitSites& sites, Index a, Index b, Index c) {
-  FaceMeasure measure;
-  return unit_normal(sites, a, b, c, measure);
-}
-
-Point unit_normal(const SplitSites& sites, Index a, Index b, Index c, FaceMeasure& measure) {
   const Candidate n = candidate(sites, a, b, c);
   if (!n.is_accurate) return exact_normal(sites, a, b, c).normal;
   const double length = std::sqrt(n.squared);
-  const Vec unit = {n.normal.x / length, n.normal.y / length, n.normal.z / length};
-  measure = {1 / length, dot(to_vector(sites[a].hi), unit)};
-  return to_point(unit);
+  return {n.normal.x / length, n.normal.y / length, n.normal.z / length};
 }
 
 bool is_degenerate(const SplitSites& sites, Index a, Index b, Index c) {

@@ -58,8 +58,9 @@ double split_dot(const SplitNormal& n, const Offset& d);
 // projected offset, the low part may add 2^-100, all there is of sites closer than 2^-53. The
 // last condition keeps away from underflow.
 inline bool is_accurate(double b2, double c2, double n2, bool is_projected) {
-  const double from_places = is_projected ? 0x1p-84 * (b2 + c2 + 0x1p-100) : 0.0;
-  return n2 >= from_places + 0x1p-91 * b2 * c2 && n2 >= 0x1p-900;
+  const double from_places = (is_projected ? 0x1p-84 : 0.0) * (b2 + c2 + 0x1p-100);
+  const double least = from_places + 0x1p-91 * b2 * c2;
+  return n2 >= (least > 0x1p-900 ? least : 0x1p-900);
 }
 
 // The circumcenter of a face: at most 4u from the exact unit normal.
@@ -68,14 +69,6 @@ inline bool is_accurate(double b2, double c2, double n2, bool is_projected) {
 // and across N at worst) after rounding to double; the computed square is off by 3u, its
 // root by 2.5u along N, and the division by another u: 0.25 + sqrt(1 + 2.5^2) + 1 = 3.95.
 Point unit_normal(const SplitSites& sites, Index a, Index b, Index c);
-
-// 1 / |N| and n.q, the same for each corner q of a projected face up to rounding: the cells need
-// them again. The first is 0 where the fast path did not prove N.
-struct FaceMeasure {
-  double inverse = 0;
-  double cosine = 0;
-};
-Point unit_normal(const SplitSites& sites, Index a, Index b, Index c, FaceMeasure& measure);
 
 // Whether the corners are collinear, which needs a perturbed, weighted face.
 bool is_degenerate(const SplitSites& sites, Index a, Index b, Index c);

@@ -81,15 +81,6 @@ void RingLocalizer::localize_around_site(Index rank, std::span<const Index> ring
 
 inline RingPoint RingLocalizer::star_point(Index rank, const Spoke& b, const Spoke& c,
                                            Index position) {
-  if (!measures_.empty()) {
-    const auto [inverse, cosine] = measures_[position];
-    if (!(smallest_sine_squared * (b.square * c.square) * (inverse * inverse) < 1) ||
-        inverse == 0 || std::min(b.square, c.square) < smallest_square) {
-      return careful_star_point(rank, b.rank, c.rank, position);
-    }
-    const double half = 0.5 * inverse;
-    return ring_point((half * b.square) * c.v - (half * c.square) * b.v, cosine);
-  }
   const Vec n = cross(b.v, c.v);
   const double n2 = dot(n, n);
   if (n2 < smallest_sine_squared * (b.square * c.square) ||

@@ -54,10 +54,8 @@ inline RingPoint ring_point(const Vec& r, double cosine) {
 // Makes the local rings of the cells of a triangulation of dimension 2, one after the other.
 class RingLocalizer {
  public:
-  // `measures` of the faces, or nothing: then they are computed again for each corner.
-  RingLocalizer(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
-                std::span<const FaceMeasure> measures)
-      : triangulation_(triangulation), sites_(sites), cells_(cells), measures_(measures) {}
+  RingLocalizer(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells)
+      : triangulation_(triangulation), sites_(sites), cells_(cells) {}
 
   // Precondition: the cell of the vertex of this rank is not empty. The result lives until the next
   // call.
@@ -85,7 +83,6 @@ class RingLocalizer {
   const Triangulation& triangulation_;
   const SplitSites& sites_;
   const Cells& cells_;
-  std::span<const FaceMeasure> measures_;
   LocalRing ring_;
 };
 
@@ -93,11 +90,10 @@ class RingLocalizer {
 // the ranks. The rings and results lie in the order of the input, so they are asked for ahead.
 template <class T>
 void measure_cells(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
-                   std::span<const FaceMeasure> measures, T (*measure)(const LocalRing&),
-                   std::vector<T>& result) {
+                   T (*measure)(const LocalRing&), std::vector<T>& result) {
   const auto order = sites.order();
   const auto measure_range = [&](std::size_t begin, std::size_t end) {
-    RingLocalizer localize(triangulation, sites, cells, measures);
+    RingLocalizer localize(triangulation, sites, cells);
     for (std::size_t k = begin; k < end; ++k) {
       if (k + 2 * prefetch_distance < end) {
         prefetch(&cells.offsets[order[k + 2 * prefetch_distance]]);

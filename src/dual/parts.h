@@ -4,23 +4,32 @@
 // What rondel/diagram.h offers, from places computed before: the costliest part is shared.
 #pragma once
 
-#include <span>
+#include <memory>
 #include <vector>
 
-#include "dual/face_normal.h"
+#include "dual/face_batch.h"
 #include "dual/split_sites.h"
 #include "rondel/diagram.h"
 
 namespace rondel::dual {
 
 std::vector<Point> circumcenters(const Triangulation& triangulation, const SplitSites& sites);
-// `measures` receives one entry a face.
+
+// The kites of all faces, in the projected model.
+struct FaceKites {
+  std::unique_ptr<Kites[]> of;
+  bool has_careful = false;
+};
+// Their circumcenters, too.
 std::vector<Point> circumcenters(const Triangulation& triangulation, const SplitSites& sites,
-                                 std::vector<FaceMeasure>& measures);
+                                 FaceKites& kites);
+
+// `areas`, unless it is null, receives those of all cells.
 Cells cells(const Triangulation& triangulation, const SplitSites& sites,
-            std::vector<FaceMeasure>& measures);
-// `measures` as cells() gave them, or empty.
-std::vector<double> areas(const Triangulation& triangulation, const SplitSites& sites,
-                          const Cells& cells, std::span<const FaceMeasure> measures);
+            std::vector<double>* areas);
+
+// The area of the cell of a vertex whose ring is complete.
+class RingLocalizer;
+double careful_area(RingLocalizer& localize, Index rank);
 
 }  // namespace rondel::dual

@@ -10,7 +10,9 @@
 
 #include "blocks/prefetch.h"
 #include "dual/exact_normal.h"
+#include "dual/face_batch.h"
 #include "rondel/error.h"
+#include "system/huge_pages.h"
 #include "system/parallel.h"
 
 namespace rondel::dual {
@@ -62,39 +64,54 @@ SplitSites::SplitSites(const Triangulation& triangulation, std::span<const Point
   set_places(triangulation.report().threads);
 }
 
+// Without a branch for new ranks, which would be mispredicted: what belongs to the next new rank is
+// written again and again until there is one.
 void SplitSites::set_order(const Triangulation& triangulation) {
   const auto faces = triangulation.faces();
+  const std::size_t room = triangulation.num_vertices() + 1;
   std::vector<Index> rank(sites_.size(), no_index);
-  order_.reserve(triangulation.num_vertices());
-  corners_ = std::make_unique_for_overwrite<Triple[]>(faces.size());
-  const auto rank_of = [&](Index v) {
-    if (rank[v] == no_index) {
-      rank[v] = static_cast<Index>(order_.size());
-      order_.push_back(v);
-    }
-    return rank[v];
+  sites_of_ranks_ = system::large_array<Index>(room);
+  degrees_ = system::large_array<Index>(room);
+  first_faces_ = system::large_array<Index>(room);
+  corners_ = system::large_array<Triple>(faces.size());
+  Index count = 0;
+  const auto rank_of = [&](Index v, Index face) {
+    const bool is_new = rank[v] == no_index;
+    const Index k = is_new ? count : rank[v];
+    rank[v] = k;
+    sites_of_ranks_[count] = v;
+    first_faces_[count] = face;
+    degrees_[count] = 0;
+    ++degrees_[k];
+    count += static_cast<Index>(is_new);
+    return k;
   };
   for (std::size_t f = 0; f < faces.size(); ++f) {
     if (f + prefetch_distance < faces.size()) {
       for (const Index v : faces[f + prefetch_distance]) prefetch(&rank[v]);
     }
-    for (std::size_t i = 0; i < 3; ++i) corners_[f][i] = rank_of(faces[f][i]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      corners_[f][i] = rank_of(faces[f][i], static_cast<Index>(f));
+    }
   }
-  for (const Index v : triangulation.ring()) rank_of(v);
+  for (const Index v : triangulation.ring()) rank_of(v, no_index);
+  order_ = {sites_of_ranks_.get(), count};
 }
 
 void SplitSites::set_places(unsigned threads) {
-  places_ = std::make_unique_for_overwrite<exact::SplitPoint[]>(order_.size());
-  const bool project = is_projected();
-  const int shift = project ? 0 : scale_exponent(sites_);
-  system::parallel_for(
-      threads, order_.size(), parallel_grain, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k) {
-          if (k + prefetch_distance < end) prefetch(&sites_[order_[k + prefetch_distance]]);
-          const Point& p = sites_[order_[k]];
-          places_[k] = project ? exact::unit_vector(p, center_) : scaled_place(p, shift);
-        }
-      });
+  places_ = system::large_array<exact::SplitPoint>(order_.size());
+  const int shift = is_projected() ? 0 : scale_exponent(sites_);
+  system::parallel_for(threads, order_.size(), parallel_grain,
+                       [&](std::size_t begin, std::size_t end) {
+                         const auto order = order_.subspan(begin, end - begin);
+                         if (is_projected()) {
+                           unit_vectors(sites_, center_, order, &places_[begin]);
+                           return;
+                         }
+                         for (std::size_t k = begin; k < end; ++k) {
+                           places_[k] = scaled_place(sites_[order_[k]], shift);
+                         }
+                       });
 }
 
 // The places of projected sites are wrong by 2^-100 each, so offsets above 2^-45 are right to

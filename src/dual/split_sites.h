@@ -63,6 +63,9 @@ class SplitSites {
 
   // The site of each rank.
   [[nodiscard]] std::span<const Index> order() const { return order_; }
+  // How many faces a rank has, and the first of them, in dimension 2.
+  [[nodiscard]] Index degree(Index rank) const { return degrees_[rank]; }
+  [[nodiscard]] Index first_face(Index rank) const { return first_faces_[rank]; }
   // The ranks of the corners of a face.
   [[nodiscard]] const Triple& corners(Index face) const { return corners_[face]; }
 
@@ -86,7 +89,10 @@ class SplitSites {
   void set_order(const Triangulation& triangulation);
   void set_places(unsigned threads);
 
-  std::vector<Index> order_;
+  std::span<const Index> order_;
+  std::unique_ptr<Index[]> sites_of_ranks_;
+  std::unique_ptr<Index[]> degrees_;
+  std::unique_ptr<Index[]> first_faces_;
   std::unique_ptr<Triple[]> corners_;
   std::unique_ptr<exact::SplitPoint[]> places_;
   std::span<const Point> sites_;

@@ -34,13 +34,19 @@ inline Width width() {
   return result;
 }
 
+// All that the work calls is compiled into it.
 template <class Work>
-__attribute__((target("avx2"))) void run_256(const Work& work) {
+__attribute__((flatten)) void run_128(const Work& work) {
   work();
 }
 
 template <class Work>
-__attribute__((target("avx2,avx512f,avx512dq,avx512vl"))) void run_512(const Work& work) {
+__attribute__((flatten, target("avx2"))) void run_256(const Work& work) {
+  work();
+}
+
+template <class Work>
+__attribute__((flatten, target("avx2,avx512f,avx512dq,avx512vl"))) void run_512(const Work& work) {
   work();
 }
 
@@ -50,7 +56,7 @@ __attribute__((target("avx2,avx512f,avx512dq,avx512vl"))) void run_512(const Wor
 // tables where they are not.
 inline bool has_wide_vectors() { return wide_vectors::width() != wide_vectors::Width::bits_128; }
 
-// Calls work(), a lambda marked RONDEL_ALWAYS_INLINE that calls nothing but what is inlined.
+// Calls work(), a lambda marked RONDEL_ALWAYS_INLINE that calls nothing but inline functions.
 template <class Work>
 void with_wide_vectors(const Work& work) {
   switch (wide_vectors::width()) {
@@ -59,7 +65,7 @@ void with_wide_vectors(const Work& work) {
     case wide_vectors::Width::bits_256:
       return wide_vectors::run_256(work);
     case wide_vectors::Width::bits_128:
-      return work();
+      return wide_vectors::run_128(work);
   }
 }
 

@@ -9,5 +9,6 @@ rondel_add_test(dual_test
   dual_cells_test.cpp
   dual_centroids_test.cpp
   dual_circumcenters_test.cpp
+  dual_face_batch_test.cpp
   dual_facets_test.cpp
   LIBS rondel_dual_support)

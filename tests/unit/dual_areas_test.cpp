@@ -21,13 +21,15 @@ std::vector<double> areas_of(std::span<const Point> sites, Model model = Model::
 // A cell of which one side is a billionth of the other cannot be better than its circumcenters,
 // so what counts is the larger of a relative and an absolute error.
 void expect_right_areas(const DualCase& c, double relative, double absolute) {
-  const Cells diagram = cells(c.triangulation, c.sites);
-  const auto result = areas(c.triangulation, c.sites, diagram);
+  const Diagram both = diagram(c.triangulation, c.sites);
+  const auto result = areas(c.triangulation, c.sites, both.cells);
   const DualOracle oracle(c.triangulation, c.sites);
   for (Index i = 0; i < c.sites.size(); ++i) {
-    if (ring_of(diagram, i).empty() || result[i] == 0) continue;
-    const double exact = polygon_area(oracle.ring(diagram, i)).rounded();
-    EXPECT_NEAR(result[i], exact, std::max(relative * exact, absolute)) << c.name << " site " << i;
+    if (ring_of(both.cells, i).empty() || result[i] == 0) continue;
+    const double exact = polygon_area(oracle.ring(both.cells, i)).rounded();
+    const double allowed = std::max(relative * exact, absolute);
+    EXPECT_NEAR(result[i], exact, allowed) << c.name << " site " << i;
+    EXPECT_NEAR(both.areas[i], exact, allowed) << c.name << " site " << i;
   }
 }
 
@@ -44,8 +46,7 @@ TEST(areas, sum_to_the_sphere_for_every_generator) {
   });
 }
 
-// diagram() takes the normals' lengths from the circumcenters, areas() computes them at each
-// corner.
+// diagram() adds up kites of faces, areas() goes around each cell.
 TEST(diagram, has_the_cells_and_areas_of_the_single_calls) {
   for_each_case(60, 3, [](const DualCase& c) {
     const Cells expected = cells(c.triangulation, c.sites);
@@ -77,6 +78,19 @@ TEST(areas, are_relatively_right_in_tiny_patches) {
       const DualCase c = make_case(generator(name), 40, 1, model);
       expect_right_areas(c, 1e-13, 0);
     }
+  }
+}
+
+// Slivers, right angles and circumcenters up to 60 degrees away: where kites are large and cancel.
+TEST(diagram, has_right_areas_around_bad_triangles) {
+  for (const double width : {1e-1, 1e-4, 1e-8, 1e-12}) {
+    std::vector<Point> sites = octahedron();
+    for (int i = 0; i < 8; ++i) {
+      const double t = 0.1 * i;
+      sites.push_back({std::cos(t), std::sin(t), width * ((i * 5) % 7)});
+      sites.push_back({std::cos(t), std::sin(t) + width, 0.5});
+    }
+    expect_right_areas({"slivers", sites, triangulated(sites)}, 1e-14, 1e-15);
   }
 }
 
@@ -124,10 +138,17 @@ TEST(areas, of_hidden_and_duplicate_sites_are_zero) {
 }
 
 TEST(areas, do_not_depend_on_the_number_of_threads) {
-  const auto sites = generator("uniform").make(20000, 1).sites;
-  const Triangulation one = triangulated(sites);
-  const Triangulation four = with_threads(one, 4);
-  EXPECT_EQ(areas(one, sites, cells(one, sites)), areas(four, sites, cells(four, sites)));
+  for (const char* name : {"uniform", "hemisphere"}) {
+    const auto sites = generator(name).make(20000, 1).sites;
+    const Triangulation one = triangulated(sites);
+    const Triangulation four = with_threads(one, 4);
+    EXPECT_EQ(areas(one, sites, cells(one, sites)), areas(four, sites, cells(four, sites)));
+    const Diagram first = diagram(one, sites);
+    const Diagram second = diagram(four, sites);
+    EXPECT_EQ(first.areas, second.areas) << name;
+    EXPECT_EQ(first.cells.rings, second.cells.rings) << name;
+    EXPECT_EQ(first.cells.points, second.cells.points) << name;
+  }
 }
 
 }  // namespace

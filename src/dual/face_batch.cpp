@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "dual/face_batch.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "blocks/prefetch.h"
+#include "dual/exact_normal.h"
+#include "dual/face_normal.h"
+#include "system/wide_vectors.h"
+
+namespace rondel::dual {
+namespace {
+
+using exact::DoubleDouble;
+using exact::SplitPoint;
+
+// Sites or faces at a time. What the loops read and write lies in arrays of one number each, which
+// the first cache holds.
+constexpr std::size_t batch_size = 64;
+constexpr double careful = careful_kites[0];
+using Numbers = double[batch_size];
+
+struct Vectors {
+  alignas(64) Numbers x;
+  alignas(64) Numbers y;
+  alignas(64) Numbers z;
+
+  void set(std::size_t j, const Point& p) {
+    x[j] = p.x;
+    y[j] = p.y;
+    z[j] = p.z;
+  }
+  [[nodiscard]] Vec operator[](std::size_t j) const { return {x[j], y[j], z[j]}; }
+};
+
+struct Places {
+  Vectors hi;
+  Vectors lo;
+
+  void set(std::size_t j, const SplitPoint& p) {
+    hi.set(j, p.hi);
+    lo.set(j, p.lo);
+  }
+  [[nodiscard]] SplitPoint operator[](std::size_t j) const {
+    return {to_point(hi[j]), to_point(lo[j])};
+  }
+};
+
+// The square of a + its low part, to a relative 2^-103.
+inline DoubleDouble square(DoubleDouble a) {
+  const DoubleDouble s = exact::two_square(a.hi);
+  return exact::fast_two_sum(s.hi, s.lo + 2 * a.hi * a.lo);
+}
+
+// d y (1 + correction), rounded twice.
+inline DoubleDouble scaled(DoubleDouble d, double y, double correction) {
+  const DoubleDouble p = exact::two_product(d.hi, y);
+  return exact::fast_two_sum(p.hi, p.lo + (p.hi * correction + d.lo * y));
+}
+
+// One Newton step of higher order from the rounded y = 1 / |d|: with e = 1 - y^2 |d|^2, which is
+// below 8u, 1 / |d| = y (1 + e/2 + 3/8 e^2) to 8^3 u^3. The square is right to a relative 2^-102, e
+// to 2^-103, the products to 2^-104: |hi + lo - u| <= 2^-100.
+struct UnitVector {
+  SplitPoint place;
+  double square;  // of the length before
+};
+inline UnitVector unit_vector(const Point& p, const Point& center) {
+  const DoubleDouble x = exact::two_diff(p.x, center.x);
+  const DoubleDouble y = exact::two_diff(p.y, center.y);
+  const DoubleDouble z = exact::two_diff(p.z, center.z);
+  const DoubleDouble s = square(x) + square(y) + square(z);
+  const double root = 1 / std::sqrt(s.hi);
+  const DoubleDouble r = exact::two_square(root);
+  const DoubleDouble one = exact::two_product(s.hi, r.hi);
+  const double e = ((1 - one.hi) - one.lo) - (s.hi * r.lo + s.lo * r.hi);
+  const double correction = e * (0.5 + 0.375 * e);
+  const DoubleDouble ux = scaled(x, root, correction);
+  const DoubleDouble uy = scaled(y, root, correction);
+  const DoubleDouble uz = scaled(z, root, correction);
+  return {{{ux.hi, uy.hi, uz.hi}, {ux.lo, uy.lo, uz.lo}}, s.hi};
+}
+
+// Squares for which nothing overflows, nor underflows where it matters.
+inline bool is_moderate(double square) { return square > 0x1p-300 && square < 0x1p300; }
+
+// 2 atan(t) for |t| <= largest_tangent: the first term left out is below 2^-59 of the first.
+constexpr double largest_tangent = 0x1p-4;
+inline double twice_arctangent(double t) {
+  const double x = t * t;
+  return 2 * t *
+         (1 +
+          x * (-1.0 / 3 +
+               x * (1.0 / 5 + x * (-1.0 / 7 + x * (1.0 / 9 + x * (-1.0 / 11 + x * (1.0 / 13)))))));
+}
+
+// Offsets of places known to 2^-100 have a relative error of u/2 down to this square.
+constexpr double smallest_square = 0x1p-90;
+
+inline double smaller(double a, double b) { return a < b ? a : b; }
+inline double larger(double a, double b) { return a > b ? a : b; }
+
+struct FaceBatch {
+  Places a, b, c;
+  Vectors normals;
+  alignas(64) Numbers lengths;
+  alignas(64) Numbers accurate;  // 1 or 0
+  Vectors kites;
+};
+
+// See unit_normal() for the error.
+inline void find_normal(FaceBatch& batch, std::size_t j, bool is_projected) {
+  const SplitPoint a = batch.a[j];
+  const Offset b = offset(a, batch.b[j]);
+  const Offset c = offset(a, batch.c[j]);
+  const Vec n = split_cross(b, c).rounded();
+  const double n2 = dot(n, n);
+  const double length = std::sqrt(n2);
+  batch.normals.x[j] = n.x / length;
+  batch.normals.y[j] = n.y / length;
+  batch.normals.z[j] = n.z / length;
+  batch.lengths[j] = length;
+  batch.accurate[j] = is_accurate(dot(b.hi, b.hi), dot(c.hi, c.hi), n2, is_projected) ? 1.0 : 0.0;
+}
+
+// The tangent of half the area of the triangle between an end of an edge, its middle and the
+// circumcenter; see docs/theory/areas.md.
+inline double half_tangent(double square, double opposite_dot, double inverse, double cosine) {
+  const double k = std::sqrt(1 - 0.25 * square);
+  return square * opposite_dot * (0.25 * inverse) / ((1 + k) * (k + cosine));
+}
+
+inline void find_kites(FaceBatch& batch, std::size_t j) {
+  const SplitPoint a = batch.a[j];
+  const Offset b = offset(a, batch.b[j]);
+  const Offset c = offset(a, batch.c[j]);
+  const Vec to_b = b.hi + b.lo;
+  const Vec to_c = c.hi + c.lo;
+  const Vec d = (c.hi - b.hi) + (c.lo - b.lo);
+  const double b2 = dot(to_b, to_b);
+  const double c2 = dot(to_c, to_c);
+  const double d2 = dot(d, d);
+  const double inverse = 1 / batch.lengths[j];
+  const double cosine = dot(to_vector(a.hi), batch.normals[j]);
+  const double ta = half_tangent(d2, dot(to_b, to_c), inverse, cosine);
+  const double tb = half_tangent(c2, -dot(to_b, d), inverse, cosine);
+  const double tc = half_tangent(b2, dot(to_c, d), inverse, cosine);
+  const double ea = twice_arctangent(ta);
+  const double eb = twice_arctangent(tb);
+  const double ec = twice_arctangent(tc);
+  const double tangent = larger(larger(std::abs(ta), std::abs(tb)), std::abs(tc));
+  const double reasons = (1 - batch.accurate[j]) + (cosine > near_cosine ? 0.0 : 1.0) +
+                         (tangent <= largest_tangent ? 0.0 : 1.0) +
+                         (smaller(smaller(b2, c2), d2) >= smallest_square ? 0.0 : 1.0);
+  batch.kites.x[j] = reasons > 0 ? careful : eb + ec;
+  batch.kites.y[j] = reasons > 0 ? careful : ec + ea;
+  batch.kites.z[j] = reasons > 0 ? careful : ea + eb;
+}
+
+// The places of the corners of `count` faces; the rest of the batch repeats the last one.
+void load(const SplitSites& sites, std::size_t begin, std::size_t count, FaceBatch& batch) {
+  for (std::size_t j = 0; j < batch_size; ++j) {
+    const auto [a, b, c] = sites.corners(static_cast<Index>(begin + std::min(j, count - 1)));
+    batch.a.set(j, sites[a]);
+    batch.b.set(j, sites[b]);
+    batch.c.set(j, sites[c]);
+  }
+}
+
+void store_normals(const SplitSites& sites, std::size_t begin, const FaceBatch& batch,
+                   std::span<Point> points) {
+  for (std::size_t j = 0; j < points.size(); ++j) {
+    points[j] = to_point(batch.normals[j]);
+    if (batch.accurate[j] != 0) continue;
+    const auto [a, b, c] = sites.corners(static_cast<Index>(begin + j));
+    points[j] = exact_normal(sites, a, b, c).normal;
+  }
+}
+
+}  // namespace
+
+void unit_vectors(std::span<const Point> sites, const Point& center, std::span<const Index> order,
+                  SplitPoint* places) {
+  using blocks::prefetch_distance;
+  Vectors points;
+  Places units;
+  alignas(64) Numbers squares;
+  for (std::size_t begin = 0; begin < order.size(); begin += batch_size) {
+    const std::size_t count = std::min(batch_size, order.size() - begin);
+    for (std::size_t j = 0; j < batch_size; ++j) {
+      const std::size_t k = begin + std::min(j, count - 1);
+      if (k + prefetch_distance < order.size()) {
+        blocks::prefetch(&sites[order[k + prefetch_distance]]);
+      }
+      points.set(j, sites[order[k]]);
+    }
+    system::with_wide_vectors([&]() RONDEL_ALWAYS_INLINE {
+      for (std::size_t j = 0; j < batch_size; ++j) {
+        const UnitVector u = unit_vector({points.x[j], points.y[j], points.z[j]}, center);
+        units.set(j, u.place);
+        squares[j] = u.square;
+      }
+    });
+    for (std::size_t j = 0; j < count; ++j) {
+      places[begin + j] =
+          is_moderate(squares[j]) ? units[j] : exact::unit_vector(sites[order[begin + j]], center);
+    }
+  }
+}
+
+bool unit_normals(const SplitSites& sites, std::size_t begin, std::span<Point> points,
+                  Kites* kites) {
+  FaceBatch batch;
+  bool result = false;
+  const bool is_projected = sites.is_projected();
+  for (std::size_t first = 0; first < points.size(); first += batch_size) {
+    const std::size_t count = std::min(batch_size, points.size() - first);
+    load(sites, begin + first, count, batch);
+    system::with_wide_vectors([&]() RONDEL_ALWAYS_INLINE {
+      for (std::size_t j = 0; j < batch_size; ++j) find_normal(batch, j, is_projected);
+    });
+    store_normals(sites, begin + first, batch, points.subspan(first, count));
+    if (kites == nullptr) continue;
+    system::with_wide_vectors([&]() RONDEL_ALWAYS_INLINE {
+      for (std::size_t j = 0; j < batch_size; ++j) find_kites(batch, j);
+    });
+    for (std::size_t j = 0; j < count; ++j) {
+      kites[first + j] = {batch.kites.x[j], batch.kites.y[j], batch.kites.z[j]};
+      result |= is_careful(kites[first + j]);
+    }
+  }
+  return result;
+}
+
+}  // namespace rondel::dual
