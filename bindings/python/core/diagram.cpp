@@ -104,6 +104,45 @@ ListsOut lists_out(Lists&& lists) {
   return {offsets_out(std::move(lists.offsets)), indices_out(std::move(lists.items))};
 }
 
+// While it lives, the collector of garbage rests: it would look at all lists again and again while
+// there are more and more.
+class NoCollection {
+ public:
+  NoCollection() : was_enabled_(PyGC_Disable() != 0) {}
+  ~NoCollection() {
+    if (was_enabled_) PyGC_Enable();
+  }
+  NoCollection(const NoCollection&) = delete;
+  NoCollection& operator=(const NoCollection&) = delete;
+
+ private:
+  bool was_enabled_;
+};
+
+template <class T>
+T checked(PyObject* object) {
+  if (object == nullptr) throw nb::python_error();
+  return nb::steal<T>(object);
+}
+
+// Compressed rows as lists of integers. Each integer is an object of its own: one for all places of
+// the same number would be anywhere in memory, and took twice the time.
+nb::list to_lists(const IndicesIn& items, const OffsetsIn& offsets) {
+  const NoCollection none;
+  const auto num_rows = static_cast<Py_ssize_t>(offsets.shape(0)) - 1;
+  auto result = checked<nb::list>(PyList_New(num_rows));
+  for (Py_ssize_t i = 0; i < num_rows; ++i) {
+    const std::int32_t* first = items.data() + offsets.data()[i];
+    const auto count = static_cast<Py_ssize_t>(offsets.data()[i + 1] - offsets.data()[i]);
+    auto row = checked<nb::list>(PyList_New(count));
+    for (Py_ssize_t j = 0; j < count; ++j) {
+      PyList_SetItem(row.ptr(), j, checked<nb::int_>(PyLong_FromLong(first[j])).release().ptr());
+    }
+    PyList_SetItem(result.ptr(), i, row.release().ptr());
+  }
+  return result;
+}
+
 template <class T, class Row>
 auto array_getter(const std::vector<Row> Cells::*member) {
   return [member](const nb::object& self) {
@@ -153,6 +192,7 @@ void add_diagram(nb::module_& module) {
       "neighbor_lists",
       [](const Triangulation& t) { return lists_out(unlocked([&] { return neighbor_lists(t); })); },
       nb::arg("triangulation"));
+  module.def("lists", &to_lists, nb::arg("items").noconvert(), nb::arg("offsets").noconvert());
   module.def(
       "merge_cocircular",
       [](const Triangulation& t, const PointsIn& points) -> ListsOut {

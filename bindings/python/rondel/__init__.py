@@ -26,13 +26,15 @@ DynamicTriangulation
 from . import _core
 from ._arrays import lonlat, unit_vectors
 from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
+from ._diagram import Cells
 from ._dynamic import DynamicTriangulation, Snapshot
 from ._errors import InvalidInput
 from ._hull import ConvexHull, convex_hull
 from ._mesh import Lists
 from ._plot import LonLatTriangles
+from ._power import PowerDiagram, power_diagram
 from ._queries import Where
-from ._voronoi import Cells, PowerDiagram, SphericalVoronoi, power_diagram
+from ._voronoi import SphericalVoronoi
 
 __version__ = _core.version
 

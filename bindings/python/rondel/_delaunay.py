@@ -25,7 +25,8 @@ from ._queries import Queries
 from ._types import ArrayLike, FloatArray, IntArray, Model, Progress
 
 if TYPE_CHECKING:
-    from ._voronoi import PowerDiagram, SphericalVoronoi
+    from ._power import PowerDiagram
+    from ._voronoi import SphericalVoronoi
 
 
 class Location(NamedTuple):
@@ -269,7 +270,8 @@ class SphericalDelaunay(Mesh, Queries):
             Nothing is triangulated again. Duplicates are merged.
 
         """
-        from ._voronoi import PowerDiagram, SphericalVoronoi
+        from ._power import PowerDiagram
+        from ._voronoi import SphericalVoronoi
 
         kind = PowerDiagram if self._triangulation.is_weighted else SphericalVoronoi
         return kind._from_delaunay(self)

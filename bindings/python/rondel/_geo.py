@@ -23,7 +23,7 @@ from ._types import FloatArray, IntArray
 
 if TYPE_CHECKING:
     from ._delaunay import SphericalDelaunay
-    from ._voronoi import Diagram
+    from ._diagram import Diagram
 
 
 def triangles_to_geojson(

@@ -16,7 +16,7 @@ from ._types import ArrayLike, FloatArray
 
 if TYPE_CHECKING:
     from ._delaunay import SphericalDelaunay
-    from ._voronoi import Diagram
+    from ._diagram import Diagram
 
 __all__ = ["LonLatTriangles", "lonlat_triangles", "plot_cells", "plot_triangles"]
 
