@@ -42,22 +42,23 @@ def test_an_interrupt_ends_the_work(alarm, make):
 )
 def test_an_interrupt_ends_questions_too(alarm, ask):
     tri = rondel.delaunay(MANY)
-    alarm(0.01)
+    alarm(0.002)
     with pytest.raises(KeyboardInterrupt):
         ask(tri)
 
 
 def test_an_interrupt_ends_the_work_early(alarm):
+    """In time of processors: the machine may have other work, too."""
     tri = rondel.delaunay(MANY)
     tri.nearest(MANY[:1])
-    begin = time.perf_counter()
+    begin = time.process_time()
     tri.k_nearest(MANY, 8)
-    whole = time.perf_counter() - begin
+    whole = time.process_time() - begin
     alarm(0.01)
-    begin = time.perf_counter()
+    begin = time.process_time()
     with pytest.raises(KeyboardInterrupt):
         tri.k_nearest(MANY, 8)
-    assert time.perf_counter() - begin < whole
+    assert time.process_time() - begin < whole
 
 
 def test_progress_is_told():
