@@ -113,10 +113,16 @@ std::vector<Point> integer_sphere(int square, Random& random) {
   return points;
 }
 
-std::size_t scaled(std::size_t count) {
+static double test_scale() {
   const char* text = std::getenv("RONDEL_TEST_SCALE");
-  const double scale = text == nullptr ? 1 : std::atof(text);
-  return std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<double>(count) * scale));
+  return text == nullptr ? 1 : std::atof(text);
 }
+
+std::size_t scaled(std::size_t count) {
+  return std::max<std::size_t>(1,
+                               static_cast<std::size_t>(static_cast<double>(count) * test_scale()));
+}
+
+bool is_shortened() { return test_scale() < 1; }
 
 }  // namespace rondel::test

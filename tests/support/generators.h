@@ -60,5 +60,8 @@ std::vector<Point> integer_sphere(int square, Random& random);
 
 // How often to repeat random tests: `count` times RONDEL_TEST_SCALE (default 1), at least once.
 std::size_t scaled(std::size_t count);
+// Whether RONDEL_TEST_SCALE is below 1, where tests that are long without repeating anything take
+// less.
+bool is_shortened();
 
 }  // namespace rondel::test

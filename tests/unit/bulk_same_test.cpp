@@ -15,7 +15,7 @@ TEST_P(bulk_same, as_the_incremental_build) {
   for (const Model model : {Model::projected, Model::weighted}) {
     if (model == Model::projected && generator.weighted_only) continue;
     for (const std::size_t size : {std::min<std::size_t>(200, most), most}) {
-      for (std::uint64_t seed = 0; seed < 2; ++seed) {
+      for (std::uint64_t seed = 0; seed < scaled(2); ++seed) {
         SCOPED_TRACE(text_of(model) + " " + std::to_string(size) + " " + std::to_string(seed));
         BulkCase sites(generator.make(size, seed), model);
         // All sites on one great circle: nothing else makes this fall back.

@@ -25,6 +25,12 @@ void compare(const SiteSet& set, Model model, Outcomes& count) {
   ++(sites.run_whole() ? count.solved : count.failed);
 }
 
+void record(Model model, const Outcomes& count) {
+  testing::Test::RecordProperty(text_of(model) + "_solved", std::to_string(count.solved));
+  testing::Test::RecordProperty(text_of(model) + "_failed", std::to_string(count.failed));
+  testing::Test::RecordProperty(text_of(model) + "_open", std::to_string(count.open));
+}
+
 class bulk_sphere : public testing::TestWithParam<Generator> {};
 
 TEST_P(bulk_sphere, as_the_incremental_build) {
@@ -33,36 +39,46 @@ TEST_P(bulk_sphere, as_the_incremental_build) {
     if (model == Model::projected && generator.weighted_only) continue;
     Outcomes count;
     for (const std::size_t size : {12U, 60U, is_extreme(generator) ? 100U : 400U}) {
-      for (std::uint64_t seed = 0; seed < 5; ++seed) {
+      for (std::uint64_t seed = 0; seed < scaled(5); ++seed) {
         SCOPED_TRACE(text_of(model) + " " + std::to_string(size) + " " + std::to_string(seed));
         compare(generator.make(size, seed), model, count);
         ASSERT_FALSE(HasFailure());
       }
     }
-    RecordProperty(text_of(model) + "_solved", std::to_string(count.solved));
-    RecordProperty(text_of(model) + "_failed", std::to_string(count.failed));
-    RecordProperty(text_of(model) + "_open", std::to_string(count.open));
+    record(model, count);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(generators, bulk_sphere, testing::ValuesIn(generators()),
                          [](const auto& g) { return std::string(g.param.name); });
 
-// Uniform sites never make it fail, however few, and wherever the bridge is.
-TEST(bulk_sphere_general, any_number_of_sites) {
+// Both models with scaled(num_sets) sets that `make` draws; `expect` judges the outcomes of each
+// model.
+template <class Make, class Expect>
+void compare_random(std::size_t num_sets, Make make, Expect expect) {
   for (const Model model : {Model::projected, Model::weighted}) {
     Outcomes count;
-    for (int i = 0; i < static_cast<int>(scaled(3000)); ++i) {
-      SCOPED_TRACE(text_of(model) + " " + std::to_string(i));
-      Random random(static_cast<std::uint64_t>(i));
-      SiteSet set;
-      const int n = random.between(8, 8 + i % 90);
-      for (int k = 0; k < n; ++k) set.sites.push_back(random_direction(random));
-      compare(set, model, count);
-      ASSERT_FALSE(HasFailure());
+    for (std::uint64_t seed = 0; seed < scaled(num_sets); ++seed) {
+      SCOPED_TRACE(text_of(model) + " " + std::to_string(seed));
+      Random random(seed);
+      compare(make(random), model, count);
+      ASSERT_FALSE(testing::Test::HasFailure());
     }
-    EXPECT_GT(count.solved, 100 * count.failed);
+    SCOPED_TRACE(text_of(model));
+    expect(model, count);
   }
+}
+
+// Uniform sites never make it fail, however few, and wherever the bridge is.
+TEST(bulk_sphere_general, any_number_of_sites) {
+  const auto make = [](Random& random) {
+    SiteSet set;
+    const int n = random.between(8, random.between(8, 97));
+    for (int k = 0; k < n; ++k) set.sites.push_back(random_direction(random));
+    return set;
+  };
+  compare_random(3000, make,
+                 [](Model, const Outcomes& count) { EXPECT_GT(count.solved, 100 * count.failed); });
 }
 
 // Enough sites for threads to be used.
@@ -94,31 +110,26 @@ TEST(bulk_sphere_general, what_surrounds_the_center) {
 
 // Sites on the planes that divide the sphere, on the axes, in grids: all is degenerate.
 TEST(bulk_sphere_general, small_integers) {
-  for (const Model model : {Model::projected, Model::weighted}) {
-    Outcomes count;
-    for (int i = 0; i < static_cast<int>(scaled(3000)); ++i) {
-      SCOPED_TRACE(text_of(model) + " " + std::to_string(i));
-      Random random(static_cast<std::uint64_t>(i));
-      SiteSet set;
-      const int size = random.between(1, 5);
-      const int n = random.between(8, 120);
-      for (int k = 0; k < n; ++k) {
-        const auto coordinate = [&] { return static_cast<double>(random.between(-size, size)); };
-        Point p = {coordinate(), coordinate(), coordinate()};
-        if (random.coin()) p.y = random.coin() ? p.x : -p.x;
-        if (p != Point{}) set.sites.push_back(p);
-      }
-      if (random.coin()) set.sites.push_back({0, -0.0, 1});
-      if (random.coin()) set.sites.push_back({-0.0, 0, -1});
-      compare(set, model, count);
-      ASSERT_FALSE(HasFailure());
+  const auto make = [](Random& random) {
+    SiteSet set;
+    const int size = random.between(1, 5);
+    const int n = random.between(8, 120);
+    for (int k = 0; k < n; ++k) {
+      const auto coordinate = [&] { return static_cast<double>(random.between(-size, size)); };
+      Point p = {coordinate(), coordinate(), coordinate()};
+      if (random.coin()) p.y = random.coin() ? p.x : -p.x;
+      if (p != Point{}) set.sites.push_back(p);
     }
+    if (random.coin()) set.sites.push_back({0, -0.0, 1});
+    if (random.coin()) set.sites.push_back({-0.0, 0, -1});
+    return set;
+  };
+  compare_random(3000, make, [](Model model, const Outcomes& count) {
     if (model == Model::projected) {
       EXPECT_GT(count.solved, count.failed);
     }
-    RecordProperty(text_of(model) + "_solved", std::to_string(count.solved));
-    RecordProperty(text_of(model) + "_failed", std::to_string(count.failed));
-  }
+    record(model, count);
+  });
 }
 
 void expect_solved(std::vector<Point> sites, Model model, const Point& center = {}) {
@@ -160,25 +171,21 @@ TEST(bulk_sphere_general, differences_from_the_center_that_overflow) {
 
 // A center that is no sum of few bits: differences are rounded.
 TEST(bulk_sphere_general, remote_center) {
-  for (const Model model : {Model::projected, Model::weighted}) {
-    Outcomes count;
-    for (int i = 0; i < static_cast<int>(scaled(200)); ++i) {
-      SCOPED_TRACE(text_of(model) + " " + std::to_string(i));
-      Random random(static_cast<std::uint64_t>(i));
-      SiteSet set;
-      set.sphere.center = {0.1, 1 / 3.0, -0.7};
-      for (int k = 0; k < 60; ++k) {
-        Point d = random_direction(random);
-        if (random.coin()) d.y = random.coin() ? d.x : -d.x;
-        set.sites.push_back({d.x + 0.1, d.y + 1 / 3.0, d.z - 0.7});
-      }
-      compare(set, model, count);
-      ASSERT_FALSE(HasFailure());
+  const auto make = [](Random& random) {
+    SiteSet set;
+    set.sphere.center = {0.1, 1 / 3.0, -0.7};
+    for (int k = 0; k < 60; ++k) {
+      Point d = random_direction(random);
+      if (random.coin()) d.y = random.coin() ? d.x : -d.x;
+      set.sites.push_back({d.x + 0.1, d.y + 1 / 3.0, d.z - 0.7});
     }
+    return set;
+  };
+  compare_random(200, make, [](Model model, const Outcomes& count) {
     if (model == Model::projected) {
       EXPECT_GT(count.solved, 10 * count.failed);
     }
-  }
+  });
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ TEST_P(CheckValid, accepts_every_kind_of_sites) {
   for (const Generator& kind : generators()) {
     if (kind.weighted_only && GetParam() == Model::projected) continue;
     for (const std::size_t n : {3U, 4U, 6U, 9U}) {
-      for (std::uint64_t seed = 0; seed < 4; ++seed) {
+      for (std::uint64_t seed = 0; seed < scaled(4); ++seed) {
         const SiteSet set = kind.make(n, seed);
         if (set.sites.size() > 14) continue;
         const Hull hull = brute_force_hull(set.sites, GetParam(), set.sphere);

@@ -41,7 +41,7 @@ void for_each_case(std::size_t n, std::uint64_t num_seeds, F visit) {
   for (const Generator& generator : generators()) {
     for (const Model model : {Model::projected, Model::weighted}) {
       if (generator.weighted_only && model == Model::projected) continue;
-      for (std::uint64_t seed = 1; seed <= num_seeds; ++seed) {
+      for (std::uint64_t seed = 1; seed <= scaled(num_seeds); ++seed) {
         visit(make_case(generator, n, seed, model));
       }
     }

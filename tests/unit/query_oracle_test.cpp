@@ -34,8 +34,9 @@ struct Case {
 void for_each_case(std::size_t n, const std::function<void(const Case&)>& work) {
   Random random(3);
   for (const Generator& generator : generators()) {
-    if (generator.has_long_integers && scaled(10) < 10) continue;
-    const std::size_t size = generator.has_long_integers ? std::min<std::size_t>(n, 12) : n;
+    if (generator.has_long_integers && is_shortened()) continue;
+    const std::size_t most = generator.has_long_integers ? 12 : n;
+    const std::size_t size = std::min(most, is_shortened() ? n / 2 : n);
     for (const Model model : {Model::projected, Model::weighted}) {
       if (generator.weighted_only && model == Model::projected) continue;
       Case c;
