@@ -75,8 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.threads = 1;
   const fuzz::Scales scales = fuzz::next_scales(source);
   options.sphere = fuzz::next_sphere(source, scales);
-  std::vector<Point> sites = fuzz::all_sites(source, 14, scales);
-  if (options.model == Model::projected) fuzz::remove_center(sites, options.sphere);
+  const std::vector<Point> sites = fuzz::all_sites(source, 14, scales, options);
 
   const Triangulation built = delaunay(sites, options);
   std::vector<Triple> faces(built.faces().begin(), built.faces().end());

@@ -130,8 +130,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t limit = fuzz::next_limit(source, 40);
   options.sphere = fuzz::next_sphere(source, scales);
   if (scales == fuzz::Scales::all) fuzz::test_validation(source, options);
-  std::vector<Point> sites = fuzz::all_sites(source, limit, scales);
-  if (options.model == Model::projected) fuzz::remove_center(sites, options.sphere);
+  const std::vector<Point> sites = fuzz::all_sites(source, limit, scales, options);
   if (what % 16 < 2) {
     fuzz::test_interrupted(sites, options);
   } else if (what / 2 % 2 == 0) {

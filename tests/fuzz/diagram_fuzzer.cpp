@@ -139,8 +139,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const fuzz::Scales scales = fuzz::next_scales(source);
   const std::size_t limit = fuzz::next_limit(source, 30);
   options.sphere = fuzz::next_sphere(source, scales);
-  std::vector<Point> sites = fuzz::all_sites(source, limit, scales);
-  if (options.model == Model::projected) fuzz::remove_center(sites, options.sphere);
+  const std::vector<Point> sites = fuzz::all_sites(source, limit, scales, options);
   constexpr std::array tests = {fuzz::test_cells_alone, fuzz::test_diagram,
                                 fuzz::test_edges_and_polygons, fuzz::test_both_ways};
   tests[what / 2 % tests.size()](delaunay(sites, options), sites);

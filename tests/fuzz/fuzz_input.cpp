@@ -148,6 +148,13 @@ Sphere next_sphere(ByteSource& source, Scales scales) {
   return sphere;
 }
 
+std::vector<Point> all_sites(ByteSource& source, std::size_t limit, Scales scales,
+                             const Options& options) {
+  std::vector<Point> sites = all_sites(source, limit, scales);
+  if (options.model == Model::projected) remove_center(sites, options.sphere);
+  return sites;
+}
+
 void remove_center(std::vector<Point>& sites, const Sphere& sphere) {
   std::erase(sites, sphere.center);
 }

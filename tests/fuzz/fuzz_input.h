@@ -54,6 +54,9 @@ Point next_site(ByteSource& source, std::span<const Point> earlier, Scales scale
 
 // Until the bytes end, at most `limit`.
 std::vector<Point> all_sites(ByteSource& source, std::size_t limit, Scales scales);
+// Those among them that the model can have.
+std::vector<Point> all_sites(ByteSource& source, std::size_t limit, Scales scales,
+                             const Options& options);
 
 // One byte: mostly 12, at times `most`. Small inputs are many inputs.
 std::size_t next_limit(ByteSource& source, std::size_t most);

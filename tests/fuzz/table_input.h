@@ -33,6 +33,12 @@ inline SiteTable next_table(ByteSource& source, std::size_t limit) {
   return table;
 }
 
+// For a file of this kind: maps take far longer than lists, so that they have few sites.
+inline SiteTable next_table(ByteSource& source, std::size_t most, const std::string& ending) {
+  const std::size_t limit = next_limit(source, most);
+  return next_table(source, ending != ".geojson" ? limit : limit == most ? 12 : 5);
+}
+
 inline std::string content(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

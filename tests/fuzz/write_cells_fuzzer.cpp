@@ -64,9 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   options.threads = 1;
   options.model = source.byte() % 2 == 0 ? Model::projected : Model::weighted;
   const double tolerance_deg = source.below(4) == 0 ? 0.1 : 5;
-  const std::size_t limit = fuzz::next_limit(source, 30);
-  const std::size_t most = ending != ".geojson" ? limit : limit == 30 ? 12 : 5;
-  const SiteTable table = fuzz::next_table(source, most);
+  const SiteTable table = fuzz::next_table(source, 30, ending);
   const Triangulation t = delaunay(table.sites, options);
   const Diagram both = diagram(t, table.sites);
   fuzz::require(can_write_cells(path), "a format of cells can be written");

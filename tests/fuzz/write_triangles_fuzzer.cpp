@@ -51,9 +51,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string path = folder.file("triangles" + ending);
   Options options;
   options.threads = 1;
-  const std::size_t limit = fuzz::next_limit(source, 40);
-  const std::size_t most = ending != ".geojson" ? limit : limit == 40 ? 12 : 5;
-  const SiteTable table = fuzz::next_table(source, most);
+  const SiteTable table = fuzz::next_table(source, 40, ending);
   const Triangulation t = delaunay(table.sites, options);
   fuzz::require(can_write_triangles(path), "a format of triangles can be written");
   fuzz::require(!can_write_triangles(folder.file("triangles.csv")), "other formats cannot");
