@@ -2,9 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 find_package(nlohmann_json 3.11 REQUIRED)
 
-rondel_add_test(io_atomic_file_test io_atomic_file_test.cpp LIBS rondel_io)
-rondel_add_test(io_mutation_test io_mutation_test.cpp LIBS rondel_io)
-rondel_add_test(io_number_test io_number_test.cpp LIBS rondel_io)
+rondel_add_test(io_test
+  io_atomic_file_test.cpp
+  io_circles_test.cpp
+  io_mutation_test.cpp
+  io_number_test.cpp
+  io_sites_test.cpp
+  io_triangles_test.cpp
+  LIBS rondel_io nlohmann_json::nlohmann_json)
+
+# A program of its own: what a sanitizer of threads needs.
 rondel_add_test(io_parallel_test io_parallel_test.cpp LIBS rondel_io)
-rondel_add_test(io_sites_test io_circles_test.cpp io_sites_test.cpp LIBS rondel_io)
-rondel_add_test(io_triangles_test io_triangles_test.cpp LIBS rondel_io nlohmann_json::nlohmann_json)
