@@ -38,7 +38,7 @@ std::vector<Point> dual::circumcenters(const Triangulation& triangulation,
 std::vector<Point> dual::circumcenters(const Triangulation& triangulation, const SplitSites& sites,
                                        FaceKites& kites) {
   auto result = system::large_vector<Point>(triangulation.num_faces());
-  kites.of = system::large_array<Kites>(result.size());
+  kites.of = system::make_large_array<Kites>(result.size());
   kites.has_careful = measure_faces(triangulation, sites, result, kites.of.get());
   return result;
 }

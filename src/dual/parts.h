@@ -4,12 +4,12 @@
 // What rondel/diagram.h offers, from places computed before: the costliest part is shared.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "dual/face_batch.h"
 #include "dual/split_sites.h"
 #include "rondel/diagram.h"
+#include "system/huge_pages.h"
 
 namespace rondel::dual {
 
@@ -17,7 +17,7 @@ std::vector<Point> circumcenters(const Triangulation& triangulation, const Split
 
 // The kites of all faces, in the projected model.
 struct FaceKites {
-  std::unique_ptr<Kites[]> of;
+  system::LargeArray<Kites> of;
   bool has_careful = false;
 };
 // Their circumcenters, too.

@@ -70,10 +70,10 @@ void SplitSites::set_order(const Triangulation& triangulation) {
   const auto faces = triangulation.faces();
   const std::size_t room = triangulation.num_vertices() + 1;
   std::vector<Index> rank(sites_.size(), no_index);
-  sites_of_ranks_ = system::large_array<Index>(room);
-  degrees_ = system::large_array<Index>(room);
-  first_faces_ = system::large_array<Index>(room);
-  corners_ = system::large_array<Triple>(faces.size());
+  sites_of_ranks_ = system::make_large_array<Index>(room);
+  degrees_ = system::make_large_array<Index>(room);
+  first_faces_ = system::make_large_array<Index>(room);
+  corners_ = system::make_large_array<Triple>(faces.size());
   Index count = 0;
   const auto rank_of = [&](Index v, Index face) {
     const bool is_new = rank[v] == no_index;
@@ -99,7 +99,7 @@ void SplitSites::set_order(const Triangulation& triangulation) {
 }
 
 void SplitSites::set_places(unsigned threads) {
-  places_ = system::large_array<exact::SplitPoint>(order_.size());
+  places_ = system::make_large_array<exact::SplitPoint>(order_.size());
   const int shift = is_projected() ? 0 : scale_exponent(sites_);
   system::parallel_for(threads, order_.size(), parallel_grain,
                        [&](std::size_t begin, std::size_t end) {

@@ -12,7 +12,6 @@
 #pragma once
 
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -21,6 +20,7 @@
 #include "exact/vector.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
+#include "system/huge_pages.h"
 
 namespace rondel::dual {
 
@@ -90,11 +90,11 @@ class SplitSites {
   void set_places(unsigned threads);
 
   std::span<const Index> order_;
-  std::unique_ptr<Index[]> sites_of_ranks_;
-  std::unique_ptr<Index[]> degrees_;
-  std::unique_ptr<Index[]> first_faces_;
-  std::unique_ptr<Triple[]> corners_;
-  std::unique_ptr<exact::SplitPoint[]> places_;
+  system::LargeArray<Index> sites_of_ranks_;
+  system::LargeArray<Index> degrees_;
+  system::LargeArray<Index> first_faces_;
+  system::LargeArray<Triple> corners_;
+  system::LargeArray<exact::SplitPoint> places_;
   std::span<const Point> sites_;
   Point center_;
   Model model_;

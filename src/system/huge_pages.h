@@ -34,8 +34,7 @@ std::unique_ptr<void, FreeLarge> allocate_large(std::size_t bytes);
 
 template <class T>
 LargeArray<T> make_large_array(std::size_t size) {
-  static_assert(std::is_trivially_default_constructible_v<T> &&
-                std::is_trivially_destructible_v<T>);
+  static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
   auto memory = allocate_large(size * sizeof(T));
   const FreeLarge free = memory.get_deleter();
   return {static_cast<T*>(memory.release()), free};
@@ -54,14 +53,6 @@ std::vector<T> large_vector(std::size_t size) {
   std::vector<T> result;
   reserve_large(result, size);
   result.resize(size);
-  return result;
-}
-
-// An array of so many values, none set yet.
-template <class T>
-std::unique_ptr<T[]> large_array(std::size_t size) {
-  auto result = std::make_unique_for_overwrite<T[]>(size);
-  advise_huge_pages(result.get(), size * sizeof(T));
   return result;
 }
 
