@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "rondel/large_vector.h"
 #include "rondel/types.h"
 
 namespace rondel {
@@ -43,8 +44,8 @@ struct BuildReport {
 struct TriangulationArrays {
   std::size_t num_sites = 0;
   int dimension = -1;
-  std::vector<Triple> faces;
-  std::vector<Triple> neighbors;
+  LargeVector<Triple> faces;
+  LargeVector<Triple> neighbors;
   std::vector<Index> ghost_faces;
   std::vector<Index> ring;
   std::vector<Duplicate> duplicates;

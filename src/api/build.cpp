@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/validation.h"
 #include "blocks/duplicates.h"
 #include "blocks/spatial_order.h"
 #include "bulk/triangulate.h"
@@ -43,6 +44,23 @@ std::vector<Index> find_rest(std::span<const Point> sites, const Options& option
   if (!inner->is_inside) return {};
   auto rest = incremental::rest_without_inner_sites(sites, *inner);
   return rest.size() < sites.size() ? std::move(rest) : std::vector<Index>();
+}
+
+// Rays are looked at when they are read anyway, as memory is slow; weighted sites were before.
+blocks::SpatialOrder order_valid(std::span<const Point> sites, const Options& options) {
+  blocks::SitesCheck check;
+  if (options.model == Model::projected) {
+    check = [&options](std::span<const Point> some) {
+      if (!are_valid(some, options)) throw InvalidInput("a site is not valid", 0);
+    };
+  }
+  try {
+    return blocks::spatial_order(sites, options.model, options.sphere.center, options.threads,
+                                 check);
+  } catch (const InvalidInput&) {
+    validate(sites, options);  // names the first one
+    throw;
+  }
 }
 
 // The triangulation of sites[rest[0]], sites[rest[1]], ... becomes that of all sites. As `rest` is
@@ -102,8 +120,7 @@ Triangulation build(std::span<const Point> sites, const Options& options,
   const auto rest = find_rest(sites, options, inner);
   const auto rest_points = select(sites, rest);
   const std::span<const Point> inserted = rest.empty() ? sites : rest_points;
-  auto order =
-      blocks::spatial_order(inserted, options.model, options.sphere.center, options.threads);
+  auto order = order_valid(inserted, options);
   report.order_seconds = seconds_since(start);
 
   const auto order_end = Clock::now();

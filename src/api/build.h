@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the functions that return a triangulation share, once their arguments are validated.
+// What the functions that return a triangulation share, once their options are validated.
 #pragma once
 
 #include <span>
@@ -12,8 +12,8 @@
 
 namespace rondel::api {
 
-// `inner`, if its user knows one, is a point inside the hull of the sites; it saves looking for
-// one.
+// Throws InvalidInput if a site of the projected model is not valid; weighted ones are. `inner`, if
+// its user knows one, is a point inside the hull of the sites; it saves looking for one.
 Triangulation build(std::span<const Point> sites, const Options& options,
                     const incremental::InnerPoint* inner = nullptr);
 

@@ -9,7 +9,11 @@
 namespace rondel {
 
 Triangulation delaunay(std::span<const Point> sites, const Options& options) {
-  api::validate(sites, options);
+  if (options.model == Model::projected) {
+    api::validate(options, sites.size());
+  } else {
+    api::validate(sites, options);
+  }
   return api::build(sites, options);
 }
 

@@ -4,6 +4,7 @@
 // The checks of arguments, made once where the public functions enter.
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 
@@ -14,7 +15,14 @@ namespace rondel::api {
 // The shortest digits that give back the value.
 std::string text(double value);
 
-// Throws InvalidInput as rondel/delaunay.h promises.
+// Throws InvalidInput as rondel/delaunay.h promises, because of the options or of so many sites.
+void validate(const Options& options, std::size_t num_sites);
+
+// Whether all sites are finite and, in the projected model, none is the center. Faster than to ask
+// for each, as nothing branches.
+bool are_valid(std::span<const Point> sites, const Options& options);
+
+// Throws InvalidInput because of any of these, and names the first site that is not valid.
 void validate(std::span<const Point> sites, const Options& options);
 
 // Throws InvalidInput if a query point is not finite or, where it stands for a ray, the center.

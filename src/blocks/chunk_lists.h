@@ -11,7 +11,7 @@
 #include <memory>
 #include <vector>
 
-#include "system/huge_pages.h"
+#include "rondel/large_vector.h"
 
 namespace rondel::blocks {
 
@@ -20,7 +20,7 @@ class ChunkLists {
   // Room for `capacity` words in all.
   ChunkLists(std::size_t num_lists, std::size_t capacity)
       : size_(most_words(num_lists, capacity)),
-        words_(system::make_large_array<std::uint64_t>(size_)),
+        words_(size_),
         ends_(num_lists, 0),
         num_chunks_(num_lists, 0) {}
 
@@ -39,7 +39,7 @@ class ChunkLists {
   std::uint64_t* copy(std::size_t list, std::uint64_t* target) const {
     for (std::uint64_t end = ends_[list]; end != 0;) {
       const std::uint64_t begin = (end - 1) / chunk * chunk;
-      target = std::copy(words_.get() + begin + 1, words_.get() + end, target);
+      target = std::copy(words_.data() + begin + 1, words_.data() + end, target);
       end = words_[begin];
     }
     return target;
@@ -62,7 +62,7 @@ class ChunkLists {
 
   std::size_t size_;
   std::size_t used_ = 0;
-  system::LargeArray<std::uint64_t> words_;
+  LargeVector<std::uint64_t> words_;
   std::vector<std::uint64_t> ends_;  // 0: empty
   std::vector<std::uint32_t> num_chunks_;
 };

@@ -36,8 +36,10 @@ constexpr int longest_shallow_prefix = high_key_bits - 24;
 
 class Ordering {
  public:
-  Ordering(std::span<const Point> sites, Model model, const Point& center, unsigned threads)
-      : sites_(sites),
+  Ordering(std::span<const Point> sites, Model model, const Point& center, unsigned threads,
+           const SitesCheck& check)
+      : check_(check),
+        sites_(sites),
         model_(model),
         center_(center),
         threads_(system::num_threads(threads)),
@@ -71,6 +73,7 @@ class Ordering {
       // Any place within the stride: a constant one could meet the same column of every grid.
       points.push_back(sites_[i + (i * 0x9e3779b97f4a7c15U >> 56)]);
     }
+    if (check_) check_(points);
     std::vector<std::uint64_t> keys(points.size());
     std::vector<std::uint64_t> sample(points.size());
     place_keys(points, model_, center_, keys);
@@ -104,6 +107,7 @@ class Ordering {
     const bool has_low_keys = tree_.longest_prefix_bits() > longest_shallow_prefix;
     for (std::size_t first = begin; first < end; first += batch) {
       const std::size_t size = std::min(batch, end - first);
+      if (check_) check_(sites_.subspan(first, size));
       place_keys(sites_.subspan(first, size), model_, center_, std::span(keys).first(size),
                  std::span(low_keys).first(has_low_keys ? size : 0));
       for (std::size_t i = 0; i < size; ++i) {
@@ -208,6 +212,7 @@ class Ordering {
     }
   }
 
+  const SitesCheck& check_;
   std::span<const Point> sites_;
   Model model_;
   Point center_;
@@ -223,8 +228,8 @@ class Ordering {
 }  // namespace
 
 SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center,
-                           unsigned threads) {
-  return Ordering(sites, model, center, threads).run();
+                           unsigned threads, const SitesCheck& check) {
+  return Ordering(sites, model, center, threads, check).run();
 }
 
 }  // namespace rondel::blocks

@@ -5,6 +5,7 @@
 // finds the duplicates on the way, which have equal keys.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -24,9 +25,13 @@ struct SpatialOrder {
   std::vector<Duplicate> renamed;  // {rank, lowest index}
 };
 
+// Looks at sites before they are used, at all of them, some at a time, by several threads; throws
+// if they must not be used.
+using SitesCheck = std::function<void(std::span<const Point>)>;
+
 // The result does not depend on `threads`, of which 0 means one for each core. Needs 16 bytes for
 // each site, the order included, unless many sites lie within 2^-28 of each other.
 SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center,
-                           unsigned threads);
+                           unsigned threads, const SitesCheck& check = {});
 
 }  // namespace rondel::blocks

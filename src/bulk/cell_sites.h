@@ -32,7 +32,7 @@
 #include "incremental/projected_points.h"
 #include "incremental/sphere_traits.h"
 #include "incremental/weighted_points.h"
-#include "system/huge_pages.h"
+#include "rondel/large_vector.h"
 
 namespace rondel::bulk {
 
@@ -51,14 +51,18 @@ struct CellPosition {
 // Memory for the coordinates of sites, not initialized, in one piece.
 class CellCoordinates {
  public:
+  CellCoordinates() = default;
+  CellCoordinates(CellCoordinates&&) = default;
+  CellCoordinates& operator=(CellCoordinates&&) = default;
+
   static constexpr std::size_t bytes_of_site = sizeof(CellPoint) + sizeof(CellPosition);
 
   // For so many; forgets what there was if it has to grow.
   void reserve(std::size_t size) {
     if (size <= size_) return;
-    memory_.reset();
-    memory_ = system::make_large_array<std::byte>(size * bytes_of_site);
-    place(memory_.get(), size);
+    memory_ = {};
+    memory_ = LargeVector<std::byte>(size * bytes_of_site);
+    place(memory_.data(), size);
     size_ = size;
   }
   // In memory of the caller.
@@ -71,7 +75,7 @@ class CellCoordinates {
   [[nodiscard]] CellPosition* positions() { return positions_; }
 
  private:
-  system::LargeArray<std::byte> memory_;
+  LargeVector<std::byte> memory_;
   std::size_t size_ = 0;  // of its own memory
   CellPoint* points_ = nullptr;
   CellPosition* positions_ = nullptr;

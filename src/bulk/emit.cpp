@@ -45,19 +45,19 @@ class Emission {
  private:
   void find_owned() {
     const PlaneGraph::Ring* const rings = graph_.rings();
-    const PlaneGraph::End* const ends = graph_.ends();
+    const Index* const targets = graph_.targets();
+    const Index* const faces = graph_.faces();
     Owned* const owned = owned_.data();
     const Edge limit = graph_.edge_limit();
     for (Edge e = 0; e < limit; e += 2) {
-      if (ends[e].target == no_index) continue;
+      if (targets[e] == no_index) continue;
       // From the end with the lower rank: only this one can own the face on the left. An index that
       // is computed takes no branch.
-      const Edge f = e + static_cast<Edge>(ends[e].target < ends[e + 1].target);
-      const Index a = ends[f ^ 1].target;
-      const std::uint64_t b = ends[f].target;
-      const Index c = ends[rings[f].next].target;
-      const auto is_owned =
-          static_cast<Index>(a < c) & static_cast<Index>(ends[f].face != open_face);
+      const Edge f = e + static_cast<Edge>(targets[e] < targets[e + 1]);
+      const Index a = targets[f ^ 1];
+      const std::uint64_t b = targets[f];
+      const Index c = targets[rings[f].next];
+      const auto is_owned = static_cast<Index>(a < c) & static_cast<Index>(faces[f] != open_face);
       const std::uint64_t key = b << 32 | f | (std::uint64_t{is_owned} - 1);
       owned[a].first = std::min(owned[a].first, key);
       owned[a].count += is_owned;
@@ -91,7 +91,8 @@ class Emission {
   template <class Name>
   void write_corners(Name name) {
     const PlaneGraph::Ring* const rings = graph_.rings();
-    PlaneGraph::End* const ends = graph_.ends();
+    const Index* const targets = graph_.targets();
+    Index* const faces = graph_.faces();
     const Owned* const owned = owned_.data();
     Triple* const corners = corners_;
     const std::size_t last = owners_.size() - 1;
@@ -100,19 +101,19 @@ class Emission {
       const Index ahead = owners_[std::min(i + blocks::prefetch_distance, last)];
       const auto edge_ahead = static_cast<Edge>(owned[ahead].first);
       blocks::prefetch(&rings[edge_ahead]);
-      blocks::prefetch(&ends[edge_ahead]);
+      blocks::prefetch(&targets[edge_ahead]);
       const Index v = owners_[i];
       const Index end = face + owned[v].count;
       auto e = static_cast<Edge>(owned[v].first);
-      Index b = ends[e].target;
+      Index b = targets[e];
       do {
         const Edge next = rings[e].next;
-        const Index c = ends[next].target;
-        if (v < std::min(b, c) && ends[e].face != open_face) {
+        const Index c = targets[next];
+        if (v < std::min(b, c) && faces[e] != open_face) {
           corners[face] = {name(v), name(b), name(c)};
-          ends[rings[e ^ 1].previous].face = 4 * face;
-          ends[next ^ 1].face = 4 * face + 1;
-          ends[e].face = 4 * face + 2;
+          faces[rings[e ^ 1].previous] = 4 * face;
+          faces[next ^ 1] = 4 * face + 1;
+          faces[e] = 4 * face + 2;
           ++face;
         }
         e = next;
@@ -122,14 +123,15 @@ class Emission {
   }
 
   void write_neighbors() {
-    const PlaneGraph::End* const ends = graph_.ends();
+    const Index* const targets = graph_.targets();
+    const Index* const faces = graph_.faces();
     const Edge limit = graph_.edge_limit();
     const Index begin = result_.faces_begin;
     Index* const neighbors = neighbors_->data();
     for (Edge e = 0; e < limit; e += 2) {
-      if (ends[e].target == no_index) continue;
-      const Index left = ends[e].face;
-      const Index right = ends[e + 1].face;
+      if (targets[e] == no_index) continue;
+      const Index left = faces[e];
+      const Index right = faces[e + 1];
       if (std::max(left, right) == open_face) {
         if (left != open_face) write_seam_edge(e);
         if (right != open_face) write_seam_edge(e ^ 1);

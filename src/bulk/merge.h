@@ -169,41 +169,41 @@ class Merge {
   // than all else.
   void climb(Edge base, const Limits& limits) {
     const PlaneGraph::Ring* const rings = graph_.rings();
-    const PlaneGraph::End* const ends = graph_.ends();
+    const Index* const targets = graph_.targets();
     Index l = graph_.origin(base);
     Index r = graph_.target(base);
     Edge left = rings[base].next;
     Edge right = rings[base ^ 1].previous;
     while (!graph_.is_full()) {
       const Step step(sites_, limits, l, r);
-      Face left_face = step.face(ends[left].target);
+      Face left_face = step.face(targets[left]);
       bool has_left = is_above(step, left_face);
       if (Step::hides_sites && !has_left && remove_covered_left(graph_, base, step)) {
         left = rings[base].next;
-        left_face = step.face(ends[left].target);
+        left_face = step.face(targets[left]);
         has_left = is_above(step, left_face);
       }
       if (has_left) {
         for (;;) {
           const Edge next = rings[left].next;
-          const Index y = ends[next].target;
+          const Index y = targets[next];
           if (!step.is_in_conflict(left_face, y)) break;
           graph_.remove(left);
           left = next;
           left_face = step.face(y);
         }
       }
-      Face right_face = step.face(ends[right].target);
+      Face right_face = step.face(targets[right]);
       bool has_right = is_above(step, right_face);
       if (Step::hides_sites && !has_right && remove_covered_right(graph_, base ^ 1, step)) {
         right = rings[base ^ 1].previous;
-        right_face = step.face(ends[right].target);
+        right_face = step.face(targets[right]);
         has_right = is_above(step, right_face);
       }
       if (has_right) {
         for (;;) {
           const Edge next = rings[right].previous;
-          const Index y = ends[next].target;
+          const Index y = targets[next];
           if (!step.is_in_conflict(right_face, y)) break;
           graph_.remove(right);
           right = next;

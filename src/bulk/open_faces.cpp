@@ -72,6 +72,7 @@ bool OpenFaces::is_final(Index i, Index j, Index k) const {
 
 const std::vector<Edge>& OpenFaces::find(Edge boundary) {
   open_.clear();
+  graph_.clear_faces();
   Edge e = boundary;
   do {
     graph_.set_face(e ^ 1, open_face);

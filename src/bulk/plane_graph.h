@@ -16,13 +16,12 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "rondel/large_vector.h"
 #include "rondel/types.h"
-#include "system/huge_pages.h"
 
 namespace rondel::bulk {
 
@@ -30,15 +29,16 @@ class PlaneGraph {
  public:
   using Edge = Index;  // a halfedge
 
-  // Two arrays with elements of eight bytes, which machines address by their index.
+  // Elements of eight bytes or less, which machines address by their index.
   struct Ring {
     Edge next;
     Edge previous;
   };
-  struct End {
-    Index target;
-    Index face;
-  };
+
+  // Not copied: the arrays lie in the memory that it owns.
+  PlaneGraph() = default;
+  PlaneGraph(PlaneGraph&&) = default;
+  PlaneGraph& operator=(PlaneGraph&&) = default;
 
   // Forgets all edges.
   void clear(std::size_t num_vertices) {
@@ -61,7 +61,8 @@ class PlaneGraph {
     for (const Index n : num_vertices) {
       PlaneGraph& part = parts.emplace_back();
       part.rings_ = rings_;
-      part.ends_ = ends_;
+      part.targets_ = targets_;
+      part.faces_ = faces_;
       part.begin(first, n);
       first += size_of(n);
     }
@@ -79,8 +80,8 @@ class PlaneGraph {
   void append(const PlaneGraph& next) {
     // Pairs that were never used become deleted ones.
     for (std::size_t e = limit_; e < next.begin_; e += 2) {
-      ends_[e].target = no_index;
-      ends_[e + 1].target = no_index;
+      targets_[e] = no_index;
+      targets_[e + 1] = no_index;
       const std::size_t following = e + 2 < next.begin_ ? e + 2 : next.free_;
       rings_[e].next = static_cast<Edge>(following);
     }
@@ -90,21 +91,23 @@ class PlaneGraph {
 
   // For loops: the same arrays without a look at this object for each element.
   [[nodiscard]] const Ring* rings() const { return rings_; }
-  [[nodiscard]] End* ends() { return ends_; }
+  [[nodiscard]] Index* targets() { return targets_; }
+  [[nodiscard]] Index* faces() { return faces_; }
 
   [[nodiscard]] Edge next(Edge e) const { return rings_[e].next; }
   [[nodiscard]] Edge previous(Edge e) const { return rings_[e].previous; }
-  [[nodiscard]] Index target(Edge e) const { return ends_[e].target; }
-  [[nodiscard]] Index origin(Edge e) const { return ends_[e ^ 1].target; }
+  [[nodiscard]] Index target(Edge e) const { return targets_[e]; }
+  [[nodiscard]] Index origin(Edge e) const { return targets_[e ^ 1]; }
   [[nodiscard]] Edge face_next(Edge e) const { return rings_[e ^ 1].previous; }
 
-  // What the user wants to remember of the face on the left; no_index of a new halfedge.
-  [[nodiscard]] Index face(Edge e) const { return ends_[e].face; }
-  void set_face(Edge e, Index face) { ends_[e].face = face; }
+  // What the user wants to remember of the face on the left; no_index after clear_faces().
+  void clear_faces() { std::fill(faces_ + begin_, faces_ + limit_, no_index); }
+  [[nodiscard]] Index face(Edge e) const { return faces_[e]; }
+  void set_face(Edge e, Index face) { faces_[e] = face; }
 
   // Halfedges are below this; those of deleted pairs have no target.
   [[nodiscard]] Edge edge_limit() const { return static_cast<Edge>(limit_); }
-  [[nodiscard]] bool is_alive(Edge e) const { return ends_[e].target != no_index; }
+  [[nodiscard]] bool is_alive(Edge e) const { return targets_[e] != no_index; }
 
   [[nodiscard]] std::size_t num_edges() const {
     std::size_t count = (limit_ - begin_) / 2;
@@ -132,7 +135,7 @@ class PlaneGraph {
   void set_ring(const std::array<Spoke, N>& ring) {
     for (std::size_t i = 0; i < N; ++i) {
       rings_[ring[i].edge] = {ring[(i + 1) % N].edge, ring[(i + N - 1) % N].edge};
-      ends_[ring[i].edge] = {ring[i].target, no_index};
+      targets_[ring[i].edge] = ring[i].target;
     }
   }
 
@@ -153,8 +156,8 @@ class PlaneGraph {
     const Edge e = new_pair();
     rings_[e] = at_a;
     rings_[e + 1] = at_b;
-    ends_[e] = {b, no_index};
-    ends_[e + 1] = {a, no_index};
+    targets_[e] = b;
+    targets_[e + 1] = a;
     rings_[at_a.previous].next = e;
     rings_[at_a.next].previous = e;
     rings_[at_b.previous].next = e + 1;
@@ -175,8 +178,8 @@ class PlaneGraph {
   [[gnu::always_inline]] void remove(Edge e) {
     unlink(e);
     unlink(e ^ 1);
-    ends_[e].target = no_index;
-    ends_[e ^ 1].target = no_index;
+    targets_[e] = no_index;
+    targets_[e ^ 1] = no_index;
     rings_[e & ~Edge{1}].next = static_cast<Edge>(free_);
     free_ = e & ~Edge{1};
   }
@@ -184,20 +187,21 @@ class PlaneGraph {
  private:
   // Deleted pairs are used again, and a plane graph has less than three edges a vertex. One pair is
   // always ready (new_pair()).
-  static constexpr std::size_t halfedge_bytes = sizeof(Ring) + sizeof(End);
+  static constexpr std::size_t halfedge_bytes = sizeof(Ring) + 2 * sizeof(Index);
   static std::size_t size_of(std::size_t num_vertices) { return 6 * num_vertices + 2; }
 
   void reserve(std::size_t size) {
     if (size <= size_) return;
-    memory_.reset();
-    memory_ = system::make_large_array<std::byte>(size * halfedge_bytes);
-    place(memory_.get(), size);
+    memory_ = {};
+    memory_ = LargeVector<std::byte>(size * halfedge_bytes);
+    place(memory_.data(), size);
     size_ = size;
   }
 
   void place(std::byte* memory, std::size_t size) {
     rings_ = reinterpret_cast<Ring*>(memory);
-    ends_ = reinterpret_cast<End*>(memory + size * sizeof(Ring));
+    targets_ = reinterpret_cast<Index*>(rings_ + size);
+    faces_ = targets_ + size;
   }
 
   void begin(std::size_t first, std::size_t num_vertices) {
@@ -223,10 +227,11 @@ class PlaneGraph {
     rings_[links.next].previous = links.previous;
   }
 
-  system::LargeArray<std::byte> memory_;  // of both arrays, not initialized
+  LargeVector<std::byte> memory_;  // of both arrays, not initialized
   Ring* rings_ = nullptr;
-  End* ends_ = nullptr;
-  std::size_t size_ = 0;  // of both arrays in its own memory
+  Index* targets_ = nullptr;
+  Index* faces_ = nullptr;
+  std::size_t size_ = 0;  // of the arrays in its own memory
   // Of another type than the links, so that these are not read again after each link is written.
   std::size_t begin_ = 0;
   std::size_t full_ = 0;

@@ -18,7 +18,7 @@
 #include "bulk/sphere_step.h"
 #include "exact/eft.h"
 #include "predicates/tally.h"
-#include "system/huge_pages.h"
+#include "rondel/large_vector.h"
 #include "system/parallel.h"
 
 namespace rondel::bulk {
@@ -143,7 +143,7 @@ class SphereTriangulation {
   std::vector<Index> order_;              // by parts
   std::vector<Index> ranks_;              // of the same
   std::array<Block, num_parts> parts_{};  // ranks in the order by parts
-  system::LargeArray<std::byte> memory_;  // of the next three
+  LargeVector<std::byte> memory_;         // of the next three
   CellCoordinates coordinates_;
   Vector* directions_ = nullptr;  // not with weights
   PlaneGraph graph_;
@@ -240,11 +240,11 @@ template <incremental::SphereTraits T>
 std::vector<PlaneGraph> SphereTriangulation<T>::allot(std::span<const Index> sizes) {
   const std::size_t of_coordinates = num_sites_ * CellCoordinates::bytes_of_site;
   const std::size_t of_directions = SphereSites<T>::has_weights ? 0 : num_sites_ * sizeof(Vector);
-  memory_ = system::make_large_array<std::byte>(of_coordinates + of_directions +
-                                                PlaneGraph::size_of_parts(sizes));
-  coordinates_.place(memory_.get(), num_sites_);
-  directions_ = reinterpret_cast<Vector*>(memory_.get() + of_coordinates);
-  return graph_.clear_parts(sizes, memory_.get() + of_coordinates + of_directions);
+  memory_ =
+      LargeVector<std::byte>(of_coordinates + of_directions + PlaneGraph::size_of_parts(sizes));
+  coordinates_.place(memory_.data(), num_sites_);
+  directions_ = reinterpret_cast<Vector*>(memory_.data() + of_coordinates);
+  return graph_.clear_parts(sizes, memory_.data() + of_coordinates + of_directions);
 }
 
 template <incremental::SphereTraits T>
@@ -283,10 +283,11 @@ PlaneGraph::Edge SphereTriangulation<T>::conquer() {
 
 template <incremental::SphereTraits T>
 void SphereTriangulation<T>::write(const std::vector<Index>& hidden, TriangulationArrays& arrays) {
+  graph_.clear_faces();
   ranks_.push_back(no_index);  // of the ends of deleted edges
-  PlaneGraph::End* const ends = graph_.ends();
+  Index* const targets = graph_.targets();
   for (PlaneGraph::Edge e = 0; e < graph_.edge_limit(); ++e) {
-    ends[e].target = ranks_[std::min(ends[e].target, num_sites_)];
+    targets[e] = ranks_[std::min(targets[e], num_sites_)];
   }
   arrays.faces.resize(2 * std::size_t{num_sites_});
   arrays.neighbors.resize(2 * std::size_t{num_sites_});

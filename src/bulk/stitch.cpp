@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "bulk/seam_faces.h"
-#include "system/huge_pages.h"
+#include "rondel/large_vector.h"
 #include "system/parallel.h"
 #include "topology/mesh.h"
 
@@ -140,9 +140,9 @@ void list_hidden(const SeamFaces& seam, std::span<const Index> names, Triangulat
 }
 
 // The number of every face when all are in their places, by its number before.
-system::LargeArray<Index> final_numbers(const Numbering& numbering, std::size_t num_faces,
-                                        unsigned threads) {
-  auto final_of = system::make_large_array<Index>(num_faces);
+LargeVector<Index> final_numbers(const Numbering& numbering, std::size_t num_faces,
+                                 unsigned threads) {
+  LargeVector<Index> final_of(num_faces);
   const auto set_final = [&](const Run& run) {
     for (Index f = run.begin; f < run.end; ++f) final_of[f] = run.final + (f - run.begin);
   };
@@ -165,8 +165,8 @@ bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_array
 
   const Index names_begin = seam.names_begin();
   const auto final_of = final_numbers(numbering, names_begin + seam.num_all(), threads);
-  std::vector<Triple>& faces = arrays.faces;
-  std::vector<Triple>& neighbors = arrays.neighbors;
+  LargeVector<Triple>& faces = arrays.faces;
+  LargeVector<Triple>& neighbors = arrays.neighbors;
   const auto set_face = [&](const Triple& v, Index to) {
     faces[to] = {names[v[0]], names[v[1]], names[v[2]]};
   };
@@ -192,7 +192,7 @@ bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_array
         set_neighbors(neighbors[f], f);
       }
     });
-    const auto move_all = [&](std::vector<Triple>& values) {
+    const auto move_all = [&](LargeVector<Triple>& values) {
       move_runs(numbering.block_runs(), [&](Index from, Index to) { values[to] = values[from]; });
     };
     system::parallel_invoke(

@@ -14,7 +14,6 @@
 #include "bulk/sphere.h"
 #include "bulk/stitch.h"
 #include "predicates/tally.h"
-#include "system/huge_pages.h"
 #include "system/parallel.h"
 
 namespace rondel::bulk {
@@ -116,11 +115,6 @@ bool is_worthwhile(const Input& input) {
              : has_short_seams<incremental::WeightedPoints>(input);
 }
 
-void resize_large(std::vector<Triple>& values, std::size_t size) {
-  system::reserve_large(values, size);
-  values.resize(size);
-}
-
 // Whether few sites can be hidden, as far as their distances from the center tell: between
 // neighbors on a sphere the squared distance is 4 pi / n on average, and weights must differ by as
 // much.
@@ -144,9 +138,8 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplic
   const auto blocks = make_blocks(static_cast<Index>(num_ranks), max_block_sites,
                                   [&](Index rank) { return input.position(rank); });
   Triangulated result;
-  system::parallel_invoke(
-      threads, [&] { resize_large(result.arrays.faces, 2 * num_ranks); },
-      [&] { resize_large(result.arrays.neighbors, 2 * num_ranks); });
+  result.arrays.faces.resize(2 * num_ranks);
+  result.arrays.neighbors.resize(2 * num_ranks);
   const FaceStore store = {result.arrays.faces, result.arrays.neighbors};
   const auto results = input.options.model == Model::projected
                            ? triangulate_blocks<incremental::ProjectedPoints>(input, blocks, store)

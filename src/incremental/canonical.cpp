@@ -123,8 +123,8 @@ std::vector<Halfedge> faces_by_owner(const Mesh& mesh, std::vector<Index>& end) 
 
 // Sorts the faces of each owner and writes them.
 void write_faces(const Mesh& mesh, std::vector<Halfedge>& order, const std::vector<Index>& end,
-                 const std::vector<Index>& names, std::vector<Triple>& faces) {
-  system::reserve_large(faces, order.size());
+                 const std::vector<Index>& names, LargeVector<Triple>& faces) {
+  faces.reserve(order.size());
   OwnedFaces owned(mesh);
   Index begin = 0;
   for (Index rank = 0; rank < end.size(); ++rank) {
@@ -154,7 +154,7 @@ void write_canonical(Mesh& mesh, const std::vector<Index>& names, std::vector<In
     prefetch_face(i + blocks::prefetch_distance);
     mesh[face_of(order[i])].vertex[0] = static_cast<Index>(i);
   }
-  system::reserve_large(arrays.neighbors, order.size());
+  arrays.neighbors.reserve(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     prefetch_face(i + blocks::prefetch_distance);
     const auto& opposite = mesh[face_of(order[i])].opposite;

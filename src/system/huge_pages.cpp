@@ -4,7 +4,10 @@
 #include "system/huge_pages.h"
 
 #include <cstdint>
+#include <memory>
 #include <new>
+
+#include "rondel/large_vector.h"
 
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -27,19 +30,25 @@ void advise_huge_pages([[maybe_unused]] void* memory, [[maybe_unused]] std::size
 #endif
 }
 
-// Aligned by hand: glibc keeps what is freed for the next build, but for what it aligns.
-std::unique_ptr<void, FreeLarge> allocate_large(std::size_t bytes) {
-  const bool is_large = bytes >= page;
-  void* const allocated = ::operator new(is_large ? bytes + page : bytes);
-  void* memory = allocated;
-  if (is_large) {
-    std::size_t room = bytes + page;
-    memory = std::align(page, bytes, memory, room);
-    advise_huge_pages(memory, bytes);
-  }
-  return {memory, FreeLarge(allocated)};
+}  // namespace rondel::system
+
+namespace rondel::detail {
+
+// Aligned by hand: glibc keeps what is freed for the next build, but not what it aligns. Where the
+// memory begins stands before it.
+void* allocate_large(std::size_t bytes) {
+  if (bytes < system::page) return ::operator new(bytes);
+  void* const begin = ::operator new(bytes + system::page + sizeof(void*));
+  void* memory = static_cast<void**>(begin) + 1;
+  std::size_t room = bytes + system::page;
+  std::align(system::page, bytes, memory, room);
+  static_cast<void**>(memory)[-1] = begin;
+  system::advise_huge_pages(memory, bytes);
+  return memory;
 }
 
-void FreeLarge::operator()(void* /*memory*/) const noexcept { ::operator delete(allocated_); }
+void free_large(void* memory, std::size_t bytes) noexcept {
+  ::operator delete(bytes < system::page ? memory : static_cast<void**>(memory)[-1]);
+}
 
-}  // namespace rondel::system
+}  // namespace rondel::detail

@@ -11,38 +11,36 @@
 #include <type_traits>
 #include <vector>
 
+#include "rondel/large_vector.h"
+
 namespace rondel::system {
 
 // Tells the system that this memory, not used yet, is better in huge pages. Only advice: without
 // support for it nothing happens. Small ranges are left alone.
 void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
 
-// Memory for a large array that does not grow, not initialized: it begins with a huge page if it
-// fills one.
+// Memory for a large array that does not grow, where a LargeVector would have values to set.
 class FreeLarge {
  public:
-  explicit FreeLarge(void* allocated = nullptr) noexcept : allocated_(allocated) {}
-  void operator()(void* memory) const noexcept;
+  explicit FreeLarge(std::size_t bytes = 0) noexcept : bytes_(bytes) {}
+  void operator()(void* memory) const noexcept { detail::free_large(memory, bytes_); }
 
  private:
-  void* allocated_;
+  std::size_t bytes_;
 };
 template <class T>
 using LargeArray = std::unique_ptr<T[], FreeLarge>;
 
-std::unique_ptr<void, FreeLarge> allocate_large(std::size_t bytes);
-
 template <class T>
 LargeArray<T> make_large_array(std::size_t size) {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
-  auto memory = allocate_large(size * sizeof(T));
-  const FreeLarge free = memory.get_deleter();
-  return {static_cast<T*>(memory.release()), free};
+  const std::size_t bytes = size * sizeof(T);
+  return {static_cast<T*>(detail::allocate_large(bytes)), FreeLarge(bytes)};
 }
 
 // Reserves room in an empty vector.
-template <class T>
-void reserve_large(std::vector<T>& values, std::size_t size) {
+template <class T, class Allocator>
+void reserve_large(std::vector<T, Allocator>& values, std::size_t size) {
   values.reserve(size);
   advise_huge_pages(values.data(), size * sizeof(T));
 }

@@ -49,6 +49,30 @@ TEST(delaunay_misuse, names_the_first_bad_site) {
   EXPECT_EQ(delaunay(std::vector<Point>{good, {1, 2, 3}}, options).dimension(), 1);
 }
 
+// Threads look at pieces of the input in any order.
+TEST(delaunay_misuse, names_the_first_bad_site_of_many_whatever_the_threads) {
+  test::Random random(10);
+  std::vector<Point> sites;
+  for (int i = 0; i < 100000; ++i) sites.push_back(test::random_direction(random));
+  const auto expect_first = [&sites](Model model, std::size_t index) {
+    for (const unsigned threads : {1U, 5U}) {
+      Options options;
+      options.model = model;
+      options.threads = threads;
+      expect_invalid(sites, options, index, "site " + std::to_string(index) + ": ");
+    }
+  };
+  sites[99000] = {0, nan, 0};
+  expect_first(Model::projected, 99000);
+  expect_first(Model::weighted, 99000);
+  sites[50000] = {};  // the center
+  expect_first(Model::projected, 50000);
+  expect_first(Model::weighted, 99000);
+  sites[256] = {1, 0, infinity};
+  expect_first(Model::projected, 256);
+  expect_first(Model::weighted, 256);
+}
+
 TEST(delaunay_misuse, rejects_spheres_that_are_none) {
   for (const double bad : {0.0, -1.0, nan, infinity}) {
     Options options;
