@@ -12,6 +12,7 @@
 #include "rondel/error.h"          // IWYU pragma: export
 #include "rondel/hull.h"           // IWYU pragma: export
 #include "rondel/interrupt.h"      // IWYU pragma: export
+#include "rondel/large_vector.h"   // IWYU pragma: export
 #include "rondel/predicates.h"     // IWYU pragma: export
 #include "rondel/query.h"          // IWYU pragma: export
 #include "rondel/triangulation.h"  // IWYU pragma: export

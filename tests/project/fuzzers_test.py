@@ -16,8 +16,16 @@ ROOT = pathlib.Path(sys.argv.pop(1))
 FUZZERS = dict(argument.split(":") for argument in sys.argv[1:])
 del sys.argv[1:]
 
-# What only a program can ask for, once.
-NOT_CALLED = {"operator", "remove_temporaries_on_signal"}
+# What only a program can ask for, once; and the memory of vectors, which calls of others use.
+NOT_CALLED = {
+    "operator",
+    "remove_temporaries_on_signal",
+    "allocate_large",
+    "free_large",
+    "allocate",
+    "deallocate",
+    "construct",
+}
 
 
 def without_comments(text):
