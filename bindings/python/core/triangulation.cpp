@@ -38,9 +38,9 @@ Triangulation build_hull(const PointsIn& points, unsigned threads, const nb::obj
   });
 }
 
-template <class Row, class Array>
-std::vector<Row> copied_rows(const Array& array) {
-  const auto rows = rows_of<Row>(array);
+template <class Rows, class Array>
+Rows copied_rows(const Array& array) {
+  const auto rows = rows_of<typename Rows::value_type>(array);
   return {rows.begin(), rows.end()};
 }
 
@@ -52,12 +52,12 @@ Triangulation from_arrays(std::size_t num_sites, int dimension, bool is_weighted
                           const IndexPairsIn& hidden) {
   TriangulationArrays arrays{.num_sites = num_sites,
                              .dimension = dimension,
-                             .faces = copied_rows<Triple>(faces),
-                             .neighbors = copied_rows<Triple>(neighbors),
-                             .ghost_faces = copied_rows<Index>(ghost_faces),
-                             .ring = copied_rows<Index>(ring),
-                             .duplicates = copied_rows<Duplicate>(duplicates),
-                             .hidden = copied_rows<Hidden>(hidden)};
+                             .faces = copied_rows<LargeVector<Triple>>(faces),
+                             .neighbors = copied_rows<LargeVector<Triple>>(neighbors),
+                             .ghost_faces = copied_rows<std::vector<Index>>(ghost_faces),
+                             .ring = copied_rows<std::vector<Index>>(ring),
+                             .duplicates = copied_rows<std::vector<Duplicate>>(duplicates),
+                             .hidden = copied_rows<std::vector<Hidden>>(hidden)};
   return {std::move(arrays), make_options(is_weighted, center, squared_radius), {}};
 }
 
