@@ -14,11 +14,11 @@ namespace rondel {
 
 namespace detail {
 
-// Uninitialized memory. From 2 MB on it begins with a huge page, where the system has these. Throws
-// std::bad_alloc.
+// Uninitialized memory. It begins with a cache line, from 2 MB on with a huge page, where the
+// system has these. Throws std::bad_alloc.
 void* allocate_large(std::size_t bytes);
-// What allocate_large(bytes) returned.
-void free_large(void* memory, std::size_t bytes) noexcept;
+// What allocate_large() returned.
+void free_large(void* memory) noexcept;
 
 }  // namespace detail
 
@@ -37,9 +37,7 @@ class LargeAllocator {
     if (size > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_alloc();
     return static_cast<T*>(detail::allocate_large(size * sizeof(T)));
   }
-  void deallocate(T* memory, std::size_t size) noexcept {
-    detail::free_large(memory, size * sizeof(T));
-  }
+  void deallocate(T* memory, std::size_t /*size*/) noexcept { detail::free_large(memory); }
 
   template <class U>
   void construct(U* place) noexcept {
@@ -55,7 +53,7 @@ class LargeAllocator {
 
 /// A vector whose elements have no value yet when resize(n) or a constructor
 /// makes them without one: to write zeros first takes time, in one thread.
-/// From 2 MB on it is aligned to huge pages.
+/// It is aligned to cache lines of 64 bytes, from 2 MB on to huge pages.
 template <class T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 

@@ -37,18 +37,19 @@ namespace rondel::detail {
 // Aligned by hand: glibc keeps what is freed for the next build, but not what it aligns. Where the
 // memory begins stands before it.
 void* allocate_large(std::size_t bytes) {
-  if (bytes < system::page) return ::operator new(bytes);
-  void* const begin = ::operator new(bytes + system::page + sizeof(void*));
+  constexpr std::size_t cache_line = 64;
+  const std::size_t alignment = bytes < system::page ? cache_line : system::page;
+  void* const begin = ::operator new(bytes + alignment + sizeof(void*));
   void* memory = static_cast<void**>(begin) + 1;
-  std::size_t room = bytes + system::page;
-  std::align(system::page, bytes, memory, room);
+  std::size_t room = bytes + alignment;
+  std::align(alignment, bytes, memory, room);
   static_cast<void**>(memory)[-1] = begin;
   system::advise_huge_pages(memory, bytes);
   return memory;
 }
 
-void free_large(void* memory, std::size_t bytes) noexcept {
-  ::operator delete(bytes < system::page ? memory : static_cast<void**>(memory)[-1]);
+void free_large(void* memory) noexcept {
+  if (memory != nullptr) ::operator delete(static_cast<void**>(memory)[-1]);
 }
 
 }  // namespace rondel::detail

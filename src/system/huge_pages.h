@@ -20,13 +20,8 @@ namespace rondel::system {
 void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
 
 // Memory for a large array that does not grow, where a LargeVector would have values to set.
-class FreeLarge {
- public:
-  explicit FreeLarge(std::size_t bytes = 0) noexcept : bytes_(bytes) {}
-  void operator()(void* memory) const noexcept { detail::free_large(memory, bytes_); }
-
- private:
-  std::size_t bytes_;
+struct FreeLarge {
+  void operator()(void* memory) const noexcept { detail::free_large(memory); }
 };
 template <class T>
 using LargeArray = std::unique_ptr<T[], FreeLarge>;
@@ -34,8 +29,7 @@ using LargeArray = std::unique_ptr<T[], FreeLarge>;
 template <class T>
 LargeArray<T> make_large_array(std::size_t size) {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
-  const std::size_t bytes = size * sizeof(T);
-  return {static_cast<T*>(detail::allocate_large(bytes)), FreeLarge(bytes)};
+  return LargeArray<T>(static_cast<T*>(detail::allocate_large(size * sizeof(T))));
 }
 
 // Reserves room in an empty vector.

@@ -28,6 +28,14 @@ TEST(large_vector, begins_with_a_huge_page_if_it_fills_one) {
   }
 }
 
+TEST(large_vector, begins_with_a_cache_line) {
+  for (const std::size_t size :
+       {std::size_t{1}, std::size_t{63}, std::size_t{1000}, huge_page - 1}) {
+    const LargeVector<std::uint8_t> values(size);
+    EXPECT_EQ(reinterpret_cast<std::uintptr_t>(values.data()) % 64, 0U) << size;
+  }
+}
+
 TEST(large_vector, keeps_its_elements_while_it_grows_shrinks_and_moves) {
   LargeVector<Index> values;
   for (Index i = 0; i < huge_page; ++i) values.push_back(i);
@@ -47,8 +55,6 @@ TEST(large_vector, keeps_its_elements_while_it_grows_shrinks_and_moves) {
 
 TEST(large_vector, of_more_than_memory_can_hold_throws) {
   constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
-  LargeVector<Triple> values;
-  EXPECT_THROW(values.reserve(values.max_size()), std::bad_alloc);
   EXPECT_THROW(std::ignore = LargeAllocator<Triple>().allocate(most / 4), std::bad_alloc);
 }
 
