@@ -117,15 +117,16 @@ class Interruption(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr), (1, "rondel: <stdout>: Broken pipe\n"))
 
     def progress(self, *options):
-        """What a terminal shows on standard error."""
+        """What a terminal shows on standard error: nothing of work of less than 0.3 seconds."""
         sites = self.folder / "sites.npy"
-        subprocess.run([TOOL, *GENERATE, sites], check=True)
+        subprocess.run([TOOL, "generate", "uniform", "-n", "4000000", "--quiet", "-o", sites],
+                       check=True)
         try:
             terminal, other_end = pty.openpty()
         except OSError as error:
             self.skipTest(f"no pseudo-terminal here: {error}")
         process = subprocess.Popen([TOOL, "delaunay", sites, "-o", self.folder / "out.npy",
-                                    *options], stdout=subprocess.DEVNULL, stderr=other_end)
+                                    "--threads", "1", *options], stdout=subprocess.DEVNULL, stderr=other_end)
         os.close(other_end)
         shown = b""
         try:
