@@ -159,6 +159,20 @@ TEST(bulk_sphere_general, hidden_sites_at_the_end_of_the_ring) {
                 Model::weighted);
 }
 
+// Doubles guess a bridge that is none, which only the neighbors at its other end tell.
+TEST(bulk_sphere_general, bridge_that_is_none) {
+  SiteSet set;
+  set.sphere.center = {0x1p-52, 0x1p-53, 0};
+  set.sites = {{-0.99999999999999956, -0.99999999999999989, -1},
+               {1.0000000000000002, -0.99999999999999989, -1},
+               {-16, -16, -16},
+               {16.000000000000004, -16, 16},
+               {-15.999999999999998, 16, 16},
+               {5.826367577510716, 14.80637756746362, 1.6806618284003758}};
+  BulkCase sites(set, Model::projected);
+  sites.run_whole();  // gives nothing, or what is right
+}
+
 TEST(bulk_sphere_general, differences_from_the_center_that_overflow) {
   SiteSet set;
   set.sphere.center = {-9e307, -9e307, -9e307};
