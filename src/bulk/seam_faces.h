@@ -25,7 +25,6 @@ class SeamFaces {
   [[nodiscard]] std::span<const Index> owned_by(Index s) const {
     return std::span(owned_).subspan(owned_begin_[s], owned_begin_[s + 1] - owned_begin_[s]);
   }
-  [[nodiscard]] std::size_t num_faces() const { return owned_.size(); }
   [[nodiscard]] bool is_inside(Index seam_face) const { return is_inside_[seam_face]; }
   // Corners as seam sites.
   [[nodiscard]] const Triple& seam_corners(Index seam_face) const { return seam_.faces[seam_face]; }
