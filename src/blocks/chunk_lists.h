@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "rondel/large_vector.h"
@@ -19,10 +18,7 @@ class ChunkLists {
  public:
   // Room for `capacity` words in all.
   ChunkLists(std::size_t num_lists, std::size_t capacity)
-      : size_(most_words(num_lists, capacity)),
-        words_(size_),
-        ends_(num_lists, 0),
-        num_chunks_(num_lists, 0) {}
+      : words_(most_words(num_lists, capacity)), ends_(num_lists, 0), num_chunks_(num_lists, 0) {}
 
   void append(std::size_t list, std::uint64_t word) {
     std::uint64_t& end = ends_[list];
@@ -60,7 +56,6 @@ class ChunkLists {
     return used_ - chunk + 1;
   }
 
-  std::size_t size_;
   std::size_t used_ = 0;
   LargeVector<std::uint64_t> words_;
   std::vector<std::uint64_t> ends_;  // 0: empty

@@ -59,11 +59,10 @@ class CellCoordinates {
 
   // For so many; forgets what there was if it has to grow.
   void reserve(std::size_t size) {
-    if (size <= size_) return;
+    if (size * bytes_of_site <= memory_.size()) return;
     memory_ = {};
-    memory_ = LargeVector<std::byte>(size * bytes_of_site);
+    memory_.resize(size * bytes_of_site);
     place(memory_.data(), size);
-    size_ = size;
   }
   // In memory of the caller.
   void place(std::byte* memory, std::size_t size) {
@@ -76,7 +75,6 @@ class CellCoordinates {
 
  private:
   LargeVector<std::byte> memory_;
-  std::size_t size_ = 0;  // of its own memory
   CellPoint* points_ = nullptr;
   CellPosition* positions_ = nullptr;
 };

@@ -118,7 +118,7 @@ class Divide {
   [[nodiscard]] Part lower_end(const Part& part, unsigned axis, double down) const {
     constexpr std::array across = {&CellPoint::v, &CellPoint::u};
     if (part.edge == no_index) return part;
-    const Part other = {graph_.target(part.edge), graph_.next(part.edge ^ 1)};
+    const Part other = next_on_boundary(graph_, part);
     const auto depth = [&](Index i) { return down * (sites_.points()[i].*across[axis]); };
     const auto is_other = -static_cast<Index>(depth(part.vertex) < depth(other.vertex));
     const auto choose = [is_other](Index x, Index y) { return x ^ ((x ^ y) & is_other); };

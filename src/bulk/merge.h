@@ -29,6 +29,11 @@ struct Part {
   PlaneGraph::Edge edge = no_index;
 };
 
+// The part by the next vertex of its boundary, counterclockwise.
+inline Part next_on_boundary(const PlaneGraph& graph, const Part& p) {
+  return {graph.target(p.edge), graph.next(p.edge ^ 1)};
+}
+
 // An edge that leaves l into the face below `base` leads to a site that this face hides. It lies
 // between `base` and the lower side q of that face, but comes after `base` in its ring. Deletes
 // such edges, but for `kept`. Returns whether there were any.
@@ -122,7 +127,7 @@ class Merge {
     return graph_.target(graph_.previous(p.edge));
   }
   bool move_on(Part& p) const {
-    p = {graph_.target(p.edge), graph_.next(p.edge ^ 1)};
+    p = next_on_boundary(graph_, p);
     return true;
   }
   bool move_back(Part& p) const {

@@ -185,17 +185,16 @@ class PlaneGraph {
   }
 
  private:
+  static constexpr std::size_t halfedge_bytes = sizeof(Ring) + 2 * sizeof(Index);
   // Deleted pairs are used again, and a plane graph has less than three edges a vertex. One pair is
   // always ready (new_pair()).
-  static constexpr std::size_t halfedge_bytes = sizeof(Ring) + 2 * sizeof(Index);
   static std::size_t size_of(std::size_t num_vertices) { return 6 * num_vertices + 2; }
 
   void reserve(std::size_t size) {
-    if (size <= size_) return;
+    if (size * halfedge_bytes <= memory_.size()) return;
     memory_ = {};
-    memory_ = LargeVector<std::byte>(size * halfedge_bytes);
+    memory_.resize(size * halfedge_bytes);
     place(memory_.data(), size);
-    size_ = size;
   }
 
   void place(std::byte* memory, std::size_t size) {
@@ -227,11 +226,10 @@ class PlaneGraph {
     rings_[links.next].previous = links.previous;
   }
 
-  LargeVector<std::byte> memory_;  // of both arrays, not initialized
+  LargeVector<std::byte> memory_;  // of the arrays, if it is its own
   Ring* rings_ = nullptr;
   Index* targets_ = nullptr;
   Index* faces_ = nullptr;
-  std::size_t size_ = 0;  // of the arrays in its own memory
   // Of another type than the links, so that these are not read again after each link is written.
   std::size_t begin_ = 0;
   std::size_t full_ = 0;

@@ -141,7 +141,7 @@ class SphereTriangulation {
   std::span<const Duplicate> renamed_;
   Index num_sites_;
   std::vector<Index> order_;              // by parts
-  std::vector<Index> ranks_;              // of the same
+  std::vector<Index> ranks_;              // of the same, and of no site: no_index
   std::array<Block, num_parts> parts_{};  // ranks in the order by parts
   LargeVector<std::byte> memory_;         // of the next three
   CellCoordinates coordinates_;
@@ -164,7 +164,7 @@ void SphereTriangulation<T>::divide() {
     }
   }
   order_.resize(num_sites_);
-  ranks_.resize(num_sites_);
+  ranks_.resize(num_sites_ + 1, no_index);
   Index next = 0;
   const auto add = [&, order = order_.data(), all_ranks = ranks_.data(),
                     all = input_.order.data()](Index rank) {
@@ -284,7 +284,6 @@ PlaneGraph::Edge SphereTriangulation<T>::conquer() {
 template <incremental::SphereTraits T>
 void SphereTriangulation<T>::write(const std::vector<Index>& hidden, TriangulationArrays& arrays) {
   graph_.clear_faces();
-  ranks_.push_back(no_index);  // of the ends of deleted edges
   Index* const targets = graph_.targets();
   for (PlaneGraph::Edge e = 0; e < graph_.edge_limit(); ++e) {
     targets[e] = ranks_[std::min(targets[e], num_sites_)];

@@ -33,8 +33,8 @@ LargeArray<T> make_large_array(std::size_t size) {
 }
 
 // Reserves room in an empty vector.
-template <class T, class Allocator>
-void reserve_large(std::vector<T, Allocator>& values, std::size_t size) {
+template <class T>
+void reserve_large(std::vector<T>& values, std::size_t size) {
   values.reserve(size);
   advise_huge_pages(values.data(), size * sizeof(T));
 }
