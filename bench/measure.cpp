@@ -45,6 +45,13 @@ MemoryMeter::MemoryMeter() {
 
 double MemoryMeter::growth_bytes() const { return peak_bytes() - before_; }
 
+void keep_freed_memory() {
+#if defined(__GLIBC__)
+  mallopt(M_MMAP_MAX, 0);
+  mallopt(M_TRIM_THRESHOLD, -1);
+#endif
+}
+
 void print_json(std::initializer_list<Field> fields) {
   const char* separator = "{";
   for (const auto& [name, value] : fields) {

@@ -74,6 +74,7 @@ int main(int argc, char** argv) {
                              {"vertices", number(triangulation.num_vertices())},
                              {"faces", number(triangulation.num_faces())},
                              {"seconds", measured.seconds},
+                             {"first_seconds", measured.first_seconds},
                              {"order", report.order_seconds},
                              {"triangulate", report.triangulate_seconds},
                              {"dual", dual},

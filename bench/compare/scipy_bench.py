@@ -21,11 +21,11 @@ THRESHOLD = 1e-13  # also the largest distance from the sphere, so it cannot be 
 def main():
     points = numpy.load(sys.argv[1])
     try:
-        diagram, seconds, memory = measure(lambda: SphericalVoronoi(points, threshold=THRESHOLD))
+        diagram, *cost = measure(lambda: SphericalVoronoi(points, threshold=THRESHOLD))
     except ValueError as error:
         raise SystemExit(str(error)) from None
     vertices = len(numpy.unique(diagram._simplices))
-    print_build(len(points), vertices, len(diagram._simplices), seconds, memory)
+    print_build(len(points), vertices, len(diagram._simplices), *cost)
 
 
 if __name__ == "__main__":

@@ -34,10 +34,10 @@ def main():
     points = numpy.load(sys.argv[1])
     plane = {"vertices": stereographic(points)}
     # z: count from 0; N: do not return the vertices; e: the edges, with marks where they are outer.
-    result, seconds, memory = measure(lambda: triangle.triangulate(plane, "zNe"))
+    result, *cost = measure(lambda: triangle.triangulate(plane, "zNe"))
     corners = result["triangles"]
     outer = int(numpy.sum(result["edge_markers"]))
-    print_build(len(points), len(numpy.unique(corners)) + 1, len(corners) + outer, seconds, memory)
+    print_build(len(points), len(numpy.unique(corners)) + 1, len(corners) + outer, *cost)
 
 
 if __name__ == "__main__":

@@ -26,8 +26,8 @@ TABLES = {
 
 # How large and how often: (peers up to 2^k, Rondel up to 2^k, division of fixed sizes, limits).
 EXTENTS = {
-    "quick": (14, 18, 64, Limits(seconds=5, runs=3, budget=2)),
-    "normal": (20, 22, 1, Limits(seconds=30, runs=5, budget=8)),
+    "quick": (14, 18, 64, Limits(seconds=10, runs=3, budget=4)),
+    "normal": (20, 22, 1, Limits(seconds=90, runs=5, budget=20)),
     "full": (23, 27, 1, Limits(seconds=600, runs=7, budget=60)),
 }
 

@@ -15,15 +15,18 @@ class SeamFaces {
  public:
   // `seam` is the triangulation of the seam sites. Links the faces of the region that `edges`
   // bound to the final faces of the blocks.
-  SeamFaces(std::span<const BlockResult> results, FaceStore store, TriangulationArrays seam);
+  SeamFaces(std::span<const BlockResult> results, FaceStore store, TriangulationArrays seam,
+            unsigned threads);
 
   // Seam faces follow the faces of the blocks: a name below this is one of those.
   [[nodiscard]] Index names_begin() const { return static_cast<Index>(store_.corners.size()); }
   [[nodiscard]] std::span<const SeamSite> sites() const { return sites_; }
   [[nodiscard]] std::size_t num_all() const { return seam_.faces.size(); }
   // The faces that seam site s owns, counterclockwise.
-  [[nodiscard]] std::span<const Index> owned_by(Index s) const {
-    return std::span(owned_).subspan(owned_begin_[s], owned_begin_[s + 1] - owned_begin_[s]);
+  [[nodiscard]] std::span<const Index> owned_by(Index s) const { return owned_by(s, s + 1); }
+  // Those of seam sites begin ... end-1.
+  [[nodiscard]] std::span<const Index> owned_by(Index begin, Index end) const {
+    return std::span(owned_).subspan(owned_begin_[begin], owned_begin_[end] - owned_begin_[begin]);
   }
   [[nodiscard]] bool is_inside(Index seam_face) const { return is_inside_[seam_face]; }
   // Corners as seam sites.
@@ -46,7 +49,7 @@ class SeamFaces {
   // Returns the edge of the region with the seam on its left that runs from site b to site a.
   [[nodiscard]] const SeamEdge* find_edge(Index b, Index a) const;
   void collect(std::span<const BlockResult> results);
-  void fill();
+  void fill(unsigned threads);
   void list_owned();
 
   FaceStore store_;

@@ -8,13 +8,10 @@
 //      +---------+         The planes x = y and x = -y make four lunes. Each consists of one of the
 //      | \     / |         four faces around the cube and of triangles of its top and its bottom,
 //      |   \ /   |         beyond the planes z = x and z = -x (for the lune of x > |y|).
-//      |   / \   |
-//      | /     \ |         Two neighboring lunes are a half. A ray on a plane belongs to one side,
-//      so
-//      +---------+         that no two rays of a half are opposite: the hulls of disjoint parts of
-//      a | x > |y| |         half are disjoint, as in the plane. The halves are then closed
-//      (closing.h).
-//      +---------+
+//      |   / \   |         Two neighboring lunes are a half. A ray on a plane belongs to one side,
+//      | /     \ |         so that no two rays of a half are opposite: the hulls of disjoint parts
+//      +---------+         of a half are disjoint, as in the plane. The halves are then closed
+//        x > |y|           (closing.h).
 #pragma once
 
 #include <optional>

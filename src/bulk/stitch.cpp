@@ -4,6 +4,7 @@
 #include "bulk/stitch.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "bulk/seam_faces.h"
@@ -23,44 +24,64 @@ struct Run {
   Index final;
 };
 
-// Puts all faces in canonical order.
+// A face of a block that is not moved in place: its final name, and what it had before.
+struct Copied {
+  Index final;
+  Triple corners;
+  Triple neighbors;
+};
+
+// The faces that the sites of some blocks own, of these blocks and of the seam. Their final names
+// are begin ... end-1.
+struct Part {
+  std::span<const BlockResult> blocks;
+  Index begin = 0;
+  Index end = 0;
+  Index sites_begin = 0;  // seam sites
+  Index sites_end = 0;
+  std::vector<Run> runs;  // from and to places of this part, in the order of both names
+  std::vector<Copied> copied;
+};
+
+// Puts the faces of one part in canonical order, and copies those that others will be written over.
 class Numbering {
  public:
-  Numbering(std::span<const BlockResult> results, const SeamFaces& seam) : seam_(seam) {
-    Index site = 0;
-    for (const BlockResult& block : results) {
+  // Writes final names by preliminary ones to `final_of`.
+  Numbering(const SeamFaces& seam, Part& part, LargeVector<Index>& final_of)
+      : seam_(seam), part_(part), final_of_(final_of), next_(part.begin) {}
+
+  // Returns false if they do not fit.
+  bool run() {
+    Index s = part_.sites_begin;
+    for (const BlockResult& block : part_.blocks) {
       Index face = block.faces_begin;
-      for (const SeamSite& s : block.seam_sites) {
-        append(face, s.faces_begin);
-        append_owned(site++);
-        face = s.faces_end;
+      for (const SeamSite& site : block.seam_sites) {
+        append(face, site.faces_begin);
+        append_owned(s++);
+        face = site.faces_end;
       }
       append(face, block.faces_end);
     }
+    return next_ == part_.end;
   }
-
-  // Of faces of the blocks, in their order.
-  [[nodiscard]] std::span<const Run> block_runs() const { return block_runs_; }
-  // Of single faces of the blocks that come later than in their order, since the owner's first face
-  // is one of the seam.
-  [[nodiscard]] std::span<const Run> late_runs() const { return late_runs_; }
-  // Of single faces of the seam.
-  [[nodiscard]] std::span<const Run> seam_runs() const { return seam_runs_; }
-  [[nodiscard]] Index num_faces() const { return num_faces_; }
 
  private:
+  // Faces of the block.
   void append(Index begin, Index end) {
-    if (begin == end) return;
-    runs_of(begin).push_back({begin, end, num_faces_});
-    num_faces_ += end - begin;
+    for (Index f = begin; f < end; ++f) final_of_[f] = next_ + (f - begin);
+    const Index first = std::clamp(part_.begin, begin, end);
+    const Index last = std::clamp(part_.end, first, end);
+    for (Index f = begin; f < first; ++f) copy(f);
+    if (first < last) part_.runs.push_back({first, last, final_of_[first]});
+    for (Index f = last; f < end; ++f) copy(f);
+    next_ += end - begin;
   }
 
-  std::vector<Run>& runs_of(Index face) {
-    if (face >= seam_.names_begin()) return seam_runs_;
-    return block_runs_.empty() || block_runs_.back().begin < face ? block_runs_ : late_runs_;
+  void copy(Index face) {
+    part_.copied.push_back({final_of_[face], seam_.corners(face), seam_.neighbors(face)});
   }
 
-  // Those of seam site s, from blocks and seam. The faces that a site owns start with the one with
+  // Those of seam site s, from block and seam. The faces that a site owns start with the one with
   // the smallest second corner.
   void append_owned(Index s) {
     const SeamSite& site = seam_.sites()[s];
@@ -74,7 +95,10 @@ class Numbering {
     }
     const auto second = [this](Index f) { return seam_.corners(f)[1]; };
     std::rotate(faces_.begin(), std::ranges::min_element(faces_, {}, second), faces_.end());
-    for (const Index f : faces_) append(f, f + 1);
+    for (const Index f : faces_) {
+      final_of_[f] = next_++;
+      if (f < seam_.names_begin()) copy(f);
+    }
   }
 
   // Lists the faces that the site of this rank owns, counterclockwise from one of them.
@@ -89,21 +113,11 @@ class Numbering {
   }
 
   const SeamFaces& seam_;
-  std::vector<Run> block_runs_;
-  std::vector<Run> late_runs_;
-  std::vector<Run> seam_runs_;
+  Part& part_;
+  LargeVector<Index>& final_of_;
+  Index next_;
   std::vector<Index> faces_;
-  Index num_faces_ = 0;
 };
-
-// Calls piece(run) for all runs, in parallel.
-template <class Piece>
-void for_runs(std::span<const Run> runs, unsigned threads, Piece piece) {
-  constexpr std::size_t grain = 1024;
-  system::parallel_for(threads, runs.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) piece(runs[i]);
-  });
-}
 
 // Calls move(f, g) for all faces of the runs, preliminary and final name, so that no face is moved
 // to where another one waits. The order of the runs does not change, so no run moves over one that
@@ -139,78 +153,66 @@ void list_hidden(const SeamFaces& seam, std::span<const Index> names, Triangulat
   std::ranges::sort(arrays.hidden, {}, &Hidden::site);
 }
 
-// The number of every face when all are in their places, by its number before.
-LargeVector<Index> final_numbers(const Numbering& numbering, std::size_t num_faces,
-                                 unsigned threads) {
-  LargeVector<Index> final_of(num_faces);
-  const auto set_final = [&](const Run& run) {
-    for (Index f = run.begin; f < run.end; ++f) final_of[f] = run.final + (f - run.begin);
-  };
-  for_runs(numbering.block_runs(), threads, set_final);
-  for_runs(numbering.late_runs(), threads, set_final);
-  for_runs(numbering.seam_runs(), threads, set_final);
-  return final_of;
+// Calls work(part) for all parts, in parallel.
+template <class Work>
+void for_each(std::vector<Part>& parts, unsigned threads, Work work) {
+  system::parallel_for(threads, parts.size(), 1,
+                       [&](std::size_t i, std::size_t /*end*/) { work(parts[i]); });
+}
+
+// As few as keep the threads busy, since near their ends faces are copied. Still empty.
+std::vector<Part> make_parts(std::span<const BlockResult> results, const SeamFaces& seam,
+                             unsigned threads) {
+  const std::size_t num_parts = threads == 1 ? 1 : 4 * std::size_t{threads};
+  const std::size_t num_blocks = (results.size() + num_parts - 1) / num_parts;
+  std::vector<Part> parts;
+  Part next;
+  for (; !results.empty(); results = results.subspan(next.blocks.size())) {
+    next.blocks = results.first(std::min(num_blocks, results.size()));
+    for (const BlockResult& block : next.blocks) {
+      next.sites_end += static_cast<Index>(block.seam_sites.size());
+      next.end += block.faces_end - block.faces_begin;
+    }
+    next.end += static_cast<Index>(seam.owned_by(next.sites_begin, next.sites_end).size());
+    parts.push_back(next);
+    next.begin = next.end;
+    next.sites_begin = next.sites_end;
+  }
+  return parts;
 }
 
 }  // namespace
 
 bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_arrays,
             std::span<const Index> names, unsigned threads, TriangulationArrays& arrays) {
-  const SeamFaces seam(results, {arrays.faces, arrays.neighbors}, std::move(seam_arrays));
+  const SeamFaces seam(results, {arrays.faces, arrays.neighbors}, std::move(seam_arrays), threads);
   list_hidden(seam, names, arrays);
   const std::size_t expected = 2 * (names.size() - arrays.hidden.size()) - 4;
   if (!seam.fits()) return false;
-  const Numbering numbering(results, seam);
-  if (numbering.num_faces() != expected) return false;
-
-  const Index names_begin = seam.names_begin();
-  const auto final_of = final_numbers(numbering, names_begin + seam.num_all(), threads);
-  LargeVector<Triple>& faces = arrays.faces;
-  LargeVector<Triple>& neighbors = arrays.neighbors;
-  const auto set_face = [&](const Triple& v, Index to) {
-    faces[to] = {names[v[0]], names[v[1]], names[v[2]]};
-  };
-  const auto set_neighbors = [&](const Triple& n, Index to) {
-    neighbors[to] = {final_of[n[0]], final_of[n[1]], final_of[n[2]]};
-  };
-  struct Late {
-    Triple corners;
-    Triple neighbors;
-  };
-  std::vector<Late> late;
-  for (const Run& run : numbering.late_runs())
-    late.push_back({faces[run.begin], neighbors[run.begin]});
-  if (threads == 1) {
-    move_runs(numbering.block_runs(), [&](Index from, Index to) {
-      set_face(faces[from], to);
-      set_neighbors(neighbors[from], to);
-    });
-  } else {
-    for_runs(numbering.block_runs(), threads, [&](const Run& run) {
-      for (Index f = run.begin; f < run.end; ++f) {
-        set_face(faces[f], f);
-        set_neighbors(neighbors[f], f);
-      }
-    });
-    const auto move_all = [&](LargeVector<Triple>& values) {
-      move_runs(numbering.block_runs(), [&](Index from, Index to) { values[to] = values[from]; });
+  std::vector<Part> parts = make_parts(results, seam, threads);
+  if (parts.back().end != expected) return false;
+  LargeVector<Index> final_of(seam.names_begin() + seam.num_all());
+  std::atomic<bool> fits = true;
+  for_each(parts, threads, [&](Part& part) {
+    if (!Numbering(seam, part, final_of).run()) fits = false;
+  });
+  if (!fits) return false;
+  for_each(parts, threads, [&](const Part& part) {
+    const auto put = [&](const Triple& v, const Triple& n, Index to) {
+      arrays.faces[to] = {names[v[0]], names[v[1]], names[v[2]]};
+      arrays.neighbors[to] = {final_of[n[0]], final_of[n[1]], final_of[n[2]]};
     };
-    system::parallel_invoke(
-        threads, [&] { move_all(faces); }, [&] { move_all(neighbors); });
-  }
-  for (std::size_t i = 0; i < late.size(); ++i) {
-    set_face(late[i].corners, numbering.late_runs()[i].final);
-    set_neighbors(late[i].neighbors, numbering.late_runs()[i].final);
-  }
-  for_runs(numbering.seam_runs(), threads, [&](const Run& run) {
-    set_face(seam.corners(run.begin), run.final);
-    set_neighbors(seam.neighbors(run.begin), run.final);
+    move_runs(part.runs,
+              [&](Index from, Index to) { put(arrays.faces[from], arrays.neighbors[from], to); });
+    for (const Copied& face : part.copied) put(face.corners, face.neighbors, face.final);
+    for (const Index f : seam.owned_by(part.sites_begin, part.sites_end))
+      put(seam.corners(f), seam.neighbors(f), final_of[f]);
   });
   arrays.faces.resize(expected);
   arrays.neighbors.resize(expected);
   arrays.dimension = 2;
   for (const Index f : seam.ghost_faces()) {
-    if (seam.is_inside(f)) arrays.ghost_faces.push_back(final_of[names_begin + f]);
+    if (seam.is_inside(f)) arrays.ghost_faces.push_back(final_of[seam.names_begin() + f]);
   }
   std::ranges::sort(arrays.ghost_faces);
   return true;

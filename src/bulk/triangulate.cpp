@@ -124,11 +124,32 @@ bool are_weights_close(const Input& input) {
   return num_sites * (extent.most_size - extent.least_size) < 4 * extent.least_size;
 }
 
-// Whether these may be triangulated over the whole sphere at once.
-bool suit_sphere(const Input& input) {
+// Whether these may be triangulated over the whole sphere at once, which up to `most_sites` may.
+bool suit_sphere(const Input& input, std::size_t most_sites) {
   const std::size_t num_sites = input.order.size();
-  return num_sites >= least_sphere_sites && num_sites <= sphere_sites &&
+  return num_sites >= least_sphere_sites && num_sites <= most_sites &&
          surround_center(input.sites, input.options.sphere.center);
+}
+
+Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
+                         std::span<const Duplicate> renamed, const Options& options,
+                         std::size_t most_sphere_sites);
+
+// The seam sites in their order. Most of them lie along borders of blocks, so blocks would not
+// help; their mesh is small beside the result.
+Triangulated triangulate_seam(const Input& input, std::span<const BlockResult> results) {
+  const std::size_t num_ranks = input.order.size();
+  std::vector<Point> sites;
+  for (const BlockResult& block : results) {
+    for (const SeamSite& s : block.seam_sites) sites.push_back(input.sites[input.order[s.rank]]);
+  }
+  std::vector<Index> order(sites.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  Options options = input.options;
+  options.progress = {};
+  if (2 * sites.size() >= num_ranks)
+    return incremental::triangulate(sites, std::move(order), {}, options);
+  return triangulate(sites, std::move(order), {}, options, std::max(sphere_sites, num_ranks / 8));
 }
 
 std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplicate> renamed,
@@ -145,19 +166,7 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplic
                            ? triangulate_blocks<incremental::ProjectedPoints>(input, blocks, store)
                            : triangulate_blocks<incremental::WeightedPoints>(input, blocks, store);
 
-  std::vector<Point> seam_points;
-  for (const BlockResult& block : results) {
-    for (const SeamSite& s : block.seam_sites)
-      seam_points.push_back(input.sites[input.order[s.rank]]);
-  }
-  std::vector<Index> seam_order(seam_points.size());
-  std::iota(seam_order.begin(), seam_order.end(), Index{0});
-  Options of_seam = input.options;
-  of_seam.progress = {};
-  Triangulated seam =
-      2 * seam_points.size() < num_ranks
-          ? triangulate(seam_points, std::move(seam_order), {}, of_seam)
-          : incremental::triangulate(seam_points, std::move(seam_order), {}, of_seam);
+  Triangulated seam = triangulate_seam(input, results);
   if (seam.arrays.dimension < 2) return std::nullopt;
   result.tally = seam.tally;
   for (const BlockResult& block : results) predicates::add(result.tally, block.tally);
@@ -173,6 +182,25 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplic
   return result;
 }
 
+Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
+                         std::span<const Duplicate> renamed, const Options& options,
+                         std::size_t most_sphere_sites) {
+  const Input input = make_input(sites, order, options);
+  std::optional<bool> trial;  // it takes time, and may not be needed
+  const auto have_blocks = [&] {
+    if (!trial) trial = order.size() >= least_block_sites && is_worthwhile(input);
+    return *trial;
+  };
+  std::optional<Triangulated> result;
+  // Where many are hidden the incremental algorithm is faster.
+  if (suit_sphere(input, most_sphere_sites) && (are_weights_close(input) || have_blocks())) {
+    result = triangulate_sphere(input, renamed);
+  }
+  if (!result && have_blocks()) result = by_blocks(input, renamed, block_sites);
+  return result ? *std::move(result)
+                : incremental::triangulate(sites, std::move(order), renamed, options);
+}
+
 }  // namespace
 
 std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
@@ -185,20 +213,7 @@ std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                          std::span<const Duplicate> renamed, const Options& options) {
-  const Input input = make_input(sites, order, options);
-  std::optional<bool> trial;  // it takes time, and may not be needed
-  const auto have_blocks = [&] {
-    if (!trial) trial = order.size() >= least_block_sites && is_worthwhile(input);
-    return *trial;
-  };
-  std::optional<Triangulated> result;
-  // Where many are hidden the incremental algorithm is faster.
-  if (suit_sphere(input) && (are_weights_close(input) || have_blocks())) {
-    result = triangulate_sphere(input, renamed);
-  }
-  if (!result && have_blocks()) result = by_blocks(input, renamed, block_sites);
-  return result ? *std::move(result)
-                : incremental::triangulate(sites, std::move(order), renamed, options);
+  return triangulate(sites, std::move(order), renamed, options, sphere_sites);
 }
 
 }  // namespace rondel::bulk
