@@ -6,9 +6,12 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <string>
 
 #include "rondel/error.h"
+#include "system/wide_vectors.h"
 
 namespace rondel::api {
 namespace {
@@ -46,16 +49,25 @@ void validate(const Options& options, std::size_t num_sites) {
   }
 }
 
-// A coordinate that is not finite makes its sum NaN.
+// Without branches, so that it becomes vector code.
 bool are_valid(std::span<const Point> sites, const Options& options) {
+  constexpr double largest = std::numeric_limits<double>::max();
   const Point center = options.sphere.center;
-  Point sum;
-  bool is_center = false;
-  for (const Point& p : sites) {
-    sum = {sum.x + 0 * p.x, sum.y + 0 * p.y, sum.z + 0 * p.z};
-    is_center |= (p.x == center.x) & (p.y == center.y) & (p.z == center.z);
-  }
-  return sum == Point{} && (options.model == Model::weighted || !is_center);
+  std::uint64_t are_finite = 1;
+  std::uint64_t is_center = 0;
+  system::with_wide_vectors([&]() RONDEL_ALWAYS_INLINE {
+    const auto bit = [](bool condition) { return static_cast<std::uint64_t>(condition); };
+    std::uint64_t finite = 1;
+    std::uint64_t same = 0;
+    for (const Point& p : sites) {
+      finite &= bit(std::abs(p.x) <= largest) & bit(std::abs(p.y) <= largest) &
+                bit(std::abs(p.z) <= largest);
+      same |= bit(p.x == center.x) & bit(p.y == center.y) & bit(p.z == center.z);
+    }
+    are_finite = finite;
+    is_center = same;
+  });
+  return are_finite != 0 && (options.model == Model::weighted || is_center == 0);
 }
 
 void validate(std::span<const Point> sites, const Options& options) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <numeric>
 #include <utility>
 
 #include "bulk/seam_faces.h"
@@ -68,7 +69,7 @@ class Numbering {
  private:
   // Faces of the block.
   void append(Index begin, Index end) {
-    for (Index f = begin; f < end; ++f) final_of_[f] = next_ + (f - begin);
+    std::iota(final_of_.begin() + begin, final_of_.begin() + end, next_);
     const Index first = std::clamp(part_.begin, begin, end);
     const Index last = std::clamp(part_.end, first, end);
     for (Index f = begin; f < first; ++f) copy(f);
