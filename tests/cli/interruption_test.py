@@ -42,6 +42,7 @@ def survivable_signals(folder):
 
 class Interruption(unittest.TestCase):
     def setUp(self):
+        signal.signal(signal.SIGHUP, signal.SIG_DFL)  # programs would inherit what nohup ignores
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name).resolve()
