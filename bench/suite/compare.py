@@ -3,7 +3,8 @@
 """Whether one commit is slower than another on this machine.
 
 Both are built from detached worktrees with the same compiler and options, and run in turns on the
-same inputs, each run in its own process. Any commit that has the program rondel_bench will do.
+same inputs, each run in its own process. Any commit that has the program rondel_bench will do; its
+own rules of measuring count (bench/measure.h), so two commits with different ones tell little.
 """
 
 import argparse
