@@ -34,27 +34,28 @@ struct Copied {
 
 // The faces that the sites of some blocks own, of these blocks and of the seam. Their final names
 // are begin ... end-1.
-struct Part {
+struct Section {
   std::span<const BlockResult> blocks;
   Index begin = 0;
   Index end = 0;
   Index sites_begin = 0;  // seam sites
   Index sites_end = 0;
-  std::vector<Run> runs;  // from and to places of this part, in the order of both names
+  std::vector<Run> runs;  // from and to places of this section, in the order of both names
   std::vector<Copied> copied;
 };
 
-// Puts the faces of one part in canonical order, and copies those that others will be written over.
+// Puts the faces of one section in canonical order, and copies those that others will be written
+// over.
 class Numbering {
  public:
   // Writes final names by preliminary ones to `final_of`.
-  Numbering(const SeamFaces& seam, Part& part, LargeVector<Index>& final_of)
-      : seam_(seam), part_(part), final_of_(final_of), next_(part.begin) {}
+  Numbering(const SeamFaces& seam, Section& section, LargeVector<Index>& final_of)
+      : seam_(seam), section_(section), final_of_(final_of), next_(section.begin) {}
 
   // Returns false if they do not fit.
   bool run() {
-    Index s = part_.sites_begin;
-    for (const BlockResult& block : part_.blocks) {
+    Index s = section_.sites_begin;
+    for (const BlockResult& block : section_.blocks) {
       Index face = block.faces_begin;
       for (const SeamSite& site : block.seam_sites) {
         append(face, site.faces_begin);
@@ -63,23 +64,23 @@ class Numbering {
       }
       append(face, block.faces_end);
     }
-    return next_ == part_.end;
+    return next_ == section_.end;
   }
 
  private:
   // Faces of the block.
   void append(Index begin, Index end) {
     std::iota(final_of_.begin() + begin, final_of_.begin() + end, next_);
-    const Index first = std::clamp(part_.begin, begin, end);
-    const Index last = std::clamp(part_.end, first, end);
+    const Index first = std::clamp(section_.begin, begin, end);
+    const Index last = std::clamp(section_.end, first, end);
     for (Index f = begin; f < first; ++f) copy(f);
-    if (first < last) part_.runs.push_back({first, last, final_of_[first]});
+    if (first < last) section_.runs.push_back({first, last, final_of_[first]});
     for (Index f = last; f < end; ++f) copy(f);
     next_ += end - begin;
   }
 
   void copy(Index face) {
-    part_.copied.push_back({final_of_[face], seam_.corners(face), seam_.neighbors(face)});
+    section_.copied.push_back({final_of_[face], seam_.corners(face), seam_.neighbors(face)});
   }
 
   // Those of seam site s, from block and seam. The faces that a site owns start with the one with
@@ -114,7 +115,7 @@ class Numbering {
   }
 
   const SeamFaces& seam_;
-  Part& part_;
+  Section& section_;
   LargeVector<Index>& final_of_;
   Index next_;
   std::vector<Index> faces_;
@@ -154,20 +155,20 @@ void list_hidden(const SeamFaces& seam, std::span<const Index> names, Triangulat
   std::ranges::sort(arrays.hidden, {}, &Hidden::site);
 }
 
-// Calls work(part) for all parts, in parallel.
+// Calls work(section) for all sections, in parallel.
 template <class Work>
-void for_each(std::vector<Part>& parts, unsigned threads, Work work) {
-  system::parallel_for(threads, parts.size(), 1,
-                       [&](std::size_t i, std::size_t /*end*/) { work(parts[i]); });
+void for_each(std::vector<Section>& sections, unsigned threads, Work work) {
+  system::parallel_for(threads, sections.size(), 1,
+                       [&](std::size_t i, std::size_t /*end*/) { work(sections[i]); });
 }
 
 // As few as keep the threads busy, since near their ends faces are copied. Still empty.
-std::vector<Part> make_parts(std::span<const BlockResult> results, const SeamFaces& seam,
-                             unsigned threads) {
-  const std::size_t num_parts = threads == 1 ? 1 : 4 * std::size_t{threads};
-  const std::size_t num_blocks = (results.size() + num_parts - 1) / num_parts;
-  std::vector<Part> parts;
-  Part next;
+std::vector<Section> make_sections(std::span<const BlockResult> results, const SeamFaces& seam,
+                                   unsigned threads) {
+  const std::size_t num_sections = threads == 1 ? 1 : 4 * std::size_t{threads};
+  const std::size_t num_blocks = system::num_pieces(results.size(), num_sections);
+  std::vector<Section> sections;
+  Section next;
   for (; !results.empty(); results = results.subspan(next.blocks.size())) {
     next.blocks = results.first(std::min(num_blocks, results.size()));
     for (const BlockResult& block : next.blocks) {
@@ -175,11 +176,11 @@ std::vector<Part> make_parts(std::span<const BlockResult> results, const SeamFac
       next.end += block.faces_end - block.faces_begin;
     }
     next.end += static_cast<Index>(seam.owned_by(next.sites_begin, next.sites_end).size());
-    parts.push_back(next);
+    sections.push_back(next);
     next.begin = next.end;
     next.sites_begin = next.sites_end;
   }
-  return parts;
+  return sections;
 }
 
 }  // namespace
@@ -190,23 +191,23 @@ bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_array
   list_hidden(seam, names, arrays);
   const std::size_t expected = 2 * (names.size() - arrays.hidden.size()) - 4;
   if (!seam.fits()) return false;
-  std::vector<Part> parts = make_parts(results, seam, threads);
-  if (parts.back().end != expected) return false;
+  std::vector<Section> sections = make_sections(results, seam, threads);
+  if (sections.back().end != expected) return false;
   LargeVector<Index> final_of(seam.names_begin() + seam.num_all());
   std::atomic<bool> fits = true;
-  for_each(parts, threads, [&](Part& part) {
-    if (!Numbering(seam, part, final_of).run()) fits = false;
+  for_each(sections, threads, [&](Section& section) {
+    if (!Numbering(seam, section, final_of).run()) fits = false;
   });
   if (!fits) return false;
-  for_each(parts, threads, [&](const Part& part) {
+  for_each(sections, threads, [&](const Section& section) {
     const auto put = [&](const Triple& v, const Triple& n, Index to) {
       arrays.faces[to] = {names[v[0]], names[v[1]], names[v[2]]};
       arrays.neighbors[to] = {final_of[n[0]], final_of[n[1]], final_of[n[2]]};
     };
-    move_runs(part.runs,
+    move_runs(section.runs,
               [&](Index from, Index to) { put(arrays.faces[from], arrays.neighbors[from], to); });
-    for (const Copied& face : part.copied) put(face.corners, face.neighbors, face.final);
-    for (const Index f : seam.owned_by(part.sites_begin, part.sites_end))
+    for (const Copied& face : section.copied) put(face.corners, face.neighbors, face.final);
+    for (const Index f : seam.owned_by(section.sites_begin, section.sites_end))
       put(seam.corners(f), seam.neighbors(f), final_of[f]);
   });
   arrays.faces.resize(expected);

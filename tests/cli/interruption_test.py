@@ -127,7 +127,8 @@ class Interruption(unittest.TestCase):
         except OSError as error:
             self.skipTest(f"no pseudo-terminal here: {error}")
         process = subprocess.Popen([TOOL, "delaunay", sites, "-o", self.folder / "out.npy",
-                                    "--threads", "1", *options], stdout=subprocess.DEVNULL, stderr=other_end)
+                                    "--threads", "1", *options],
+                                   stdout=subprocess.DEVNULL, stderr=other_end)
         os.close(other_end)
         shown = b""
         try:
