@@ -5,10 +5,13 @@
 #
 # -ffp-contract=off is part of the correctness proof: a fused multiply-add
 # changes the error of a filter and the bits of a spatial key.
+# -fno-math-errno: nothing reads errno behind a square root, and loops with one
+# become vector code.
 function(rondel_target_settings target)
   target_compile_features(${target} PUBLIC cxx_std_20)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
-  target_compile_options(${target} PRIVATE -ffp-contract=off -Wall -Wextra -Wconversion -Wshadow)
+  target_compile_options(${target} PRIVATE -ffp-contract=off -fno-math-errno -Wall -Wextra -Wconversion
+                                           -Wshadow)
   if(RONDEL_WARNINGS_AS_ERRORS)
     target_compile_options(${target} PRIVATE -Werror)
   endif()

@@ -47,7 +47,8 @@ std::vector<Index> find_rest(std::span<const Point> sites, const Options& option
 }
 
 // Rays are looked at when they are read anyway, as memory is slow; weighted sites were before.
-blocks::SpatialOrder order_valid(std::span<const Point> sites, const Options& options) {
+blocks::SpatialOrder order_valid(std::span<const Point> sites, const Options& options,
+                                 const blocks::SiteCopies& copies) {
   blocks::SitesCheck check;
   if (options.model == Model::projected) {
     check = [&options](std::span<const Point> some) {
@@ -56,7 +57,7 @@ blocks::SpatialOrder order_valid(std::span<const Point> sites, const Options& op
   }
   try {
     return blocks::spatial_order(sites, options.model, options.sphere.center, options.threads,
-                                 check);
+                                 check, copies);
   } catch (const InvalidInput&) {
     validate(sites, options);  // names the first one
     throw;
@@ -120,11 +121,16 @@ Triangulation build(std::span<const Point> sites, const Options& options,
   const auto rest = find_rest(sites, options, inner);
   const auto rest_points = select(sites, rest);
   const std::span<const Point> inserted = rest.empty() ? sites : rest_points;
-  auto order = order_valid(inserted, options);
+  // Of as much memory as the faces, which will be written over the sites.
+  LargeVector<Triple> copies(inserted.size() < bulk::least_copied_sites ? 0 : 2 * inserted.size());
+  auto order =
+      order_valid(inserted, options, blocks::SiteCopies(std::as_writable_bytes(std::span(copies))));
+  if (order.order.size() < inserted.size() / 2) copies = {};  // too much for the faces
   report.order_seconds = seconds_since(start);
 
   const auto order_end = Clock::now();
-  auto built = bulk::triangulate(inserted, std::move(order.order), order.renamed, options);
+  auto built = bulk::triangulate(inserted, std::move(order.order), order.renamed, options,
+                                 std::move(copies));
   built.arrays.num_sites = sites.size();
   built.arrays.duplicates = std::move(order.duplicates);
   if (!rest.empty()) add_inner_sites(sites, rest, built.arrays);

@@ -1,65 +1,84 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Many growing lists of words in one piece of memory, which is written from front to back and no
-// more than needed: the lists are chains of small chunks.
+// Many growing lists in one piece of memory, which is written from front to back and no more than
+// needed: the lists are chains of small chunks.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "blocks/prefetch.h"
 #include "rondel/large_vector.h"
+#include "system/huge_pages.h"
 
 namespace rondel::blocks {
 
+template <class T>
 class ChunkLists {
  public:
-  // Room for `capacity` words in all.
+  static constexpr std::size_t chunk_size = 512 / sizeof(T);
+
+  // Room for `capacity` elements in all.
   ChunkLists(std::size_t num_lists, std::size_t capacity)
-      : words_(most_words(num_lists, capacity)), ends_(num_lists, 0), num_chunks_(num_lists, 0) {}
+      : elements_(system::make_large_array<T>(most_chunks(num_lists, capacity) * chunk_size)),
+        previous_(most_chunks(num_lists, capacity)),
+        lists_(num_lists) {}
 
-  void append(std::size_t list, std::uint64_t word) {
-    std::uint64_t& end = ends_[list];
-    if (end % chunk == 0) end = new_chunk(list);
-    words_[end++] = word;
+  void append(std::size_t list, const T& element) {
+    List& l = lists_[list];
+    if (l.size % chunk_size == 0) add_chunk(l);
+    T* const place = elements_.get() + l.end;
+    *place = element;
+    ++l.size;
+    ++l.end;
+    prefetch_to_write(place + ahead);
   }
 
-  [[nodiscard]] std::size_t size(std::size_t list) const {
-    const std::uint64_t end = ends_[list];
-    return end == 0 ? 0 : (num_chunks_[list] - 1) * (chunk - 1) + (end - 1) % chunk;
-  }
+  [[nodiscard]] std::size_t size(std::size_t list) const { return lists_[list].size; }
 
-  // Copies a list in no particular order. Returns where the copy ends.
-  std::uint64_t* copy(std::size_t list, std::uint64_t* target) const {
-    for (std::uint64_t end = ends_[list]; end != 0;) {
-      const std::uint64_t begin = (end - 1) / chunk * chunk;
-      target = std::copy(words_.data() + begin + 1, words_.data() + end, target);
-      end = words_[begin];
+  // Calls visit(chunk), a span, for the chunks of a list, the last one first.
+  template <class Visit>
+  void for_chunks(std::size_t list, Visit visit) const {
+    std::size_t end = lists_[list].end;
+    for (std::size_t left = lists_[list].size; left != 0;) {
+      const std::size_t chunk = (end - 1) / chunk_size;
+      const std::span elements(elements_.get() + chunk * chunk_size, end - chunk * chunk_size);
+      visit(std::span<const T>(elements));
+      left -= elements.size();
+      end = (std::size_t{previous_[chunk]} + 1) * chunk_size;
     }
-    return target;
   }
 
  private:
-  static constexpr std::size_t chunk =
-      32;  // words, the first of which is where the one before ends
+  static constexpr std::size_t ahead = 128 / sizeof(T);  // what is asked for early, to write there
 
-  static std::size_t most_words(std::size_t num_lists, std::size_t capacity) {
-    return (capacity / (chunk - 1) + num_lists + 1) * chunk;
+  // Ends where its last chunk is filled up to.
+  struct List {
+    std::size_t size = 0;
+    std::size_t end = 0;
+  };
+
+  // With one that nothing is written to but asked for.
+  static std::size_t most_chunks(std::size_t num_lists, std::size_t capacity) {
+    return capacity / chunk_size + num_lists + 1;
   }
 
-  std::uint64_t new_chunk(std::size_t list) {
-    words_[used_] = ends_[list];
-    used_ += chunk;
-    ++num_chunks_[list];
-    return used_ - chunk + 1;
+  void add_chunk(List& list) {
+    previous_[num_chunks_] = static_cast<std::uint32_t>((list.end - 1) / chunk_size);
+    list.end = num_chunks_ * chunk_size;
+    ++num_chunks_;
+    for (std::size_t i = 0; i < ahead; i += ahead / 2) {
+      prefetch_to_write(elements_.get() + list.end + chunk_size + i);
+    }
   }
 
-  std::size_t used_ = 0;
-  LargeVector<std::uint64_t> words_;
-  std::vector<std::uint64_t> ends_;  // 0: empty
-  std::vector<std::uint32_t> num_chunks_;
+  std::size_t num_chunks_ = 0;
+  system::LargeArray<T> elements_;
+  LargeVector<std::uint32_t> previous_;  // of a chunk, in its list
+  std::vector<List> lists_;
 };
 
 }  // namespace rondel::blocks

@@ -4,7 +4,8 @@
 // Two passes over little memory, whatever the distribution:
 //
 //   deal   each site becomes one word, [ the key below its leaf's prefix | index ], in the list of
-//          its leaf of the key tree; parts of the input in parallel, each with lists of its own
+//          its leaf of the key tree, perhaps with its coordinates; parts of the input in parallel,
+//          each with lists of its own
 //   sort   the words of a leaf fit the cache: sorted there, their indices are the order; leaves in
 //          parallel
 //
@@ -16,10 +17,12 @@
 #include <array>
 #include <bit>
 #include <numeric>
+#include <type_traits>
 
 #include "blocks/chunk_lists.h"
 #include "blocks/close_sites.h"
 #include "blocks/key_tree.h"
+#include "blocks/prefetch.h"
 #include "blocks/word_sort.h"
 #include "system/huge_pages.h"
 #include "system/parallel.h"
@@ -34,11 +37,22 @@ constexpr std::size_t batch = 256;  // keys computed at once
 // are some thousands, so that their words continue with the low key.
 constexpr int longest_shallow_prefix = high_key_bits - 24;
 
+struct Word {
+  std::uint64_t word;
+};
+struct WordAndSite {
+  std::uint64_t word;
+  Point site;
+};
+
+// Dealt is what is dealt: Word, or WordAndSite if sites are copied, too.
+template <class Dealt>
 class Ordering {
  public:
   Ordering(std::span<const Point> sites, Model model, const Point& center, unsigned threads,
-           const SitesCheck& check)
+           const SitesCheck& check, const SiteCopies& copies)
       : check_(check),
+        copies_(copies),
         sites_(sites),
         model_(model),
         center_(center),
@@ -56,6 +70,8 @@ class Ordering {
   }
 
  private:
+  static constexpr bool copies_sites = std::is_same_v<Dealt, WordAndSite>;
+
   // What a leaf holds, and what became of it.
   struct Leaf {
     std::size_t first_rank = 0;
@@ -67,7 +83,7 @@ class Ordering {
   [[nodiscard]] KeyTree make_tree() const {
     constexpr std::size_t sites_per_sample = 256;
     const int size_bits = static_cast<int>(std::bit_width(sites_.size()));
-    const int root_bits = std::clamp(size_bits - 10, 3, 13);
+    const int root_bits = std::clamp(size_bits - 11, 3, 13);  // many lists are slow to write to
     std::vector<Point> points;
     for (std::size_t i = 0; i + sites_per_sample <= sites_.size(); i += sites_per_sample) {
       // Any place within the stride: a constant one could meet the same column of every grid.
@@ -101,7 +117,7 @@ class Ordering {
     });
   }
 
-  void deal(std::size_t begin, std::size_t end, ChunkLists& lists) const {
+  void deal(std::size_t begin, std::size_t end, ChunkLists<Dealt>& lists) const {
     std::array<std::uint64_t, batch> keys;
     std::array<std::uint64_t, batch> low_keys;
     const bool has_low_keys = tree_.longest_prefix_bits() > longest_shallow_prefix;
@@ -118,7 +134,12 @@ class Ordering {
         if (prefix > longest_shallow_prefix) {
           word |= low_keys[i] << (64 - 2 * low_levels) >> (high_key_bits - prefix);
         }
-        lists.append(leaf, (word & ~index_mask_) | (first + i));
+        word = (word & ~index_mask_) | (first + i);
+        if constexpr (copies_sites) {
+          lists.append(leaf, {word, sites_[first + i]});
+        } else {
+          lists.append(leaf, {word});
+        }
       }
     }
   }
@@ -128,7 +149,7 @@ class Ordering {
     std::size_t rank = 0;
     for (std::size_t l = 0; l < leaves_.size(); ++l) {
       leaves_[l].first_rank = rank;
-      for (const ChunkLists& lists : lists_) leaves_[l].num_sites += lists.size(l);
+      for (const auto& lists : lists_) leaves_[l].num_sites += lists.size(l);
       rank += leaves_[l].num_sites;
     }
   }
@@ -141,27 +162,70 @@ class Ordering {
   void sort() {
     merged_.resize(leaves_.size());
     system::parallel_for(threads_, leaves_.size(), 8, [&](std::size_t begin, std::size_t end) {
-      std::vector<std::uint64_t> words;
-      for (std::size_t l = begin; l < end; ++l) sort_leaf(l, words);
+      Space space;
+      for (std::size_t l = begin; l < end; ++l) sort_leaf(l, space);
     });
   }
 
-  void sort_leaf(std::size_t l, std::vector<std::uint64_t>& buffer) {
+  using Chunks = std::vector<std::span<const Dealt>>;
+
+  // What sorting a leaf needs.
+  struct Space {
+    Chunks chunks;
+    Chunks next;  // of the next leaf
+    std::vector<std::uint64_t> words;
+  };
+
+  void list_chunks(std::size_t l, Chunks& chunks) const {
+    chunks.clear();
+    if (l == leaves_.size()) return;
+    for (const auto& lists : lists_) {
+      lists.for_chunks(l, [&](std::span<const Dealt> chunk) { chunks.push_back(chunk); });
+    }
+  }
+
+  void sort_leaf(std::size_t l, Space& space) {
+    constexpr std::size_t chunk_size = ChunkLists<Dealt>::chunk_size;
     Leaf& leaf = leaves_[l];
     const std::size_t size = leaf.num_sites;
-    if (buffer.size() < 2 * size) buffer.resize(2 * size);
-    std::uint64_t* end = buffer.data();
-    for (const ChunkLists& lists : lists_) end = lists.copy(l, end);
-    const std::span words(buffer.data() + size, size);
-    sort_words({buffer.data(), size}, words);
+    list_chunks(l, space.chunks);
+    list_chunks(l + 1, space.next);
+    // Words that are sorted with sites in view have their places in the chunks instead of indices.
+    const bool has_places = copies_sites && space.chunks.size() * chunk_size <= index_mask_ + 1;
+    if (space.words.size() < 2 * size) space.words.resize(2 * size);
+    std::uint64_t* end = space.words.data();
+    for (std::size_t c = 0; c < space.chunks.size(); ++c) {
+      for (std::size_t i = 0; i < space.chunks[c].size(); ++i) {
+        const std::uint64_t word = space.chunks[c][i].word;
+        *end++ = has_places ? (word & ~index_mask_) | (c * chunk_size + i) : word;
+      }
+    }
+    const std::span words(end, size);
+    sort_words({space.words.data(), size}, words);
 
     const std::span<Index> order(result_.order.data() + leaf.first_rank, size);
     bool has_ties = false;
     for (std::size_t i = 0; i < size; ++i) {
-      order[i] = static_cast<Index>(words[i] & index_mask_);
+      if (i / chunk_size < space.next.size()) {
+        prefetch(space.next[i / chunk_size].data() + i % chunk_size);
+      }
+      const std::size_t place = words[i] & index_mask_;
+      order[i] = static_cast<Index>(place);
+      if constexpr (copies_sites) {
+        if (has_places) {
+          const Dealt& dealt = space.chunks[place / chunk_size][place % chunk_size];
+          order[i] = static_cast<Index>(dealt.word & index_mask_);
+          copies_.set(leaf.first_rank + i, dealt.site);
+        }
+      }
       has_ties |= i > 0 && (words[i] ^ words[i - 1]) <= index_mask_;
     }
     leaf.num_kept = has_ties ? order_ties(words, order, merged_[l]) : size;
+    if (copies_sites && (has_ties || !has_places)) {
+      for (std::size_t i = 0; i < leaf.num_kept; ++i) {
+        copies_.set(leaf.first_rank + i, sites_[order[i]]);
+      }
+    }
   }
 
   std::size_t order_ties(std::span<const std::uint64_t> words, std::span<Index> order,
@@ -190,6 +254,7 @@ class Ordering {
       const Leaf& leaf = leaves_[l];
       if (rank != leaf.first_rank) {
         std::copy_n(order.data() + leaf.first_rank, leaf.num_kept, order.data() + rank);
+        if (copies_sites) copies_.move(leaf.first_rank, leaf.num_kept, rank);
       }
       for (const Duplicate& r : merged_[l].renamed) {
         result_.renamed.push_back({static_cast<Index>(rank + r.site), r.representative});
@@ -213,13 +278,14 @@ class Ordering {
   }
 
   const SitesCheck& check_;
+  SiteCopies copies_;
   std::span<const Point> sites_;
   Model model_;
   Point center_;
   unsigned threads_;
   std::uint64_t index_mask_;
   KeyTree tree_;
-  std::vector<ChunkLists> lists_;  // by piece of the input
+  std::vector<ChunkLists<Dealt>> lists_;  // by piece of the input
   std::vector<Leaf> leaves_;
   std::vector<Merged> merged_;
   SpatialOrder result_;
@@ -228,8 +294,10 @@ class Ordering {
 }  // namespace
 
 SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center,
-                           unsigned threads, const SitesCheck& check) {
-  return Ordering(sites, model, center, threads, check).run();
+                           unsigned threads, const SitesCheck& check, const SiteCopies& copies) {
+  return copies.is_empty()
+             ? Ordering<Word>(sites, model, center, threads, check, copies).run()
+             : Ordering<WordAndSite>(sites, model, center, threads, check, copies).run();
 }
 
 }  // namespace rondel::blocks

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "blocks/place_keys.h"
+#include "blocks/site_copies.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
@@ -31,7 +32,11 @@ using SitesCheck = std::function<void(std::span<const Point>)>;
 
 // The result does not depend on `threads`, of which 0 means one for each core. Needs 16 bytes for
 // each site, the order included, unless many sites lie within 2^-28 of each other.
+//
+// Unless `copies` is empty it has room for all sites, those in `order` are copied to it by rank,
+// and 24 bytes more are needed for each site meanwhile.
 SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center,
-                           unsigned threads, const SitesCheck& check = {});
+                           unsigned threads, const SitesCheck& check = {},
+                           const SiteCopies& copies = {});
 
 }  // namespace rondel::blocks

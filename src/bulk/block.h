@@ -31,7 +31,8 @@ class BlockTriangulation {
       : input_(input), block_(block), work_(workspace), sites_(workspace.sites) {
     workspace.coordinates.reserve(num_sites());
     sites_.assign(input.sites, input.order.subspan(block.begin, num_sites()), 0, num_sites(),
-                  input.options.sphere.center, input.extent, workspace.coordinates);
+                  input.options.sphere.center, input.extent, workspace.coordinates,
+                  input.copies.from(block.begin));
     sites_.enter(block.cell, num_sites());
   }
 

@@ -13,6 +13,7 @@
 #include "bulk/tangent_step.h"
 #include "predicates/bounds.h"
 #include "predicates/tally.h"
+#include "system/wide_vectors.h"
 
 namespace rondel::bulk {
 namespace {
@@ -60,7 +61,7 @@ class Tangent {
 
   // The height of the surface over the plane, where w is the third coordinate of the surface. The
   // differences of w and of the plane from w_ nearly cancel, so they are not computed.
-  [[nodiscard]] double height(double u, double v, double w) const {
+  [[nodiscard]] RONDEL_ALWAYS_INLINE double height(double u, double v, double w) const {
     const double du = u - u_;
     const double dv = v - v_;
     const double squared = du * du + dv * dv;
@@ -75,6 +76,21 @@ class Tangent {
   double w_;
 };
 
+// Where a difference overflows, or z is 0, the position is wrong: the last or the middle one.
+RONDEL_ALWAYS_INLINE inline std::uint64_t position_of(double ratio) {
+  constexpr double last = 0x1p52 - 1;
+  const double p = (ratio + 1) * 0x1p51;  // position_bits - 1
+  return static_cast<std::uint64_t>(static_cast<std::int64_t>(p < last ? p : last));
+}
+
+// Whether rounding may have changed the upper bits, from least_bit on.
+bool is_doubtful(std::uint64_t position) {
+  constexpr std::uint64_t mask = (std::uint64_t{1} << least_bit) - 1;
+  return ((position + position_rounding) & mask) < 2 * position_rounding;
+}
+
+constexpr std::size_t batch = 128;  // coordinates found at once
+
 // Sites are given a traits class of their own for up to one question in so many sites.
 constexpr Index many = 32;
 
@@ -86,11 +102,12 @@ constexpr bool is_weighted = std::is_same_v<T, incremental::WeightedPoints>;
 template <incremental::SphereTraits T>
 void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> order, Index first,
                           Index num_sites, const Point& center, const Extent& extent,
-                          CellCoordinates& coordinates) {
+                          CellCoordinates& coordinates, const blocks::SiteCopies& copies) {
   points_ = coordinates.points();
   positions_ = coordinates.positions();
   sites_ = sites;
   order_ = order;
+  copies_ = copies;
   first_ = first;
   num_sites_ = num_sites;
   next_ = first;
@@ -127,6 +144,16 @@ void CellSites<T>::find_bounds(int bits) {
 }
 
 template <incremental::SphereTraits T>
+void CellSites<T>::read_sites(std::size_t first, std::size_t end, std::span<Point> sites) const {
+  if (!copies_.is_empty()) return copies_.get(first, sites);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const std::size_t later = first + i + blocks::prefetch_distance;
+    if (later < end) blocks::prefetch(&sites_[order_[later]]);
+    sites[i] = sites_[order_[first + i]];
+  }
+}
+
+template <incremental::SphereTraits T>
 void CellSites<T>::enter(const Cell& cell, Index num_sites) {
   if (bits_ != cell.bits) find_bounds(cell.bits);
   const unsigned cube_face = cell.corner.face;
@@ -134,32 +161,40 @@ void CellSites<T>::enter(const Cell& cell, Index num_sites) {
   const auto u_axis = exact::to_vector(axes.u);
   const auto v_axis = exact::to_vector(axes.v);
   const auto out = exact::to_vector(axes.out);
-  hand_ = det(u_axis, v_axis, out);
-  const Tangent tangent(cell, hand_);
+  const double hand = det(u_axis, v_axis, out);
+  hand_ = hand;
+  const double most_size = extent_.most_size;
+  const Tangent tangent(cell, hand);
   const auto origin = exact::to_vector(center_);
-  const std::size_t begin = next_;
-  const std::size_t end = begin + num_sites;
-  next_ += num_sites;
-  for (std::size_t i = begin; i < end; ++i) {
-    if (i + blocks::prefetch_distance < end) {
-      blocks::prefetch(&sites_[order_[i + blocks::prefetch_distance]]);
+  const std::size_t end = std::size_t{next_} + num_sites;
+  doubtful_.clear();
+  std::array<Point, batch> some;
+  for (std::size_t first = next_; first < end; first += batch) {
+    const std::span sites(some.data(), std::min(batch, end - first));
+    read_sites(first, end, sites);
+    CellPoint* const point = points_ + first;
+    CellPosition* const position = positions_ + first;
+    system::with_wide_vectors([=]() RONDEL_ALWAYS_INLINE {
+      for (std::size_t i = 0; i < sites.size(); ++i) {
+        const double x = sites[i].x - origin.x;
+        const double y = sites[i].y - origin.y;
+        const double z = sites[i].z - origin.z;
+        // A product with an axis picks a coordinate, exactly.
+        const double depth = x * out.x + y * out.y + z * out.z;
+        const double u = (x * u_axis.x + y * u_axis.y + z * u_axis.z) / depth;
+        const double v = (x * v_axis.x + y * v_axis.y + z * v_axis.z) / depth;
+        const double size = is_weighted<T> ? most_size / depth : std::sqrt(1 + (u * u + v * v));
+        const double w = is_weighted<T> ? size : tangent.height(u, hand * v, size);
+        point[i] = {u, hand * v, w, size};
+        position[i] = {position_of(u), position_of(v)};
+      }
+    });
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      if (is_doubtful(position[i].u) || is_doubtful(position[i].v))
+        doubtful_.push_back(static_cast<Index>(first + i));
     }
-    // A product with an axis picks a coordinate, exactly.
-    const auto ray = exact::to_vector(sites_[order_[i]]) - origin;
-    const double z = dot(ray, out);
-    const double u = dot(ray, u_axis) / z;
-    const double v = dot(ray, v_axis) / z;
-    const double size = is_weighted<T> ? extent_.most_size / z : std::sqrt(1 + (u * u + v * v));
-    const double w = is_weighted<T> ? size : tangent.height(u, hand_ * v, size);
-    points_[i] = {u, hand_ * v, w, size};
-    // Where a difference overflows, or z is 0, the position is wrong: the last or the middle one.
-    const auto position = [](double ratio) {
-      constexpr double last = 0x1p52 - 1;
-      const double p = (ratio + 1) * 0x1p51;  // position_bits - 1
-      return static_cast<std::uint64_t>(static_cast<std::int64_t>(p < last ? p : last));
-    };
-    positions_[i] = {position(u), position(v)};
   }
+  next_ += num_sites;
   accurate_.enter(points_ + first_, cube_face);
 }
 

@@ -25,7 +25,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
+#include "blocks/site_copies.h"
 #include "bulk/accurate_places.h"
 #include "bulk/cell_point.h"
 #include "bulk/cells.h"
@@ -47,6 +49,12 @@ struct CellPosition {
   std::uint64_t u;
   std::uint64_t v;
 };
+
+// Cells are split down to this bit of positions.
+inline constexpr int least_bit = 14;
+
+// Rounding moves positions by less than this.
+inline constexpr std::uint64_t position_rounding = 4;
 
 // Memory for the coordinates of sites, not initialized, in one piece.
 class CellCoordinates {
@@ -90,14 +98,16 @@ class CellSites {
  public:
   // The sites sites[order[first]], sites[order[first + 1]], ..., num_sites of them in one or
   // several cells. They are named by their place in `order`, which is also that of their
-  // coordinates.
+  // coordinates. Perhaps there are copies of the sites in this order; only enter() reads them.
   void assign(std::span<const Point> sites, std::span<const Index> order, Index first,
               Index num_sites, const Point& center, const Extent& extent,
-              CellCoordinates& coordinates);
+              CellCoordinates& coordinates, const blocks::SiteCopies& copies = {});
 
   // From now on questions are about so many of the sites that follow, which are in this cell. Finds
   // their coordinates, and their positions, which are those of the spatial order.
   void enter(const Cell& cell, Index num_sites);
+  // Those of them whose positions may be wrong where cells are split.
+  [[nodiscard]] const std::vector<Index>& doubtful() const { return doubtful_; }
 
   [[nodiscard]] const CellPoint* points() const { return points_; }
   [[nodiscard]] const Point& site(Index i) const { return sites_[order_[i]]; }
@@ -142,6 +152,8 @@ class CellSites {
 
  private:
   void find_bounds(int bits);
+  // Reads the sites from `first` on; more will be read, up to `end`.
+  void read_sites(std::size_t first, std::size_t end, std::span<Point> sites) const;
 
   // Calls test(traits, a, b, ...) of the sites with these indices: few are given a traits class of
   // their own, many one for all sites.
@@ -152,9 +164,11 @@ class CellSites {
   CellPosition* positions_ = nullptr;
   std::span<const Point> sites_;
   std::span<const Index> order_;
+  blocks::SiteCopies copies_;
   Index first_ = 0;
   Index num_sites_ = 0;
   Index next_ = 0;  // the first site of the next cell
+  std::vector<Index> doubtful_;
   Point center_;
   Extent extent_;
   double hand_ = 1;

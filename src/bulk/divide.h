@@ -35,9 +35,6 @@ class Divide {
  public:
   using Edge = PlaneGraph::Edge;
 
-  // Cells are split down to this bit.
-  static constexpr int least_bit = 14;
-
   // Apart from the misplaced ones the positions of the sites tell, exactly, on which side of a
   // split they lie.
   Divide(const CellSites<T>& sites, std::span<const Misplaced> misplaced, PlaneGraph& graph)

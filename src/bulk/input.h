@@ -7,6 +7,7 @@
 #include <span>
 
 #include "blocks/cube_position.h"
+#include "blocks/site_copies.h"
 #include "bulk/cell_sites.h"
 #include "rondel/triangulation.h"
 
@@ -17,6 +18,7 @@ struct Input {
   std::span<const Point> sites;
   std::span<const Index> order;  // the site of each rank
   Options options;
+  blocks::SiteCopies copies{};  // of the sites by rank, or none
   Extent extent{};
 
   [[nodiscard]] blocks::CubePosition position(Index rank) const {

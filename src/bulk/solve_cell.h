@@ -4,6 +4,7 @@
 // The sites of one cell, from positions that rounding may have moved to a triangulation.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <optional>
 #include <span>
@@ -27,23 +28,13 @@ class PositionCheck {
   // The site of rank block.begin is site `first` of the cell.
   bool run(Index first) {
     misplaced_.clear();
-    for (Index rank = block_.begin; rank < block_.end; ++rank) {
-      const Index i = first + (rank - block_.begin);
-      const CellPosition& p = sites_.positions()[i];
-      if ((is_doubtful(p.u) || is_doubtful(p.v)) && !check_position(rank, i)) return false;
-    }
-    return true;
+    return std::ranges::all_of(
+        sites_.doubtful(), [&](Index i) { return check_position(block_.begin + (i - first), i); });
   }
 
  private:
-  // Rounding moves positions by less than `rounding`. Divide does not look at the lowest bits.
-  static constexpr std::uint64_t rounding = 4;
   static bool is_close(std::uint64_t p, std::uint64_t q) {
-    return p < q + rounding && q < p + rounding;
-  }
-  static bool is_doubtful(std::uint64_t p) {
-    constexpr std::uint64_t mask = (std::uint64_t{1} << Divide<T>::least_bit) - 1;
-    return ((p + rounding) & mask) < 2 * rounding;
+    return p < q + position_rounding && q < p + position_rounding;
   }
 
   bool check_position(Index rank, Index i) {
@@ -55,10 +46,9 @@ class PositionCheck {
     if (p.face != q.face || q.face != block_.cell.corner.face) return false;
     if (!is_close(p.u, q.u) || !is_close(p.v, q.v)) return false;
     sites_.set_position(i, {p.u, p.v});
-    const std::uint64_t difference = ((p.u ^ q.u) | (p.v ^ q.v)) >> Divide<T>::least_bit;
+    const std::uint64_t difference = ((p.u ^ q.u) | (p.v ^ q.v)) >> least_bit;
     if (difference != 0) {
-      misplaced_.push_back(
-          {i, Divide<T>::least_bit + static_cast<int>(std::bit_width(difference)) - 1});
+      misplaced_.push_back({i, least_bit + static_cast<int>(std::bit_width(difference)) - 1});
     }
     return true;
   }

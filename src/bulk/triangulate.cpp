@@ -33,6 +33,13 @@ constexpr std::size_t least_block_sites = std::size_t{1} << 13;
 // so that the work does not depend on the threads.
 constexpr std::size_t block_sites = 3 << 14;
 
+Input make_input(std::span<const Point> sites, std::span<const Index> order, const Options& options,
+                 LargeVector<Triple>& copies) {
+  Input input = bulk::make_input(sites, order, options);
+  input.copies = blocks::SiteCopies(std::as_writable_bytes(std::span(copies)));
+  return input;
+}
+
 // What the threads that work on blocks share.
 template <incremental::SphereTraits T>
 class Work {
@@ -100,6 +107,7 @@ bool has_short_seams(const Input& input) {
     const Block block = block_around(middle, num_ranks, trial_sites, position);
     Input trial = input;
     trial.order = input.order.subspan(block.begin, block.end - block.begin);
+    trial.copies = input.copies.from(block.begin);
     const BlockResult result =
         BlockTriangulation<T>(trial, {0, block.end - block.begin, block.cell}, workspace)
             .run({corners, neighbors});
@@ -133,7 +141,7 @@ bool suit_sphere(const Input& input, std::size_t most_sites) {
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                          std::span<const Duplicate> renamed, const Options& options,
-                         std::size_t most_sphere_sites);
+                         std::size_t most_sphere_sites, LargeVector<Triple> copies);
 
 // The seam sites in their order. Most of them lie along borders of blocks, so blocks would not
 // help; their mesh is small beside the result.
@@ -149,16 +157,19 @@ Triangulated triangulate_seam(const Input& input, std::span<const BlockResult> r
   options.progress = {};
   if (2 * sites.size() >= num_ranks)
     return incremental::triangulate(sites, std::move(order), {}, options);
-  return triangulate(sites, std::move(order), {}, options, std::max(sphere_sites, num_ranks / 8));
+  return triangulate(sites, std::move(order), {}, options, std::max(sphere_sites, num_ranks / 8),
+                     {});
 }
 
+// Blocks read their sites before they write their faces, so both can share `copies`.
 std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplicate> renamed,
-                                      std::size_t max_block_sites) {
+                                      std::size_t max_block_sites, LargeVector<Triple> copies) {
   const std::size_t num_ranks = input.order.size();
   const unsigned threads = system::num_threads(input.options.threads);
   const auto blocks = make_blocks(static_cast<Index>(num_ranks), max_block_sites,
                                   [&](Index rank) { return input.position(rank); });
   Triangulated result;
+  result.arrays.faces = std::move(copies);
   result.arrays.faces.resize(2 * num_ranks);
   result.arrays.neighbors.resize(2 * num_ranks);
   const FaceStore store = {result.arrays.faces, result.arrays.neighbors};
@@ -184,8 +195,8 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplic
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                          std::span<const Duplicate> renamed, const Options& options,
-                         std::size_t most_sphere_sites) {
-  const Input input = make_input(sites, order, options);
+                         std::size_t most_sphere_sites, LargeVector<Triple> copies) {
+  const Input input = make_input(sites, order, options, copies);
   std::optional<bool> trial;  // it takes time, and may not be needed
   const auto have_blocks = [&] {
     if (!trial) trial = order.size() >= least_block_sites && is_worthwhile(input);
@@ -196,24 +207,27 @@ Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
   if (suit_sphere(input, most_sphere_sites) && (are_weights_close(input) || have_blocks())) {
     result = triangulate_sphere(input, renamed);
   }
-  if (!result && have_blocks()) result = by_blocks(input, renamed, block_sites);
+  if (!result && have_blocks()) {
+    result = by_blocks(input, renamed, block_sites, std::move(copies));
+  }
+  copies = {};
   return result ? *std::move(result)
                 : incremental::triangulate(sites, std::move(order), renamed, options);
 }
 
 }  // namespace
 
-std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
-                                                  std::span<const Index> order,
-                                                  std::span<const Duplicate> renamed,
-                                                  const Options& options,
-                                                  std::size_t max_block_sites) {
-  return by_blocks(make_input(sites, order, options), renamed, max_block_sites);
+std::optional<Triangulated> triangulate_by_blocks(
+    std::span<const Point> sites, std::span<const Index> order, std::span<const Duplicate> renamed,
+    const Options& options, std::size_t max_block_sites, LargeVector<Triple> copies) {
+  const Input input = make_input(sites, order, options, copies);
+  return by_blocks(input, renamed, max_block_sites, std::move(copies));
 }
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
-                         std::span<const Duplicate> renamed, const Options& options) {
-  return triangulate(sites, std::move(order), renamed, options, sphere_sites);
+                         std::span<const Duplicate> renamed, const Options& options,
+                         LargeVector<Triple> copies) {
+  return triangulate(sites, std::move(order), renamed, options, sphere_sites, std::move(copies));
 }
 
 }  // namespace rondel::bulk

@@ -18,19 +18,24 @@
 #include <vector>
 
 #include "incremental/triangulate.h"
+#include "rondel/large_vector.h"
 
 namespace rondel::bulk {
 
-// As incremental::triangulate.
+// From so many sites on it pays to copy them in their order: to read them one by one from
+// everywhere in memory takes longer.
+inline constexpr std::size_t least_copied_sites = std::size_t{3} << 18;
+
+// As incremental::triangulate. `copies` is empty, or blocks::SiteCopies of the sites by rank lie in
+// its memory, which becomes that of the faces.
 incremental::Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
-                                      std::span<const Duplicate> renamed, const Options& options);
+                                      std::span<const Duplicate> renamed, const Options& options,
+                                      LargeVector<Triple> copies = {});
 
 // The same with blocks of at most so many sites, or nothing if the sites do not suit this: when the
 // seam has no hull, because all its sites lie on one great circle.
-std::optional<incremental::Triangulated> triangulate_by_blocks(std::span<const Point> sites,
-                                                               std::span<const Index> order,
-                                                               std::span<const Duplicate> renamed,
-                                                               const Options& options,
-                                                               std::size_t max_block_sites);
+std::optional<incremental::Triangulated> triangulate_by_blocks(
+    std::span<const Point> sites, std::span<const Index> order, std::span<const Duplicate> renamed,
+    const Options& options, std::size_t max_block_sites, LargeVector<Triple> copies = {});
 
 }  // namespace rondel::bulk

@@ -137,18 +137,22 @@ void require_same(const TriangulationArrays& built, const TriangulationArrays& e
   require(built.hidden == expected.hidden, "the hidden sites");
 }
 
-void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsigned threads) {
+void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsigned threads,
+                 bool has_copies) {
   Options options;
   options.model = model;
   options.sphere = set.sphere;
   options.threads = 1;
-  const auto order = blocks::spatial_order(set.sites, model, set.sphere.center, 1);
+  LargeVector<Triple> copies(has_copies ? 2 * set.sites.size() : 0);
+  const auto order =
+      blocks::spatial_order(set.sites, model, set.sphere.center, 1, {},
+                            blocks::SiteCopies(std::as_writable_bytes(std::span(copies))));
   if (order.order.empty()) return;
   const auto expected =
       incremental::triangulate(set.sites, order.order, order.renamed, options).arrays;
   options.threads = threads;
-  const auto built =
-      bulk::triangulate_by_blocks(set.sites, order.order, order.renamed, options, block_sites);
+  const auto built = bulk::triangulate_by_blocks(set.sites, order.order, order.renamed, options,
+                                                 block_sites, std::move(copies));
   require(built.has_value() || expected.dimension < 2, "blocks fit");
   if (built) require_same(built->arrays, expected);
   if (!bulk::surround_center(set.sites, set.sphere.center)) return;
@@ -201,6 +205,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::erase_if(set.sites, [](const Point& p) { return !fuzz::is_finite(p); });
   if (model == Model::projected) fuzz::remove_center(set.sites, set.sphere);
   fuzz::test_divide(set, model);
-  fuzz::test_blocks(set, model, block_sites, mode < 64 ? 2 : 1);
+  fuzz::test_blocks(set, model, block_sites, mode < 64 ? 2 : 1, mode % 4 < 2);
   return 0;
 }

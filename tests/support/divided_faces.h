@@ -79,7 +79,7 @@ template <class T>
 Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
   constexpr bool is_weighted = std::is_same_v<T, incremental::WeightedPoints>;
   constexpr Model model = is_weighted ? Model::weighted : Model::projected;
-  constexpr int least_bit = bulk::Divide<T>::least_bit;
+  constexpr int least_bit = bulk::least_bit;
   const Point& center = set.sphere.center;
   const auto order = blocks::spatial_order(set.sites, model, center, 1);
   if (order.order.size() < 2) return Divided::too_few;

@@ -77,6 +77,25 @@ TEST(bulk_api, what_many_sites_give) {
   }
 }
 
+// Sites are copied only where they are many.
+TEST(bulk_api, copies_of_sites_change_nothing) {
+  if (is_shortened()) GTEST_SKIP() << "takes long here";
+  for (const std::size_t num_different : {bulk::least_copied_sites, std::size_t{100000}}) {
+    SiteSet set = generator("uniform").make(num_different, 1);
+    while (set.sites.size() < bulk::least_copied_sites + 1000) {
+      set.sites.push_back(set.sites[set.sites.size() / 2]);
+    }
+    Options options;
+    options.threads = 2;
+    const Triangulation built = delaunay(set.sites, options);
+    const auto order = blocks::spatial_order(set.sites, options.model, {}, 1);
+    const auto without = bulk::triangulate(set.sites, order.order, order.renamed, options).arrays;
+    EXPECT_EQ(built.num_vertices(), num_different);
+    EXPECT_TRUE(std::ranges::equal(built.faces(), without.faces));
+    EXPECT_TRUE(std::ranges::equal(built.neighbors(), without.neighbors));
+  }
+}
+
 TEST(bulk_api, progress_never_goes_back_and_ends_once) {
   const SiteSet set = generator("uniform").make(100000, 1);
   std::vector<double> fractions;

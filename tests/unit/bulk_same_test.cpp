@@ -23,6 +23,9 @@ TEST_P(bulk_same, as_the_incremental_build) {
         for (const int block : {40, 100, 1000, 1 << 15}) {
           EXPECT_NE(sites.run(static_cast<std::size_t>(block)), is_flat);
         }
+        for (const std::size_t block : {50U, 900U}) {
+          EXPECT_NE(sites.run_with_copies(block, 2), is_flat);
+        }
         for (const unsigned threads : {2U, 3U, 7U, 16U}) {
           EXPECT_NE(sites.run(120, threads), is_flat);
         }

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "blocks/spatial_order.h"
@@ -37,6 +39,16 @@ class BulkCase {
     options_.threads = threads;
     return compare(bulk::triangulate_by_blocks(sites_, order_.order, order_.renamed, options_,
                                                max_block_sites));
+  }
+
+  // The same with copies of the sites.
+  bool run_with_copies(std::size_t max_block_sites, unsigned threads = 1) {
+    options_.threads = threads;
+    LargeVector<Triple> copies(2 * sites_.size());
+    blocks::spatial_order(sites_, options_.model, options_.sphere.center, threads, {},
+                          blocks::SiteCopies(std::as_writable_bytes(std::span(copies))));
+    return compare(bulk::triangulate_by_blocks(sites_, order_.order, order_.renamed, options_,
+                                               max_block_sites, std::move(copies)));
   }
 
   // The same for the whole sphere at once, which the sites must surround.

@@ -84,6 +84,19 @@ void expect_order_by_definition(std::span<const Point> sites, Model model, const
     EXPECT_EQ(order.duplicates, expected.duplicates) << threads;
     EXPECT_EQ(order.renamed, expected.renamed) << threads;
   }
+  std::vector<Point> ordered;
+  for (const Index i : expected.order) ordered.push_back(sites[i]);
+  for (const unsigned threads : {1U, 3U}) {
+    std::vector<Point> copies(sites.size());
+    const SpatialOrder order =
+        blocks::spatial_order(sites, model, center, threads, {},
+                              blocks::SiteCopies(std::as_writable_bytes(std::span(copies))));
+    EXPECT_EQ(order.order, expected.order) << threads;
+    EXPECT_EQ(order.duplicates, expected.duplicates) << threads;
+    EXPECT_EQ(order.renamed, expected.renamed) << threads;
+    copies.resize(order.order.size());
+    EXPECT_EQ(copies, ordered) << threads;
+  }
 }
 
 TEST(spatial_order, is_that_of_its_definition_for_every_kind_of_input) {
