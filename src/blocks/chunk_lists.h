@@ -19,7 +19,7 @@ namespace rondel::blocks {
 template <class T>
 class ChunkLists {
  public:
-  static constexpr std::size_t chunk_size = 512 / sizeof(T);
+  static constexpr std::size_t chunk_size = 64;
 
   // Room for `capacity` elements in all.
   ChunkLists(std::size_t num_lists, std::size_t capacity)

@@ -83,7 +83,7 @@ class Ordering {
   [[nodiscard]] KeyTree make_tree() const {
     constexpr std::size_t sites_per_sample = 256;
     const int size_bits = static_cast<int>(std::bit_width(sites_.size()));
-    const int root_bits = std::clamp(size_bits - 11, 3, 13);  // many lists are slow to write to
+    const int root_bits = std::clamp(size_bits - (copies_sites ? 12 : 10), 3, 13);
     std::vector<Point> points;
     for (std::size_t i = 0; i + sites_per_sample <= sites_.size(); i += sites_per_sample) {
       // Any place within the stride: a constant one could meet the same column of every grid.
