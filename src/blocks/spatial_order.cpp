@@ -61,6 +61,7 @@ class Ordering {
         tree_(make_tree()) {}
 
   SpatialOrder run() {
+    make_lists();
     system::parallel_invoke(
         threads_, [this] { deal(); }, [this] { make_room(); });
     count();
@@ -104,16 +105,19 @@ class Ordering {
     result_.order.resize(sites_.size());
   }
 
-  void deal() {
+  // By the calling thread, whose allocator keeps what is freed for the next build.
+  void make_lists() {
     const std::size_t pieces = threads_ == 1 ? 1 : 4 * threads_;
-    const std::size_t grain =
-        std::max<std::size_t>(1 << 14, system::num_pieces(sites_.size(), pieces));
+    grain_ = std::max<std::size_t>(1 << 14, system::num_pieces(sites_.size(), pieces));
     lists_.reserve(pieces);
-    for (std::size_t begin = 0; begin < sites_.size(); begin += grain) {
-      lists_.emplace_back(tree_.num_leaves(), std::min(grain, sites_.size() - begin));
+    for (std::size_t begin = 0; begin < sites_.size(); begin += grain_) {
+      lists_.emplace_back(tree_.num_leaves(), std::min(grain_, sites_.size() - begin));
     }
-    system::parallel_for(threads_, sites_.size(), grain, [&](std::size_t begin, std::size_t end) {
-      deal(begin, end, lists_[begin / grain]);
+  }
+
+  void deal() {
+    system::parallel_for(threads_, sites_.size(), grain_, [&](std::size_t begin, std::size_t end) {
+      deal(begin, end, lists_[begin / grain_]);
     });
   }
 
@@ -285,7 +289,8 @@ class Ordering {
   unsigned threads_;
   std::uint64_t index_mask_;
   KeyTree tree_;
-  std::vector<ChunkLists<Dealt>> lists_;  // by piece of the input
+  std::size_t grain_ = 0;                 // sites of a piece of the input
+  std::vector<ChunkLists<Dealt>> lists_;  // by piece
   std::vector<Leaf> leaves_;
   std::vector<Merged> merged_;
   SpatialOrder result_;
