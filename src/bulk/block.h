@@ -22,6 +22,14 @@ struct Workspace {
   PlaneGraph graph;
   std::vector<Misplaced> misplaced;
   EmissionSpace emission;
+
+  // For blocks of up to so many sites: arrays that grow from block to block leave gaps in memory.
+  void reserve(std::size_t num_sites) {
+    coordinates.reserve(num_sites);
+    graph.clear(num_sites);
+    emission.owned.reserve(num_sites);
+    emission.owners.reserve(num_sites);
+  }
 };
 
 template <incremental::SphereTraits T>

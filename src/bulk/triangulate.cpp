@@ -44,13 +44,19 @@ Input make_input(std::span<const Point> sites, std::span<const Index> order, con
 template <incremental::SphereTraits T>
 class Work {
  public:
-  Work(const Progress& progress, std::size_t num_blocks)
-      : progress_(progress), num_blocks_(num_blocks) {}
+  Work(const Progress& progress, std::span<const Block> blocks)
+      : progress_(progress), num_blocks_(blocks.size()) {
+    for (const Block& b : blocks) most_sites_ = std::max<std::size_t>(most_sites_, b.end - b.begin);
+  }
 
   // There are as many workspaces as threads at work.
   std::unique_ptr<Workspace<T>> begin_block() {
     const std::lock_guard guard(mutex_);
-    if (free_.empty()) return std::make_unique<Workspace<T>>();
+    if (free_.empty()) {
+      auto workspace = std::make_unique<Workspace<T>>();
+      workspace->reserve(most_sites_);
+      return workspace;
+    }
     auto workspace = std::move(free_.back());
     free_.pop_back();
     return workspace;
@@ -69,6 +75,7 @@ class Work {
  private:
   const Progress& progress_;
   std::size_t num_blocks_;
+  std::size_t most_sites_ = 0;  // of a block
   std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace<T>>> free_;
   std::size_t num_done_ = 0;
@@ -78,7 +85,7 @@ template <incremental::SphereTraits T>
 std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vector<Block>& blocks,
                                             const FaceStore& store) {
   std::vector<BlockResult> results(blocks.size());
-  Work<T> work(input.options.progress, blocks.size());
+  Work<T> work(input.options.progress, blocks);
   system::parallel_for(
       input.options.threads, blocks.size(), 1, [&](std::size_t begin, std::size_t /*end*/) {
         auto workspace = work.begin_block();
