@@ -194,7 +194,7 @@ class Ordering {
     const std::size_t size = leaf.num_sites;
     list_chunks(l, space.chunks);
     list_chunks(l + 1, space.next);
-    // Words that are sorted with sites in view have their places in the chunks instead of indices.
+    // To find the sites to copy, words have their places in the chunks instead of indices.
     const bool has_places = copies_sites && space.chunks.size() * chunk_size <= index_mask_ + 1;
     if (space.words.size() < 2 * size) space.words.resize(2 * size);
     std::uint64_t* end = space.words.data();

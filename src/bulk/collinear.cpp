@@ -15,16 +15,17 @@ namespace {
 using Vector = exact::Vector3<double>;
 
 // The sign of (a x b).(c x d), or zero if it is not certain. The vectors are rounded differences,
-// so a cross product is off by at most 7 units times the lengths, and the value by 17 units times
+// so a cross product is off by at most 7 units times two lengths, and the value by 17 units times
 // all four; the rest is for roundings of the lengths.
 Sign certain_sign(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
   constexpr double bound = 32 * predicates::unit_roundoff;
-  constexpr double least_scale = 1e-250;  // below it, bits are lost to underflow
+  constexpr double least_scale = 1e-150;  // below it, bits may be lost to underflow
   const double value = dot(cross(a, b), cross(c, d));
-  const double scale =
-      std::sqrt(dot(a, a)) * std::sqrt(dot(b, b)) * std::sqrt(dot(c, c)) * std::sqrt(dot(d, d));
-  return scale > least_scale && std::abs(value) > bound * scale ? exact::sign_of(value)
-                                                                : Sign::zero;
+  const double first = std::sqrt(dot(a, a)) * std::sqrt(dot(b, b));
+  const double second = std::sqrt(dot(c, c)) * std::sqrt(dot(d, d));
+  const bool is_certain =
+      first > least_scale && second > least_scale && std::abs(value) > bound * (first * second);
+  return is_certain ? exact::sign_of(value) : Sign::zero;
 }
 
 }  // namespace
