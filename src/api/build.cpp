@@ -123,8 +123,7 @@ Triangulation build(std::span<const Point> sites, const Options& options,
   const std::span<const Point> inserted = rest.empty() ? sites : rest_points;
   // Of as much memory as the faces, which will be written over the sites.
   LargeVector<Triple> copies(inserted.size() < bulk::least_copied_sites ? 0 : 2 * inserted.size());
-  auto order =
-      order_valid(inserted, options, blocks::SiteCopies(std::as_writable_bytes(std::span(copies))));
+  auto order = order_valid(inserted, options, blocks::SiteCopies(std::span(copies)));
   if (order.order.size() < inserted.size() / 2) copies = {};  // too much for the faces
   report.order_seconds = seconds_since(start);
 

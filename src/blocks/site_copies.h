@@ -14,11 +14,11 @@ namespace rondel::blocks {
 
 class SiteCopies {
  public:
-  static constexpr std::size_t bytes_of_site = sizeof(Point);
-
   // None.
   SiteCopies() = default;
-  explicit SiteCopies(std::span<std::byte> memory) : memory_(memory) {}
+  // In the memory of these elements, or none if there are none.
+  template <class T>
+  explicit SiteCopies(std::span<T> elements) : memory_(std::as_writable_bytes(elements)) {}
 
   [[nodiscard]] bool is_empty() const { return memory_.empty(); }
 
@@ -41,6 +41,8 @@ class SiteCopies {
   }
 
  private:
+  static constexpr std::size_t bytes_of_site = sizeof(Point);
+
   std::span<std::byte> memory_;
 };
 

@@ -167,6 +167,7 @@ class Ordering {
     merged_.resize(leaves_.size());
     system::parallel_for(threads_, leaves_.size(), 8, [&](std::size_t begin, std::size_t end) {
       Space space;
+      list_chunks(begin, space.next);
       for (std::size_t l = begin; l < end; ++l) sort_leaf(l, space);
     });
   }
@@ -188,11 +189,12 @@ class Ordering {
     }
   }
 
+  // Its chunks are space.next, which become those of the leaf that follows.
   void sort_leaf(std::size_t l, Space& space) {
     constexpr std::size_t chunk_size = ChunkLists<Dealt>::chunk_size;
     Leaf& leaf = leaves_[l];
     const std::size_t size = leaf.num_sites;
-    list_chunks(l, space.chunks);
+    space.chunks.swap(space.next);
     list_chunks(l + 1, space.next);
     // To find the sites to copy, words have their places in the chunks instead of indices.
     const bool has_places = copies_sites && space.chunks.size() * chunk_size <= index_mask_ + 1;

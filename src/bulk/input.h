@@ -30,7 +30,7 @@ struct Input {
 };
 
 // Also finds the extent.
-Input make_input(std::span<const Point> sites, std::span<const Index> order,
-                 const Options& options);
+Input make_input(std::span<const Point> sites, std::span<const Index> order, const Options& options,
+                 const blocks::SiteCopies& copies = {});
 
 }  // namespace rondel::bulk

@@ -33,13 +33,6 @@ constexpr std::size_t least_block_sites = std::size_t{1} << 13;
 // so that the work does not depend on the threads.
 constexpr std::size_t block_sites = 3 << 14;
 
-Input make_input(std::span<const Point> sites, std::span<const Index> order, const Options& options,
-                 LargeVector<Triple>& copies) {
-  Input input = bulk::make_input(sites, order, options);
-  input.copies = blocks::SiteCopies(std::as_writable_bytes(std::span(copies)));
-  return input;
-}
-
 // What the threads that work on blocks share.
 template <incremental::SphereTraits T>
 class Work {
@@ -203,7 +196,7 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplic
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                          std::span<const Duplicate> renamed, const Options& options,
                          std::size_t most_sphere_sites, LargeVector<Triple> copies) {
-  const Input input = make_input(sites, order, options, copies);
+  const Input input = make_input(sites, order, options, blocks::SiteCopies(std::span(copies)));
   std::optional<bool> trial;  // it takes time, and may not be needed
   const auto have_blocks = [&] {
     if (!trial) trial = order.size() >= least_block_sites && is_worthwhile(input);
@@ -227,7 +220,7 @@ Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
 std::optional<Triangulated> triangulate_by_blocks(
     std::span<const Point> sites, std::span<const Index> order, std::span<const Duplicate> renamed,
     const Options& options, std::size_t max_block_sites, LargeVector<Triple> copies) {
-  const Input input = make_input(sites, order, options, copies);
+  const Input input = make_input(sites, order, options, blocks::SiteCopies(std::span(copies)));
   return by_blocks(input, renamed, max_block_sites, std::move(copies));
 }
 

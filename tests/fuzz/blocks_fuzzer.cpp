@@ -144,9 +144,8 @@ void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsig
   options.sphere = set.sphere;
   options.threads = 1;
   LargeVector<Triple> copies(has_copies ? 2 * set.sites.size() : 0);
-  const auto order =
-      blocks::spatial_order(set.sites, model, set.sphere.center, 1, {},
-                            blocks::SiteCopies(std::as_writable_bytes(std::span(copies))));
+  const auto order = blocks::spatial_order(set.sites, model, set.sphere.center, 1, {},
+                                           blocks::SiteCopies(std::span(copies)));
   if (order.order.empty()) return;
   const auto expected =
       incremental::triangulate(set.sites, order.order, order.renamed, options).arrays;

@@ -53,7 +53,7 @@ TEST(bulk_collinear, middle_of_three_sites) {
     expect_between(random, 3, 1, {}, 1);
     expect_between(random, 1000, 1, {}, 1);
     expect_between(random, 1000, 1, {1e6, -3e5, 7e5}, 1);
-    expect_between(random, 1 << 20, 1 << 20, {}, 1);  // too near for doubles
+    expect_between(random, 1 << 20, 1 << 20, {}, 1);  // close together
     expect_between(random, 1000, 1 << 20, {}, 1);
   }
 }

@@ -46,7 +46,7 @@ class BulkCase {
     options_.threads = threads;
     LargeVector<Triple> copies(2 * sites_.size());
     blocks::spatial_order(sites_, options_.model, options_.sphere.center, threads, {},
-                          blocks::SiteCopies(std::as_writable_bytes(std::span(copies))));
+                          blocks::SiteCopies(std::span(copies)));
     return compare(bulk::triangulate_by_blocks(sites_, order_.order, order_.renamed, options_,
                                                max_block_sites, std::move(copies)));
   }
