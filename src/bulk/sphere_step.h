@@ -63,8 +63,8 @@ class SphereStep {
     const bool is_sure =
         Sites::has_weights
             ? predicates::is_beyond(value, predicates::plane_bound, squared_, face.squared, squared)
-            : std::abs(value) > predicates::circle_plane_bound *
-                                    std::max(std::max(squared_, face.squared), squared);
+            : predicates::is_beyond_longest(value, predicates::circle_plane_bound, squared_,
+                                            face.squared, squared);
     if (is_sure) {
       sites_.count_filtered();
       return value > 0;

@@ -34,6 +34,12 @@ inline bool is_beyond(double value, double bound, double a2, double b2, double c
          value * value > (bound * bound) * ((a2 * b2) * c2);
 }
 
+// Whether |value| exceeds the bound times the two largest of |a|, |b| and |c|, given the squared
+// lengths.
+inline bool is_beyond_longest(double value, double bound, double a2, double b2, double c2) {
+  return value * value > (bound * bound) * std::max(std::max(a2 * b2, b2 * c2), c2 * a2);
+}
+
 // Whether expansions of products of up to five coordinates are exact: no overflow, no underflow.
 inline bool is_safe_for_expansions(std::initializer_list<Point> points) {
   const auto is_safe = [](double v) {

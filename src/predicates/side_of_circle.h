@@ -35,15 +35,15 @@ inline Sign side_of_circle_filter(const Vector& b, const Vector& c, const Vector
   const double b2 = dot(pb, pb);
   const double c2 = dot(pc, pc);
   const double d2 = dot(pd, pd);
-  const double m = std::max(std::max(b2, c2), d2);
   const double plain = -dot(pb, cd);
-  if (std::abs(plain) > circle_plane_bound * m) return sign_of(plain);
+  if (is_beyond_longest(plain, circle_plane_bound, b2, c2, d2)) return sign_of(plain);
 
   const Vector db = cross(pd, pb);
   const Vector bc = cross(pb, pc);
   const Vector sheared = {b2 * cd.x + c2 * db.x + d2 * bc.x, b2 * cd.y + c2 * db.y + d2 * bc.y,
                           b2 * cd.z + c2 * db.z + d2 * bc.z};
   const double value = dot(p, sheared);
+  const double m = std::max(std::max(b2, c2), d2);
   constexpr double bound = circle_bound * circle_bound;
   return unless_unsure(value, value * value > bound * (m * m * m));
 }

@@ -81,8 +81,21 @@ double circle_plane_ratio(const FourStored& s) {
   const BigVector u = unit(p.site);
   const Big exact_value =
       -det_of(minus(unit(b.site), u), minus(unit(c.site), u), minus(unit(d.site), u));
-  const double bound = predicates::circle_plane_bound * predicates::max_squared_length(pb, pc, pd);
+  std::array<double, 3> length = {std::sqrt(dot(pb, pb)), std::sqrt(dot(pc, pc)),
+                                  std::sqrt(dot(pd, pd))};
+  std::ranges::sort(length);
+  const double bound = predicates::circle_plane_bound * length[2] * length[1];
   return std::abs(to_double(value - exact_value)) / bound;
+}
+
+// Two corners of the face are far closer to p than the third one.
+double circle_plane_of_long_faces_ratio(const FourStored& s) {
+  FourStored moved = s;
+  const Point& p = s[3].site;
+  const Point& far = s[0].site;
+  moved[0].site = normalized(p + 1e3 * (far - p));
+  moved[0].direction = to_vector(moved[0].site);
+  return circle_plane_ratio(moved);
 }
 
 double circle_ratio(const FourStored& s) {
@@ -256,6 +269,7 @@ TEST_P(bounds, hold_against_a_search) {
 INSTANTIATE_TEST_SUITE_P(
     filters, bounds,
     testing::Values(Filter{"circle_plane", circle_plane_ratio, 0.1},
+                    Filter{"circle_plane_of_long_faces", circle_plane_of_long_faces_ratio, 0.1},
                     Filter{"circle", circle_ratio, 0.03}, Filter{"plane", plane_ratio, 0.1},
                     Filter{"plane_of_mixed_weights", plane_of_mixed_weights_ratio, 0.1},
                     Filter{"orientation", orientation_ratio, 0.1},

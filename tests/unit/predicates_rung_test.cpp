@@ -102,6 +102,20 @@ TEST(rungs, filter_decides_at_any_distance) {
   EXPECT_GT(filter_share(Model::weighted, 1e-3), 0.999);
 }
 
+// Nor with the length of faces: sites on curves have two corners close to p and one far away.
+TEST(rungs, filter_decides_for_long_faces) {
+  Random random(39);
+  for (std::size_t i = 0; i < 2000; ++i) {
+    const Point pole = random_direction(random);
+    Four four;
+    for (Point& p : four) p = random_near(random, pole, 1e-5);
+    four[i % 3] = random_direction(random);
+    const Decision decision = decide(four, Model::projected);
+    ASSERT_EQ(decision.rung, Rung::filter) << i;
+    ASSERT_EQ(to_int(decision.sign), Oracle(four, Model::projected, {}).side_of_circle(0, 1, 2, 3));
+  }
+}
+
 // Three close sites and one whose weight is far larger, in each of the four roles.
 TEST(rungs, filter_decides_between_weights_of_all_magnitudes) {
   Random random(36);
