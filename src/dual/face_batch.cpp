@@ -49,44 +49,6 @@ struct Places {
   }
 };
 
-// The square of a + its low part, to a relative 2^-103.
-inline DoubleDouble square(DoubleDouble a) {
-  const DoubleDouble s = exact::two_square(a.hi);
-  return exact::fast_two_sum(s.hi, s.lo + 2 * a.hi * a.lo);
-}
-
-// d y (1 + correction), rounded twice.
-inline DoubleDouble scaled(DoubleDouble d, double y, double correction) {
-  const DoubleDouble p = exact::two_product(d.hi, y);
-  return exact::fast_two_sum(p.hi, p.lo + (p.hi * correction + d.lo * y));
-}
-
-// One Newton step of higher order from the rounded y = 1 / |d|: with e = 1 - y^2 |d|^2, which is
-// below 8u, 1 / |d| = y (1 + e/2 + 3/8 e^2) to 8^3 u^3. The square is right to a relative 2^-102, e
-// to 2^-103, the products to 2^-104: |hi + lo - u| <= 2^-100.
-struct UnitVector {
-  SplitPoint place;
-  double square;  // of the length before
-};
-inline UnitVector unit_vector(const Point& p, const Point& center) {
-  const DoubleDouble x = exact::two_diff(p.x, center.x);
-  const DoubleDouble y = exact::two_diff(p.y, center.y);
-  const DoubleDouble z = exact::two_diff(p.z, center.z);
-  const DoubleDouble s = square(x) + square(y) + square(z);
-  const double root = 1 / std::sqrt(s.hi);
-  const DoubleDouble r = exact::two_square(root);
-  const DoubleDouble one = exact::two_product(s.hi, r.hi);
-  const double e = ((1 - one.hi) - one.lo) - (s.hi * r.lo + s.lo * r.hi);
-  const double correction = e * (0.5 + 0.375 * e);
-  const DoubleDouble ux = scaled(x, root, correction);
-  const DoubleDouble uy = scaled(y, root, correction);
-  const DoubleDouble uz = scaled(z, root, correction);
-  return {{{ux.hi, uy.hi, uz.hi}, {ux.lo, uy.lo, uz.lo}}, s.hi};
-}
-
-// Squares for which nothing overflows, nor underflows where it matters.
-inline bool is_moderate(double square) { return square > 0x1p-300 && square < 0x1p300; }
-
 // 2 atan(t) for |t| <= largest_tangent: the first term left out is below 2^-59 of the first.
 constexpr double largest_tangent = 0x1p-4;
 inline double twice_arctangent(double t) {
@@ -181,35 +143,6 @@ void store_normals(const SplitSites& sites, std::size_t begin, const FaceBatch& 
 }
 
 }  // namespace
-
-void unit_vectors(std::span<const Point> sites, const Point& center, std::span<const Index> order,
-                  SplitPoint* places) {
-  using blocks::prefetch_distance;
-  Vectors points;
-  Places units;
-  alignas(64) Numbers squares;
-  for (std::size_t begin = 0; begin < order.size(); begin += batch_size) {
-    const std::size_t count = std::min(batch_size, order.size() - begin);
-    for (std::size_t j = 0; j < batch_size; ++j) {
-      const std::size_t k = begin + std::min(j, count - 1);
-      if (k + prefetch_distance < order.size()) {
-        blocks::prefetch(&sites[order[k + prefetch_distance]]);
-      }
-      points.set(j, sites[order[k]]);
-    }
-    system::with_wide_vectors([&]() RONDEL_ALWAYS_INLINE {
-      for (std::size_t j = 0; j < batch_size; ++j) {
-        const UnitVector u = unit_vector({points.x[j], points.y[j], points.z[j]}, center);
-        units.set(j, u.place);
-        squares[j] = u.square;
-      }
-    });
-    for (std::size_t j = 0; j < count; ++j) {
-      places[begin + j] =
-          is_moderate(squares[j]) ? units[j] : exact::unit_vector(sites[order[begin + j]], center);
-    }
-  }
-}
 
 bool unit_normals(const SplitSites& sites, std::size_t begin, std::span<Point> points,
                   Kites* kites) {

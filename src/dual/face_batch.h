@@ -27,11 +27,6 @@ inline bool is_careful(const Kites& kites) { return kites[0] != kites[0]; }
 // to their corners have less than 120 degrees between them.
 inline constexpr double near_cosine = 0.501;
 
-// places[k] = the unit vector from the center to sites[order[k]], with the properties of
-// exact::unit_vector().
-void unit_vectors(std::span<const Point> sites, const Point& center, std::span<const Index> order,
-                  exact::SplitPoint* places);
-
 // points[k] = the circumcenter of face begin + k, at most 4u from the exact unit normal. Where
 // `kites` is not null, theirs are written, too (the model is projected then). Returns whether one
 // of them is careful.

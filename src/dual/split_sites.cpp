@@ -9,6 +9,7 @@
 #include <string>
 
 #include "blocks/prefetch.h"
+#include "blocks/unit_vectors.h"
 #include "dual/exact_normal.h"
 #include "dual/face_batch.h"
 #include "rondel/error.h"
@@ -105,7 +106,7 @@ void SplitSites::set_places(unsigned threads) {
                        [&](std::size_t begin, std::size_t end) {
                          const auto order = order_.subspan(begin, end - begin);
                          if (is_projected()) {
-                           unit_vectors(sites_, center_, order, &places_[begin]);
+                           blocks::unit_vectors(sites_, order, center_, &places_[begin]);
                            return;
                          }
                          for (std::size_t k = begin; k < end; ++k) {

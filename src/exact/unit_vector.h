@@ -4,6 +4,10 @@
 // The exact projection of a point on the unit sphere, to twice double precision.
 #pragma once
 
+#include <cmath>
+
+#include "exact/eft.h"
+#include "exact/vector.h"
 #include "rondel/types.h"
 
 namespace rondel::exact {
@@ -20,5 +24,39 @@ struct SplitPoint {
 // 3. The result does not depend on the platform.
 // Precondition: finite coordinates, p != center.
 SplitPoint unit_vector(const Point& p, const Point& center);
+
+// --- its parts, for loops that become vector code ---
+
+// The square of a + its low part, to a relative 2^-103.
+inline DoubleDouble square(DoubleDouble a) {
+  const DoubleDouble s = two_square(a.hi);
+  return fast_two_sum(s.hi, s.lo + 2 * a.hi * a.lo);
+}
+
+inline DoubleDouble squared_norm(const Vector3<DoubleDouble>& d) {
+  return square(d.x) + square(d.y) + square(d.z);
+}
+
+// Squares for which nothing overflows, nor underflows where it matters.
+inline bool is_moderate(double square) { return square > 0x1p-300 && square < 0x1p300; }
+
+// d / |d|, given the square of a moderate length. With y = 1 / |d| rounded and e = 1 - y^2 |d|^2,
+// which is below 5u, 1 / |d| = y (1 + e/2 + 3/8 e^2) to 40 u^3, a Newton step of higher order
+// (docs/theory/filters.md counts the roundings).
+inline SplitPoint scaled_to_unit(const Vector3<DoubleDouble>& d, const DoubleDouble& square) {
+  const double y = 1 / std::sqrt(square.hi);
+  const DoubleDouble y2 = two_square(y);
+  const DoubleDouble one = two_product(square.hi, y2.hi);
+  const double e = ((1 - one.hi) - one.lo) - (square.hi * y2.lo + square.lo * y2.hi);
+  const double correction = e * (0.5 + 0.375 * e);
+  const auto scaled = [y, correction](const DoubleDouble& a) {
+    const DoubleDouble p = two_product(a.hi, y);
+    return fast_two_sum(p.hi, p.lo + (p.hi * correction + a.lo * y));
+  };
+  const DoubleDouble ux = scaled(d.x);
+  const DoubleDouble uy = scaled(d.y);
+  const DoubleDouble uz = scaled(d.z);
+  return {{ux.hi, uy.hi, uz.hi}, {ux.lo, uy.lo, uz.lo}};
+}
 
 }  // namespace rondel::exact

@@ -4,11 +4,14 @@
 #include "incremental/projected_points.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <new>
 #include <utility>
 
 #include "blocks/prefetch.h"
+#include "blocks/unit_vectors.h"
 #include "incremental/sphere_traits.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
@@ -20,6 +23,21 @@ namespace {
 static_assert(SphereTraits<ProjectedPoints>);
 
 using predicates::Vector;
+
+Point to_point(const Vector& v) { return {v.x, v.y, v.z}; }
+
+// Low parts that are not known yet are zero. The negative zero is not.
+bool is_known(const Point& low) {
+  const auto bits = std::bit_cast<std::array<std::uint64_t, 3>>(low);
+  return (bits[0] | bits[1] | bits[2]) != 0;
+}
+
+// What `high` lacks of u.
+Point low_part(const Vector& high, const exact::SplitPoint& u) {
+  const Point low = {(u.hi.x - high.x) + u.lo.x, (u.hi.y - high.y) + u.lo.y,
+                     (u.hi.z - high.z) + u.lo.z};
+  return is_known(low) ? low : Point{-0.0, 0, 0};
+}
 
 }  // namespace
 
@@ -48,6 +66,7 @@ void ProjectedPoints::assign(std::span<const Point> input, std::span<const Index
     directions_.push_back(direction(input[order[i]], center));
   }
   low_parts_ = {};
+  num_low_parts_ = 0;
   tally_ = {};
 }
 
@@ -77,15 +96,29 @@ void ProjectedPoints::reserve_low_parts() const {
   low_parts_ = std::move(longer);
 }
 
-exact::SplitPoint ProjectedPoints::split_direction(Index a) const {
-  if (a >= low_parts_.size) reserve_low_parts();
-  const Point high = {directions_[a].x, directions_[a].y, directions_[a].z};
-  Point& low = low_parts_.data[a];
-  if (low == Point{}) {
-    const exact::SplitPoint u = exact::unit_vector(point(a), center_);
-    low = {(u.hi.x - high.x) + u.lo.x, (u.hi.y - high.y) + u.lo.y, (u.hi.z - high.z) + u.lo.z};
+void ProjectedPoints::find_low_parts() const {
+  constexpr std::size_t some = 256;
+  if (directions_.size() > low_parts_.size) reserve_low_parts();
+  std::array<exact::SplitPoint, some> units;
+  for (std::size_t begin = 0; begin < directions_.size(); begin += some) {
+    const std::size_t count = std::min(some, directions_.size() - begin);
+    blocks::unit_vectors(input_, order_.subspan(begin, count), center_, units.data());
+    for (std::size_t i = 0; i < count; ++i)
+      low_parts_.data[begin + i] = low_part(directions_[begin + i], units[i]);
   }
-  return {high, low};
+}
+
+// Alone, until that was done for one of so many sites: then for all, a quarter of the time each.
+void ProjectedPoints::find_low_part(Index a) const {
+  constexpr Index many = 32;
+  if (a >= low_parts_.size) reserve_low_parts();
+  if (++num_low_parts_ == size() / many) return find_low_parts();
+  low_parts_.data[a] = low_part(directions_[a], exact::unit_vector(point(a), center_));
+}
+
+[[gnu::always_inline]] inline exact::SplitPoint ProjectedPoints::split_direction(Index a) const {
+  if (a >= low_parts_.size || !is_known(low_parts_.data[a])) find_low_part(a);
+  return {to_point(directions_[a]), low_parts_.data[a]};
 }
 
 bool ProjectedPoints::climb(Index a, Index b, Index c, Index p) const {

@@ -48,6 +48,7 @@ class ProjectedPoints {
   void reorder(std::span<const Index> old, std::size_t room) {
     directions_ = blocks::gather(directions_, old, room);
     low_parts_ = {};
+    num_low_parts_ = 0;
   }
 
   [[nodiscard]] Index size() const { return static_cast<Index>(directions_.size()); }
@@ -64,9 +65,7 @@ class ProjectedPoints {
   [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p) const {
     const Sign sign = predicates::side_of_circle_filter(directions_[a], directions_[b],
                                                         directions_[c], directions_[p]);
-    if (sign == Sign::zero) return climb(a, b, c, p);
-    ++tally_.filter;
-    return sign == Sign::positive;
+    return decide(sign, a, b, c, p);
   }
 
   // Two faces at once.
@@ -76,12 +75,11 @@ class ProjectedPoints {
                                                          directions_[f[2]], directions_[p]);
     const Sign second = predicates::side_of_circle_filter(directions_[g[0]], directions_[g[1]],
                                                           directions_[g[2]], directions_[p]);
-    if (first == Sign::zero || second == Sign::zero) {
-      return {is_in_conflict(f[0], f[1], f[2], p), is_in_conflict(g[0], g[1], g[2], p)};
-    }
-    tally_.filter += 2;
-    return {first == Sign::positive, second == Sign::positive};
+    return {decide(first, f[0], f[1], f[2], p), decide(second, g[0], g[1], g[2], p)};
   }
+
+  // The same, where the filter is known to be unsure.
+  [[nodiscard]] bool climb(Index a, Index b, Index c, Index p) const;
 
   // A conflict test that the caller's own filter has decided.
   void count_filtered() const { ++tally_.filter; }
@@ -89,9 +87,17 @@ class ProjectedPoints {
   [[nodiscard]] const Tally& tally() const { return tally_; }
 
  private:
+  // `sign` is what the filter says.
+  [[nodiscard]] bool decide(Sign sign, Index a, Index b, Index c, Index p) const {
+    if (sign == Sign::zero) return climb(a, b, c, p);
+    ++tally_.filter;
+    return sign == Sign::positive;
+  }
+
   [[nodiscard]] exact::SplitPoint split_direction(Index a) const;
   void reserve_low_parts() const;
-  [[nodiscard]] bool climb(Index a, Index b, Index c, Index p) const;
+  void find_low_part(Index a) const;
+  void find_low_parts() const;
 
   struct Free {
     void operator()(Point* p) const { std::free(p); }
@@ -108,6 +114,7 @@ class ProjectedPoints {
   // What the directions lack of the exact unit vectors, computed when first needed. Zero
   // pages from calloc take no memory before that.
   mutable LowParts low_parts_;
+  mutable Index num_low_parts_ = 0;  // how often one was computed alone
   mutable Tally tally_;
 };
 

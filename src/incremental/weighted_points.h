@@ -54,9 +54,7 @@ class WeightedPoints {
   [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p) const {
     const Sign sign =
         predicates::side_of_plane_filter(points_[a], points_[b], points_[c], points_[p]);
-    if (sign == Sign::zero) return climb(a, b, c, p);
-    ++tally_.filter;
-    return sign == Sign::positive;
+    return decide(sign, a, b, c, p);
   }
 
   // Two faces at once.
@@ -66,12 +64,11 @@ class WeightedPoints {
         predicates::side_of_plane_filter(points_[f[0]], points_[f[1]], points_[f[2]], points_[p]);
     const Sign second =
         predicates::side_of_plane_filter(points_[g[0]], points_[g[1]], points_[g[2]], points_[p]);
-    if (first == Sign::zero || second == Sign::zero) {
-      return {is_in_conflict(f[0], f[1], f[2], p), is_in_conflict(g[0], g[1], g[2], p)};
-    }
-    tally_.filter += 2;
-    return {first == Sign::positive, second == Sign::positive};
+    return {decide(first, f[0], f[1], f[2], p), decide(second, g[0], g[1], g[2], p)};
   }
+
+  // The same, where the filter is known to be unsure.
+  [[nodiscard]] bool climb(Index a, Index b, Index c, Index p) const;
 
   // A conflict test that the caller's own filter has decided.
   void count_filtered() const { ++tally_.filter; }
@@ -79,7 +76,12 @@ class WeightedPoints {
   [[nodiscard]] const Tally& tally() const { return tally_; }
 
  private:
-  [[nodiscard]] bool climb(Index a, Index b, Index c, Index p) const;
+  // `sign` is what the filter says.
+  [[nodiscard]] bool decide(Sign sign, Index a, Index b, Index c, Index p) const {
+    if (sign == Sign::zero) return climb(a, b, c, p);
+    ++tally_.filter;
+    return sign == Sign::positive;
+  }
 
   std::vector<predicates::Vector> points_;
   predicates::Vector center_;

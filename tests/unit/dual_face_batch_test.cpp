@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <vector>
 
 #include "dual/face_batch.h"
@@ -14,41 +13,6 @@
 
 namespace rondel::test {
 namespace {
-
-double distance(double hi, double lo, double other_hi, double other_lo) {
-  return std::abs((hi - other_hi) + (lo - other_lo));
-}
-
-// Both are within 2^-100 of the truth.
-void expect_unit_vectors(const std::vector<Point>& sites, const Point& center) {
-  std::vector<Index> order(sites.size());
-  std::iota(order.rbegin(), order.rend(), Index{0});
-  std::vector<exact::SplitPoint> places(sites.size());
-  dual::unit_vectors(sites, center, order, places.data());
-  for (std::size_t k = 0; k < places.size(); ++k) {
-    const exact::SplitPoint& p = places[k];
-    const exact::SplitPoint q = exact::unit_vector(sites[order[k]], center);
-    EXPECT_LE(distance(p.hi.x, p.lo.x, q.hi.x, q.lo.x), 0x1p-99) << k;
-    EXPECT_LE(distance(p.hi.y, p.lo.y, q.hi.y, q.lo.y), 0x1p-99) << k;
-    EXPECT_LE(distance(p.hi.z, p.lo.z, q.hi.z, q.lo.z), 0x1p-99) << k;
-    EXPECT_LE(std::abs(p.hi.x - q.hi.x), 0x1p-53) << k;
-  }
-}
-
-TEST(dual_places, are_as_precise_as_those_of_single_points) {
-  for (const char* name : {"uniform", "patch_1e_9", "near_sphere", "mixed_scales", "s_n"}) {
-    expect_unit_vectors(generator(name).make(700, 1).sites, {});
-    expect_unit_vectors(generator(name).make(65, 2).sites, {1e-3, 7, -0.1});
-  }
-}
-
-TEST(dual_places, hold_where_squares_would_leave_the_range) {
-  std::vector<Point> sites;
-  for (int exponent = -1070; exponent < 1020; exponent += 10) {
-    sites.push_back({std::ldexp(1.25, exponent), std::ldexp(-0.75, exponent), 0});
-  }
-  expect_unit_vectors(sites, {});
-}
 
 // A batch gives the same bits as a face alone, wherever in it the face is.
 TEST(dual_normals, are_the_same_in_batches_and_alone) {

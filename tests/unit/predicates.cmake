@@ -6,6 +6,7 @@ rondel_add_test(predicates_test
   predicates_rung_test.cpp
   predicates_sign_test.cpp
   predicates_symmetry_test.cpp
+  unit_vectors_test.cpp
   LIBS rondel_test_support)
 rondel_compile_alone(predicates_test predicates_rung_test.cpp)
 rondel_add_test(predicates_bounds_test predicates_bounds_test.cpp LIBS rondel_test_support)
