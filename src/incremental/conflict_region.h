@@ -32,17 +32,20 @@ class ConflictRegion {
     const topology::Face& face = mesh[start];
     const auto& last = mesh[topology::face_of(face.opposite[2])].vertex;
     stack_.push_back(
-        {{face.vertex[0], face.opposite[2]}, sites.is_in_conflict(last[0], last[1], last[2], p)});
+        {face.vertex[0], face.opposite[2], sites.is_in_conflict(last[0], last[1], last[2], p)});
     Crossing next = cross_edges(sites, mesh, p, face, 0, 1);
     for (;;) {
-      if (!next.is_in_conflict) horizon_.push_back(next.edge);
-      const Index f = topology::face_of(next.edge.outside);
-      if (next.is_in_conflict && !is_known(f)) {
-        add(f);
-        const unsigned entered = topology::edge_of(next.edge.outside);
-        next = cross_edges(sites, mesh, p, mesh[f], topology::next_corner[entered],
-                           topology::previous_corner[entered]);
-        continue;
+      if (next.is_in_conflict) {
+        const Index f = topology::face_of(next.outside);
+        if (!is_known(f)) {
+          add(f);
+          const unsigned entered = topology::edge_of(next.outside);
+          next = cross_edges(sites, mesh, p, mesh[f], topology::next_corner[entered],
+                             topology::previous_corner[entered]);
+          continue;
+        }
+      } else {
+        horizon_.push_back({next.origin, next.outside});
       }
       if (stack_.empty()) break;
       next = stack_.back();
@@ -60,8 +63,9 @@ class ConflictRegion {
 
  private:
   struct Crossing {
-    topology::HorizonEdge edge;
-    bool is_in_conflict;  // the face behind it
+    Index origin;
+    topology::Halfedge outside;
+    bool is_in_conflict;  // the face there
   };
 
   // Returns the first crossing and leaves the second for later. Edge i runs from corner i+1.
@@ -73,8 +77,8 @@ class ConflictRegion {
     prefetch_beyond(mesh, b);
     const auto [is_a, is_b] = sites.are_in_conflict(mesh[topology::face_of(a)].vertex,
                                                     mesh[topology::face_of(b)].vertex, p);
-    stack_.push_back({{face.vertex[topology::next_corner[second]], b}, is_b});
-    return {{face.vertex[topology::next_corner[first]], a}, is_a};
+    stack_.push_back({face.vertex[topology::next_corner[second]], b, is_b});
+    return {face.vertex[topology::next_corner[first]], a, is_a};
   }
 
   // The faces that are tested next if the one behind h is in conflict: they arrive while the
