@@ -7,7 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "bulk/tangent_step.h"
 #include "exact/eft.h"
 #include "exact/extended.h"
 #include "exact/vector.h"
@@ -17,10 +16,9 @@ namespace {
 
 using exact::DoubleDouble;
 
-// Relative to the distance, in units of 2^-64: 16 and 256. Steps between places have a small
-// relative error from this distance on.
+// Relative to the distance, 16 units of 2^-64. Steps between places have a small relative error
+// from this distance on.
 constexpr long double orientation_bound = 0x1p-60L;
-constexpr long double conflict_bound = 0x1p-56L;
 constexpr long double least_squared_distance = 0x1p-76L;
 
 // The coordinate of a difference along an axis.
@@ -34,10 +32,6 @@ DoubleDouble along(const Point& axis, const Point& p, const Point& center) {
 double rest(const DoubleDouble& x, const DoubleDouble& z, double quotient) {
   const DoubleDouble product = exact::two_product(quotient, z.hi);
   return (((x.hi - product.hi) - product.lo) + (x.lo - quotient * z.lo)) / z.hi;
-}
-
-Sign sign_beyond(long double value, long double bound) {
-  return std::abs(value) > bound ? static_cast<Sign>(value > 0 ? 1 : -1) : Sign::zero;
 }
 
 }  // namespace
@@ -62,73 +56,41 @@ void AccuratePlaces::find_low(Index i) {
   const CellPoint& point = points_[i];
   const DoubleDouble z = along(axes_.out, p, center_);
   if (!(z.hi > 0x1p-900 && z.hi < 0x1p900)) {
-    lows_[i] = {infinity, infinity, infinity};
+    lows_[i] = {infinity, infinity};
     return;
   }
-  const double u = rest(along(axes_.u, p, center_), z, point.u);
-  const double v = hand_ * rest(along(axes_.v, p, center_), z, hand_ * point.v);
-  const long double x = static_cast<long double>(point.u) + u;
-  const long double y = static_cast<long double>(point.v) + v;
-  lows_[i] = {u, v, static_cast<double>(std::sqrt(1 + (x * x + y * y)) - point.size)};
+  lows_[i] = {rest(along(axes_.u, p, center_), z, point.u),
+              hand_ * rest(along(axes_.v, p, center_), z, hand_ * point.v)};
 }
 
-void AccuratePlaces::reserve_lows() {
+const AccuratePlaces::Low& AccuratePlaces::known_low(Index i) {
   constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-  lows_.resize(order_.size(), {unknown, unknown, unknown});
+  if (lows_.empty()) lows_.resize(order_.size(), {unknown, unknown});
+  if (std::isnan(lows_[i].u)) find_low(i);
+  return lows_[i];
 }
-
-// From the site a.
-class AccuratePlaces::Steps {
- public:
-  Steps(AccuratePlaces& places, Index a) : places_(places), point_(places.points_[a]) {
-    if (places.lows_.empty()) places.reserve_lows();
-    low_ = known_low(a);
-    from_ = {static_cast<long double>(point_.u) + low_.u,
-             static_cast<long double>(point_.v) + low_.v,
-             static_cast<long double>(point_.size) + low_.size};
-  }
-
-  [[nodiscard]] TangentStep<long double> to(Index b) const {
-    const CellPoint& point = places_.points_[b];
-    const Low& low = known_low(b);
-    return tangent_step<long double>(
-        from_, (static_cast<long double>(point.u) - point_.u) + (low.u - low_.u),
-        (static_cast<long double>(point.v) - point_.v) + (low.v - low_.v),
-        static_cast<long double>(point.size) + low.size);
-  }
-
- private:
-  [[nodiscard]] const Low& known_low(Index i) const {
-    const Low& low = places_.lows_[i];
-    if (std::isnan(low.u)) places_.find_low(i);
-    return low;
-  }
-
-  AccuratePlaces& places_;
-  const CellPoint& point_;
-  Low low_{};
-  SurfacePoint<long double> from_{};
-};
 
 Sign AccuratePlaces::orientation(Index a, Index b, Index c) {
   if (!exact::has_extended_precision()) return Sign::zero;
-  const Steps from(*this, a);
-  const auto ab = from.to(b);
-  const auto ac = from.to(c);
-  const long double squared = std::max(ab.squared, ac.squared);
-  if (!(squared > least_squared_distance)) return Sign::zero;
-  return sign_beyond(ab.u * ac.v - ab.v * ac.u, orientation_bound * squared);
-}
-
-Sign AccuratePlaces::side_of_face(Index a, Index b, Index c, Index p) {
-  if (!exact::has_extended_precision()) return Sign::zero;
-  const Steps from(*this, a);
-  const auto ab = from.to(b);
-  const auto ac = from.to(c);
-  const auto ap = from.to(p);
-  const long double squared = max_squared(ab, ac, ap);
-  if (!(squared > least_squared_distance)) return Sign::zero;
-  return sign_beyond(volume(ab, ac, ap), conflict_bound * (squared * squared));
+  struct Step {
+    long double u, v;
+    [[nodiscard]] long double squared() const { return u * u + v * v; }
+  };
+  const CellPoint& from = points_[a];
+  const Low& from_low = known_low(a);
+  const auto step_to = [&](Index i) -> Step {
+    const CellPoint& to = points_[i];
+    const Low& low = known_low(i);
+    return {(static_cast<long double>(to.u) - from.u) + (low.u - from_low.u),
+            (static_cast<long double>(to.v) - from.v) + (low.v - from_low.v)};
+  };
+  const Step ab = step_to(b);
+  const Step ac = step_to(c);
+  const long double squared = std::max(ab.squared(), ac.squared());
+  const long double value = ab.u * ac.v - ab.v * ac.u;
+  if (!(squared > least_squared_distance && std::abs(value) > orientation_bound * squared))
+    return Sign::zero;
+  return value > 0 ? Sign::positive : Sign::negative;
 }
 
 }  // namespace rondel::bulk

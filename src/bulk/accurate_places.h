@@ -1,11 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A filter for sites that are almost on one great circle or one circle, as those of grids are, in
-// the projected model: with numbers of 64 bits, where the machine has them. Double-double numbers,
-// which the next rung calculates with, take several times as long. Differences of places have a
-// small relative error, and so has the height of the sphere over its tangent plane at one of the
-// sites (docs/theory/blocks.md).
+// A filter for sites that are almost on one great circle, as those of grids are, in the projected
+// model: with numbers of 64 bits, where the machine has them. The next rung takes several times as
+// long. Differences of places have a small relative error (docs/theory/blocks.md).
 #pragma once
 
 #include <span>
@@ -26,20 +24,14 @@ class AccuratePlaces {
   // Positive if c lies to the left of the edge from a to b, zero if this is not certain.
   [[nodiscard]] Sign orientation(Index a, Index b, Index c);
 
-  // Negative if p lies beyond the face (a, b, c), zero if this is not certain.
-  [[nodiscard]] Sign side_of_face(Index a, Index b, Index c, Index p);
-
  private:
-  // What the numbers of a CellPoint lack, the third one of sqrt(1 + u^2 + v^2); NaN if this is not
-  // known yet, infinite if it never is.
+  // What the numbers of a CellPoint lack; NaN if this is not known yet, infinite if it never is.
   struct Low {
     double u;
     double v;
-    double size;
   };
-  class Steps;
 
-  void reserve_lows();
+  [[nodiscard]] const Low& known_low(Index i);
   void find_low(Index i);
 
   const CellPoint* points_ = nullptr;

@@ -92,7 +92,10 @@ bool is_doubtful(std::uint64_t position) {
 constexpr std::size_t batch = 128;  // coordinates found at once
 
 // Sites are given a traits class of their own for up to one question in so many sites.
-constexpr Index many = 32;
+constexpr Index many = 128;
+
+// side_over_tangent() is asked until it has failed this much more often than not.
+constexpr std::uint64_t most_ties = 16;
 
 template <class T>
 constexpr bool is_weighted = std::is_same_v<T, incremental::WeightedPoints>;
@@ -116,6 +119,8 @@ void CellSites<T>::assign(std::span<const Point> sites, std::span<const Index> o
   bits_ = -1;
   num_unsure_ = 0;
   num_filtered_ = 0;
+  num_ties_ = 0;
+  num_over_tangent_ = 0;
   tally_ = {};
   exact_.assign({}, {}, center);
   accurate_.assign(sites, order.subspan(first, num_sites), center);
@@ -254,7 +259,7 @@ Sign CellSites<T>::side_over_tangent(Index a, Index b, Index c, Index p) const {
   const CellPoint& x = points_[a];
   const auto step_to = [&](Index i) {
     const CellPoint& y = points_[i];
-    return tangent_step<double>({x.u, x.v, x.size}, y.u - x.u, y.v - x.v, y.size);
+    return tangent_step({x.u, x.v, x.size}, y.u - x.u, y.v - x.v, y.size);
   };
   const auto ab = step_to(b);
   const auto ac = step_to(c);
@@ -279,19 +284,18 @@ bool CellSites<T>::is_in_conflict(Index a, Index b, Index c, Index p, double val
       return value < 0;
     }
   } else {
-    Sign side = side_over_tangent(a, b, c, p);
-    if (side != Sign::zero) {
-      ++num_filtered_;
-      return side == Sign::negative;
-    }
-    side = accurate_.side_of_face(a - first_, b - first_, c - first_, p - first_);
-    if (side != Sign::zero) {
-      ++tally_.double_double;
-      return side == Sign::negative;
+    if (num_ties_ <= most_ties * (num_over_tangent_ + 1)) {
+      const Sign side = side_over_tangent(a, b, c, p);
+      if (side != Sign::zero) {
+        ++num_filtered_;
+        ++num_over_tangent_;
+        return side == Sign::negative;
+      }
+      ++num_ties_;
     }
   }
   return ask_traits(std::array{a, b, c, p}, [](const T& t, const std::array<Index, 4>& i) {
-    return t.is_in_conflict(i[0], i[1], i[2], i[3]);
+    return t.climb(i[0], i[1], i[2], i[3]);
   });
 }
 

@@ -181,7 +181,9 @@ class CellSites {
   mutable T few_;
   mutable Index num_unsure_ = 0;
   mutable std::uint64_t num_filtered_ = 0;
-  mutable Tally tally_{};  // of what the few were asked
+  mutable std::uint64_t num_over_tangent_ = 0;  // what side_over_tangent() decided
+  mutable std::uint64_t num_ties_ = 0;          // and what it did not
+  mutable Tally tally_{};                       // of what the few were asked
 };
 
 extern template class CellSites<incremental::ProjectedPoints>;

@@ -9,45 +9,39 @@
 
 namespace rondel::bulk {
 
-template <class Real>
 struct SurfacePoint {
-  Real u;
-  Real v;
-  Real w;
+  double u;
+  double v;
+  double w;
 };
 
-template <class Real>
 struct TangentStep {
-  Real u;
-  Real v;
-  Real height;
-  Real squared;  // u^2 + v^2
+  double u;
+  double v;
+  double height;
+  double squared;  // u^2 + v^2
 };
 
 // By d = (u, v) from x to a place y. The height is the one over the tangent plane at x times w(x),
 // which is the same for all steps from x:
 //
 //     w(x) w(y) - w(x)^2 - x.d = (|d|^2 w(x) - x.d (2 x.d + |d|^2) / (w(x) + w(y))) / (w(x) + w(y))
-template <class Real>
-TangentStep<Real> tangent_step(const SurfacePoint<Real>& x, Real u, Real v, Real w_of_y) {
-  const Real squared = u * u + v * v;
-  const Real along = x.u * u + x.v * v;
-  const Real factor = 1 / (x.w + w_of_y);
-  const Real height = (squared * x.w - along * (2 * along + squared) * factor) * factor;
+inline TangentStep tangent_step(const SurfacePoint& x, double u, double v, double w_of_y) {
+  const double squared = u * u + v * v;
+  const double along = x.u * u + x.v * v;
+  const double factor = 1 / (x.w + w_of_y);
+  const double height = (squared * x.w - along * (2 * along + squared) * factor) * factor;
   return {u, v, height, squared};
 }
 
 // Positive if the third step leads above the plane of the others, seen from the side from which
 // they are in counterclockwise order.
-template <class Real>
-Real volume(const TangentStep<Real>& a, const TangentStep<Real>& b, const TangentStep<Real>& c) {
+inline double volume(const TangentStep& a, const TangentStep& b, const TangentStep& c) {
   return a.height * (b.u * c.v - b.v * c.u) + b.height * (c.u * a.v - c.v * a.u) +
          c.height * (a.u * b.v - a.v * b.u);
 }
 
-template <class Real>
-Real max_squared(const TangentStep<Real>& a, const TangentStep<Real>& b,
-                 const TangentStep<Real>& c) {
+inline double max_squared(const TangentStep& a, const TangentStep& b, const TangentStep& c) {
   return std::max(std::max(a.squared, b.squared), c.squared);
 }
 

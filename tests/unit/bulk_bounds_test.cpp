@@ -211,15 +211,13 @@ TEST(bulk_bounds, accurate_places_do_not_err_and_decide_ties) {
     const int turn = sgn(normal[2]);
     const int side = sgn(dot_of(normal, minus(cell.point(3), a)));
     const auto found_turn = static_cast<int>(cell.accurate().orientation(0, 1, 2));
-    const auto found_side = static_cast<int>(cell.accurate().side_of_face(0, 1, 2, 3));
     EXPECT_TRUE(found_turn == 0 || found_turn == turn);
-    EXPECT_TRUE(found_side == 0 || found_side == side);
     const auto filtered_side = static_cast<int>(cell.sites().side_over_tangent(0, 1, 2, 3));
     EXPECT_TRUE(filtered_side == 0 || filtered_side == side);
-    num_decided += static_cast<std::size_t>(found_turn != 0 && found_side != 0);
+    num_decided += static_cast<std::size_t>(found_turn != 0);
   }
   std::cout << num_decided << " of " << num_sets << " decided\n";
-  EXPECT_TRUE(num_decided > num_sets * 3 / 4 || !exact::has_extended_precision());
+  EXPECT_TRUE(num_decided > num_sets * 99 / 100 || !exact::has_extended_precision());
 }
 
 // In a cell that is much longer than the distances of sites its own limits decide nothing.
