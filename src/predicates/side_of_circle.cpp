@@ -44,15 +44,14 @@ struct ExtendedStep {
   long double squared;
 
   ExtendedStep(const SplitPoint& q, const SplitPoint& p, unsigned last) {
-    const Coordinates q_hi = coordinates(q.hi);
-    const Coordinates q_lo = coordinates(q.lo);
-    const Coordinates p_hi = coordinates(p.hi);
-    const Coordinates p_lo = coordinates(p.lo);
+    constexpr std::array<double Point::*, 5> axes = {&Point::x, &Point::y, &Point::z, &Point::x,
+                                                     &Point::y};
     const auto along = [&](unsigned i) {
-      return (static_cast<long double>(q_hi[i]) - p_hi[i]) + (q_lo[i] - p_lo[i]);
+      const auto axis = axes[i];
+      return (static_cast<long double>(q.hi.*axis) - p.hi.*axis) + (q.lo.*axis - p.lo.*axis);
     };
-    x = along((last + 1) % 3);
-    y = along((last + 2) % 3);
+    x = along(last + 1);
+    y = along(last + 2);
     const long double z = along(last);
     squared = x * x + y * y + z * z;
   }
