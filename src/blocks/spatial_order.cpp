@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <numeric>
 #include <type_traits>
 
 #include "blocks/chunk_lists.h"
