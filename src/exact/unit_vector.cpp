@@ -9,8 +9,12 @@
 namespace rondel::exact {
 namespace {
 
+// Times 2^exponent, rounded once: not by the ldexp of all platforms where the result is subnormal.
+// What a first half makes subnormal becomes 0 by the second one.
 DoubleDouble scale(DoubleDouble a, int exponent) {
-  return {std::ldexp(a.hi, exponent), std::ldexp(a.lo, exponent)};
+  const double first = std::ldexp(1.0, exponent / 2);
+  const double second = std::ldexp(1.0, exponent - exponent / 2);
+  return {a.hi * first * second, a.lo * first * second};
 }
 
 using Difference = Vector3<DoubleDouble>;

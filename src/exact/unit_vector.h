@@ -19,7 +19,8 @@ struct SplitPoint {
 };
 
 // The unit vector u = (p - center) / |p - center|.
-// 1. hi is within 0.51 ulp of u in each coordinate, so |hi - u| <= 2^-53.
+// 1. hi is within 0.51 ulp of u in each coordinate, so |hi - u| <= 2^-53; within 2^-1073 where the
+//    coordinate is below 2^-1010.
 // 2. |hi + lo - u| <= 2^-100.
 // 3. The result does not depend on the platform.
 // Precondition: finite coordinates, p != center.
@@ -27,7 +28,7 @@ SplitPoint unit_vector(const Point& p, const Point& center);
 
 // --- its parts, for loops that become vector code ---
 
-// The square of a + its low part, to a relative 2^-103.
+// The square of a + its low part, to a relative 2^-103 unless it underflows.
 inline DoubleDouble square(DoubleDouble a) {
   const DoubleDouble s = two_square(a.hi);
   return fast_two_sum(s.hi, s.lo + 2 * a.hi * a.lo);
@@ -41,8 +42,8 @@ inline DoubleDouble squared_norm(const Vector3<DoubleDouble>& d) {
 inline bool is_moderate(double square) { return square > 0x1p-300 && square < 0x1p300; }
 
 // d / |d|, given the square of a moderate length. With y = 1 / |d| rounded and e = 1 - y^2 |d|^2,
-// which is below 5u, 1 / |d| = y (1 + e/2 + 3/8 e^2) to 40 u^3, a Newton step of higher order
-// (docs/theory/filters.md counts the roundings).
+// which is some 5u at most, 1 / |d| = y (1 + e/2 + 3/8 e^2) to 40 u^3, a Newton step of higher
+// order (docs/theory/filters.md counts the roundings).
 inline SplitPoint scaled_to_unit(const Vector3<DoubleDouble>& d, const DoubleDouble& square) {
   const double y = 1 / std::sqrt(square.hi);
   const DoubleDouble y2 = two_square(y);

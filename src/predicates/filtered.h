@@ -35,7 +35,7 @@ inline bool is_beyond(double value, double bound, double a2, double b2, double c
 }
 
 // Whether |value| exceeds the bound times the two largest of |a|, |b| and |c|, given the squared
-// lengths.
+// lengths. For finite vectors.
 inline bool is_beyond_longest(double value, double bound, double a2, double b2, double c2) {
   return value * value > (bound * bound) * std::max(std::max(a2 * b2, b2 * c2), c2 * a2);
 }

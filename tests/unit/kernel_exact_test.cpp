@@ -63,8 +63,8 @@ void expect_unit_vector(const Point& p, const Point& center) {
   double squared_error = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     mpfr_div(d[i].value, d[i].value, length.value, MPFR_RNDN);
-    EXPECT_LE(std::abs(error_of(hi[i], d[i])), 0.51 * ulp(hi[i]))
-        << p.x << " " << p.y << " " << p.z;
+    const double most = std::abs(hi[i]) < 0x1p-1010 ? 0x1p-1073 : 0.51 * ulp(hi[i]);
+    EXPECT_LE(std::abs(error_of(hi[i], d[i])), most) << p.x << " " << p.y << " " << p.z;
     mpfr_sub_d(d[i].value, d[i].value, hi[i], MPFR_RNDN);
     const double error = error_of(lo[i], d[i]);
     squared_error += error * error;
@@ -92,6 +92,11 @@ TEST(exact_unit_vector, holds_at_the_ends_of_the_range) {
   expect_unit_vector({huge, tiny, 0}, {huge, 0, 0});
   expect_unit_vector({1, 1 + 0x1p-52, 0}, {1, 1, 0});
   expect_unit_vector({1e-300, 2e-300, 3e-300}, {0, 1e-300, 0});
+  // Small coordinates beside large ones: their low parts underflow.
+  expect_unit_vector({0x1.fa72408b5d1d9p+0, -0x1.5bb3f9bad96c7p+0, -0x0.ee79b9cbcf9cp-1022}, {});
+  expect_unit_vector({-0x1.2b6c7147b25edp-319, 0x1.8446f382f51a1p+855, 0x1.33ce246f7213cp-216}, {});
+  expect_unit_vector({-0x0.00000348c6514p-1022, 0x1.22d9424a747e8p-22, -0x1.00000676ca90fp-3},
+                     {0x1.ff6c56a6cccacp-1013, -0x1.000000000000cp+9, 0x1p+3});
 }
 
 TEST(exact_degrees, sine_and_cosine_are_within_the_stated_error) {
