@@ -29,9 +29,7 @@ struct Lanes {
 };
 
 inline void find_unit_vector(Lanes& lanes, std::size_t j, const Point& center) {
-  const exact::Vector3<exact::DoubleDouble> d = {exact::two_diff(lanes.x[j], center.x),
-                                                 exact::two_diff(lanes.y[j], center.y),
-                                                 exact::two_diff(lanes.z[j], center.z)};
+  const auto d = exact::difference({lanes.x[j], lanes.y[j], lanes.z[j]}, center);
   const exact::DoubleDouble square = exact::squared_norm(d);
   const SplitPoint u = exact::scaled_to_unit(d, square);
   lanes.x_hi[j] = u.hi.x;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Exact projections on the unit sphere, of many sites at once: in loops that become vector code,
-// where each takes a tenth of the time of exact::unit_vector().
+// where each takes a quarter of the time of exact::unit_vector().
 #pragma once
 
 #include <span>

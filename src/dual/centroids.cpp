@@ -62,7 +62,7 @@ Point centroid_of(const LocalRing& ring) {
   // cells have no area at all: weighted sites on a flat part of the hull.
   const double noise = 8 * perimeter * (ring.error + 0x1p-52 * perimeter);
   const bool is_thin = dot(moment, moment) <= noise * noise;
-  return dual::to_point(dual::normalized(is_thin ? sum : moment));
+  return exact::to_point(dual::normalized(is_thin ? sum : moment));
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blocks/prefetch.h"
 #include "dual/exact_normal.h"
 #include "dual/face_normal.h"
 #include "system/wide_vectors.h"
@@ -14,10 +13,9 @@
 namespace rondel::dual {
 namespace {
 
-using exact::DoubleDouble;
 using exact::SplitPoint;
 
-// Sites or faces at a time. What the loops read and write lies in arrays of one number each, which
+// Faces at a time. What the loops read and write lies in arrays of one number each, which
 // the first cache holds.
 constexpr std::size_t batch_size = 64;
 constexpr double careful = careful_kites[0];

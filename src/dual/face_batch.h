@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is computed for every site and every face, for many at once in loops that become vector
+// What is computed for every face, for many at once in loops that become vector
 // code. The formulas are those of docs/theory/areas.md.
 #pragma once
 

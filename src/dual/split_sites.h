@@ -31,7 +31,6 @@ using Vec = exact::Vector3<double>;
 using exact::to_vector;
 
 inline Vec operator*(double s, const Vec& v) { return {s * v.x, s * v.y, s * v.z}; }
-inline Point to_point(const Vec& v) { return {v.x, v.y, v.z}; }
 // Zero stays zero. Precondition: no coordinate above 2^500.
 Vec normalized(const Vec& v);
 

@@ -19,19 +19,14 @@ DoubleDouble scale(DoubleDouble a, int exponent) {
 
 using Difference = Vector3<DoubleDouble>;
 
-Difference difference(const Point& p, const Point& c) {
-  return {two_diff(p.x, c.x), two_diff(p.y, c.y), two_diff(p.z, c.z)};
-}
-
-// p - c, times 2^shift for a shift that puts the largest coordinate near 1.
+// d = p - c, times 2^shift for a shift that puts the largest coordinate near 1.
 //
 // two_diff is exact also for subnormal results. Only a difference beyond 2^1020 is computed from
 // quarters, which may drop bits below 2^-1074; then the largest coordinate is above 2^1018, and
 // what is dropped is below its 2^-2000th part.
-Difference moderate_difference(const Point& p, const Point& c) {
+Difference moderate_difference(Difference d, const Point& p, const Point& c) {
   constexpr double limit = 0x1p1020;
   const auto is_far = [](const DoubleDouble& v) { return !(std::abs(v.hi) < limit); };
-  Difference d = difference(p, c);
   if (is_far(d.x) || is_far(d.y) || is_far(d.z)) {
     const auto quarter = [](const Point& q) { return Point{q.x / 4, q.y / 4, q.z / 4}; };
     d = difference(quarter(p), quarter(c));
@@ -47,7 +42,7 @@ SplitPoint unit_vector(const Point& p, const Point& center) {
   Difference d = difference(p, center);
   DoubleDouble square = squared_norm(d);
   if (!is_moderate(square.hi)) {
-    d = moderate_difference(p, center);
+    d = moderate_difference(d, p, center);
     square = squared_norm(d);
   }
   return scaled_to_unit(d, square);

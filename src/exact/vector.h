@@ -4,6 +4,7 @@
 // Vectors of three numbers of any ring: double, double-double, expansions, integers.
 #pragma once
 
+#include "exact/eft.h"
 #include "rondel/types.h"
 
 namespace rondel::exact {
@@ -42,6 +43,12 @@ T det(const Vector3<T>& a, const Vector3<T>& b, const Vector3<T>& c) {
 }
 
 inline Vector3<double> to_vector(const Point& p) { return {p.x, p.y, p.z}; }
+inline Point to_point(const Vector3<double>& v) { return {v.x, v.y, v.z}; }
+
+// a - b, exactly unless it overflows.
+inline Vector3<DoubleDouble> difference(const Point& a, const Point& b) {
+  return {two_diff(a.x, b.x), two_diff(a.y, b.y), two_diff(a.z, b.z)};
+}
 
 inline Sign sign_of(double value) {
   return static_cast<Sign>(static_cast<int>(value > 0) - static_cast<int>(value < 0));

@@ -24,8 +24,6 @@ static_assert(SphereTraits<ProjectedPoints>);
 
 using predicates::Vector;
 
-Point to_point(const Vector& v) { return {v.x, v.y, v.z}; }
-
 // Low parts that are not known yet are zero. The negative zero is not.
 bool is_known(const Point& low) {
   const auto bits = std::bit_cast<std::array<std::uint64_t, 3>>(low);
@@ -98,7 +96,6 @@ void ProjectedPoints::reserve_low_parts() const {
 
 void ProjectedPoints::find_low_parts() const {
   constexpr std::size_t some = 256;
-  if (directions_.size() > low_parts_.size) reserve_low_parts();
   std::array<exact::SplitPoint, some> units;
   for (std::size_t begin = 0; begin < directions_.size(); begin += some) {
     const std::size_t count = std::min(some, directions_.size() - begin);
@@ -111,7 +108,7 @@ void ProjectedPoints::find_low_parts() const {
 // Alone, until that was done for one of so many sites: then for all, a quarter of the time each.
 void ProjectedPoints::find_low_part(Index a) const {
   constexpr Index many = 32;
-  if (a >= low_parts_.size) reserve_low_parts();
+  if (directions_.size() > low_parts_.size) reserve_low_parts();
   if (++num_low_parts_ == size() / many) return find_low_parts();
   low_parts_.data[a] = low_part(directions_[a], exact::unit_vector(point(a), center_));
 }

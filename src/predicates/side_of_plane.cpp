@@ -15,13 +15,8 @@ namespace {
 using exact::DoubleDouble;
 using exact::expansion;
 using exact::Expansion;
-using exact::two_diff;
 
 using DifferenceVector = exact::Vector3<DoubleDouble>;
-
-DifferenceVector difference(const Point& a, const Point& b) {
-  return {two_diff(a.x, b.x), two_diff(a.y, b.y), two_diff(a.z, b.z)};
-}
 
 double squared_length(const DifferenceVector& v) {
   return v.x.hi * v.x.hi + v.y.hi * v.y.hi + v.z.hi * v.z.hi;
@@ -72,9 +67,9 @@ Decision climb(const Point& b, const Point& c, const Point& d, const Point& p) {
   const Sign filtered =
       side_of_plane_filter(to_vector(b), to_vector(c), to_vector(d), to_vector(p));
   if (filtered != Sign::zero) return {filtered, Rung::filter};
-  const DifferenceVector pb = difference(b, p);
-  const DifferenceVector pc = difference(c, p);
-  const DifferenceVector pd = difference(d, p);
+  const DifferenceVector pb = exact::difference(b, p);
+  const DifferenceVector pc = exact::difference(c, p);
+  const DifferenceVector pd = exact::difference(d, p);
   if (const Sign sign = by_double_double(pb, pc, pd); sign != Sign::zero) {
     return {sign, Rung::double_double};
   }

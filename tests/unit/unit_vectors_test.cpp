@@ -6,12 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "incremental/projected_points.h"
-#include "predicates/perturbation.h"
 #include "support/generators.h"
 #include "support/random.h"
 
