@@ -14,10 +14,10 @@
 #include <span>
 #include <vector>
 
-#include "blocks/spatial_order.h"
-#include "incremental/projected_points.h"
 #include "inputs.h"
 #include "measure.h"
+#include "models/projected_points.h"
+#include "order/spatial_order.h"
 #include "rondel/rondel.h"
 #include "system/huge_pages.h"
 
@@ -34,7 +34,7 @@ std::vector<Index> invert(std::span<const Index> order, std::size_t num_sites) {
 
 // One test for each edge, in the face of smaller number; the corner across is what the neighbor's
 // corners have beyond the two that are shared.
-std::size_t count_conflicts(const rondel::incremental::ProjectedPoints& sites,
+std::size_t count_conflicts(const rondel::models::ProjectedPoints& sites,
                             std::span<const Triple> faces, std::span<const Triple> neighbors) {
   std::size_t conflicts = 0;
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -77,7 +77,7 @@ int main(int argc, char** argv) {
   options.threads = 1;
   const auto triangulation = rondel::delaunay(sites, options);
   const auto sorted = rondel::bench::measure(
-      [&] { return rondel::blocks::spatial_order(sites, options.model, {}, options.threads); });
+      [&] { return rondel::order::spatial_order(sites, options.model, {}, options.threads); });
   const auto& order = sorted.result->order;
   const auto ranks = invert(order, sites.size());
   if (order.size() != sites.size()) {
@@ -88,7 +88,7 @@ int main(int argc, char** argv) {
   for (Triple& face : faces) {
     for (Index& corner : face) corner = ranks[corner];
   }
-  const rondel::incremental::ProjectedPoints points(sites, order, {});
+  const rondel::models::ProjectedPoints points(sites, order, {});
   const auto verified = rondel::bench::measure(
       [&] { return count_conflicts(points, faces, triangulation.neighbors()); });
   if (*verified.result != 0) return 1;

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "blocks/spatial_order.h"
-#include "incremental/canonical.h"
+#include "kernel/canonical.h"
+#include "order/spatial_order.h"
 #include "parts.h"
 #include "topology/mesh.h"
 
@@ -38,7 +38,7 @@ topology::Mesh mesh_of(const Triangulation& triangulation, const std::vector<Ind
 
 void canonical_result(benchmark::State& state) {
   const Case& uniform = case_of("uniform", state.range(0));
-  const auto order = blocks::spatial_order(uniform.sites, Model::projected, {}, 1).order;
+  const auto order = order::spatial_order(uniform.sites, Model::projected, {}, 1).order;
   const auto unsorted = mesh_of(uniform.triangulation, order);
   topology::Mesh mesh;
   TriangulationArrays arrays;
@@ -48,7 +48,7 @@ void canonical_result(benchmark::State& state) {
     arrays = {};
     std::vector<Index> scratch(order.size());
     state.ResumeTiming();
-    incremental::write_canonical(mesh, order, std::move(scratch), arrays);
+    kernel::write_canonical(mesh, order, std::move(scratch), arrays);
     benchmark::DoNotOptimize(arrays.faces.data());
   }
   report_each(state, uniform.sites.size());

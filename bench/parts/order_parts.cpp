@@ -3,10 +3,10 @@
 
 // The spatial order and what it consists of.
 
-#include "blocks/place_keys.h"
-#include "blocks/radix_sort.h"
-#include "blocks/spatial_order.h"
-#include "blocks/word_sort.h"
+#include "order/place_keys.h"
+#include "order/radix_sort.h"
+#include "order/spatial_order.h"
+#include "order/word_sort.h"
 #include "parts.h"
 
 namespace rondel::bench {
@@ -14,7 +14,7 @@ namespace {
 
 std::vector<std::uint64_t> keys_of(const std::vector<Point>& sites) {
   std::vector<std::uint64_t> keys(sites.size());
-  blocks::place_keys(sites, Model::projected, {}, keys);
+  order::place_keys(sites, Model::projected, {}, keys);
   return keys;
 }
 
@@ -22,7 +22,7 @@ void order_keys(benchmark::State& state, Model model) {
   const auto& sites = case_of("uniform", small_size).sites;
   std::vector<std::uint64_t> keys(sites.size());
   for (auto _ : state) {
-    blocks::place_keys(sites, model, {}, keys);
+    order::place_keys(sites, model, {}, keys);
     benchmark::DoNotOptimize(keys.data());
   }
   report_each(state, sites.size());
@@ -35,7 +35,7 @@ void order_sort_words(benchmark::State& state) {
   std::vector<std::uint64_t> sorted(unsorted.size());
   for (auto _ : state) {
     words = unsorted;
-    blocks::sort_words(words, sorted);
+    order::sort_words(words, sorted);
     benchmark::DoNotOptimize(sorted.data());
   }
   report_each(state, unsorted.size());
@@ -43,13 +43,13 @@ void order_sort_words(benchmark::State& state) {
 
 // Queries.
 void order_radix_sort(benchmark::State& state) {
-  blocks::KeyedIndices unsorted;
+  order::KeyedIndices unsorted;
   unsorted.keys = keys_of(case_of("uniform", state.range(0)).sites);
   for (Index i = 0; i < unsorted.keys.size(); ++i) unsorted.indices.push_back(i);
-  blocks::KeyedIndices data;
+  order::KeyedIndices data;
   for (auto _ : state) {
     data = unsorted;
-    blocks::radix_sort(data, blocks::high_key_bits);
+    order::radix_sort(data, order::high_key_bits);
     benchmark::DoNotOptimize(data.indices.data());
   }
   report_each(state, unsorted.keys.size());
@@ -58,7 +58,7 @@ void order_radix_sort(benchmark::State& state) {
 void order_whole(benchmark::State& state, const std::string& kind) {
   const auto& sites = case_of(kind, state.range(0)).sites;
   for (auto _ : state) {
-    benchmark::DoNotOptimize(blocks::spatial_order(sites, Model::projected, {}, 1));
+    benchmark::DoNotOptimize(order::spatial_order(sites, Model::projected, {}, 1));
   }
   report_each(state, sites.size());
 }

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "api/validation.h"
-#include "blocks/duplicates.h"
-#include "blocks/spatial_order.h"
 #include "bulk/triangulate.h"
-#include "incremental/hidden_faces.h"
-#include "incremental/inner_sites.h"
+#include "hidden/hidden_faces.h"
+#include "hidden/inner_sites.h"
+#include "order/duplicates.h"
+#include "order/spatial_order.h"
 #include "rondel/error.h"
 #include "system/parallel.h"
 
@@ -33,31 +33,31 @@ void announce(const Options& options, std::string_view stage, double fraction) {
 
 // The sites to insert when others can be left out, or nothing if all are to be inserted.
 std::vector<Index> find_rest(std::span<const Point> sites, const Options& options,
-                             const incremental::InnerPoint* inner) {
+                             const hidden::InnerPoint* inner) {
   if (options.model != Model::weighted) return {};
-  if (!incremental::has_many_inner_sites(sites, options.sphere.center)) return {};
-  incremental::InnerPoint found;
+  if (!hidden::has_many_inner_sites(sites, options.sphere.center)) return {};
+  hidden::InnerPoint found;
   if (inner == nullptr) {
-    found = incremental::find_inner_point(sites);
+    found = hidden::find_inner_point(sites);
     inner = &found;
   }
   if (!inner->is_inside) return {};
-  auto rest = incremental::rest_without_inner_sites(sites, *inner);
+  auto rest = hidden::rest_without_inner_sites(sites, *inner);
   return rest.size() < sites.size() ? std::move(rest) : std::vector<Index>();
 }
 
 // Rays are looked at when they are read anyway, as memory is slow; weighted sites were before.
-blocks::SpatialOrder order_valid(std::span<const Point> sites, const Options& options,
-                                 const blocks::SiteCopies& copies) {
-  blocks::SitesCheck check;
+order::SpatialOrder order_valid(std::span<const Point> sites, const Options& options,
+                                const system::SiteCopies& copies) {
+  order::SitesCheck check;
   if (options.model == Model::projected) {
     check = [&options](std::span<const Point> some) {
       if (!are_valid(some, options)) throw InvalidInput("a site is not valid", 0);
     };
   }
   try {
-    return blocks::spatial_order(sites, options.model, options.sphere.center, options.threads,
-                                 check, copies);
+    return order::spatial_order(sites, options.model, options.sphere.center, options.threads, check,
+                                copies);
   } catch (const InvalidInput&) {
     validate(sites, options);  // names the first one
     throw;
@@ -84,7 +84,7 @@ void add_inner_sites(std::span<const Point> sites, std::span<const Index> rest,
       inner.push_back(i);
     }
   }
-  const auto duplicates = blocks::find_duplicates(sites, inner);
+  const auto duplicates = order::find_duplicates(sites, inner);
   arrays.hidden.reserve(arrays.hidden.size() + inner.size() - duplicates.size());
   const auto outer_hidden = static_cast<std::ptrdiff_t>(arrays.hidden.size());
   auto duplicate = duplicates.begin();
@@ -113,7 +113,7 @@ std::vector<Point> select(std::span<const Point> sites, std::span<const Index> i
 }  // namespace
 
 Triangulation build(std::span<const Point> sites, const Options& options,
-                    const incremental::InnerPoint* inner) {
+                    const hidden::InnerPoint* inner) {
   BuildReport report;
   report.threads = system::num_threads(options.threads);
   const auto start = Clock::now();
@@ -123,7 +123,7 @@ Triangulation build(std::span<const Point> sites, const Options& options,
   const std::span<const Point> inserted = rest.empty() ? sites : rest_points;
   // Of as much memory as the faces, which will be written over the sites.
   LargeVector<Triple> copies(inserted.size() < bulk::least_copied_sites ? 0 : 2 * inserted.size());
-  auto order = order_valid(inserted, options, blocks::SiteCopies(std::span(copies)));
+  auto order = order_valid(inserted, options, system::SiteCopies(std::span(copies)));
   if (order.order.size() < inserted.size() / 2) copies = {};  // too much for the faces
   report.order_seconds = seconds_since(start);
 
@@ -133,7 +133,7 @@ Triangulation build(std::span<const Point> sites, const Options& options,
   built.arrays.num_sites = sites.size();
   built.arrays.duplicates = std::move(order.duplicates);
   if (!rest.empty()) add_inner_sites(sites, rest, built.arrays);
-  incremental::assign_hidden_faces(sites, options.sphere.center, built.arrays, options.threads);
+  hidden::assign_hidden_faces(sites, options.sphere.center, built.arrays, options.threads);
   announce(options, "triangulate", 1);
   report.triangulate_seconds = seconds_since(order_end);
   report.rungs = built.tally;

@@ -4,7 +4,7 @@
 #include "rondel/check.h"
 
 #include "api/validation.h"
-#include "check/validator.h"
+#include "proof/validator.h"
 
 namespace rondel {
 

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "dynamic/editor.h"
-#include "incremental/projected_points.h"
-#include "incremental/weighted_points.h"
+#include "models/projected_points.h"
+#include "models/weighted_points.h"
 #include "rondel/dynamic.h"
 
 namespace rondel {
@@ -73,8 +73,7 @@ struct DynamicTriangulation::Impl {
   [[nodiscard]] std::vector<Index> flat_ring() const;
 
   Options options;
-  std::variant<dynamic::Editor<incremental::ProjectedPoints>,
-               dynamic::Editor<incremental::WeightedPoints>>
+  std::variant<dynamic::Editor<models::ProjectedPoints>, dynamic::Editor<models::WeightedPoints>>
       editor;
   std::atomic<bool> is_in_pieces = false;
   mutable std::mutex mutex;

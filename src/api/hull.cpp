@@ -11,7 +11,7 @@
 #include "api/build.h"
 #include "api/validation.h"
 #include "exact/vector.h"
-#include "incremental/inner_point.h"
+#include "hidden/inner_point.h"
 #include "rondel/error.h"
 
 namespace rondel {
@@ -50,9 +50,9 @@ Triangulation convex_hull(std::span<const Point> points, const HullOptions& opti
   build_options.threads = options.threads;
   build_options.progress = options.progress;
   api::validate(points, build_options);
-  const auto inner = incremental::find_inner_point(points);
+  const auto inner = hidden::find_inner_point(points);
   const Point center =
-      (inner.is_inside ? incremental::find_middle(points) : std::nullopt).value_or(inner.point);
+      (inner.is_inside ? hidden::find_middle(points) : std::nullopt).value_or(inner.point);
   // Adding 0 turns -0 into 0: which of them is found first depends on the order of input.
   build_options.sphere.center = {center.x + 0.0, center.y + 0.0, center.z + 0.0};
   return api::build(points, build_options, &inner);

@@ -58,7 +58,7 @@ class Locator::Impl {
     sites_ = std::move(snapshot.sites);
   }
 
-  template <incremental::SphereTraits T>
+  template <models::SphereTraits T>
   Impl(const dynamic::Editor<T>& editor, const Options& options)
       : model_(options.model),
         sphere_(options.sphere),

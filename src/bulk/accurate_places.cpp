@@ -44,16 +44,16 @@ void AccuratePlaces::assign(std::span<const Point> sites, std::span<const Index>
   lows_.clear();
 }
 
-void AccuratePlaces::enter(const CellPoint* points, unsigned cube_face) {
+void AccuratePlaces::enter(const SquarePoint* points, unsigned cube_face) {
   points_ = points;
-  axes_ = blocks::cube_axes(cube_face);
+  axes_ = order::cube_axes(cube_face);
   hand_ = det(exact::to_vector(axes_.u), exact::to_vector(axes_.v), exact::to_vector(axes_.out));
 }
 
 void AccuratePlaces::find_low(Index i) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Point& p = sites_[order_[i]];
-  const CellPoint& point = points_[i];
+  const SquarePoint& point = points_[i];
   const DoubleDouble z = along(axes_.out, p, center_);
   if (!(z.hi > 0x1p-900 && z.hi < 0x1p900)) {
     lows_[i] = {infinity, infinity};
@@ -76,10 +76,10 @@ Sign AccuratePlaces::orientation(Index a, Index b, Index c) {
     long double u, v;
     [[nodiscard]] long double squared() const { return u * u + v * v; }
   };
-  const CellPoint& from = points_[a];
+  const SquarePoint& from = points_[a];
   const Low& from_low = known_low(a);
   const auto step_to = [&](Index i) -> Step {
-    const CellPoint& to = points_[i];
+    const SquarePoint& to = points_[i];
     const Low& low = known_low(i);
     return {(static_cast<long double>(to.u) - from.u) + (low.u - from_low.u),
             (static_cast<long double>(to.v) - from.v) + (low.v - from_low.v)};

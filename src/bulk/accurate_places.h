@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "blocks/cube_position.h"
-#include "bulk/cell_point.h"
+#include "bulk/square_point.h"
+#include "order/cube_position.h"
 
 namespace rondel::bulk {
 
@@ -19,13 +19,13 @@ class AccuratePlaces {
   // The sites sites[order[0]], ...
   void assign(std::span<const Point> sites, std::span<const Index> order, const Point& center);
   // From now on questions are about those on this face of the cube, which are points[i].
-  void enter(const CellPoint* points, unsigned cube_face);
+  void enter(const SquarePoint* points, unsigned cube_face);
 
   // Positive if c lies to the left of the edge from a to b, zero if this is not certain.
   [[nodiscard]] Sign orientation(Index a, Index b, Index c);
 
  private:
-  // What the numbers of a CellPoint lack; NaN if this is not known yet, infinite if it never is.
+  // What the numbers of a SquarePoint lack; NaN if this is not known yet, infinite if it never is.
   struct Low {
     double u;
     double v;
@@ -34,11 +34,11 @@ class AccuratePlaces {
   [[nodiscard]] const Low& known_low(Index i);
   void find_low(Index i);
 
-  const CellPoint* points_ = nullptr;
+  const SquarePoint* points_ = nullptr;
   std::span<const Point> sites_;
   std::span<const Index> order_;
   Point center_;
-  blocks::CubeAxes axes_;
+  order::CubeAxes axes_;
   double hand_ = 1;
   std::vector<Low> lows_;  // empty until the first question
 };

@@ -10,15 +10,15 @@
 #include "bulk/emit.h"
 #include "bulk/open_faces.h"
 #include "bulk/reach.h"
-#include "bulk/solve_cell.h"
+#include "bulk/solve_square.h"
 
 namespace rondel::bulk {
 
 // Arrays that one block after the other uses.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 struct Workspace {
-  CellCoordinates coordinates;
-  CellSites<T> sites;
+  SquareCoordinates coordinates;
+  SquareSites<T> sites;
   PlaneGraph graph;
   std::vector<Misplaced> misplaced;
   EmissionSpace emission;
@@ -32,7 +32,7 @@ struct Workspace {
   }
 };
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class BlockTriangulation {
  public:
   BlockTriangulation(const Input& input, const Block& block, Workspace<T>& workspace)
@@ -41,7 +41,7 @@ class BlockTriangulation {
     sites_.assign(input.sites, input.order.subspan(block.begin, num_sites()), 0, num_sites(),
                   input.options.sphere.center, input.extent, workspace.coordinates,
                   input.copies.from(block.begin));
-    sites_.enter(block.cell, num_sites());
+    sites_.enter(block.square, num_sites());
   }
 
   BlockResult run(const FaceStore& store) {
@@ -52,7 +52,7 @@ class BlockTriangulation {
       leave_to_seam(result);
       return result;
     }
-    const Cone cone = make_cone(block_.cell, sites_.hand());
+    const Cone cone = make_cone(block_.square, sites_.hand());
     OpenFaces open(
         work_.graph, [this](Index i) { return sites_.ray(i); }, cone, T::hides_sites);
     emit_faces(work_.graph, {block_.begin, num_sites(), {}}, open.find(boundary), hidden_,
@@ -70,7 +70,7 @@ class BlockTriangulation {
   PlaneGraph::Edge triangulate() {
     if (num_sites() < least_sites) return no_index;
     work_.graph.clear(num_sites());
-    const auto all = solve_cell(input_, block_, 0, sites_, work_.misplaced, work_.graph);
+    const auto all = solve_square(input_, block_, 0, sites_, work_.misplaced, work_.graph);
     if (!all) return no_index;
     if (T::hides_sites) find_hidden(all->edge);
     return all->edge;
@@ -100,7 +100,7 @@ class BlockTriangulation {
   const Input& input_;
   const Block& block_;
   Workspace<T>& work_;
-  CellSites<T>& sites_;
+  SquareSites<T>& sites_;
   std::vector<Index> hidden_;
 };
 

@@ -26,7 +26,7 @@
 
 namespace rondel::bulk {
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class Closing {
  public:
   using Edge = PlaneGraph::Edge;

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The triangulation of the sites of one cell by divide and conquer (Guibas and Stolfi, ACM Trans.
+// The triangulation of the sites of one square by divide and conquer (Guibas and Stolfi, ACM Trans.
 // Graph. 4, 1985), seen from the center: the faces of the hull of the sites and the center that are
 // not incident to the center. Radial projection turns it into a planar regular triangulation, as a
-// cell lies strictly within a hemisphere.
+// square lies strictly within a hemisphere.
 //
-// The curve splits a cell by a great circle into two parts, each an interval of the spatial order,
-// and merge.h makes one of two.
+// The curve splits a square by a great circle into two parts, each an interval of the spatial
+// order, and merge.h makes one of two.
 #pragma once
 
 #include <algorithm>
@@ -15,29 +15,29 @@
 #include <cstdint>
 #include <span>
 
-#include "blocks/hilbert.h"
 #include "bulk/few_sites.h"
 #include "bulk/merge.h"
 #include "bulk/merge_step.h"
 #include "bulk/plane_graph.h"
+#include "order/hilbert.h"
 #include "predicates/ray_order.h"
 
 namespace rondel::bulk {
 
-// A site that rounding puts on the wrong side of the line that splits its cell at this bit.
+// A site that rounding puts on the wrong side of the line that splits its square at this bit.
 struct Misplaced {
   Index site;
   int bit;
 };
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class Divide {
  public:
   using Edge = PlaneGraph::Edge;
 
   // Apart from the misplaced ones the positions of the sites tell, exactly, on which side of a
   // split they lie.
-  Divide(const CellSites<T>& sites, std::span<const Misplaced> misplaced, PlaneGraph& graph)
+  Divide(const SquareSites<T>& sites, std::span<const Misplaced> misplaced, PlaneGraph& graph)
       : sites_(sites),
         positions_(sites.positions()),
         down_{1, -1, -sites.hand(), sites.hand()},
@@ -48,7 +48,7 @@ class Divide {
   }
 
   // The part of the sites begin ... end-1, or of none if has_failed(). Precondition: they are in a
-  // cell in which the curve is in `state` and the positions agree down to, but without, this bit.
+  // square in which the curve is in `state` and the positions agree down to, but without, this bit.
   Part run(Index begin, Index end, unsigned state, int bit) {
     return solve(begin, end, state, bit);
   }
@@ -78,7 +78,8 @@ class Divide {
     return end - count;
   }
 
-  // The sites of the cell in which the curve is in `state` and all positions agree above this bit.
+  // The sites of the square in which the curve is in `state` and all positions agree above this
+  // bit.
   Part solve(Index begin, Index end, unsigned state, int bit) {
     Part part;
     if (solve_few(begin, end, bit, part)) return part;
@@ -89,14 +90,14 @@ class Divide {
     return merge(before, after, bit, state & 1U, 1 - turn_of(state));
   }
 
-  // The first or the second half of such a cell. The curve takes the quadrants (u, v) = 00, 01, 11,
-  // 10, with u and v exchanged when bit 0 of the state is set, and turned around when bit 1 is.
+  // The first or the second half of such a square. The curve takes the quadrants (u, v) = 00, 01,
+  // 11, 10, with u and v exchanged when bit 0 of the state is set, and turned around when bit 1 is.
   Part solve_half(Index begin, Index end, unsigned state, int bit, unsigned half) {
     Part part;
     if (solve_few(begin, end, bit, part)) return part;
     const Index middle = split(begin, end, 1 - (state & 1U), bit, 1 - (turn_of(state) ^ half));
     const auto child = [&](Index b, Index e, unsigned rank) {
-      return solve(b, e, state ^ blocks::hilbert_table::state_change[rank], bit - 1);
+      return solve(b, e, state ^ order::hilbert_table::state_change[rank], bit - 1);
     };
     const Part before = child(begin, middle, 2 * half);
     const Part after = child(middle, end, 2 * half + 1);
@@ -113,7 +114,7 @@ class Divide {
   // The part by that end of its edge which lies further down along the other axis, where the
   // tangent is closer. Without branches, as nothing would predict them.
   [[nodiscard]] Part lower_end(const Part& part, unsigned axis, double down) const {
-    constexpr std::array across = {&CellPoint::v, &CellPoint::u};
+    constexpr std::array across = {&SquarePoint::v, &SquarePoint::u};
     if (part.edge == no_index) return part;
     const Part other = next_on_boundary(graph_, part);
     const auto depth = [&](Index i) { return down * (sites_.points()[i].*across[axis]); };
@@ -152,10 +153,10 @@ class Divide {
            });
   }
 
-  // For a cell of 2^bits positions either way.
-  [[nodiscard]] const CellLimits& limits_of(int bits) const { return sites_.limits_of(bits); }
+  // For a square of 2^bits positions either way.
+  [[nodiscard]] const SquareLimits& limits_of(int bits) const { return sites_.limits_of(bits); }
 
-  // Of two weighted sites on one ray the lower one is hidden, which no cell tells from the other.
+  // Of two weighted sites on one ray the lower one is hidden, which no square tells from the other.
   Part solve_two(Index a) {
     if (T::hides_sites && is_close(a, a + 1) &&
         predicates::are_on_one_ray(sites_.site(a), sites_.site(a + 1), sites_.center())) {
@@ -167,12 +168,12 @@ class Divide {
   // Whether two positions are those of one ray, but for roundings.
   [[nodiscard]] bool is_close(Index a, Index b) const {
     constexpr std::uint64_t roundings = 16;
-    const CellPosition& p = positions_[a];
-    const CellPosition& q = positions_[b];
+    const SquarePosition& p = positions_[a];
+    const SquarePosition& q = positions_[b];
     return p.u - q.u + roundings < 2 * roundings && p.v - q.v + roundings < 2 * roundings;
   }
 
-  Part solve_three(Index a, const CellLimits& limits) {
+  Part solve_three(Index a, const SquareLimits& limits) {
     const MergeStep<T> step(sites_, limits, a, a + 1);
     const Sign turn = step.orientation(step.face(a + 2));
     if (turn == Sign::zero) return solve_chain(a);
@@ -181,7 +182,7 @@ class Divide {
   }
 
   // Returns whether no three are on one great circle.
-  bool solve_four(Index a, const CellLimits& limits, Part& part) {
+  bool solve_four(Index a, const SquareLimits& limits, Part& part) {
     const MergeStep<T> ab(sites_, limits, a, a + 1);
     const MergeStep<T> ac(sites_, limits, a, a + 2);
     const MergeStep<T> bc(sites_, limits, a + 1, a + 2);
@@ -224,8 +225,8 @@ class Divide {
     return {middle, e};
   }
 
-  const CellSites<T>& sites_;
-  const CellPosition* positions_;
+  const SquareSites<T>& sites_;
+  const SquarePosition* positions_;
   // On which side of the way from one part to the next is down: by axis, then by direction.
   std::array<double, 4> down_;
   std::span<const Misplaced> misplaced_;

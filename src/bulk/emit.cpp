@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "blocks/prefetch.h"
 #include "bulk/open_faces.h"
+#include "system/prefetch.h"
 
 namespace rondel::bulk {
 namespace {
@@ -98,10 +98,10 @@ class Emission {
     const std::size_t last = owners_.size() - 1;
     Index face = 0;
     for (std::size_t i = 0; i <= last; ++i) {
-      const Index ahead = owners_[std::min(i + blocks::prefetch_distance, last)];
+      const Index ahead = owners_[std::min(i + system::prefetch_distance, last)];
       const auto edge_ahead = static_cast<Edge>(owned[ahead].first);
-      blocks::prefetch(&rings[edge_ahead]);
-      blocks::prefetch(&targets[edge_ahead]);
+      system::prefetch(&rings[edge_ahead]);
+      system::prefetch(&targets[edge_ahead]);
       const Index v = owners_[i];
       const Index end = face + owned[v].count;
       auto e = static_cast<Edge>(owned[v].first);

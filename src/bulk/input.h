@@ -6,10 +6,10 @@
 
 #include <span>
 
-#include "blocks/cube_position.h"
-#include "blocks/site_copies.h"
-#include "bulk/cell_sites.h"
+#include "bulk/square_sites.h"
+#include "order/cube_position.h"
 #include "rondel/triangulation.h"
+#include "system/site_copies.h"
 
 namespace rondel::bulk {
 
@@ -18,19 +18,19 @@ struct Input {
   std::span<const Point> sites;
   std::span<const Index> order;  // the site of each rank
   Options options;
-  blocks::SiteCopies copies{};  // of the sites by rank, or none
+  system::SiteCopies copies{};  // of the sites by rank, or none
   Extent extent{};
 
-  [[nodiscard]] blocks::CubePosition position(Index rank) const {
+  [[nodiscard]] order::CubePosition position(Index rank) const {
     const Point& center = options.sphere.center;
     const bool is_rounding_harmless = options.model == Model::weighted || center == Point{};
-    return is_rounding_harmless ? blocks::cube_position(sites[order[rank]], center)
-                                : blocks::exact_cube_position(sites[order[rank]], center);
+    return is_rounding_harmless ? order::cube_position(sites[order[rank]], center)
+                                : order::exact_cube_position(sites[order[rank]], center);
   }
 };
 
 // Also finds the extent.
 Input make_input(std::span<const Point> sites, std::span<const Index> order, const Options& options,
-                 const blocks::SiteCopies& copies = {});
+                 const system::SiteCopies& copies = {});
 
 }  // namespace rondel::bulk

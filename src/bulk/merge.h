@@ -10,7 +10,7 @@
 //      edge of |   x--r'--\  |     the lower face.
 //      '----'   '----'
 //
-// docs/theory/blocks.md shows that this holds for weighted sites as well: the cells of the power
+// docs/theory/blocks.md shows that this holds for weighted sites as well: the squares of the power
 // diagrams of L and R meet in one chain, and what lies behind it is never met again.
 #pragma once
 

@@ -13,30 +13,30 @@
 
 #include <cmath>
 
-#include "bulk/cell_sites.h"
+#include "bulk/square_sites.h"
 
 namespace rondel::bulk {
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class MergeStep {
  public:
-  using Sites = CellSites<T>;
-  using Limits = CellLimits;
+  using Sites = SquareSites<T>;
+  using Limits = SquareLimits;
   static constexpr bool hides_sites = T::hides_sites;
 
   struct Face {
     Index apex;
-    CellVector normal;
+    SquareVector normal;
   };
 
-  MergeStep(const CellSites<T>& sites, const CellLimits& limits, Index l, Index r)
+  MergeStep(const SquareSites<T>& sites, const SquareLimits& limits, Index l, Index r)
       : sites_(sites),
         points_(sites.points()),
         orientation_limit_(limits.orientation),
         conflict_limit_(limits.conflict),
         l_(l),
         r_(r) {
-    const CellPoint& origin = points_[l];
+    const SquarePoint& origin = points_[l];
     origin_ = {origin.u, origin.v, origin.w};
     edge_ = from_l(r);
   }
@@ -79,19 +79,19 @@ class MergeStep {
   // Of the ends no value is beyond the limits, which are never exceeded where zero is right.
   [[nodiscard]] bool is_end(Index x) const { return x == l_ || x == r_; }
 
-  [[nodiscard, gnu::always_inline]] CellVector from_l(Index x) const {
-    const CellPoint& p = points_[x];
+  [[nodiscard, gnu::always_inline]] SquareVector from_l(Index x) const {
+    const SquarePoint& p = points_[x];
     return {p.u - origin_.u, p.v - origin_.v, p.w - origin_.w};
   }
 
-  const CellSites<T>& sites_;
-  const CellPoint* points_;
+  const SquareSites<T>& sites_;
+  const SquarePoint* points_;
   double orientation_limit_;
   double conflict_limit_;
   Index l_;
   Index r_;
-  CellVector origin_;
-  CellVector edge_;
+  SquareVector origin_;
+  SquareVector edge_;
 };
 
 }  // namespace rondel::bulk

@@ -18,19 +18,19 @@ Vector operator*(double s, const Vector& v) { return {s * v.x, s * v.y, s * v.z}
 
 }  // namespace
 
-Cone make_cone(const Cell& cell, double hand) {
+Cone make_cone(const Square& square, double hand) {
   const auto ratio = [](std::uint64_t position) {
-    return std::ldexp(static_cast<double>(position), 1 - blocks::position_bits) - 1;
+    return std::ldexp(static_cast<double>(position), 1 - order::position_bits) - 1;
   };
   // The directions beyond a limit, in the plane of the third axis and one along the face.
   const auto plane = [](double x, double y, double limit) {
     const double length = std::sqrt(1 + limit * limit);
     return Vector{x / length, y / length, -limit * (x + y) / length};
   };
-  const std::uint64_t size = std::uint64_t{1} << cell.bits;
-  return {plane(1, 0, ratio(cell.corner.u)), plane(-1, 0, ratio(cell.corner.u + size)),
-          plane(0, hand, hand * ratio(cell.corner.v)),
-          plane(0, -hand, hand * ratio(cell.corner.v + size))};
+  const std::uint64_t size = std::uint64_t{1} << square.bits;
+  return {plane(1, 0, ratio(square.corner.u)), plane(-1, 0, ratio(square.corner.u + size)),
+          plane(0, hand, hand * ratio(square.corner.v)),
+          plane(0, -hand, hand * ratio(square.corner.v + size))};
 }
 
 // The plane of the face cuts the ball in a circle with center a + x, where x is in the plane and

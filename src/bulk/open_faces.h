@@ -3,11 +3,11 @@
 
 // The certificate of a block: which faces of its triangulation are faces of the whole one.
 //
-// A face is final if no other site can be in conflict with it. All sites within the cell are in the
-// block, and all sites lie within the distance R of the center; so it is final if the cap that its
-// plane cuts off the ball of radius R lies in the cone of the cell. The others are open. A site
-// outside the cell is in conflict with a connected set of faces that reaches the outer boundary, so
-// a search from there meets all open faces.
+// A face is final if no other site can be in conflict with it. All sites within the square are in
+// the block, and all sites lie within the distance R of the center; so it is final if the cap that
+// its plane cuts off the ball of radius R lies in the cone of the square. The others are open. A
+// site outside the square is in conflict with a connected set of faces that reaches the outer
+// boundary, so a search from there meets all open faces.
 #pragma once
 
 #include <array>
@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "bulk/cells.h"
 #include "bulk/plane_graph.h"
+#include "bulk/squares.h"
 #include "predicates/filtered.h"
 
 namespace rondel::bulk {
@@ -28,8 +28,8 @@ inline constexpr Index unnamed_face = no_index;
 // The cone: inward normals of unit length of the planes that bound it.
 using Cone = std::array<predicates::Vector, 4>;
 
-// The cone of a cell, in the axes of CellSites::ray.
-Cone make_cone(const Cell& cell, double hand);
+// The cone of a square, in the axes of SquareSites::ray.
+Cone make_cone(const Square& square, double hand);
 
 class OpenFaces {
  public:

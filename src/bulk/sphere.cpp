@@ -14,7 +14,7 @@
 #include "bulk/emit.h"
 #include "bulk/merge.h"
 #include "bulk/reach.h"
-#include "bulk/solve_cell.h"
+#include "bulk/solve_square.h"
 #include "bulk/sphere_step.h"
 #include "exact/eft.h"
 #include "predicates/tally.h"
@@ -24,7 +24,7 @@
 namespace rondel::bulk {
 namespace {
 
-using incremental::Triangulated;
+using kernel::Triangulated;
 using predicates::Vector;
 
 // The lunes: of the positive x axis, the positive y axis, and the negative ones. Each has three
@@ -42,7 +42,7 @@ class Parts {
  public:
   explicit Parts(const Point& center) : center_(center) {
     for (unsigned face = 0; face < faces_.size(); ++face) {
-      faces_[face] = blocks::cube_axes(face).out;
+      faces_[face] = order::cube_axes(face).out;
       const Point& out = faces_[face];
       for (std::size_t i = 0; i < num_lunes; ++i) {
         if (out.z != 0) face_of_[parts_of_lune * i + (out.z > 0 ? 1 : 2)] = face;
@@ -82,10 +82,10 @@ class Parts {
   std::array<unsigned, num_parts> face_of_{};
 };
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class SphereTriangulation {
  public:
-  SphereTriangulation(const Input& input, std::span<const Duplicate> renamed)
+  SphereTriangulation(const Input& input, std::span<const order::Renamed> renamed)
       : input_(input), renamed_(renamed), num_sites_(static_cast<Index>(input.order.size())) {}
 
   std::optional<Triangulated> run() {
@@ -122,8 +122,7 @@ class SphereTriangulation {
 
   void find_directions(Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      directions_[i] =
-          incremental::direction(input_.sites[order_[i]], input_.options.sphere.center);
+      directions_[i] = models::direction(input_.sites[order_[i]], input_.options.sphere.center);
     }
   }
   [[nodiscard]] SphereSites<T> sphere_sites() const {
@@ -138,13 +137,13 @@ class SphereTriangulation {
   void write(const std::vector<Index>& hidden, TriangulationArrays& arrays);
 
   const Input& input_;
-  std::span<const Duplicate> renamed_;
+  std::span<const order::Renamed> renamed_;
   Index num_sites_;
   std::vector<Index> order_;              // by parts
   std::vector<Index> ranks_;              // of the same, and of no site: no_index
   std::array<Block, num_parts> parts_{};  // ranks in the order by parts
   LargeVector<std::byte> memory_;         // of the next three
-  CellCoordinates coordinates_;
+  SquareCoordinates coordinates_;
   Vector* directions_ = nullptr;  // not with weights
   PlaneGraph graph_;
   std::mutex mutex_;  // of what follows
@@ -152,15 +151,16 @@ class SphereTriangulation {
   std::size_t num_steps_ = 0;
 };
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 void SphereTriangulation<T>::divide() {
   const Parts parts(input_.options.sphere.center);
   const auto faces = cube_faces(num_sites_, [this](Index rank) { return input_.position(rank); });
   std::array<std::vector<Index>, num_parts> ranks;  // of those that share a face
   for (const Block& face : faces) {
-    if (parts.is_one_part(face.cell.corner.face)) continue;
+    if (parts.is_one_part(face.square.corner.face)) continue;
     for (Index rank = face.begin; rank < face.end; ++rank) {
-      ranks[parts.part_of(face.cell.corner.face, input_.sites[input_.order[rank]])].push_back(rank);
+      ranks[parts.part_of(face.square.corner.face, input_.sites[input_.order[rank]])].push_back(
+          rank);
     }
   }
   order_.resize(num_sites_);
@@ -175,8 +175,8 @@ void SphereTriangulation<T>::divide() {
     Block& block = parts_[part];
     block.begin = next;
     const Block& face = faces[parts.face_of(part)];
-    block.cell = face.cell;
-    if (parts.is_one_part(face.cell.corner.face)) {
+    block.square = face.square;
+    if (parts.is_one_part(face.square.corner.face)) {
       for (Index rank = face.begin; rank < face.end; ++rank) add(rank);
     } else {
       for (const Index rank : ranks[part]) add(rank);
@@ -185,7 +185,7 @@ void SphereTriangulation<T>::divide() {
   }
 }
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 void SphereTriangulation<T>::report_progress() {
   const std::lock_guard guard(mutex_);
   ++num_steps_;
@@ -195,13 +195,13 @@ void SphereTriangulation<T>::report_progress() {
                             static_cast<double>(num_steps_) / static_cast<double>(num_lunes + 1));
 }
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 std::optional<Part> SphereTriangulation<T>::solve_lune(std::size_t lune, PlaneGraph& graph) {
   const std::span parts = std::span(parts_).subspan(parts_of_lune * lune, parts_of_lune);
   const Index first = parts.front().begin;
   Input input = input_;
   input.order = order_;
-  CellSites<T> sites;
+  SquareSites<T> sites;
   sites.assign(input.sites, order_, first, parts.back().end - first, input.options.sphere.center,
                input.extent, coordinates_);
   if (!SphereSites<T>::has_weights) find_directions(first, parts.back().end);
@@ -211,8 +211,8 @@ std::optional<Part> SphereTriangulation<T>::solve_lune(std::size_t lune, PlaneGr
   Part result;
   for (const Block& block : parts) {
     if (block.begin == block.end) continue;
-    sites.enter(block.cell, block.end - block.begin);
-    const auto part = solve_cell(input, block, block.begin, sites, misplaced, graph);
+    sites.enter(block.square, block.end - block.begin);
+    const auto part = solve_square(input, block, block.begin, sites, misplaced, graph);
     if (!part) return std::nullopt;
     result = merge.merge(result, *part, {});
   }
@@ -223,7 +223,7 @@ std::optional<Part> SphereTriangulation<T>::solve_lune(std::size_t lune, PlaneGr
   return result;
 }
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 std::optional<Part> SphereTriangulation<T>::merge_lunes(const Part& left, const Part& right,
                                                         PlaneGraph& graph) {
   const SphereSites<T> sites = sphere_sites();
@@ -236,9 +236,9 @@ std::optional<Part> SphereTriangulation<T>::merge_lunes(const Part& left, const 
 
 // All in one piece: glibc keeps freed memory in proportion to the largest piece, so that the next
 // build need not get it from the system again.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 std::vector<PlaneGraph> SphereTriangulation<T>::allot(std::span<const Index> sizes) {
-  const std::size_t of_coordinates = num_sites_ * CellCoordinates::bytes_of_site;
+  const std::size_t of_coordinates = num_sites_ * SquareCoordinates::bytes_of_site;
   const std::size_t of_directions = SphereSites<T>::has_weights ? 0 : num_sites_ * sizeof(Vector);
   memory_ =
       LargeVector<std::byte>(of_coordinates + of_directions + PlaneGraph::size_of_parts(sizes));
@@ -247,7 +247,7 @@ std::vector<PlaneGraph> SphereTriangulation<T>::allot(std::span<const Index> siz
   return graph_.clear_parts(sizes, memory_.data() + of_coordinates + of_directions);
 }
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 PlaneGraph::Edge SphereTriangulation<T>::conquer() {
   const unsigned threads = num_sites_ < least_parallel_sites ? 1 : input_.options.threads;
   std::array<Index, num_lunes> sizes{};
@@ -281,7 +281,7 @@ PlaneGraph::Edge SphereTriangulation<T>::conquer() {
   return edge;
 }
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 void SphereTriangulation<T>::write(const std::vector<Index>& hidden, TriangulationArrays& arrays) {
   graph_.clear_faces();
   Index* const targets = graph_.targets();
@@ -292,7 +292,7 @@ void SphereTriangulation<T>::write(const std::vector<Index>& hidden, Triangulati
   arrays.neighbors.resize(2 * std::size_t{num_sites_});
   std::vector<Index> names;
   if (!renamed_.empty()) names.assign(input_.order.begin(), input_.order.end());
-  for (const auto& [rank, name] : renamed_) names[rank] = name;
+  order::rename(names, renamed_);
   const std::span<const Index> of_ranks =
       renamed_.empty() ? input_.order : std::span<const Index>(names);
   EmissionSpace space;
@@ -321,10 +321,10 @@ bool surround_center(std::span<const Point> sites, const Point& center) {
 }
 
 std::optional<Triangulated> triangulate_sphere(const Input& input,
-                                               std::span<const Duplicate> renamed) {
+                                               std::span<const order::Renamed> renamed) {
   return input.options.model == Model::projected
-             ? SphereTriangulation<incremental::ProjectedPoints>(input, renamed).run()
-             : SphereTriangulation<incremental::WeightedPoints>(input, renamed).run();
+             ? SphereTriangulation<models::ProjectedPoints>(input, renamed).run()
+             : SphereTriangulation<models::WeightedPoints>(input, renamed).run();
 }
 
 }  // namespace rondel::bulk

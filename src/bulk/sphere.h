@@ -17,17 +17,17 @@
 #include <optional>
 
 #include "bulk/input.h"
-#include "incremental/triangulate.h"
+#include "kernel/triangulate.h"
 
 namespace rondel::bulk {
 
 // Whether the center is inside the hull of the sites, told by the octants in which they are: all.
 bool surround_center(std::span<const Point> sites, const Point& center);
 
-// As incremental::triangulate, or nothing if this does not work: it does for sites in general, but
+// As kernel::triangulate, or nothing if this does not work: it does for sites in general, but
 // not if weighted sites are hidden in such a way that only exact numbers tell. Precondition: the
 // sites surround the center.
-std::optional<incremental::Triangulated> triangulate_sphere(const Input& input,
-                                                            std::span<const Duplicate> renamed);
+std::optional<kernel::Triangulated> triangulate_sphere(const Input& input,
+                                                       std::span<const order::Renamed> renamed);
 
 }  // namespace rondel::bulk

@@ -1,24 +1,24 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites in several cells, of which merges meet few.
+// Sites in several squares, of which merges meet few.
 #pragma once
 
 #include <array>
 #include <span>
 #include <type_traits>
 
-#include "incremental/projected_points.h"
-#include "incremental/sphere_traits.h"
-#include "incremental/weighted_points.h"
+#include "models/projected_points.h"
+#include "models/sphere_traits.h"
+#include "models/weighted_points.h"
 #include "predicates/tally.h"
 
 namespace rondel::bulk {
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class SphereSites {
  public:
-  static constexpr bool has_weights = std::is_same_v<T, incremental::WeightedPoints>;
+  static constexpr bool has_weights = std::is_same_v<T, models::WeightedPoints>;
 
   // The sites sites[order[0]], sites[order[1]], ... with their directions, if these are of use.
   SphereSites(std::span<const Point> sites, std::span<const Index> order, const Point& center,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The questions of one step of a merge, as in merge_step.h, for parts that are in several cells:
+// The questions of one step of a merge, as in merge_step.h, for parts that are in several squares:
 // the filters of the predicates, which hold for all sites, applied to what the questions of a step
 // have in common.
 #pragma once
@@ -15,7 +15,7 @@
 
 namespace rondel::bulk {
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class SphereStep {
  public:
   using Sites = SphereSites<T>;

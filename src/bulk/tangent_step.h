@@ -7,7 +7,7 @@
 
 #include <algorithm>
 
-#include "bulk/cell_point.h"
+#include "bulk/square_point.h"
 
 namespace rondel::bulk {
 
@@ -22,7 +22,7 @@ struct TangentStep {
 // which is the same for all steps from x:
 //
 //     w(x) w(y) - w(x)^2 - x.d = (|d|^2 w(x) - x.d (2 x.d + |d|^2) / (w(x) + w(y))) / (w(x) + w(y))
-inline TangentStep tangent_step(const CellVector& x, double u, double v, double w_of_y) {
+inline TangentStep tangent_step(const SquareVector& x, double u, double v, double w_of_y) {
   const double squared = u * u + v * v;
   const double along = x.u * u + x.v * v;
   const double factor = 1 / (x.w + w_of_y);

@@ -19,7 +19,7 @@
 namespace rondel::bulk {
 namespace {
 
-using incremental::Triangulated;
+using kernel::Triangulated;
 
 // The whole sphere at once from so many sites on, or its parts would be too small to pay, and up to
 // so many, or its mesh would not fit into the second cache, more or less.
@@ -34,7 +34,7 @@ constexpr std::size_t least_block_sites = std::size_t{1} << 13;
 constexpr std::size_t block_sites = 3 << 14;
 
 // What the threads that work on blocks share.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class Work {
  public:
   Work(const Progress& progress, std::span<const Block> blocks)
@@ -74,7 +74,7 @@ class Work {
   std::size_t num_done_ = 0;
 };
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vector<Block>& blocks,
                                             const FaceStore& store) {
   std::vector<BlockResult> results(blocks.size());
@@ -90,7 +90,7 @@ std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vecto
 
 // Whether blocks would leave little to the seam, judged by some small ones. They do not where sites
 // lie on curves, or are hidden: then all is seam, and blocks are a detour.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 bool has_short_seams(const Input& input) {
   constexpr std::size_t trial_sites = 1024;
   constexpr std::size_t share = 32;  // of the sites, for all trials
@@ -109,7 +109,7 @@ bool has_short_seams(const Input& input) {
     trial.order = input.order.subspan(block.begin, block.end - block.begin);
     trial.copies = input.copies.from(block.begin);
     const BlockResult result =
-        BlockTriangulation<T>(trial, {0, block.end - block.begin, block.cell}, workspace)
+        BlockTriangulation<T>(trial, {0, block.end - block.begin, block.square}, workspace)
             .run({corners, neighbors});
     num_sites += trial.order.size();
     num_seam_sites += result.seam_sites.size();
@@ -118,9 +118,8 @@ bool has_short_seams(const Input& input) {
 }
 
 bool is_worthwhile(const Input& input) {
-  return input.options.model == Model::projected
-             ? has_short_seams<incremental::ProjectedPoints>(input)
-             : has_short_seams<incremental::WeightedPoints>(input);
+  return input.options.model == Model::projected ? has_short_seams<models::ProjectedPoints>(input)
+                                                 : has_short_seams<models::WeightedPoints>(input);
 }
 
 // Whether few sites can be hidden, as far as their distances from the center tell: between
@@ -140,7 +139,7 @@ bool suit_sphere(const Input& input, std::size_t most_sites) {
 }
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
-                         std::span<const Duplicate> renamed, const Options& options,
+                         std::span<const order::Renamed> renamed, const Options& options,
                          std::size_t most_sphere_sites, LargeVector<Triple> copies);
 
 // The seam sites in their order. Most of them lie along borders of blocks, so blocks would not
@@ -156,13 +155,13 @@ Triangulated triangulate_seam(const Input& input, std::span<const BlockResult> r
   Options options = input.options;
   options.progress = {};
   if (2 * sites.size() >= num_ranks)
-    return incremental::triangulate(sites, std::move(order), {}, options);
+    return kernel::triangulate(sites, std::move(order), {}, options);
   return triangulate(sites, std::move(order), {}, options, std::max(sphere_sites, num_ranks / 8),
                      {});
 }
 
 // Blocks read their sites before they write their faces, so both can share `copies`.
-std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplicate> renamed,
+std::optional<Triangulated> by_blocks(const Input& input, std::span<const order::Renamed> renamed,
                                       std::size_t max_block_sites, LargeVector<Triple> copies) {
   const std::size_t num_ranks = input.order.size();
   const unsigned threads = system::num_threads(input.options.threads);
@@ -174,8 +173,8 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplic
   result.arrays.neighbors.resize(2 * num_ranks);
   const FaceStore store = {result.arrays.faces, result.arrays.neighbors};
   const auto results = input.options.model == Model::projected
-                           ? triangulate_blocks<incremental::ProjectedPoints>(input, blocks, store)
-                           : triangulate_blocks<incremental::WeightedPoints>(input, blocks, store);
+                           ? triangulate_blocks<models::ProjectedPoints>(input, blocks, store)
+                           : triangulate_blocks<models::WeightedPoints>(input, blocks, store);
 
   Triangulated seam = triangulate_seam(input, results);
   if (seam.arrays.dimension < 2) return std::nullopt;
@@ -184,7 +183,7 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplic
   std::vector<Index> names;
   if (!renamed.empty()) {
     names.assign(input.order.begin(), input.order.end());
-    for (const auto& [rank, name] : renamed) names[rank] = name;
+    order::rename(names, renamed);
   }
   if (!stitch(results, std::move(seam.arrays), names.empty() ? input.order : names, threads,
               result.arrays)) {
@@ -194,9 +193,9 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const Duplic
 }
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
-                         std::span<const Duplicate> renamed, const Options& options,
+                         std::span<const order::Renamed> renamed, const Options& options,
                          std::size_t most_sphere_sites, LargeVector<Triple> copies) {
-  const Input input = make_input(sites, order, options, blocks::SiteCopies(std::span(copies)));
+  const Input input = make_input(sites, order, options, system::SiteCopies(std::span(copies)));
   std::optional<bool> trial;  // it takes time, and may not be needed
   const auto have_blocks = [&] {
     if (!trial) trial = order.size() >= least_block_sites && is_worthwhile(input);
@@ -212,20 +211,23 @@ Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
   }
   copies = {};
   return result ? *std::move(result)
-                : incremental::triangulate(sites, std::move(order), renamed, options);
+                : kernel::triangulate(sites, std::move(order), renamed, options);
 }
 
 }  // namespace
 
-std::optional<Triangulated> triangulate_by_blocks(
-    std::span<const Point> sites, std::span<const Index> order, std::span<const Duplicate> renamed,
-    const Options& options, std::size_t max_block_sites, LargeVector<Triple> copies) {
-  const Input input = make_input(sites, order, options, blocks::SiteCopies(std::span(copies)));
+std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
+                                                  std::span<const Index> order,
+                                                  std::span<const order::Renamed> renamed,
+                                                  const Options& options,
+                                                  std::size_t max_block_sites,
+                                                  LargeVector<Triple> copies) {
+  const Input input = make_input(sites, order, options, system::SiteCopies(std::span(copies)));
   return by_blocks(input, renamed, max_block_sites, std::move(copies));
 }
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
-                         std::span<const Duplicate> renamed, const Options& options,
+                         std::span<const order::Renamed> renamed, const Options& options,
                          LargeVector<Triple> copies) {
   return triangulate(sites, std::move(order), renamed, options, sphere_sites, std::move(copies));
 }

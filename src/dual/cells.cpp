@@ -9,7 +9,6 @@
 #include <span>
 #include <vector>
 
-#include "blocks/prefetch.h"
 #include "dual/arc_points.h"
 #include "dual/great_circle.h"
 #include "dual/local_ring.h"
@@ -18,14 +17,15 @@
 #include "rondel/diagram.h"
 #include "system/huge_pages.h"
 #include "system/parallel.h"
+#include "system/prefetch.h"
 
 namespace rondel {
 namespace {
 
-using blocks::prefetch;
-using blocks::prefetch_distance;
-using blocks::prefetch_to_write;
 using dual::ArcPoint;
+using system::prefetch;
+using system::prefetch_distance;
+using system::prefetch_to_write;
 
 // Positions in the rings: the faces and arc points around each site, summed.
 std::vector<std::uint64_t> ring_offsets(const Triangulation& triangulation,

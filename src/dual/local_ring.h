@@ -23,17 +23,17 @@
 #include <span>
 #include <vector>
 
-#include "blocks/prefetch.h"
 #include "dual/face_normal.h"
 #include "dual/split_sites.h"
 #include "rondel/diagram.h"
 #include "system/parallel.h"
+#include "system/prefetch.h"
 
 namespace rondel::dual {
 
-using blocks::prefetch;
-using blocks::prefetch_distance;
-using blocks::prefetch_to_write;
+using system::prefetch;
+using system::prefetch_distance;
+using system::prefetch_to_write;
 
 struct RingPoint {
   Vec r;                 // q x n

@@ -8,18 +8,18 @@
 #include <cstddef>
 #include <string>
 
-#include "blocks/prefetch.h"
-#include "blocks/unit_vectors.h"
 #include "dual/exact_normal.h"
 #include "dual/face_batch.h"
+#include "exact/unit_vectors.h"
 #include "rondel/error.h"
 #include "system/huge_pages.h"
 #include "system/parallel.h"
+#include "system/prefetch.h"
 
 namespace rondel::dual {
 
-using blocks::prefetch;
-using blocks::prefetch_distance;
+using system::prefetch;
+using system::prefetch_distance;
 namespace {
 
 // The power of two that brings the largest coordinate to [1/2, 1).
@@ -106,7 +106,7 @@ void SplitSites::set_places(unsigned threads) {
                        [&](std::size_t begin, std::size_t end) {
                          const auto order = order_.subspan(begin, end - begin);
                          if (is_projected()) {
-                           blocks::unit_vectors(sites_, order, center_, &places_[begin]);
+                           exact::unit_vectors(sites_, order, center_, &places_[begin]);
                            return;
                          }
                          for (std::size_t k = begin; k < end; ++k) {

@@ -21,13 +21,13 @@
 #include "dynamic/hull.h"
 #include "dynamic/places.h"
 #include "dynamic/renumbering.h"
-#include "incremental/brio.h"
-#include "incremental/great_circle.h"
-#include "incremental/sphere_traits.h"
+#include "kernel/brio.h"
+#include "kernel/great_circle.h"
+#include "models/sphere_traits.h"
 
 namespace rondel::dynamic {
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class Editor {
  public:
   Editor(Model model, const Point& center)
@@ -57,7 +57,7 @@ class Editor {
   // Ids in the order of `points`, although they are inserted in rounds along the spatial order.
   std::vector<Index> insert(std::span<const Point> points) {
     const auto size = static_cast<Index>(points.size());
-    std::vector<std::pair<blocks::HilbertKey, Index>> order(size);
+    std::vector<std::pair<order::HilbertKey, Index>> order(size);
     std::vector<Index> ids;
     ids.reserve(size);
     try {
@@ -67,7 +67,7 @@ class Editor {
       }
       sites_.rebind(places_.points(), places_.speakers());
       std::ranges::sort(order);
-      for (const Index rank : incremental::insertion_order(size)) {
+      for (const Index rank : kernel::insertion_order(size)) {
         const Index i = order[rank].second;
         arrive(ids[i], points[i], no_index);
         renumber_if_due();
@@ -97,7 +97,7 @@ class Editor {
     order.reserve(sites.size());
     for (const Index site : sites) order.emplace_back(places_.place_of(site), site);
     std::ranges::sort(order);
-    std::vector<Index> ranks = incremental::insertion_order(static_cast<Index>(sites.size()));
+    std::vector<Index> ranks = kernel::insertion_order(static_cast<Index>(sites.size()));
     std::ranges::reverse(ranks);
     try {
       for (const Index rank : ranks) remove(order[rank].second);
@@ -189,7 +189,7 @@ class Editor {
     if (hull_) hull_->prefetch(place);
     const Index next = places_.next_speaker(site);
     if (next == no_index) {
-      const blocks::HilbertKey key = places_.key(places_.point(site));
+      const order::HilbertKey key = places_.key(places_.point(site));
       if (hull_) hull_->prefetch_face(place);
       places_.prefetch(key);
       take_out(place);
@@ -261,19 +261,19 @@ class Editor {
 
   void build(const std::vector<Index>& order) {
     hull_.emplace(sites_, std::array{span_[0], span_[1], span_[2]});
-    for (const Index rank : incremental::insertion_order(static_cast<Index>(order.size()))) {
+    for (const Index rank : kernel::insertion_order(static_cast<Index>(order.size()))) {
       const Index place = order[rank];
       if (std::ranges::find(span_, place) == span_.end()) hull_->insert(place, no_index);
     }
     span_.clear();
   }
 
-  // Places that span the most, as in incremental/great_circle.h.
+  // Places that span the most, as in kernel/great_circle.h.
   [[nodiscard]] std::vector<Index> find_span(std::span<const Index> places) const {
     std::vector<Point> points;
     points.reserve(places.size());
     for (const Index place : places) points.push_back(places_.place_point(place));
-    std::vector<Index> span = incremental::find_span(points, center_);
+    std::vector<Index> span = kernel::find_span(points, center_);
     for (Index& i : span) i = places[i];
     return span;
   }

@@ -7,10 +7,10 @@
 
 namespace rondel::dynamic {
 
-void HiddenSites::attach(Index p, Index solid, Index near) {
+void HiddenSites::attach(Index p, Index solid, Index entry) {
   if (p >= links_.size()) links_.resize(p + std::size_t{1});
   push(p, 0, solid);
-  push(p, 1, near);
+  push(p, 1, entry);
 }
 
 void HiddenSites::detach(Index p) {
@@ -38,8 +38,8 @@ void HiddenSites::renumber(std::span<const Index> new_site, std::span<const Inde
   HiddenSites renumbered;
   for (Index p = 0; p < links_.size(); ++p) {
     if (!contains(p)) continue;
-    const Index near = near_face(p) == no_index ? no_index : new_face[near_face(p)];
-    renumbered.attach(new_site[p], new_face[solid_face(p)], near);
+    const Index entry = entry_face(p) == no_index ? no_index : new_face[entry_face(p)];
+    renumbered.attach(new_site[p], new_face[solid_face(p)], entry);
   }
   *this = std::move(renumbered);
 }

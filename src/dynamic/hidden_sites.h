@@ -4,12 +4,12 @@
 // Which faces hide which sites, so that a hidden site comes back when what hid it goes.
 //
 //            solid         A hidden site p lies on its ray between a solid face above it and, when
-//         .---------.      the center o is outside, a near face below it. As long as both are
+//         .---------.      the center o is outside, an entry face below it. As long as both are
 //         there, p
 //        /     p     \     is inside the hull. With o inside, nothing is needed below. Sites
-//        '-----------'     without a near face are "ungrounded": they depend on o staying inside,
+//        '-----------'     without an entry face are "ungrounded": they depend on o staying inside,
 //        or on
-//            near          grazing faces.
+//            entry         grazing faces.
 //              o
 #pragma once
 
@@ -28,10 +28,10 @@ class HiddenSites {
     return p < links_.size() && links_[p][0].face != no_index;
   }
   [[nodiscard]] Index solid_face(Index p) const { return links_[p][0].face; }
-  [[nodiscard]] Index near_face(Index p) const { return links_[p][1].face; }
+  [[nodiscard]] Index entry_face(Index p) const { return links_[p][1].face; }
 
-  // `near` may be no_index.
-  void attach(Index p, Index solid, Index near);
+  // `entry` may be no_index.
+  void attach(Index p, Index solid, Index entry);
   void detach(Index p);
 
   // New numbers of sites and faces, by old numbers.
@@ -42,7 +42,7 @@ class HiddenSites {
   void take_ungrounded(std::vector<Index>& sites);
 
  private:
-  // Two doubly linked lists: of the sites below a solid face, and above a near face or nothing.
+  // Two doubly linked lists: of the sites below a solid face, and above an entry face or nothing.
   struct Link {
     Index face = no_index;
     Index next = no_index;

@@ -16,22 +16,22 @@
 #include <utility>
 #include <vector>
 
-#include "blocks/cube_position.h"
-#include "blocks/hilbert.h"
-#include "blocks/prefetch.h"
 #include "dynamic/hidden_sites.h"
 #include "dynamic/link_triangulation.h"
 #include "dynamic/renumbering.h"
-#include "incremental/brio.h"
-#include "incremental/conflict_region.h"
-#include "incremental/location.h"
-#include "incremental/sphere_traits.h"
+#include "kernel/brio.h"
+#include "kernel/conflict_region.h"
+#include "kernel/walk.h"
+#include "models/sphere_traits.h"
+#include "order/cube_position.h"
+#include "order/hilbert.h"
+#include "system/prefetch.h"
 #include "topology/cavity.h"
 #include "topology/mesh.h"
 
 namespace rondel::dynamic {
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class Hull {
  public:
   // `first` are three places with a non-zero orientation.
@@ -53,7 +53,7 @@ class Hull {
   }
 
   [[nodiscard]] const topology::Mesh& mesh() const { return mesh_; }
-  [[nodiscard]] const incremental::FaceKinds& kinds() const { return kinds_; }
+  [[nodiscard]] const kernel::FaceKinds& kinds() const { return kinds_; }
   [[nodiscard]] const HiddenSites& hidden() const { return hidden_; }
   [[nodiscard]] std::size_t num_vertices() const { return mesh_.num_faces() / 2 + 2; }
   [[nodiscard]] bool is_vertex(Index p) const {
@@ -62,19 +62,19 @@ class Hull {
   // A corner of each vertex, as 3*face + corner.
   [[nodiscard]] std::span<const topology::Halfedge> corners() const { return corner_of_; }
 
-  // Where walks may start. There is always a solid face; no_index if there is no near one.
+  // Where walks may start. There is always a solid face; no_index if there is no entry face.
   [[nodiscard]] Index solid_face() const { return solid_; }
-  [[nodiscard]] Index near_face() const { return near_; }
+  [[nodiscard]] Index entry_face() const { return entry_; }
 
   // Asks for the memory where a walk from this place, or its removal, starts.
   void prefetch(Index place) const {
     if (place >= corner_of_.size()) return;
     sites_.prefetch(place);
-    blocks::prefetch(&corner_of_[place]);
+    system::prefetch(&corner_of_[place]);
   }
   // What comes next, when that has arrived.
   void prefetch_face(Index place) const {
-    if (is_vertex(place)) blocks::prefetch(&mesh_[topology::face_of(corner_of_[place])]);
+    if (is_vertex(place)) system::prefetch(&mesh_[topology::face_of(corner_of_[place])]);
   }
 
   // `close` is a place close to p, or no_index.
@@ -99,11 +99,11 @@ class Hull {
       outer_.push_back(mesh_[f].opposite[corner]);
       star_.push_back(f);
       prefetch(link_.back());
-      blocks::prefetch_to_write(&mesh_[topology::face_of(outer_.back())]);
+      system::prefetch_to_write(&mesh_[topology::face_of(outer_.back())]);
       h = mesh_.next_around(f, corner);
       // The other way around, so that the second half of the star is there when it is needed.
       back = mesh_.previous_around(topology::face_of(back), topology::edge_of(back));
-      blocks::prefetch(&mesh_[topology::face_of(back)]);
+      system::prefetch(&mesh_[topology::face_of(back)]);
     } while (h != corner_of_[v]);
     return link_;
   }
@@ -113,8 +113,8 @@ class Hull {
     const bool was_all_solid = kinds_.all_solid();
     bool is_grazed = false;
     for (const Index f : star_) {
-      is_grazed = is_grazed || kinds_[f] == incremental::FaceKind::grazing;
-      if (f == near_) near_ = no_index;
+      is_grazed = is_grazed || kinds_[f] == kernel::FaceKind::grazing;
+      if (f == entry_) entry_ = no_index;
       if (f == solid_) solid_ = no_index;
       kinds_.remove(f);
       hidden_.take(f, displaced_);
@@ -135,8 +135,8 @@ class Hull {
     const std::vector<Index>& new_face = renumbered.new_face;
     hidden_.renumber(places.new_place, new_face);
     solid_ = new_face[solid_];
-    if (near_ != no_index) near_ = new_face[near_];
-    const incremental::FaceKinds kinds = std::exchange(kinds_, {});
+    if (entry_ != no_index) entry_ = new_face[entry_];
+    const kernel::FaceKinds kinds = std::exchange(kinds_, {});
     for (Index f = 0; f < new_face.size() && !kinds.all_solid(); ++f) {
       if (new_face[f] != no_index) kinds_.add(new_face[f], kinds[f]);
     }
@@ -151,16 +151,16 @@ class Hull {
  private:
   struct Start {
     Index solid = no_index;
-    Index near = no_index;
+    Index entry = no_index;
   };
 
   [[nodiscard]] Start start_at(Index close) const {
-    Start start = {solid_, near_};
+    Start start = {solid_, entry_};
     if (close == no_index) return start;
     if (!is_vertex(close)) {
       if (!hidden_.contains(close)) return start;
       start.solid = hidden_.solid_face(close);
-      if (hidden_.near_face(close) != no_index) start.near = hidden_.near_face(close);
+      if (hidden_.entry_face(close) != no_index) start.entry = hidden_.entry_face(close);
       return start;
     }
     topology::Halfedge h = corner_of_[close];
@@ -169,8 +169,8 @@ class Hull {
     constexpr int enough = 32;
     for (int i = 0; i < enough; ++i) {
       const Index f = topology::face_of(h);
-      if (kinds_[f] == incremental::FaceKind::solid) start.solid = f;
-      if (kinds_[f] == incremental::FaceKind::near) start.near = f;
+      if (kinds_[f] == kernel::FaceKind::solid) start.solid = f;
+      if (kinds_[f] == kernel::FaceKind::entry) start.entry = f;
       h = mesh_.next_around(f, topology::edge_of(h));
       if (h == corner_of_[close]) break;
     }
@@ -180,32 +180,32 @@ class Hull {
   // A face that is new: its kind, its corners, and where walks start.
   void adopt(Index f, bool is_surely_solid) {
     const auto& v = mesh_[f].vertex;
-    const auto kind = is_surely_solid ? incremental::FaceKind::solid
-                                      : incremental::kind_of(sites_.orientation(v[0], v[1], v[2]));
+    const auto kind = is_surely_solid ? kernel::FaceKind::solid
+                                      : kernel::kind_of(sites_.orientation(v[0], v[1], v[2]));
     kinds_.add(f, kind);
-    if (kind == incremental::FaceKind::solid) solid_ = f;
-    if (kind == incremental::FaceKind::near) near_ = f;
+    if (kind == kernel::FaceKind::solid) solid_ = f;
+    if (kind == kernel::FaceKind::entry) entry_ = f;
     for (unsigned i = 0; i < 3; ++i) {
       if (v[i] >= corner_of_.size()) corner_of_.resize(v[i] + std::size_t{1}, no_index);
       corner_of_[v[i]] = topology::halfedge(f, i);
     }
   }
 
-  // A solid (near) face can only vanish with a star if one next to the star, or one that replaces
-  // it, is solid (near): the faces of one kind are connected by their edges.
+  // A solid (entry) face can only vanish with a star if one next to the star, or one that replaces
+  // it, is solid (entry): the faces of one kind are connected by their edges.
   void restart_at(std::span<const topology::Halfedge> outer) {
     for (const topology::Halfedge h : outer) {
       const Index f = topology::face_of(h);
-      if (solid_ == no_index && kinds_[f] == incremental::FaceKind::solid) solid_ = f;
-      if (near_ == no_index && kinds_[f] == incremental::FaceKind::near) near_ = f;
+      if (solid_ == no_index && kinds_[f] == kernel::FaceKind::solid) solid_ = f;
+      if (entry_ == no_index && kinds_[f] == kernel::FaceKind::entry) entry_ = f;
     }
   }
 
   void insert_from(Index p, const Start& start) {
-    const auto place = incremental::Location<T>(sites_, mesh_, kinds_)
-                           .locate(p, current_solid(start.solid), current_near(start.near));
+    const auto place = kernel::Walk<T>(sites_, mesh_, kinds_)
+                           .locate(p, current_solid(start.solid), current_entry(start.entry));
     if (place.conflict == no_index) {
-      hidden_.attach(p, place.solid, place.near);
+      hidden_.attach(p, place.solid, place.entry);
       return;
     }
     // Once the center is strictly inside, insertions leave it there.
@@ -219,7 +219,7 @@ class Hull {
   }
 
   void cover_all(std::vector<Index> places) {
-    Start start = {solid_, near_};
+    Start start = {solid_, entry_};
     for (const Index q : in_spatial_order(std::move(places))) {
       if (is_vertex(q)) continue;
       cover(q, start);
@@ -230,10 +230,10 @@ class Hull {
   // As a build inserts, in rounds along the spatial order: all hidden sites may come back at once.
   void bring_back() {
     const std::vector<Index> places = in_spatial_order(std::exchange(displaced_, {}));
-    Start start = {solid_, near_};
-    for (const Index rank : incremental::insertion_order(static_cast<Index>(places.size()))) {
+    Start start = {solid_, entry_};
+    for (const Index rank : kernel::insertion_order(static_cast<Index>(places.size()))) {
       insert_from(places[rank], start);
-      start = is_vertex(places[rank]) ? Start{solid_, near_} : start_at(places[rank]);
+      start = is_vertex(places[rank]) ? Start{solid_, entry_} : start_at(places[rank]);
     }
   }
 
@@ -241,11 +241,11 @@ class Hull {
   [[nodiscard]] std::vector<Index> in_spatial_order(std::vector<Index> places) const {
     constexpr std::size_t few = 8;
     if (places.size() <= few) return places;
-    std::vector<std::pair<blocks::HilbertKey, Index>> order;
+    std::vector<std::pair<order::HilbertKey, Index>> order;
     order.reserve(places.size());
     for (const Index p : places) {
-      const auto position = blocks::cube_position(sites_.point(p), sites_.center());
-      order.emplace_back(blocks::hilbert_key(position), p);
+      const auto position = order::cube_position(sites_.point(p), sites_.center());
+      order.emplace_back(order::hilbert_key(position), p);
     }
     std::ranges::sort(order);
     std::ranges::transform(order, places.begin(), [](const auto& entry) { return entry.second; });
@@ -254,11 +254,10 @@ class Hull {
 
   // Start faces found before other insertions may be gone.
   [[nodiscard]] Index current_solid(Index f) const {
-    return mesh_.is_alive(f) && kinds_[f] == incremental::FaceKind::solid ? f : solid_;
+    return mesh_.is_alive(f) && kinds_[f] == kernel::FaceKind::solid ? f : solid_;
   }
-  [[nodiscard]] Index current_near(Index f) const {
-    return f != no_index && mesh_.is_alive(f) && kinds_[f] == incremental::FaceKind::near ? f
-                                                                                          : near_;
+  [[nodiscard]] Index current_entry(Index f) const {
+    return f != no_index && mesh_.is_alive(f) && kinds_[f] == kernel::FaceKind::entry ? f : entry_;
   }
 
   // Before the star takes the place of the region: returns the sites that its faces hide, and the
@@ -266,7 +265,7 @@ class Hull {
   std::vector<Index> release_region() {
     std::vector<Index> covered;
     for (const Index f : region_.faces()) {
-      if (f == near_) near_ = no_index;
+      if (f == entry_) entry_ = no_index;
       if (f == solid_) solid_ = no_index;
       kinds_.remove(f);
       if constexpr (T::hides_sites) hidden_.take(f, covered);
@@ -283,7 +282,7 @@ class Hull {
   }
 
   void restart_around_star() {
-    if (solid_ != no_index && (near_ != no_index || kinds_.all_solid())) return;
+    if (solid_ != no_index && (entry_ != no_index || kinds_.all_solid())) return;
     outer_.clear();
     for (const auto& edge : region_.horizon()) outer_.push_back(edge.outside);
     restart_at(outer_);
@@ -291,10 +290,9 @@ class Hull {
 
   // Finds the faces that hide q.
   void cover(Index q, const Start& start) {
-    const auto place =
-        incremental::Location<T>(sites_, mesh_, kinds_).locate(q, start.solid, start.near);
+    const auto place = kernel::Walk<T>(sites_, mesh_, kinds_).locate(q, start.solid, start.entry);
     assert(place.conflict == no_index);
-    hidden_.attach(q, place.solid, place.near);
+    hidden_.attach(q, place.solid, place.entry);
   }
 
   // Puts the triangulation of the link in the slots of the star.
@@ -323,13 +321,13 @@ class Hull {
 
   const T& sites_;
   topology::Mesh mesh_;
-  incremental::FaceKinds kinds_;
+  kernel::FaceKinds kinds_;
   HiddenSites hidden_;
   std::vector<topology::Halfedge> corner_of_;
   Index solid_ = no_index;
-  Index near_ = no_index;
+  Index entry_ = no_index;
 
-  incremental::ConflictRegion<T> region_;
+  kernel::ConflictRegion<T> region_;
   LinkTriangulation<T> triangulation_;
   std::vector<Index> link_;
   std::vector<topology::Halfedge> outer_;

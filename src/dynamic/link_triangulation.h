@@ -23,13 +23,13 @@
 #include <utility>
 #include <vector>
 
-#include "incremental/sphere_traits.h"
+#include "models/sphere_traits.h"
 #include "topology/cavity.h"
 #include "topology/mesh.h"
 
 namespace rondel::dynamic {
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class LinkTriangulation {
  public:
   // `link` has at least three vertices, counterclockwise seen from outside.
@@ -84,7 +84,7 @@ class LinkTriangulation {
     previous_[b] = u;
   }
 
-  // As in incremental/conflict_region.h, entering through one edge of the polygon.
+  // As in kernel/conflict_region.h, entering through one edge of the polygon.
   void find_conflict_region(const T& sites, std::span<const Index> link, Index u,
                             topology::HorizonEdge entry) {
     region_.clear();

@@ -9,9 +9,9 @@
 #include <iterator>
 #include <utility>
 
-#include "blocks/gather.h"
 #include "predicates/perturbation.h"
 #include "predicates/ray_order.h"
+#include "system/gather.h"
 #include "system/huge_pages.h"
 
 namespace rondel::dynamic {
@@ -82,7 +82,7 @@ Index Places::add_place(Index site, const Spot& spot) {
   return place;
 }
 
-void Places::free_place(Index place, const blocks::HilbertKey& key) {
+void Places::free_place(Index place, const order::HilbertKey& key) {
   index_.erase(key, place, order_of(place_point(place)));
   free_places_.push_back(place);
 }
@@ -137,8 +137,8 @@ void Places::leave(Index site) {
 }
 
 void Places::renumber(const Renumbering& places) {
-  speakers_ = blocks::gather(speakers_, places.old_place, places.room());
-  names_ = blocks::gather(names_, places.old_place, places.room());
+  speakers_ = system::gather(speakers_, places.old_place, places.room());
+  names_ = system::gather(names_, places.old_place, places.room());
   free_places_ = {};
   for (Index& place : place_of_) {
     if (place != no_index) place = places.new_place[place];
@@ -170,7 +170,7 @@ void Places::assign(std::span<const Index> place_of_site, std::span<const Index>
       join(site, place);
     }
   }
-  std::vector<blocks::HilbertKey> keys(speakers.size());
+  std::vector<order::HilbertKey> keys(speakers.size());
   std::vector<Index> places(speakers.size());
   for (Index place = 0; place < speakers.size(); ++place) {
     keys[place] = key(place_point(place));

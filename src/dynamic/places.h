@@ -11,13 +11,13 @@
 #include <span>
 #include <vector>
 
-#include "blocks/hilbert.h"
-#include "blocks/prefetch.h"
-#include "blocks/spatial_index.h"
-#include "blocks/spatial_order.h"
 #include "dynamic/renumbering.h"
+#include "order/hilbert.h"
+#include "order/spatial_index.h"
+#include "order/spatial_order.h"
 #include "predicates/perturbation.h"
 #include "rondel/types.h"
+#include "system/prefetch.h"
 
 namespace rondel::dynamic {
 
@@ -56,27 +56,27 @@ class Places {
   [[nodiscard]] std::span<const Index> speakers() const { return speakers_; }
   [[nodiscard]] const Point& place_point(Index place) const { return points_[speakers_[place]]; }
 
-  [[nodiscard]] blocks::HilbertKey key(const Point& p) const {
-    return blocks::place_key(p, model_, center_);
+  [[nodiscard]] order::HilbertKey key(const Point& p) const {
+    return order::place_key(p, model_, center_);
   }
   // Where a point belongs; until the next change.
   struct Spot {
-    blocks::HilbertKey key;
-    blocks::SpatialIndex::Position position;
+    order::HilbertKey key;
+    order::SpatialIndex::Position position;
     Index place = no_index;  // of the point, exactly
     Index close = no_index;  // some place close to it, if there is any
-    std::array<Index, blocks::SpatialIndex::num_around> around;  // more of them, or no_index
+    std::array<Index, order::SpatialIndex::num_around> around;  // more of them, or no_index
   };
   [[nodiscard]] Spot look_up(const Point& p) const;
   // A place close to p, or no_index.
   [[nodiscard]] Index near(const Point& p) const { return index_.near(key(p)); }
   // Asks for the memory that changes at this site, or around this key, will need.
   void prefetch(Index site) const {
-    blocks::prefetch(&points_[site]);
-    blocks::prefetch(&speakers_[place_of_[site]]);
-    blocks::prefetch(&names_[place_of_[site]]);
+    system::prefetch(&points_[site]);
+    system::prefetch(&speakers_[place_of_[site]]);
+    system::prefetch(&names_[place_of_[site]]);
   }
-  void prefetch(const blocks::HilbertKey& key) const { index_.prefetch(key); }
+  void prefetch(const order::HilbertKey& key) const { index_.prefetch(key); }
   [[nodiscard]] std::size_t num_places() const { return index_.size(); }
   // All places in spatial order.
   [[nodiscard]] std::vector<Index> in_order() const { return index_.values(); }
@@ -86,7 +86,7 @@ class Places {
   // A new place for the site alone, at the spot of its point.
   Index add_place(Index site, const Spot& spot);
   // Precondition: the place has no site left.
-  void free_place(Index place, const blocks::HilbertKey& key);
+  void free_place(Index place, const order::HilbertKey& key);
 
   // Whether the site, once there, would speak for the place.
   [[nodiscard]] bool would_speak(Index site, Index place) const;
@@ -145,7 +145,7 @@ class Places {
   std::vector<Index> free_places_;
   std::set<Member> by_name_;
   std::set<Member, SpeaksBefore> by_triple_{SpeaksBefore{&points_}};
-  blocks::SpatialIndex index_;
+  order::SpatialIndex index_;
 };
 
 }  // namespace rondel::dynamic

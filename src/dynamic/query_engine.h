@@ -10,7 +10,7 @@
 
 namespace rondel::dynamic {
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class HullDirectory final : public query::Directory {
  public:
   explicit HullDirectory(const Editor<T>& editor) : editor_(editor) {}
@@ -35,7 +35,7 @@ class HullDirectory final : public query::Directory {
   const Editor<T>& editor_;
 };
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class HullEngine final : public query::SurfaceEngine<T> {
  public:
   HullEngine(const Editor<T>& editor, const Sphere& sphere)
@@ -47,7 +47,7 @@ class HullEngine final : public query::SurfaceEngine<T> {
     return {editor_.sites(), hull.mesh(), hull.kinds(), hull.corners(), editor_.places().names()};
   }
   [[nodiscard]] Index solid_face() const override { return editor_.hull()->solid_face(); }
-  [[nodiscard]] Index near_face() const override { return editor_.hull()->near_face(); }
+  [[nodiscard]] Index entry_face() const override { return editor_.hull()->entry_face(); }
 
   const Editor<T>& editor_;
 };

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "blocks/prefetch.h"
+#include "system/prefetch.h"
 
 namespace rondel::dynamic {
 
@@ -40,8 +40,8 @@ RenumberedMesh renumber(const topology::Mesh& mesh, const Renumbering& places) {
   topology::Mesh result;
   result.reserve(2 * places.room());
   for (std::size_t i = 0; i < old_face.size(); ++i) {
-    if (i + blocks::prefetch_distance < old_face.size()) {
-      blocks::prefetch(&mesh[old_face[i + blocks::prefetch_distance]]);
+    if (i + system::prefetch_distance < old_face.size()) {
+      system::prefetch(&mesh[old_face[i + system::prefetch_distance]]);
     }
     topology::Face face = mesh[old_face[i]];
     for (Index& v : face.vertex) v = places.new_place[v];

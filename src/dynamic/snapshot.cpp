@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
-#include "blocks/spatial_order.h"
-#include "incremental/canonical.h"
-#include "incremental/hidden_faces.h"
+#include "hidden/hidden_faces.h"
+#include "kernel/canonical.h"
+#include "order/spatial_order.h"
 #include "topology/linking.h"
 
 namespace rondel::dynamic {
@@ -33,9 +33,9 @@ std::vector<Index> live_sites(const Places& places) {
 
 TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids,
                                 std::span<const Point> sites, const topology::Mesh& mesh,
-                                const incremental::FaceKinds& kinds, const HiddenSites& hidden,
+                                const kernel::FaceKinds& kinds, const HiddenSites& hidden,
                                 Model model, const Point& center) {
-  auto [names, duplicates, renamed] = blocks::spatial_order(sites, model, center, 1);
+  auto [names, duplicates, renamed] = order::spatial_order(sites, model, center, 1);
   const auto num_ranks = static_cast<Index>(names.size());
   std::vector<Index> rank_of_place(places.place_limit(), no_index);
   TriangulationArrays arrays;
@@ -44,25 +44,25 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
     rank_of_place[place] = rank;
     if (hidden.contains(place)) arrays.hidden.push_back({rank, no_index});
   }
-  for (const auto& [rank, name] : renamed) names[rank] = name;
+  order::rename(names, renamed);
   for (Hidden& h : arrays.hidden) h.site = names[h.site];
   std::ranges::sort(arrays.hidden, {}, &Hidden::site);
 
   topology::Mesh copy = mesh;
   rename_vertices(copy, rank_of_place);
-  incremental::write_canonical(copy, names, std::move(rank_of_place), arrays);
+  kernel::write_canonical(copy, names, std::move(rank_of_place), arrays);
   arrays.num_sites = sites.size();
   arrays.dimension = 2;
   arrays.duplicates = std::move(duplicates);
-  incremental::report_ghosts(copy, kinds, arrays.ghost_faces);
-  incremental::assign_hidden_faces(sites, center, arrays, 1);
+  kernel::report_ghosts(copy, kinds, arrays.ghost_faces);
+  hidden::assign_hidden_faces(sites, center, arrays, 1);
   return arrays;
 }
 
 Build make_build(const Triangulation& triangulation, std::span<const Point> sites) {
   Build build;
-  auto order = blocks::spatial_order(sites, triangulation.model(), triangulation.sphere().center,
-                                     triangulation.report().threads);
+  auto order = order::spatial_order(sites, triangulation.model(), triangulation.sphere().center,
+                                    triangulation.report().threads);
   build.place_of_site.assign(sites.size(), no_index);
   build.speakers = std::move(order.order);
   for (Index place = 0; place < build.speakers.size(); ++place) {

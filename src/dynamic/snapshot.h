@@ -10,7 +10,7 @@
 
 #include "dynamic/hidden_sites.h"
 #include "dynamic/places.h"
-#include "incremental/location.h"
+#include "kernel/walk.h"
 #include "rondel/triangulation.h"
 #include "topology/mesh.h"
 
@@ -22,7 +22,7 @@ std::vector<Index> live_sites(const Places& places);
 // The arrays in dimension 2 for `ids` and their `sites`, in canonical order.
 TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids,
                                 std::span<const Point> sites, const topology::Mesh& mesh,
-                                const incremental::FaceKinds& kinds, const HiddenSites& hidden,
+                                const kernel::FaceKinds& kinds, const HiddenSites& hidden,
                                 Model model, const Point& center);
 
 // What Editor::assign and Editor::adopt take.

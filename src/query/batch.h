@@ -7,21 +7,21 @@
 
 #include <span>
 
-#include "blocks/hilbert.h"
-#include "blocks/prefetch.h"
-#include "blocks/radix_sort.h"
+#include "order/hilbert.h"
+#include "order/radix_sort.h"
 #include "query/directory.h"
 #include "query/engine.h"
 #include "system/parallel.h"
+#include "system/prefetch.h"
 
 namespace rondel::query {
 
 // So many queries are one thread's work at a time.
 inline constexpr std::size_t queries_per_piece = 4096;
 
-inline blocks::KeyedIndices sort_queries(std::span<const Point> queries, const Point& center,
-                                         unsigned threads) {
-  blocks::KeyedIndices sorted;
+inline order::KeyedIndices sort_queries(std::span<const Point> queries, const Point& center,
+                                        unsigned threads) {
+  order::KeyedIndices sorted;
   sorted.keys.resize(queries.size());
   sorted.indices.resize(queries.size());
   system::parallel_for(threads, queries.size(), queries_per_piece,
@@ -31,13 +31,13 @@ inline blocks::KeyedIndices sort_queries(std::span<const Point> queries, const P
                            sorted.indices[i] = static_cast<Index>(i);
                          }
                        });
-  blocks::radix_sort(sorted, 3 + 2 * blocks::high_levels);
+  order::radix_sort(sorted, 3 + 2 * order::high_levels);
   return sorted;
 }
 
 // Calls work(range, cursor) for ranges of the queries in spatial order, given by their indices.
 template <class Work>
-void for_each_range(const blocks::KeyedIndices& sorted, std::span<const Point> queries,
+void for_each_range(const order::KeyedIndices& sorted, std::span<const Point> queries,
                     const Directory& directory, unsigned threads, const Work& work) {
   system::parallel_for(
       threads, sorted.indices.size(), queries_per_piece, [&](std::size_t first, std::size_t last) {
@@ -52,8 +52,8 @@ template <class Answer>
 void for_each_query(std::span<const Index> range, std::span<const Point> queries, Cursor& cursor,
                     const Answer& answer) {
   for (std::size_t i = 0; i < range.size(); ++i) {
-    const std::size_t ahead = i + blocks::prefetch_distance;
-    if (ahead < range.size()) blocks::prefetch(&queries[range[ahead]]);
+    const std::size_t ahead = i + system::prefetch_distance;
+    if (ahead < range.size()) system::prefetch(&queries[range[ahead]]);
     answer(range[i], cursor);
   }
 }

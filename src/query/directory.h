@@ -10,15 +10,15 @@
 #include <utility>
 #include <vector>
 
-#include "blocks/cube_position.h"
-#include "blocks/hilbert.h"
+#include "order/cube_position.h"
+#include "order/hilbert.h"
 #include "query/vertices.h"
 #include "rondel/types.h"
 
 namespace rondel::query {
 
 inline std::uint64_t spatial_key(const Point& p, const Point& center) {
-  return blocks::hilbert_key(blocks::cube_position(p, center)).high;
+  return order::hilbert_key(order::cube_position(p, center)).high;
 }
 
 class Directory {

@@ -3,8 +3,8 @@
 
 #include "query/engine.h"
 
-#include "incremental/projected_points.h"
-#include "incremental/weighted_points.h"
+#include "models/projected_points.h"
+#include "models/weighted_points.h"
 #include "query/graph_engine.h"
 #include "query/ring_location.h"
 #include "topology/linking.h"
@@ -12,11 +12,11 @@
 namespace rondel::query {
 namespace {
 
-using incremental::FaceKind;
-using incremental::FaceKinds;
+using kernel::FaceKind;
+using kernel::FaceKinds;
 
 // What both engines of a finished triangulation own.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 struct Built {
   Built(const Triangulation& triangulation, std::span<const Point> sites, const Vertices& names)
       : sphere(triangulation.sphere()),
@@ -28,7 +28,7 @@ struct Built {
   T traits;
 };
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class BuiltSurface final : private Built<T>, public SurfaceEngine<T> {
  public:
   BuiltSurface(const Triangulation& triangulation, std::span<const Point> sites,
@@ -47,16 +47,16 @@ class BuiltSurface final : private Built<T>, public SurfaceEngine<T> {
     return {this->traits, mesh_, kinds_, corner_of_, this->vertices.names};
   }
   [[nodiscard]] Index solid_face() const override { return solid_; }
-  [[nodiscard]] Index near_face() const override { return near_; }
+  [[nodiscard]] Index entry_face() const override { return entry_; }
 
   void classify(const Triangulation& triangulation) {
     for (Index f = 0; f < mesh_.num_slots(); ++f) {
       const auto& v = mesh_[f].vertex;
       const FaceKind kind = triangulation.is_ghost(f)
-                                ? incremental::kind_of(this->traits.orientation(v[0], v[1], v[2]))
+                                ? kernel::kind_of(this->traits.orientation(v[0], v[1], v[2]))
                                 : FaceKind::solid;
       kinds_.add(f, kind);
-      if (kind == FaceKind::near) near_ = f;
+      if (kind == FaceKind::entry) entry_ = f;
     }
   }
 
@@ -64,11 +64,11 @@ class BuiltSurface final : private Built<T>, public SurfaceEngine<T> {
   std::vector<topology::Halfedge> corner_of_;
   FaceKinds kinds_;
   Index solid_ = 0;
-  Index near_ = no_index;
+  Index entry_ = no_index;
 };
 
 // Dimensions 0 and 1.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class BuiltRing final : private Built<T>, public GraphEngine<T> {
  public:
   BuiltRing(const Triangulation& triangulation, std::span<const Point> sites, const Vertices& names)
@@ -124,9 +124,9 @@ template <template <class> class E>
 std::unique_ptr<Engine> make(const Triangulation& triangulation, std::span<const Point> sites,
                              const Vertices& vertices) {
   if (triangulation.model() == Model::projected) {
-    return std::make_unique<E<incremental::ProjectedPoints>>(triangulation, sites, vertices);
+    return std::make_unique<E<models::ProjectedPoints>>(triangulation, sites, vertices);
   }
-  return std::make_unique<E<incremental::WeightedPoints>>(triangulation, sites, vertices);
+  return std::make_unique<E<models::WeightedPoints>>(triangulation, sites, vertices);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@
 namespace rondel::query {
 
 // What both graphs share: queries for near vertices.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class GraphEngine : public Engine {
  public:
   // Keeps both references.
@@ -68,7 +68,7 @@ class GraphEngine : public Engine {
 };
 
 // Dimension 2.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class SurfaceEngine : public GraphEngine<T> {
  public:
   using GraphEngine<T>::GraphEngine;
@@ -102,14 +102,14 @@ class SurfaceEngine : public GraphEngine<T> {
     const Target<T> target(this->traits_, p);
     const Candidate top = this->find_nearest(surface(), target, cursor);
     if (target.is_duplicate(top)) return {};
-    return query::conflict_region(surface(), target, start_face(cursor), near_face());
+    return query::conflict_region(surface(), target, start_face(cursor), entry_face());
   }
 
  protected:
   [[nodiscard]] virtual Surface<T> surface() const = 0;
-  // Some solid face; some near face, or no_index if there is none.
+  // Some solid face; some entry face, or no_index if there is none.
   [[nodiscard]] virtual Index solid_face() const = 0;
-  [[nodiscard]] virtual Index near_face() const = 0;
+  [[nodiscard]] virtual Index entry_face() const = 0;
 
  private:
   [[nodiscard]] Index start_face(const Cursor& cursor) const {

@@ -9,8 +9,8 @@
 #include <array>
 #include <vector>
 
-#include "incremental/conflict_region.h"
-#include "incremental/location.h"
+#include "kernel/conflict_region.h"
+#include "kernel/walk.h"
 #include "query/surface.h"
 #include "query/target.h"
 #include "rondel/query.h"
@@ -26,19 +26,19 @@ struct Place {
 };
 
 // Of the solid faces that share a vertex, the one of the smallest number.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 Index first_solid_face(const Surface<T>& surface, Index v) {
   Index first = no_index;
   surface.visit_corners(v, [&](topology::Halfedge h) {
     const Index f = topology::face_of(h);
-    if (surface.kinds[f] == incremental::FaceKind::solid) first = std::min(first, f);
+    if (surface.kinds[f] == kernel::FaceKind::solid) first = std::min(first, f);
     return false;
   });
   return first;
 }
 
 // The query lies in the closed cone of the solid face f. `is_on[i]`: in the plane of edge i.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 Place place_in(const Surface<T>& surface, Index f, const std::array<bool, 3>& is_on) {
   const topology::Face& face = surface.mesh[f];
   const auto count = std::ranges::count(is_on, true);
@@ -47,7 +47,7 @@ Place place_in(const Surface<T>& surface, Index f, const std::array<bool, 3>& is
     const auto i = static_cast<unsigned>(std::ranges::find(is_on, true) - is_on.begin());
     const unsigned a = topology::next_corner[i];
     const Index other = topology::face_of(face.opposite[i]);
-    const bool is_shared = surface.kinds[other] == incremental::FaceKind::solid;
+    const bool is_shared = surface.kinds[other] == kernel::FaceKind::solid;
     return {Where::edge,
             {face.vertex[a], face.vertex[topology::next_corner[a]], no_index},
             is_shared ? std::min(f, other) : f,
@@ -59,7 +59,7 @@ Place place_in(const Surface<T>& surface, Index f, const std::array<bool, 3>& is
 }
 
 // `start` is a solid face.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 Place locate(const Surface<T>& surface, const Target<T>& target, Index start) {
   Index f = start;
   unsigned entered = 3;
@@ -78,7 +78,7 @@ Place locate(const Surface<T>& surface, const Target<T>& target, Index start) {
     if (i == 3) return place_in(surface, f, is_on);
     const topology::Halfedge h = face.opposite[i];
     const Index next = topology::face_of(h);
-    if (surface.kinds[next] != incremental::FaceKind::solid) {
+    if (surface.kinds[next] != kernel::FaceKind::solid) {
       Place outside;
       outside.last_face = f;
       return outside;
@@ -89,14 +89,14 @@ Place locate(const Surface<T>& surface, const Target<T>& target, Index start) {
 }
 
 // The faces in conflict with the target, in increasing order. `solid` is a solid face near it,
-// `near` a near face if there is one. Precondition, projected: the target is no duplicate.
-template <incremental::SphereTraits T>
+// `entry` an entry face if there is one. Precondition, projected: the target is no duplicate.
+template <models::SphereTraits T>
 std::vector<Index> conflict_region(const Surface<T>& surface, const Target<T>& target, Index solid,
-                                   Index near) {
-  const incremental::Location<Target<T>> location(target, surface.mesh, surface.kinds);
-  const Index start = location.locate(Target<T>::query, solid, near).conflict;
+                                   Index entry) {
+  const kernel::Walk<Target<T>> location(target, surface.mesh, surface.kinds);
+  const Index start = location.locate(Target<T>::query, solid, entry).conflict;
   if (start == no_index) return {};
-  incremental::ConflictRegion<Target<T>> region;
+  kernel::ConflictRegion<Target<T>> region;
   region.find(target, surface.mesh, Target<T>::query, start);
   std::vector<Index> faces = std::move(region.faces());
   std::ranges::sort(faces);

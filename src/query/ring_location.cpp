@@ -3,7 +3,7 @@
 
 #include "query/ring_location.h"
 
-#include "incremental/great_circle.h"
+#include "kernel/great_circle.h"
 #include "predicates/orientation.h"
 #include "predicates/ray_order.h"
 #include "predicates/turn.h"
@@ -12,7 +12,7 @@ namespace rondel::query {
 
 RingLocation::RingLocation(std::span<const Point> points, const Point& center)
     : points_(points), center_(center) {
-  const auto span = incremental::find_span(points, center);
+  const auto span = kernel::find_span(points, center);
   if (span.size() < 2) return;
   spanning_ = {span[0], span[1]};
   while (turn(span[0], points[span[1]]) == Sign::zero) ++axis_;

@@ -16,8 +16,8 @@
 #include <concepts>
 #include <span>
 
-#include "incremental/location.h"
-#include "incremental/sphere_traits.h"
+#include "kernel/walk.h"
+#include "models/sphere_traits.h"
 #include "topology/mesh.h"
 
 namespace rondel::query {
@@ -32,11 +32,11 @@ concept Graph = requires(const G& graph, Index v, bool (*visit)(Index)) {
   graph.visit_neighbors(v, visit);
 };
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 struct Surface {
   const T& sites;
   const topology::Mesh& mesh;  // may have slots that are not alive
-  const incremental::FaceKinds& kinds;
+  const kernel::FaceKinds& kinds;
   std::span<const topology::Halfedge>
       corner_of;  // of a vertex: 3*face + corner of one of its faces
   std::span<const Index> names = {};
@@ -64,7 +64,7 @@ struct Surface {
 };
 
 // Dimensions 0 and 1: vertex i is at place i of a ring of `size` vertices.
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 struct Ring {
   const T& sites;
   Index size = 0;

@@ -8,8 +8,8 @@
 
 #include <array>
 
-#include "incremental/projected_points.h"
-#include "incremental/sphere_traits.h"
+#include "models/projected_points.h"
+#include "models/sphere_traits.h"
 #include "predicates/compare_distance.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
@@ -28,7 +28,7 @@ struct Candidate {
   double value = 0;  // projected: squared distance of the directions; weighted: not used
 };
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 class Target {
  public:
   static constexpr bool hides_sites = T::hides_sites;
@@ -40,7 +40,7 @@ class Target {
     if constexpr (hides_sites) {
       ray_ = exact::to_vector(p) - exact::to_vector(sites.center());
     } else {
-      ray_ = incremental::direction(p, sites.center());
+      ray_ = models::direction(p, sites.center());
     }
   }
 
@@ -92,7 +92,7 @@ class Target {
   Vector ray_;  // from the center: a direction (projected), a difference (weighted)
 };
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 Sign Target<T>::climb(const Candidate& a, const Candidate& b) const {
   const Point pa = sites_.point(a.vertex);
   const Point pb = sites_.point(b.vertex);
@@ -102,7 +102,7 @@ Sign Target<T>::climb(const Candidate& a, const Candidate& b) const {
   return decision.sign;
 }
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 Sign Target<T>::orientation(Index a, Index b, Index c) const {
   if constexpr (!hides_sites) {
     const Sign sign =
@@ -112,7 +112,7 @@ Sign Target<T>::orientation(Index a, Index b, Index c) const {
   return predicates::orientation_ladder(point(a), point(b), point(c), sites_.center()).sign;
 }
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 bool Target<T>::is_in_conflict(Index a, Index b, Index c, Index p) const {
   Sign sign = Sign::zero;
   if constexpr (hides_sites) {
@@ -139,7 +139,7 @@ bool Target<T>::is_in_conflict(Index a, Index b, Index c, Index p) const {
                                               sites_.center());
 }
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 bool Target<T>::is_within(Index v, const predicates::Cosine& cosine, const Sphere& sphere) const {
   if constexpr (hides_sites) {
     return predicates::is_within_power_ladder(sites_.point(v), point_, cosine, sphere).sign !=
@@ -152,7 +152,7 @@ bool Target<T>::is_within(Index v, const predicates::Cosine& cosine, const Spher
   }
 }
 
-template <incremental::SphereTraits T>
+template <models::SphereTraits T>
 bool Target<T>::is_duplicate(const Candidate& v) const {
   const Point a = sites_.point(v.vertex);
   if (hides_sites || a == point_) return a == point_;

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "blocks/cube_position.h"
-#include "blocks/hilbert.h"
-#include "blocks/radix_sort.h"
+#include "order/cube_position.h"
+#include "order/hilbert.h"
+#include "order/radix_sort.h"
 #include "predicates/perturbation.h"
 
 namespace rondel::query {
@@ -27,15 +27,15 @@ std::vector<Index> vertices_by_index(const Triangulation& triangulation) {
   return vertices;
 }
 
-blocks::KeyedIndices sorted_by_key(std::vector<Index> indices, std::span<const Point> sites,
-                                   const Point& center) {
-  blocks::KeyedIndices data;
+order::KeyedIndices sorted_by_key(std::vector<Index> indices, std::span<const Point> sites,
+                                  const Point& center) {
+  order::KeyedIndices data;
   data.keys.reserve(indices.size());
   for (const Index i : indices) {
-    data.keys.push_back(hilbert_key(blocks::cube_position(sites[i], center)).high);
+    data.keys.push_back(hilbert_key(order::cube_position(sites[i], center)).high);
   }
   data.indices = std::move(indices);
-  blocks::radix_sort(data, 3 + 2 * blocks::high_levels);
+  order::radix_sort(data, 3 + 2 * order::high_levels);
   return data;
 }
 

@@ -144,11 +144,10 @@ void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsig
   options.sphere = set.sphere;
   options.threads = 1;
   LargeVector<Triple> copies(has_copies ? 2 * set.sites.size() : 0);
-  const auto order = blocks::spatial_order(set.sites, model, set.sphere.center, 1, {},
-                                           blocks::SiteCopies(std::span(copies)));
+  const auto order = order::spatial_order(set.sites, model, set.sphere.center, 1, {},
+                                          system::SiteCopies(std::span(copies)));
   if (order.order.empty()) return;
-  const auto expected =
-      incremental::triangulate(set.sites, order.order, order.renamed, options).arrays;
+  const auto expected = kernel::triangulate(set.sites, order.order, order.renamed, options).arrays;
   options.threads = threads;
   const auto built = bulk::triangulate_by_blocks(set.sites, order.order, order.renamed, options,
                                                  block_sites, std::move(copies));
@@ -168,7 +167,7 @@ void test_divide(const SiteSet& set, Model model) {
   unsigned face = 6;
   for (const Point& p : set.sites) {
     if (p == set.sphere.center) continue;
-    const unsigned own = blocks::exact_cube_position(p, set.sphere.center).face;
+    const unsigned own = order::exact_cube_position(p, set.sphere.center).face;
     if (face == 6) face = own;
     if (own != face) continue;
     part.sites.push_back(p);
@@ -180,8 +179,8 @@ void test_divide(const SiteSet& set, Model model) {
   const bool is_in_range = extent.least_size > 1e-100 && extent.most_size < 1e100;
   if (model == Model::weighted && !is_in_range) return;
   const auto divided = model == Model::weighted
-                           ? divide_and_compare<incremental::WeightedPoints>(part, extent)
-                           : divide_and_compare<incremental::ProjectedPoints>(part, extent);
+                           ? divide_and_compare<models::WeightedPoints>(part, extent)
+                           : divide_and_compare<models::ProjectedPoints>(part, extent);
   require(divided != test::Divided::different, "divide and conquer gives the faces seen");
 }
 

@@ -7,8 +7,8 @@
 #include <map>
 #include <optional>
 
-#include "blocks/spatial_order.h"
 #include "bulk/triangulate.h"
+#include "order/spatial_order.h"
 #include "property/renamed.h"
 #include "rondel/diagram.h"
 #include "rondel/dynamic.h"
@@ -154,10 +154,10 @@ TEST(tied_sites, blocks_of_any_size_change_nothing) {
     }
     if (input.options.model == Model::projected) std::erase(input.sites, Point{});
     const auto order =
-        blocks::spatial_order(input.sites, input.options.model, input.options.sphere.center, 1);
+        order::spatial_order(input.sites, input.options.model, input.options.sphere.center, 1);
     RC_PRE(!order.order.empty());
     const auto expected =
-        incremental::triangulate(input.sites, order.order, order.renamed, input.options).arrays;
+        kernel::triangulate(input.sites, order.order, order.renamed, input.options).arrays;
     const auto size = *rc::gen::inRange<std::size_t>(33, 150).as("sites of a block");
     const auto built =
         bulk::triangulate_by_blocks(input.sites, order.order, order.renamed, input.options, size);

@@ -10,11 +10,11 @@
 #include <type_traits>
 #include <vector>
 
-#include "blocks/cube_position.h"
-#include "blocks/spatial_order.h"
-#include "bulk/cell_sites.h"
 #include "bulk/divide.h"
-#include "incremental/triangulate.h"
+#include "bulk/square_sites.h"
+#include "kernel/triangulate.h"
+#include "order/cube_position.h"
+#include "order/spatial_order.h"
 #include "support/generators.h"
 
 namespace rondel::test {
@@ -55,12 +55,12 @@ inline std::set<Triple> faces_of(const bulk::PlaneGraph& graph, bulk::PlaneGraph
 }
 
 // The faces that the center sees, by rank.
-inline std::set<Triple> solid_faces(const SiteSet& set, const blocks::SpatialOrder& order,
+inline std::set<Triple> solid_faces(const SiteSet& set, const order::SpatialOrder& order,
                                     Model model) {
   Options options;
   options.model = model;
   options.sphere = set.sphere;
-  const auto arrays = incremental::triangulate(set.sites, order.order, {}, options).arrays;
+  const auto arrays = kernel::triangulate(set.sites, order.order, {}, options).arrays;
   std::vector<Index> rank(set.sites.size(), no_index);
   for (Index i = 0; i < order.order.size(); ++i) rank[order.order[i]] = i;
   std::set<Triple> faces;
@@ -77,25 +77,25 @@ enum class Divided { same, different, left_to_seam, misplaced, too_few };
 // Sites of one face of the cube. `extent` holds for the weighted model.
 template <class T>
 Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
-  constexpr bool is_weighted = std::is_same_v<T, incremental::WeightedPoints>;
+  constexpr bool is_weighted = std::is_same_v<T, models::WeightedPoints>;
   constexpr Model model = is_weighted ? Model::weighted : Model::projected;
   constexpr int least_bit = bulk::least_bit;
   const Point& center = set.sphere.center;
-  const auto order = blocks::spatial_order(set.sites, model, center, 1);
+  const auto order = order::spatial_order(set.sites, model, center, 1);
   if (order.order.size() < 2) return Divided::too_few;
-  bulk::CellSites<T> sites;
-  const auto first = blocks::exact_cube_position(set.sites[order.order[0]], center);
-  const bulk::Cell whole_face = {{first.face, 0, 0}, blocks::position_bits, 0};
+  bulk::SquareSites<T> sites;
+  const auto first = order::exact_cube_position(set.sites[order.order[0]], center);
+  const bulk::Square whole_face = {{first.face, 0, 0}, order::position_bits, 0};
   const auto num_sites = static_cast<Index>(order.order.size());
-  bulk::CellCoordinates coordinates;
+  bulk::SquareCoordinates coordinates;
   coordinates.reserve(num_sites);
   sites.assign(set.sites, order.order, 0, num_sites, center, is_weighted ? extent : bulk::Extent{},
                coordinates);
   sites.enter(whole_face, num_sites);
   for (Index i = 0; i < num_sites; ++i) {
-    const auto exact = blocks::exact_cube_position(sites.site(i), center);
+    const auto exact = order::exact_cube_position(sites.site(i), center);
     const auto& p = sites.positions()[i];
-    if (blocks::cube_position(sites.site(i), center).face != first.face) return Divided::misplaced;
+    if (order::cube_position(sites.site(i), center).face != first.face) return Divided::misplaced;
     if (exact.u >> least_bit != p.u >> least_bit || exact.v >> least_bit != p.v >> least_bit) {
       return Divided::misplaced;
     }
@@ -103,7 +103,7 @@ Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
   bulk::PlaneGraph graph;
   graph.clear(num_sites);
   bulk::Divide<T> divide(sites, {}, graph);
-  const auto all = divide.run(0, num_sites, 0, blocks::position_bits - 1);
+  const auto all = divide.run(0, num_sites, 0, order::position_bits - 1);
   if (divide.has_failed()) return Divided::left_to_seam;
   return faces_of(graph, all.edge) == solid_faces(set, order, model) ? Divided::same
                                                                      : Divided::different;

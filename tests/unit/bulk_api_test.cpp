@@ -33,7 +33,7 @@ bool is_divided(const SiteSet& set, Options options) {
   options.progress = [&first](std::string_view stage, double fraction) {
     if (stage == "triangulate" && first < 0) first = fraction;
   };
-  const auto order = blocks::spatial_order(set.sites, options.model, set.sphere.center, 1);
+  const auto order = order::spatial_order(set.sites, options.model, set.sphere.center, 1);
   bulk::triangulate(set.sites, order.order, order.renamed, options);
   return first > 0;
 }
@@ -88,7 +88,7 @@ TEST(bulk_api, copies_of_sites_change_nothing) {
     Options options;
     options.threads = 2;
     const Triangulation built = delaunay(set.sites, options);
-    const auto order = blocks::spatial_order(set.sites, options.model, {}, 1);
+    const auto order = order::spatial_order(set.sites, options.model, {}, 1);
     const auto without = bulk::triangulate(set.sites, order.order, order.renamed, options).arrays;
     EXPECT_EQ(built.num_vertices(), num_different);
     EXPECT_TRUE(std::ranges::equal(built.faces(), without.faces));

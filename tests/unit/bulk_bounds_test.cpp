@@ -10,10 +10,10 @@
 #include <cmath>
 #include <iostream>
 
-#include "blocks/cube_position.h"
-#include "bulk/cell_sites.h"
 #include "bulk/open_faces.h"
+#include "bulk/square_sites.h"
 #include "exact/extended.h"
+#include "order/cube_position.h"
 #include "support/adversarial.h"
 #include "support/generators.h"
 
@@ -48,18 +48,18 @@ class Cell {
       : points_(std::move(sites)), order_(points_.size()), center_(center) {
     for (Index i = 0; i < order_.size(); ++i) order_[i] = i;
     has_weights_ = has_weights;
-    const auto first = blocks::exact_cube_position(points_[0], center);
-    axes_ = blocks::cube_axes(first.face);
+    const auto first = order::exact_cube_position(points_[0], center);
+    axes_ = order::cube_axes(first.face);
     std::uint64_t differences = 0;
     for (const Point& p : points_) {
-      const auto q = blocks::exact_cube_position(p, center);
+      const auto q = order::exact_cube_position(p, center);
       differences |= (p == center || q.face != first.face) ? ~std::uint64_t{0}
                                                            : (q.u ^ first.u) | (q.v ^ first.v);
     }
     const int bits =
         std::min(static_cast<int>(std::bit_width(differences)) + static_cast<int>(levels),
-                 static_cast<int>(blocks::position_bits));
-    const bulk::Cell cell = {
+                 static_cast<int>(order::position_bits));
+    const bulk::Square cell = {
         {first.face, first.u >> bits << bits, first.v >> bits << bits}, bits, 0};
     const auto num_sites = static_cast<Index>(points_.size());
     coordinates_.reserve(num_sites);
@@ -70,10 +70,10 @@ class Cell {
     accurate_.enter(sites_.points(), first.face);
   }
 
-  [[nodiscard]] const bulk::CellSites<T>& sites() const { return sites_; }
+  [[nodiscard]] const bulk::SquareSites<T>& sites() const { return sites_; }
   [[nodiscard]] bulk::AccuratePlaces& accurate() { return accurate_; }
 
-  // In the axes of CellSites::ray: of unit length, or relative to the largest one.
+  // In the axes of SquareSites::ray: of unit length, or relative to the largest one.
   [[nodiscard]] BigVector ray(Index i) const {
     const Point& p = points_[i];
     const BigVector d = {big(p.x) - big(center_.x), big(p.y) - big(center_.y),
@@ -96,10 +96,10 @@ class Cell {
   std::vector<Point> points_;
   std::vector<Index> order_;
   Point center_;
-  blocks::CubeAxes axes_;
+  order::CubeAxes axes_;
   bool has_weights_ = false;
-  bulk::CellCoordinates coordinates_;
-  bulk::CellSites<T> sites_;
+  bulk::SquareCoordinates coordinates_;
+  bulk::SquareSites<T> sites_;
   bulk::AccuratePlaces accurate_;
 };
 
@@ -134,7 +134,7 @@ Largest largest_errors(bool has_weights) {
     const Point center = random.coin() ? Point{} : random.signed_unit() * random_direction(random);
     const Cell<T> cell(close_sites(random, 4, distance, has_weights, center), center, has_weights,
                        static_cast<unsigned>(random.below(30)));
-    const bulk::CellPoint* p = cell.sites().points();
+    const bulk::SquarePoint* p = cell.sites().points();
     const auto ab = p[1] - p[0];
     const auto ac = p[2] - p[0];
     const auto ad = p[3] - p[0];
@@ -145,7 +145,7 @@ Largest largest_errors(bool has_weights) {
     // What limits() says for a length of 1, undone: the bound relative to distances.
     const double unit_distance = has_weights ? 2.01 * ratio + 1.74 * (ratio - 1) : 1.42;
     const double orientation_bound = cell.sites().limits(1).orientation / unit_distance;
-    const auto in_plane = [](const bulk::CellVector& x) { return x.u * x.u + x.v * x.v; };
+    const auto in_plane = [](const bulk::SquareVector& x) { return x.u * x.u + x.v * x.v; };
     const double plane = std::sqrt(std::max({in_plane(ab), in_plane(ac), in_plane(ad)}));
     const double space = std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(ad, ad)}));
     const double conflict_bound = cell.sites().conflict_limit(has_weights ? space : plane);
@@ -165,8 +165,8 @@ Largest largest_errors(bool has_weights) {
 TEST(bulk_bounds, filters_hold) {
   for (const Model model : models) {
     const Largest largest = model == Model::projected
-                                ? largest_errors<incremental::ProjectedPoints>(false)
-                                : largest_errors<incremental::WeightedPoints>(true);
+                                ? largest_errors<models::ProjectedPoints>(false)
+                                : largest_errors<models::WeightedPoints>(true);
     std::cout << "orientation: largest error " << largest.orientation
               << " of the bound, conflict: " << largest.conflict << "\n";
     EXPECT_LE(largest.orientation, 1.0);
@@ -202,8 +202,8 @@ TEST(bulk_bounds, accurate_places_do_not_err_and_decide_ties) {
     const Point center = random.coin() ? Point{} : 0.1 * random_direction(random);
     auto points = almost_tied(random, distance, random.coin());
     for (Point& p : points) p = center + p;
-    Cell<incremental::ProjectedPoints> cell(points, center, false,
-                                            static_cast<unsigned>(random.below(30)));
+    Cell<models::ProjectedPoints> cell(points, center, false,
+                                       static_cast<unsigned>(random.below(30)));
     const BigVector a = cell.point(0);
     const BigVector ab = minus(cell.point(1), a);
     const BigVector ac = minus(cell.point(2), a);
@@ -227,8 +227,8 @@ TEST(bulk_bounds, the_filter_over_a_tangent_decides_close_sites_in_any_cell) {
   const std::size_t num_sets = scaled(20000);
   for (std::size_t i = 0; i < num_sets; ++i) {
     const double distance = random_distance(random, 1e-11);
-    const Cell<incremental::ProjectedPoints> cell(close_sites(random, 4, distance / 2, false, {}),
-                                                  {}, false);
+    const Cell<models::ProjectedPoints> cell(close_sites(random, 4, distance / 2, false, {}), {},
+                                             false);
     const BigVector a = cell.point(0);
     const BigVector normal = cross_of(minus(cell.point(1), a), minus(cell.point(2), a));
     const int side = sgn(dot_of(normal, minus(cell.point(3), a)));
@@ -299,8 +299,8 @@ void expect_true_certificates(bool has_weights) {
 }
 
 TEST(bulk_bounds, final_faces_have_their_caps_in_the_cone) {
-  expect_true_certificates<incremental::ProjectedPoints>(false);
-  expect_true_certificates<incremental::WeightedPoints>(true);
+  expect_true_certificates<models::ProjectedPoints>(false);
+  expect_true_certificates<models::WeightedPoints>(true);
 }
 
 }  // namespace

@@ -45,8 +45,8 @@ TEST(bulk_divide, finds_the_faces_that_the_center_sees) {
   for (std::size_t i = 0; i < scaled(5000); ++i) {
     const SiteSet set = small_integers_on_a_face(random);
     SCOPED_TRACE(i);
-    compare<incremental::ProjectedPoints>(set, projected);
-    compare<incremental::WeightedPoints>(set, weighted);
+    compare<models::ProjectedPoints>(set, projected);
+    compare<models::WeightedPoints>(set, weighted);
     ASSERT_FALSE(HasFailure());
   }
   // Only weighted sites that are hidden on a line with others are left to the seam.
@@ -68,7 +68,7 @@ TEST(bulk_divide, sites_that_hide_each_other) {
       set.sites.push_back((7 + depth * random.unit()) * p);
     }
     SCOPED_TRACE(i);
-    compare<incremental::WeightedPoints>(set, count);
+    compare<models::WeightedPoints>(set, count);
     ASSERT_FALSE(HasFailure());
   }
   EXPECT_EQ(count.left, 0U);

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "blocks/spatial_order.h"
 #include "bulk/sphere.h"
 #include "bulk/triangulate.h"
+#include "order/spatial_order.h"
 #include "support/generators.h"
 
 namespace rondel::test {
@@ -27,8 +27,8 @@ class BulkCase {
     options_.model = model;
     options_.sphere = set.sphere;
     options_.threads = 1;
-    order_ = blocks::spatial_order(sites_, model, set.sphere.center, 1);
-    expected_ = incremental::triangulate(sites_, order_.order, order_.renamed, options_).arrays;
+    order_ = order::spatial_order(sites_, model, set.sphere.center, 1);
+    expected_ = kernel::triangulate(sites_, order_.order, order_.renamed, options_).arrays;
   }
 
   [[nodiscard]] const TriangulationArrays& expected() const { return expected_; }
@@ -45,8 +45,8 @@ class BulkCase {
   bool run_with_copies(std::size_t max_block_sites, unsigned threads = 1) {
     options_.threads = threads;
     LargeVector<Triple> copies(2 * sites_.size());
-    blocks::spatial_order(sites_, options_.model, options_.sphere.center, threads, {},
-                          blocks::SiteCopies(std::span(copies)));
+    order::spatial_order(sites_, options_.model, options_.sphere.center, threads, {},
+                         system::SiteCopies(std::span(copies)));
     return compare(bulk::triangulate_by_blocks(sites_, order_.order, order_.renamed, options_,
                                                max_block_sites, std::move(copies)));
   }
@@ -59,7 +59,7 @@ class BulkCase {
   }
 
  private:
-  bool compare(const std::optional<incremental::Triangulated>& result) {
+  bool compare(const std::optional<kernel::Triangulated>& result) {
     if (!result) return false;
     const TriangulationArrays& arrays = result->arrays;
     EXPECT_EQ(arrays.dimension, expected_.dimension);
@@ -73,7 +73,7 @@ class BulkCase {
 
   std::vector<Point> sites_;
   Options options_;
-  blocks::SpatialOrder order_;
+  order::SpatialOrder order_;
   TriangulationArrays expected_;
 };
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "check/places.h"
+#include "proof/places.h"
 #include "rondel/predicates.h"
 #include "support/generators.h"
 #include "support/hull_oracle.h"

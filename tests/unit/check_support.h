@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "check/validator.h"
+#include "proof/validator.h"
 #include "support/hull_oracle.h"
 
 namespace rondel::test {

@@ -4,7 +4,7 @@
 // Refutations that need no coordinates.
 #include <gtest/gtest.h>
 
-#include "check/surface.h"
+#include "proof/surface.h"
 #include "unit/check_support.h"
 
 namespace rondel::test {

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "blocks/duplicates.h"
-#include "blocks/spatial_order.h"
-#include "incremental/direction_grid.h"
-#include "incremental/hidden_faces.h"
-#include "incremental/inner_point.h"
-#include "incremental/inner_sites.h"
-#include "incremental/triangulate.h"
+#include "hidden/direction_grid.h"
+#include "hidden/hidden_faces.h"
+#include "hidden/inner_point.h"
+#include "hidden/inner_sites.h"
+#include "kernel/triangulate.h"
+#include "order/duplicates.h"
+#include "order/spatial_order.h"
 #include "rondel/delaunay.h"
 #include "rondel/hull.h"
 #include "support/generators.h"
@@ -27,12 +27,11 @@ TriangulationArrays insert_all(std::span<const Point> sites, const Point& center
   Options options;
   options.model = Model::weighted;
   options.sphere.center = center;
-  auto order = blocks::spatial_order(sites, options.model, center, options.threads);
-  auto arrays =
-      incremental::triangulate(sites, std::move(order.order), order.renamed, options).arrays;
+  auto order = order::spatial_order(sites, options.model, center, options.threads);
+  auto arrays = kernel::triangulate(sites, std::move(order.order), order.renamed, options).arrays;
   arrays.num_sites = sites.size();
   arrays.duplicates = std::move(order.duplicates);
-  incremental::assign_hidden_faces(sites, center, arrays, options.threads);
+  hidden::assign_hidden_faces(sites, center, arrays, options.threads);
   return arrays;
 }
 
@@ -67,16 +66,16 @@ INSTANTIATE_TEST_SUITE_P(clouds, inner_sites,
 
 TEST(inner_site, is_most_of_a_ball) {
   const auto points = solid_clouds()[0].make(100000, 1);
-  const auto inner = incremental::find_inner_point(points);
+  const auto inner = hidden::find_inner_point(points);
   ASSERT_TRUE(inner.is_inside);
-  EXPECT_TRUE(incremental::has_many_inner_sites(points, inner.point));
-  EXPECT_LT(incremental::rest_without_inner_sites(points, inner).size(), points.size() / 8);
+  EXPECT_TRUE(hidden::has_many_inner_sites(points, inner.point));
+  EXPECT_LT(hidden::rest_without_inner_sites(points, inner).size(), points.size() / 8);
 }
 
 TEST(inner_site, is_none_on_a_sphere) {
   const SiteSet set = generator("uniform").make(20000, 1);
-  const auto inner = incremental::find_inner_point(set.sites);
-  EXPECT_FALSE(incremental::has_many_inner_sites(set.sites, inner.point));
+  const auto inner = hidden::find_inner_point(set.sites);
+  EXPECT_FALSE(hidden::has_many_inner_sites(set.sites, inner.point));
 }
 
 // What is nearly on the boundary must be kept: sites in the facets of a cube, some moved in or out
@@ -93,9 +92,9 @@ TEST(inner_site, is_no_site_of_a_facet) {
   for (const double x : {-1, 1}) {
     for (const double y : {-1, 1}) points.insert(points.end(), {{x, y, -1}, {x, y, 1}});
   }
-  const auto inner = incremental::find_inner_point(points);
+  const auto inner = hidden::find_inner_point(points);
   ASSERT_TRUE(inner.is_inside);
-  const auto rest = incremental::rest_without_inner_sites(points, inner);
+  const auto rest = hidden::rest_without_inner_sites(points, inner);
   for (std::size_t i = first; i < points.size(); ++i) {
     ASSERT_TRUE(std::ranges::binary_search(rest, static_cast<Index>(i))) << i;
   }
@@ -118,15 +117,15 @@ TEST(duplicates, are_found_without_an_order) {
         std::ranges::find_if(listed, [&](Index j) { return points[j] == points[i]; });
     if (*lowest != i) expected.push_back({i, *lowest});
   }
-  EXPECT_EQ(blocks::find_duplicates(points, listed), expected);
-  EXPECT_TRUE(blocks::find_duplicates(points, {}).empty());
+  EXPECT_EQ(order::find_duplicates(points, listed), expected);
+  EXPECT_TRUE(order::find_duplicates(points, {}).empty());
 }
 
 // One that is too short to be divided by has no place in the grid.
 TEST(direction_grid, knows_the_place_of_each_direction_that_it_gives) {
-  const incremental::DirectionGrid grid(8);
+  const hidden::DirectionGrid grid(8);
   for (const double length : {1e-320, 1e-310, 1e-300, 1e-280, 1.0, 1e300}) {
-    const incremental::Direction d = grid.direction({0, length, 0});
+    const hidden::Direction d = grid.direction({0, length, 0});
     if (!(d.length > 0)) continue;
     EXPECT_EQ(d.u, 4) << length;
     EXPECT_EQ(d.v, 4) << length;

@@ -12,7 +12,7 @@
 #include <span>
 #include <string>
 
-#include "incremental/projected_points.h"
+#include "models/projected_points.h"
 #include "predicates/tally.h"
 #include "rondel/delaunay.h"
 #include "rondel/dynamic.h"
@@ -173,7 +173,7 @@ TEST(projected_points, double_doubles_decide_for_sites_within_1e_12) {
   for (int i = 0; i < 200; ++i) {
     std::vector<Point> points;
     for (int k = 0; k < 4; ++k) points.push_back(test::random_near(random, pole, 1e-12));
-    const incremental::ProjectedPoints sites(points, order, {});
+    const models::ProjectedPoints sites(points, order, {});
     const bool is_turned = sites.orientation(0, 1, 2) == Sign::negative;
     static_cast<void>(sites.is_in_conflict(0, is_turned ? 2 : 1, is_turned ? 1 : 2, 3));
     predicates::add(sum, sites.tally());

@@ -11,20 +11,20 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "blocks/cube_position.h"
-#include "blocks/hilbert.h"
-#include "blocks/radix_sort.h"
-#include "blocks/spatial_order.h"
-#include "incremental/brio.h"
+#include "kernel/brio.h"
+#include "order/cube_position.h"
+#include "order/hilbert.h"
+#include "order/radix_sort.h"
+#include "order/spatial_order.h"
 #include "rondel/predicates.h"
 #include "support/generators.h"
 
 namespace rondel {
 namespace {
 
-using blocks::CubePosition;
-using blocks::HilbertKey;
-using blocks::position_bits;
+using order::CubePosition;
+using order::HilbertKey;
+using order::position_bits;
 
 bool is_less(const HilbertKey& a, const HilbertKey& b) {
   return a.high != b.high ? a.high < b.high : a.low < b.low;
@@ -74,7 +74,7 @@ TEST(spatial_cube, the_curve_enters_a_face_where_it_leaves_the_one_before) {
           p[(k + 1) % 3] = (2 * i + 1.0) / side - 1;
           p[(k + 2) % 3] = (2 * j + 1.0) / side - 1;
           const Point point = {p[0], p[1], p[2]};
-          cells.emplace_back(hilbert_key(blocks::cube_position(point, {})), point);
+          cells.emplace_back(hilbert_key(order::cube_position(point, {})), point);
         }
       }
     }
@@ -92,8 +92,8 @@ TEST(spatial_cube, exact_positions_agree_with_rounded_ones_but_for_the_last_bits
   test::Random random(5);
   for (int i = 0; i < 5000; ++i) {
     const Point p = test::random_direction(random);
-    const CubePosition rounded = blocks::cube_position(p, {});
-    const CubePosition exact = blocks::exact_cube_position(p, {});
+    const CubePosition rounded = order::cube_position(p, {});
+    const CubePosition exact = order::exact_cube_position(p, {});
     EXPECT_EQ(rounded.face, exact.face);
     EXPECT_LE(std::llabs(static_cast<long long>(rounded.u - exact.u)), 4);
     EXPECT_LE(std::llabs(static_cast<long long>(rounded.v - exact.v)), 4);
@@ -104,13 +104,13 @@ TEST(spatial_radix_sort, sorts_spread_and_crowded_keys) {
   test::Random random(6);
   for (const int crowding : {0, 20, 40, 57}) {
     for (const std::size_t n : {0U, 1U, 2U, 31U, 33U, 5000U}) {
-      blocks::KeyedIndices data;
+      order::KeyedIndices data;
       for (Index i = 0; i < n; ++i) {
         data.keys.push_back((random.next() >> 5) >> crowding);
         data.indices.push_back(i);
       }
       const auto keys = data.keys;
-      blocks::radix_sort(data, 59);
+      order::radix_sort(data, 59);
       EXPECT_TRUE(std::ranges::is_sorted(data.keys));
       std::vector<bool> seen(n);
       for (std::size_t i = 0; i < n; ++i) {
@@ -124,7 +124,7 @@ TEST(spatial_radix_sort, sorts_spread_and_crowded_keys) {
 
 // All pairs, by the exact predicate.
 void expect_all_duplicates_found(std::span<const Point> sites, Model model, const Sphere& sphere) {
-  const auto order = blocks::spatial_order(sites, model, sphere.center, 1);
+  const auto order = order::spatial_order(sites, model, sphere.center, 1);
   std::vector<Index> representative(sites.size());
   for (Index i = 0; i < sites.size(); ++i) {
     representative[i] = i;
@@ -179,7 +179,7 @@ TEST(spatial_order, finds_rays_of_any_length_from_a_center_that_is_not_zero) {
 
 TEST(insertion_order, is_a_permutation_whose_rounds_grow) {
   for (const Index n : {0U, 1U, 7U, 64U, 100000U}) {
-    auto order = incremental::insertion_order(n);
+    auto order = kernel::insertion_order(n);
     // The last round is in spatial order, and is about 7/8 of all.
     const auto last_descent = std::adjacent_find(order.rbegin(), order.rend(), std::less<>());
     if (n == 100000) {

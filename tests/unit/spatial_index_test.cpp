@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "blocks/spatial_index.h"
+#include "order/spatial_index.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@ namespace {
 
 using rondel::Index;
 using rondel::no_index;
-using rondel::blocks::HilbertKey;
-using rondel::blocks::SpatialIndex;
+using rondel::order::HilbertKey;
+using rondel::order::SpatialIndex;
 
 bool any(Index) { return true; }
 bool unordered(Index) { return false; }

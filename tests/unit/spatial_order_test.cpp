@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The spatial order against a plain sort by its definition, for any number of threads.
-#include "blocks/spatial_order.h"
+#include "order/spatial_order.h"
 
 #include <algorithm>
 #include <tuple>
 
-#include "blocks/word_sort.h"
 #include "gtest/gtest.h"
+#include "order/word_sort.h"
 #include "predicates/ray_order.h"
 #include "support/generators.h"
 #include "support/random.h"
@@ -16,7 +16,7 @@
 namespace rondel {
 namespace {
 
-using blocks::SpatialOrder;
+using order::SpatialOrder;
 
 constexpr unsigned thread_counts[] = {1, 2, 3, 7, 16};
 
@@ -31,13 +31,13 @@ Sign compare_places(const Point& p, const Point& q, Model model, const Point& ce
 // Sorts all sites so that duplicates meet, keeps one of each place, sorts what is kept.
 SpatialOrder sort_by_definition(std::span<const Point> sites, Model model, const Point& center) {
   struct Entry {
-    blocks::HilbertKey key;
+    order::HilbertKey key;
     Index site;
     Index name;
   };
   std::vector<Entry> entries;
   for (Index i = 0; i < sites.size(); ++i) {
-    entries.push_back({blocks::place_key(sites[i], model, center), i, i});
+    entries.push_back({order::place_key(sites[i], model, center), i, i});
   }
   std::ranges::sort(entries, [&](const Entry& a, const Entry& b) {
     if (a.key != b.key) return a.key < b.key;
@@ -84,14 +84,14 @@ void expect_order_by_definition(std::span<const Point> sites, Model model, const
     EXPECT_EQ(order.renamed, expected.renamed) << threads;
   };
   for (const unsigned threads : thread_counts) {
-    expect_same(blocks::spatial_order(sites, model, center, threads), threads);
+    expect_same(order::spatial_order(sites, model, center, threads), threads);
   }
   std::vector<Point> ordered;
   for (const Index i : expected.order) ordered.push_back(sites[i]);
   for (const unsigned threads : {1U, 3U}) {
     std::vector<Point> copies(sites.size());
-    expect_same(blocks::spatial_order(sites, model, center, threads, {},
-                                      blocks::SiteCopies(std::span(copies))),
+    expect_same(order::spatial_order(sites, model, center, threads, {},
+                                     system::SiteCopies(std::span(copies))),
                 threads);
     copies.resize(ordered.size());
     EXPECT_EQ(copies, ordered) << threads;
@@ -153,11 +153,11 @@ void expect_keys_of_each(std::span<const Point> sites, Model model, const Point&
   std::vector<std::uint64_t> keys(sites.size());
   std::vector<std::uint64_t> keys_alone(sites.size());
   std::vector<std::uint64_t> low_keys(sites.size());
-  blocks::place_keys(sites, model, center, keys, low_keys);
-  blocks::place_keys(sites, model, center, keys_alone);
+  order::place_keys(sites, model, center, keys, low_keys);
+  order::place_keys(sites, model, center, keys_alone);
   EXPECT_EQ(keys_alone, keys);
   for (std::size_t i = 0; i < sites.size(); ++i) {
-    const blocks::HilbertKey key = blocks::place_key(sites[i], model, center);
+    const order::HilbertKey key = order::place_key(sites[i], model, center);
     EXPECT_EQ(keys[i], key.high) << i;
     EXPECT_EQ(low_keys[i], key.low) << i;
   }
@@ -196,7 +196,7 @@ TEST(spatial_word_sort, sorts_words_that_agree_in_any_of_their_bits) {
         auto expected = words;
         std::ranges::sort(expected);
         std::vector<std::uint64_t> result(n);
-        blocks::sort_words(words, result);
+        order::sort_words(words, result);
         EXPECT_EQ(result, expected) << n << ' ' << shift << ' ' << mask;
       }
     }

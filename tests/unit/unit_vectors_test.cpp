@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Unit vectors of many sites, and what the projected model makes of them.
-#include "blocks/unit_vectors.h"
+#include "exact/unit_vectors.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "incremental/projected_points.h"
+#include "models/projected_points.h"
 #include "support/generators.h"
 #include "support/random.h"
 
@@ -24,7 +24,7 @@ void expect_unit_vectors(const std::vector<Point>& sites, const Point& center) {
   std::vector<Index> order(sites.size());
   std::iota(order.rbegin(), order.rend(), Index{0});
   std::vector<exact::SplitPoint> units(sites.size());
-  blocks::unit_vectors(sites, order, center, units.data());
+  exact::unit_vectors(sites, order, center, units.data());
   for (std::size_t k = 0; k < units.size(); ++k) {
     const exact::SplitPoint u = exact::unit_vector(sites[order[k]], center);
     EXPECT_EQ(units[k].hi, u.hi) << k;
@@ -59,13 +59,13 @@ TEST(unit_vectors, decide_ties_alike_one_by_one_and_all_at_once) {
   }
   std::vector<Index> order(sites.size());
   std::iota(order.begin(), order.end(), Index{0});
-  const incremental::ProjectedPoints all(sites, order, center);
+  const models::ProjectedPoints all(sites, order, center);
   for (int i = 0; i < 2000; ++i) {
     std::array<Index, 4> four{};
     for (Index& k : four) k = static_cast<Index>(random.below(sites.size()));
     const auto [a, b, c, p] = four;
     if (a == b || a == c || a == p || b == c || b == p || c == p) continue;
-    const incremental::ProjectedPoints few(sites, four, center);
+    const models::ProjectedPoints few(sites, four, center);
     EXPECT_EQ(all.is_in_conflict(a, b, c, p), few.is_in_conflict(0, 1, 2, 3)) << i;
     EXPECT_EQ(all.climb(a, b, c, p), few.is_in_conflict(0, 1, 2, 3)) << i;
   }
@@ -81,9 +81,9 @@ TEST(unit_vectors, decide_ties_of_sites_that_came_later) {
   }
   std::vector<Index> order(sites.size());
   std::iota(order.begin(), order.end(), Index{0});
-  const incremental::ProjectedPoints all(sites, order, {});
+  const models::ProjectedPoints all(sites, order, {});
   const std::size_t few = 600;
-  incremental::ProjectedPoints growing(sites, std::span(order).first(few), {});
+  models::ProjectedPoints growing(sites, std::span(order).first(few), {});
   EXPECT_EQ(growing.climb(0, 1, 2, 3), all.climb(0, 1, 2, 3));
   for (Index p = few; p < sites.size(); ++p) growing.set(p, sites, order);
   for (Index p = 3; p < few; ++p) EXPECT_EQ(growing.climb(0, 1, 2, p), all.climb(0, 1, 2, p)) << p;

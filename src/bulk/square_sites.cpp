@@ -1,0 +1,313 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "bulk/square_sites.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <type_traits>
+
+#include "bulk/tangent_step.h"
+#include "order/cube_position.h"
+#include "predicates/bounds.h"
+#include "predicates/tally.h"
+#include "system/prefetch.h"
+#include "system/wide_vectors.h"
+
+namespace rondel::bulk {
+namespace {
+
+using predicates::add;
+using predicates::unit_roundoff;
+
+// u and v are off by at most 3 units: a difference in each coordinate, and the quotient. In units:
+// 2 * 2 * 3 sqrt(2) for the ends of two vectors, relative to the distance, and 5 * 2.83, the
+// largest distance, for the roundings of differences, products and their difference; 1.2 for terms
+// of higher order.
+constexpr double orientation_bound = 38 * unit_roundoff;
+
+// No bound is below this: products of what is smaller may lose bits to underflow.
+constexpr double least_bound = 1e-280;
+
+// The error of N.(y-l) with weights, relative to the square of the largest distance: 6 eta for the
+// ends of three vectors, where eta is the error of a point, and 8.8 units times the distance for
+// the roundings (docs/theory/filters.md); 1.2 for terms of higher order.
+double find_weighted_bound(double w_error, double most_w_distance) {
+  constexpr double most_uv = 2.83;
+  const double eta = unit_roundoff * std::sqrt(3 * 3 + 3 * 3 + w_error * w_error);
+  const double distance = std::sqrt(most_uv * most_uv + most_w_distance * most_w_distance);
+  return 1.2 * (6 * eta + 8.8 * unit_roundoff * distance);
+}
+
+// The error of volume() of steps from a site: for places, times w; for heights and roundings.
+constexpr double tangent_cube_bound = 1.5 * 68 * unit_roundoff;
+constexpr double tangent_bound = 256 * unit_roundoff;
+
+double squared_in_plane(const SquareVector& a) { return a.u * a.u + a.v * a.v; }
+
+// The surface w = sqrt(1 + u^2 + v^2) and its tangent plane above the middle of a square.
+class Tangent {
+ public:
+  Tangent(const Square& square, double hand) {
+    const auto ratio = [&square](std::uint64_t position) {
+      const auto middle = static_cast<double>(position) + std::ldexp(0.5, square.bits);
+      return std::ldexp(middle, 1 - order::position_bits) - 1;
+    };
+    u_ = ratio(square.corner.u);
+    v_ = hand * ratio(square.corner.v);
+    w_ = std::sqrt(1 + (u_ * u_ + v_ * v_));
+  }
+
+  // The height of the surface over the plane, where w is the third coordinate of the surface. The
+  // differences of w and of the plane from w_ nearly cancel, so they are not computed.
+  [[nodiscard]] RONDEL_ALWAYS_INLINE double height(double u, double v, double w) const {
+    const double du = u - u_;
+    const double dv = v - v_;
+    const double squared = du * du + dv * dv;
+    const double along = u_ * du + v_ * dv;
+    const double sum = w + w_;
+    return (squared * w_ - along * (2 * along + squared) / sum) / (w_ * sum);
+  }
+
+ private:
+  double u_;
+  double v_;
+  double w_;
+};
+
+// Where a difference overflows, or z is 0, the position is wrong: the last or the middle one.
+RONDEL_ALWAYS_INLINE inline std::uint64_t position_of(double ratio) {
+  constexpr double last = 0x1p52 - 1;
+  const double p = (ratio + 1) * 0x1p51;  // position_bits - 1
+  return static_cast<std::uint64_t>(static_cast<std::int64_t>(p < last ? p : last));
+}
+
+// Whether rounding may have changed the upper bits, from least_bit on.
+bool is_doubtful(std::uint64_t position) {
+  constexpr std::uint64_t mask = (std::uint64_t{1} << least_bit) - 1;
+  return ((position + position_rounding) & mask) < 2 * position_rounding;
+}
+
+constexpr std::size_t batch = 128;  // coordinates found at once
+
+// Sites are given a traits class of their own for up to one question in so many sites.
+constexpr Index many = 128;
+
+// side_over_tangent() is asked until it has failed this much more often than not.
+constexpr std::uint64_t most_ties = 16;
+
+template <class T>
+constexpr bool is_weighted = std::is_same_v<T, models::WeightedPoints>;
+
+}  // namespace
+
+template <models::SphereTraits T>
+void SquareSites<T>::assign(std::span<const Point> sites, std::span<const Index> order, Index first,
+                            Index num_sites, const Point& center, const Extent& extent,
+                            SquareCoordinates& coordinates, const system::SiteCopies& copies) {
+  points_ = coordinates.points();
+  positions_ = coordinates.positions();
+  sites_ = sites;
+  order_ = order;
+  copies_ = copies;
+  first_ = first;
+  num_sites_ = num_sites;
+  next_ = first;
+  center_ = center;
+  extent_ = extent;
+  bits_ = -1;
+  num_unsure_ = 0;
+  num_filtered_ = 0;
+  num_ties_ = 0;
+  num_over_tangent_ = 0;
+  tally_ = {};
+  exact_.assign({}, {}, center);
+  accurate_.assign(sites, order.subspan(first, num_sites), center);
+}
+
+template <models::SphereTraits T>
+void SquareSites<T>::find_bounds(int bits) {
+  bits_ = bits;
+  if (is_weighted<T>) {
+    // w is off by at most 2 units; it is below sqrt(3) s/|p|.
+    const double most_w = 1.74 * extent_.most_size / extent_.least_size;
+    square_bound_ = find_weighted_bound(2.1 * most_w, most_w);
+    cube_bound_ = 0;
+  } else {
+    // In units: 71 length^2 for the error of w, 39 for those of u and v, 34 length for roundings;
+    // half of the last two more for terms of higher order (docs/theory/blocks.md).
+    const double length = std::ldexp(1, bits + 1 - order::position_bits);
+    square_bound_ = 81 * unit_roundoff * (length * length);
+    cube_bound_ = 1.5 * (39 + 34 * length) * unit_roundoff;
+  }
+  double part = std::ldexp(1, 1 - order::position_bits);
+  for (int i = 0; i <= bits; ++i) {
+    limits_[static_cast<std::size_t>(i)] = limits(part);
+    part *= 2;
+  }
+}
+
+template <models::SphereTraits T>
+void SquareSites<T>::read_sites(std::size_t first, std::size_t end, std::span<Point> sites) const {
+  if (!copies_.is_empty()) return copies_.get(first, sites);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const std::size_t later = first + i + system::prefetch_distance;
+    if (later < end) system::prefetch(&sites_[order_[later]]);
+    sites[i] = sites_[order_[first + i]];
+  }
+}
+
+template <models::SphereTraits T>
+void SquareSites<T>::enter(const Square& square, Index num_sites) {
+  if (bits_ != square.bits) find_bounds(square.bits);
+  const unsigned cube_face = square.corner.face;
+  const order::CubeAxes axes = order::cube_axes(cube_face);
+  const auto u_axis = exact::to_vector(axes.u);
+  const auto v_axis = exact::to_vector(axes.v);
+  const auto out = exact::to_vector(axes.out);
+  const double hand = det(u_axis, v_axis, out);
+  hand_ = hand;
+  const double most_size = extent_.most_size;
+  const Tangent tangent(square, hand);
+  const auto origin = exact::to_vector(center_);
+  const std::size_t end = std::size_t{next_} + num_sites;
+  doubtful_.clear();
+  std::array<Point, batch> some;
+  for (std::size_t first = next_; first < end; first += batch) {
+    const std::span sites(some.data(), std::min(batch, end - first));
+    read_sites(first, end, sites);
+    SquarePoint* const point = points_ + first;
+    SquarePosition* const position = positions_ + first;
+    system::with_wide_vectors([=]() RONDEL_ALWAYS_INLINE {
+      for (std::size_t i = 0; i < sites.size(); ++i) {
+        const double x = sites[i].x - origin.x;
+        const double y = sites[i].y - origin.y;
+        const double z = sites[i].z - origin.z;
+        // A product with an axis picks a coordinate, exactly.
+        const double depth = x * out.x + y * out.y + z * out.z;
+        const double u = (x * u_axis.x + y * u_axis.y + z * u_axis.z) / depth;
+        const double v = (x * v_axis.x + y * v_axis.y + z * v_axis.z) / depth;
+        const double size = is_weighted<T> ? most_size / depth : std::sqrt(1 + (u * u + v * v));
+        const double w = is_weighted<T> ? size : tangent.height(u, hand * v, size);
+        point[i] = {u, hand * v, w, size};
+        position[i] = {position_of(u), position_of(v)};
+      }
+    });
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      if (is_doubtful(position[i].u) || is_doubtful(position[i].v))
+        doubtful_.push_back(static_cast<Index>(first + i));
+    }
+  }
+  next_ += num_sites;
+  accurate_.enter(points_ + first_, cube_face);
+}
+
+// With weights w is sqrt(1 + u^2 + v^2) s/|p|, and the change of the root is at most that of (u,
+// v).
+template <models::SphereTraits T>
+SquareLimits SquareSites<T>::limits(double length) const {
+  double distance = 1.42 * length;
+  if (is_weighted<T>) {
+    const double most_ratio = extent_.most_size / extent_.least_size;
+    distance = most_ratio * 2.01 * length + 1.74 * (most_ratio - 1);
+  }
+  return {std::max(orientation_bound * distance, least_bound),
+          std::max(conflict_limit(distance), least_bound)};
+}
+
+template <models::SphereTraits T>
+template <std::size_t N, class Test>
+auto SquareSites<T>::ask_traits(const std::array<Index, N>& indices, Test test) const {
+  std::array<Index, N> names{};
+  if (num_unsure_ <= num_sites_ / many) ++num_unsure_;
+  if (num_unsure_ > num_sites_ / many) {
+    if (exact_.size() == 0) exact_.assign(sites_, order_.subspan(first_, num_sites_), center_);
+    for (std::size_t i = 0; i < N; ++i) names[i] = indices[i] - first_;
+    return test(exact_, names);
+  }
+  std::array<Index, N> sites{};
+  for (Index i = 0; i < N; ++i) {
+    sites[i] = order_[indices[i]];
+    names[i] = i;
+  }
+  few_.assign(sites_, sites, center_);
+  const auto answer = test(few_, names);
+  add(tally_, few_.tally());
+  return answer;
+}
+
+template <models::SphereTraits T>
+Sign SquareSites<T>::orientation(Index a, Index b, Index c) const {
+  const SquareVector ab = points_[b] - points_[a];
+  const SquareVector ac = points_[c] - points_[a];
+  const double value = cross(ab, ac).w;
+  const double bound =
+      orientation_bound * std::sqrt(std::max(squared_in_plane(ab), squared_in_plane(ac)));
+  if (std::abs(value) > std::max(bound, least_bound)) return exact::sign_of(value);
+  if (!is_weighted<T>) {
+    const Sign sign = accurate_.orientation(a - first_, b - first_, c - first_);
+    if (sign != Sign::zero) return sign;
+  }
+  return ask_traits(std::array{a, b, c}, [](const T& t, const std::array<Index, 3>& i) {
+    return t.orientation(i[0], i[1], i[2]);
+  });
+}
+
+template <models::SphereTraits T>
+Sign SquareSites<T>::side_over_tangent(Index a, Index b, Index c, Index p) const {
+  const SquarePoint& x = points_[a];
+  const auto step_to = [&](Index i) {
+    const SquarePoint& y = points_[i];
+    return tangent_step({x.u, x.v, x.size}, y.u - x.u, y.v - x.v, y.size);
+  };
+  const auto ab = step_to(b);
+  const auto ac = step_to(c);
+  const auto ap = step_to(p);
+  const double value = volume(ab, ac, ap);
+  const double squared = max_squared(ab, ac, ap);
+  const double bound =
+      (tangent_cube_bound * std::sqrt(squared) + tangent_bound * squared) * squared;
+  return std::abs(value) > std::max(bound, least_bound) ? exact::sign_of(value) : Sign::zero;
+}
+
+template <models::SphereTraits T>
+bool SquareSites<T>::is_in_conflict(Index a, Index b, Index c, Index p, double value) const {
+  if constexpr (is_weighted<T>) {
+    const auto squared = [&](Index i) {
+      const SquareVector x = points_[i] - points_[a];
+      return dot(x, x);
+    };
+    const double distance = std::sqrt(std::max({squared(b), squared(c), squared(p)}));
+    if (std::abs(value) > std::max(conflict_limit(distance), least_bound)) {
+      ++num_filtered_;
+      return value < 0;
+    }
+  } else {
+    if (num_ties_ <= most_ties * (num_over_tangent_ + 1)) {
+      const Sign side = side_over_tangent(a, b, c, p);
+      if (side != Sign::zero) {
+        ++num_filtered_;
+        ++num_over_tangent_;
+        return side == Sign::negative;
+      }
+      ++num_ties_;
+    }
+  }
+  return ask_traits(std::array{a, b, c, p}, [](const T& t, const std::array<Index, 4>& i) {
+    return t.climb(i[0], i[1], i[2], i[3]);
+  });
+}
+
+template <models::SphereTraits T>
+Tally SquareSites<T>::tally() const {
+  Tally tally = tally_;
+  if (exact_.size() != 0) add(tally, exact_.tally());
+  tally.filter += num_filtered_;
+  return tally;
+}
+
+template class SquareSites<models::ProjectedPoints>;
+template class SquareSites<models::WeightedPoints>;
+
+}  // namespace rondel::bulk

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "bulk/squares.h"
+
+#include <algorithm>
+#include <array>
+
+namespace rondel::bulk {
+namespace {
+
+using Position = std::function<order::CubePosition(Index)>;
+
+// The first rank in begin ... end-1 for which this is so; it is so for all that follow.
+template <class Predicate>
+Index find_first(Index begin, Index end, Predicate predicate) {
+  while (begin < end) {
+    const Index middle = begin + (end - begin) / 2;
+    if (predicate(middle)) {
+      end = middle;
+    } else {
+      begin = middle + 1;
+    }
+  }
+  return begin;
+}
+
+// The quadrants in the order of the curve.
+Square quadrant(const Square& square, unsigned rank) {
+  Square child = square;
+  --child.bits;
+  const std::uint64_t half = std::uint64_t{1} << child.bits;
+  for (unsigned u = 0; u < 2; ++u) {
+    for (unsigned v = 0; v < 2; ++v) {
+      if (order::hilbert_table::rank_in(square.state, u, v) != rank) continue;
+      child.corner.u += u * half;
+      child.corner.v += v * half;
+    }
+  }
+  child.state ^= order::hilbert_table::state_change[rank];
+  return child;
+}
+
+bool has(const Square& square, const order::CubePosition& p) {
+  return (p.u - square.corner.u) >> square.bits == 0 && (p.v - square.corner.v) >> square.bits == 0;
+}
+
+bool is_small(const Block& block, std::size_t max_sites) {
+  return block.end - block.begin <= max_sites || block.square.bits == 0;
+}
+
+std::array<Block, 4> quarters(const Block& block, const Position& position) {
+  std::array<Block, 4> result{};
+  Index begin = block.begin;
+  for (unsigned rank = 0; rank < 4; ++rank) {
+    const Square square = quadrant(block.square, rank);
+    const Index end = rank == 3 ? block.end : find_first(begin, block.end, [&](Index i) {
+      return !has(square, position(i));
+    });
+    result[rank] = {begin, end, square};
+    begin = end;
+  }
+  return result;
+}
+
+void split(const Block& block, std::size_t max_sites, const Position& position,
+           std::vector<Block>& blocks) {
+  if (block.begin == block.end) return;
+  if (is_small(block, max_sites)) {
+    blocks.push_back(block);
+    return;
+  }
+  for (const Block& quarter : quarters(block, position)) {
+    split(quarter, max_sites, position, blocks);
+  }
+}
+
+}  // namespace
+
+std::array<Block, 6> cube_faces(Index num_ranks, const Position& position) {
+  std::array<Block, 6> result{};
+  Index begin = 0;
+  for (unsigned face = 0; face < 6; ++face) {
+    const Index end =
+        find_first(begin, num_ranks, [&](Index i) { return position(i).face > face; });
+    result[face] = {begin, end, {{face, 0, 0}, order::position_bits, 0}};
+    begin = end;
+  }
+  return result;
+}
+
+std::vector<Block> make_blocks(Index num_ranks, std::size_t max_sites, const Position& position) {
+  std::vector<Block> blocks;
+  for (const Block& face : cube_faces(num_ranks, position)) {
+    split(face, max_sites, position, blocks);
+  }
+  return blocks;
+}
+
+Block block_around(Index rank, Index num_ranks, std::size_t max_sites, const Position& position) {
+  const auto has_rank = [rank](const Block& b) { return b.begin <= rank && rank < b.end; };
+  const auto faces = cube_faces(num_ranks, position);
+  Block block = *std::ranges::find_if(faces, has_rank);
+  while (!is_small(block, max_sites)) {
+    const auto parts = quarters(block, position);
+    block = *std::ranges::find_if(parts, has_rank);
+  }
+  return block;
+}
+
+}  // namespace rondel::bulk

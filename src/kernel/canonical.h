@@ -1,0 +1,28 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The canonical order of the result: it depends on the surface alone, not on how it was built.
+#pragma once
+
+#include <vector>
+
+#include "kernel/walk.h"
+#include "rondel/triangulation.h"
+#include "topology/mesh.h"
+
+namespace rondel::kernel {
+
+// Writes faces and neighbors: a face belongs to its corner of smallest rank and starts with it. The
+// faces of one owner follow counterclockwise, beginning with the one whose second corner has the
+// smallest rank. Vertices of the mesh are ranks below names.size(); they are written under their
+// names.
+//
+// Uses up the mesh: afterwards vertex[0] of each face is its place in the order. So the result
+// needs no third array of the size of the mesh beside it. `scratch` lends its memory.
+void write_canonical(topology::Mesh& mesh, const std::vector<Index>& names,
+                     std::vector<Index> scratch, TriangulationArrays& arrays);
+
+// Lists the faces that are not solid, in their order, once write_canonical has used up the mesh.
+void report_ghosts(const topology::Mesh& mesh, const FaceKinds& kinds, std::vector<Index>& ghosts);
+
+}  // namespace rondel::kernel

@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// From sites in spatial order to the arrays of the result.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "order/renamed.h"
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel::kernel {
+
+struct Triangulated {
+  TriangulationArrays arrays;  // but for duplicates, num_sites and the faces of hidden sites
+  Tally tally;
+};
+
+// `order` lists the distinct sites by rank; `names` the input indices to report for them.
+// Takes both, to free them as early as possible.
+Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
+                         std::span<const order::Renamed> renamed, const Options& options);
+
+}  // namespace rondel::kernel
