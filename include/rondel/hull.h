@@ -26,9 +26,9 @@ struct HullOptions {
 /// corner.
 ///
 /// 1. `dimension` is 2 for points that span space: closed triangles, counterclockwise seen from
-/// outside.
-///    A facet with more than three corners is triangulated in a way that depends on its corners
-///    only; every other point is hidden (the face is the first whose cone from the center has it).
+///    outside. A facet with more than three corners is triangulated in a way that depends on its
+///    corners only; every other point is hidden (below the first face whose cone from the center
+///    has it).
 /// 2. Points in one plane are a flat hull: dimension 1, and `ring()` has the corners of the
 ///    convex polygon, counterclockwise seen from the side to which the plane's normal points, its
 ///    first non-zero coordinate being positive. Points on one line: `ring()` has the two ends, in

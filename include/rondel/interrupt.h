@@ -23,8 +23,7 @@ class Interrupted : public std::exception {
 /// 1. It is set for the calling thread alone, and until `work` ends. Calls may be nested: the inner
 ///    flag counts.
 /// 2. Work between two loops goes on to the next one, and short work to its end. A progress
-/// function
-///    (Options::progress) may throw as well.
+///    function (Options::progress) may throw as well.
 void call_interruptible(const std::atomic<bool>& stop, const std::function<void()>& work);
 
 }  // namespace rondel

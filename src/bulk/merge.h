@@ -4,13 +4,13 @@
 // Two triangulations that a great circle separates become one (Guibas and Stolfi, ACM Trans. Graph.
 // 4, 1985): the conquest of divide and conquer.
 //
-//      .----.   .----.     A merge finds the lower common tangent of the outer boundaries and
-//      climbs: | L   l--r  R |     each step tries the first neighbors of l and r above the edge
-//      (l, r), |    / \/ \   |     deletes those in front of which another one lies, and adds the
-//      edge of |   x--r'--\  |     the lower face.
-//      '----'   '----'
+//      .----.   .----.      A merge finds the lower common tangent (l, r) of the outer boundaries
+//     |    x-\-/      |     of L and R, and sews upwards from it. Each step tries the first
+//     | L   \ r'  R   |     neighbors of l and r above the edge (l, r), deletes the edges to
+//     |      l-r      |     those in front of which another one lies, and adds the edge that
+//      '----'   '----'      closes the lower face: (l, r') or (x, r).
 //
-// docs/theory/blocks.md shows that this holds for weighted sites as well: the squares of the power
+// docs/theory/blocks.md shows that this holds for weighted sites as well: the cells of the power
 // diagrams of L and R meet in one chain, and what lies behind it is never met again.
 #pragma once
 

@@ -5,11 +5,9 @@
 //
 //            solid         A hidden site p lies on its ray between a solid face above it and, when
 //         .---------.      the center o is outside, an entry face below it. As long as both are
-//         there, p
-//        /     p     \     is inside the hull. With o inside, nothing is needed below. Sites
-//        '-----------'     without an entry face are "ungrounded": they depend on o staying inside,
-//        or on
-//            entry         grazing faces.
+//        /     p     \     there, p is inside the hull. With o inside, nothing is needed below.
+//        '-----------'     Sites without an entry face are "ungrounded": they depend on o staying
+//            entry         inside, or on grazing faces.
 //              o
 #pragma once
 

@@ -3,12 +3,11 @@
 
 // Which of many sites need not be inserted because they lie deep inside the hull of others.
 //
-//        .-------.         1. Of the sites in each cell of a grid of directions the farthest is a
-//      / . * .  .  \          candidate (*); the candidates' hull is built.
-//     *  .  o . .   *      2. Its gauge g, the function with g = 1 on its boundary and g(tx) = t
-//     g(x),
-//      \  .   . .  /          is convex. So on a cell of the cube the bilinear interpolation of
-//        '--*----'            values at the cell's corners is an upper bound.
+//        .-------.         1. Of the sites in each square of a grid of directions the farthest is
+//      / . * .  .  \          a candidate (*); the candidates' hull is built.
+//     *  .  o . .   *      2. Its gauge g, the function with g = 1 on its boundary and
+//      \  .   . .  /          g(tx) = t g(x), is convex. So on a square of the cube the bilinear
+//        '--*----'            interpolation of values at its corners is an upper bound.
 //                          3. A site whose bound is below 1 by more than the errors is inside.
 //
 // The test may fail to notice that a site is inside, never the converse: the hull of all sites is

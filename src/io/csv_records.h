@@ -15,8 +15,7 @@ namespace rondel::io {
 
 // 1. Records end with LF or CRLF, the last one also with the text. Empty lines are skipped.
 // 2. A field that starts with a quote ends with the next single quote; inside, two quotes stand for
-// one
-//    and line ends are part of it. Elsewhere quotes are ordinary characters.
+//    one and line ends are part of it. Elsewhere quotes are ordinary characters.
 class CsvRecords {
  public:
   CsvRecords(std::string_view text, char delimiter)
