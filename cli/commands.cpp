@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "command.h"
-#include "generate.h"
+#include "inputs/kinds.h"
 #include "run.h"
 #include "validate.h"
 
@@ -16,7 +16,7 @@ namespace rondel::cli {
 namespace {
 
 std::string kind_error(const std::string& text) {
-  return find_kind(text) != nullptr ? std::string() : "'" + text + "' is not a kind";
+  return inputs::find_kind(text) != nullptr ? std::string() : "'" + text + "' is not a kind";
 }
 
 std::string count_error(const std::string& text) { return whole_error(text, 1, max_sites); }
@@ -26,13 +26,18 @@ std::string seed_error(const std::string& text) {
 }
 
 std::string kinds_help() {
-  std::string text = "Kinds:\n";
-  for (const Kind& kind : kinds()) {
-    std::string name(kind.name);
-    name.resize(14, ' ');
-    text += "  " + name + std::string(kind.what) + '\n';
-  }
-  return text;
+  const auto list = [](std::span<const inputs::Kind> kinds) {
+    std::string text;
+    for (const inputs::Kind& kind : kinds) {
+      std::string name(kind.name);
+      name.resize(18, ' ');
+      text += "  " + name + std::string(kind.what) + '\n';
+    }
+    return text;
+  };
+  return "Kinds:\n" + list(inputs::plain_kinds()) +
+         "\nHostile kinds, which cost some algorithms much time or many digits:\n" +
+         list(inputs::hostile_kinds());
 }
 
 std::string distance_error(const std::string& text) { return range_error(text, 0, 180); }
@@ -141,13 +146,14 @@ Command add_check_command(CLI::App& tool) {
 Command add_generate_command(CLI::App& tool) {
   auto options = std::make_shared<GenerateOptions>();
   CLI::App* parser = tool.add_subcommand("generate", "Generate sites to try things out");
-  Recipe& recipe = options->recipe;
+  inputs::Recipe& recipe = options->recipe;
   parser->add_option("KIND", options->kind, "What to generate: see below")
       ->required()
       ->check(kind_error)
       ->type_name("");
-  parser->add_option("-n,--number", recipe.n, "Number of sites")
+  parser->add_option("-n,--number", recipe.n, "Number of sites, also as 1e6")
       ->check(count_error)
+      ->transform(digits_of_whole)
       ->type_name("N");
   add_output_option(*parser, options->common,
                     "Where to write the sites: .csv .tsv (with a header), .xyz .txt .npy");
@@ -155,8 +161,8 @@ Command add_generate_command(CLI::App& tool) {
       ->check(seed_error)
       ->type_name("S");
   CLI::Option* angle = parser->add_option("--angle", options->angle,
-                                          "Angular radius of patch, cluster and small-circle,\n"
-                                          "largest one of circles");
+                                          "Angular radius of patch, cluster, cap and\n"
+                                          "small-circle, largest one of circles, width of wedge");
   angle->check(positive_error)->type_name("DEG");
   parser->add_flag("--radians", options->common.read.radians, "--angle is in radians")
       ->needs(angle);
@@ -164,7 +170,7 @@ Command add_generate_command(CLI::App& tool) {
   CLI::Option* columns =
       parser->add_option("--columns", recipe.columns, "lonlat-grid: number of meridians");
   for (CLI::Option* option : {rows, columns}) {
-    option->check(count_error)->type_name("N");
+    option->check(count_error)->transform(digits_of_whole)->type_name("N");
   }
   rows->needs(columns);
   columns->needs(rows);

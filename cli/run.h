@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "command.h"
-#include "generate.h"
+#include "inputs/kinds.h"
 
 namespace rondel::cli {
 
@@ -32,7 +32,7 @@ struct CheckOptions {
 struct GenerateOptions {
   CommonOptions common;
   std::string kind;
-  Recipe recipe;
+  inputs::Recipe recipe;
   double angle = 0;  ///< in the unit of the command line; 0: the kind's own
 };
 

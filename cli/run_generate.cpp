@@ -2,13 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "inputs/kinds.h"
 #include "report.h"
 #include "run.h"
 
 namespace rondel::cli {
 namespace {
+
+using inputs::Kind;
+using inputs::Recipe;
 
 void require_parts(const Kind& kind, const Recipe& recipe) {
   const std::string name(kind.name);
@@ -16,11 +19,11 @@ void require_parts(const Kind& kind, const Recipe& recipe) {
   if (has_grid && name != "lonlat-grid") {
     throw UsageError("--rows and --columns are for lonlat-grid, not for " + name);
   }
-  if (recipe.angle_deg > 0 && !kind.takes_angle) {
+  if (recipe.angle_deg > 0 && kind.angle_deg == 0) {
     throw UsageError("--angle: " + name + " has no angle");
   }
-  if (name == "circles" && recipe.angle_deg >= 90) {
-    throw UsageError("--angle: circles have radii of less than 90 degrees");
+  if ((name == "circles" || name == "cap") && recipe.angle_deg >= 90) {
+    throw UsageError("--angle: " + name + ": less than 90 degrees");
   }
   if (recipe.angle_deg > 180) throw UsageError("--angle is more than half a turn");
   if (!has_grid && recipe.n == 0) throw UsageError("-n,--number is required");
@@ -34,23 +37,23 @@ void require_parts(const Kind& kind, const Recipe& recipe) {
 ExitStatus run_generate(const GenerateOptions& options) {
   const CommonOptions& common = options.common;
   require_output(common, can_write_sites(common.output), ".csv .tsv .xyz .txt .npy");
-  const Kind& kind = *find_kind(options.kind);
+  const Kind& kind = *inputs::find_kind(options.kind);
   Recipe recipe = options.recipe;
-  recipe.angle_deg = common.read.radians ? options.angle * (180 / std::numbers::pi) : options.angle;
+  recipe.angle_deg =
+      common.read.radians ? options.angle * inputs::degrees_per_radian : options.angle;
   require_parts(kind, recipe);
   Job job(common);
-  const Generated generated = kind.make(recipe);
-  job.time(Stage::write, [&] {
-    write_sites(common.output, generated.sites, generated.positions, generated.radii_deg);
-  });
+  const inputs::Input made = make(kind, recipe);
+  job.time(Stage::write,
+           [&] { write_sites(common.output, made.sites, made.positions, made.radii_deg); });
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {
       {"kind", options.kind},
-      {"sites", generated.sites.size()},
+      {"sites", made.sites.size()},
       {"seed", recipe.seed},
       {"seconds", {{"write", seconds.write}, {"total", seconds.total}}}};
-  job.report(json.dump(2) + '\n', "wrote " + count(generated.sites.size(), "site", "sites") +
-                                      " to " + common.output + '\n');
+  job.report(json.dump(2) + '\n',
+             "wrote " + count(made.sites.size(), "site", "sites") + " to " + common.output + '\n');
   return done;
 }
 

@@ -44,6 +44,14 @@ std::string range_error(const std::string& text, double min, double max) {
   return "'" + text + range;
 }
 
+std::string digits_of_whole(std::string text) {
+  double value = 0;
+  const bool is_digits = text.find_first_of(".eE") == std::string::npos;
+  if (is_digits || !parse(text, value)) return text;
+  const bool is_whole = value >= 0 && value <= 0x1p53 && value == std::floor(value);
+  return is_whole ? std::to_string(static_cast<std::uint64_t>(value)) : text;
+}
+
 std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_t max) {
   std::uint64_t value = 0;
   const bool is_octal = text.size() > 1 && text.front() == '0';  // to the parser that follows

@@ -14,6 +14,9 @@ std::string finite_error(const std::string& text);
 std::string positive_error(const std::string& text);
 /// A number in [min, max].
 std::string range_error(const std::string& text, double min, double max);
+/// The decimal digits of a whole number that is written with a point or an exponent, as 1e6; other
+/// text as it is.
+std::string digits_of_whole(std::string text);
 /// A whole number in [min, max], decimal.
 std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_t max);
 

@@ -33,7 +33,7 @@
 #include "models/projected_points.h"
 #include "models/sphere_traits.h"
 #include "models/weighted_points.h"
-#include "system/huge_pages.h"
+#include "rondel/large_vector.h"
 #include "system/site_copies.h"
 
 namespace rondel::bulk {
@@ -67,11 +67,10 @@ class SquareCoordinates {
 
   // For so many; forgets what there was if it has to grow.
   void reserve(std::size_t size) {
-    if (size <= capacity_) return;
+    if (size * bytes_of_site <= memory_.size()) return;
     memory_ = {};
-    memory_ = system::make_large_array<std::byte>(size * bytes_of_site);
-    capacity_ = size;
-    place(memory_.get(), size);
+    memory_.resize(size * bytes_of_site);
+    place(memory_.data(), size);
   }
   // In memory of the caller.
   void place(std::byte* memory, std::size_t size) {
@@ -83,8 +82,7 @@ class SquareCoordinates {
   [[nodiscard]] SquarePosition* positions() { return positions_; }
 
  private:
-  system::LargeArray<std::byte> memory_;
-  std::size_t capacity_ = 0;
+  LargeVector<std::byte> memory_;
   SquarePoint* points_ = nullptr;
   SquarePosition* positions_ = nullptr;
 };

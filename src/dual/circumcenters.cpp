@@ -6,7 +6,6 @@
 
 #include "dual/parts.h"
 #include "rondel/diagram.h"
-#include "system/arithmetic.h"
 #include "system/huge_pages.h"
 #include "system/parallel.h"
 
@@ -45,7 +44,6 @@ std::vector<Point> dual::circumcenters(const Triangulation& triangulation, const
 }
 
 std::vector<Point> circumcenters(const Triangulation& triangulation, std::span<const Point> sites) {
-  const system::ArithmeticScope arithmetic;
   return dual::circumcenters(triangulation, dual::SplitSites(triangulation, sites));
 }
 

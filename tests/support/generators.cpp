@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
+#include <deque>
 #include <numbers>
 #include <stdexcept>
+#include <string>
 
 namespace rondel::test {
 
 std::span<const Generator> generators() {
   static const std::vector<Generator> all = [] {
     std::vector<Generator> result;
-    for (const auto& group : {spherical_generators(), spatial_generators(), extreme_generators()}) {
+    for (const auto& group : {spherical_generators(), spatial_generators(), extreme_generators(),
+                              hostile_generators()}) {
       result.insert(result.end(), group.begin(), group.end());
     }
     return result;
@@ -28,30 +30,23 @@ const Generator& generator(std::string_view name) {
   return *found;
 }
 
-Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-Point operator*(double s, const Point& p) { return {s * p.x, s * p.y, s * p.z}; }
-
-Point cross_product(const Point& a, const Point& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+SiteSet Generator::make(std::size_t n, std::uint64_t seed) const {
+  if (kind == nullptr) return from(n, seed);
+  return {inputs::make(*kind, {.n = n, .seed = seed}).sites};
 }
 
-Point normalized(const Point& p) {
-  const double length = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
-  return {p.x / length, p.y / length, p.z / length};
-}
-
-Point random_direction(Random& random) {
-  for (;;) {
-    const Point p = {random.signed_unit(), random.signed_unit(), random.signed_unit()};
-    const double square = p.x * p.x + p.y * p.y + p.z * p.z;
-    if (square <= 1 && square > 0.01) return normalized(p);
-  }
-}
-
-Point random_near(Random& random, const Point& pole, double radius) {
-  const Point direction = random_direction(random);  // first: compilers order operands as they like
-  return normalized(pole + (radius * random.unit()) * direction);
+std::span<const Generator> hostile_generators() {
+  static std::deque<std::string> names;
+  static const std::vector<Generator> hostile = [] {
+    std::vector<Generator> result;
+    for (const inputs::Kind& kind : inputs::hostile_kinds()) {
+      std::ranges::replace(names.emplace_back(kind.name), '-', '_');
+      const bool has_long_integers = kind.name == "exponents";
+      result.push_back({names.back(), nullptr, false, has_long_integers, &kind});
+    }
+    return result;
+  }();
+  return hostile;
 }
 
 namespace {
@@ -72,14 +67,6 @@ double cosine_deg(double angle) { return sine_deg(90 - std::abs(angle)); }
 
 Point unit_vector_deg(double lon, double lat) {
   return {cosine_deg(lat) * cosine_deg(lon), cosine_deg(lat) * sine_deg(lon), sine_deg(lat)};
-}
-
-Point moved_by_one_ulp(Random& random, Point p) {
-  const double toward = (random.coin() ? 1 : -1) * std::numeric_limits<double>::infinity();
-  double* const coordinates[] = {&p.x, &p.y, &p.z};
-  double& x = *coordinates[random.below(3)];
-  x = std::nextafter(x, toward);
-  return p;
 }
 
 std::vector<Point> paper_s(std::size_t n) {

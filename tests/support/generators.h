@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+#include "inputs/kinds.h"
+#include "inputs/points.h"
 #include "rondel/types.h"
 #include "support/random.h"
 
@@ -22,10 +24,13 @@ struct SiteSet {
 
 struct Generator {
   std::string_view name;
+  SiteSet (*from)(std::size_t n, std::uint64_t seed);
+  bool weighted_only = false;          // a site may be the center
+  bool has_long_integers = false;      // slow for the exact oracle
+  const inputs::Kind* kind = nullptr;  // of the inputs that all programs share, instead of `from`
+
   // About n sites; some kinds give a few more or fewer.
-  SiteSet (*make)(std::size_t n, std::uint64_t seed);
-  bool weighted_only = false;      // a site may be the center
-  bool has_long_integers = false;  // slow for the exact oracle
+  [[nodiscard]] SiteSet make(std::size_t n, std::uint64_t seed) const;
 };
 
 // Kinds that mean to lie on a sphere (directions matter), and kinds that fill space (planes, cubes,
@@ -34,25 +39,24 @@ std::span<const Generator> spherical_generators();
 std::span<const Generator> spatial_generators();
 // The ends of the range of doubles, and remote centers.
 std::span<const Generator> extreme_generators();
+// The hostile kinds of inputs/kinds.h, with _ instead of - in their names.
+std::span<const Generator> hostile_generators();
 // All, in this order.
 std::span<const Generator> generators();
 // \pre there is one of this name.
 const Generator& generator(std::string_view name);
 
-// The exactly reproducible pieces of which generators are made.
-Point operator+(const Point& a, const Point& b);
-Point operator-(const Point& a, const Point& b);
-Point operator*(double s, const Point& p);
-Point cross_product(const Point& a, const Point& b);
-Point normalized(const Point& p);
-Point random_direction(Random& random);
-// A unit vector at most about `radius` (in radians) away from `pole`.
-Point random_near(Random& random, const Point& pole, double radius);
+using inputs::cross_product;
+using inputs::moved_by_one_ulp;
+using inputs::normalized;
+using inputs::random_near;
+using inputs::operator+;
+using inputs::operator-;
+using inputs::operator*;
+inline Point random_direction(Random& random) { return random.direction(); }
 // The unit vector of a longitude and latitude, as good as the C library's sine except that
 // multiples of 90 degrees are exact and opposite angles give opposite bits.
 Point unit_vector_deg(double lon, double lat);
-// One coordinate moved to a neighboring double.
-Point moved_by_one_ulp(Random& random, Point p);
 // The paper's S_n (section 5): n + 1 points of a spiral and four more.
 std::vector<Point> paper_s(std::size_t n);
 // All integer points at squared distance `square` from the origin, shuffled.
