@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "models/sphere_traits.h"
+#include "predicates/orientation.h"
 #include "system/prefetch.h"
 #include "topology/mesh.h"
 
@@ -102,14 +103,15 @@ class Walk {
     return sites_.is_in_conflict(v[0], v[1], v[2], p);
   }
 
-  // A visibility walk in doubles. It may end in a wrong face, and is cut off when rounding makes
-  // it go in circles.
+  // A visibility walk in doubles, which crosses an edge only where p is beyond it for certain. So
+  // its steps are some of the exact walk's, and it ends. It may end too early: then the exact walk
+  // goes on.
   [[nodiscard]] Index walk_by_guess(Index p, Index f) const {
     using predicates::Vector;
     const Vector origin = sites_.coordinates(p);
     const Vector ray = sites_.from_center(p);
     unsigned entered = 3;
-    for (Index steps = mesh_.num_faces(); steps > 0; --steps) {
+    for (;;) {
       const topology::Face& face = mesh_[f];
       for (const topology::Halfedge h : face.opposite)
         system::prefetch(&mesh_[topology::face_of(h)]);
@@ -119,8 +121,10 @@ class Walk {
       unsigned i = 0;
       for (; i < 3; ++i) {
         if (i == entered) continue;
-        const unsigned a = topology::next_corner[i];
-        if (dot(ray, cross(to[a], to[topology::next_corner[a]])) < 0) break;
+        const Vector& a = to[topology::next_corner[i]];
+        const Vector& b = to[topology::previous_corner[i]];
+        const double value = dot(ray, cross(a, b));
+        if (value < 0 && is_certain(value, ray, a, b)) break;
       }
       if (i == 3) return f;
       const topology::Halfedge h = face.opposite[i];
@@ -129,7 +133,13 @@ class Walk {
       f = next;
       entered = topology::edge_of(h);
     }
-    return f;
+  }
+
+  // Of the determinant of a ray from the center to a site and two steps from that site.
+  [[nodiscard]] static bool is_certain(double value, const predicates::Vector& ray,
+                                       const predicates::Vector& a, const predicates::Vector& b) {
+    return T::hides_sites ? predicates::is_orientation_certain(value, ray, a, b)
+                          : predicates::is_direction_orientation_certain(value, a, b);
   }
 
   // The exact walk among the faces of one kind. It ends: each step increases u.n/h, where u is the

@@ -17,8 +17,7 @@ Sign filter(const Point& a, const Point& b, const Point& c, const Point& center)
   const Vector ab = to_vector(b) - to_vector(a);
   const Vector ac = to_vector(c) - to_vector(a);
   const double value = det(from_center, ab, ac);
-  return unless_unsure(value, is_beyond(value, orientation_bound, dot(from_center, from_center),
-                                        dot(ab, ab), dot(ac, ac)));
+  return unless_unsure(value, is_orientation_certain(value, from_center, ab, ac));
 }
 
 Sign by_expansions(const Point& a, const Point& b, const Point& c) {

@@ -14,14 +14,26 @@
 
 namespace rondel::predicates {
 
+// Whether det(a, ab, ac) of directions within `direction_error` of unit vectors has the right sign.
+inline bool is_direction_orientation_certain(double value, const Vector& ab, const Vector& ac) {
+  const double longest = std::max(dot(ab, ab), dot(ac, ac));
+  constexpr double bound = direction_orientation_bound * direction_orientation_bound;
+  return value * value > bound * longest;
+}
+
+// The same for differences of exact data, the first one from the center.
+inline bool is_orientation_certain(double value, const Vector& from_center, const Vector& ab,
+                                   const Vector& ac) {
+  return is_beyond(value, orientation_bound, dot(from_center, from_center), dot(ab, ab),
+                   dot(ac, ac));
+}
+
 // For directions within `direction_error` of unit vectors.
 inline Sign orientation_filter(const Vector& a, const Vector& b, const Vector& c) {
   const Vector ab = b - a;
   const Vector ac = c - a;
   const double value = det(a, ab, ac);
-  const double longest = std::max(dot(ab, ab), dot(ac, ac));
-  constexpr double bound = direction_orientation_bound * direction_orientation_bound;
-  return unless_unsure(value, value * value > bound * longest);
+  return unless_unsure(value, is_direction_orientation_certain(value, ab, ac));
 }
 
 // The whole ladder for exact data.
