@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A set of indices that grows with what a query visits, not with the number of sites.
+// A set of indices that grows with what a query visits, not with the number of sites, and is
+// cleared in constant time: a query pays nothing for the memory that a larger one before it needed.
 #pragma once
 
 #include <cstddef>
@@ -12,44 +13,61 @@
 
 namespace rondel::query {
 
-// Open addressing with linear probing, at most half full.
-class VisitedSet {
+// Open addressing with linear probing, at most half full. A slot is in use if it has the stamp of
+// the time since the last clear(). Only when the stamps have all been used is every slot written.
+template <class Stamp>
+class StampedSet {
  public:
-  // Whether it was not there. Precondition: not no_index.
+  // Whether it was not there.
   bool insert(Index value) {
     if (2 * (size_ + 1) > slots_.size()) grow();
-    Index& slot = find(value);
-    if (slot == value) return false;
-    slot = value;
+    Slot& slot = find(value);
+    if (slot.stamp == now_) return false;
+    slot.value = value;
+    slot.stamp = now_;
     ++size_;
     return true;
   }
 
   void clear() {
-    if (size_ != 0) slots_.assign(slots_.size(), no_index);
     size_ = 0;
+    ++now_;
+    if (now_ != never) return;
+    for (Slot& slot : slots_) slot.stamp = never;
+    ++now_;
   }
 
  private:
-  Index& find(Index value) {
+  static constexpr Stamp never{};
+
+  struct Slot {
+    Index value = 0;
+    Stamp stamp{};
+  };
+
+  // The slot of the value, or the one where it belongs.
+  Slot& find(Index value) {
     constexpr std::uint64_t multiplier = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
     const std::size_t mask = slots_.size() - 1;
     std::size_t i = static_cast<std::size_t>((value * multiplier) >> 24) & mask;
-    while (slots_[i] != value && slots_[i] != no_index) i = (i + 1) & mask;
+    while (slots_[i].stamp == now_ && slots_[i].value != value) i = (i + 1) & mask;
     return slots_[i];
   }
 
   void grow() {
     constexpr std::size_t least = 64;
-    std::vector<Index> old(slots_.empty() ? least : 2 * slots_.size(), no_index);
+    std::vector<Slot> old(slots_.empty() ? least : 2 * slots_.size());
     old.swap(slots_);
-    for (const Index value : old) {
-      if (value != no_index) find(value) = value;
+    for (const Slot& slot : old) {
+      if (slot.stamp == now_) find(slot.value) = slot;
     }
   }
 
-  std::vector<Index> slots_;
+  std::vector<Slot> slots_;
   std::size_t size_ = 0;
+  Stamp now_{1};
 };
+
+using VisitedSet = StampedSet<std::uint32_t>;
 
 }  // namespace rondel::query

@@ -3,4 +3,5 @@
 rondel_add_test(query_test
   query_api_test.cpp
   query_oracle_test.cpp
+  query_visited_test.cpp
   LIBS rondel_test_support)
