@@ -17,6 +17,7 @@
 #include "order/spatial_order.h"
 #include "rondel/error.h"
 #include "system/parallel.h"
+#include "system/view_as.h"
 
 namespace rondel::api {
 namespace {
@@ -146,8 +147,7 @@ std::span<const Point> as_points(std::span<const double> xyz) {
                            ", which is not a multiple of 3",
                        xyz.size() - xyz.size() % 3);
   }
-  static_assert(sizeof(Point) == 3 * sizeof(double));
-  return {reinterpret_cast<const Point*>(xyz.data()), xyz.size() / 3};
+  return system::view_as<Point>(xyz);
 }
 
 }  // namespace rondel::api

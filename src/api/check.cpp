@@ -5,11 +5,13 @@
 
 #include "api/validation.h"
 #include "proof/validator.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 
 CheckReport check(std::span<const Point> sites, std::span<const Triple> triangles,
                   const Options& options) {
+  const system::ArithmeticScope arithmetic;
   api::validate(sites, options);
   return proof::check_triangles(sites, triangles, options);
 }

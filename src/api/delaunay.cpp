@@ -5,10 +5,12 @@
 
 #include "api/build.h"
 #include "api/validation.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 
 Triangulation delaunay(std::span<const Point> sites, const Options& options) {
+  const system::ArithmeticScope arithmetic;
   if (options.model == Model::projected) {
     api::validate(options, sites.size());
   } else {

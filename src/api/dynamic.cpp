@@ -14,6 +14,7 @@
 #include "dynamic/snapshot.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 
@@ -29,7 +30,7 @@ DynamicTriangulation::Impl::Impl(Options wanted)
 }
 
 void DynamicTriangulation::Impl::require_site(Index id, std::size_t position) const {
-  if (places().is_alive(id)) return;
+  if (is_alive(id)) return;
   throw InvalidInput("site " + std::to_string(id) + " does not exist", position);
 }
 
@@ -112,6 +113,7 @@ std::vector<Index> DynamicTriangulation::Impl::flat_ring() const {
 }
 
 DynamicTriangulation::DynamicTriangulation(const Options& options) {
+  const system::ArithmeticScope arithmetic;
   api::validate({}, options);
   impl_ = std::make_unique<Impl>(options);
 }
@@ -121,6 +123,7 @@ DynamicTriangulation::DynamicTriangulation(std::span<const Point> sites, const O
 
 DynamicTriangulation::DynamicTriangulation(const Triangulation& triangulation,
                                            std::span<const Point> sites) {
+  const system::ArithmeticScope arithmetic;
   if (sites.size() != triangulation.num_sites()) {
     throw InvalidInput("there are " + std::to_string(sites.size()) +
                            " sites for a triangulation of " +
@@ -142,12 +145,14 @@ DynamicTriangulation::DynamicTriangulation(DynamicTriangulation&&) noexcept = de
 DynamicTriangulation& DynamicTriangulation::operator=(DynamicTriangulation&&) noexcept = default;
 
 Index DynamicTriangulation::insert(const Point& site) {
+  const system::ArithmeticScope arithmetic;
   api::validate({&site, 1}, impl_->options);
   impl_->require_room(1);
   return impl_->change([&](auto& e) { return e.insert(site, no_index); });
 }
 
 Index DynamicTriangulation::insert(const Point& site, Index hint) {
+  const system::ArithmeticScope arithmetic;
   api::validate({&site, 1}, impl_->options);
   impl_->require_site(hint, 0);
   impl_->require_room(1);
@@ -155,17 +160,20 @@ Index DynamicTriangulation::insert(const Point& site, Index hint) {
 }
 
 std::vector<Index> DynamicTriangulation::insert(std::span<const Point> sites) {
+  const system::ArithmeticScope arithmetic;
   api::validate(sites, impl_->options);
   impl_->require_room(sites.size());
   return impl_->change([&](auto& e) { return e.insert(sites); });
 }
 
 void DynamicTriangulation::remove(Index id) {
+  const system::ArithmeticScope arithmetic;
   impl_->require_site(id, 0);
   impl_->change([&](auto& e) { e.remove(id); });
 }
 
 void DynamicTriangulation::remove(std::span<const Index> ids) {
+  const system::ArithmeticScope arithmetic;
   impl_->require_distinct_sites(ids);
   impl_->change([&](auto& e) { e.remove(ids); });
 }
@@ -173,6 +181,7 @@ void DynamicTriangulation::remove(std::span<const Index> ids) {
 void DynamicTriangulation::move(Index id, const Point& to) { move({&id, 1}, {&to, 1}); }
 
 void DynamicTriangulation::move(std::span<const Index> ids, std::span<const Point> to) {
+  const system::ArithmeticScope arithmetic;
   if (ids.size() != to.size()) {
     throw InvalidInput("there are " + std::to_string(to.size()) + " points for " +
                            std::to_string(ids.size()) + " sites to move",
@@ -187,41 +196,46 @@ Model DynamicTriangulation::model() const noexcept { return impl_->options.model
 const Sphere& DynamicTriangulation::sphere() const noexcept { return impl_->options.sphere; }
 
 int DynamicTriangulation::dimension() const {
+  const system::ArithmeticScope arithmetic;
   return impl_->current().has_hull() ? 2 : impl_->flat_snapshot().triangulation.dimension();
 }
 
-std::size_t DynamicTriangulation::num_sites() const noexcept { return impl_->places().num_sites(); }
+std::size_t DynamicTriangulation::num_sites() const noexcept {
+  return impl_->read_places([](const auto& places) { return places.num_sites(); });
+}
 
 std::size_t DynamicTriangulation::num_vertices() const {
+  const system::ArithmeticScope arithmetic;
   if (!impl_->current().has_hull()) return impl_->flat_snapshot().triangulation.num_vertices();
   return impl_->visit([](const auto& e) { return e.hull()->num_vertices(); });
 }
 
 std::size_t DynamicTriangulation::num_faces() const {
+  const system::ArithmeticScope arithmetic;
   return impl_->current().visit(
       [](const auto& e) -> std::size_t { return e.hull() ? e.hull()->mesh().num_faces() : 0; });
 }
 
 std::vector<Index> DynamicTriangulation::ids() const {
-  return dynamic::live_sites(impl_->places());
+  return impl_->read_places([](const auto& places) { return dynamic::live_sites(places); });
 }
 
-bool DynamicTriangulation::contains(Index id) const noexcept {
-  return impl_->places().is_alive(id);
-}
+bool DynamicTriangulation::contains(Index id) const noexcept { return impl_->is_alive(id); }
 
 Point DynamicTriangulation::site(Index id) const {
   impl_->require_site(id, 0);
-  return impl_->places().point(id);
+  return impl_->read_places([id](const auto& places) { return places.point(id); });
 }
 
 Index DynamicTriangulation::representative(Index id) const {
+  const system::ArithmeticScope arithmetic;
   impl_->require_site(id, 0);
   const dynamic::Places& places = impl_->current().places();
   return places.names()[places.place_of(id)];
 }
 
 bool DynamicTriangulation::is_vertex(Index id) const {
+  const system::ArithmeticScope arithmetic;
   impl_->require_site(id, 0);
   if (!impl_->current().has_hull()) {
     const auto ring = impl_->flat_ring();
@@ -231,6 +245,7 @@ bool DynamicTriangulation::is_vertex(Index id) const {
 }
 
 std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
+  const system::ArithmeticScope arithmetic;
   impl_->require_site(id, 0);
   if (!impl_->current().has_hull()) {
     const auto ring = impl_->flat_ring();
@@ -252,6 +267,7 @@ std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
 }
 
 Triple DynamicTriangulation::face(Index face) const {
+  const system::ArithmeticScope arithmetic;
   return impl_->current().visit([face](const auto& e) {
     if (!e.hull() || face >= e.hull()->mesh().num_slots() || !e.hull()->mesh().is_alive(face)) {
       throw InvalidInput("face " + std::to_string(face) + " does not exist", 0);
@@ -263,6 +279,7 @@ Triple DynamicTriangulation::face(Index face) const {
 }
 
 Snapshot DynamicTriangulation::snapshot() const {
+  const system::ArithmeticScope arithmetic;
   if (!impl_->current().has_hull()) return impl_->flat_snapshot();
   return impl_->visit([this](const auto& e) {
     Snapshot now = impl_->live_sites();

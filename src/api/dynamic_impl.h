@@ -36,6 +36,19 @@ struct DynamicTriangulation::Impl {
     return visit([](const auto& e) -> const dynamic::Places& { return e.places(); });
   }
 
+  // read(places), which are written anew under the lock after a change has failed: functions that
+  // are const may be called meanwhile.
+  template <class Read>
+  auto read_places(const Read& read) const {
+    std::unique_lock guard(mutex, std::defer_lock);
+    if (is_in_pieces) guard.lock();
+    return read(places());
+  }
+
+  [[nodiscard]] bool is_alive(Index id) const {
+    return read_places([id](const auto& places) { return places.is_alive(id); });
+  }
+
   // They throw InvalidInput.
   void require_site(Index id, std::size_t position) const;
   void require_distinct_sites(std::span<const Index> ids) const;

@@ -13,6 +13,7 @@
 #include "exact/vector.h"
 #include "hidden/inner_point.h"
 #include "rondel/error.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 namespace {
@@ -45,6 +46,7 @@ int exponent_of(std::span<const Point> points) {
 }  // namespace
 
 Triangulation convex_hull(std::span<const Point> points, const HullOptions& options) {
+  const system::ArithmeticScope arithmetic;
   Options build_options;
   build_options.model = Model::weighted;
   build_options.threads = options.threads;
@@ -63,6 +65,7 @@ Triangulation convex_hull(std::span<const double> xyz, const HullOptions& option
 }
 
 HullSize size_of_hull(const Triangulation& hull, std::span<const Point> points) {
+  const system::ArithmeticScope arithmetic;
   if (points.size() != hull.num_sites()) {
     throw InvalidInput(
         std::to_string(points.size()) + " points for a hull of " + std::to_string(hull.num_sites()),

@@ -7,16 +7,19 @@
 #include "exact/degrees.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 
 Point unit_vector(const LonLat& position) {
+  const system::ArithmeticScope arithmetic;
   const auto lon = exact::sine_cosine_of_degrees(position.lon_deg);
   const auto lat = exact::sine_cosine_of_degrees(position.lat_deg);
   return {lat.cosine * lon.cosine + 0.0, lat.cosine * lon.sine + 0.0, lat.sine};
 }
 
 std::vector<Point> unit_vectors(std::span<const LonLat> positions) {
+  const system::ArithmeticScope arithmetic;
   std::vector<Point> result(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const LonLat& p = positions[i];

@@ -8,6 +8,7 @@
 #include "exact/degrees.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 namespace {
@@ -40,15 +41,18 @@ void require_radii(std::size_t num_centers, std::span<const double> radii_deg) {
 }  // namespace
 
 Point polar_point(const Point& center, double radius_deg) {
+  const system::ArithmeticScope arithmetic;
   if (!is_radius(radius_deg)) throw InvalidInput(fault(radius_deg), 0);
   return pole(center, radius_deg);
 }
 
 Point polar_point(const LonLat& center, double radius_deg) {
+  const system::ArithmeticScope arithmetic;
   return polar_point(unit_vector(center), radius_deg);
 }
 
 std::vector<Point> polar_points(std::span<const Point> centers, std::span<const double> radii_deg) {
+  const system::ArithmeticScope arithmetic;
   require_radii(centers.size(), radii_deg);
   std::vector<Point> result(centers.size());
   std::ranges::transform(centers, radii_deg, result.begin(), pole);
@@ -57,6 +61,7 @@ std::vector<Point> polar_points(std::span<const Point> centers, std::span<const 
 
 std::vector<Point> polar_points(std::span<const LonLat> centers,
                                 std::span<const double> radii_deg) {
+  const system::ArithmeticScope arithmetic;
   require_radii(centers.size(), radii_deg);
   return polar_points(unit_vectors(centers), radii_deg);
 }

@@ -20,6 +20,7 @@
 #include "query/distance.h"
 #include "query/engine.h"
 #include "rondel/error.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 namespace {
@@ -180,10 +181,12 @@ SiteLists Locator::Impl::within(std::span<const Point> queries, const Limit& lim
 }
 
 Locator::Locator(const Triangulation& triangulation, std::span<const Point> sites) {
+  const system::ArithmeticScope arithmetic;
   dual::check_size(triangulation, sites.size());
   impl_ = std::make_unique<const Impl>(triangulation, sites);
 }
 Locator::Locator(const DynamicTriangulation& triangulation) {
+  const system::ArithmeticScope arithmetic;
   const DynamicTriangulation::Impl& changing = triangulation.impl_->current();
   if (!changing.has_hull()) {
     impl_ = std::make_unique<const Impl>(changing.flat_snapshot());
@@ -198,6 +201,7 @@ Locator::Locator(Locator&& other) noexcept = default;
 Locator& Locator::operator=(Locator&& other) noexcept = default;
 
 Location Locator::locate(const Point& query) const {
+  const system::ArithmeticScope arithmetic;
   impl_->validate({&query, 1});
   if (impl_->is_empty()) return {};
   Cursor cursor = impl_->cursor_at(query);
@@ -205,6 +209,7 @@ Location Locator::locate(const Point& query) const {
 }
 
 std::vector<Location> Locator::locate(std::span<const Point> queries, unsigned threads) const {
+  const system::ArithmeticScope arithmetic;
   impl_->validate(queries);
   std::vector<Location> result(queries.size());
   if (impl_->is_empty()) return result;
@@ -215,6 +220,7 @@ std::vector<Location> Locator::locate(std::span<const Point> queries, unsigned t
 }
 
 Index Locator::nearest(const Point& query) const {
+  const system::ArithmeticScope arithmetic;
   impl_->validate({&query, 1});
   if (impl_->is_empty()) return no_index;
   Cursor cursor = impl_->cursor_at(query);
@@ -222,6 +228,7 @@ Index Locator::nearest(const Point& query) const {
 }
 
 std::vector<Index> Locator::nearest(std::span<const Point> queries, unsigned threads) const {
+  const system::ArithmeticScope arithmetic;
   impl_->validate(queries);
   std::vector<Index> result(queries.size(), no_index);
   if (impl_->is_empty()) return result;
@@ -232,6 +239,7 @@ std::vector<Index> Locator::nearest(std::span<const Point> queries, unsigned thr
 }
 
 std::vector<Index> Locator::k_nearest(const Point& query, std::size_t k) const {
+  const system::ArithmeticScope arithmetic;
   impl_->validate({&query, 1});
   std::vector<Index> found;
   if (impl_->is_empty()) return found;
@@ -243,6 +251,7 @@ std::vector<Index> Locator::k_nearest(const Point& query, std::size_t k) const {
 
 std::vector<Index> Locator::k_nearest(std::span<const Point> queries, std::size_t k,
                                       unsigned threads) const {
+  const system::ArithmeticScope arithmetic;
   impl_->validate(queries);
   std::vector<Index> result;
   if (!queries.empty() && k > result.max_size() / queries.size()) {
@@ -263,6 +272,7 @@ std::vector<Index> Locator::k_nearest(std::span<const Point> queries, std::size_
 }
 
 std::vector<Index> Locator::within(const Point& query, double angle) const {
+  const system::ArithmeticScope arithmetic;
   impl_->validate({&query, 1});
   check_angle(angle);
   if (impl_->is_empty()) return {};
@@ -271,6 +281,7 @@ std::vector<Index> Locator::within(const Point& query, double angle) const {
 }
 
 SiteLists Locator::within(std::span<const Point> queries, double angle, unsigned threads) const {
+  const system::ArithmeticScope arithmetic;
   impl_->validate(queries);
   check_angle(angle);
   if (!impl_->is_empty()) return impl_->within(queries, limit_of(angle), threads);
@@ -280,6 +291,7 @@ SiteLists Locator::within(std::span<const Point> queries, double angle, unsigned
 }
 
 double Locator::distance(const Point& query, Index site) const {
+  const system::ArithmeticScope arithmetic;
   impl_->validate({&query, 1});
   impl_->validate_site(site);
   const Sphere& sphere = impl_->sphere();
@@ -298,6 +310,7 @@ std::vector<Index> Locator::neighbors(Index site) const {
 }
 
 std::vector<Index> Locator::conflict_region(const Point& query) const {
+  const system::ArithmeticScope arithmetic;
   api::validate_queries({&query, 1}, impl_->sphere().center, impl_->model() == Model::projected);
   if (impl_->is_empty()) return {};
   Cursor cursor = impl_->cursor_at(query);

@@ -61,9 +61,9 @@ class Divide {
   // Few are counted, as nothing would predict a search.
   [[nodiscard]] Index split(Index begin, Index end, unsigned axis, int bit, unsigned last) const {
     constexpr Index few = 16;
-    const std::uint64_t* const positions = &positions_->u + axis;  // every other number
-    const auto is_last = [positions, bit, last](Index i) {
-      return ((positions[2 * std::size_t{i}] >> bit) & 1U) == last;
+    const auto coordinate = axis == 0 ? &SquarePosition::u : &SquarePosition::v;
+    const auto is_last = [positions = positions_, coordinate, bit, last](Index i) {
+      return ((positions[i].*coordinate >> bit) & 1U) == last;
     };
     while (end - begin > few) {
       const Index middle = begin + (end - begin) / 2;

@@ -20,8 +20,8 @@
 #include <utility>
 #include <vector>
 
-#include "rondel/large_vector.h"
 #include "rondel/types.h"
+#include "system/huge_pages.h"
 
 namespace rondel::bulk {
 
@@ -191,10 +191,11 @@ class PlaneGraph {
   static std::size_t size_of(std::size_t num_vertices) { return 6 * num_vertices + 2; }
 
   void reserve(std::size_t size) {
-    if (size * halfedge_bytes <= memory_.size()) return;
+    if (size <= capacity_) return;
     memory_ = {};
-    memory_.resize(size * halfedge_bytes);
-    place(memory_.data(), size);
+    memory_ = system::make_large_array<std::byte>(size * halfedge_bytes);
+    capacity_ = size;
+    place(memory_.get(), size);
   }
 
   void place(std::byte* memory, std::size_t size) {
@@ -226,7 +227,8 @@ class PlaneGraph {
     rings_[links.next].previous = links.previous;
   }
 
-  LargeVector<std::byte> memory_;  // of the arrays, if it is its own
+  system::LargeArray<std::byte> memory_;  // of the arrays, if it is its own
+  std::size_t capacity_ = 0;              // halfedges for which it has room
   Ring* rings_ = nullptr;
   Index* targets_ = nullptr;
   Index* faces_ = nullptr;

@@ -18,8 +18,9 @@
 #include "bulk/sphere_step.h"
 #include "exact/eft.h"
 #include "predicates/tally.h"
-#include "rondel/large_vector.h"
+#include "system/huge_pages.h"
 #include "system/parallel.h"
+#include "system/stage_progress.h"
 
 namespace rondel::bulk {
 namespace {
@@ -132,7 +133,6 @@ class SphereTriangulation {
     const std::lock_guard guard(mutex_);
     predicates::add(tally_, tally);
   }
-  void report_progress();
 
   void write(const std::vector<Index>& hidden, TriangulationArrays& arrays);
 
@@ -142,13 +142,14 @@ class SphereTriangulation {
   std::vector<Index> order_;              // by parts
   std::vector<Index> ranks_;              // of the same, and of no site: no_index
   std::array<Block, num_parts> parts_{};  // ranks in the order by parts
-  LargeVector<std::byte> memory_;         // of the next three
+  system::LargeArray<std::byte> memory_;  // of the next three
   SquareCoordinates coordinates_;
   Vector* directions_ = nullptr;  // not with weights
   PlaneGraph graph_;
   std::mutex mutex_;  // of what follows
   Tally tally_;
-  std::size_t num_steps_ = 0;
+  // The rest counts as one lune more.
+  system::StageProgress progress_{input_.options.progress, "triangulate", num_lunes + 1};
 };
 
 template <models::SphereTraits T>
@@ -186,16 +187,6 @@ void SphereTriangulation<T>::divide() {
 }
 
 template <models::SphereTraits T>
-void SphereTriangulation<T>::report_progress() {
-  const std::lock_guard guard(mutex_);
-  ++num_steps_;
-  // The rest counts as one more step.
-  if (input_.options.progress)
-    input_.options.progress("triangulate",
-                            static_cast<double>(num_steps_) / static_cast<double>(num_lunes + 1));
-}
-
-template <models::SphereTraits T>
 std::optional<Part> SphereTriangulation<T>::solve_lune(std::size_t lune, PlaneGraph& graph) {
   const std::span parts = std::span(parts_).subspan(parts_of_lune * lune, parts_of_lune);
   const Index first = parts.front().begin;
@@ -219,7 +210,7 @@ std::optional<Part> SphereTriangulation<T>::solve_lune(std::size_t lune, PlaneGr
   if (merge.has_failed()) return std::nullopt;
   count(sites.tally());
   count(all.tally());
-  report_progress();
+  progress_.step();
   return result;
 }
 
@@ -240,11 +231,11 @@ template <models::SphereTraits T>
 std::vector<PlaneGraph> SphereTriangulation<T>::allot(std::span<const Index> sizes) {
   const std::size_t of_coordinates = num_sites_ * SquareCoordinates::bytes_of_site;
   const std::size_t of_directions = SphereSites<T>::has_weights ? 0 : num_sites_ * sizeof(Vector);
-  memory_ =
-      LargeVector<std::byte>(of_coordinates + of_directions + PlaneGraph::size_of_parts(sizes));
-  coordinates_.place(memory_.data(), num_sites_);
-  directions_ = reinterpret_cast<Vector*>(memory_.data() + of_coordinates);
-  return graph_.clear_parts(sizes, memory_.data() + of_coordinates + of_directions);
+  memory_ = system::make_large_array<std::byte>(of_coordinates + of_directions +
+                                                PlaneGraph::size_of_parts(sizes));
+  coordinates_.place(memory_.get(), num_sites_);
+  directions_ = reinterpret_cast<Vector*>(memory_.get() + of_coordinates);
+  return graph_.clear_parts(sizes, memory_.get() + of_coordinates + of_directions);
 }
 
 template <models::SphereTraits T>

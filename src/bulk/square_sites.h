@@ -33,7 +33,7 @@
 #include "models/projected_points.h"
 #include "models/sphere_traits.h"
 #include "models/weighted_points.h"
-#include "rondel/large_vector.h"
+#include "system/huge_pages.h"
 #include "system/site_copies.h"
 
 namespace rondel::bulk {
@@ -67,10 +67,11 @@ class SquareCoordinates {
 
   // For so many; forgets what there was if it has to grow.
   void reserve(std::size_t size) {
-    if (size * bytes_of_site <= memory_.size()) return;
+    if (size <= capacity_) return;
     memory_ = {};
-    memory_.resize(size * bytes_of_site);
-    place(memory_.data(), size);
+    memory_ = system::make_large_array<std::byte>(size * bytes_of_site);
+    capacity_ = size;
+    place(memory_.get(), size);
   }
   // In memory of the caller.
   void place(std::byte* memory, std::size_t size) {
@@ -82,7 +83,8 @@ class SquareCoordinates {
   [[nodiscard]] SquarePosition* positions() { return positions_; }
 
  private:
-  LargeVector<std::byte> memory_;
+  system::LargeArray<std::byte> memory_;
+  std::size_t capacity_ = 0;
   SquarePoint* points_ = nullptr;
   SquarePosition* positions_ = nullptr;
 };

@@ -15,6 +15,7 @@
 #include "bulk/stitch.h"
 #include "predicates/tally.h"
 #include "system/parallel.h"
+#include "system/stage_progress.h"
 
 namespace rondel::bulk {
 namespace {
@@ -38,7 +39,7 @@ template <models::SphereTraits T>
 class Work {
  public:
   Work(const Progress& progress, std::span<const Block> blocks)
-      : progress_(progress), num_blocks_(blocks.size()) {
+      : progress_(progress, "triangulate", blocks.size() + 1) {  // the seam is one more step
     for (const Block& b : blocks) most_sites_ = std::max<std::size_t>(most_sites_, b.end - b.begin);
   }
 
@@ -56,22 +57,18 @@ class Work {
   }
 
   void end_block(std::unique_ptr<Workspace<T>> workspace) {
-    const std::lock_guard guard(mutex_);
-    free_.push_back(std::move(workspace));
-    ++num_done_;
-    // The seam counts as one more block.
-    if (progress_)
-      progress_("triangulate",
-                static_cast<double>(num_done_) / static_cast<double>(num_blocks_ + 1));
+    {
+      const std::lock_guard guard(mutex_);
+      free_.push_back(std::move(workspace));
+    }
+    progress_.step();
   }
 
  private:
-  const Progress& progress_;
-  std::size_t num_blocks_;
+  system::StageProgress progress_;
   std::size_t most_sites_ = 0;  // of a block
   std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace<T>>> free_;
-  std::size_t num_done_ = 0;
 };
 
 template <models::SphereTraits T>

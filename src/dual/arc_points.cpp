@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "dual/face_batch.h"
 #include "dual/ring_walk.h"
 
 namespace rondel::dual {
@@ -25,7 +26,7 @@ Point middle_of_arc(const Vec& e, const Point& nf, const Point& ng) {
 // faces with a common corner are less than 120 degrees apart. (A weighted corner may lie anywhere.)
 bool is_near_corners(const SplitSites& sites, Index face, const Point& center) {
   return sites.is_projected() &&
-         dot(to_vector(center), to_vector(sites[sites.corners(face)[0]].hi)) > 0.501;
+         dot(to_vector(center), to_vector(sites[sites.corners(face)[0]].hi)) > near_cosine;
 }
 
 }  // namespace

@@ -19,6 +19,7 @@
 #include "dual/local_ring.h"
 #include "dual/parts.h"
 #include "rondel/diagram.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 namespace {
@@ -58,6 +59,7 @@ double dual::careful_area(RingLocalizer& localize, Index rank) { return area_of(
 
 std::vector<double> areas(const Triangulation& triangulation, std::span<const Point> sites,
                           const Cells& cells) {
+  const system::ArithmeticScope arithmetic;
   const dual::SplitSites split_sites(triangulation, sites);
   if (triangulation.dimension() < 2) return dual::great_circle_areas(triangulation, split_sites);
   std::vector<double> result(triangulation.num_sites(), 0.0);

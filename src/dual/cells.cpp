@@ -15,6 +15,7 @@
 #include "dual/parts.h"
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
+#include "system/arithmetic.h"
 #include "system/huge_pages.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
@@ -157,10 +158,12 @@ Cells dual::cells(const Triangulation& triangulation, const SplitSites& sites,
 }
 
 Cells cells(const Triangulation& triangulation, std::span<const Point> sites) {
+  const system::ArithmeticScope arithmetic;
   return dual::cells(triangulation, dual::SplitSites(triangulation, sites), nullptr);
 }
 
 Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites) {
+  const system::ArithmeticScope arithmetic;
   Diagram result;
   result.cells = dual::cells(triangulation, dual::SplitSites(triangulation, sites), &result.areas);
   return result;

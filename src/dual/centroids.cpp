@@ -13,6 +13,7 @@
 #include "dual/great_circle.h"
 #include "dual/local_ring.h"
 #include "rondel/diagram.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 namespace {
@@ -69,6 +70,7 @@ Point centroid_of(const LocalRing& ring) {
 
 std::vector<Point> centroids(const Triangulation& triangulation, std::span<const Point> sites,
                              const Cells& cells) {
+  const system::ArithmeticScope arithmetic;
   const dual::SplitSites split_sites(triangulation, sites);
   if (triangulation.dimension() < 2) {
     return dual::great_circle_centroids(triangulation, split_sites);

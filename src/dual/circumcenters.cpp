@@ -6,6 +6,7 @@
 
 #include "dual/parts.h"
 #include "rondel/diagram.h"
+#include "system/arithmetic.h"
 #include "system/huge_pages.h"
 #include "system/parallel.h"
 
@@ -44,6 +45,7 @@ std::vector<Point> dual::circumcenters(const Triangulation& triangulation, const
 }
 
 std::vector<Point> circumcenters(const Triangulation& triangulation, std::span<const Point> sites) {
+  const system::ArithmeticScope arithmetic;
   return dual::circumcenters(triangulation, dual::SplitSites(triangulation, sites));
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "exact/integer.h"
+#include "rondel/error.h"
 
 namespace rondel::dual {
 namespace {
@@ -69,6 +70,17 @@ Vec rounded_unit(const IntegerVector& v) {
   return {quotient(w.x), quotient(w.y), quotient(w.z)};
 }
 
+// No two vertices of a triangulation are in the same place. Where two sites are, these are not the
+// sites that were triangulated, and what follows would divide by zero or try ever more digits.
+[[noreturn]] void refuse_same_place() {
+  throw InvalidInput(
+      "two vertices are in the same place: the sites are not those of the triangulation", 0);
+}
+
+void require_different_rays(const IntegerVector& a, const IntegerVector& b) {
+  if (dot(a, b) > 0 && is_zero(cross(a, b))) refuse_same_place();
+}
+
 // |a| b x c + |b| c x a + |c| a x b, the normal of the projections of a, b and c, times some
 // positive factor. Never zero: a line has at most two points on a sphere.
 //
@@ -79,6 +91,9 @@ IntegerVector projected_normal(const IntegerVector& a, const IntegerVector& b,
   const IntegerVector bc = cross(b, c);
   const IntegerVector ca = cross(c, a);
   const IntegerVector ab = cross(a, b);
+  require_different_rays(a, b);
+  require_different_rays(b, c);
+  require_different_rays(c, a);
   const int error_bits = std::max({num_bits(bc), num_bits(ca), num_bits(ab)}) + 4;
   for (int k = 64;; k *= 2) {
     const auto scaled_root = [k](const IntegerVector& p) {
@@ -134,6 +149,7 @@ ExactNormal exact_normal(const SplitSites& sites, Index a, Index b, Index c) {
   }
   const auto p = exact::scaled_differences({pa, pb, pc}, sites.center());
   if (const auto n = plane_normal(p[0], p[1], p[2])) return {to_point(rounded_unit(*n)), false};
+  if (pa == pb || pb == pc || pc == pa) refuse_same_place();
   return collinear_normal(sites, a, b);
 }
 
@@ -141,6 +157,7 @@ ExactNormal exact_normal(const SplitSites& sites, Index a, Index b, Index c) {
 // less than |a| + |b|.
 ExactDifference exact_projected_difference(const Point& a, const Point& b, const Point& center) {
   const auto p = exact::scaled_rays({a, b}, center);
+  require_different_rays(p[0], p[1]);
   const int error_bits = std::max(num_bits(p[0]), num_bits(p[1])) + 3;
   for (int k = 64;; k *= 2) {
     const Integer length_a = floor_sqrt(dot(p[0], p[0]) << (2 * k));
@@ -156,6 +173,7 @@ ExactDifference exact_projected_difference(const Point& a, const Point& b, const
 }
 
 Vec exact_direction(const Point& a, const Point& b) {
+  if (a == b) refuse_same_place();
   return rounded_unit(exact::scaled_differences({b}, a)[0]);
 }
 

@@ -13,6 +13,7 @@
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
 #include "rondel/predicates.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 namespace {
@@ -141,6 +142,7 @@ class FacetFinder {
 }  // namespace
 
 Polygons merge_cocircular(const Triangulation& triangulation, std::span<const Point> sites) {
+  const system::ArithmeticScope arithmetic;
   return FacetFinder(triangulation, sites).facets();
 }
 

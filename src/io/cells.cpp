@@ -6,6 +6,7 @@
 
 #include "io/cell_formats.h"
 #include "io/ending.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 namespace {
@@ -27,6 +28,7 @@ bool can_write_cells(const std::string& path) {
 void write_cells(const std::string& path, const SiteTable& table,
                  const Triangulation& triangulation, const Diagram& diagram, double tolerance_deg,
                  const Progress& progress) {
+  const system::ArithmeticScope arithmetic;
   const auto& writer = io::require_format<Writer>(writers, path, "cells are written as");
   io::AtomicFile file(path);
   writer.write(file, {table, triangulation, diagram, tolerance_deg, progress});

@@ -7,6 +7,7 @@
 #include "io/site_collector.h"
 #include "io/site_formats.h"
 #include "rondel/error.h"
+#include "system/view_as.h"
 
 namespace rondel::io {
 namespace {
@@ -41,7 +42,8 @@ void read_table(std::string_view bytes, const ReadOptions& options, SiteTable& t
   table.first_line = 0;
   const double* const numbers = array.in_place<double>();
   if (!is_lonlat && numbers != nullptr && array.num_rows() >= least_mapped) {
-    return refer_to({reinterpret_cast<const Point*>(numbers), array.num_rows()}, options, table);
+    return refer_to(system::view_as<Point>(std::span(numbers, 3 * array.num_rows())), options,
+                    table);
   }
   SiteCollector collector(table, options);
   collector.reserve(array.num_rows(), is_lonlat);

@@ -11,6 +11,7 @@
 #include "io/site_formats.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 namespace {
@@ -51,6 +52,7 @@ std::string SiteTable::where(std::size_t site) const {
 }
 
 SiteTable read_sites(const std::string& path, const ReadOptions& options) {
+  const system::ArithmeticScope arithmetic;
   SiteTable table;
   table.name = path == "-" ? "<stdin>" : path;
   const auto file = std::make_shared<const io::FileBytes>(path);
@@ -79,6 +81,7 @@ bool can_write_sites(const std::string& path) {
 void write_sites(const std::string& path, std::span<const Point> sites,
                  std::span<const LonLat> positions, std::span<const double> radii_deg,
                  unsigned threads) {
+  const system::ArithmeticScope arithmetic;
   const Writer& writer = io::require_format<Writer>(writers, path, "sites are written as");
   io::AtomicFile file(path);
   writer.write(file, {sites, positions, radii_deg, threads});

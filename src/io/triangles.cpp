@@ -11,6 +11,7 @@
 #include "io/triangle_formats.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 namespace {
@@ -53,6 +54,7 @@ void io::Mesh::write_faces(AtomicFile& file,
 }
 
 std::vector<Triple> read_triangles(const std::string& path) {
+  const system::ArithmeticScope arithmetic;
   const io::FileBytes file(path);
   const Reader& reader = io::require_format<Reader>(readers, path, "triangles are read from");
   if (file.text().empty()) throw FileError(path + ": the file is empty");
@@ -65,6 +67,7 @@ bool can_write_triangles(const std::string& path) {
 
 void write_triangles(const std::string& path, const SiteTable& table,
                      const Triangulation& triangulation, const Progress& progress) {
+  const system::ArithmeticScope arithmetic;
   const Writer& writer = io::require_format<Writer>(writers, path, "triangles are written as");
   io::AtomicFile file(path);
   writer.write(file, {table, triangulation, progress});

@@ -18,8 +18,8 @@ struct Triangulated {
   Tally tally;
 };
 
-// `order` lists the distinct sites by rank; `names` the input indices to report for them.
-// Takes both, to free them as early as possible.
+// `order` lists the distinct sites by rank, and is taken so that it can be freed early; `renamed` the
+// ranks that are reported by another input index.
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                          std::span<const order::Renamed> renamed, const Options& options);
 

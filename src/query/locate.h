@@ -13,6 +13,7 @@
 #include "kernel/walk.h"
 #include "query/surface.h"
 #include "query/target.h"
+#include "rondel/error.h"
 #include "rondel/query.h"
 
 namespace rondel::query {
@@ -58,12 +59,13 @@ Place place_in(const Surface<T>& surface, Index f, const std::array<bool, 3>& is
   return {Where::vertex, {v, no_index, no_index}, first_solid_face(surface, v), f};
 }
 
-// `start` is a solid face.
+// `start` is a solid face. The walk comes to no face twice, unless the sites are not those that
+// were triangulated; then it throws InvalidInput at last.
 template <models::SphereTraits T>
 Place locate(const Surface<T>& surface, const Target<T>& target, Index start) {
   Index f = start;
   unsigned entered = 3;
-  for (;;) {
+  for (Index left = surface.mesh.num_slots(); left > 0; --left) {
     const topology::Face& face = surface.mesh[f];
     std::array<bool, 3> is_on{};
     unsigned i = 0;
@@ -86,6 +88,7 @@ Place locate(const Surface<T>& surface, const Target<T>& target, Index start) {
     f = next;
     entered = topology::edge_of(h);
   }
+  throw InvalidInput("the sites are not those of the triangulation", 0);
 }
 
 // The faces in conflict with the target, in increasing order. `solid` is a solid face near it,

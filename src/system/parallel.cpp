@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "rondel/interrupt.h"
+#include "system/arithmetic.h"
 
 #if defined(RONDEL_HAS_TBB)
 #include <oneapi/tbb/blocked_range.h>
@@ -24,16 +25,17 @@
 namespace rondel::system {
 namespace {
 
-#if defined(RONDEL_HAS_TBB)
-
+// More than a machine has that the library was tried on; few enough for what is made for each.
 constexpr unsigned most_threads = 1U << 10;
+
+#if defined(RONDEL_HAS_TBB)
 
 unsigned num_cores() { return static_cast<unsigned>(tbb::info::default_concurrency()); }
 
 // Runs `work` where at most so many threads help: here, if the arena of the caller is no larger.
 template <class Work>
 void run_in_arena(unsigned threads, const Work& work) {
-  const int limit = static_cast<int>(std::min(threads, most_threads));
+  const int limit = static_cast<int>(threads);
   if (tbb::this_task_arena::max_concurrency() <= limit) {
     work();
   } else {
@@ -133,6 +135,7 @@ thread_local const std::atomic<bool>* current_stop = nullptr;
 // A piece of a call that obeys `stop`.
 template <class Piece>
 void run_piece(const std::atomic<bool>* stop, const Piece& piece) {
+  const ArithmeticScope arithmetic;
   if (stop == nullptr && current_stop == nullptr) {
     piece();
     return;
@@ -151,7 +154,7 @@ StopScope::StopScope(const std::atomic<bool>* stop) noexcept : before_(current_s
 StopScope::~StopScope() { current_stop = before_; }
 
 unsigned num_threads(unsigned threads) {
-  return threads != 0 && has_threads ? threads : num_cores();
+  return threads != 0 && has_threads ? std::min(threads, most_threads) : num_cores();
 }
 
 void parallel_for(unsigned threads, std::size_t count, std::size_t grain,

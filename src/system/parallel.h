@@ -13,7 +13,8 @@
 // 5. Calls may be nested and made by any thread. A nested call shares the threads of the outer one.
 //    While a thread waits it may run other pieces of an outer call, so hold no lock over a call,
 //    and expect nothing of thread_local values behind it.
-// 6. Where the flag of a StopScope is true, a call throws Interrupted instead of beginning another
+// 6. Every piece has an ArithmeticScope: no piece sees how its thread rounds elsewhere.
+// 7. Where the flag of a StopScope is true, a call throws Interrupted instead of beginning another
 //    piece. It costs 0.15 ns a piece; a build of 2^20 sites has 376 of them.
 #pragma once
 
@@ -23,7 +24,8 @@
 
 namespace rondel::system {
 
-// How many threads a bound stands for: itself, or for 0 the number of cores; 1 without threads.
+// How many threads a bound stands for: itself, but no more than 1024; for 0 the number of cores;
+// 1 without threads.
 unsigned num_threads(unsigned threads);
 
 // How many pieces parallel_for makes.

@@ -147,5 +147,18 @@ TEST(circumcenters, refuse_other_sites) {
   EXPECT_THROW(merge_cocircular(triangulation, fewer), InvalidInput);
 }
 
+// As many sites as there should be, but several in one place: no number of digits tells them apart.
+TEST(circumcenters, refuse_vertices_in_one_place) {
+  for (const Model model : {Model::projected, Model::weighted}) {
+    const Triangulation faces = loose_faces(2, model);
+    const std::vector<Point> same(6, Point{0.5, 0.25, 0.75});
+    EXPECT_THROW(circumcenters(faces, same), InvalidInput);
+    const Triangulation octahedral = delaunay(octahedron(), {.model = model});
+    const std::vector<Point> doubled = {{1, 0, 0}, {1, 0, 0}, {0, 1, 0},
+                                        {0, 1, 0}, {0, 0, 1}, {0, 0, 1}};
+    EXPECT_THROW(diagram(octahedral, doubled), InvalidInput);
+  }
+}
+
 }  // namespace
 }  // namespace rondel::test
