@@ -18,4 +18,19 @@ namespace rondel::bench {
 // Throws std::invalid_argument for others.
 std::vector<Point> make_input(const std::string& kind, std::size_t n, std::uint64_t seed = 1);
 
+// The S of "--seed S", which it takes out of the arguments; 1 if there is none.
+std::uint64_t take_seed(int& argc, char** argv);
+
+// Inputs of one kind and number of sites, each with a seed of its own.
+class Source {
+ public:
+  Source(std::string kind, const char* n, std::uint64_t first_seed);
+  std::vector<Point> next() { return make_input(kind_, n_, seed_++); }
+
+ private:
+  std::string kind_;
+  std::size_t n_;
+  std::uint64_t seed_;
+};
+
 }  // namespace rondel::bench

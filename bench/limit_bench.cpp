@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// limit_bench KIND N: what no construction of this kind can do without, measured apart for the
+// limit_bench KIND N [--seed S]: what no construction of this kind can do without, measured apart for the
 // projected model. Their sum is the limit beside which the whole build is judged:
 //
 //   sort    the spatial order;
@@ -25,6 +25,10 @@ namespace {
 
 using rondel::Index;
 using rondel::Triple;
+
+auto sort(std::span<const rondel::Point> sites, const rondel::Options& options) {
+  return rondel::order::spatial_order(sites, options.model, {}, options.threads);
+}
 
 std::vector<Index> invert(std::span<const Index> order, std::size_t num_sites) {
   std::vector<Index> ranks(num_sites, rondel::no_index);
@@ -50,6 +54,32 @@ std::size_t count_conflicts(const rondel::models::ProjectedPoints& sites,
   return conflicts;
 }
 
+// A finished triangulation whose sites are named by their ranks.
+struct Finished {
+  std::vector<rondel::Point> sites;
+  rondel::Triangulation triangulation;
+  std::vector<Index> order;
+  std::vector<Triple> faces;
+};
+
+Finished finish(std::vector<rondel::Point> sites, const rondel::Options& options) {
+  Finished finished;
+  finished.sites = std::move(sites);
+  finished.triangulation = rondel::delaunay(finished.sites, options);
+  finished.order = sort(finished.sites, options).order;
+  if (finished.order.size() != finished.sites.size()) {
+    std::fprintf(stderr, "limit_bench: the input has duplicates\n");
+    std::exit(1);
+  }
+  const auto ranks = invert(finished.order, finished.sites.size());
+  const auto faces = finished.triangulation.faces();
+  finished.faces.assign(faces.begin(), faces.end());
+  for (Triple& face : finished.faces) {
+    for (Index& corner : face) corner = ranks[corner];
+  }
+  return finished;
+}
+
 struct Arrays {
   std::vector<Triple> faces;
   std::vector<Triple> neighbors;
@@ -68,33 +98,27 @@ Arrays write_arrays(std::span<const Triple> faces, std::span<const Triple> neigh
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
   if (argc < 3) {
-    std::fprintf(stderr, "usage: limit_bench KIND N\n");
+    std::fprintf(stderr, "usage: limit_bench KIND N [--seed S]\n");
     return 2;
   }
-  const auto sites = rondel::bench::make_input(argv[1], std::strtoull(argv[2], nullptr, 10));
+  rondel::bench::Source source(argv[1], argv[2], seed);
   rondel::Options options;
   options.threads = 1;
-  const auto triangulation = rondel::delaunay(sites, options);
-  const auto sorted = rondel::bench::measure(
-      [&] { return rondel::order::spatial_order(sites, options.model, {}, options.threads); });
-  const auto& order = sorted.result->order;
-  const auto ranks = invert(order, sites.size());
-  if (order.size() != sites.size()) {
-    std::fprintf(stderr, "limit_bench: the input has duplicates\n");
-    return 1;
-  }
-  std::vector<Triple> faces(triangulation.faces().begin(), triangulation.faces().end());
-  for (Triple& face : faces) {
-    for (Index& corner : face) corner = ranks[corner];
-  }
-  const rondel::models::ProjectedPoints points(sites, order, {});
-  const auto verified = rondel::bench::measure(
-      [&] { return count_conflicts(points, faces, triangulation.neighbors()); });
+  const auto make = [&] { return finish(source.next(), options); };
+  using rondel::bench::measure;
+  const auto sorted = measure([&] { return source.next(); },
+                              [&](const auto& sites) { return sort(sites, options); });
+  const auto verified = measure(make, [](const Finished& t) {
+    const rondel::models::ProjectedPoints points(t.sites, t.order, {});
+    return count_conflicts(points, t.faces, t.triangulation.neighbors());
+  });
   if (*verified.result != 0) return 1;
-  const auto written =
-      rondel::bench::measure([&] { return write_arrays(faces, triangulation.neighbors(), order); });
-  rondel::bench::print_json({{"sites", static_cast<double>(sites.size())},
+  const auto written = measure(make, [](const Finished& t) {
+    return write_arrays(t.faces, t.triangulation.neighbors(), t.order);
+  });
+  rondel::bench::print_json({{"sites", static_cast<double>(sorted.input->size())},
                              {"seconds", sorted.seconds + verified.seconds + written.seconds},
                              {"sort", sorted.seconds},
                              {"verify", verified.seconds},

@@ -8,9 +8,13 @@
 //    time is reported apart. From then on the heap keeps what is freed, as it does in any case for
 //    small builds. The second build fills it, and the median of the next counts: of `enough_runs`,
 //    or of more if they take less than `enough_seconds`, or of fewer if they take `long_seconds`.
+//    Each build has an input of its own, with another seed: a processor learns the branches of a
+//    small input that comes again and again, which no user's does.
 // 2. Memory is the growth of the peak of resident memory during the first build, above what the
 //    process held before: input that is in memory does not count.
-// 3. Releasing a result is not measured.
+// 3. Making an input and releasing a result are not measured.
+// 4. What is counted in a result is counted after the first build, of which every program has the
+//    same input.
 #pragma once
 
 #include <algorithm>
@@ -67,34 +71,57 @@ inline double median(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
 }
 
-template <class Result>
+struct Counts {
+  std::size_t sites = 0;
+  std::size_t vertices = 0;
+  std::size_t faces = 0;
+};
+
+template <class Input, class Result>
 struct Measured {
-  std::optional<Result> result;  // of the last run
-  double seconds = 0;            // the median
+  std::optional<Input> input;  // of the last run
+  std::optional<Result> result;
+  Counts counts;       // of the first run
+  double seconds = 0;  // the median
   double first_seconds = 0;
   double memory_bytes = 0;
 };
 
-template <class Build>
-auto measure(Build build) {
-  Measured<std::invoke_result_t<Build>> measured;
-  const auto run = [&] {
+// make() -> Input; build(Input&) -> Result; count(Input&, Result&) -> Counts.
+template <class Make, class Build, class Count>
+auto measure(Make make, Build build, Count count) {
+  using Input = std::invoke_result_t<Make>;
+  Measured<Input, std::invoke_result_t<Build, Input&>> measured;
+  const auto prepare = [&] {
     measured.result.reset();
-    return seconds_of([&] { measured.result.emplace(build()); });
+    measured.input.reset();
+    measured.input.emplace(make());
   };
+  const auto run = [&] {
+    return seconds_of([&] { measured.result.emplace(build(*measured.input)); });
+  };
+  prepare();
   const MemoryMeter memory;
   measured.first_seconds = run();
   measured.memory_bytes = memory.growth_bytes();
+  measured.counts = count(*measured.input, *measured.result);
   keep_freed_memory();
+  prepare();
   run();
   std::vector<double> seconds;
   double sum = 0;
   while (sum < enough_seconds || (seconds.size() < enough_runs && sum < long_seconds)) {
+    prepare();
     seconds.push_back(run());
     sum += seconds.back();
   }
   measured.seconds = median(std::move(seconds));
   return measured;
+}
+
+template <class Make, class Build>
+auto measure(Make make, Build build) {
+  return measure(make, build, [](const auto&, const auto&) { return Counts{}; });
 }
 
 struct Field {
@@ -106,13 +133,12 @@ struct Field {
 void print_json(std::initializer_list<Field> fields);
 
 // What the peers report.
-template <class Result>
-void print_build(std::size_t sites, std::size_t vertices, std::size_t faces,
-                 const Measured<Result>& measured) {
-  const auto n = static_cast<double>(sites);
+template <class Input, class Result>
+void print_build(const Measured<Input, Result>& measured) {
+  const auto n = static_cast<double>(measured.counts.sites);
   print_json({{"sites", n},
-              {"vertices", static_cast<double>(vertices)},
-              {"faces", static_cast<double>(faces)},
+              {"vertices", static_cast<double>(measured.counts.vertices)},
+              {"faces", static_cast<double>(measured.counts.faces)},
               {"seconds", measured.seconds},
               {"first_seconds", measured.first_seconds},
               {"bytes_per_site", measured.memory_bytes / n}});

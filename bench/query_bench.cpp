@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// query_bench N QUERIES [projected|weighted] [THREADS]: uniform sites and as many other
+// query_bench N QUERIES [projected|weighted] [THREADS] [--seed S]: uniform sites and as many other
 // uniform points as queries, in one batch of each kind, and one JSON object on standard output. The
 // check sum, of the nearest sites' indices, is the same for every program.
 
@@ -17,13 +17,15 @@
 #include "rondel/rondel.h"
 
 int main(int argc, char** argv) {
+  const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
   if (argc < 3) {
-    std::fprintf(stderr, "usage: query_bench N QUERIES [projected|weighted] [THREADS]\n");
+    std::fprintf(stderr,
+                 "usage: query_bench N QUERIES [projected|weighted] [THREADS] [--seed S]\n");
     return 2;
   }
   const std::size_t n = std::strtoull(argv[1], nullptr, 10);
   const std::size_t q = std::strtoull(argv[2], nullptr, 10);
-  const auto points = rondel::bench::make_input("uniform", n + q);
+  const auto points = rondel::bench::make_input("uniform", n + q, seed);
   const auto sites = std::span(points).first(n);
   const auto queries = std::span(points).last(q);
   rondel::Options options;

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel_bench KIND N [projected|weighted|hull] [--threads T] [--dual]: order, triangulation and
-// canonical result of one input in memory; with --dual then its cells and areas.
+// rondel_bench KIND N [projected|weighted|hull] [--threads T] [--dual] [--seed S]: order,
+// triangulation and canonical result of inputs in memory, of which S is the first seed; with --dual
+// then the cells and areas of the last.
 
 #include <cstdio>
 #include <cstdlib>
@@ -50,38 +51,47 @@ rondel::Triangulation build(const std::vector<Point>& sites, const Task& task) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
   if (argc < 3) {
     std::fprintf(stderr,
-                 "usage: rondel_bench KIND N [projected|weighted|hull] [--threads T] [--dual]\n");
+                 "usage: rondel_bench KIND N [projected|weighted|hull] [--threads T] [--dual] "
+                 "[--seed S]\n");
     return 2;
   }
   const Task task = parse(argc, argv);
-  const auto sites = rondel::bench::make_input(argv[1], std::strtoull(argv[2], nullptr, 10));
-  const auto measured = rondel::bench::measure([&] { return build(sites, task); });
+  rondel::bench::Source source(argv[1], argv[2], seed);
+  const auto measured = rondel::bench::measure(
+      [&] { return source.next(); },
+      [&](const std::vector<Point>& sites) { return build(sites, task); },
+      [](const std::vector<Point>& sites, const rondel::Triangulation& triangulation) {
+        return rondel::bench::Counts{sites.size(), triangulation.num_vertices(),
+                                     triangulation.num_faces()};
+      });
   const rondel::Triangulation& triangulation = *measured.result;
 
   double dual = 0;
   double total_area = 0;
   if (task.with_dual) {
     const rondel::bench::Stopwatch watch;
-    const auto diagram = rondel::diagram(triangulation, sites);
+    const auto diagram = rondel::diagram(triangulation, *measured.input);
     dual = watch.seconds();
     total_area = std::accumulate(diagram.areas.begin(), diagram.areas.end(), 0.0);
   }
   const auto number = [](auto value) { return static_cast<double>(value); };
   const auto& report = triangulation.report();
-  rondel::bench::print_json({{"sites", number(sites.size())},
-                             {"vertices", number(triangulation.num_vertices())},
-                             {"faces", number(triangulation.num_faces())},
-                             {"seconds", measured.seconds},
-                             {"first_seconds", measured.first_seconds},
-                             {"order", report.order_seconds},
-                             {"triangulate", report.triangulate_seconds},
-                             {"dual", dual},
-                             {"total_area", total_area},
-                             {"bytes_per_site", measured.memory_bytes / number(sites.size())},
-                             {"filter", number(report.rungs.filter)},
-                             {"double_double", number(report.rungs.double_double)},
-                             {"exact", number(report.rungs.exact)},
-                             {"perturbed", number(report.rungs.perturbed)}});
+  rondel::bench::print_json(
+      {{"sites", number(measured.counts.sites)},
+       {"vertices", number(measured.counts.vertices)},
+       {"faces", number(measured.counts.faces)},
+       {"seconds", measured.seconds},
+       {"first_seconds", measured.first_seconds},
+       {"order", report.order_seconds},
+       {"triangulate", report.triangulate_seconds},
+       {"dual", dual},
+       {"total_area", total_area},
+       {"bytes_per_site", measured.memory_bytes / number(measured.counts.sites)},
+       {"filter", number(report.rungs.filter)},
+       {"double_double", number(report.rungs.double_double)},
+       {"exact", number(report.rungs.exact)},
+       {"perturbed", number(report.rungs.perturbed)}});
 }

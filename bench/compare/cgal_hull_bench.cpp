@@ -14,19 +14,23 @@
 #include "measure.h"
 
 int main(int argc, char** argv) {
+  const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
   if (argc < 3) {
-    std::fprintf(stderr, "usage: cgal_hull_bench KIND N\n");
+    std::fprintf(stderr, "usage: cgal_hull_bench KIND N [--seed S]\n");
     return 2;
   }
   using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
   using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
-  const auto points = rondel::bench::cgal_points<Kernel>(argv[1], argv[2]);
-  const auto measured = rondel::bench::measure([&] {
+  using Points = std::vector<Kernel::Point_3>;
+  rondel::bench::Source source(argv[1], argv[2], seed);
+  const auto make = [&] { return rondel::bench::cgal_points<Kernel>(source.next()); };
+  const auto build = [](const Points& points) {
     Mesh hull;
     CGAL::convex_hull_3(points.begin(), points.end(), hull);
     return hull;
-  });
-  const Mesh& hull = *measured.result;
-  rondel::bench::print_build(points.size(), hull.number_of_vertices(), hull.number_of_faces(),
-                             measured);
+  };
+  const auto count = [](const Points& points, const Mesh& hull) {
+    return rondel::bench::Counts{points.size(), hull.number_of_vertices(), hull.number_of_faces()};
+  };
+  rondel::bench::print_build(rondel::bench::measure(make, build, count));
 }

@@ -4,8 +4,6 @@
 // The sites as CGAL's points.
 #pragma once
 
-#include <cstdlib>
-#include <string>
 #include <vector>
 
 #include "inputs.h"
@@ -13,8 +11,7 @@
 namespace rondel::bench {
 
 template <class Kernel>
-std::vector<typename Kernel::Point_3> cgal_points(const std::string& kind, const char* n) {
-  const auto sites = make_input(kind, std::strtoull(n, nullptr, 10));
+std::vector<typename Kernel::Point_3> cgal_points(const std::vector<Point>& sites) {
   std::vector<typename Kernel::Point_3> points;
   points.reserve(sites.size());
   for (const Point& p : sites) points.emplace_back(p.x, p.y, p.z);

@@ -41,13 +41,14 @@ using Tree =
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
   if (argc < 3) {
-    std::fprintf(stderr, "usage: nanoflann_bench N QUERIES\n");
+    std::fprintf(stderr, "usage: nanoflann_bench N QUERIES [--seed S]\n");
     return 2;
   }
   const std::size_t n = std::strtoull(argv[1], nullptr, 10);
   const std::size_t q = std::strtoull(argv[2], nullptr, 10);
-  const auto points = rondel::bench::make_input("uniform", n + q);
+  const auto points = rondel::bench::make_input("uniform", n + q, seed);
   const Cloud cloud{std::span(points).first(n)};
   const auto queries = std::span(points).last(q);
 

@@ -37,17 +37,24 @@ Hull build(std::vector<coordT>& coordinates) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
   if (argc < 3) {
-    std::fprintf(stderr, "usage: qhull_bench KIND N\n");
+    std::fprintf(stderr, "usage: qhull_bench KIND N [--seed S]\n");
     return 2;
   }
   QHULL_LIB_CHECK
-  std::vector<coordT> coordinates;
-  for (const auto& p : rondel::bench::make_input(argv[1], std::strtoull(argv[2], nullptr, 10))) {
-    coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
-  }
-  const auto measured = rondel::bench::measure([&] { return build(coordinates); });
-  const qhT& hull = **measured.result;
-  rondel::bench::print_build(coordinates.size() / 3, static_cast<std::size_t>(hull.num_vertices),
-                             static_cast<std::size_t>(hull.num_facets), measured);
+  rondel::bench::Source source(argv[1], argv[2], seed);
+  const auto make = [&] {
+    std::vector<coordT> coordinates;
+    for (const auto& p : source.next()) {
+      coordinates.insert(coordinates.end(), {p.x, p.y, p.z});
+    }
+    return coordinates;
+  };
+  const auto count = [](const std::vector<coordT>& coordinates, const Hull& hull) {
+    return rondel::bench::Counts{coordinates.size() / 3,
+                                 static_cast<std::size_t>(hull->num_vertices),
+                                 static_cast<std::size_t>(hull->num_facets)};
+  };
+  rondel::bench::print_build(rondel::bench::measure(make, build, count));
 }

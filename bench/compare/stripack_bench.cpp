@@ -32,6 +32,7 @@ void cstrmesh_(const int* n, const double* x, const double* y, const double* z, 
 namespace {
 
 using rondel::Point;
+using rondel::bench::Counts;
 using rondel::bench::measure;
 using rondel::bench::print_build;
 
@@ -52,33 +53,50 @@ struct Triangles {
   std::size_t count = 0;
 };
 
-Triangles run_csstrid(std::vector<double>& lat_deg, std::vector<double>& lon_deg) {
+struct Positions {
+  explicit Positions(const std::vector<Point>& sites) {
+    constexpr double degrees = 180 / std::numbers::pi;
+    for (const Point& p : sites) {
+      lat_deg.push_back(degrees * std::atan2(p.z, std::hypot(p.x, p.y)));
+      lon_deg.push_back(degrees * std::atan2(p.y, p.x));
+    }
+  }
+  std::vector<double> lat_deg;
+  std::vector<double> lon_deg;
+};
+
+Triangles run_csstrid(Positions& at) {
   int count = 0;
   int error = 0;
   Triangles triangles;
-  triangles.corners.reset(
-      c_csstrid(static_cast<int>(lat_deg.size()), lat_deg.data(), lon_deg.data(), &count, &error));
+  triangles.corners.reset(c_csstrid(static_cast<int>(at.lat_deg.size()), at.lat_deg.data(),
+                                    at.lon_deg.data(), &count, &error));
   stop_if(error);
   triangles.count = static_cast<std::size_t>(count);
   return triangles;
 }
 
-void measure_csstrid(const std::vector<Point>& sites) {
-  constexpr double degrees = 180 / std::numbers::pi;
-  std::vector<double> lat_deg;
-  std::vector<double> lon_deg;
-  for (const Point& p : sites) {
-    lat_deg.push_back(degrees * std::atan2(p.z, std::hypot(p.x, p.y)));
-    lon_deg.push_back(degrees * std::atan2(p.y, p.x));
+Counts count_triangles(const Positions& at, const Triangles& triangles) {
+  std::vector<bool> is_vertex(at.lat_deg.size(), false);
+  for (std::size_t i = 0; i < 3 * triangles.count; ++i) {
+    is_vertex[static_cast<std::size_t>(triangles.corners[i])] = true;
   }
-  const auto measured = measure([&] { return run_csstrid(lat_deg, lon_deg); });
-  std::vector<bool> is_vertex(sites.size(), false);
-  for (std::size_t i = 0; i < 3 * measured.result->count; ++i) {
-    is_vertex[static_cast<std::size_t>(measured.result->corners[i])] = true;
-  }
-  print_build(sites.size(), static_cast<std::size_t>(std::ranges::count(is_vertex, true)),
-              measured.result->count, measured);
+  return {is_vertex.size(), static_cast<std::size_t>(std::ranges::count(is_vertex, true)),
+          triangles.count};
 }
+
+struct Coordinates {
+  explicit Coordinates(const std::vector<Point>& sites) {
+    for (const Point& p : sites) {
+      x.push_back(p.x);
+      y.push_back(p.y);
+      z.push_back(p.z);
+    }
+  }
+  std::vector<double> x;
+  std::vector<double> y;
+  std::vector<double> z;
+};
 
 // For each node its neighbors as a circular list; that of a node on the boundary ends with a
 // negative number.
@@ -90,8 +108,8 @@ struct Lists {
   int lnew = 0;
 };
 
-Lists run_trmesh(const std::vector<double>& x, const std::vector<double>& y,
-                 const std::vector<double>& z) {
+Lists run_trmesh(const Coordinates& at) {
+  const auto& [x, y, z] = at;
   Lists lists(x.size());
   const int n = static_cast<int>(x.size());
   std::vector<int> near(x.size());
@@ -104,36 +122,28 @@ Lists run_trmesh(const std::vector<double>& x, const std::vector<double>& y,
   return lists;
 }
 
-void measure_trmesh(const std::vector<Point>& sites) {
-  std::vector<double> x;
-  std::vector<double> y;
-  std::vector<double> z;
-  for (const Point& p : sites) {
-    x.push_back(p.x);
-    y.push_back(p.y);
-    z.push_back(p.z);
-  }
-  const auto measured = measure([&] { return run_trmesh(x, y, z); });
-  const auto entries = static_cast<std::size_t>(measured.result->lnew - 1);
-  const auto end = measured.result->list.begin() + measured.result->lnew - 1;
+Counts count_lists(const Coordinates& at, const Lists& lists) {
+  const auto entries = static_cast<std::size_t>(lists.lnew - 1);
+  const auto end = lists.list.begin() + lists.lnew - 1;
   const auto boundary = static_cast<std::size_t>(
-      std::count_if(measured.result->list.begin(), end, [](int node) { return node < 0; }));
+      std::count_if(lists.list.begin(), end, [](int node) { return node < 0; }));
+  const std::size_t n = at.x.size();
   // Euler: V - E + F = 2, the outside being a face where there is a boundary.
-  const std::size_t faces = entries / 2 + 2 - sites.size() - (boundary > 0 ? 1 : 0);
-  print_build(sites.size(), sites.size(), faces, measured);
+  return {n, n, entries / 2 + 2 - n - (boundary > 0 ? 1 : 0)};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
   if (argc < 3) {
-    std::fprintf(stderr, "usage: stripack_bench KIND N [csstrid|trmesh]\n");
+    std::fprintf(stderr, "usage: stripack_bench KIND N [csstrid|trmesh] [--seed S]\n");
     return 2;
   }
-  const auto sites = rondel::bench::make_input(argv[1], std::strtoull(argv[2], nullptr, 10));
+  rondel::bench::Source source(argv[1], argv[2], seed);
   if (argc > 3 && std::string(argv[3]) == "trmesh") {
-    measure_trmesh(sites);
+    print_build(measure([&] { return Coordinates(source.next()); }, run_trmesh, count_lists));
   } else {
-    measure_csstrid(sites);
+    print_build(measure([&] { return Positions(source.next()); }, run_csstrid, count_triangles));
   }
 }

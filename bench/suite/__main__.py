@@ -7,7 +7,7 @@ import os
 import pathlib
 import sys
 
-from . import against_peers, environment, features, ratios, rondel_alone
+from . import against_peers, environment, features, hostile, ratios, rondel_alone
 from .runs import Limits
 from .settings import ROOT, Settings
 
@@ -16,6 +16,7 @@ TABLES = {
     "peers": against_peers.over_sizes,
     "stations": against_peers.on_stations,
     "hard": against_peers.on_hard_inputs,
+    "hostile": hostile.beside_uniform,
     "limit": rondel_alone.beside_the_limit,
     "threads": rondel_alone.over_threads,
     "growth": rondel_alone.over_growing_sizes,

@@ -114,7 +114,7 @@ def hard_inputs(settings):
         ("grid 500 x 1000" if grid == 500_000 else f"grid of about {grid:,}", "grid", grid),
         (f"Fibonacci {power(million)}", "fibonacci", million),
         (f"S_{paper}", "paper-s", paper),
-        (f"{power(patch)} in a patch of 1e-6 rad + 1000", "patch", patch),
+        (f"{power(patch)}, all but 1000 in a patch of 1e-6 rad", "patch-and-globe", patch),
     ]
 
 

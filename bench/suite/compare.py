@@ -3,7 +3,7 @@
 """Whether one commit is slower than another on this machine.
 
 Both are built from detached worktrees with the same compiler and options, and run in turns on the
-same inputs, each run in its own process. Any commit that has the program rondel_bench will do; its
+same inputs, other ones in each turn, each run in its own process. Any commit that has the program rondel_bench will do; its
 own rules of measuring count (bench/measure.h), so two commits with different ones tell little.
 """
 
@@ -13,7 +13,7 @@ import pathlib
 import subprocess
 import sys
 
-from .runs import Limits, run_in_turns
+from .runs import SEED, Limits, run_in_turns
 from .settings import ROOT
 from .tables import Table, number, power, spread
 
@@ -67,10 +67,16 @@ def is_slower(ratio, percent):
     return ratio[0] > 1 + percent / 100
 
 
-def cases_of(kinds, models, sites, threads):
+def takes_seed(program):
+    """Older programs make one input, whatever the turn."""
+    usage = subprocess.run([program], check=False, capture_output=True, text=True).stderr
+    return "--seed" in usage
+
+
+def cases_of(kinds, models, sites, threads, seed=()):
     """Options by name. Older programs take the word before the number for the wish for cells, too,
     which they do not count."""
-    options = ["--threads", threads] if threads > 1 else []
+    options = [*(["--threads", threads] if threads > 1 else []), *seed]
     return {f"{kind}, {model}": [kind, sites, model, *options]
             for kind in kinds for model in models}
 
@@ -84,7 +90,8 @@ def parse(words):
     parser.add_argument("--runs", type=int, default=9)
     parser.add_argument("--sites", type=int, default=2**19)
     parser.add_argument("--threads", type=int, default=1)
-    parser.add_argument("--kinds", nargs="+", choices=KINDS, default=KINDS)
+    parser.add_argument("--kinds", nargs="+", default=KINDS,
+                        help=f"of inputs/kinds.h ({' '.join(KINDS)})")
     parser.add_argument("--models", nargs="+", choices=MODELS, default=MODELS)
     parser.add_argument("--folder", type=pathlib.Path, default=ROOT / "build" / "compare-speed")
     return parser.parse_args(words)
@@ -96,7 +103,8 @@ def main(words):
                      for name in (arguments.before, arguments.after))
     if before.commit == after.commit:
         raise SystemExit(f"both are {before.commit}")
-    cases = cases_of(arguments.kinds, arguments.models, arguments.sites, arguments.threads)
+    seed = ["--seed", SEED] if takes_seed(before.program) and takes_seed(after.program) else []
+    cases = cases_of(arguments.kinds, arguments.models, arguments.sites, arguments.threads, seed)
     commands = {(name, side.commit): [side.program, *options]
                 for name, options in cases.items() for side in (before, after)}
     results = run_in_turns(commands, Limits(runs=arguments.runs, budget=float("inf")))

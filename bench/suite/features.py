@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Hulls of points in space, queries, and changes one by one."""
 
-from .runs import run_in_turns
 from .rondel_alone import run
+from .runs import SEED, run_in_turns
 from .tables import Table, number, power, spread
 
 HULLS = {"ball": "uniform in a ball", "cube": "uniform in a cube", "gaussian": "Gaussian",
@@ -19,12 +19,12 @@ def hulls(settings):
     rows = []
     for kind, what in HULLS.items():
         cases = _there(settings, {
-            "Rondel": [settings.programs / "rondel_bench", kind, n, "hull"],
-            "Qhull": [settings.programs / "qhull_bench", kind, n],
-            "CGAL": [settings.programs / "cgal_hull_bench", kind, n],
+            name: [settings.programs / program, kind, n, *options, "--seed", SEED]
+            for name, program, *options in (("Rondel", "rondel_bench", "hull"),
+                                            ("Qhull", "qhull_bench"), ("CGAL", "cgal_hull_bench"))
         })
         results = run_in_turns(cases, settings.limits)
-        vertices = {v for name in cases for v in results.all(name, "vertices")}
+        vertices = {v for name in cases for v in results.all(name, "vertices")[:1]}
         cells = [results.failure(name) or spread(results.ns_each(name)) if name in cases else ""
                  for name in ("Rondel", "Qhull", "CGAL")]
         ratios = [number(results.ratio(name, "Rondel")[0]) if results.has(name) else ""
@@ -37,15 +37,16 @@ def hulls(settings):
 
 def queries(settings):
     n = settings.size(2**20)
-    rondel = [settings.programs / "query_bench", n, n]
+    seed = ["--seed", SEED]
+    rondel = [settings.programs / "query_bench", n, n, *seed]
     results = run(settings, _there(settings, {
         "projected": [*rondel, "projected"],
         f"projected, {settings.threads()[-1]} threads":
             [*rondel, "projected", settings.threads()[-1]],
         "weighted": [*rondel, "weighted"],
-        "nanoflann": [settings.programs / "nanoflann_bench", n, n],
+        "nanoflann": [settings.programs / "nanoflann_bench", n, n, *seed],
     }))
-    if len({total for name in results.of for total in results.all(name, "sum")}) != 1:
+    if any(len(set(sums)) != 1 for sums in zip(*(results.all(name, "sum") for name in results.of))):
         raise SystemExit("the nearest sites differ")
 
     def cell(name, *keys):
@@ -70,10 +71,10 @@ def changes(settings):
     peer = f"CGAL, {power(smaller)}, insert"
     small = f"projected, {power(smaller)}"
     results = run(settings, _there(settings, {
-        f"projected, {power(n)}": [program, "uniform", n, "projected"],
-        f"weighted, {power(n)}": [program, "uniform", n, "weighted"],
-        small: [program, "uniform", smaller, "projected"],
-        peer: [settings.programs / "cgal_bench", "uniform", smaller, "insert"],
+        f"projected, {power(n)}": [program, "uniform", n, "projected", "--seed", SEED],
+        f"weighted, {power(n)}": [program, "uniform", n, "weighted", "--seed", SEED],
+        small: [program, "uniform", smaller, "projected", "--seed", SEED],
+        peer: [settings.programs / "cgal_bench", "uniform", smaller, "insert", "--seed", SEED],
     }))
     rows = [[name, *(number(results.ns_each(name, key)[0]) for key in ("bulk", "insert", "remove")),
              number(results.median(name, "insert_by_bulk")),

@@ -8,7 +8,7 @@ from . import peers as peers_module
 from .against_peers import expected_vertices, hard_inputs, verdict
 from .peers import CGAL_GIVEN, CGAL_PROJECTED, QHULL, RONDEL, STRIPACK, STRIPACK_TRMESH
 from .rondel_alone import rondel, run
-from .runs import run_in_turns
+from .runs import SEED, run_in_turns
 from .tables import Table, number, power, spread
 
 HEAD = ["ratio", "input", "of medians (single turns)"]
@@ -61,7 +61,7 @@ def of_rondel(settings):
     results = run(settings, {
         uniform: rondel(settings, "uniform", n, "projected"),
         "weighted": rondel(settings, "uniform", n, "weighted"),
-        "limit": [settings.programs / "limit_bench", "uniform", n],
+        "limit": [settings.programs / "limit_bench", "uniform", n, "--seed", SEED],
         "dual": rondel(settings, "uniform", n, "projected", "--dual"),
         **hard,
     })

@@ -3,12 +3,12 @@
 """Rondel by itself: beside its limit, over threads, and over the number of sites."""
 
 from . import plots
-from .runs import run_in_turns
+from .runs import SEED, run_in_turns
 from .tables import Table, number, power, spread
 
 
 def rondel(settings, kind, n, *options):
-    return [settings.programs / "rondel_bench", kind, n, *options]
+    return [settings.programs / "rondel_bench", kind, n, *options, "--seed", SEED]
 
 
 def run(settings, cases):
@@ -25,7 +25,7 @@ def beside_the_limit(settings):
     for n in settings.sizes(settings.peers_max_log2):
         results = run(settings, {
             "build": rondel(settings, "uniform", n, "projected"),
-            "limit": [settings.programs / "limit_bench", "uniform", n],
+            "limit": [settings.programs / "limit_bench", "uniform", n, "--seed", SEED],
         })
         parts = (number(results.ns_each("limit", key)[0]) for key in ("sort", "verify", "write"))
         rows.append([power(n), spread(results.ns_each("build")), spread(results.ns_each("limit")),

@@ -94,9 +94,17 @@ class Results:
         return statistics.median(a) / statistics.median(b), min(turns), max(turns)
 
 
+SEED = "{seed}"  # a word of a command
+
+
+def with_seed(command, turn):
+    """Each turn has other inputs; a program takes the seeds from this one on."""
+    return [1_000_000 * turn + 1 if word == SEED else word for word in command]
+
+
 def run_in_turns(cases, limits, check=lambda name, outcome: outcome):
-    """`cases` maps names to commands. `check` may turn an outcome into a failure. A case that
-    failed is not run again."""
+    """`cases` maps names to commands, in which SEED is a number of the turn. `check` may turn an
+    outcome into a failure. A case that failed is not run again."""
     results = Results()
     spent = dict.fromkeys(cases, 0.0)
     results.of = {name: [] for name in cases}
@@ -106,7 +114,7 @@ def run_in_turns(cases, limits, check=lambda name, outcome: outcome):
                 continue
             _show(f"[{turn + 1}/{limits.runs}] {name}")
             start = time.monotonic()
-            results.of[name].append(check(name, run_once(command, limits.seconds)))
+            results.of[name].append(check(name, run_once(with_seed(command, turn), limits.seconds)))
             spent[name] += time.monotonic() - start
     _show("")
     return results

@@ -17,9 +17,9 @@ import unittest
 ROOT = pathlib.Path(sys.argv.pop(1))
 sys.path.insert(0, str(ROOT / "bench"))
 
-from suite import against_peers, compare, rondel_alone  # noqa: E402
+from suite import against_peers, compare, hostile, rondel_alone  # noqa: E402
 from suite.peers import Peer  # noqa: E402
-from suite.runs import Limits, Outcome, Results, run_in_turns, run_once  # noqa: E402
+from suite.runs import SEED, Limits, Outcome, Results, run_in_turns, run_once  # noqa: E402
 from suite.tables import Table, number, power, spread  # noqa: E402
 
 
@@ -70,6 +70,19 @@ class Processes(unittest.TestCase):
         self.assertEqual(results.failure("a"), "")
         self.assertEqual(results.failure("b"), "stops: exit status 1")
 
+    def test_each_turn_has_a_seed_of_its_own(self):
+        show = "import json, sys; print(json.dumps({'seed': int(sys.argv[1])}))"
+        results = run_in_turns({"a": [*python(show), SEED]}, Limits(seconds=60, runs=3, budget=60))
+        self.assertEqual(results.all("a", "seed"), [1, 1_000_001, 2_000_001])
+
+    def test_a_program_says_whether_it_takes_a_seed(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for usage, wanted in (("KIND N [--seed S]", True), ("KIND N", False)):
+                program = pathlib.Path(folder, "program")
+                program.write_text(f"#!/bin/sh\necho 'usage: {usage}' >&2; exit 2\n")
+                program.chmod(0o755)
+                self.assertEqual(compare.takes_seed(program), wanted)
+
     def test_a_case_beyond_its_budget_is_not_repeated(self):
         results = run_in_turns({"a": printing(seconds=1)}, Limits(seconds=60, runs=3, budget=0))
         self.assertEqual(len(results.of["a"]), 1)
@@ -99,6 +112,20 @@ class Arithmetic(unittest.TestCase):
         self.assertEqual(rondel_alone._growth(points, "1 thread"),
                          ["2^22 / 2^20, 1 thread, per site: 1.30"])
         self.assertEqual(rondel_alone._growth(points[:1], "1 thread"), [])
+
+    def test_a_hostile_kind_is_beside_as_many_uniform_sites_of_the_same_turns(self):
+        def outcome(sites, us_each):
+            return Outcome({"seconds": sites * us_each * 1e-6, "sites": sites})
+
+        results = Results()
+        results.of = {("uniform", 10): [outcome(10, 2)], ("uniform", 80): [outcome(80, 4)],
+                      ("wedge", 10): [outcome(10, 5), outcome(10, 7), outcome(10, 6)],
+                      ("wedge", 80): [outcome(80, 9)],
+                      ("cap", 10): [outcome(10, 1)], ("cap", 80): [Outcome(failure="over 2 s")]}
+        self.assertEqual(hostile.row(results, "wedge", (10, 80)),
+                         ["wedge", "6,000", "3.00", "9,000", "2.25", "1.50"])
+        self.assertEqual(hostile.row(results, "cap", (10, 80)),
+                         ["cap", "1,000", "0.50", "over 2 s", "", ""])
 
     def test_memory_is_of_large_inputs_or_of_the_largest_that_went_well(self):
         def results(**bytes_or_failure):
