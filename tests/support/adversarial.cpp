@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "support/generators.h"
 
@@ -229,8 +228,8 @@ Four near_one_circle(Random& random, double distance) {
   const Point north = cross_product(pole, east);
   Four four;
   for (Point& p : four) {
-    const double angle = 2 * std::numbers::pi * random.unit();
-    p = normalized(pole + (0.5 * distance) * (std::cos(angle) * east + std::sin(angle) * north));
+    const Point at = unit_vector_deg(360 * random.unit(), 0);
+    p = normalized(pole + (0.5 * distance) * (at.x * east + at.y * north));
   }
   return four;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
+#include <string_view>
 
 #include "support/generators.h"
 #include "support/hull_check.h"
@@ -20,43 +20,13 @@ Points repeated(std::size_t n, Make make) {
   return points;
 }
 
-Point in_cube(Random& random) {
-  const double x = random.signed_unit();
-  const double y = random.signed_unit();
-  return {x, y, random.signed_unit()};
+// Of the inputs that all programs share.
+Points shared(std::string_view kind, std::size_t n, std::uint64_t seed) {
+  return inputs::make(*inputs::find_kind(kind), {.n = n, .seed = seed}).sites;
 }
-
-Point in_ball(Random& random) {
-  for (;;) {
-    const Point p = in_cube(random);
-    if (p.x * p.x + p.y * p.y + p.z * p.z <= 1) return p;
-  }
-}
-
-Points ball(std::size_t n, std::uint64_t seed) {
-  Random random(seed);
-  return repeated(n, [&] { return in_ball(random); });
-}
-
-Points cube(std::size_t n, std::uint64_t seed) {
-  Random random(seed);
-  return repeated(n, [&] { return in_cube(random); });
-}
-
-double normal(Random& random) {
-  double sum = -6;  // of twelve uniform numbers: the tails are cut, which does not matter here
-  for (int i = 0; i < 12; ++i) sum += random.unit();
-  return sum;
-}
-
-Points gaussian(std::size_t n, std::uint64_t seed) {
-  Random random(seed);
-  return repeated(n, [&] {
-    const double x = normal(random);
-    const double y = normal(random);
-    return Point{x, y, normal(random)};
-  });
-}
+Points ball(std::size_t n, std::uint64_t seed) { return shared("ball", n, seed); }
+Points cube(std::size_t n, std::uint64_t seed) { return shared("cube", n, seed); }
+Points gaussian(std::size_t n, std::uint64_t seed) { return shared("gaussian", n, seed); }
 
 // Coplanar facets: six square grids.
 Points cube_surface_grid(std::size_t n, std::uint64_t seed) {
@@ -78,13 +48,16 @@ Points cube_surface_grid(std::size_t n, std::uint64_t seed) {
   return points;
 }
 
+// A point of the unit circle.
+Point around(Random& random) { return unit_vector_deg(360 * random.unit(), 0); }
+
 Points torus(std::size_t n, std::uint64_t seed) {
   Random random(seed);
   return repeated(n, [&] {
-    const double u = 2 * std::numbers::pi * random.unit();
-    const double v = 2 * std::numbers::pi * random.unit();
-    const double r = 3 + std::cos(v);
-    return Point{r * std::cos(u), r * std::sin(u), std::sin(v)};
+    const Point along = around(random);
+    const Point across = around(random);
+    const double r = 3 + across.x;
+    return Point{r * along.x, r * along.y, across.y};
   });
 }
 
@@ -94,8 +67,8 @@ Points cone(std::size_t n, std::uint64_t seed) {
   Points points = {{0, 0, 1}};
   while (points.size() < n) {
     const double h = random.unit();
-    const double u = 2 * std::numbers::pi * random.unit();
-    points.push_back({(1 - h) * std::cos(u), (1 - h) * std::sin(u), h});
+    const Point p = around(random);
+    points.push_back({(1 - h) * p.x, (1 - h) * p.y, h});
     if (points.size() % 16 == 0) points.push_back({0, 0, random.unit()});
   }
   random.shuffle(points);
@@ -116,13 +89,13 @@ Points lattice(std::size_t n, std::uint64_t seed) {
 
 Points half_inside(std::size_t n, std::uint64_t seed) {
   Random random(seed);
-  return repeated(n, [&] { return random.coin() ? in_ball(random) : random_direction(random); });
+  return repeated(n, [&] { return random.coin() ? random.in_ball() : random_direction(random); });
 }
 
 Points plate(std::size_t n, std::uint64_t seed) {
   Random random(seed);
   return repeated(n, [&] {
-    const Point p = in_cube(random);
+    const Point p = random.in_cube();
     return Point{p.x, p.y, std::ldexp(p.z, -30)};
   });
 }
@@ -131,7 +104,7 @@ Points plate(std::size_t n, std::uint64_t seed) {
 Points far_away(std::size_t n, std::uint64_t seed) {
   Random random(seed);
   return repeated(n, [&] {
-    const Point p = in_ball(random);
+    const Point p = random.in_ball();
     return Point{1e6 + 1e-9 * p.x, -1e6 + 1e-9 * p.y, 1e6 + 1e-9 * p.z};
   });
 }
@@ -139,7 +112,7 @@ Points far_away(std::size_t n, std::uint64_t seed) {
 Points many_duplicates(std::size_t n, std::uint64_t seed) {
   Random random(seed);
   return repeated(n, [&] {
-    const Point p = in_ball(random);
+    const Point p = random.in_ball();
     return Point{std::round(20 * p.x), std::round(20 * p.y), std::round(20 * p.z) + 0.0};
   });
 }
@@ -157,7 +130,7 @@ Points planar_grid(std::size_t n, std::uint64_t seed) {
 Points disk(std::size_t n, std::uint64_t seed) {
   Random random(seed);
   return repeated(n, [&] {
-    const Point p = in_ball(random);
+    const Point p = random.in_ball();
     const double x = std::round(1000 * p.x);
     const double y = std::round(1000 * p.y);
     return Point{x + y, x - y, 7 + 2 * x};
@@ -167,7 +140,7 @@ Points disk(std::size_t n, std::uint64_t seed) {
 Points wall(std::size_t n, std::uint64_t seed) {
   Random random(seed);
   return repeated(n, [&] {
-    const Point p = in_cube(random);
+    const Point p = random.in_cube();
     return Point{0.1, p.x, p.y};
   });
 }

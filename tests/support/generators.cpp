@@ -6,9 +6,10 @@
 #include <cmath>
 #include <cstdlib>
 #include <deque>
-#include <numbers>
 #include <stdexcept>
 #include <string>
+
+#include "rondel/delaunay.h"
 
 namespace rondel::test {
 
@@ -49,38 +50,10 @@ std::span<const Generator> hostile_generators() {
   return hostile;
 }
 
-namespace {
-
-// Reduced to [0, 45] degrees, so that all symmetries hold for the bits.
-double sine_deg(double angle) {
-  constexpr double radians = std::numbers::pi / 180;
-  if (angle < 0) return -sine_deg(-angle);
-  if (angle >= 360) return sine_deg(std::fmod(angle, 360));
-  if (angle > 180) return -sine_deg(angle - 180);
-  if (angle > 90) return sine_deg(180 - angle);
-  return angle > 45 ? std::cos((90 - angle) * radians) : std::sin(angle * radians);
-}
-
-double cosine_deg(double angle) { return sine_deg(90 - std::abs(angle)); }
-
-}  // namespace
-
-Point unit_vector_deg(double lon, double lat) {
-  return {cosine_deg(lat) * cosine_deg(lon), cosine_deg(lat) * sine_deg(lon), sine_deg(lat)};
-}
+Point unit_vector_deg(double lon, double lat) { return unit_vector({lon, lat}); }
 
 std::vector<Point> paper_s(std::size_t n) {
-  constexpr double pi = std::numbers::pi;
-  std::vector<Point> sites;
-  for (std::size_t i = 0; i <= n; ++i) {
-    const double theta = static_cast<double>(i) * pi / static_cast<double>(n);
-    const double phi = (theta * theta + 1) / (pi * pi);
-    sites.push_back(
-        {std::cos(theta) * std::sin(phi), std::sin(theta) * std::sin(phi), std::cos(phi)});
-  }
-  const double s = -1 / std::sqrt(3.0);
-  sites.insert(sites.end(), {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {s, s, s}});
-  return sites;
+  return inputs::make(*inputs::find_kind("paper-s"), {.n = n}).sites;
 }
 
 std::vector<Point> integer_sphere(int square, Random& random) {

@@ -54,8 +54,8 @@ using inputs::operator+;
 using inputs::operator-;
 using inputs::operator*;
 inline Point random_direction(Random& random) { return random.direction(); }
-// The unit vector of a longitude and latitude, as good as the C library's sine except that
-// multiples of 90 degrees are exact and opposite angles give opposite bits.
+// The unit vector of a longitude and latitude by the library's own conversion, which gives the
+// same bits everywhere; multiples of 90 degrees are exact.
 Point unit_vector_deg(double lon, double lat);
 // The paper's S_n (section 5): n + 1 points of a spiral and four more.
 std::vector<Point> paper_s(std::size_t n);

@@ -14,10 +14,7 @@ namespace {
 using Seed = std::uint64_t;
 
 SiteSet uniform(std::size_t n, Seed seed) {
-  Random random(seed);
-  SiteSet set;
-  while (set.sites.size() < n) set.sites.push_back(random_direction(random));
-  return set;
+  return {inputs::make(*inputs::find_kind("uniform"), {.n = n, .seed = seed}).sites};
 }
 
 SiteSet clustered(std::size_t n, Seed seed) {
