@@ -7,7 +7,7 @@
 //    from the system, which a virtual machine may provide at 1 GB/s or less when it is touched; its
 //    time is reported apart. From then on the heap keeps what is freed, as it does in any case for
 //    small builds. The second build fills it, and the median of the next counts: of `enough_runs`,
-//    or of more if they take less than `enough_seconds`, or of fewer if they take `long_seconds`.
+//    or of more if they and their inputs take less than `enough_seconds`, or of fewer if they take `long_seconds`.
 //    Each build has an input of its own, with another seed: a processor learns the branches of a
 //    small input that comes again and again, which no user's does.
 // 2. Memory is the growth of the peak of resident memory during the first build, above what the
@@ -110,7 +110,8 @@ auto measure(Make make, Build build, Count count) {
   run();
   std::vector<double> seconds;
   double sum = 0;
-  while (sum < enough_seconds || (seconds.size() < enough_runs && sum < long_seconds)) {
+  const Stopwatch watch;
+  while (watch.seconds() < enough_seconds || (seconds.size() < enough_runs && sum < long_seconds)) {
     prepare();
     seconds.push_back(run());
     sum += seconds.back();
