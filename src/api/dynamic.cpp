@@ -17,9 +17,23 @@
 #include "system/arithmetic.h"
 
 namespace rondel {
+namespace {
+
+// What one change of a range takes, in sites of a build (docs/guide/editing.md).
+constexpr double builds_of_insertion = 1.75;
+constexpr double builds_of_removal = 1.5;
+constexpr double builds_of_move = 4;
+
+// Whether a range of changes takes longer than a build of the sites that are there afterwards.
+bool is_build_faster(std::size_t num_changes, double builds_of_change, std::size_t num_sites) {
+  return builds_of_change * static_cast<double>(num_changes) > static_cast<double>(num_sites);
+}
+
+}  // namespace
 
 DynamicTriangulation::Impl::Impl(Options wanted)
     : options(std::move(wanted)),
+      range_threads(options.threads),
       editor(std::in_place_index<0>, Model::projected, options.sphere.center) {
   options.progress = {};
   // What is built later is built under a lock, which no thread may hold while it waits for others.
@@ -77,12 +91,18 @@ void DynamicTriangulation::Impl::assign(const Triangulation& triangulation,
   });
 }
 
+void DynamicTriangulation::Impl::rebuild(unsigned threads) {
+  const Snapshot now = live_sites();
+  Options build_options = options;
+  build_options.threads = threads;
+  assign(delaunay(now.sites, build_options), now.sites, now.ids);
+}
+
 DynamicTriangulation::Impl& DynamicTriangulation::Impl::current() {
   if (!is_in_pieces) return *this;
   const std::lock_guard guard(mutex);
   if (is_in_pieces) {
-    const Snapshot now = live_sites();
-    assign(delaunay(now.sites, options), now.sites, now.ids);
+    rebuild(options.threads);
     is_in_pieces = false;
   }
   return *this;
@@ -133,6 +153,7 @@ DynamicTriangulation::DynamicTriangulation(const Triangulation& triangulation,
   Options options;
   options.model = triangulation.model();
   options.sphere = triangulation.sphere();
+  options.threads = triangulation.report().threads;
   impl_ = std::make_unique<Impl>(options);
   impl_->visit([&](auto& e) { e.assign_points(sites); });
   std::vector<Index> ids(sites.size());
@@ -163,7 +184,12 @@ std::vector<Index> DynamicTriangulation::insert(std::span<const Point> sites) {
   const system::ArithmeticScope arithmetic;
   api::validate(sites, impl_->options);
   impl_->require_room(sites.size());
-  return impl_->change([&](auto& e) { return e.insert(sites); });
+  const bool is_rebuilt =
+      is_build_faster(sites.size(), builds_of_insertion, num_sites() + sites.size());
+  return impl_->change([&](auto& e) {
+    return is_rebuilt ? e.insert(sites, [&] { impl_->rebuild(impl_->range_threads); })
+                      : e.insert(sites);
+  });
 }
 
 void DynamicTriangulation::remove(Index id) {
@@ -175,10 +201,17 @@ void DynamicTriangulation::remove(Index id) {
 void DynamicTriangulation::remove(std::span<const Index> ids) {
   const system::ArithmeticScope arithmetic;
   impl_->require_distinct_sites(ids);
-  impl_->change([&](auto& e) { e.remove(ids); });
+  const bool is_rebuilt = is_build_faster(ids.size(), builds_of_removal, num_sites() - ids.size());
+  impl_->change([&](auto& e) {
+    is_rebuilt ? e.remove(ids, [&] { impl_->rebuild(impl_->range_threads); }) : e.remove(ids);
+  });
 }
 
-void DynamicTriangulation::move(Index id, const Point& to) { move({&id, 1}, {&to, 1}); }
+void DynamicTriangulation::move(Index id, const Point& to) {
+  impl_->require_site(id, 0);
+  api::validate({&to, 1}, impl_->options);
+  impl_->change([&](auto& e) { e.move({&id, 1}, {&to, 1}); });
+}
 
 void DynamicTriangulation::move(std::span<const Index> ids, std::span<const Point> to) {
   const system::ArithmeticScope arithmetic;
@@ -189,7 +222,10 @@ void DynamicTriangulation::move(std::span<const Index> ids, std::span<const Poin
   }
   for (std::size_t i = 0; i < ids.size(); ++i) impl_->require_site(ids[i], i);
   api::validate(to, impl_->options);
-  impl_->change([&](auto& e) { e.move(ids, to); });
+  const bool is_rebuilt = is_build_faster(ids.size(), builds_of_move, num_sites());
+  impl_->change([&](auto& e) {
+    is_rebuilt ? e.move(ids, to, [&] { impl_->rebuild(impl_->range_threads); }) : e.move(ids, to);
+  });
 }
 
 Model DynamicTriangulation::model() const noexcept { return impl_->options.model; }

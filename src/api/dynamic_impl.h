@@ -58,6 +58,9 @@ struct DynamicTriangulation::Impl {
   void assign(const Triangulation& triangulation, std::span<const Point> sites,
               std::span<const Index> ids);
 
+  // Makes all that follows from the sites anew.
+  void rebuild(unsigned threads);
+
   // This, in pieces no longer: what follows from the sites is made anew if a change has failed.
   // Several threads may ask.
   Impl& current();
@@ -86,6 +89,7 @@ struct DynamicTriangulation::Impl {
   [[nodiscard]] std::vector<Index> flat_ring() const;
 
   Options options;
+  unsigned range_threads;  // of a build for a range of changes
   std::variant<dynamic::Editor<models::ProjectedPoints>, dynamic::Editor<models::WeightedPoints>>
       editor;
   std::atomic<bool> is_in_pieces = false;

@@ -100,7 +100,11 @@ class Editor {
     std::vector<Index> ranks = kernel::insertion_order(static_cast<Index>(sites.size()));
     std::ranges::reverse(ranks);
     try {
-      for (const Index rank : ranks) remove(order[rank].second);
+      for (const Index rank : ranks) {
+        depart(order[rank].second);
+        renumber_if_due();
+      }
+      for (const Index site : sites) places_.free_site(site);
     } catch (...) {
       places_.roll_back(sites, true);
       throw;
@@ -119,8 +123,52 @@ class Editor {
         renumber_if_due();
       }
     } catch (...) {
-      for (std::size_t i = from.size(); i-- > 0;) places_.set_point(sites[i], from[i]);
+      restore(sites, from);
+      throw;
+    }
+  }
+
+  // The same three changes of ranges, where `build` takes the result of a build of all sites that
+  // are then there, by assign().
+  template <class Build>
+  std::vector<Index> insert(std::span<const Point> points, const Build& build) {
+    std::vector<Index> ids;
+    ids.reserve(points.size());
+    try {
+      for (const Point& p : points) {
+        ids.push_back(places_.add_site());
+        places_.expect(ids.back());
+        places_.set_point(ids.back(), p);
+      }
+      build();
+    } catch (...) {
+      places_.roll_back(ids, false);
+      throw;
+    }
+    return ids;
+  }
+  template <class Build>
+  void remove(std::span<const Index> sites, const Build& build) {
+    try {
+      for (const Index site : sites) places_.drop(site);
+      build();
+    } catch (...) {
       places_.roll_back(sites, true);
+      throw;
+    }
+  }
+  template <class Build>
+  void move(std::span<const Index> sites, std::span<const Point> to, const Build& build) {
+    std::vector<Point> from;
+    from.reserve(sites.size());
+    try {
+      for (std::size_t i = 0; i < sites.size(); ++i) {
+        from.push_back(places_.point(sites[i]));
+        places_.set_point(sites[i], to[i]);
+      }
+      build();
+    } catch (...) {
+      restore(sites, from);
       throw;
     }
   }
@@ -144,6 +192,12 @@ class Editor {
 
  private:
   void refresh(Index place) { sites_.set(place, places_.points(), places_.speakers()); }
+
+  // After a failed move: the first sites have left these points.
+  void restore(std::span<const Index> sites, std::span<const Point> from) {
+    for (std::size_t i = from.size(); i-- > 0;) places_.set_point(sites[i], from[i]);
+    places_.roll_back(sites, true);
+  }
 
   // Only between changes: it makes all numbers of places and faces invalid.
   void renumber_if_due() {

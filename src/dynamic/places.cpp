@@ -46,6 +46,7 @@ void Places::free_site(Index site) {
 
 void Places::roll_back(std::span<const Index> sites, bool are_there) noexcept {
   for (const Index site : sites) place_of_[site] = are_there ? 0 : no_index;
+  free_sites_.clear();
   count_sites();
 }
 
@@ -158,14 +159,14 @@ void Places::assign(std::span<const Index> place_of_site, std::span<const Index>
   count_sites();
   speakers_.assign(speakers.begin(), speakers.end());
   names_ = speakers_;
-  free_sites_.clear();
+  const bool lists_free_sites = free_sites_.size() + num_sites_ == place_of_.size();
   free_places_.clear();
   by_name_.clear();
   by_triple_.clear();
   for (Index site = 0; site < site_limit(); ++site) {
     const Index place = place_of_[site];
     if (place == no_index) {
-      free_sites_.push_back(site);
+      if (!lists_free_sites) free_sites_.push_back(site);
     } else if (speakers_[place] != site) {
       join(site, place);
     }

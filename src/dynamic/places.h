@@ -43,6 +43,14 @@ class Places {
   void free_site(Index site);
   void set_point(Index site, const Point& p) { points_[site] = p; }
 
+  // For a range of changes that a build follows: a new site is there, or one is there no longer.
+  // Places mean nothing then, until assign() makes them anew.
+  void expect(Index site) { place_of_[site] = 0; }
+  void drop(Index site) {
+    place_of_[site] = no_index;
+    free_site(site);
+  }
+
   // After a change that failed: these sites are there, or not, as before. Places, and what is made
   // of them, mean nothing then, until assign() makes them anew.
   void roll_back(std::span<const Index> sites, bool are_there) noexcept;
@@ -141,7 +149,7 @@ class Places {
 
   std::vector<Index> speakers_;
   std::vector<Index> names_;
-  std::vector<Index> free_sites_;
+  std::vector<Index> free_sites_;  // all that are not there; after roll_back() none
   std::vector<Index> free_places_;
   std::set<Member> by_name_;
   std::set<Member, SpeaksBefore> by_triple_{SpeaksBefore{&points_}};

@@ -31,23 +31,34 @@ std::vector<Index> ids_from(Index first, Index last) {
   return ids;
 }
 
-// More than double or less than half the sites have new numbers for their places.
+// More than double or less than half the sites have new numbers for their places. Ranges are large
+// enough for a build of all sites, or short.
 const std::vector<Change> changes = {
     {"insert", [](auto& changing, const auto& others) { changing.insert(others[0]); }},
     {"insert_with_hint", [](auto& changing, const auto& others) { changing.insert(others[0], 3); }},
     {"insert_duplicate",
      [](auto& changing, const auto&) { changing.insert(0.5 * changing.site(2)); }},
     {"insert_range", [](auto& changing, const auto& others) { changing.insert(others); }},
+    {"insert_short_range",
+     [](auto& changing, const auto& others) {
+       changing.insert(std::vector<Point>(others.begin(), others.begin() + 3));
+     }},
     {"remove", [](auto& changing, const auto&) { changing.remove(1); }},
     {"remove_duplicate", [](auto& changing, const auto&) { changing.remove(num_sites); }},
     {"remove_range",
      [](auto& changing, const auto&) { changing.remove(ids_from(1, num_sites - 1)); }},
+    {"remove_short_range", [](auto& changing, const auto&) { changing.remove(ids_from(1, 4)); }},
     {"remove_all", [](auto& changing, const auto&) { changing.remove(changing.ids()); }},
     {"move", [](auto& changing, const auto& others) { changing.move(4, others[0]); }},
     {"move_range",
      [](auto& changing, const auto& others) {
        const std::vector<Index> ids = {5, 6, 5};
        changing.move(ids, std::vector<Point>(others.begin(), others.begin() + 3));
+     }},
+    {"move_all",
+     [](auto& changing, const auto& others) {
+       const std::vector<Index> ids = ids_from(0, num_sites + 1);
+       changing.move(ids, std::vector<Point>(others.begin(), others.begin() + num_sites + 1));
      }},
 };
 

@@ -3,6 +3,7 @@
 rondel_add_test(dynamic_test
   dynamic_api_test.cpp
   dynamic_query_test.cpp
+  dynamic_range_test.cpp
   dynamic_renumbering_test.cpp
   dynamic_script_test.cpp
   LIBS rondel_test_support)
