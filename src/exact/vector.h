@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Vectors of three numbers of any ring: double, double-double, expansions, integers.
+// Vectors of three numbers of any ring: double, double-double, balls, integers.
 #pragma once
 
 #include "exact/eft.h"

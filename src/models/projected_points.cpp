@@ -125,6 +125,9 @@ bool ProjectedPoints::climb(Index a, Index b, Index c, Index p) const {
   const exact::SplitPoint x = split_direction(p);
   Sign sign = predicates::side_of_circle_extended(u, v, w, x);
   if (sign == Sign::zero) sign = predicates::side_of_circle_double_double(u, v, w, x);
+  if (sign == Sign::zero) {
+    sign = predicates::side_of_circle_close(point(a), point(b), point(c), point(p), center_);
+  }
   if (sign != Sign::zero) {
     ++tally_.double_double;
     return sign == Sign::positive;

@@ -40,6 +40,10 @@ inline constexpr double direction_orientation_bound = 54 * unit_roundoff;
 inline constexpr double plane_double_double_bound = 0x1p-99;
 inline constexpr double circle_double_double_bound = 0x1p-95;
 
+// The step E from p to q on the sphere of q's length, from p, q and their lengths in doubles,
+// relative to |q-p|: 21u, and terms of higher order.
+inline constexpr double close_step_bound = 24 * unit_roundoff;
+
 // |b-p|^2 - |a-p|^2 of stored directions, relative to H = max(|a-p|, |b-p|) <= 2:
 // 2 (4 eta + 10u) + 2u = 58.8u, and 2.9u for terms of higher order.
 inline constexpr double angle_bound = 64 * unit_roundoff;

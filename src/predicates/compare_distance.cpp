@@ -3,24 +3,17 @@
 
 #include "predicates/compare_distance.h"
 
-#include "exact/expansion.h"
-#include "exact/integer.h"
+#include <cstddef>
+#include <optional>
+
+#include "exact/exact_sign.h"
 #include "predicates/squared_chord.h"
 
 namespace rondel::predicates {
 namespace {
 
+using exact::Ball;
 using exact::DoubleDouble;
-using exact::Expansion;
-using exact::expansion;
-using exact::Integer;
-using exact::two_diff;
-using exact::two_product;
-
-Expansion<6> dot_product(const Point& a, const Point& b) {
-  return (expansion(two_product(a.x, b.x)) + expansion(two_product(a.y, b.y))) +
-         expansion(two_product(a.z, b.z));
-}
 
 Sign angle_by_double_double(const Point& a, const Point& b, const Point& p, const Point& center) {
   const exact::SplitPoint u = exact::unit_vector(p, center);
@@ -31,34 +24,32 @@ Sign angle_by_double_double(const Point& a, const Point& b, const Point& p, cons
   return unless_unsure(value, value * value > bound * std::max(a2.hi, b2.hi));
 }
 
-// The sign of pa sqrt(b2) - pb sqrt(a2).
-Sign sign_of_two_roots(const Integer& pa, const Integer& b2, const Integer& pb, const Integer& a2) {
-  const Sign sign = exact::sign_of(pa);
-  const Sign other = exact::sign_of(pb);
-  if (sign != other) return sign > other ? Sign::positive : Sign::negative;
-  return sign * exact::sign_of(Integer(pa * pa * b2 - pb * pb * a2));
+// The sign of pa sqrt(b2) - pb sqrt(a2), if it is known.
+template <std::size_t N>
+std::optional<Sign> sign_of_two_roots(const Ball<N>& pa, const Ball<N>& b2, const Ball<N>& pb,
+                                      const Ball<N>& a2) {
+  const std::optional<Sign> sign = pa.sign();
+  const std::optional<Sign> other = pb.sign();
+  if (!sign || !other) return std::nullopt;
+  if (*sign != *other) return *sign > *other ? Sign::positive : Sign::negative;
+  const bool are_equal = (a2 - b2).sign() == Sign::zero;
+  const std::optional<Sign> size =
+      are_equal ? (pa - pb).sign() : (pa * pa * b2 - pb * pb * a2).sign();
+  if (!size) return std::nullopt;
+  return are_equal ? *size : *sign * *size;
 }
 
 Sign angle_exact(const Point& a, const Point& b, const Point& p, const Point& center) {
-  if (center == Point{} && is_safe_for_expansions({a, b, p}) &&
-      sign_of(dot_product(a, a) - dot_product(b, b)) == Sign::zero) {
-    return sign_of(dot_product(p, a) - dot_product(p, b));
-  }
-  const auto v = exact::scaled_rays({a, b, p}, center);
-  return sign_of_two_roots(dot(v[2], v[0]), dot(v[1], v[1]), dot(v[2], v[1]), dot(v[0], v[0]));
+  return exact::sign_of_sextic([&](const auto& step) {
+    const auto to_a = step(center, a);
+    const auto to_b = step(center, b);
+    const auto to_p = step(center, p);
+    return sign_of_two_roots(dot(to_p, to_a), dot(to_b, to_b), dot(to_p, to_b), dot(to_a, to_a));
+  });
 }
 
 Sign power_exact(const Point& a, const Point& b, const Point& p, const Point& center) {
-  if (is_safe_for_expansions({a, b, p, center})) {
-    const auto term = [](double from, double to, double end, double origin) {
-      return expansion(two_diff(to, from)) * expansion(two_diff(end, origin));
-    };
-    return sign_of((term(b.x, a.x, p.x, center.x) + term(b.y, a.y, p.y, center.y)) +
-                   term(b.z, a.z, p.z, center.z));
-  }
-  const auto ray = exact::scaled_rays({p}, center).front();
-  const auto v = exact::scaled_differences({a}, b).front();
-  return exact::sign_of(dot(ray, v));
+  return exact::sign_of_cubic([&](const auto& step) { return dot(step(b, a), step(center, p)); });
 }
 
 }  // namespace

@@ -14,8 +14,7 @@
 //
 // Rungs, projected: |u_p-u_b|^2 - |u_p-u_a|^2 in doubles, whose error is of order u H against
 // values of order H^2 at any distance H; the same in double-double; the sign of two terms with
-// square roots, by expansions where both lengths are equal, otherwise in integers. Rungs, weighted:
-// doubles, expansions, integers.
+// square roots in balls of more and more words. Rungs, weighted: doubles, balls.
 #pragma once
 
 #include <algorithm>

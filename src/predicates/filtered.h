@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "exact/vector.h"
 #include "predicates/bounds.h"
@@ -38,16 +37,6 @@ inline bool is_beyond(double value, double bound, double a2, double b2, double c
 // lengths. For finite vectors.
 inline bool is_beyond_longest(double value, double bound, double a2, double b2, double c2) {
   return value * value > (bound * bound) * std::max(std::max(a2 * b2, b2 * c2), c2 * a2);
-}
-
-// Whether expansions of products of up to five coordinates are exact: no overflow, no underflow.
-inline bool is_safe_for_expansions(std::initializer_list<Point> points) {
-  const auto is_safe = [](double v) {
-    const double size = std::abs(v);
-    return size == 0 || (size > 0x1p-100 && size < 0x1p100);
-  };
-  return std::all_of(points.begin(), points.end(),
-                     [&](const Point& p) { return is_safe(p.x) && is_safe(p.y) && is_safe(p.z); });
 }
 
 }  // namespace rondel::predicates

@@ -3,43 +3,70 @@
 
 #include "predicates/orientation.h"
 
-#include "exact/expansion.h"
-#include "exact/integer.h"
-#include "predicates/side_of_plane.h"
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "exact/exact_sign.h"
+#include "predicates/scale.h"
 
 namespace rondel::predicates {
 namespace {
 
-using exact::expansion;
+struct Corner {
+  Vector ray;  // from the center
+  Vector point;
+};
 
-Sign filter(const Point& a, const Point& b, const Point& c, const Point& center) {
-  const Vector from_center = to_vector(a) - to_vector(center);
-  const Vector ab = to_vector(b) - to_vector(a);
-  const Vector ac = to_vector(c) - to_vector(a);
-  const double value = det(from_center, ab, ac);
-  return unless_unsure(value, is_orientation_certain(value, from_center, ab, ac));
+// Where the center is 0, rays of very different lengths take the same one, as their lengths do not
+// count: so their differences are those of directions.
+std::array<Corner, 3> corners_of(const Point& a, const Point& b, const Point& c,
+                                 const Point& center) {
+  std::array<Corner, 3> corners = {{{{}, to_vector(a)}, {{}, to_vector(b)}, {{}, to_vector(c)}}};
+  std::array<int, 3> exponents{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners[i].ray = corners[i].point - to_vector(center);
+    exponents[i] = exponent_of(corners[i].ray);
+  }
+  const auto [lowest, highest] = std::ranges::minmax(exponents);
+  if (highest - lowest > 1 && center == Point{}) {
+    for (Corner& corner : corners) {
+      corner.ray = corner.point = factor_to_one(corner.point) * corner.point;
+    }
+  }
+  return corners;
 }
 
-Sign by_expansions(const Point& a, const Point& b, const Point& c) {
-  const exact::Expansion<1> ra[3] = {expansion(a.x), expansion(a.y), expansion(a.z)};
-  const exact::Expansion<1> rb[3] = {expansion(b.x), expansion(b.y), expansion(b.z)};
-  const exact::Expansion<1> rc[3] = {expansion(c.x), expansion(c.y), expansion(c.z)};
-  return sign_of(det(ra, rb, rc));
+// The bound is relative to the lengths of the differences, of which those from the best corner are
+// the two shortest. All three vectors may be of any size.
+Sign filter(const Point& a, const Point& b, const Point& c, const Point& center) {
+  const std::array<Corner, 3> corners = corners_of(a, b, c, center);
+  std::array<Vector, 3> sides{};
+  std::array<double, 3> sizes{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    sides[i] = corners[(i + 1) % 3].point - corners[i].point;
+    sizes[i] = longest_coordinate(sides[i]);
+  }
+  const auto longest = static_cast<std::size_t>(std::ranges::max_element(sizes) - sizes.begin());
+  const std::size_t best = (longest + 2) % 3;
+  const auto scaled_to_one = [](const Vector& v) { return factor_to_one(v) * v; };
+  const Vector ray = scaled_to_one(corners[best].ray);
+  const Vector to = scaled_to_one(sides[best]);
+  const Vector from = scaled_to_one(sides[(best + 2) % 3]);
+  // det(a-o, b-a, c-a) = det(a-o, a-c, b-a), and cyclically.
+  const double value = det(ray, from, to);
+  return unless_unsure(
+      value, is_beyond(value, orientation_bound, dot(ray, ray), dot(from, from), dot(to, to)));
 }
 
 }  // namespace
 
 Decision orientation_ladder(const Point& a, const Point& b, const Point& c, const Point& center) {
   if (const Sign sign = filter(a, b, c, center); sign != Sign::zero) return {sign, Rung::filter};
-  if (center == Point{} && is_safe_for_expansions({a, b, c})) {
-    return {by_expansions(a, b, c), Rung::exact};
-  }
-  if (center != Point{}) {
-    const Decision above = side_of_plane_ladder(a, b, c, center);
-    return {-above.sign, above.rung};
-  }
-  const auto v = exact::scaled_rays({a, b, c}, center);
-  return {exact::sign_of(det(v[0], v[1], v[2])), Rung::exact};
+  return {exact::sign_of_cubic([&](const auto& step) {
+            return det(step(center, a), step(center, b), step(center, c));
+          }),
+          Rung::exact};
 }
 
 }  // namespace rondel::predicates

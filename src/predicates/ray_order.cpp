@@ -3,54 +3,63 @@
 
 #include "predicates/ray_order.h"
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 
-#include "exact/expansion.h"
-#include "exact/integer.h"
+#include "exact/exact_sign.h"
 #include "predicates/filtered.h"
 
 namespace rondel::predicates {
 namespace {
 
-template <class T, class Size, class Compare>
-Sign compare_slopes(const std::array<T, 3>& a, const std::array<T, 3>& b, Size size,
-                    Compare compare_products) {
-  std::size_t axis = 0;
-  for (std::size_t i = 1; i < 3; ++i) {
-    if (size(a[axis]) < size(a[i])) axis = i;
-  }
-  const std::size_t u = (axis + 1) % 3;
-  const std::size_t v = (axis + 2) % 3;
-  const Sign sign = compare_products(a[u], b[axis], b[u], a[axis]);
-  return sign != Sign::zero ? sign : compare_products(a[v], b[axis], b[v], a[axis]);
+template <std::size_t N>
+exact::Ball<N> along(const exact::BallVector<N>& v, std::size_t axis) {
+  return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
+}
+
+// Whether the ray to a is longer along axis i than along axis j.
+bool is_longer_along(const Point& a, const Point& center, std::size_t i, std::size_t j) {
+  const auto size = [](double p, double o) { return std::abs(p - o); };
+  const std::array<double, 3> rounded = {size(a.x, center.x), size(a.y, center.y),
+                                         size(a.z, center.z)};
+  if (rounded[i] != rounded[j] || center == Point{}) return rounded[i] > rounded[j];
+  return exact::sign_of_cubic([&](const auto& step) {
+           const auto v = step(center, a);
+           return along(v, i) * along(v, i) - along(v, j) * along(v, j);
+         }) == Sign::positive;
 }
 
 }  // namespace
 
 Sign compare_rays(const Point& a, const Point& b, const Point& center) {
   if (a == b) return Sign::zero;
-  if (center == Point{} && is_safe_for_expansions({a, b})) {
-    using exact::expansion;
-    using exact::two_product;
-    return compare_slopes<double>(
-        {a.x, a.y, a.z}, {b.x, b.y, b.z}, [](double v) { return std::abs(v); },
-        [](double p, double q, double r, double s) {
-          return sign_of(expansion(two_product(p, q)) - expansion(two_product(r, s)));
-        });
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (is_longer_along(a, center, i, axis)) axis = i;
   }
-  using exact::Integer;
-  const auto v = exact::scaled_rays({a, b}, center);
-  return compare_slopes<Integer>(
-      {v[0].x, v[0].y, v[0].z}, {v[1].x, v[1].y, v[1].z},
-      [](const Integer& c) { return Integer(abs(c)); },
-      [](const Integer& p, const Integer& q, const Integer& r, const Integer& s) {
-        return exact::sign_of(Integer(p * q - r * s));
-      });
+  const auto compare_slopes = [&](std::size_t i) {
+    return exact::sign_of_cubic([&](const auto& step) {
+      const auto v = step(center, a);
+      const auto w = step(center, b);
+      return along(v, i) * along(w, axis) - along(w, i) * along(v, axis);
+    });
+  };
+  const Sign sign = compare_slopes((axis + 1) % 3);
+  return sign != Sign::zero ? sign : compare_slopes((axis + 2) % 3);
 }
 
 bool are_on_one_ray(const Point& a, const Point& b, const Point& center) {
-  const auto v = exact::scaled_rays({a, b}, center);
-  return exact::is_zero(cross(v[0], v[1])) && dot(v[0], v[1]) > 0;
+  const auto product = [&](auto formula) {
+    return exact::sign_of_cubic(
+        [&](const auto& step) { return formula(step(center, a), step(center, b)); });
+  };
+  const auto is_zero = [&](std::size_t axis) {
+    return product([axis](const auto& v, const auto& w) { return along(cross(v, w), axis); }) ==
+           Sign::zero;
+  };
+  return is_zero(0) && is_zero(1) && is_zero(2) &&
+         product([](const auto& v, const auto& w) { return dot(v, w); }) == Sign::positive;
 }
 
 }  // namespace rondel::predicates

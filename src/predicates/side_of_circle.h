@@ -16,7 +16,8 @@
 // Rungs: the left side in doubles, which decides while the sites are not close;
 // the right side in doubles, whose error is of order u H^3 against a value of order H^4 at
 // any distance H; the right side with 64 bits, from split unit vectors; the left side in
-// double-double; the sign of a sum of four square roots in integers.
+// double-double; the right side in doubles from differences of the points as given, whose error is
+// of order u H^4; balls of more and more words; the sign of a sum of four square roots in integers.
 #pragma once
 
 #include "exact/unit_vector.h"
@@ -56,6 +57,11 @@ Sign side_of_circle_extended(const exact::SplitPoint& b, const exact::SplitPoint
 // The third rung, for the same.
 Sign side_of_circle_double_double(const exact::SplitPoint& b, const exact::SplitPoint& c,
                                   const exact::SplitPoint& d, const exact::SplitPoint& p);
+
+// The fourth rung, for points as given, however close: in doubles, from differences of the points
+// and not of their directions (side_of_circle_close.cpp).
+Sign side_of_circle_close(const Point& b, const Point& c, const Point& d, const Point& p,
+                          const Point& center);
 
 // The last rung: the exact sign for points as given.
 Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const Point& p,

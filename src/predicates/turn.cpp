@@ -6,8 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "exact/expansion.h"
-#include "exact/integer.h"
+#include "exact/exact_sign.h"
 #include "predicates/filtered.h"
 
 namespace rondel::predicates {
@@ -30,14 +29,6 @@ Sign filter(const Pair& o, const Pair& p, const Pair& q) {
   return unless_unsure(left - right, size > 0x1p-900 && std::abs(left - right) > bound * size);
 }
 
-Sign by_expansions(const Pair& o, const Pair& p, const Pair& q) {
-  const auto difference = [](double a, double b) {
-    return exact::expansion(exact::two_diff(a, b));
-  };
-  return exact::sign_of(difference(p[0], o[0]) * difference(q[1], o[1]) -
-                        difference(p[1], o[1]) * difference(q[0], o[0]));
-}
-
 }  // namespace
 
 Sign turn(const Point& o, const Point& a, const Point& b, unsigned axis) {
@@ -45,10 +36,10 @@ Sign turn(const Point& o, const Point& a, const Point& b, unsigned axis) {
   const Pair p = seen_along(a, axis);
   const Pair q = seen_along(b, axis);
   if (const Sign sign = filter(origin, p, q); sign != Sign::zero) return sign;
-  if (is_safe_for_expansions({o, a, b})) return by_expansions(origin, p, q);
-  const auto v = exact::scaled_differences({a, b}, o);
-  const exact::IntegerVector n = cross(v[0], v[1]);
-  return exact::sign_of(axis == 0 ? n.x : (axis == 1 ? n.y : n.z));
+  return exact::sign_of_cubic([&](const auto& step) {
+    const auto n = cross(step(o, a), step(o, b));
+    return axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
+  });
 }
 
 bool are_collinear(const Point& o, const Point& a, const Point& b) {

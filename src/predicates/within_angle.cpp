@@ -4,73 +4,48 @@
 #include "predicates/within_angle.h"
 
 #include <cmath>
+#include <cstddef>
 #include <numbers>
-#include <utility>
+#include <optional>
 
 #include "exact/degrees.h"
-#include "exact/integer.h"
+#include "exact/exact_sign.h"
 #include "predicates/squared_chord.h"
 
 namespace rondel::predicates {
 namespace {
 
-using exact::Integer;
+using exact::Ball;
 
-// integer * 2^exponent
-struct Scaled {
-  Integer integer;
-  int exponent = 0;
-};
-
-Scaled scaled(double value) {
-  constexpr int mantissa_bits = 53;
-  int exponent = 0;
-  const double mantissa = std::ldexp(std::frexp(value, &exponent), mantissa_bits);
-  return {Integer(static_cast<std::int64_t>(mantissa)), exponent - mantissa_bits};
-}
-
-// 1 - t/2 for 0 <= t <= 2.
-Scaled complement(double t) {
-  if (t == 0) return {1, 0};
-  Scaled half = scaled(t);
-  --half.exponent;  // at most -52
-  half.integer = (Integer(1) << -half.exponent) - half.integer;
-  return half;
-}
-
-// The sign of a - b.
-Sign compare(const Scaled& a, const Scaled& b) {
-  const int shift = a.exponent - b.exponent;
-  return shift >= 0 ? exact::sign_of(Integer((a.integer << shift) - b.integer))
-                    : exact::sign_of(Integer(a.integer - (b.integer << -shift)));
-}
-
-// The sign of x - c sqrt(y): x = product * 2^exponent, y > 0.
-Sign compare_with_root(const Integer& product, int exponent, const Cosine& cosine,
-                       const Scaled& y) {
-  Scaled c = complement(cosine.t);
-  const Sign left = exact::sign_of(product);
-  const Sign size = exact::sign_of(c.integer);
-  const Sign right = cosine.is_positive ? size : -size;
+// The sign of x - c sqrt(y) for y > 0, if it is known. Twice the cosine is 2 - t or t - 2.
+template <std::size_t N>
+std::optional<Sign> compare_with_root(const Ball<N>& x, const Cosine& cosine, const Ball<N>& y) {
+  const Ball<N> size_of_c = Ball<N>(2.0) - Ball<N>(cosine.t);
+  const std::optional<Sign> sign = x.sign();
+  const std::optional<Sign> size = size_of_c.sign();
+  if (!sign || !size) return std::nullopt;
+  const Sign left = *sign;
+  const Sign right = cosine.is_positive ? *size : -*size;
   if (left != right) return left > right ? Sign::positive : Sign::negative;
-  const Scaled x2 = {product * product, 2 * exponent};
-  return left * compare(x2, {c.integer * c.integer * y.integer, 2 * c.exponent + y.exponent});
+  const std::optional<Sign> squares = (Ball<N>(4.0) * (x * x) - size_of_c * size_of_c * y).sign();
+  if (!squares) return std::nullopt;
+  return left * *squares;
 }
 
 Sign angle_exact(const Point& a, const Point& p, const Cosine& cosine, const Point& center) {
-  const auto v = exact::scaled_rays({a, p}, center);
-  return compare_with_root(dot(v[0], v[1]), 0, cosine, {dot(v[0], v[0]) * dot(v[1], v[1]), 0});
+  return exact::sign_of_sextic([&](const auto& step) {
+    const auto v = step(center, a);
+    const auto w = step(center, p);
+    return compare_with_root(dot(v, w), cosine, dot(v, v) * dot(w, w));
+  });
 }
 
 Sign power_exact(const Point& a, const Point& p, const Cosine& cosine, const Sphere& sphere) {
-  const auto ray = exact::scaled_rays({p}, sphere.center).front();
-  // The last two give the scale: they are 1 apart.
-  const auto v = exact::scaled_differences({a, {1, 0, 0}, {0, 0, 0}}, sphere.center);
-  const Integer one = v[1].x - v[2].x;
-  const int exponent = -static_cast<int>(msb(one));
-  Scaled y = scaled(sphere.squared_radius);
-  y.integer *= dot(ray, ray);
-  return compare_with_root(dot(ray, v[0]), exponent, cosine, y);
+  return exact::sign_of_sextic([&]<std::size_t N>(const exact::BallStep<N>& step) {
+    const auto v = step(sphere.center, a);
+    const auto ray = step(sphere.center, p);
+    return compare_with_root(dot(ray, v), cosine, Ball<N>(sphere.squared_radius) * dot(ray, ray));
+  });
 }
 
 Sign power_filter(const Point& a, const Point& p, const Cosine& cosine, const Sphere& sphere) {

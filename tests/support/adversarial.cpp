@@ -193,6 +193,49 @@ Four ends_of_range(Random& random) {
   return four;
 }
 
+// Around the pole, where coordinates keep all their digits at any distance.
+Four cap_of_any_size(Random& random) {
+  const double size = random_distance(random, 1e-280);
+  Four four;
+  for (Point& p : four) p = {size * random.signed_unit(), size * random.signed_unit(), 1};
+  return four;
+}
+
+Four ulps_of_one_site(Random& random) {
+  const Point middle = random_direction(random);
+  Four four;
+  for (Point& p : four) {
+    p = middle;
+    for (int steps = random.between(0, 30); steps > 0; --steps) p = moved_by_one_ulp(random, p);
+  }
+  return four;
+}
+
+// Two close sites, and two others that are close elsewhere or in the same place at another scale.
+Four two_pairs(Random& random) {
+  Four four;
+  for (std::size_t i = 0; i < 4; i += 2) {
+    const Point pole = random_near(random, {0, 0, 1}, random_distance(random, 1e-10));
+    four[i] = random_near(random, pole, random_distance(random, 1e-15));
+    four[i + 1] = random_near(random, pole, random_distance(random, 1e-15));
+  }
+  return four;
+}
+
+Four coordinates_of_any_size(Random& random) {
+  const int most = random.coin() ? 990 : 60;
+  const auto coordinate = [&] {
+    return std::ldexp(random.signed_unit(), random.between(-most, most));
+  };
+  Four four;
+  for (Point& p : four) {
+    const double x = coordinate();
+    const double y = coordinate();
+    p = {x, y, coordinate()};
+  }
+  return four;
+}
+
 constexpr std::array fours = {
     FourGenerator{"uniform", uniform},
     FourGenerator{"at_a_distance", at_a_distance},
@@ -212,6 +255,10 @@ constexpr std::array fours = {
     FourGenerator{"sums_of_scales", sums_of_scales},
     FourGenerator{"ends_of_range", ends_of_range},
     FourGenerator{"nearly_flat_at_any_scale", nearly_flat_at_any_scale},
+    FourGenerator{"cap_of_any_size", cap_of_any_size},
+    FourGenerator{"ulps_of_one_site", ulps_of_one_site},
+    FourGenerator{"two_pairs", two_pairs},
+    FourGenerator{"coordinates_of_any_size", coordinates_of_any_size},
 };
 
 }  // namespace

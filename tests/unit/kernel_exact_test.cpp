@@ -13,7 +13,6 @@
 #include <string>
 
 #include "exact/degrees.h"
-#include "exact/expansion.h"
 #include "exact/integer.h"
 #include "exact/unit_vector.h"
 #include "rondel/delaunay.h"
@@ -139,50 +138,6 @@ TEST(exact_degrees, quadrants_are_exact_and_zeros_positive) {
   }
 }
 
-exact::Integer power_of_two(int exponent) {
-  exact::Integer power = 1;
-  for (int i = 0; i < exponent; ++i) power *= 2;
-  return power;
-}
-
-exact::Integer integer_of(double value) {  // value * 2^1200, for |value| >= 2^-1074 or 0
-  int exponent = 0;
-  const auto mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
-  return value == 0 ? exact::Integer(0) : mantissa * power_of_two(exponent - 53 + 1200);
-}
-
-template <int N>
-exact::Integer integer_of(const exact::Expansion<N>& e) {
-  exact::Integer sum = 0;
-  for (int i = 0; i < e.size; ++i) sum += integer_of(e.component[i]);
-  return sum;
-}
-
-TEST(exact_expansion, determinants_equal_those_of_integers) {
-  test::Random random(3);
-  for (int i = 0; i < 3000; ++i) {
-    // Sums of a large and a small part, so that the expansions have two components.
-    exact::Expansion<2> rows[3][3];
-    std::array<exact::IntegerVector, 3> integers;
-    for (std::size_t r = 0; r < 3; ++r) {
-      std::array<exact::Integer, 3> row;
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double high = std::ldexp(random.signed_unit(), static_cast<int>(random.next() % 9));
-        const double low = random.next() % 3 == 0 ? 0 : std::ldexp(random.unit() - 0.5, -60);
-        rows[r][c] = exact::expansion(exact::two_sum(high, low));
-        row[c] = integer_of(rows[r][c]);
-      }
-      integers[r] = {row[0], row[1], row[2]};
-    }
-    const auto value = det(rows[0], rows[1], rows[2]);
-    EXPECT_EQ(integer_of(value) * power_of_two(2400), det(integers[0], integers[1], integers[2]));
-    EXPECT_EQ(sign_of(value), exact::sign_of(det(integers[0], integers[1], integers[2])));
-    for (int k = 1; k < value.size; ++k) {
-      EXPECT_LT(std::abs(value.component[k - 1]), std::abs(value.component[k]));
-    }
-  }
-}
-
 // Of numbers of any length; those next to squares are the hardest.
 TEST(exact_floor_sqrt, is_the_largest_integer_with_no_larger_square) {
   using exact::Integer;
@@ -219,12 +174,12 @@ TEST(exact_root_sum, finds_zeros_and_signs_next_to_zero) {
   EXPECT_EQ(sign({1, 1, -1}, {8, 18, 50}), Sign::zero);
   EXPECT_EQ(sign({1, 1, -1}, {2, 3, 10}), Sign::negative);
   // The same with radicands of 400 bits, and one off by 1 in its last bit.
-  const Integer big = power_of_two(199) + 12345;
+  const Integer big = (Integer(1) << 199) + 12345;
   EXPECT_EQ(sign({1, 1, -5}, {8 * big * big, 18 * big * big, 2 * big * big}), Sign::zero);
   EXPECT_EQ(sign({1, 1, -5}, {8 * big * big, 18 * big * big + 1, 2 * big * big}), Sign::positive);
   EXPECT_EQ(sign({1, 1, -5}, {8 * big * big - 1, 18 * big * big, 2 * big * big}), Sign::negative);
   // a^2 + 1 against a: a difference of 2^-300.
-  const Integer a = power_of_two(300);
+  const Integer a = Integer(1) << 300;
   EXPECT_EQ(sign({1, -a, 0}, {a * a + 1, 1, 1}), Sign::positive);
   EXPECT_EQ(sign({1, -a, 0}, {a * a, 1, 1}), Sign::zero);
 }

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(predicates_test
+  exact_ball_test.cpp
   predicates_distance_test.cpp
   predicates_oracle_test.cpp
   predicates_rung_test.cpp

@@ -119,6 +119,26 @@ double circle_ratio(const FourStored& s) {
   return std::abs(to_double(value - exact_value)) / (predicates::circle_bound * h * h * h);
 }
 
+// The step of side_of_circle_close.cpp between sites whose lengths differ as much as they are
+// apart.
+double close_step_ratio(const FourStored& s) {
+  const Vector p = to_vector(s[3].site);
+  const Point apart = s[0].site - s[3].site;
+  const Vector q = to_vector(
+      s[0].site + (s[1].site.x * std::sqrt(dot(to_vector(apart), to_vector(apart)))) * s[3].site);
+  const double length_p = std::sqrt(dot(p, p));
+  const double length_q = std::sqrt(dot(q, q));
+  const Vector d = q - p;
+  const double t = dot(d, p + q) / (length_p * (length_p + length_q));
+  const Vector e = {d.x - t * p.x, d.y - t * p.y, d.z - t * p.z};
+  const Big exact_length = sqrt(dot_of(big(q), big(q)));
+  const BigVector u = unit(s[3].site);
+  const BigVector exact_e = {q.x - exact_length * u.x, q.y - exact_length * u.y,
+                             q.z - exact_length * u.z};
+  const BigVector error = minus(big(e), exact_e);
+  return std::sqrt(to_double(dot_of(error, error)) / dot(d, d)) / predicates::close_step_bound;
+}
+
 double plane_ratio(const FourStored& s) {
   const auto& [b, c, d, p] = s;
   const Vector o = to_vector(p.site);
@@ -270,7 +290,8 @@ INSTANTIATE_TEST_SUITE_P(
     filters, bounds,
     testing::Values(Filter{"circle_plane", circle_plane_ratio, 0.1},
                     Filter{"circle_plane_of_long_faces", circle_plane_of_long_faces_ratio, 0.1},
-                    Filter{"circle", circle_ratio, 0.03}, Filter{"plane", plane_ratio, 0.1},
+                    Filter{"circle", circle_ratio, 0.03},
+                    Filter{"close_step", close_step_ratio, 0.1}, Filter{"plane", plane_ratio, 0.1},
                     Filter{"plane_of_mixed_weights", plane_of_mixed_weights_ratio, 0.1},
                     Filter{"orientation", orientation_ratio, 0.1},
                     Filter{"direction_orientation", direction_orientation_ratio, 0.1},

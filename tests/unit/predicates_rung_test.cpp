@@ -142,8 +142,43 @@ TEST(rungs, filter_is_unsure_where_squares_underflow) {
                                              exact::to_vector(d), {0, 0, 0}),
             Sign::zero);
   const Decision decision = decide({{b, c, d, {0, 0, 0}}}, Model::weighted);
-  EXPECT_EQ(decision.rung, Rung::exact);
+  EXPECT_EQ(decision.rung, Rung::filter);  // of differences that are all scaled to 1
   EXPECT_EQ(decision.sign, Sign::negative);
+}
+
+// Sites as close as doubles can be, for which directions are no longer told apart. What is left to
+// the exact rung are ties up to rounding.
+TEST(rungs, doubles_decide_between_sites_at_any_distance) {
+  Random random(40);
+  for (const FourGenerator& kind : four_generators()) {
+    if (kind.name != "cap_of_any_size" && kind.name != "ulps_of_one_site") continue;
+    std::size_t exact = 0;
+    const std::size_t num_sets = 2000;
+    for (std::size_t i = 0; i < num_sets; ++i) {
+      const Four four = kind.make(random);
+      const auto& [a, b, c, p] = four;
+      const int expected = Oracle(four, Model::projected, {}).side_of_circle(0, 1, 2, 3);
+      const Sign close = predicates::side_of_circle_close(a, b, c, p, {});
+      if (close == Sign::zero)
+        ++exact;
+      else
+        ASSERT_EQ(to_int(close), expected) << kind.name;
+    }
+    EXPECT_LT(exact, num_sets / 20) << kind.name;
+  }
+}
+
+// Three sites in line with the center but for one coordinate, at all magnitudes.
+TEST(rungs, orientation_filter_decides_at_any_scale) {
+  Random random(41);
+  for (std::size_t i = 0; i < 2000; ++i) {
+    const double size = random_distance(random, 1e-300);
+    Four four;
+    for (Point& p : four) p = {size * random.signed_unit(), size * random.signed_unit(), 1};
+    const Decision decision = predicates::orientation_ladder(four[0], four[1], four[2], {});
+    ASSERT_EQ(decision.rung, Rung::filter);
+    ASSERT_EQ(to_int(decision.sign), Oracle(four, Model::projected, {}).orientation(0, 1, 2));
+  }
 }
 
 TEST(rungs, double_double_decides_near_ties) {

@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// With lengths P = |p-o| and Q = |q-o| of two rays, the step E from p to q on the sphere of radius
+// Q follows from the difference of the points as given, which is exact for close points:
+//
+//     E = Q (q/Q - p/P) = (q - p) - p t,   t = (q - p).(q + p) / (P (P + Q)),
+//
+// coordinates counted from o. So its error is relative to |q - p| and not to Q.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "predicates/scale.h"
+#include "predicates/side_of_circle.h"
+
+namespace rondel::predicates {
+namespace {
+
+// E with its length divided by 2^exponent, which is about |q - p|.
+struct Step {
+  std::array<double, 3> along;
+  double height;          // |E|^2 / Q
+  double length;          // |E|
+  double relative_error;  // of E, against its length
+  int exponent;
+};
+
+struct Ray {
+  Vector v;
+  double length;
+};
+
+using FourRays = std::array<Ray, 4>;  // b, c, d, p
+using FourPoints = std::array<Vector, 4>;
+
+// Rays of lengths between 1 and 4, and the points that they lead to, all from the center:
+// multiplied by one power of two where lengths agree that far, by one for each ray where the center
+// is 0. Empty for lengths far out of the range of doubles.
+std::optional<FourRays> comparable_rays(FourPoints& points, const Point& center) {
+  const Vector origin = to_vector(center);
+  FourRays rays{};
+  std::array<int, 4> exponents{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    rays[i].v = points[i] - origin;
+    exponents[i] = exponent_of(rays[i].v);
+  }
+  const auto [lowest, highest] = std::ranges::minmax(exponents);
+  if (lowest < -most_exponent || highest > most_exponent) return std::nullopt;
+  const bool are_similar = highest - lowest <= 1;
+  if (!are_similar && center != Point{}) return std::nullopt;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double factor = power_of_two(-(are_similar ? lowest : exponents[i]));
+    rays[i].v = factor * rays[i].v;
+    points[i] = factor * points[i];
+    rays[i].length = std::sqrt(dot(rays[i].v, rays[i].v));
+  }
+  return rays;
+}
+
+// Empty where points are too close for doubles to tell.
+std::optional<Step> step_between(const Vector& difference, const Ray& p, const Ray& q) {
+  constexpr int least_exponent = -900;
+  const int exponent = exponent_of(difference);
+  if (exponent < least_exponent) return std::nullopt;
+  const Vector d = power_of_two(-exponent) * difference;
+  const double t = dot(d, p.v + q.v) / (p.length * (p.length + q.length));
+  const Vector e = d - t * p.v;
+  const double squared = dot(e, e);
+  const double length = std::sqrt(squared);
+  return Step{{e.x, e.y, e.z},
+              squared / q.length,
+              length,
+              close_step_bound * std::sqrt(dot(d, d)) / length,
+              exponent};
+}
+
+}  // namespace
+
+Sign side_of_circle_close(const Point& b, const Point& c, const Point& d, const Point& p,
+                          const Point& center) {
+  FourPoints points = {to_vector(b), to_vector(c), to_vector(d), to_vector(p)};
+  const std::optional<FourRays> rays = comparable_rays(points, center);
+  if (!rays) return Sign::zero;
+  const auto order = order_for_best_origin(points);
+  const Ray& origin = (*rays)[order[3]];
+  std::array<Step, 3> e{};
+  double error = 0;
+  int highest = -1023;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto step = step_between(points[order[i]] - points[order[3]], origin, (*rays)[order[i]]);
+    if (!step) return Sign::zero;
+    e[i] = *step;
+    error += step->relative_error;
+    highest = std::max(highest, step->exponent);
+  }
+  constexpr double most_error = 1.0 / 16;
+  if (!(error < most_error)) return Sign::zero;
+
+  const std::array<double, 3> along = {origin.v.x, origin.v.y, origin.v.z};
+  const auto longer = [&](std::size_t i, std::size_t j) {
+    return std::abs(along[i]) < std::abs(along[j]) ? j : i;
+  };
+  const std::size_t last = longer(longer(0, 1), 2);
+  const std::size_t x = (last + 1) % 3;
+  const std::size_t y = (last + 2) % 3;
+  double value = 0;
+  double heights = 0;  // relative to the lengths
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Step& next = e[(i + 1) % 3];
+    const Step& after = e[(i + 2) % 3];
+    const double height =
+        e[i].height * power_of_two(std::max(e[i].exponent - highest, -most_exponent));
+    value += height * (next.along[x] * after.along[y] - next.along[y] * after.along[x]);
+    heights += height / e[i].length;
+  }
+  const double size = e[0].length * e[1].length * e[2].length * heights;
+  const double bound = 2.5 * error + 20 * unit_roundoff;
+  if (!(std::abs(value) > bound * size)) return Sign::zero;
+  return (value > 0) == (along[last] > 0) ? Sign::positive : Sign::negative;
+}
+
+}  // namespace rondel::predicates
