@@ -26,7 +26,7 @@ namespace rondel::exact {
 // A power of two 2^e as a bound of a size or an error, by its exponent. No bound, of the size of
 // zero or the error of an exact number, is `nothing`.
 using Magnitude = int;
-inline constexpr Magnitude nothing = std::numeric_limits<int>::min() / 2;
+inline constexpr Magnitude nothing = std::numeric_limits<int>::min() / 4;
 
 // At least the sum of the two.
 inline Magnitude sum_of(Magnitude a, Magnitude b) {
@@ -99,20 +99,27 @@ class Ball {
   friend Ball operator+(const Ball& a, const Ball& b) { return a.plus(b, b.is_negative_); }
   friend Ball operator-(const Ball& a, const Ball& b) { return a.plus(b, !b.is_negative_); }
 
-  // |x y - x' y'| <= |x| r_y + |y| r_x + r_x r_y for midpoints x', y' and radii r.
   friend Ball operator*(const Ball& a, const Ball& b) {
     Ball r;
-    const Magnitude size_a = a.size_of_midpoint();
-    const Magnitude size_b = b.size_of_midpoint();
-    if (a.radius_ != nothing || b.radius_ != nothing) {
-      r.radius_ = sum_of(sum_of(product_of(size_a, b.radius_), product_of(size_b, a.radius_)),
-                         product_of(a.radius_, b.radius_));
-    }
-    if (size_a == nothing || size_b == nothing) return r;
-    Words<2 * N> product{};
-    multiply(a.digits_, b.digits_, product);
+    if (a.radius_ != nothing || b.radius_ != nothing) r.radius_ = radius_of_product(a, b);
+    if (a.is_zero_midpoint() || b.is_zero_midpoint()) return r;
     r.is_negative_ = a.is_negative_ != b.is_negative_;
-    r.round(product, a.exponent_ + b.exponent_);
+    r.exponent_ = a.exponent_ + b.exponent_ + num_bits;
+    bool is_cut = false;
+    if constexpr (N == 1) {
+      const TwoWords product = multiply_and_add(a.digits_[0], b.digits_[0], 0, 0);
+      const auto zeros = static_cast<unsigned>(product.high >> (word_bits - 1) == 0);
+      r.digits_[0] = product.high << zeros | (zeros & product.low >> (word_bits - 1));
+      r.exponent_ -= static_cast<int>(zeros);
+      is_cut = product.low << zeros != 0;
+    } else {
+      Words<2 * N> product{};
+      multiply(a.digits_, b.digits_, product);
+      const unsigned zeros = product[2 * N - 1] >> (word_bits - 1) == 0 ? 1 : 0;
+      is_cut = take_highest_words(product, zeros, r.digits_);
+      r.exponent_ -= static_cast<int>(zeros);
+    }
+    if (is_cut) r.radius_ = sum_of(r.radius_, r.exponent_);
     return r;
   }
 
@@ -123,10 +130,22 @@ class Ball {
 
   [[nodiscard]] bool is_zero_midpoint() const { return digits_[N - 1] == 0; }
 
+  // |x y - x' y'| <= |x| r_y + |y| r_x + r_x r_y for midpoints x', y' and radii r.
+  static Magnitude radius_of_product(const Ball& a, const Ball& b) {
+    const Magnitude size_a = a.size_of_midpoint();
+    const Magnitude size_b = b.size_of_midpoint();
+    return sum_of(sum_of(product_of(size_a, b.radius_), product_of(size_b, a.radius_)),
+                  product_of(a.radius_, b.radius_));
+  }
+
   // The midpoint becomes words * 2^exponent, cut to N words.
-  template <std::size_t M>
-  void round(const Words<M>& words, int exponent) {
-    std::size_t length = M;
+  void round(const Words<N + 1>& words, int exponent) {
+    exponent_ = exponent;
+    if (words[N] == 0 && words[N - 1] >> (word_bits - 1) != 0) {
+      std::copy_n(words.begin(), N, digits_.begin());
+      return;
+    }
+    std::size_t length = N + 1;
     while (length > 0 && words[length - 1] == 0) --length;
     if (length == 0) {
       digits_ = {};
@@ -134,8 +153,8 @@ class Ball {
     }
     const auto zeros = static_cast<unsigned>(std::countl_zero(words[length - 1]));
     const bool is_cut = shift_left_to_end(words, length, zeros, digits_);
-    exponent_ = exponent + (static_cast<int>(length) - static_cast<int>(N)) * word_bits -
-                static_cast<int>(zeros);
+    exponent_ +=
+        (static_cast<int>(length) - static_cast<int>(N)) * word_bits - static_cast<int>(zeros);
     if (is_cut) radius_ = sum_of(radius_, exponent_);
   }
 
@@ -177,23 +196,25 @@ class Ball {
 
 // 1 / sqrt(a); empty if a may be 0 or negative, or is known too badly.
 //
-// For any y and e = 1 - a y^2 it is y / sqrt(1 - e) = y (1 + e/2 + 3/8 e^2) + d, where
-// |d| <= |y| |e|^3 as long as |e| <= 1/2. So the last step is proven whatever came before, and a
-// step makes three times as many bits right: the first y has 50.
+// For any y and e = 1 - a y^2 it is y / sqrt(1 - e) = y (1 + e/2 + 3/8 e^2) + d, where |e| <= 1/2
+// makes |d| <= |y| |e|^3. So the last step is proven whatever came before, and a step makes three
+// times as many bits right: the first y has 50. With N = 1 a step without the last term does.
 template <std::size_t N>
 std::optional<Ball<N>> inverse_square_root(const Ball<N>& a) {
   if (a.sign() != Sign::positive) return std::nullopt;
   Ball<N> y = Ball<N>(first_inverse_root(a.leading(), a.size_of_midpoint() % 2 != 0))
                   .times_power_of_two(-floor_half(a.size_of_midpoint()));
   const Ball<N> one(1.0);
-  const Ball<N> half(0.5);
-  const Ball<N> three_eighths(0.375);
   for (std::size_t right_bits = 50;; right_bits *= 3) {
     const Ball<N> e = one - a * (y * y);
     if (e.size() > -8) return std::nullopt;
-    const Ball<N> next = y + y * (e * (half + three_eighths * e));
-    const Magnitude dropped = product_of(y.size(), product_of(e.size(), 2 * e.size()));
-    if (3 * right_bits >= 64 * N || e.size() == nothing) return next.wider_by(dropped);
+    const Magnitude squared = product_of(e.size(), e.size());
+    const Ball<N> half = e.times_power_of_two(-1);
+    if constexpr (N == 1) return (y + y * half).wider_by(product_of(y.size(), squared));
+    const Ball<N> next = y + y * (half + Ball<N>(0.375) * (e * e));
+    if (3 * right_bits >= 64 * N || squared == nothing) {
+      return next.wider_by(product_of(y.size(), product_of(squared, e.size())));
+    }
     y = next.midpoint();
   }
 }

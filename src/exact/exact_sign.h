@@ -21,8 +21,10 @@ using BallVector = Vector3<Ball<N>>;
 template <std::size_t N>
 struct BallStep {
   BallVector<N> operator()(const Point& from, const Point& to) const {
-    return {Ball<N>(to.x) - Ball<N>(from.x), Ball<N>(to.y) - Ball<N>(from.y),
-            Ball<N>(to.z) - Ball<N>(from.z)};
+    const auto difference = [](double a, double b) {
+      return b == 0 ? Ball<N>(a) : Ball<N>(a) - Ball<N>(b);
+    };
+    return {difference(to.x, from.x), difference(to.y, from.y), difference(to.z, from.z)};
   }
 };
 

@@ -89,20 +89,31 @@ bool subtract(const Words<N>& a, const Words<N>& b, Words<N + 1>& difference) {
   return true;
 }
 
+// `result` is the first half of a after a shift by 0 or 1; whether something is left of a.
+template <std::size_t N>
+bool take_highest_words(const Words<2 * N>& a, unsigned shift, Words<N>& result) {
+  Word rest = a[N - 1] << shift;
+  for (std::size_t i = 0; i + 1 < N; ++i) rest |= a[i];
+  for (std::size_t i = 0; i < N; ++i) {
+    result[i] = a[N + i] << shift | (a[N + i - 1] >> 63U & shift);
+  }
+  return rest != 0;
+}
+
 // `result` is a / 2^distance, rounded down; whether that is not exact.
 template <std::size_t N>
 bool shift_right(const Words<N>& a, unsigned distance, Words<N>& result) {
   const std::size_t whole = std::min<std::size_t>(distance / 64, N);
   const unsigned part = distance % 64;
+  const unsigned left = 63 - part;
   Word dropped = 0;
   for (std::size_t i = 0; i < whole; ++i) dropped |= a[i];
-  for (std::size_t i = 0; i < N; ++i) {
-    const std::size_t from = i + whole;
-    const Word low = from < N ? a[from] : 0;
-    const Word high = from + 1 < N ? a[from + 1] : 0;
-    result[i] = part == 0 ? low : low >> part | high << (64 - part);
+  if (whole < N) dropped |= a[whole] << 1U << left;
+  for (std::size_t i = 0; i + whole + 1 < N; ++i) {
+    result[i] = a[i + whole] >> part | a[i + whole + 1] << 1U << left;
   }
-  if (whole < N && part != 0) dropped |= a[whole] << (64 - part);
+  if (whole < N) result[N - 1 - whole] = a[N - 1] >> part;
+  for (std::size_t i = N - whole; i < N; ++i) result[i] = 0;
   return dropped != 0;
 }
 

@@ -37,9 +37,18 @@ std::array<Corner, 3> corners_of(const Point& a, const Point& b, const Point& c,
   return corners;
 }
 
+Sign filter(const Point& a, const Point& b, const Point& c, const Point& center) {
+  const Vector ray = to_vector(a) - to_vector(center);
+  const Vector ab = to_vector(b) - to_vector(a);
+  const Vector ac = to_vector(c) - to_vector(a);
+  const double value = det(ray, ab, ac);
+  return unless_unsure(value, is_orientation_certain(value, ray, ab, ac));
+}
+
+// The filter for points of any size: each vector takes its own power of two.
 // The bound is relative to the lengths of the differences, of which those from the best corner are
 // the two shortest. All three vectors may be of any size.
-Sign filter(const Point& a, const Point& b, const Point& c, const Point& center) {
+Sign filter_of_scaled(const Point& a, const Point& b, const Point& c, const Point& center) {
   const std::array<Corner, 3> corners = corners_of(a, b, c, center);
   std::array<Vector, 3> sides{};
   std::array<double, 3> sizes{};
@@ -63,6 +72,9 @@ Sign filter(const Point& a, const Point& b, const Point& c, const Point& center)
 
 Decision orientation_ladder(const Point& a, const Point& b, const Point& c, const Point& center) {
   if (const Sign sign = filter(a, b, c, center); sign != Sign::zero) return {sign, Rung::filter};
+  if (const Sign sign = filter_of_scaled(a, b, c, center); sign != Sign::zero) {
+    return {sign, Rung::filter};
+  }
   return {exact::sign_of_cubic([&](const auto& step) {
             return det(step(center, a), step(center, b), step(center, c));
           }),

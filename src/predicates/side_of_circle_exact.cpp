@@ -8,6 +8,7 @@
 
 #include "exact/exact_sign.h"
 #include "exact/integer.h"
+#include "predicates/scale.h"
 #include "predicates/side_of_circle.h"
 
 namespace rondel::predicates {
@@ -70,51 +71,126 @@ std::optional<Sign> sign_by_equal_lengths(const FourRays<N>& rays) {
 }
 
 template <std::size_t N>
-BallVector<N> times_power_of_two(const BallVector<N>& v, int power) {
-  return {v.x.times_power_of_two(power), v.y.times_power_of_two(power),
-          v.z.times_power_of_two(power)};
+using Coordinates = std::array<Ball<N>, 3>;
+
+template <std::size_t N>
+std::optional<Coordinates<N>> unit_vector_along(const BallVector<N>& ray) {
+  const auto inverse = exact::inverse_square_root(dot(ray, ray));
+  if (!inverse) return std::nullopt;
+  return Coordinates<N>{ray.x * *inverse, ray.y * *inverse, ray.z * *inverse};
 }
 
-// The formula of side_of_circle_close.cpp. The step E from p to q, times k = P (P + Q), is
-// G = k (q - p) - p (q - p).(q + p), and its row (E_x, E_y, |E|^2 / Q) has the direction of
-// (k Q G_x, k Q G_y, |G|^2).
+// The axis along which both unit vectors reach 1/2 on the same side, which close ones have; or 3.
 template <std::size_t N>
-std::optional<Sign> sign_by_steps(FourRays<N> rays) {
-  std::array<Ball<N>, 4> lengths;
-  std::array<int, 4> powers{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    lengths[i] = dot(rays[i], rays[i]);
-    powers[i] = -exact::floor_half(lengths[i].size());
+std::size_t common_axis(const Coordinates<N>& v, const Coordinates<N>& w) {
+  std::size_t axis = 0;
+  while (axis < 3 && (v[axis].size_of_midpoint() < 0 || w[axis].size_of_midpoint() < 0 ||
+                      v[axis].sign() != w[axis].sign()))
+    ++axis;
+  return axis;
+}
+
+// About the distance of two unit vectors.
+template <std::size_t N>
+exact::Magnitude distance_between(const Coordinates<N>& v, const Coordinates<N>& w) {
+  const std::size_t axis = common_axis(v, w);
+  if (axis == 3) return 1;
+  return std::max((w[(axis + 1) % 3] - v[(axis + 1) % 3]).size(),
+                  (w[(axis + 2) % 3] - v[(axis + 2) % 3]).size());
+}
+
+// The step from v to w times a scale, each coordinate with a small relative error. Along the common
+// axis z, where the difference would cancel, it follows from the others: as |v| = |w|,
+//
+//     (w_z - v_z) (w_z + v_z) = -(w_x - v_x) (w_x + v_x) - (w_y - v_y) (w_y + v_y).
+template <std::size_t N>
+struct Edge {
+  Coordinates<N> step;
+  Ball<N> scale = Ball<N>(1.0);
+
+  Edge(const Coordinates<N>& v, const Coordinates<N>& w) {
+    for (std::size_t i = 0; i < 3; ++i) step[i] = w[i] - v[i];
+    const std::size_t z = common_axis(v, w);
+    if (z == 3) return;
+    const std::size_t x = (z + 1) % 3;
+    const std::size_t y = (z + 2) % 3;
+    scale = w[z] + v[z];
+    step[z] = -(step[x] * (w[x] + v[x]) + step[y] * (w[y] + v[y]));
+    step[x] = step[x] * scale;
+    step[y] = step[y] * scale;
   }
-  // One power for all where lengths agree that far: what points have in common then cancels.
-  const auto [lowest, highest] = std::ranges::minmax(powers);
-  for (std::size_t i = 0; i < 4; ++i) {
-    const int power = highest - lowest <= 1 ? lowest : powers[i];
-    rays[i] = times_power_of_two(rays[i], power);
-    const Ball<N> squared = lengths[i].times_power_of_two(2 * power);
-    const auto inverse = exact::inverse_square_root(squared);
-    if (!inverse) return std::nullopt;
-    lengths[i] = squared * *inverse;
+};
+
+template <std::size_t N>
+Ball<N> dot_product(const Coordinates<N>& v, const Coordinates<N>& w) {
+  return v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
+}
+
+// For each of b, c and d the nearer end of its edge in the tree of shortest edges that grows from p.
+template <std::size_t N>
+std::array<std::size_t, 3> shortest_tree(const std::array<Coordinates<N>, 4>& units) {
+  std::array<std::size_t, 3> parent = {3, 3, 3};
+  std::array<exact::Magnitude, 3> distance{};
+  std::array<bool, 3> is_done{};
+  for (std::size_t i = 0; i < 3; ++i) distance[i] = distance_between<N>(units[3], units[i]);
+  for (std::size_t count = 0; count < 2; ++count) {
+    std::size_t nearest = 3;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!is_done[i] && (nearest == 3 || distance[i] < distance[nearest])) nearest = i;
+    }
+    is_done[nearest] = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (is_done[i]) continue;
+      const exact::Magnitude step = distance_between<N>(units[nearest], units[i]);
+      if (step >= distance[i]) continue;
+      distance[i] = step;
+      parent[i] = nearest;
+    }
   }
-  const BallVector<N>& p = rays[3];
+  return parent;
+}
+
+// The determinant of side_of_circle_close.cpp with rows (B_x, B_y, |B|^2), B = b-p, of unit vectors.
+// Where c is closer to b than to p, the row of b is taken away from that of c, which leaves
+// (c-b)_x, (c-b)_y and |C|^2 - |B|^2 = (c-b).(C+B): no row is then larger than it must be.
+template <std::size_t N>
+std::optional<Sign> sign_by_edges(const FourRays<N>& rays) {
+  std::array<Coordinates<N>, 4> units;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const auto unit = unit_vector_along(rays[i]);
+    if (!unit) return std::nullopt;
+    units[i] = *unit;
+  }
+  const Coordinates<N>& p = units[3];
+  std::size_t last = 0;
+  for (std::size_t i = 1; i < 3; ++i) {
+    if (p[last].size() < p[i].size()) last = i;
+  }
+  const std::size_t x = (last + 1) % 3;
+  const std::size_t y = (last + 2) % 3;
+  std::optional<Sign> factor = p[last].sign();
+  if (!factor) return std::nullopt;
+  const std::array<std::size_t, 3> parent = shortest_tree<N>(units);
   std::array<BallVector<N>, 3> rows;
-  std::array<exact::Magnitude, 3> sizes = {p.x.size(), p.y.size(), p.z.size()};
-  const std::size_t last =
-      static_cast<std::size_t>(std::max_element(sizes.begin(), sizes.end()) - sizes.begin());
   for (std::size_t i = 0; i < 3; ++i) {
-    const BallVector<N> d = rays[i] - p;
-    const Ball<N> k = lengths[3] * (lengths[3] + lengths[i]);
-    const Ball<N> s = dot(d, rays[i] + p);
-    const BallVector<N> g = {k * d.x - s * p.x, k * d.y - s * p.y, k * d.z - s * p.z};
-    const Ball<N> scale = k * lengths[i];
-    const std::array<const Ball<N>*, 3> along = {&g.x, &g.y, &g.z};
-    rows[i] = {scale * *along[(last + 1) % 3], scale * *along[(last + 2) % 3], dot(g, g)};
+    const Edge<N> edge(units[parent[i]], units[i]);
+    if (parent[i] == 3) {
+      rows[i] = {edge.scale * edge.step[x], edge.scale * edge.step[y],
+                 dot_product<N>(edge.step, edge.step)};
+      continue;
+    }
+    const std::optional<Sign> sign = edge.scale.sign();
+    if (!sign) return std::nullopt;
+    factor = *factor * *sign;
+    Coordinates<N> sum;
+    for (std::size_t k = 0; k < 3; ++k) {
+      sum[k] = (units[i][k] - p[k]) + (units[parent[i]][k] - p[k]);
+    }
+    rows[i] = {edge.step[x], edge.step[y], dot_product<N>(edge.step, sum)};
   }
   const std::optional<Sign> sign = det(rows[0], rows[1], rows[2]).sign();
-  const std::array<const Ball<N>*, 3> along = {&p.x, &p.y, &p.z};
-  const std::optional<Sign> side = along[last]->sign();
-  if (!sign || !side || *sign == Sign::zero) return std::nullopt;
-  return *sign * *side;
+  if (!sign || *sign == Sign::zero) return std::nullopt;
+  return *factor * *sign;
 }
 
 Sign sign_by_integers(const FourPoints& points, const Point& center) {
@@ -126,17 +202,40 @@ Sign sign_by_integers(const FourPoints& points, const Point& center) {
   return exact::sign_of_root_sum(coefficients, radicands);
 }
 
+// Whether some coordinate is so small against another that sites hardly make a tie.
+bool have_different_exponents(const FourPoints& points, const Point& center) {
+  constexpr int many = 100;
+  int lowest = 1024;
+  int highest = -1023;
+  for (const Point& p : points) {
+    const Vector v = to_vector(p) - to_vector(center);
+    for (const double coordinate : {v.x, v.y, v.z}) {
+      if (coordinate == 0) continue;
+      lowest = std::min(lowest, exponent_of(coordinate));
+      highest = std::max(highest, exponent_of(coordinate));
+    }
+  }
+  return highest - lowest > many;
+}
+
 }  // namespace
 
 Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const Point& p,
                           const Point& center) {
   const FourPoints points = {b, c, d, p};
-  const auto known = exact::first_known_sign<6>(
-      [&](const auto& step) { return sign_by_equal_lengths(rays_to(points, center, step)); });
-  if (known) return *known;
-  const auto close = exact::first_known_sign<4, 8, 16>(
-      [&](const auto& step) { return sign_by_steps(rays_to(points, center, step)); });
-  return close ? *close : sign_by_integers(points, center);
+  const auto by_edges = [&](const auto& step) {
+    return sign_by_edges(rays_to(points, center, step));
+  };
+  const auto by_equal_lengths = [&](const auto& step) {
+    return sign_by_equal_lengths(rays_to(points, center, step));
+  };
+  std::optional<Sign> sign = have_different_exponents(points, center)
+                                 ? exact::first_known_sign<1>(by_edges)
+                                 : exact::first_known_sign<4>(by_equal_lengths);
+  if (!sign) sign = exact::first_known_sign<2>(by_edges);
+  if (!sign) sign = exact::first_known_sign<6>(by_equal_lengths);
+  if (!sign) sign = exact::first_known_sign<4, 8, 16>(by_edges);
+  return sign ? *sign : sign_by_integers(points, center);
 }
 
 }  // namespace rondel::predicates
