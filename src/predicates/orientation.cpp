@@ -75,10 +75,15 @@ Decision orientation_ladder(const Point& a, const Point& b, const Point& c, cons
   if (const Sign sign = filter_of_scaled(a, b, c, center); sign != Sign::zero) {
     return {sign, Rung::filter};
   }
-  return {exact::sign_of_cubic([&](const auto& step) {
-            return det(step(center, a), step(center, b), step(center, c));
-          }),
-          Rung::exact};
+  const auto formula = [&](const auto& step) {
+    return det(step(center, a), step(center, b), step(center, c));
+  };
+  if (have_different_exponents<3>({a, b, c}, center)) {
+    const auto sign =
+        exact::first_known_sign<1>([&](const auto& step) { return formula(step).sign(); });
+    if (sign) return {*sign, Rung::exact};
+  }
+  return {exact::sign_of_cubic(formula), Rung::exact};
 }
 
 }  // namespace rondel::predicates

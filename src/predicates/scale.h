@@ -45,6 +45,24 @@ inline double factor_to_one(const Vector& v) {
   return std::abs(exponent) <= most_exponent ? power_of_two(-exponent) : 0;
 }
 
+// Whether some coordinate, but 0, is so small against another that a tie is unlikely, and that
+// differences of products hardly cancel.
+template <std::size_t N>
+bool have_different_exponents(const std::array<Point, N>& points, const Point& center) {
+  constexpr int many = 100;
+  int lowest = 1024;
+  int highest = -1023;
+  for (const Point& p : points) {
+    const Vector v = to_vector(p) - to_vector(center);
+    for (const double coordinate : {v.x, v.y, v.z}) {
+      if (coordinate == 0) continue;
+      lowest = std::min(lowest, exponent_of(coordinate));
+      highest = std::max(highest, exponent_of(coordinate));
+    }
+  }
+  return highest - lowest > many;
+}
+
 // The bound of the errors is relative to the lengths of the three differences from one of four
 // points. A point far from the other three makes all of them long unless it is not the one from
 // which they are taken: so the even permutation of the four is chosen whose last point has the

@@ -202,22 +202,6 @@ Sign sign_by_integers(const FourPoints& points, const Point& center) {
   return exact::sign_of_root_sum(coefficients, radicands);
 }
 
-// Whether some coordinate is so small against another that sites hardly make a tie.
-bool have_different_exponents(const FourPoints& points, const Point& center) {
-  constexpr int many = 100;
-  int lowest = 1024;
-  int highest = -1023;
-  for (const Point& p : points) {
-    const Vector v = to_vector(p) - to_vector(center);
-    for (const double coordinate : {v.x, v.y, v.z}) {
-      if (coordinate == 0) continue;
-      lowest = std::min(lowest, exponent_of(coordinate));
-      highest = std::max(highest, exponent_of(coordinate));
-    }
-  }
-  return highest - lowest > many;
-}
-
 }  // namespace
 
 Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const Point& p,
