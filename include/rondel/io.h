@@ -37,7 +37,8 @@ struct ReadOptions {
 /// One column of a table, as text.
 struct Column {
   std::string name;
-  bool is_numeric = false;          ///< every non-empty cell is a JSON number
+  /// Every cell that is not empty is JSON, which is written as it is; of a file, a number.
+  bool is_numeric = false;
   std::string text;                 ///< all cells, one after the other
   std::vector<std::uint64_t> ends;  ///< where each cell ends in `text`
 };

@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Cells and faces as polygons of longitude and latitude (target rondel::io), for programs that
+/// draw or store maps: the polygons of the GeoJSON that write_cells() and write_triangles() write.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rondel/diagram.h"
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// Polygons in flat arrays. Each is one ring, counterclockwise, whose last position is its first,
+/// within [-180, 180] x [-90, 90]. A region that the antimeridian cuts has several polygons.
+struct LonLatPolygons {
+  std::vector<LonLat> positions;       ///< of all rings, one after the other
+  std::vector<std::uint64_t> offsets;  ///< ring k: positions[offsets[k]] to [offsets[k + 1]]
+  std::vector<Index> owners;           ///< the site or face of each ring, never decreasing
+};
+
+/// The polygons of the cells of a diagram, by site. Arcs are densified as write_cells() does. A
+/// cell no wider than rounding has none.
+/// \throw InvalidInput if the numbers of sites differ
+LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& triangulation,
+                             const Diagram& diagram, double tolerance_deg = 0.01,
+                             const Progress& progress = {});
+
+/// The polygons of the solid faces, as write_triangles() writes them. A face no wider than rounding
+/// has none.
+/// \throw InvalidInput if the numbers of sites differ
+LonLatPolygons face_polygons(std::span<const Point> sites, const Triangulation& triangulation);
+
+}  // namespace rondel

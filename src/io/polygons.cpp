@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Polygons in flat arrays: pieces are drawn in parallel and joined in order.
+#include "rondel/polygons.h"
+
+#include <string>
+
+#include "io/cell_map.h"
+#include "io/face_map.h"
+#include "rondel/error.h"
+#include "system/parallel.h"
+
+namespace rondel {
+namespace {
+
+constexpr std::size_t grain = 512;
+
+void append(LonLatPolygons& all, const std::vector<io::LonLatPolygon>& polygons, Index owner) {
+  for (const io::LonLatPolygon& polygon : polygons) {
+    all.positions.insert(all.positions.end(), polygon.ring.begin(), polygon.ring.end());
+    all.offsets.push_back(all.positions.size());
+    all.owners.push_back(owner);
+  }
+}
+
+LonLatPolygons joined(const std::vector<LonLatPolygons>& pieces) {
+  std::size_t num_positions = 0;
+  std::size_t num_rings = 0;
+  for (const LonLatPolygons& piece : pieces) {
+    num_positions += piece.positions.size();
+    num_rings += piece.owners.size();
+  }
+  LonLatPolygons all;
+  all.positions.reserve(num_positions);
+  all.owners.reserve(num_rings);
+  all.offsets.reserve(num_rings + 1);
+  all.offsets.push_back(0);
+  for (const LonLatPolygons& piece : pieces) {
+    const std::uint64_t before = all.positions.size();
+    for (const std::uint64_t end : piece.offsets) all.offsets.push_back(before + end);
+    all.positions.insert(all.positions.end(), piece.positions.begin(), piece.positions.end());
+    all.owners.insert(all.owners.end(), piece.owners.begin(), piece.owners.end());
+  }
+  return all;
+}
+
+// Calls draw(piece, begin, end) for the pieces of [0, count).
+template <class Draw>
+LonLatPolygons collect(unsigned threads, std::size_t count, const Draw& draw) {
+  std::vector<LonLatPolygons> pieces(system::num_pieces(count, grain));
+  system::parallel_for(threads, count, grain, [&](std::size_t begin, std::size_t end) {
+    draw(pieces[begin / grain], begin, end);
+  });
+  return joined(pieces);
+}
+
+void require_sites(std::span<const Point> sites, std::size_t num_sites, const char* what) {
+  if (sites.size() == num_sites) return;
+  throw InvalidInput("there are " + std::to_string(sites.size()) + " sites, but " + what + " of " +
+                         std::to_string(num_sites),
+                     0);
+}
+
+}  // namespace
+
+LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& triangulation,
+                             const Diagram& diagram, double tolerance_deg,
+                             const Progress& progress) {
+  require_sites(sites, triangulation.num_sites(), "a triangulation");
+  require_sites(sites, diagram.areas.size(), "a diagram");
+  const unsigned threads = triangulation.report().threads;
+  const io::CellMap map(sites, triangulation, diagram.cells, tolerance_deg, threads, progress);
+  return collect(threads, sites.size(),
+                 [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
+                   io::CellMap::Pen pen;
+                   for (std::size_t site = begin; site < end; ++site) {
+                     if (!map.has_cell(site)) continue;
+                     append(piece, map.polygons(site, pen), static_cast<Index>(site));
+                   }
+                 });
+}
+
+LonLatPolygons face_polygons(std::span<const Point> sites, const Triangulation& triangulation) {
+  require_sites(sites, triangulation.num_sites(), "a triangulation");
+  const io::FaceMap map(sites, triangulation);
+  return collect(triangulation.report().threads, triangulation.num_faces(),
+                 [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
+                   for (std::size_t f = begin; f < end; ++f) {
+                     const auto face = static_cast<Index>(f);
+                     if (!triangulation.is_ghost(face)) append(piece, map.polygons(face), face);
+                   }
+                 });
+}
+
+}  // namespace rondel
