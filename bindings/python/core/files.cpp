@@ -6,26 +6,30 @@
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <cstdint>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
 #include "interrupt.h"
 #include "module.h"
 #include "rondel/io.h"
+#include "rondel/polygons.h"
 
 namespace rondel::python {
 namespace {
 
-// Name, whether every cell that is not empty is a JSON number, and the cells.
-using ColumnIn = std::tuple<std::string, bool, std::vector<std::string>>;
+// Name and cells, which are JSON, or empty for null.
+using ColumnIn = std::tuple<std::string, std::vector<std::string>>;
+using PolygonsOut = std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
 
 SiteTable make_table(const PointsIn& points, const std::vector<ColumnIn>& columns) {
   SiteTable table;
   table.sites = PointArray(points_of(points), nullptr);
-  for (const auto& [name, is_numeric, cells] : columns) {
-    Column column{.name = name, .is_numeric = is_numeric, .text = {}, .ends = {}};
+  for (const auto& [name, cells] : columns) {
+    Column column{.name = name, .is_numeric = true, .text = {}, .ends = {}};
     for (const std::string& cell : cells) {
       column.text += cell;
       column.ends.push_back(column.text.size());
@@ -35,6 +39,12 @@ SiteTable make_table(const PointsIn& points, const std::vector<ColumnIn>& column
   return table;
 }
 
+// The positions (k, 2), the offsets of the rings and their owners.
+PolygonsOut polygons_out(LonLatPolygons&& polygons) {
+  return {to_array<double>(std::move(polygons.positions)), offsets_out(std::move(polygons.offsets)),
+          indices_out(std::move(polygons.owners))};
+}
+
 }  // namespace
 
 void add_files(nb::module_& module) {
@@ -42,9 +52,8 @@ void add_files(nb::module_& module) {
       "write_cells",
       [](const std::string& path, const Triangulation& t, const PointsIn& points,
          const Diagram& diagram, const std::vector<ColumnIn>& columns, double tolerance_deg) {
-        unlocked([&] {
-          write_cells(path, make_table(points, columns), t, diagram, tolerance_deg);
-          return true;
+        run_watched(points.shape(0), nb::none(), [&](const Progress& progress) {
+          write_cells(path, make_table(points, columns), t, diagram, tolerance_deg, progress);
         });
       },
       nb::arg("path"), nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"),
@@ -52,12 +61,28 @@ void add_files(nb::module_& module) {
   module.def(
       "write_triangles",
       [](const std::string& path, const Triangulation& t, const PointsIn& points) {
-        unlocked([&] {
-          write_triangles(path, make_table(points, {}), t);
-          return true;
+        run_watched(points.shape(0), nb::none(), [&](const Progress& progress) {
+          write_triangles(path, make_table(points, {}), t, progress);
         });
       },
       nb::arg("path"), nb::arg("triangulation"), nb::arg("points").noconvert());
+  module.def(
+      "cell_polygons",
+      [](const Triangulation& t, const PointsIn& points, const Diagram& diagram,
+         double tolerance_deg) {
+        return polygons_out(watched_quietly(points.shape(0), [&] {
+          return cell_polygons(points_of(points), t, diagram, tolerance_deg);
+        }));
+      },
+      nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"),
+      nb::arg("tolerance_deg"));
+  module.def(
+      "face_polygons",
+      [](const Triangulation& t, const PointsIn& points) {
+        return polygons_out(
+            watched_quietly(points.shape(0), [&] { return face_polygons(points_of(points), t); }));
+      },
+      nb::arg("triangulation"), nb::arg("points").noconvert());
 }
 
 }  // namespace rondel::python

@@ -36,6 +36,8 @@ NB_MODULE(_core, module) {
       "The C++ library behind the package rondel. Use that: arguments are not converted here.";
   module.attr("version") = rondel::version;
   nb::register_exception_translator(translate);
+  // Libraries that hold an array, and threads that never end, may do so when the interpreter ends.
+  nb::set_leak_warnings(false);
   rondel::python::add_triangulation(module);
   rondel::python::add_diagram(module);
   rondel::python::add_query(module);

@@ -1,16 +1,23 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""What users pass, as the arrays that the C++ library takes. What already is one is not copied."""
+"""What users pass, as the arrays that the C++ library takes.
+
+What is used during a call alone is not copied if it is such an array. What an object keeps is.
+"""
 
 from __future__ import annotations
 
 import operator
+from typing import TypeVar
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _core
 from ._errors import InvalidInput
 from ._types import ArrayLike, FloatArray, IntArray, Model
+
+Number = TypeVar("Number", bound=np.generic)
 
 MODELS = ("projected", "weighted")
 ORIGIN = (0.0, 0.0, 0.0)
@@ -41,6 +48,22 @@ def as_rows(values: ArrayLike, columns: int, name: str) -> FloatArray:
 def as_points(points: ArrayLike, name: str = "points") -> FloatArray:
     """An array of shape (n, 3)."""
     return as_rows(points, 3, name)
+
+
+def frozen(array: npt.NDArray[Number]) -> npt.NDArray[Number]:
+    """The same memory, through which nobody can write."""
+    array = array.view()
+    array.flags.writeable = False
+    return array
+
+
+def as_kept(points: ArrayLike, *, copy: bool, columns: int = 3) -> FloatArray:
+    """The points that an object keeps: a copy of what the caller may change, if `copy` is true."""
+    array = as_rows(points, columns, "points")
+    is_theirs = not isinstance(points, (list, tuple))
+    if copy and is_theirs and np.may_share_memory(array, np.asarray(points)):
+        array = array.copy()
+    return frozen(array)
 
 
 def as_queries(xi: ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
@@ -109,7 +132,7 @@ def unit_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
     Parameters
     ----------
     lon, lat : array_like, shape (...)
-        Degrees; latitudes from -90 to 90.
+        Degrees; latitudes from -90 to 90. Broadcast against each other.
 
     Returns
     -------
@@ -121,8 +144,8 @@ def unit_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
         If an angle is not finite or a latitude is outside [-90, 90].
 
     """
-    shape = np.shape(lon)
-    return _core.unit_vectors(as_lonlat(lon, lat)).reshape(*shape, 3)
+    lon, lat = np.broadcast_arrays(as_floats(lon, "lon"), as_floats(lat, "lat"))
+    return _core.unit_vectors(as_lonlat(lon, lat)).reshape(*lon.shape, 3)
 
 
 def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:

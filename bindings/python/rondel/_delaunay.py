@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,20 +13,18 @@ from . import _core, _geo, _plot
 from ._arrays import (
     as_center,
     as_floats,
+    as_kept,
     as_lonlat,
-    as_points,
     as_queries,
     as_threads,
+    frozen,
     is_weighted,
     lonlat,
 )
+from ._diagram import Diagram
 from ._mesh import Mesh
 from ._queries import Queries
 from ._types import ArrayLike, FloatArray, IntArray, Model, Progress
-
-if TYPE_CHECKING:
-    from ._power import PowerDiagram
-    from ._voronoi import SphericalVoronoi
 
 
 class Location(NamedTuple):
@@ -61,8 +59,7 @@ class SphericalDelaunay(Mesh, Queries):
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        A C-contiguous array of float64 is not copied, and must not be changed as long as the
-        object lives. Points need not lie on the sphere exactly.
+        They need not lie on the sphere exactly.
     model : {'projected', 'weighted'}, optional
         What a point stands for: its exact projection on the sphere, so that every distinct
         direction is a vertex; or the circle whose pole it is, so that the result is the convex
@@ -75,6 +72,10 @@ class SphericalDelaunay(Mesh, Queries):
         At most so many threads; by default one for each core. The result is the same.
     progress : callable, optional
         Called as ``progress(stage, fraction)`` some times a second. What it raises ends the work.
+    copy : bool, optional
+        By default the points are copied. With ``copy=False`` a C-contiguous array of float64, also
+        one that is mapped from a file, is used where it lies. It must not be changed as long as
+        the object lives: results would be wrong, and calls might not end.
 
     Raises
     ------
@@ -114,8 +115,9 @@ class SphericalDelaunay(Mesh, Queries):
         center: ArrayLike | None = None,
         threads: int | None = None,
         progress: Progress = None,
+        copy: bool = True,
     ) -> None:
-        points = as_points(points)
+        points = as_kept(points, copy=copy)
         radius = float(radius)
         built = _core.delaunay(
             points,
@@ -136,7 +138,7 @@ class SphericalDelaunay(Mesh, Queries):
     ) -> None:
         Mesh.__init__(self, points, triangulation)
         self._radius = radius
-        self._degrees = degrees
+        self._degrees = None if degrees is None else frozen(degrees)
 
     @classmethod
     def _from_parts(
@@ -156,7 +158,8 @@ class SphericalDelaunay(Mesh, Queries):
     def __setstate__(self, state: dict[str, Any]) -> None:
         super().__setstate__(state)
         self._radius = state["radius"]
-        self._degrees = state["degrees"]
+        degrees = state["degrees"]
+        self._degrees = None if degrees is None else frozen(degrees)
 
     @property
     def model(self) -> Model:
@@ -187,7 +190,7 @@ class SphericalDelaunay(Mesh, Queries):
         """
         if self._degrees is not None:
             return self._degrees
-        return lonlat(self.points, self._triangulation.center)
+        return frozen(lonlat(self.points, self._triangulation.center))
 
     @cached_property
     def circumcenters(self) -> FloatArray:
@@ -195,7 +198,7 @@ class SphericalDelaunay(Mesh, Queries):
         centers of their circles (model 'weighted': their power centers), seen from the center of
         the sphere. Within 4 ulp, whatever the shape of the face.
         """
-        return _core.circumcenters(self._triangulation, self._points)
+        return frozen(_core.circumcenters(self._triangulation, self._points))
 
     @cached_property
     def _lazy_locator(self) -> _core.Locator:
@@ -261,7 +264,7 @@ class SphericalDelaunay(Mesh, Queries):
         """
         return self._locator().conflict_region(tuple(as_floats(point, "point").tolist()))
 
-    def voronoi(self) -> SphericalVoronoi | PowerDiagram:
+    def voronoi(self) -> Diagram[SphericalDelaunay]:
         """The dual of this triangulation.
 
         Returns
@@ -270,11 +273,7 @@ class SphericalDelaunay(Mesh, Queries):
             Nothing is triangulated again. Duplicates are merged.
 
         """
-        from ._power import PowerDiagram
-        from ._voronoi import SphericalVoronoi
-
-        kind = PowerDiagram if self._triangulation.is_weighted else SphericalVoronoi
-        return kind._from_delaunay(self)
+        return Diagram._of(self)
 
     def validate(self, *, threads: int | None = None) -> CheckReport:
         """Proves or refutes, by another algorithm, that this is the triangulation of the points.
@@ -301,7 +300,7 @@ class SphericalDelaunay(Mesh, Queries):
         return [*super()._facts(), ("model", self.model)]
 
     to_geojson = _geo.triangles_to_geojson
-    to_geopandas = _geo.to_geopandas
+    to_geopandas = _geo.triangles_to_geopandas
     to_xarray = _geo.triangles_to_xarray
     lonlat_triangles = _plot.lonlat_triangles
     plot = _plot.plot_triangles
@@ -315,6 +314,7 @@ def delaunay(
     center: ArrayLike | None = None,
     threads: int | None = None,
     progress: Progress = None,
+    copy: bool = True,
 ) -> SphericalDelaunay:
     """The Delaunay triangulation of points on or close to a sphere: see `SphericalDelaunay`.
 
@@ -326,6 +326,7 @@ def delaunay(
     center : array_like, shape (3,), optional
     threads : int, optional
     progress : callable, optional
+    copy : bool, optional
 
     Returns
     -------
@@ -333,7 +334,13 @@ def delaunay(
 
     """
     return SphericalDelaunay(
-        points, model, radius=radius, center=center, threads=threads, progress=progress
+        points,
+        model,
+        radius=radius,
+        center=center,
+        threads=threads,
+        progress=progress,
+        copy=copy,
     )
 
 

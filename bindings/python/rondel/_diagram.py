@@ -5,19 +5,19 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any, NamedTuple, TypeVar
+from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core, _geo, _plot
-from ._arrays import ORIGIN
-from ._delaunay import SphericalDelaunay
+from ._arrays import ORIGIN, frozen
 from ._dimensions import FlatMesh
 from ._repr import Described
-from ._types import FloatArray, IntArray
+from ._types import FloatArray, IntArray, Model, Triangulated
 
-Kind = TypeVar("Kind", bound="Diagram")
+Kind = TypeVar("Kind", bound="Diagram[Any]")
+Delaunay = TypeVar("Delaunay", bound=Triangulated)
 
 
 class Cells(NamedTuple):
@@ -31,22 +31,40 @@ class Cells(NamedTuple):
     points: FloatArray
 
 
-class Diagram(Described):
-    """The dual of a triangulation; found when it is first asked for."""
+class Diagram(Described, Generic[Delaunay]):
+    """The dual of a triangulation, `SphericalDelaunay`; found when it is first asked for."""
+
+    # The kind of diagram that is the dual of triangulations of a model. (Triangulations know only
+    # this class, as the kinds know them.)
+    _kinds: ClassVar[dict[str, type[Diagram[Any]]]] = {}
+
+    def __init_subclass__(cls, *, model: Model | None = None, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if model is not None:
+            cls._kinds[model] = cls
+
+    @classmethod
+    def _of(cls, delaunay: Any) -> Diagram[Any]:
+        return cls._kinds[delaunay.model]._from_delaunay(delaunay)
 
     def _keep(self, delaunay: Any) -> None:
         self._delaunay = delaunay
 
+    # What was found is found again, but for `vertices` and `regions` that the user has changed.
     def __getstate__(self) -> dict[str, Any]:
         state = self.__dict__.copy()
         if isinstance(self._delaunay, FlatMesh):
             return state
-        for name in ("_diagram", "cells", "areas", "centroids", "vertices", "regions"):
+        for name in ("_diagram", "_ridges", "cells", "areas", "centroids"):
             state.pop(name, None)
+        if "vertices" in state and np.array_equal(state["vertices"], self._found_vertices()):
+            del state["vertices"]
+        if "regions" in state and state["regions"] == self._found_regions():
+            del state["regions"]
         return state
 
     @classmethod
-    def _from_delaunay(cls: type[Kind], delaunay: SphericalDelaunay) -> Kind:
+    def _from_delaunay(cls: type[Kind], delaunay: Any) -> Kind:
         self = cls.__new__(cls)
         self._keep(delaunay)
         return self
@@ -62,13 +80,13 @@ class Diagram(Described):
         return radius * directions + np.array(center)
 
     @property
-    def delaunay(self) -> SphericalDelaunay:
+    def delaunay(self) -> Delaunay:
         """SphericalDelaunay: the triangulation, the dual of this diagram."""
         return self._delaunay
 
     @property
     def points(self) -> FloatArray:
-        """Ndarray of float64, shape (n, 3): the sites, not copied. Do not change them."""
+        """Ndarray of float64, shape (n, 3): the sites, read-only."""
         return self._delaunay.points
 
     @property
@@ -98,13 +116,17 @@ class Diagram(Described):
         their boundary as make its arcs short; a single site's cell, the whole sphere, none.
         """
         d = self._diagram
-        return Cells(d.offsets, d.rings, self._on_sphere(d.points))
+        return Cells(d.offsets, d.rings, frozen(self._on_sphere(d.points)))
 
     @cached_property
     def vertices(self) -> FloatArray:
         """Ndarray of float64, shape (m, 3): the corners of the cells; vertex k is the center of the
-        circle of face k. Below dimension 2, all points of `cells`.
+        circle of face k. Below dimension 2, all points of `cells`. An array of your own: nothing
+        else changes with it.
         """
+        return self._found_vertices().copy()
+
+    def _found_vertices(self) -> FloatArray:
         points = self.cells.points
         faces = len(self._simplices)
         return points[:faces] if faces else points
@@ -113,13 +135,53 @@ class Diagram(Described):
     def regions(self) -> list[list[int]]:
         """List of lists of int: the corners of each site's cell, positions in `vertices`,
         counterclockwise seen from outside. Empty for duplicates and hidden sites.
+
+        Corners and neighbors (``delaunay.vertex_neighbor_vertices``) alternate around a cell, but
+        the two lists begin anywhere: what lies across which border is in `ridge_points`.
         """
+        return self._found_regions()
+
+    def _found_regions(self) -> list[list[int]]:
         offsets, rings, _ = self.cells
-        corners = rings < len(self.vertices)
+        corners = rings < len(self._found_vertices())
         if not corners.all():
             offsets = np.concatenate([[0], np.cumsum(corners)])[offsets]
             rings = rings[corners]
         return _core.lists(rings, offsets)
+
+    @cached_property
+    def _ridges(self) -> tuple[IntArray, IntArray]:
+        offsets, rings, points = self.cells
+        sizes = np.diff(offsets)
+        following = np.arange(1, len(rings) + 1)
+        following[offsets[1:][sizes > 0] - 1] = offsets[:-1][sizes > 0]
+        sites = np.repeat(np.arange(len(sizes), dtype=np.int32), sizes)
+        begin, end = rings, rings[following]
+        # A border is in two rings, once in each direction.
+        key = np.minimum(begin, end) * np.int64(len(points)) + np.maximum(begin, end)
+        there, back = np.flatnonzero(begin < end), np.flatnonzero(begin > end)
+        there, back = there[np.argsort(key[there])], back[np.argsort(key[back])]
+        first = np.where(sites[there] < sites[back], there, back)
+        last = np.where(sites[there] < sites[back], back, there)
+        order = np.lexsort((sites[last], sites[first]))
+        first, last = first[order], last[order]
+        ends = np.column_stack([begin[first], end[first]])
+        return frozen(np.column_stack([sites[first], sites[last]])), frozen(ends)
+
+    @property
+    def ridge_points(self) -> IntArray:
+        """Ndarray of int32, shape (r, 2): the two sites of each border between cells, the lower
+        one first, sorted; as in `scipy.spatial.Voronoi`.
+        """
+        return self._ridges[0]
+
+    @property
+    def ridge_vertices(self) -> IntArray:
+        """Ndarray of int32, shape (r, 2): where each border of `ridge_points` begins and ends,
+        positions in ``cells.points``, whose first ones are `vertices`. The cell of the first site
+        is to the left of the arc. A border longer than 120 degrees is there in parts.
+        """
+        return self._ridges[1]
 
     @cached_property
     def areas(self) -> FloatArray:
@@ -128,7 +190,7 @@ class Diagram(Described):
         4 pi radius**2.
         """
         areas = self._diagram.areas
-        return areas if self.radius == 1 else areas * self.radius**2
+        return areas if self.radius == 1 else frozen(areas * self.radius**2)
 
     @cached_property
     def centroids(self) -> FloatArray:
@@ -141,12 +203,12 @@ class Diagram(Described):
         none = ~directions.any(axis=1)
         if none.any():
             directions[none] = np.nan
-        return self._on_sphere(directions)
+        return frozen(self._on_sphere(directions))
 
     def _facts(self) -> list[tuple[str, str]]:
         return self._delaunay._facts()
 
     to_geojson = _geo.cells_to_geojson
-    to_geopandas = _geo.to_geopandas
+    to_geopandas = _geo.cells_to_geopandas
     to_xarray = _geo.cells_to_xarray
     plot = _plot.plot_cells

@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import Any, NamedTuple, overload
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from ._arrays import (
     as_queries,
     as_threads,
     is_weighted,
+    unit_vectors,
 )
 from ._delaunay import SphericalDelaunay
 from ._errors import InvalidInput
@@ -103,6 +105,24 @@ class DynamicTriangulation(Described, Queries):
             first = SphericalDelaunay(points, model, radius=radius, center=center, threads=threads)
             self._state = _core.DynamicTriangulation(first._triangulation, first.points)
 
+    @classmethod
+    def from_lonlat(
+        cls, lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None
+    ) -> DynamicTriangulation:
+        """The triangulation of longitudes and latitudes in degrees, on the unit sphere.
+
+        Parameters
+        ----------
+        lon, lat : array_like, shape (n,)
+        threads : int, optional
+
+        Returns
+        -------
+        DynamicTriangulation
+
+        """
+        return cls(unit_vectors(lon, lat).reshape(-1, 3), threads=threads)
+
     def __reduce__(self) -> tuple[Any, ...]:
         t = self.snapshot()
         sphere = {"radius": self._radius, "center": t.delaunay.center}
@@ -111,7 +131,13 @@ class DynamicTriangulation(Described, Queries):
     def _locator(self) -> _core.DynamicTriangulation:
         return self._state
 
-    def insert(self, points: ArrayLike, *, hint: int | None = None) -> int | IntArray:
+    @overload
+    def insert(self, points: Sequence[float], *, hint: int | None = None) -> int: ...
+    @overload
+    def insert(self, points: Sequence[Sequence[float]], *, hint: None = None) -> IntArray: ...
+    @overload
+    def insert(self, points: ArrayLike, *, hint: int | None = None) -> Any: ...
+    def insert(self, points: ArrayLike, *, hint: int | None = None) -> Any:
         """Adds one site or many.
 
         Parameters
@@ -140,6 +166,22 @@ class DynamicTriangulation(Described, Queries):
         if hint is None:
             return self._state.insert_one(tuple(array.tolist()))
         return self._state.insert_near(tuple(array.tolist()), _as_id(hint))
+
+    def insert_lonlat(self, lon: ArrayLike, lat: ArrayLike, *, hint: int | None = None) -> Any:
+        """Adds one site or many by longitude and latitude in degrees.
+
+        Parameters
+        ----------
+        lon, lat : float or array_like, shape (n,)
+        hint : int, optional
+
+        Returns
+        -------
+        int or ndarray of int32, shape (n,)
+            As `insert` does.
+
+        """
+        return self.insert(unit_vectors(lon, lat), hint=hint)
 
     def remove(self, ids: ArrayLike) -> None:
         """Removes one site or many.

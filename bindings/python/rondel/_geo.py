@@ -7,35 +7,43 @@ The functions are methods of `SphericalDelaunay`, `SphericalVoronoi` and `PowerD
 
 from __future__ import annotations
 
+import errno
+import io
 import json
-import math
 import os
 import pathlib
+import shutil
 import tempfile
-from collections.abc import Callable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any, TypeAlias, overload
 
 import numpy as np
 
 from . import _core
 from ._arrays import lonlat
-from ._types import FloatArray, IntArray
+from ._properties import checked_properties, json_cells
+from ._types import Divided, FloatArray, IntArray, Triangulated
 
 if TYPE_CHECKING:
-    from ._delaunay import SphericalDelaunay
-    from ._diagram import Diagram
+    import geopandas
+    import xarray
+
+Path: TypeAlias = "str | os.PathLike[str]"
+Properties: TypeAlias = Mapping[str, Any]
 
 
-def triangles_to_geojson(
-    self: SphericalDelaunay, path: str | os.PathLike[str] | None = None
-) -> Any:
+@overload
+def triangles_to_geojson(self: Triangulated, path: None = None) -> dict[str, Any]: ...
+@overload
+def triangles_to_geojson(self: Triangulated, path: Path | io.IOBase) -> None: ...
+def triangles_to_geojson(self: Triangulated, path: Path | io.IOBase | None = None) -> Any:
     """The faces as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, poles closed.
 
     A feature for each solid face, with the property `sites`, the indices of its corners.
 
     Parameters
     ----------
-    path : path-like, optional
+    path : path-like or file object, optional
         Where to write the text; otherwise it is returned, parsed.
 
     Returns
@@ -55,11 +63,27 @@ def triangles_to_geojson(
     return _written(path, write)
 
 
+@overload
 def cells_to_geojson(
-    self: Diagram,
-    path: str | os.PathLike[str] | None = None,
+    self: Divided,
+    path: None = None,
     *,
-    properties: Mapping[str, Sequence[Any]] | None = None,
+    properties: Properties | None = None,
+    tolerance_deg: float = 0.01,
+) -> dict[str, Any]: ...
+@overload
+def cells_to_geojson(
+    self: Divided,
+    path: Path | io.IOBase,
+    *,
+    properties: Properties | None = None,
+    tolerance_deg: float = 0.01,
+) -> None: ...
+def cells_to_geojson(
+    self: Divided,
+    path: Path | io.IOBase | None = None,
+    *,
+    properties: Properties | None = None,
     tolerance_deg: float = 0.01,
 ) -> Any:
     """The cells as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, poles closed.
@@ -68,10 +92,12 @@ def cells_to_geojson(
 
     Parameters
     ----------
-    path : path-like, optional
+    path : path-like or file object, optional
         Where to write the text; otherwise it is returned, parsed.
     properties : mapping of str to sequence, optional
-        More properties: for each a value for every site, a number, a text or None.
+        More properties: for each a value for every site. Numbers, booleans, texts and what else
+        JSON has stay what they are; None, nan and infinities become null, dates ISO 8601 texts. No
+        property is called `site` or `area`.
     tolerance_deg : float, optional
         How far the straight lines of a polygon may be from its arcs, in degrees.
 
@@ -85,15 +111,13 @@ def cells_to_geojson(
         If the file cannot be written; then nothing is left of it.
 
     """
-    columns = [
-        _column(str(name), values, len(self.points))
-        for name, values in (properties.items() if properties is not None else ())
-    ]
+    values = checked_properties(properties, ("site", "area"), len(self.points))
+    columns = [(name, json_cells(column)) for name, column in values.items()]
 
     def write(name: str) -> None:
         _core.write_cells(
             name,
-            self._delaunay._triangulation,
+            self.delaunay._triangulation,
             self.points,
             self._diagram,
             columns,
@@ -103,50 +127,48 @@ def cells_to_geojson(
     return _written(path, write)
 
 
-def _written(path: str | os.PathLike[str] | None, write: Callable[[str], None]) -> Any:
+def _written(path: Path | io.IOBase | None, write: Callable[[str], None]) -> Any:
     """What `write` makes: in the file, or parsed."""
-    if path is not None:
+    if isinstance(path, (str, os.PathLike)):
         name = os.fspath(path)
         if not name.endswith(".geojson"):
             raise ValueError(f"the name of a GeoJSON file ends in .geojson: {name}")
-        write(name)
+        _write(name, write)
         return None
     with tempfile.TemporaryDirectory() as folder:
-        text = pathlib.Path(folder) / "rondel.geojson"
-        write(str(text))
-        return json.loads(text.read_bytes())
-
-
-def _column(name: str, values: Sequence[Any], count: int) -> tuple[str, bool, list[str]]:
-    """A column of text: the name, whether all cells are numbers, and the cells."""
-    if len(values) != count:
-        raise ValueError(f"the property {name!r} has {len(values)} values for {count} sites")
-    cells, is_numeric = [], True
-    for value in np.asarray(values, dtype=object).tolist():
-        if hasattr(value, "item"):
-            value = value.item()  # a NumPy scalar
-        if value is None or (isinstance(value, float) and not math.isfinite(value)):
-            cells.append("")
-        elif isinstance(value, (int, float)) and not isinstance(value, bool):
-            cells.append(repr(value))
+        made = pathlib.Path(folder) / "rondel.geojson"
+        _write(str(made), write)
+        if path is None:
+            # A function is called for each object, so that Ctrl-C ends the reading.
+            return json.loads(made.read_bytes(), object_hook=lambda found: found)
+        if isinstance(path, (io.RawIOBase, io.BufferedIOBase)):
+            with made.open("rb") as content:
+                shutil.copyfileobj(content, path)
         else:
-            is_numeric = False
-            cells.append(str(value))
-    return name, is_numeric, cells
+            with made.open(encoding="utf-8", newline="") as text:
+                shutil.copyfileobj(text, path)
+    return None
 
 
-def to_geopandas(self: Any, **options: Any) -> Any:
-    """The features of `to_geojson` as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
+def _write(name: str, write: Callable[[str], None]) -> None:
+    """An error of a file has its number, as everywhere in Python, and so its own class."""
+    try:
+        write(name)
+    except OSError as error:
+        for number in errno.errorcode:
+            if str(error) == f"{name}: {os.strerror(number)}":
+                raise OSError(number, os.strerror(number), name) from None
+        raise
 
-    Parameters
-    ----------
-    **options
-        Those of `to_geojson`.
+
+def triangles_to_geopandas(self: Triangulated) -> geopandas.GeoDataFrame:
+    """The solid faces as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
 
     Returns
     -------
     geopandas.GeoDataFrame
-        Polygons that cross the antimeridian are multipolygons, cut there.
+        The polygons of `to_geojson`. The index is the face; the columns `site_0`, `site_1` and
+        `site_2` are its corners. Polygons that cross the antimeridian are multipolygons, cut there.
 
     Raises
     ------
@@ -154,16 +176,69 @@ def to_geopandas(self: Any, **options: Any) -> Any:
         If GeoPandas is not installed.
 
     """
+    faces = np.flatnonzero(~self.ghost)
+    corners = self.simplices[faces]
+    columns = {f"site_{k}": corners[:, k] for k in range(3)}
+    return _frame(columns, _core.face_polygons(self._triangulation, self.points), faces)
+
+
+def cells_to_geopandas(
+    self: Divided, *, properties: Properties | None = None, tolerance_deg: float = 0.01
+) -> geopandas.GeoDataFrame:
+    """The cells as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
+
+    Parameters
+    ----------
+    properties : mapping of str to sequence, optional
+        More columns: for each a value for every site. They keep their types. None of them is called
+        `site`, `area` or `geometry`.
+    tolerance_deg : float, optional
+        How far the straight lines of a polygon may be from its arcs, in degrees.
+
+    Returns
+    -------
+    geopandas.GeoDataFrame
+        The polygons of `to_geojson`, with the columns `site` (also the index) and `area`
+        (steradians). Polygons that cross the antimeridian are multipolygons, cut there.
+
+    Raises
+    ------
+    ImportError
+        If GeoPandas is not installed.
+
+    """
+    import pandas
+
+    given = checked_properties(properties, ("site", "area", "geometry"), len(self.points))
+    sites = self.delaunay.vertices
+    columns: dict[str, Any] = {"site": sites, "area": self._diagram.areas[sites]}
+    for name, values in given.items():
+        columns[name] = pandas.Series(values).array[sites]
+    polygons = _core.cell_polygons(
+        self.delaunay._triangulation, self.points, self._diagram, float(tolerance_deg)
+    )
+    return _frame(columns, polygons, sites)
+
+
+def _frame(columns: dict[str, Any], polygons: Any, rows: Any) -> geopandas.GeoDataFrame:
+    """A GeoDataFrame with a row for each owner of polygons, and for those that have none."""
     import geopandas
+    import shapely
 
-    features = self.to_geojson(**options)["features"]
-    if not features:
-        return geopandas.GeoDataFrame({"geometry": []}, crs="EPSG:4326")
-    return geopandas.GeoDataFrame.from_features(features, crs="EPSG:4326")
+    positions, offsets, owners = polygons
+    every = np.arange(len(offsets))
+    rings = shapely.from_ragged_array(shapely.GeometryType.POLYGON, positions, (offsets, every))
+    row = np.searchsorted(rows, owners)
+    is_single = np.bincount(row, minlength=len(rows))[row] == 1
+    geometry = np.full(len(rows), None)
+    geometry[row[is_single]] = rings[is_single]
+    several, part = np.unique(row[~is_single], return_inverse=True)
+    geometry[several] = shapely.multipolygons(rings[~is_single], indices=part)
+    return geopandas.GeoDataFrame(columns, geometry=geometry, index=rows, crs="EPSG:4326")
 
 
-def triangles_to_xarray(self: SphericalDelaunay) -> Any:
-    """The triangulation as a UGRID mesh: sites are nodes, triangles faces.
+def triangles_to_xarray(self: Triangulated) -> xarray.Dataset:
+    """The triangulation as a UGRID mesh: sites are nodes, solid triangles faces.
 
     Returns
     -------
@@ -176,17 +251,24 @@ def triangles_to_xarray(self: SphericalDelaunay) -> Any:
         If xarray is not installed.
 
     """
-    return _ugrid(self.lonlat, self.simplices)
+    return _ugrid("Delaunay triangulation", self.lonlat, self.simplices[~self.ghost])
 
 
-def cells_to_xarray(self: Diagram) -> Any:
+def cells_to_xarray(self: Divided, *, properties: Properties | None = None) -> xarray.Dataset:
     """The diagram as a UGRID mesh: corners of cells are nodes, cells faces, in the order of sites.
+
+    Parameters
+    ----------
+    properties : mapping of str to sequence, optional
+        More variables of faces: for each a value for every site.
 
     Returns
     -------
     xarray.Dataset
-        With the UGRID 1.0 conventions; ``uxarray.Grid.from_dataset`` opens it. Cells have
-        different numbers of corners, and rows are filled up with -1.
+        With the UGRID 1.0 conventions; ``uxarray.Grid.from_dataset`` opens it. Sites without a
+        cell, as duplicates, have no face: the variable `site` says whose each face is. `face_lon`
+        and `face_lat` are the sites, `face_area` the areas in steradians. Cells have different
+        numbers of corners, and rows are filled up with -1.
 
     Raises
     ------
@@ -196,30 +278,35 @@ def cells_to_xarray(self: Diagram) -> Any:
     """
     offsets, rings, points = self.cells
     sizes = np.diff(offsets)
-    faces = np.full((len(sizes), max(3, sizes.max(initial=0))), -1, np.int32)
-    faces[np.arange(faces.shape[1]) < sizes[:, None]] = rings
-    mesh = _ugrid(lonlat(points, self.center), faces)
-    areas = {"long_name": "area of the cell", "units": "sr"}
-    mesh["face_area"] = ("n_face", self.areas / self.radius**2, areas)
+    sites = np.flatnonzero(sizes)
+    faces = np.full((len(sites), sizes.max(initial=3)), -1, np.int32)
+    faces[np.arange(faces.shape[1]) < sizes[sites, None]] = rings
+    mesh = _ugrid("Voronoi diagram", lonlat(points, self.center), faces)
+    taken = tuple(map(str, mesh.variables))
+    given = checked_properties(
+        properties, (*taken, "site", "face_lon", "face_lat", "face_area"), len(self.points)
+    )
+    _add_positions(mesh, "face", "n_face", self.delaunay.lonlat[sites])
+    face = {"mesh": "mesh", "location": "face", "coordinates": "face_lon face_lat"}
+    mesh["site"] = ("n_face", sites.astype(np.int32), {"long_name": "site of the cell", **face})
+    area = {"long_name": "area of the cell", "units": "sr"}
+    mesh["face_area"] = ("n_face", self._diagram.areas[sites], {**area, **face})
+    mesh["face_area"].encoding["_FillValue"] = None
+    for name, values in given.items():
+        mesh[name] = ("n_face", np.asarray(values)[sites], face)
     return mesh
 
 
-def _ugrid(nodes: FloatArray, faces: IntArray) -> Any:
+def _ugrid(title: str, nodes: FloatArray, faces: IntArray) -> xarray.Dataset:
     """A Dataset by UGRID 1.0: a topology, the positions of nodes, the corners of faces."""
     import xarray
 
-    degrees = [
-        {"standard_name": "longitude", "long_name": "longitude of nodes", "units": "degrees_east"},
-        {"standard_name": "latitude", "long_name": "latitude of nodes", "units": "degrees_north"},
-    ]
     topology = {
         "cf_role": "mesh_topology",
         "long_name": "topology of the mesh",
         "topology_dimension": np.int32(2),
-        "node_coordinates": "node_lon node_lat",
         "face_node_connectivity": "face_node_connectivity",
         "face_dimension": "n_face",
-        "node_dimension": "n_node",
     }
     corners = {
         "cf_role": "face_node_connectivity",
@@ -227,14 +314,27 @@ def _ugrid(nodes: FloatArray, faces: IntArray) -> Any:
         "start_index": np.int32(0),
         "_FillValue": np.int32(-1),
     }
-    return xarray.Dataset(
+    mesh = xarray.Dataset(
         {
             "mesh": ((), np.int32(0), topology),
             "face_node_connectivity": (("n_face", "n_max_face_nodes"), faces, corners),
         },
-        coords={
-            "node_lon": ("n_node", nodes[:, 0], degrees[0]),
-            "node_lat": ("n_node", nodes[:, 1], degrees[1]),
+        attrs={
+            "Conventions": "CF-1.11 UGRID-1.0",
+            "title": f"{title} on the sphere",
+            "history": f"made by rondel {_core.version}",
         },
-        attrs={"Conventions": "CF-1.11 UGRID-1.0"},
     )
+    _add_positions(mesh, "node", "n_node", nodes)
+    return mesh
+
+
+def _add_positions(mesh: Any, what: str, dimension: str, degrees: FloatArray) -> None:
+    """The longitudes and latitudes of the nodes or the faces."""
+    for column, (name, full, unit) in enumerate(
+        (("lon", "longitude", "degrees_east"), ("lat", "latitude", "degrees_north"))
+    ):
+        says = {"standard_name": full, "long_name": f"{full} of {what}s", "units": unit}
+        mesh[f"{what}_{name}"] = (dimension, np.array(degrees[:, column]), says)
+        mesh[f"{what}_{name}"].encoding["_FillValue"] = None  # every place is known
+    mesh["mesh"].attrs[f"{what}_coordinates"] = f"{what}_lon {what}_lat"

@@ -7,7 +7,7 @@ from __future__ import annotations
 from functools import cached_property
 
 from . import _core
-from ._arrays import as_points, as_threads
+from ._arrays import as_kept, as_threads
 from ._mesh import Mesh
 from ._types import ArrayLike, Progress
 
@@ -22,10 +22,12 @@ class ConvexHull(Mesh):
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        A C-contiguous array of float64 is not copied, and must not be changed as long as the
-        object lives.
     threads : int, optional
     progress : callable, optional
+    copy : bool, optional
+        By default the points are copied. With ``copy=False`` a C-contiguous array of float64, also
+        one that is mapped from a file, is used where it lies. It must not be changed as long as
+        the object lives: results would be wrong, and calls might not end.
 
     Raises
     ------
@@ -50,9 +52,14 @@ class ConvexHull(Mesh):
     """
 
     def __init__(
-        self, points: ArrayLike, *, threads: int | None = None, progress: Progress = None
+        self,
+        points: ArrayLike,
+        *,
+        threads: int | None = None,
+        progress: Progress = None,
+        copy: bool = True,
     ) -> None:
-        points = as_points(points)
+        points = as_kept(points, copy=copy)
         super().__init__(points, _core.convex_hull(points, as_threads(threads), progress))
 
     @cached_property
@@ -71,7 +78,11 @@ class ConvexHull(Mesh):
 
 
 def convex_hull(
-    points: ArrayLike, *, threads: int | None = None, progress: Progress = None
+    points: ArrayLike,
+    *,
+    threads: int | None = None,
+    progress: Progress = None,
+    copy: bool = True,
 ) -> ConvexHull:
     """The convex hull of points in space: see `ConvexHull`.
 
@@ -80,10 +91,11 @@ def convex_hull(
     points : array_like, shape (n, 3)
     threads : int, optional
     progress : callable, optional
+    copy : bool, optional
 
     Returns
     -------
     ConvexHull
 
     """
-    return ConvexHull(points, threads=threads, progress=progress)
+    return ConvexHull(points, threads=threads, progress=progress, copy=copy)

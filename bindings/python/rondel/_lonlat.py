@@ -127,6 +127,8 @@ def arcs(a: FloatArray, b: FloatArray) -> list[FloatArray]:
     """Arcs of great circles between unit vectors (k, 3), as lines of longitude and latitude that
     end where the map does.
     """
+    if len(a) == 0:
+        return []
     angle = np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.einsum("ij,ij->i", a, b))
     pieces = np.maximum(1, np.ceil(angle / LONGEST_PIECE)).astype(int)
     first = np.concatenate([[0], np.cumsum(pieces + 1)])

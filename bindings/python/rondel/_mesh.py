@@ -11,6 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
+from ._arrays import frozen
 from ._repr import Described, count
 from ._types import BoolArray, FloatArray, IntArray
 
@@ -26,7 +27,7 @@ class Mesh(Described):
     """Points and a triangulation of them, both immutable."""
 
     def __init__(self, points: FloatArray, triangulation: _core.Triangulation) -> None:
-        self._points = points
+        self._points = frozen(points)
         self._triangulation = triangulation
 
     # The arrays say everything: nothing is triangulated again when an object is loaded.
@@ -40,12 +41,12 @@ class Mesh(Described):
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self._points = state["points"]
+        self._points = frozen(state["points"])
         self._triangulation = _core.Triangulation.from_arrays(*state["scalars"], *state["arrays"])
 
     @property
     def points(self) -> FloatArray:
-        """Ndarray of float64, shape (n, 3): the input, not a copy of it. Do not change it."""
+        """Ndarray of float64, shape (n, 3): the points, read-only."""
         return self._points
 
     @property

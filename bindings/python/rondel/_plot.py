@@ -7,28 +7,22 @@ The functions are methods of `SphericalDelaunay`, `SphericalVoronoi` and `PowerD
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from . import _core
 from ._lonlat import LonLatTriangles, arcs, flat_triangles
-from ._types import ArrayLike, FloatArray
+from ._projection import LonLatMap, ProjectedMap
+from ._types import ArrayLike, Divided, Triangulated
 
 if TYPE_CHECKING:
-    from ._delaunay import SphericalDelaunay
-    from ._diagram import Diagram
+    from matplotlib.axes import Axes
 
 __all__ = ["LonLatTriangles", "lonlat_triangles", "plot_cells", "plot_triangles"]
 
 
-class _Map(NamedTuple):
-    """Axes, and what tells Cartopy that coordinates are degrees."""
-
-    ax: Any
-    options: dict[str, Any]
-
-
-def lonlat_triangles(self: SphericalDelaunay) -> LonLatTriangles:
+def lonlat_triangles(self: Triangulated) -> LonLatTriangles:
     """The solid faces as triangles of the plane of longitude and latitude.
 
     For `matplotlib.tri`, which knows nothing of the antimeridian: triangles that cross it are
@@ -46,13 +40,13 @@ def lonlat_triangles(self: SphericalDelaunay) -> LonLatTriangles:
 
 
 def plot_triangles(
-    self: SphericalDelaunay,
+    self: Triangulated,
     ax: Any = None,
     *,
     projection: Any = None,
     sites: bool = True,
     **options: Any,
-) -> Any:
+) -> Axes:
     """Draws the edges as arcs of great circles, and the sites.
 
     Parameters
@@ -77,15 +71,16 @@ def plot_triangles(
 
     """
     drawn = _make_map(ax, projection)
-    ends = _directions(self)[self.edges]
-    _draw_lines(drawn, arcs(ends[:, 0], ends[:, 1]), options)
+    rays = self.points - self.center
+    ends = (rays / np.linalg.norm(rays, axis=1, keepdims=True))[self.edges]
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
     if sites:
-        _draw_sites(drawn, self.lonlat[self.vertices])
+        drawn.draw_points(self.lonlat[self.vertices])
     return drawn.ax
 
 
 def plot_cells(
-    self: Diagram,
+    self: Divided,
     values: ArrayLike | None = None,
     ax: Any = None,
     *,
@@ -95,7 +90,7 @@ def plot_cells(
     vmin: float | None = None,
     vmax: float | None = None,
     **options: Any,
-) -> Any:
+) -> Axes:
     """Draws the borders of the cells as arcs of great circles, the sites, and values as colors.
 
     Parameters
@@ -126,27 +121,24 @@ def plot_cells(
     """
     drawn = _make_map(ax, projection)
     if values is not None:
-        _draw_cells(self, drawn, np.asarray(values), {"cmap": cmap}, (vmin, vmax))
-    offsets, rings, points = self.cells
-    following = np.arange(1, len(rings) + 1)
-    ends = np.asarray(offsets[1:][np.diff(offsets) > 0])
-    following[ends - 1] = np.asarray(offsets[:-1][np.diff(offsets) > 0])
-    a, b = rings, rings[following]
-    once = a < b  # every border belongs to two cells
-    directions = (points - self.center) / self.radius
-    _draw_lines(drawn, arcs(directions[a[once]], directions[b[once]]), options)
+        cells, known = _draw_cells(self, drawn, np.asarray(values), {"cmap": cmap})
+        if known.size:  # also what the map does not show
+            vmin = known.min() if vmin is None else vmin
+            vmax = known.max() if vmax is None else vmax
+        cells.set_clim(vmin, vmax)
+    ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
     if sites:
-        _draw_sites(drawn, self.delaunay.lonlat[self.delaunay.vertices])
+        drawn.draw_points(self.delaunay.lonlat[self.delaunay.vertices])
     return drawn.ax
 
 
-def _directions(self: SphericalDelaunay) -> FloatArray:
-    rays = self.points - self.center
-    return rays / np.linalg.norm(rays, axis=1, keepdims=True)
+def _line_options(options: dict[str, Any]) -> dict[str, Any]:
+    return {"colors": "tab:blue", "linewidths": 0.6, **options}
 
 
-def _make_map(ax: Any, projection: Any) -> _Map:
-    """The axes to draw on."""
+def _make_map(ax: Any, projection: Any) -> LonLatMap:
+    """What draws on the axes."""
     import matplotlib.pyplot as plt
 
     try:
@@ -161,48 +153,27 @@ def _make_map(ax: Any, projection: Any) -> _Map:
             raise ImportError("a projection needs Cartopy, which is not installed")
         ax = plt.figure().add_subplot()
     if cartopy is not None and hasattr(ax, "projection"):
-        return _Map(ax, {"transform": cartopy.crs.PlateCarree()})
+        return ProjectedMap(ax)
     ax.set(xlim=(-180, 180), ylim=(-90, 90), aspect="equal")
     ax.set(xlabel="longitude [degrees]", ylabel="latitude [degrees]")
-    return _Map(ax, {})
-
-
-def _draw_lines(drawn: _Map, lines: list[FloatArray], options: dict[str, Any]) -> None:
-    from matplotlib.collections import LineCollection
-
-    options = {"colors": "tab:blue", "linewidths": 0.6, **options}
-    drawn.ax.add_collection(LineCollection(lines, **options, **drawn.options), autolim=False)
-
-
-def _draw_sites(drawn: _Map, degrees: FloatArray) -> None:
-    drawn.ax.scatter(degrees[:, 0], degrees[:, 1], s=4, color="black", zorder=3, **drawn.options)
+    return LonLatMap(ax)
 
 
 def _draw_cells(
-    self: Diagram,
-    drawn: _Map,
-    values: Any,
-    options: dict[str, Any],
-    limits: tuple[float | None, float | None],
-) -> None:
-    from matplotlib.collections import PolyCollection
-
+    self: Divided, drawn: LonLatMap, values: Any, options: dict[str, Any]
+) -> tuple[Any, Any]:
+    """The collection of polygons, and the finite values of all cells."""
     if len(values) != len(self.points):
         raise ValueError(f"{len(values)} values for {len(self.points)} sites")
-    polygons, colors = [], []
-    for feature in self.to_geojson(tolerance_deg=0.1)["features"]:
-        parts = feature["geometry"]["coordinates"]
-        if feature["geometry"]["type"] == "Polygon":
-            parts = [parts]
-        polygons += [np.array(part[0])[:, :2] for part in parts]
-        colors += [values[feature["properties"]["site"]]] * len(parts)
-    cells = PolyCollection(
-        polygons,
-        array=np.array(colors),
-        edgecolors="face",
-        linewidths=0.2,
-        **options,
-        **drawn.options,
+    positions, offsets, owners = _core.cell_polygons(
+        self.delaunay._triangulation, self.points, self._diagram, 0.1
     )
-    cells.set_clim(*limits)
-    drawn.ax.add_collection(cells, autolim=False)
+
+    def owner_at(degrees: Any) -> int:
+        there = _core.unit_vectors(np.array([degrees], float)) * self.radius + self.center
+        return int(self.delaunay.nearest(there[0]))
+
+    options = {"edgecolors": "face", "linewidths": 0.2, **options}
+    polygons = np.split(positions, offsets[1:-1])
+    cells = drawn.draw_polygons(polygons, owners, owner_at, options, values)
+    return cells, values[owners][np.isfinite(values[owners])]

@@ -13,7 +13,7 @@ from ._diagram import Diagram
 from ._types import ArrayLike, IntArray, Progress
 
 
-class PowerDiagram(Diagram):
+class PowerDiagram(Diagram[SphericalDelaunay], model="weighted"):
     """The power (Laguerre) diagram of circles on a sphere; made by `power_diagram`.
 
     A point of the sphere belongs to the circle of the smallest Laguerre distance

@@ -4,8 +4,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import IntEnum
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 
@@ -81,9 +82,17 @@ class Queries:
         found = self._locator().k_nearest(queries, k, as_threads(threads))
         return found.reshape(*shape, k)
 
+    @overload
     def within(
-        self, xi: ArrayLike, angle: float, *, threads: int | None = None
-    ) -> IntArray | Lists:
+        self, xi: Sequence[float], angle: float, *, threads: int | None = None
+    ) -> IntArray: ...
+    @overload
+    def within(
+        self, xi: Sequence[Sequence[float]], angle: float, *, threads: int | None = None
+    ) -> Lists: ...
+    @overload
+    def within(self, xi: ArrayLike, angle: float, *, threads: int | None = None) -> Any: ...
+    def within(self, xi: ArrayLike, angle: float, *, threads: int | None = None) -> Any:
         """All vertices within an angle of each query point.
 
         Parameters

@@ -2,11 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Names of types, for annotations."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, Protocol, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
+
+from . import _core
 
 ArrayLike: TypeAlias = npt.ArrayLike
 FloatArray: TypeAlias = npt.NDArray[np.float64]
@@ -14,3 +18,43 @@ IntArray: TypeAlias = npt.NDArray[np.int32]
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
 Model: TypeAlias = Literal["projected", "weighted"]
 Progress: TypeAlias = Callable[[str, float], Any] | None
+
+
+class Triangulated(Protocol):
+    """What functions of other modules need of `SphericalDelaunay`, whose methods they are."""
+
+    @property
+    def points(self) -> FloatArray: ...
+    @property
+    def center(self) -> FloatArray: ...
+    @property
+    def lonlat(self) -> FloatArray: ...
+    @property
+    def simplices(self) -> IntArray: ...
+    @property
+    def ghost(self) -> BoolArray: ...
+    @property
+    def edges(self) -> IntArray: ...
+    @property
+    def vertices(self) -> IntArray: ...
+    @property
+    def _triangulation(self) -> _core.Triangulation: ...
+
+
+class Divided(Protocol):
+    """What functions of other modules need of diagrams, whose methods they are."""
+
+    @property
+    def points(self) -> FloatArray: ...
+    @property
+    def center(self) -> FloatArray: ...
+    @property
+    def radius(self) -> float: ...
+    @property
+    def delaunay(self) -> Any: ...
+    @property
+    def cells(self) -> tuple[npt.NDArray[np.int64], IntArray, FloatArray]: ...
+    @property
+    def ridge_vertices(self) -> IntArray: ...
+    @property
+    def _diagram(self) -> _core.Diagram: ...

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from . import _core
-from ._arrays import as_center, as_floats
+from ._arrays import as_center, as_floats, as_kept
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._diagram import Diagram
 from ._dimensions import circle_diagram, general_diagram
@@ -19,7 +19,7 @@ from ._types import ArrayLike, FloatArray, IntArray, Progress
 WhatIfDuplicates = Literal["raise", "merge"]
 
 
-class SphericalVoronoi(Diagram):
+class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
     """The Voronoi diagram of points on a sphere; in place of `scipy.spatial.SphericalVoronoi`.
 
     Attributes, methods and errors are SciPy's; what is different is listed in the notes.
@@ -27,8 +27,7 @@ class SphericalVoronoi(Diagram):
     Parameters
     ----------
     points : array_like, shape (n, 3)
-        A C-contiguous array of float64 is not copied, and must not be changed as long as the
-        object lives. Shape (n, 2): points on a circle. More columns are handed to SciPy.
+        Shape (n, 2): points on a circle. More columns are handed to SciPy.
     radius : float, optional
         Of the sphere.
     center : array_like, shape (3,), optional
@@ -42,13 +41,18 @@ class SphericalVoronoi(Diagram):
         At most so many threads; by default one for each core. The result is the same.
     progress : callable, optional
         Called as ``progress(stage, fraction)`` some times a second. What it raises ends the work.
+    copy : bool, optional
+        By default the points are copied. With ``copy=False`` a C-contiguous array of float64, also
+        one that is mapped from a file, is used where it lies. It must not be changed as long as
+        the object lives: results would be wrong, and calls might not end.
 
     Attributes
     ----------
     points, radius, center, vertices, regions
-        As in SciPy. The arrays are read-only.
-    cells, areas, centroids, duplicates, delaunay
-        Not in SciPy: cells in compressed rows, their areas and centers, and the triangulation.
+        As in SciPy. All arrays but `vertices` are read-only.
+    cells, areas, centroids, ridge_points, ridge_vertices, duplicates, delaunay
+        Not in SciPy: cells in compressed rows, their areas, centers and borders, and the
+        triangulation.
 
     Raises
     ------
@@ -97,6 +101,7 @@ class SphericalVoronoi(Diagram):
         duplicates: WhatIfDuplicates = "raise",
         threads: int | None = None,
         progress: Progress = None,
+        copy: bool = True,
     ) -> None:
         if radius is None:
             raise ValueError(
@@ -104,12 +109,13 @@ class SphericalVoronoi(Diagram):
             )
         if duplicates not in ("raise", "merge"):
             raise ValueError(f"duplicates must be 'raise' or 'merge', not {duplicates!r}")
-        points = as_floats(points, "points")
-        if points.ndim == 2 and points.shape[1] != 3:
-            self._be_flat(points, float(radius), center, threshold, duplicates, threads)
+        shape = np.shape(points)
+        if len(shape) == 2 and shape[1] != 3:
+            kept = as_kept(points, copy=copy, columns=shape[1])
+            self._be_flat(kept, float(radius), center, threshold, duplicates, threads)
             return
         built = SphericalDelaunay(
-            points, radius=radius, center=center, threads=threads, progress=progress
+            points, radius=radius, center=center, threads=threads, progress=progress, copy=copy
         )
         off = _core.largest_discrepancy(built.points, as_center(center), built.radius)
         _check_radius(off, threshold * built.radius)

@@ -3,6 +3,8 @@
 """What goes in and comes out: copies, types, errors."""
 
 import gc
+import subprocess
+import sys
 import weakref
 
 import clouds
@@ -11,18 +13,75 @@ import pytest
 
 import rondel
 
+KEEPERS = {
+    "delaunay": rondel.delaunay,
+    "SphericalDelaunay": rondel.SphericalDelaunay,
+    "SphericalVoronoi": rondel.SphericalVoronoi,
+    "convex_hull": rondel.convex_hull,
+    "ConvexHull": rondel.ConvexHull,
+}
 
-def test_a_contiguous_array_is_not_copied():
+
+@pytest.mark.parametrize("make", KEEPERS.values(), ids=KEEPERS)
+@pytest.mark.parametrize("kind", [np.array, memoryview, np.asfortranarray, np.float32])
+def test_points_are_copied(make, kind):
+    points = clouds.uniform(10).astype(np.float32 if kind is np.float32 else np.float64)
+    if kind is not np.float32:
+        points = kind(points)
+    assert not np.may_share_memory(make(points, **tolerant(make)).points, np.asarray(points))
+
+
+def tolerant(make):
+    return {"threshold": 1e-3} if make is rondel.SphericalVoronoi else {}
+
+
+@pytest.mark.parametrize("make", KEEPERS.values(), ids=KEEPERS)
+def test_points_are_used_where_they_lie_if_asked_for(make):
     points = clouds.uniform(10)
-    assert rondel.delaunay(points).points is points
-    assert rondel.SphericalVoronoi(points).points is points
-    assert rondel.convex_hull(points).points is points
+    kept = make(points, copy=False).points
+    assert np.shares_memory(kept, points)
+    assert not kept.flags.writeable
+    assert points.flags.writeable
+
+
+CHANGES = {
+    "moved": lambda p: np.add(p, 0.05, out=p),
+    "sorted": lambda p: p.sort(axis=0),
+    "nan": lambda p: p.fill(np.nan),
+    "zero": lambda p: p.fill(0.0),
+}
+
+
+@pytest.mark.parametrize("change", CHANGES.values(), ids=CHANGES)
+def test_what_the_caller_changes_later_changes_nothing(change):
+    points = clouds.uniform(2000)
+    expected = rondel.SphericalVoronoi(points.copy())
+    tri, found = rondel.delaunay(points), rondel.SphericalVoronoi(points)
+    hull = rondel.convex_hull(points)
+    change(points)
+    assert np.array_equal(found.vertices, expected.vertices)
+    assert np.array_equal(found.calculate_areas(), expected.calculate_areas())
+    assert np.array_equal(found.centroids, expected.centroids)
+    assert found.to_geojson() == expected.to_geojson()
+    queries = clouds.uniform(20, seed=3)
+    assert np.array_equal(
+        tri.k_nearest(queries, 5), np.argsort(-queries @ expected.points.T, axis=1)[:, :5]
+    )
+    assert tri.validate()
+    assert 4.1 < hull.volume < 4 / 3 * np.pi
+
+
+def test_points_of_a_circle_are_copied():
+    points = np.array([[1.0, 0], [0, 1], [-1, 0], [0, -1]])
+    kept = rondel.SphericalVoronoi(points)
+    assert not np.may_share_memory(kept.points, points)
+    assert np.shares_memory(rondel.SphericalVoronoi(points, copy=False).points, points)
 
 
 def test_the_input_lives_as_long_as_what_was_made_of_it():
     points = clouds.uniform(10)
     alive = weakref.ref(points)
-    tri = rondel.delaunay(points)
+    tri = rondel.delaunay(points, copy=False)
     locator = tri._locator()
     del points
     gc.collect()
@@ -51,14 +110,32 @@ def test_results_are_views_of_the_library_s_arrays():
     assert np.shares_memory(tri.simplices, tri.simplices)
     assert np.shares_memory(tri.neighbors, tri.neighbors)
     diagram = tri.voronoi()
-    assert np.shares_memory(diagram.vertices, diagram.cells.points)
     assert np.shares_memory(diagram.cells.points, diagram._diagram.points)
 
 
-def test_arrays_of_a_triangulation_cannot_be_written_to():
-    tri = rondel.delaunay(clouds.uniform(10))
-    for array in (tri.simplices, tri.neighbors, tri.duplicates, tri.hidden, tri.ring, tri.ghost):
-        assert not array.flags.writeable
+def test_arrays_cannot_be_written_to():
+    points = 2 * clouds.uniform(10)
+    tri = rondel.delaunay(points)
+    for name in ("points", "simplices", "neighbors", "duplicates", "hidden", "ring", "ghost"):
+        assert not getattr(tri, name).flags.writeable, name
+    for name in ("lonlat", "circumcenters"):
+        assert not getattr(tri, name).flags.writeable, name
+    degrees = rondel.delaunay_lonlat([0, 90, 180, 10], [0, 0, 0, 80])
+    assert not degrees.points.flags.writeable
+    assert not degrees.lonlat.flags.writeable
+    for diagram in (tri.voronoi(), rondel.SphericalVoronoi(points, 2.0)):
+        for name in ("points", "areas", "centroids", "ridge_points", "ridge_vertices"):
+            assert not getattr(diagram, name).flags.writeable, name
+        assert not any(array.flags.writeable for array in diagram.cells)
+
+
+def test_vertices_belong_to_the_user():
+    diagram = rondel.SphericalVoronoi(clouds.uniform(20))
+    areas = diagram.calculate_areas()
+    diagram.vertices *= 6371
+    assert np.allclose(np.linalg.norm(diagram.vertices, axis=1), 6371)
+    assert np.allclose(np.linalg.norm(diagram.cells.points, axis=1), 1)
+    assert np.array_equal(diagram.calculate_areas(), areas)
 
 
 def test_types_and_shapes():
@@ -167,6 +244,8 @@ def test_degrees_and_unit_vectors():
         [-1, 0, 0],
         [0, 0, 1],
     ]
+    assert np.array_equal(rondel.unit_vectors([0, 10], 5), rondel.unit_vectors([0, 10], [5, 5]))
+    assert rondel.unit_vectors(np.zeros((3, 1)), np.zeros(4)).shape == (3, 4, 3)
     lon, lat = np.meshgrid(np.linspace(-179, 179, 9), np.linspace(-89, 89, 5))
     there = rondel.unit_vectors(lon, lat)
     assert there.shape == (5, 9, 3)
@@ -179,3 +258,16 @@ def test_the_number_of_threads_changes_nothing():
     one, two = (rondel.delaunay(points, threads=t) for t in (1, 2))
     assert np.array_equal(one.simplices, two.simplices)
     assert one.report["threads"] == 1
+
+
+def test_what_others_hold_at_the_end_is_not_said_to_be_a_leak():
+    program = """
+import rondel
+tri = rondel.delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
+held = tri.simplices
+# What a library does that keeps a reference in memory of its own.
+import ctypes
+ctypes.pythonapi.Py_IncRef(ctypes.py_object(held))
+"""
+    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")

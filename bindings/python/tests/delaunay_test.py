@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Triangulations: laws over any points, and what each attribute says."""
 
+import ast
+import graphlib
 import itertools
+import pathlib
 
 import clouds
 import numpy as np
@@ -156,6 +159,24 @@ def test_descriptions():
     assert repr(rondel.delaunay([[1, 0, 0], [2, 0, 0]])) == (
         "<rondel.SphericalDelaunay: 2 points, 1 duplicate, dimension 0, projected>"
     )
+
+
+def imports(path):
+    """The modules of the package that a module imports, also in functions and for types."""
+    found = set()
+    for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+        if isinstance(node, ast.ImportFrom) and node.level == 1:
+            names = [node.module] if node.module else [alias.name for alias in node.names]
+            found |= {name.partition(".")[0] for name in names}
+    return found
+
+
+def test_modules_do_not_import_each_other_in_circles():
+    package = pathlib.Path(rondel.__file__).parent
+    graph = {path.stem: imports(path) for path in package.glob("*.py")}
+    assert len(graph) > 15
+    assert graph["_voronoi"] >= {"_delaunay", "_diagram"}
+    list(graphlib.TopologicalSorter(graph).static_order())  # raises CycleError
 
 
 @pytest.mark.parametrize("name", rondel.__all__)

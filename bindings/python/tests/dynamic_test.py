@@ -135,3 +135,14 @@ def test_threads_may_share_one_object():
         list(pool.map(change_and_ask, range(200)))
     assert len(sites) == 200
     assert same_as_built(sites)
+
+
+def test_degrees():
+    lon, lat = [0.0, 90, 180, -90, 10], [0.0, 10, -10, 0, 80]
+    sites = rondel.DynamicTriangulation.from_lonlat(lon, lat)
+    assert np.array_equal(sites.snapshot().delaunay.points, rondel.unit_vectors(lon, lat))
+    assert sites.insert_lonlat(20, -80) == 5
+    assert sites.insert_lonlat([30, 40], [5, 6]).tolist() == [6, 7]
+    assert np.array_equal(sites.point(7), rondel.unit_vectors(40, 6))
+    with pytest.raises(rondel.InvalidInput, match="latitude"):
+        sites.insert_lonlat(0, 91)

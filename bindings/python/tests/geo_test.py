@@ -2,6 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """GeoJSON, GeoPandas, xarray and UGRID."""
 
+import datetime
+import errno
+import io
 import itertools
 import json
 
@@ -41,15 +44,47 @@ def test_cells_as_geojson():
     assert features[2]["geometry"]["type"] == "MultiPolygon"  # it is on the antimeridian
 
 
+def values_of(features, name):
+    return [f["properties"][name] for f in features]
+
+
 def test_properties_of_all_kinds():
     values = [1, 2.5, np.float32(0.5), None, np.nan, np.int64(7), 1e300, -0.0, np.inf]
     diagram = rondel.SphericalVoronoi.from_lonlat(LON, LAT)
-    features = diagram.to_geojson(properties={"v": values, "site": LON})["features"]
-    found = [f["properties"]["v"] for f in features]
-    assert found == [1, 2.5, 0.5, None, None, 7, 1e300, 0, None]
-    assert [f["properties"]["site_"] for f in features] == LON.tolist()
+    features = diagram.to_geojson(properties={"v": values})["features"]
+    assert values_of(features, "v") == [1, 2.5, 0.5, None, None, 7, 1e300, 0, None]
     with pytest.raises(ValueError, match="9 sites"):
         diagram.to_geojson(properties={"v": [1]})
+
+
+def test_properties_keep_their_types():
+    diagram = rondel.SphericalVoronoi.from_lonlat(LON, LAT)
+    days = np.array(["2020-01-31", "NaT", *["2021-12-01"] * 7], "M8[ns]")
+    mixed = [True, "text", None, 2, 0.5, [1, {"a": None}], datetime.date(2020, 2, 3), 1 << 70, "'"]
+    odd = [1j, np.timedelta64(3, "s"), np.longdouble(0.5), np.True_, np.str_("ß"), *[None] * 4]
+    found = diagram.to_geojson(
+        properties={
+            "truth": LAT > 0,
+            "day": days,
+            "mixed": mixed,
+            "odd": odd,
+            "count": np.arange(9, dtype="u1"),
+        }
+    )["features"]
+    assert values_of(found, "truth") == (LAT > 0).tolist()
+    assert all(type(value) is bool for value in values_of(found, "truth"))
+    assert values_of(found, "day")[0].startswith("2020-01-31")
+    assert values_of(found, "day")[1] is None
+    assert values_of(found, "mixed") == [*mixed[:6], "2020-02-03", *mixed[7:]]
+    assert values_of(found, "odd")[:5] == ["1j", "3 seconds", 0.5, True, "ß"]
+    assert [type(value) for value in values_of(found, "count")] == [int] * 9
+
+
+def test_names_that_are_taken_are_refused():
+    diagram = rondel.SphericalVoronoi.from_lonlat(LON, LAT)
+    for properties in ({"site": LON}, {"area": LON}, {1: LON, "1": LON}):
+        with pytest.raises(ValueError, match="is taken"):
+            diagram.to_geojson(properties=properties)
 
 
 def test_files(tmp_path):
@@ -58,10 +93,23 @@ def test_files(tmp_path):
         path = tmp_path / "out.geojson"
         assert thing.to_geojson(path) is None
         assert json.loads(path.read_text(encoding="utf-8")) == thing.to_geojson()
-        with pytest.raises(OSError, match="nowhere"):
-            thing.to_geojson(tmp_path / "nowhere" / "out.geojson")
+        lost = tmp_path / "nowhere" / "out.geojson"
+        with pytest.raises(FileNotFoundError) as caught:
+            thing.to_geojson(lost)
+        assert (caught.value.errno, caught.value.filename) == (errno.ENOENT, str(lost))
         with pytest.raises(ValueError, match="ends in"):
             thing.to_geojson(tmp_path / "out.json")
+
+
+def test_open_files(tmp_path):
+    diagram = rondel.SphericalVoronoi.from_lonlat(LON, LAT)
+    properties = {"name": ["Ä\n"] * 9}
+    path = tmp_path / "out.geojson"
+    diagram.to_geojson(path, properties=properties)
+    text, data = io.StringIO(), io.BytesIO()
+    diagram.to_geojson(text, properties=properties)
+    diagram.to_geojson(data, properties=properties)
+    assert data.getvalue() == text.getvalue().encode() == path.read_bytes()
 
 
 def test_triangles_as_geojson():
@@ -93,6 +141,68 @@ def test_geopandas():
     assert len(rondel.delaunay_lonlat([], []).voronoi().to_geopandas()) == 0
 
 
+SITES = {
+    "poles and antimeridian": lambda: rondel.delaunay_lonlat(LON, LAT),
+    "duplicates": lambda: rondel.delaunay_lonlat([*LON, *LON], [*LAT, *LAT]),
+    "random": lambda: rondel.delaunay(clouds.uniform(200)),
+    "patch": lambda: rondel.delaunay(clouds.patch(50, 0.1)),
+    "one": lambda: rondel.delaunay([[0, 0, 1]]),
+    "two": lambda: rondel.delaunay([[0, 0, 1], [0, 0, -1]]),
+    "circle": lambda: rondel.delaunay(np.concatenate([np.eye(3)[:2], -np.eye(3)[:2]])),
+    "none": lambda: rondel.delaunay([]),
+    "hidden": lambda: (
+        rondel.power_diagram(
+            [[0, 0], [90, 0], [180, 0], [-90, 0], [0, 90], [0, -90], [5, 0]], [30, 0, 0, 0, 0, 0, 0]
+        ).delaunay
+    ),
+}
+
+
+@pytest.mark.parametrize("make", SITES.values(), ids=SITES)
+def test_geopandas_has_the_polygons_of_geojson(make):
+    geopandas = pytest.importorskip("geopandas")
+    tri = make()
+    for thing, index in ((tri.voronoi(), "site"), (tri, None)):
+        features = thing.to_geojson()["features"]
+        frame = thing.to_geopandas()
+        if not features:
+            assert len(frame) == 0
+            continue
+        expected = geopandas.GeoDataFrame.from_features(features, crs="EPSG:4326")
+        assert frame.geometry.geom_type.tolist() == expected.geometry.geom_type.tolist()
+        assert frame.geometry.to_wkb().tolist() == expected.geometry.to_wkb().tolist()
+        if index:
+            assert frame["site"].tolist() == frame.index.tolist() == expected["site"].tolist()
+            assert frame["area"].tolist() == expected["area"].tolist()
+        else:
+            corners = frame[["site_0", "site_1", "site_2"]].to_numpy().tolist()
+            assert corners == expected["sites"].tolist()
+            assert np.array_equal(tri.simplices[frame.index], corners)
+
+
+def test_columns_keep_their_types():
+    pandas = pytest.importorskip("pandas")
+    pytest.importorskip("geopandas")
+    diagram = rondel.SphericalVoronoi.from_lonlat([0, *LON], [0, *LAT])
+    given = {
+        "truth": np.arange(10) % 2 == 0,
+        "day": pandas.date_range("2020-01-01", periods=10, tz="UTC"),
+        "kind": pandas.Categorical(list("abcabcabca")),
+        "count": pandas.Series(range(10), index=list("zyxwvutsrq")),
+        "name": list("abcdefghij"),
+    }
+    frame = diagram.to_geopandas(properties=given)
+    kept = [0, 2, 3, 4, 5, 6, 7, 8, 9]
+    assert frame["site"].tolist() == kept
+    for name, values in given.items():
+        expected = pandas.Series(pandas.Series(values).array[kept])
+        assert frame[name].dtype == expected.dtype, name
+        assert frame[name].tolist() == expected.tolist(), name
+    assert diagram.to_geojson(properties=given)["features"][1]["properties"]["kind"] == "c"
+    with pytest.raises(ValueError, match="is taken"):
+        diagram.to_geopandas(properties={"geometry": range(10)})
+
+
 def test_ugrid():
     pytest.importorskip("xarray")
     tri = rondel.delaunay_lonlat(LON, LAT)
@@ -108,6 +218,60 @@ def test_ugrid():
     assert np.allclose(cells["face_area"].sum(), 4 * np.pi)
 
 
+@pytest.mark.parametrize("make", SITES.values(), ids=SITES)
+def test_every_face_of_ugrid_has_corners_and_a_site(make):
+    pytest.importorskip("xarray")
+    tri = make()
+    diagram = tri.voronoi()
+    mesh = diagram.to_xarray(properties={"lat": tri.lonlat[:, 1]})
+    corners = mesh["face_node_connectivity"].values
+    assert ((corners >= 0).sum(axis=1) >= 3).all()
+    sites = mesh["site"].values
+    assert sites.tolist() == np.flatnonzero(np.diff(diagram.cells.offsets)).tolist()
+    assert not np.isin(sites, tri.duplicates[:, 0]).any()
+    places = np.column_stack([mesh["face_lon"], mesh["face_lat"]])
+    assert np.array_equal(places, tri.lonlat[sites])
+    assert np.array_equal(mesh["lat"], tri.lonlat[sites, 1])
+    if len(sites):
+        assert abs(mesh["face_area"].values.sum() - 4 * np.pi) < 1e-9
+    for name in ("site", "face_area", "lat"):
+        assert mesh[name].attrs["mesh"] == "mesh"
+        assert mesh[name].attrs["location"] == "face"
+    assert mesh["mesh"].attrs["face_coordinates"] == "face_lon face_lat"
+    assert {"title", "history", "Conventions"} <= set(mesh.attrs)
+    solid = tri.to_xarray()["face_node_connectivity"].values
+    assert np.array_equal(solid, tri.simplices[~tri.ghost])
+    with pytest.raises(ValueError, match="is taken"):
+        diagram.to_xarray(properties={"face_lon": range(tri.npoints)})
+
+
+def test_ugrid_in_a_file(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    netcdf = pytest.importorskip("netCDF4")
+    path = tmp_path / "cells.nc"
+    diagram = rondel.SphericalVoronoi.from_lonlat([0, *LON], [0, *LAT])
+    mesh = diagram.to_xarray()
+    mesh.to_netcdf(path)
+    with netcdf.Dataset(path) as file:
+        assert "coordinates" not in file.ncattrs()
+        for name in ("node_lon", "node_lat", "face_lon", "face_lat", "face_area", "site"):
+            assert "_FillValue" not in file[name].ncattrs(), name
+        assert file["face_node_connectivity"].getncattr("_FillValue") == -1
+    with xarray.open_dataset(path, mask_and_scale=False) as again:
+        assert np.array_equal(again["face_node_connectivity"], mesh["face_node_connectivity"])
+        assert np.array_equal(again["face_lon"], mesh["face_lon"])
+
+
+def test_ugrid_is_what_its_checker_wants(tmp_path):
+    checker = pytest.importorskip("ugrid_checks.check")
+    pytest.importorskip("netCDF4")
+    tri = rondel.delaunay_lonlat([0, *LON], [0, *LAT])
+    for thing in (tri, tri.voronoi()):
+        thing.to_xarray().to_netcdf(tmp_path / "mesh.nc")
+        checked = checker.check_dataset(str(tmp_path / "mesh.nc"), print_summary=False)
+        assert "No problems found" in checked.checking_report()
+
+
 def test_uxarray_opens_it():
     uxarray = pytest.importorskip("uxarray")
     tri = rondel.delaunay(clouds.uniform(100))
@@ -117,3 +281,13 @@ def test_uxarray_opens_it():
     cells = uxarray.Grid.from_dataset(tri.voronoi().to_xarray())
     assert (cells.n_node, cells.n_face) == (196, 100)
     assert np.allclose(cells.face_areas, tri.voronoi().areas, atol=1e-3)
+
+
+def test_uxarray_opens_diagrams_with_duplicates():
+    uxarray = pytest.importorskip("uxarray")
+    tri = rondel.delaunay(np.concatenate([clouds.uniform(100), clouds.uniform(10)]))
+    grid = uxarray.Grid.from_dataset(tri.voronoi().to_xarray())
+    assert grid.validate()
+    assert grid.n_face == 100
+    assert np.allclose(grid.face_lon, tri.lonlat[:100, 0])
+    grid.to_polycollection()

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Long work lets others run, says how far it is, and ends when it is asked to."""
 
+import json
+import pathlib
 import signal
 import threading
 import time
@@ -11,6 +13,7 @@ import numpy as np
 import pytest
 
 import rondel
+from rondel import _geo
 
 MANY = clouds.uniform(1 << 18)
 
@@ -45,6 +48,29 @@ def test_an_interrupt_ends_questions_too(alarm, ask):
     alarm(0.002)
     with pytest.raises(KeyboardInterrupt):
         ask(tri)
+
+
+def test_an_interrupt_ends_the_writing_of_files(alarm, tmp_path):
+    tri = rondel.delaunay(MANY)
+    diagram = tri.voronoi()
+    assert diagram.areas.size
+    path = tmp_path / "out.geojson"
+    for write in (diagram.to_geojson, tri.to_geojson):
+        alarm(0.05)
+        with pytest.raises(KeyboardInterrupt):
+            write(path)
+        assert not path.exists()
+
+
+def test_an_interrupt_ends_the_reading_of_what_was_written(alarm):
+    text = json.dumps({"features": [{"type": "Feature", "n": n} for n in range(1 << 19)]})
+
+    def write(name):
+        pathlib.Path(name).write_text(text, encoding="utf-8")
+        alarm(0.01)
+
+    with pytest.raises(KeyboardInterrupt):
+        _geo._written(None, write)
 
 
 def test_an_interrupt_ends_the_work_early(alarm):

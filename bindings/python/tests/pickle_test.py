@@ -70,3 +70,25 @@ def test_the_copy_of_a_changing_triangulation_has_the_same_ids(make):
 def test_an_error_can_be_pickled():
     error = pickle.loads(pickle.dumps(rondel.InvalidInput("site 3: wrong", 3)))
     assert (str(error), error.index) == ("site 3: wrong", 3)
+
+
+@pytest.mark.parametrize("make", COPIES.values(), ids=COPIES)
+def test_what_the_user_changed_is_copied_too(make):
+    for sphere in ({}, {"radius": 2.0, "center": (1, 2, 3)}):
+        points = sphere.get("radius", 1) * clouds.uniform(50) + sphere.get("center", (0, 0, 0))
+        diagram = rondel.SphericalVoronoi(points, **sphere)
+        diagram.vertices *= 2
+        diagram.regions[3].reverse()
+        copied = make(diagram)
+        assert np.array_equal(copied.vertices, diagram.vertices)
+        assert copied.regions == diagram.regions
+        diagram.vertices = diagram.vertices[:5]
+        assert np.array_equal(make(diagram).vertices, diagram.vertices)
+
+
+def test_what_can_be_found_again_is_not_pickled():
+    diagram = rondel.SphericalVoronoi(clouds.uniform(1000))
+    before = len(pickle.dumps(diagram))
+    assert len(diagram.regions) == 1000
+    assert diagram.vertices.sum() + diagram.areas.sum() + diagram.ridge_points.sum() != 0
+    assert len(pickle.dumps(diagram)) == before

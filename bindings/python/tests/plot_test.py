@@ -102,6 +102,71 @@ def test_new_axes():
     plt.close(ax.figure)
 
 
+PROJECTIONS = {
+    "Robinson": {},
+    "Robinson elsewhere": {"central_longitude": 150},
+    "Mollweide": {},
+    "Orthographic": {"central_longitude": 170, "central_latitude": 40},
+    "PlateCarree": {"central_longitude": 180},
+    "NorthPolarStereo": {},
+    "InterruptedGoodeHomolosine": {},
+    "NearsidePerspective": {"satellite_height": 1e5},
+}
+
+
+@pytest.mark.parametrize("count", [1, 2, 3, 20, 200])
+@pytest.mark.parametrize("name", PROJECTIONS)
+def test_on_maps_of_cartopy_every_place_has_the_color_of_its_site(name, count):
+    """Where the picture is not another color, that of a border, of a dot or between two."""
+    crs = pytest.importorskip("cartopy.crs")
+    plt = pytest.importorskip("matplotlib.pyplot")
+    from matplotlib import colormaps
+
+    projection = getattr(crs, name.split()[0])(**PROJECTIONS[name])
+    diagram = rondel.SphericalVoronoi(clouds.uniform(count))
+    values = np.arange(count)
+    ax = diagram.plot(values, projection=projection, colors="red", sites=False)
+    ax.figure.canvas.draw()
+    picture = np.asarray(ax.figure.canvas.buffer_rgba())[::-1, :, :3] / 255.0
+    lonlat = rondel.lonlat(clouds.uniform(4000, seed=1))
+    if name == "NearsidePerspective":
+        lonlat = lonlat / [30, 15]
+    there = projection.transform_points(crs.PlateCarree(), *lonlat.T)[:, :2]
+    shown = np.isfinite(there).all(axis=1)
+    pixels = ax.transData.transform(there[shown])
+    inside = ax.patch.get_path().contains_points(ax.transData.inverted().transform(pixels))
+    columns, rows = pixels[inside].astype(int).T
+    nearest = diagram.delaunay.nearest(rondel.unit_vectors(*lonlat[shown][inside].T))
+    expected = colormaps["viridis"](values / max(1, count - 1))[nearest, :3]
+    found = picture[rows, columns]
+    is_border = found[:, 0] > np.maximum(found[:, 1], found[:, 2]) + 0.2
+    same = np.abs(found - expected).max(axis=1) < 0.1
+    plt.close(ax.figure)
+    if count > 1 or name in ("Robinson", "Robinson elsewhere", "Mollweide"):
+        assert len(same) > 100
+        assert (same | is_border).mean() > 0.9
+
+
+def test_maps_of_cartopy_are_drawn_at_once():
+    """Cartopy draws only those lines and polygons itself that end with the map."""
+    crs = pytest.importorskip("cartopy.crs")
+    plt = pytest.importorskip("matplotlib.pyplot")
+    diagram = rondel.SphericalVoronoi(clouds.uniform(2000))
+
+    class Counting(crs.Robinson):
+        asked = 0
+
+        def project_geometry(self, *arguments):
+            self.asked += 1
+            return super().project_geometry(*arguments)
+
+    projection = Counting()
+    ax = diagram.plot(np.arange(2000), projection=projection)
+    ax.figure.canvas.draw()
+    plt.close(ax.figure)
+    assert projection.asked < 200
+
+
 def test_on_a_map_of_cartopy():
     crs = pytest.importorskip("cartopy.crs")
     plt = pytest.importorskip("matplotlib.pyplot")

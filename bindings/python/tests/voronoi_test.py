@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Voronoi and power diagrams."""
 
+import itertools
+
 import clouds
 import numpy as np
 import pytest
@@ -172,3 +174,53 @@ def test_power_cells():
     with pytest.raises(rondel.InvalidInput, match="radius") as caught:
         rondel.power_diagram(centers[:3], [1, 2, 90])
     assert caught.value.index == 2
+
+
+def test_ridges_are_borders_between_neighbors():
+    diagram = rondel.SphericalVoronoi(clouds.uniform(100))
+    assert np.array_equal(diagram.ridge_points, diagram.delaunay.edges)
+    assert np.array_equal(diagram.cells.points, diagram.vertices)
+    a, b = (diagram.vertices[diagram.ridge_vertices[:, k]] for k in (0, 1))
+    for end in (a, b):
+        near = np.einsum("rj,rij->ri", end, diagram.points[diagram.ridge_points])
+        assert np.allclose(near, (end @ diagram.points.T).max(axis=1)[:, None])
+    first = diagram.points[diagram.ridge_points[:, 0]]
+    assert (np.einsum("rj,rj->r", np.cross(a, b), first) > 0).all()
+
+
+@given(clouds.points)
+def test_ridges_of_any_points_are_all_borders(points):
+    diagram = rondel.SphericalVoronoi(points, threshold=np.inf, duplicates="merge")
+    offsets, rings, _ = diagram.cells
+    sides = set()
+    for site, (begin, end) in enumerate(itertools.pairwise(offsets)):
+        ring = rings[begin:end].tolist()
+        sides |= {(site, p, q) for p, q in zip(ring, ring[1:] + ring[:1], strict=True)}
+    (left, right), (p, q) = diagram.ridge_points.T.tolist(), diagram.ridge_vertices.T.tolist()
+    assert set(zip(left, p, q, strict=True)) | set(zip(right, q, p, strict=True)) == sides
+    assert 2 * len(diagram.ridge_points) == len(sides)
+    assert (diagram.ridge_points[:, 0] < diagram.ridge_points[:, 1]).all()
+    edges = np.unique(diagram.ridge_points, axis=0)
+    assert np.array_equal(edges, diagram.delaunay.edges.reshape(-1, 2))
+
+
+def test_ridges_have_lengths_below_half_a_turn():
+    points = clouds.uniform(50)
+    points[:, 2] = np.abs(points[:, 2])
+    for diagram in (rondel.SphericalVoronoi(points), rondel.SphericalVoronoi(np.eye(3))):
+        a, b = (diagram.cells.points[diagram.ridge_vertices[:, k]] for k in (0, 1))
+        length = np.arctan2(np.linalg.norm(np.cross(a, b), axis=1), np.einsum("ij,ij->i", a, b))
+        assert length.max() <= np.radians(120) + 1e-12
+    assert abs(length.sum() - 3 * np.pi) < 1e-12  # of three lunes
+
+
+def test_corners_and_neighbors_alternate_around_a_cell():
+    for points in (clouds.uniform(100), clouds.patch(60, 0.2), clouds.cube()):
+        diagram = rondel.SphericalVoronoi(points)
+        indptr, indices = diagram.delaunay.vertex_neighbor_vertices
+        faces = [set(face) for face in diagram.delaunay.simplices.tolist()]
+        for site, region in enumerate(diagram.regions):
+            neighbors = indices[indptr[site] : indptr[site + 1]].tolist()
+            between = [{site, neighbors[k - 1], neighbors[k]} for k in range(len(neighbors))]
+            first = between.index(faces[region[0]])
+            assert [faces[k] for k in region] == between[first:] + between[:first]

@@ -1,0 +1,67 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Properties that users give to the cells of a diagram."""
+
+from __future__ import annotations
+
+import datetime
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+
+def checked_properties(
+    properties: Mapping[str, Any] | None, taken: tuple[str, ...], count: int
+) -> dict[str, Any]:
+    """The properties, if each has a name of its own and a value for every site."""
+    checked: dict[str, Any] = {}
+    for key, values in (properties or {}).items():
+        name = str(key)
+        if name in taken or name in checked:
+            raise ValueError(f"the name {name!r} is taken: call the property something else")
+        if len(values) != count:
+            raise ValueError(f"the property {name!r} has {len(values)} values for {count} sites")
+        checked[name] = values
+    return checked
+
+
+def json_cells(values: Any) -> list[str]:
+    """Each value as JSON; an empty text is null."""
+    array = np.asarray(values if hasattr(values, "dtype") else [])
+    kind = array.dtype.kind if array.shape == (len(values),) else "O"
+    if kind in "iu":
+        return [str(value) for value in array.tolist()]
+    if kind == "b":
+        return ["true" if value else "false" for value in array.tolist()]
+    if kind == "f":
+        floats = array.astype(np.float64).tolist()
+        return [repr(value) if math.isfinite(value) else "" for value in floats]
+    if kind == "M":
+        texts = np.datetime_as_string(array).tolist()
+        return ["" if text == "NaT" else json.dumps(text) for text in texts]
+    return [_json_cell(value) for value in values]
+
+
+def _json_cell(value: Any) -> str:
+    """One value of a sequence of any."""
+    if isinstance(value, np.generic) and value.dtype.kind in "iubfM":
+        return json_cells(np.array([value]))[0]
+    if value is None or _is_missing(value):
+        return ""
+    if isinstance(value, float) and not math.isfinite(value):
+        return ""
+    return json.dumps(value, ensure_ascii=False, allow_nan=False, default=_as_text)
+
+
+def _is_missing(value: Any) -> bool:
+    """Whether it is pandas' NaT or NA, which are not equal to themselves."""
+    return type(value).__name__ in ("NaTType", "NAType")
+
+
+def _as_text(value: Any) -> str:
+    if isinstance(value, (datetime.date, datetime.time)):
+        return value.isoformat()
+    return str(value)
