@@ -13,10 +13,6 @@ macro(rondel_find_python_parts result)
                  OPTIONAL_COMPONENTS ${SKBUILD_SABI_COMPONENT})
     if(NOT Python_FOUND)
       set(${result} "Python 3.10 or later, with its headers (Debian: python3-dev), was not found")
-    elseif(SKBUILD_SABI_VERSION AND (Python_VERSION VERSION_LESS 3.12 OR NOT TARGET Python::SABIModule))
-      # nanobind would make a module for this Python alone, and the wheel's tag would lie.
-      set(${result} "a module for the stable ABI, which the wheel's tag abi3 promises, needs CMake 3.26 and \
-Python 3.12 with its headers, and here are ${CMAKE_VERSION} and ${Python_VERSION}")
     endif()
   endif()
   if(NOT ${result})

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// The whole library in one include (files apart: rondel/io.h).
+/// The whole library in one include (files apart: rondel/io.h, rondel/polygons.h).
 #pragma once
 
 #include "rondel/check.h"          // IWYU pragma: export

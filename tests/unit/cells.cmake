@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(cells_test
+  cells_arrays_test.cpp
   cells_map_test.cpp
   cells_polygon_test.cpp
   cells_write_test.cpp

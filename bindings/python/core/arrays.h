@@ -4,7 +4,7 @@
 // Arrays between NumPy and the library, without copies.
 //
 // 1. What comes in is C-contiguous float64 or uint32 memory of the caller, used where it lies. The
-//    package converts whatever else users pass before it calls.
+//    package converts whatever else users pass before it calls, and copies what an object keeps.
 // 2. Indices go out as int32: no index of the library reaches 2^31 (max_sites), and `no_index`, all
 //    bits set, is -1. Offsets go out as int64.
 // 3. A vector that goes out moves into a capsule that owns it; an array of an object refers to the

@@ -1,0 +1,46 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""What mypy says of programs that use the package."""
+
+import pathlib
+
+import pytest
+
+import rondel
+
+PROGRAM = """
+import io
+import numpy as np
+import rondel
+
+points = np.eye(3)
+tri = rondel.delaunay(points)
+reveal_type(tri.within([1.0, 0.0, 0.0], 0.1).size)
+reveal_type(tri.within([[1.0, 0.0, 0.0]], 0.1).indptr.size)
+tri.within(points[0], 0.1).size
+sites = rondel.DynamicTriangulation(points)
+reveal_type(sites.insert([1.0, 0.0, 0.0]))
+reveal_type(sites.insert([[1.0, 0.0, 0.0]]).size)
+reveal_type(tri.voronoi().areas.size)
+reveal_type(rondel.SphericalVoronoi(points, copy=False).delaunay.npoints)
+reveal_type(tri.to_geojson())
+tri.voronoi().to_geojson(io.StringIO(), properties={"name": ["a", "b", "c"]})
+tri.within([1.0, 0.0, 0.0])
+rondel.delaunay(points, copies=True)
+"""
+
+
+def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
+    api = pytest.importorskip("mypy.api")
+    package = pathlib.Path(rondel.__file__).parent
+    if not (package / "_core.pyi").exists():
+        pytest.skip("needs the target rondel_python_stub")
+    program = tmp_path / "program.py"
+    program.write_text(PROGRAM, encoding="utf-8")
+    monkeypatch.setenv("MYPYPATH", str(package.parent))
+    out, _, _ = api.run(["--strict", "--cache-dir", str(tmp_path / "cache"), str(program)])
+    said = out.replace("builtins.", "").splitlines()
+    revealed = [line.split('"')[1] for line in said if "Revealed type" in line]
+    assert revealed == [*["int"] * 6, "dict[str, Any]"], out
+    errors = [line.rpartition("[")[2] for line in said if "error:" in line]
+    assert sorted(errors) == ["call-arg]", "call-overload]"], out

@@ -1,0 +1,99 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Polygons in flat arrays: those of the maps of cells and faces, each with its owner.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cells_planar.h"
+#include "io/cell_map.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/polygons.h"
+#include "support/generators.h"
+
+namespace rondel::test {
+namespace {
+
+std::vector<Point> random_points(std::size_t n, std::uint64_t seed) {
+  Random random(seed);
+  std::vector<Point> points(n);
+  std::ranges::generate(points, [&] { return random_direction(random); });
+  return points;
+}
+
+// The polygons of an owner, out of the arrays.
+std::vector<io::LonLatPolygon> polygons_of(const LonLatPolygons& all, Index owner) {
+  std::vector<io::LonLatPolygon> found;
+  for (std::size_t k = 0; k < all.owners.size(); ++k) {
+    if (all.owners[k] != owner) continue;
+    const auto first = all.positions.begin();
+    found.push_back({{first + static_cast<std::ptrdiff_t>(all.offsets[k]),
+                      first + static_cast<std::ptrdiff_t>(all.offsets[k + 1])}});
+  }
+  return found;
+}
+
+void expect_arrays(const LonLatPolygons& all) {
+  ASSERT_EQ(all.offsets.size(), all.owners.size() + 1);
+  EXPECT_EQ(all.offsets.front(), 0U);
+  EXPECT_EQ(all.offsets.back(), all.positions.size());
+  EXPECT_TRUE(std::is_sorted(all.owners.begin(), all.owners.end()));
+}
+
+TEST(cells, arrays_have_the_polygons_of_every_site) {
+  std::vector<Point> sites = random_points(1500, 3);
+  sites.push_back(sites[7]);
+  const Triangulation triangulation = delaunay(sites);
+  const Diagram dual = diagram(triangulation, sites);
+  const LonLatPolygons all = cell_polygons(sites, triangulation, dual);
+  expect_arrays(all);
+  const io::CellMap map(sites, triangulation, dual.cells, 0.01, 1, {});
+  io::CellMap::Pen pen;
+  for (Index site = 0; site < sites.size(); ++site) {
+    const auto found = polygons_of(all, site);
+    const auto expected = map.has_cell(site) ? map.polygons(site, pen) : decltype(found){};
+    ASSERT_EQ(found.size(), expected.size()) << site;
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_TRUE(
+          std::ranges::equal(found[k].ring, expected[k].ring, [](const LonLat& a, const LonLat& b) {
+            return a.lon_deg == b.lon_deg && a.lat_deg == b.lat_deg;
+          }));
+    }
+  }
+}
+
+TEST(cells, arrays_of_faces_fill_the_map) {
+  const std::vector<Point> sites = random_points(1500, 4);
+  const Triangulation triangulation = delaunay(sites);
+  const LonLatPolygons all = face_polygons(sites, triangulation);
+  expect_arrays(all);
+  double total = 0;
+  for (Index face = 0; face < triangulation.num_faces(); ++face) {
+    const auto polygons = polygons_of(all, face);
+    EXPECT_EQ(fault(polygons), "") << face;
+    total += planar_area(polygons);
+  }
+  EXPECT_NEAR(total, 360 * 180, 1e-7);
+}
+
+TEST(cells, arrays_are_empty_without_sites) {
+  const Triangulation none = delaunay(std::vector<Point>{});
+  expect_arrays(cell_polygons({}, none, diagram(none, {})));
+  expect_arrays(face_polygons({}, none));
+}
+
+TEST(cells, arrays_want_the_sites_of_the_triangulation) {
+  const std::vector<Point> sites = random_points(20, 5);
+  const Triangulation triangulation = delaunay(sites);
+  const Diagram dual = diagram(triangulation, sites);
+  const auto fewer = std::span(sites).first(19);
+  EXPECT_THROW(cell_polygons(fewer, triangulation, dual), InvalidInput);
+  EXPECT_THROW(face_polygons(fewer, triangulation), InvalidInput);
+  const Triangulation other = delaunay(fewer);
+  EXPECT_THROW(cell_polygons(fewer, other, dual), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rondel::test
