@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_cells, can_write_cells: .geojson is a map of the whole sphere with a feature for each cell,
-// .npz and .vtp hold the bytes of the diagram.
+// write_cells, can_write_cells, cell_polygons: .geojson is a map of the whole sphere with a feature
+// for each cell, and cell_polygons the same map; .npz and .vtp hold the bytes of the diagram.
 #include <cmath>
 #include <numbers>
 #include <numeric>
@@ -12,6 +12,7 @@
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
 #include "rondel/diagram.h"
+#include "rondel/polygons.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -31,10 +32,27 @@ void require_bytes(const std::string& file, const std::string& bytes) {
   require(file.find(bytes) != std::string::npos, "the file holds the diagram");
 }
 
+// The polygons in arrays cover as much as those of the file, of as many cells.
+void test_polygons(const FeatureCount& found, const LonLatPolygons& all) {
+  require(all.offsets.size() == all.owners.size() + 1 && all.offsets.back() == all.positions.size(),
+          "the arrays fit together");
+  double area = 0;
+  std::size_t drawn = 0;
+  for (std::size_t k = 0; k < all.owners.size(); ++k) {
+    if (k == 0 || all.owners[k] != all.owners[k - 1]) ++drawn;
+    for (std::uint64_t i = all.offsets[k]; i + 1 < all.offsets[k + 1]; ++i) {
+      const LonLat& p = all.positions[i];
+      const LonLat& q = all.positions[i + 1];
+      area += (p.lon_deg * q.lat_deg - q.lon_deg * p.lat_deg) / 2;
+    }
+  }
+  require(drawn + found.not_drawn.size() == found.features, "the cells of the file are drawn");
+  require(std::abs(area - found.square_degrees) < 1e-6, "the polygons are those of the file");
+}
+
 // A cell that is not drawn is thinner than the tolerance: at most a lune of that width.
-void test_geojson(const std::string& text, const Triangulation& t, const Diagram& both,
+void test_geojson(const FeatureCount& found, const Triangulation& t, const Diagram& both,
                   double tolerance_deg) {
-  const FeatureCount found = check_geojson(text);
   require(found.features == t.num_vertices(), "a feature for each vertex");
   std::vector<double> areas;
   for (std::size_t i = 0; i < both.areas.size(); ++i) {
@@ -72,7 +90,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   write_cells(path, table, t, both, tolerance_deg);
   const std::string written = fuzz::content(path);
   if (ending == ".geojson") {
-    fuzz::test_geojson(written, t, both, tolerance_deg);
+    const fuzz::FeatureCount found = fuzz::check_geojson(written);
+    fuzz::test_geojson(found, t, both, tolerance_deg);
+    fuzz::test_polygons(found, cell_polygons(table.sites, t, both, tolerance_deg));
     return 0;
   }
   fuzz::require_bytes(written, fuzz::bytes_of(both.cells.points));

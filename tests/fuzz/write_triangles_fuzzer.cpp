@@ -1,16 +1,18 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_triangles, can_write_triangles against read_triangles: the triangles survive every format
+// write_triangles, can_write_triangles against read_triangles, face_polygons: the triangles survive every format
 // that can be read; .geojson is JSON with a feature for each solid face, and .stl has their number.
 #include <algorithm>
 #include <array>
+#include <set>
 #include <string>
 
 #include "fuzz/json_check.h"
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
 #include "rondel/error.h"
+#include "rondel/polygons.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -38,6 +40,9 @@ void test_geojson(const std::string& path, const SiteTable& table, const Triangu
   write_triangles(path, table, t);
   const FeatureCount found = check_geojson(content(path));
   require(found.features == t.num_faces() - t.num_ghost_faces(), "a feature for each solid face");
+  const LonLatPolygons all = face_polygons(table.sites, t);
+  const std::set<Index> drawn(all.owners.begin(), all.owners.end());
+  require(drawn.size() + found.not_drawn.size() == found.features, "the same faces are drawn");
 }
 
 }  // namespace
