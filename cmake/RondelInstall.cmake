@@ -15,6 +15,24 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/rondelConfigVersion.cmake
                                  COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/rondelConfig.cmake ${PROJECT_BINARY_DIR}/rondelConfigVersion.cmake
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondel)
+
+# For pkg-config: what a static library needs is linked with it, what a shared one needs it finds itself.
+file(RELATIVE_PATH RONDEL_PREFIX_FROM_PKGCONFIG
+     ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+set(RONDEL_LINK_RONDEL "-pthread")
+if(RONDEL_HAS_TBB)
+  string(APPEND RONDEL_LINK_RONDEL " -ltbb")
+endif()
+set(RONDEL_LINK_IO "-lz")
+get_target_property(RONDEL_LIBRARY_TYPE rondel TYPE)
+if(RONDEL_LIBRARY_TYPE STREQUAL SHARED_LIBRARY)
+  set(RONDEL_LINK_RONDEL "")
+  set(RONDEL_LINK_IO "")
+endif()
+foreach(name rondel rondel-io)
+  configure_file(cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()
 if(RONDEL_BUILD_TOOL)
   install(TARGETS rondel_tool RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 endif()

@@ -22,6 +22,20 @@ function(rondel_target_settings target)
   endif()
 endfunction()
 
+# What users link, static or shared; before 1.0 each minor version has a binary interface of its own. Objects
+# are the same for both kinds, so that tests can make a shared library of those of the static one.
+function(rondel_library_settings target)
+  rondel_target_settings(${target})
+  set_target_properties(${target} PROPERTIES
+    DEFINE_SYMBOL ""
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL SHARED_LIBRARY)
+    target_link_options(${target} PRIVATE -Wl,--no-undefined)
+  endif()
+endfunction()
+
 # Lint and the sanitizers compile the files of a target together (CMAKE_UNITY_BUILD), to read what they
 # include once. These files stay alone: names in their unnamed namespaces mean something else in their
 # neighbours'.

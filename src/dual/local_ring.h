@@ -86,11 +86,21 @@ class RingLocalizer {
   LocalRing ring_;
 };
 
+// Cells that a caller brings may be any arrays. Throws InvalidInput unless there is a row for each
+// site, within the rings, with a point for each face and for each position.
+void require_rows(const Triangulation& triangulation, const Cells& cells);
+
+// Throws InvalidInput unless the faces in the ring of this rank are those around its vertex, in
+// order.
+void require_ring(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
+                  Index rank);
+
 // result[site] = measure(local ring) for the cell of every vertex, in parallel and in the order of
 // the ranks. The rings and results lie in the order of the input, so they are asked for ahead.
 template <class T>
 void measure_cells(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
                    T (*measure)(const LocalRing&), std::vector<T>& result) {
+  require_rows(triangulation, cells);
   const auto order = sites.order();
   const auto measure_range = [&](std::size_t begin, std::size_t end) {
     RingLocalizer localize(triangulation, sites, cells);
@@ -102,6 +112,7 @@ void measure_cells(const Triangulation& triangulation, const SplitSites& sites, 
         prefetch(&cells.rings[cells.offsets[ahead + 1] - 1]);
         prefetch_to_write(&result[ahead]);
       }
+      require_ring(triangulation, sites, cells, static_cast<Index>(k));
       result[order[k]] = measure(localize(static_cast<Index>(k)));
     }
   };

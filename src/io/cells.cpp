@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // write_cells: which format.
+#include <algorithm>
 #include <array>
 
 #include "io/cell_formats.h"
 #include "io/ending.h"
+#include "rondel/error.h"
 #include "system/arithmetic.h"
 
 namespace rondel {
@@ -19,6 +21,21 @@ constexpr std::array<Writer, 3> writers = {{{".geojson", &io::write_cells_geojso
                                             {".vtp", &io::write_cells_vtp},
                                             {".npz", &io::write_cells_npz}}};
 
+// What a caller brings may be any arrays: no writer reads beyond their ends.
+void require_diagram(const SiteTable& table, const Triangulation& triangulation,
+                     const Diagram& diagram) {
+  const std::size_t n = triangulation.num_sites();
+  const Cells& cells = diagram.cells;
+  const bool is_sized = table.sites.size() == n && diagram.areas.size() == n &&
+                        cells.offsets.size() == n + 1 && cells.offsets.front() == 0 &&
+                        cells.offsets.back() == cells.rings.size() &&
+                        cells.points.size() >= triangulation.num_faces();
+  if (!is_sized || !std::ranges::is_sorted(cells.offsets) ||
+      std::ranges::any_of(cells.rings, [&](Index i) { return i >= cells.points.size(); })) {
+    throw InvalidInput("the sites, the triangulation and the diagram do not belong together", 0);
+  }
+}
+
 }  // namespace
 
 bool can_write_cells(const std::string& path) {
@@ -29,6 +46,7 @@ void write_cells(const std::string& path, const SiteTable& table,
                  const Triangulation& triangulation, const Diagram& diagram, double tolerance_deg,
                  const Progress& progress) {
   const system::ArithmeticScope arithmetic;
+  require_diagram(table, triangulation, diagram);
   const auto& writer = io::require_format<Writer>(writers, path, "cells are written as");
   io::AtomicFile file(path);
   writer.write(file, {table, triangulation, diagram, tolerance_deg, progress});

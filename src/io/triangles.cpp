@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // read_triangles and write_triangles: which format, and what all have in common.
+#include <algorithm>
 #include <array>
+#include <string>
 
 #include "io/atomic_file.h"
 #include "io/ending.h"
@@ -68,6 +70,11 @@ bool can_write_triangles(const std::string& path) {
 void write_triangles(const std::string& path, const SiteTable& table,
                      const Triangulation& triangulation, const Progress& progress) {
   const system::ArithmeticScope arithmetic;
+  if (table.sites.size() != triangulation.num_sites()) {
+    throw InvalidInput(std::to_string(table.sites.size()) + " sites for a triangulation of " +
+                           std::to_string(triangulation.num_sites()),
+                       std::min(table.sites.size(), triangulation.num_sites()));
+  }
   const Writer& writer = io::require_format<Writer>(writers, path, "triangles are written as");
   io::AtomicFile file(path);
   writer.write(file, {table, triangulation, progress});

@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(api_test
+  api_arguments_test.cpp
   api_arithmetic_test.cpp
   api_progress_test.cpp
   api_threads_test.cpp

@@ -1,0 +1,86 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Clients of the installed package that do not use CMake, of a plugin, and of the shared libraries.
+
+    clients_test.py pkg_config|plugin|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARY IO_LIBRARY
+
+Each compiles client.cpp and compares what it prints.
+"""
+
+import os
+import pathlib
+import shlex
+import subprocess
+import sys
+import tempfile
+
+
+def run(command, **options):
+    """The standard output of a command; the test ends when it fails."""
+    done = subprocess.run(
+        [str(word) for word in command], capture_output=True, text=True, check=False, **options
+    )
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+class Client:
+    """The arguments of this program, and a folder to work in."""
+
+    def __init__(self, work, cmake, build, source, compiler, library, io_library):
+        self.work = work
+        self.cmake = cmake
+        self.build = build
+        self.source = pathlib.Path(source)
+        self.compile = [compiler, "-std=c++20", "-Wall", "-Wextra", "-Werror"]
+        self.libraries = [pathlib.Path(library), pathlib.Path(io_library)]
+        self.expected = f"{(self.source / 'VERSION').read_text().strip()}: 8 faces, 2 errors\n"
+
+    def file(self, name):
+        """A source of this test."""
+        return self.source / "tests/install" / name
+
+    def package_flags(self):
+        """What pkg-config says of the installed package."""
+        run([self.cmake, "--install", self.build, "--prefix", self.work / "prefix"])
+        folders = {path.parent for path in (self.work / "prefix").rglob("rondel*.pc")}
+        environment = {**os.environ, "PKG_CONFIG_PATH": ":".join(map(str, folders))}
+        return shlex.split(
+            run(["pkg-config", "--cflags", "--libs", "rondel-io"], env=environment)
+        )
+
+    def expect(self, printed, times=1):
+        """Ends the test unless the client printed what it should."""
+        if printed != times * self.expected:
+            sys.exit(f"printed {printed!r}, expected {times} times {self.expected!r}")
+
+    def pkg_config(self):
+        """A program that knows the package by pkg-config alone."""
+        run([*self.compile, self.file("client.cpp"), "-o", self.work / "client", *self.package_flags()])
+        self.expect(run([self.work / "client"]))
+
+    def plugin(self):
+        """The static libraries within a plugin, which is loaded and unloaded."""
+        plugin = self.work / "plugin.so"
+        run([*self.compile, "-DRONDEL_TEST_PLUGIN", "-fPIC", "-shared", self.file("client.cpp"),
+             "-o", plugin, *self.package_flags()])
+        run([*self.compile, self.file("host.cpp"), "-o", self.work / "host", "-ldl"])
+        self.expect(run([self.work / "host", plugin]), times=2)
+
+    def shared(self):
+        """A program that links the shared libraries."""
+        paths = [f"-Wl,-rpath,{library.parent}" for library in self.libraries]
+        run([*self.compile, self.file("client.cpp"), "-o", self.work / "client",
+             f"-I{self.source}/include", f"-I{self.build}/include", *reversed(self.libraries), *paths])
+        self.expect(run([self.work / "client"]))
+
+
+def main():
+    kind, *arguments = sys.argv[1:]
+    with tempfile.TemporaryDirectory() as folder:
+        getattr(Client(pathlib.Path(folder), *arguments), kind)()
+
+
+if __name__ == "__main__":
+    main()
