@@ -62,6 +62,16 @@ TEST(query_visited, holds_what_was_inserted_since_it_was_cleared) {
   }
 }
 
+TEST(query_visited, holds_nothing_after_any_number_of_clears) {
+  for (int num_clears = 1; num_clears < 600; ++num_clears) {
+    query::StampedSet<std::uint8_t> visited;
+    visited.insert(7);
+    for (int i = 0; i < num_clears; ++i) visited.clear();
+    EXPECT_TRUE(visited.insert(7)) << num_clears;
+    EXPECT_FALSE(visited.insert(7)) << num_clears;
+  }
+}
+
 TEST(query_visited, takes_every_index) {
   query::VisitedSet visited;
   EXPECT_TRUE(visited.insert(no_index));
