@@ -29,13 +29,13 @@ struct BallStep {
 };
 
 // What formula(BallStep<N>()), an optional Sign, says for the first N of the list that knows.
-template <std::size_t N, std::size_t... More, class Formula>
+template <std::size_t N, std::size_t... more, class Formula>
 std::optional<Sign> first_known_sign(const Formula& formula) {
   const std::optional<Sign> sign = formula(BallStep<N>());
-  if constexpr (sizeof...(More) == 0) {
+  if constexpr (sizeof...(more) == 0) {
     return sign;
   } else {
-    return sign ? sign : first_known_sign<More...>(formula);
+    return sign ? sign : first_known_sign<more...>(formula);
   }
 }
 
