@@ -18,6 +18,19 @@ exact::Ball<N> along(const exact::BallVector<N>& v, std::size_t axis) {
   return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
 }
 
+double along(const Vector& v, std::size_t axis) {
+  return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
+}
+
+// Of rounded differences, a product and a sum: at most 4u (1 + O(u)) relative to the products.
+Sign compare_slopes_filter(const Vector& v, const Vector& w, std::size_t i, std::size_t axis) {
+  const double left = along(v, i) * along(w, axis);
+  const double right = along(w, i) * along(v, axis);
+  const double size = std::abs(left) + std::abs(right);
+  constexpr double bound = 5 * unit_roundoff;
+  return unless_unsure(left - right, size > 0x1p-900 && std::abs(left - right) > bound * size);
+}
+
 // Whether the ray to a is longer along axis i than along axis j.
 bool is_longer_along(const Point& a, const Point& center, std::size_t i, std::size_t j) {
   const auto size = [](double p, double o) { return std::abs(p - o); };
@@ -38,7 +51,11 @@ Sign compare_rays(const Point& a, const Point& b, const Point& center) {
   for (std::size_t i = 1; i < 3; ++i) {
     if (is_longer_along(a, center, i, axis)) axis = i;
   }
+  const Vector rounded_v = to_vector(a) - to_vector(center);
+  const Vector rounded_w = to_vector(b) - to_vector(center);
   const auto compare_slopes = [&](std::size_t i) {
+    const Sign filtered = compare_slopes_filter(rounded_v, rounded_w, i, axis);
+    if (filtered != Sign::zero) return filtered;
     return exact::sign_of_cubic([&](const auto& step) {
       const auto v = step(center, a);
       const auto w = step(center, b);
