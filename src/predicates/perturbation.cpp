@@ -10,11 +10,11 @@
 
 #include "exact/integer.h"
 #include "predicates/orientation.h"
+#include "predicates/turn.h"
 
 namespace rondel::predicates {
 namespace {
 
-using exact::Integer;
 using exact::IntegerVector;
 
 // The roles of the four points. Raising one of them changes the determinant in the direction of a
@@ -47,14 +47,14 @@ Sign raise_from_center(const Four& points, const Order& order, const Point& cent
 // What follows concerns four sites in one plane W with the center. The sign of a triple seen from g
 // is its orientation within W, up to one common sign.
 
-// Orientation in W of three distinct unit vectors: that of their circular order. Two of the three
-// consecutive pairs turn the same way; a pair of antipodes turns neither way.
-Sign circular_order(const IntegerVector& x, const IntegerVector& y, const IntegerVector& z,
-                    const IntegerVector& normal) {
-  const auto turn = [&](const IntegerVector& a, const IntegerVector& b) {
-    return static_cast<int>(exact::sign_of(dot(cross(a, b), normal)));
-  };
-  const int turns = turn(x, y) + turn(y, z) + turn(z, x);
+// Orientation in W of three distinct rays, seen along an axis that is not parallel to W: that of
+// their circular order. Two of the three consecutive pairs turn the same way; a pair of antipodes
+// turns neither way.
+Sign circular_order(const Point& x, const Point& y, const Point& z, const Point& center,
+                    unsigned axis) {
+  const int turns = static_cast<int>(turn(center, x, y, axis)) +
+                    static_cast<int>(turn(center, y, z, axis)) +
+                    static_cast<int>(turn(center, z, x, axis));
   return static_cast<Sign>((turns > 0) - (turns < 0));
 }
 
@@ -77,25 +77,35 @@ IntegerVector oriented_normal(const std::array<IntegerVector, 4>& v, const Order
 }
 
 // Raising from g: the face (b, c, d) is positive seen from g, because g is inside the hull.
-Sign raise_from_inside(const Four& points, const Order& order, Model model, const Point& center) {
-  const auto integers =
-      model == Model::weighted
-          ? exact::scaled_differences({points[0], points[1], points[2], points[3]}, center)
-          : exact::scaled_rays({points[0], points[1], points[2], points[3]}, center);
-  const std::array<IntegerVector, 4> v = {integers[0], integers[1], integers[2], integers[3]};
-  IntegerVector normal = cross(v[1], v[2]);
-  if (is_zero(normal)) normal = cross(v[2], v[3]);
-  const auto orientation_in_plane = [&](const std::array<std::size_t, 3>& t) {
-    if (model == Model::projected) return circular_order(v[t[0]], v[t[1]], v[t[2]], normal);
-    return exact::sign_of(dot(oriented_normal(v, order, t), normal));
-  };
-  if (model == Model::weighted) normal = oriented_normal(v, order, triple_of[role_p]);
+template <class OrientationInPlane>
+Sign raise_from_inside(const Order& order, OrientationInPlane orientation_in_plane) {
   const Sign face = orientation_in_plane(triple_of[role_p]);
   for (const std::size_t role : order) {
     const Sign sign = face * orientation_in_plane(triple_of[role]);
     if (sign != Sign::zero) return factor_of[role] * sign;
   }
   return Sign::zero;
+}
+
+Sign raise_rays_from_inside(const Four& points, const Order& order, const Point& center) {
+  const auto is_parallel = [&](unsigned axis) {
+    return turn(center, points[1], points[2], axis) == Sign::zero &&
+           turn(center, points[2], points[3], axis) == Sign::zero;
+  };
+  unsigned axis = 0;
+  while (axis < 2 && is_parallel(axis)) ++axis;
+  return raise_from_inside(order, [&](const std::array<std::size_t, 3>& t) {
+    return circular_order(points[t[0]], points[t[1]], points[t[2]], center, axis);
+  });
+}
+
+Sign raise_points_from_inside(const Four& points, const Order& order, const Point& center) {
+  const auto d = exact::scaled_differences({points[0], points[1], points[2], points[3]}, center);
+  const std::array<IntegerVector, 4> v = {d[0], d[1], d[2], d[3]};
+  const IntegerVector normal = oriented_normal(v, order, triple_of[role_p]);
+  return raise_from_inside(order, [&](const std::array<std::size_t, 3>& t) {
+    return exact::sign_of(dot(oriented_normal(v, order, t), normal));
+  });
 }
 
 }  // namespace
@@ -109,7 +119,10 @@ bool is_in_conflict_perturbed(const Point& b, const Point& c, const Point& d, co
   const Four points = {p, b, c, d};
   const Order order = raising_order(points);
   Sign sign = raise_from_center(points, order, center);
-  if (sign == Sign::zero) sign = raise_from_inside(points, order, model, center);
+  if (sign == Sign::zero) {
+    sign = model == Model::projected ? raise_rays_from_inside(points, order, center)
+                                     : raise_points_from_inside(points, order, center);
+  }
   assert(sign != Sign::zero);
   return sign == Sign::positive;
 }
