@@ -208,6 +208,7 @@ void DynamicTriangulation::remove(std::span<const Index> ids) {
 }
 
 void DynamicTriangulation::move(Index id, const Point& to) {
+  const system::ArithmeticScope arithmetic;
   impl_->require_site(id, 0);
   api::validate({&to, 1}, impl_->options);
   impl_->change([&](auto& e) { e.move({&id, 1}, {&to, 1}); });

@@ -9,6 +9,7 @@
 #include "io/cell_map.h"
 #include "io/face_map.h"
 #include "rondel/error.h"
+#include "system/arithmetic.h"
 #include "system/parallel.h"
 
 namespace rondel {
@@ -67,6 +68,7 @@ void require_sites(std::span<const Point> sites, std::size_t num_sites, const ch
 LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& triangulation,
                              const Diagram& diagram, double tolerance_deg,
                              const Progress& progress) {
+  const system::ArithmeticScope arithmetic;
   require_sites(sites, triangulation.num_sites(), "a triangulation");
   require_sites(sites, diagram.areas.size(), "a diagram");
   const unsigned threads = triangulation.report().threads;
@@ -82,6 +84,7 @@ LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& 
 }
 
 LonLatPolygons face_polygons(std::span<const Point> sites, const Triangulation& triangulation) {
+  const system::ArithmeticScope arithmetic;
   require_sites(sites, triangulation.num_sites(), "a triangulation");
   const io::FaceMap map(sites, triangulation);
   return collect(triangulation.report().threads, triangulation.num_faces(),
