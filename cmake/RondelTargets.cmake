@@ -22,11 +22,14 @@ function(rondel_target_settings target)
   endif()
 endfunction()
 
-# What users link, static or shared; before 1.0 each minor version has a binary interface of its own. Objects
-# are the same for both kinds, so that tests can make a shared library of those of the static one.
+# What users link, static or shared. A shared library shows what RONDEL_API marks; before 1.0 each minor
+# version has a binary interface of its own. Objects are the same for both kinds, so that tests can make a
+# shared library of those of the static one.
 function(rondel_library_settings target)
   rondel_target_settings(${target})
   set_target_properties(${target} PROPERTIES
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON
     DEFINE_SYMBOL ""
     VERSION ${PROJECT_VERSION}
     SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})

@@ -9,10 +9,11 @@
 #include <span>
 #include <string>
 
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 /// The verdict on a list of triangles.
 struct CheckReport {
@@ -30,7 +31,7 @@ struct CheckReport {
 /// site accounted for, every edge locally Delaunay (regular) by an exact test that breaks ties
 /// as delaunay() does, every star convex.
 /// \throws InvalidInput as delaunay() does.
-CheckReport check(std::span<const Point> sites, std::span<const Triple> triangles,
-                  const Options& options = {});
+RONDEL_API CheckReport check(std::span<const Point> sites, std::span<const Triple> triangles,
+                             const Options& options = {});
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

@@ -13,10 +13,11 @@
 #include <span>
 #include <vector>
 
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 /// The cells of a diagram in compressed rows: the ring of site i is
 /// `rings[offsets[i]] ... rings[offsets[i+1]-1]`, positions in `points`,
@@ -49,31 +50,36 @@ struct Polygons {
 /// The circumcenters (power centers in the weighted model) of the faces, shape
 /// (m, 3): outward unit normals, also right for ghost faces. The
 /// distance to the exact value is at most 4 ulp (4 * 2^-53), whatever the face's shape.
-std::vector<Point> circumcenters(const Triangulation& triangulation, std::span<const Point> sites);
+RONDEL_API std::vector<Point> circumcenters(const Triangulation& triangulation,
+                                            std::span<const Point> sites);
 
 /// The Voronoi or power cells of all sites, in every dimension.
-Cells cells(const Triangulation& triangulation, std::span<const Point> sites);
+RONDEL_API Cells cells(const Triangulation& triangulation, std::span<const Point> sites);
 
 /// The areas of the cells in steradians, length n; 0 for duplicates and hidden
-/// sites. The relative error is small for tiny cells too; the sum is 4*pi.
-std::vector<double> areas(const Triangulation& triangulation, std::span<const Point> sites,
-                          const Cells& cells);
+/// sites. The relative error is small for tiny cells too, as long as their sites are 1e-28 radians
+/// apart or more; the sum is 4*pi.
+/// \throws InvalidInput (a bad site) also if `cells` cannot be those of the triangulation.
+RONDEL_API std::vector<double> areas(const Triangulation& triangulation,
+                                     std::span<const Point> sites, const Cells& cells);
 
 /// The cells and their areas at once: faster than cells() and then areas(), which both need the
 /// sites' places in more than double precision.
-Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites);
+RONDEL_API Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites);
 
 /// The directions of the cells' centers of mass, unit vectors, shape (n, 3);
 /// (0, 0, 0) where the center of mass is the center of the sphere or the cell is empty.
-std::vector<Point> centroids(const Triangulation& triangulation, std::span<const Point> sites,
-                             const Cells& cells);
+/// \throws InvalidInput (a bad site) also if `cells` cannot be those of the triangulation.
+RONDEL_API std::vector<Point> centroids(const Triangulation& triangulation,
+                                        std::span<const Point> sites, const Cells& cells);
 
 /// The edges, each once with the lower index first, in lexicographic order.
-std::vector<std::array<Index, 2>> edges(const Triangulation& triangulation);
+RONDEL_API std::vector<std::array<Index, 2>> edges(const Triangulation& triangulation);
 
 /// The facets with cocircular sites: faces that lie exactly in one plane are
 /// merged into one polygon (a cube has 6 facets, not 12). Each polygon starts
 /// with its lowest index.
-Polygons merge_cocircular(const Triangulation& triangulation, std::span<const Point> sites);
+RONDEL_API Polygons merge_cocircular(const Triangulation& triangulation,
+                                     std::span<const Point> sites);
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

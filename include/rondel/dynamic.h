@@ -10,10 +10,11 @@
 #include <span>
 #include <vector>
 
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 /// An immutable copy of a DynamicTriangulation.
 struct Snapshot {
@@ -44,7 +45,8 @@ struct Snapshot {
 ///    removals for 3, or one move for 4.
 /// 6. A Locator (query.h) answers questions of place and distance.
 /// 7. Functions that are const may be called from several threads at once.
-class DynamicTriangulation {
+/// 8. One that was moved from can only be assigned to or destroyed.
+class RONDEL_API DynamicTriangulation {
  public:
   /// Without sites. `options.threads` is for builds of ranges.
   /// \throws InvalidInput if the sphere is not valid.
@@ -125,4 +127,4 @@ class DynamicTriangulation {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

@@ -9,14 +9,18 @@
 #include <stdexcept>
 #include <string>
 
-namespace rondel {
+#include "rondel/export.h"
+
+namespace rondel::inline v0 {
 
 /// An argument breaks its contract: a coordinate that is not finite, a site at
 /// the center of the sphere, an array of the wrong length, too many sites.
-class InvalidInput : public std::invalid_argument {
+class RONDEL_API InvalidInput : public std::invalid_argument {
  public:
-  InvalidInput(const std::string& message, std::size_t index)
-      : std::invalid_argument(message), index_(index) {}
+  InvalidInput(const std::string& message, std::size_t index);
+  InvalidInput(const InvalidInput&) = default;
+  InvalidInput& operator=(const InvalidInput&) = default;
+  ~InvalidInput() override;
 
   /// The first offending position of the array that the message names.
   [[nodiscard]] std::size_t index() const noexcept { return index_; }
@@ -28,9 +32,12 @@ class InvalidInput : public std::invalid_argument {
 /// A file cannot be read, understood or written. what() is one line that
 /// starts with the file's name and, where there is one, the line's number:
 /// "stations.csv:17: latitude 95.2 is outside [-90, 90]".
-class FileError : public std::runtime_error {
+class RONDEL_API FileError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit FileError(const std::string& message);
+  FileError(const FileError&) = default;
+  FileError& operator=(const FileError&) = default;
+  ~FileError() override;
 };
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

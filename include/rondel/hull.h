@@ -8,10 +8,11 @@
 
 #include <span>
 
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 /// How to build a hull.
 struct HullOptions {
@@ -41,11 +42,12 @@ struct HullOptions {
 /// Expected time O(n log n), in practice O(n) when most points are inside.
 /// \throws InvalidInput (first bad index) if a coordinate is not finite or there are more than
 ///         `max_sites` points.
-Triangulation convex_hull(std::span<const Point> points, const HullOptions& options = {});
+RONDEL_API Triangulation convex_hull(std::span<const Point> points,
+                                     const HullOptions& options = {});
 
 /// The same for an array of 3n numbers x0 y0 z0 x1 y1 z1 ...
 /// \throws InvalidInput also if the length is not a multiple of 3.
-Triangulation convex_hull(std::span<const double> xyz, const HullOptions& options = {});
+RONDEL_API Triangulation convex_hull(std::span<const double> xyz, const HullOptions& options = {});
 
 /// Volume and surface area of a hull.
 struct HullSize {
@@ -57,6 +59,6 @@ struct HullSize {
 /// wide, larger by the ratio for a thin one. Infinity where the size exceeds the range of doubles.
 /// \pre `hull` comes from convex_hull(points).
 /// \throws InvalidInput if the number of points differs from hull.num_sites().
-HullSize size_of_hull(const Triangulation& hull, std::span<const Point> points);
+RONDEL_API HullSize size_of_hull(const Triangulation& hull, std::span<const Point> points);
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

@@ -9,12 +9,14 @@
 #include <exception>
 #include <functional>
 
-namespace rondel {
+#include "rondel/export.h"
+
+namespace rondel::inline v0 {
 
 /// What ends the work of call_interruptible().
-class Interrupted : public std::exception {
+class RONDEL_API Interrupted : public std::exception {
  public:
-  [[nodiscard]] const char* what() const noexcept override { return "interrupted"; }
+  [[nodiscard]] const char* what() const noexcept override;
 };
 
 /// Calls `work`. Once `stop` is true, calls of the library within it throw Interrupted soon, at the
@@ -24,6 +26,7 @@ class Interrupted : public std::exception {
 ///    flag counts.
 /// 2. Work between two loops goes on to the next one, and short work to its end. A progress
 ///    function (Options::progress) may throw as well.
-void call_interruptible(const std::atomic<bool>& stop, const std::function<void()>& work);
+RONDEL_API void call_interruptible(const std::atomic<bool>& stop,
+                                   const std::function<void()>& work);
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

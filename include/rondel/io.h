@@ -17,10 +17,11 @@
 #include <vector>
 
 #include "rondel/diagram.h"
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 /// How to read sites.
 struct ReadOptions {
@@ -101,51 +102,51 @@ struct SiteTable {
 /// Reads .csv .tsv .xyz .txt .npy .geojson; "-" is CSV from standard input. The numbers of a large
 /// .npy file, (n, 3) float64 little-endian in C order, are not copied: the sites are the mapped
 /// file, which must not be cut or changed as long as they are used.
-SiteTable read_sites(const std::string& path, const ReadOptions& options = {});
+RONDEL_API SiteTable read_sites(const std::string& path, const ReadOptions& options = {});
 
 /// Reads the faces (m, 3) of .npy .off .ply .obj .vtp.
-std::vector<Triple> read_triangles(const std::string& path);
+RONDEL_API std::vector<Triple> read_triangles(const std::string& path);
 
 /// Whether the format that the name's ending tells can hold triangles (.npy
 /// .off .ply .obj .stl .vtp .geojson), cells (.geojson .vtp .npz), sites (.csv .xyz .npy ...).
-bool can_write_triangles(const std::string& path);
-bool can_write_cells(const std::string& path);
-bool can_write_sites(const std::string& path);
+RONDEL_API bool can_write_triangles(const std::string& path);
+RONDEL_API bool can_write_cells(const std::string& path);
+RONDEL_API bool can_write_sites(const std::string& path);
 
-/// Writes the triangles: .npy has input indices (m, 3) uint32; formats with vertices list every
-/// input site in input order with digits that round-trip.
-/// .stl repeats the corners as 32-bit floats, the only numbers that it has. GeoJSON has the solid
-/// faces: seen from the center, ghost faces are flat or reversed. Text is made by at most
-/// `triangulation.report().threads` threads, here and below, and does not depend on their number.
-void write_triangles(const std::string& path, const SiteTable& table,
-                     const Triangulation& triangulation, const Progress& progress = {});
+/// Writes the triangles; throws InvalidInput, as write_cells() does, if the arguments do not belong
+/// together. .npy has input indices (m, 3) uint32; formats with vertices list every input site in
+/// input order with digits that round-trip. .stl repeats the corners as 32-bit floats, the only
+/// numbers that it has. GeoJSON has the solid faces: seen from the center, ghost faces are flat or
+/// reversed. `triangulation.report().threads` threads at most, here and below.
+RONDEL_API void write_triangles(const std::string& path, const SiteTable& table,
+                                const Triangulation& triangulation, const Progress& progress = {});
 
 /// Writes the cells. GeoJSON obeys RFC 7946 with one feature a cell: arcs are densified until the
 /// straight line in longitude and latitude is within `tolerance_deg` of the arc
 /// (closer between sites that are close).
-void write_cells(const std::string& path, const SiteTable& table,
-                 const Triangulation& triangulation, const Diagram& diagram,
-                 double tolerance_deg = 0.01, const Progress& progress = {});
+RONDEL_API void write_cells(const std::string& path, const SiteTable& table,
+                            const Triangulation& triangulation, const Diagram& diagram,
+                            double tolerance_deg = 0.01, const Progress& progress = {});
 
 /// Writes sites, for generators: .csv and .tsv (lon,lat or x,y,z with a header), .xyz, .txt, .npy.
 /// With the radii of circles at `positions`, .csv and .tsv have lon,lat,radius, and .npy has
 /// `sites`, the polar points, as .xyz and .txt always do. At most `threads` threads make the text,
 /// 0: one for each core.
-void write_sites(const std::string& path, std::span<const Point> sites,
-                 std::span<const LonLat> positions = {}, std::span<const double> radii_deg = {},
-                 unsigned threads = 0);
+RONDEL_API void write_sites(const std::string& path, std::span<const Point> sites,
+                            std::span<const LonLat> positions = {},
+                            std::span<const double> radii_deg = {}, unsigned threads = 0);
 
 /// Writes indices as .npy (uint32) of this shape, whose product is their number.
-void write_indices(const std::string& path, std::span<const Index> values,
-                   std::span<const std::uint64_t> shape);
+RONDEL_API void write_indices(const std::string& path, std::span<const Index> values,
+                              std::span<const std::uint64_t> shape);
 
 /// Writes any bytes to a temporary name and renames it to `path`: all or nothing.
-void write_file(const std::string& path, std::string_view bytes);
+RONDEL_API void write_file(const std::string& path, std::string_view bytes);
 
 /// For programs, once, at their start: SIGHUP, SIGINT and SIGTERM will remove all temporary files
 /// before they end the process, a limit on the size of files will be an error, no signal, and a
 /// file that is cut while read_sites() or the use of its sites reads it (SIGBUS) ends the process
 /// with status 1 and the line "rondel: sites.npy: the file was cut while it was read".
-void remove_temporaries_on_signal();
+RONDEL_API void remove_temporaries_on_signal();
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

@@ -10,15 +10,17 @@
 #include <utility>
 #include <vector>
 
+#include "rondel/export.h"
+
 namespace rondel {
 
 namespace detail {
 
 // Uninitialized memory. It begins with a cache line, from 2 MB on with a huge page, where the
 // system has these. Throws std::bad_alloc.
-void* allocate_large(std::size_t bytes);
+RONDEL_API void* allocate_large(std::size_t bytes);
 // What allocate_large() returned.
-void free_large(void* memory) noexcept;
+RONDEL_API void free_large(void* memory) noexcept;
 
 }  // namespace detail
 

@@ -11,10 +11,11 @@
 #include <vector>
 
 #include "rondel/diagram.h"
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 /// Polygons in flat arrays. Each is one ring, counterclockwise, whose last position is its first,
 /// within [-180, 180] x [-90, 90]. A region that the antimeridian cuts has several polygons.
@@ -26,14 +27,15 @@ struct LonLatPolygons {
 
 /// The polygons of the cells of a diagram, by site. Arcs are densified as write_cells() does. A
 /// cell no wider than rounding has none.
-/// \throw InvalidInput if the numbers of sites differ
-LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& triangulation,
-                             const Diagram& diagram, double tolerance_deg = 0.01,
-                             const Progress& progress = {});
+/// \throws InvalidInput if the arguments do not belong together.
+RONDEL_API LonLatPolygons cell_polygons(std::span<const Point> sites,
+                                        const Triangulation& triangulation, const Diagram& diagram,
+                                        double tolerance_deg = 0.01, const Progress& progress = {});
 
 /// The polygons of the solid faces, as write_triangles() writes them. A face no wider than rounding
 /// has none.
 /// \throw InvalidInput if the numbers of sites differ
-LonLatPolygons face_polygons(std::span<const Point> sites, const Triangulation& triangulation);
+RONDEL_API LonLatPolygons face_polygons(std::span<const Point> sites,
+                                        const Triangulation& triangulation);
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

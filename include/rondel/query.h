@@ -13,10 +13,11 @@
 #include <vector>
 
 #include "rondel/dynamic.h"
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 /// What the ray from the center through a point meets.
 enum class Where : std::uint8_t {
@@ -52,19 +53,22 @@ struct SiteLists {
 /// 4. A range of queries is answered in spatial order, faster than one by one, by `threads` threads
 ///    (0: one for each core). The result does not depend on that.
 /// 5. Any number of threads may use one Locator at once.
+/// 6. One that was moved from can only be assigned to or destroyed.
 ///
 /// Expected time for one query: O(log n) and the length of the answer; in a large range
 /// O(1). Vertices at exactly the same distance are all visited.
 /// Memory: 96 bytes a vertex.
-class Locator {
+class RONDEL_API Locator {
  public:
   /// Keeps a reference to `sites`, which must live as long, but none to `triangulation`. O(n).
   /// \throws InvalidInput if their number differs from triangulation.num_sites().
   Locator(const Triangulation& triangulation, std::span<const Point> sites);
+  Locator(const Triangulation& triangulation, std::vector<Point>&& sites) = delete;
 
   /// O(1) in dimension 2. Keeps a reference, and is of no use any more after the next change, even
   /// one that failed. Sites have their ids, faces numbers for DynamicTriangulation::face().
   explicit Locator(const DynamicTriangulation& triangulation);
+  explicit Locator(DynamicTriangulation&& triangulation) = delete;
   ~Locator();
   Locator(Locator&& other) noexcept;
   Locator& operator=(Locator&& other) noexcept;
@@ -119,4 +123,4 @@ class Locator {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

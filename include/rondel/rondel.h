@@ -10,6 +10,7 @@
 #include "rondel/diagram.h"        // IWYU pragma: export
 #include "rondel/dynamic.h"        // IWYU pragma: export
 #include "rondel/error.h"          // IWYU pragma: export
+#include "rondel/export.h"         // IWYU pragma: export
 #include "rondel/hull.h"           // IWYU pragma: export
 #include "rondel/interrupt.h"      // IWYU pragma: export
 #include "rondel/large_vector.h"   // IWYU pragma: export

@@ -10,10 +10,11 @@
 #include <span>
 #include <vector>
 
+#include "rondel/export.h"
 #include "rondel/large_vector.h"
 #include "rondel/types.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 /// Corners or neighbors of a face.
 using Triple = std::array<Index, 3>;
@@ -68,10 +69,16 @@ struct TriangulationArrays {
 /// 4. Canonical order: a face starts with the corner that comes first in the
 ///    spatial order, and faces are listed by that corner, then counterclockwise.
 /// 5. Every site is a vertex, a duplicate or hidden, and only one of these.
-class Triangulation {
+class RONDEL_API Triangulation {
  public:
   Triangulation() = default;
+  /// Of arrays that the library made.
   Triangulation(TriangulationArrays arrays, const Options& options, const BuildReport& report);
+  /// Of arrays that come from elsewhere, a file say. Expected time O(n).
+  /// \throws InvalidInput (position in the array that the message names) if they do not obey 1, 2
+  ///         and 5: indices in range, a closed surface around every vertex, each edge in two faces.
+  ///         Whether the faces are Delaunay is for check() to say.
+  static Triangulation from_arrays(TriangulationArrays arrays, const Options& options);
 
   [[nodiscard]] int dimension() const noexcept { return arrays_.dimension; }
   [[nodiscard]] Model model() const noexcept { return model_; }
@@ -110,4 +117,4 @@ class Triangulation {
   BuildReport report_{};
 };
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

@@ -10,7 +10,7 @@
 #include <functional>
 #include <string_view>
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 /// Names a site (its position in the input), a face or a point of a diagram.
 using Index = std::uint32_t;
@@ -54,13 +54,17 @@ struct Sphere {
 
 /// Called now and then during long work with the name of the stage ("order",
 /// "triangulate", ...) and the fraction of it that is done, from 0 to 1.
+/// 1. One thread at a time calls it, any of those that work; the fractions never decrease.
+/// 2. No lock of the library is held meanwhile: it may call the library.
+/// 3. It may throw: then the work ends, and nothing is left of it.
 using Progress = std::function<void(std::string_view stage, double fraction)>;
 
 /// How to triangulate.
 struct Options {
   Model model = Model::projected;
   Sphere sphere{};
-  unsigned threads = 0;  ///< at most, 0: one for each core; the result does not depend on it
+  /// At most, 0: one for each core; more than 1024 count as 1024. The result does not depend on it.
+  unsigned threads = 0;
   Progress progress{};
 };
 
@@ -72,4 +76,4 @@ struct Tally {
   std::uint64_t perturbed = 0;
 };
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

@@ -5,11 +5,11 @@
 
 #include "system/parallel.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 void call_interruptible(const std::atomic<bool>& stop, const std::function<void()>& work) {
   const system::StopScope scope(&stop);
   work();
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

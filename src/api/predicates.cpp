@@ -10,7 +10,7 @@
 #include "predicates/side_of_plane.h"
 #include "system/arithmetic.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 Sign orientation(const Point& a, const Point& b, const Point& c, const Sphere& sphere) {
   const system::ArithmeticScope arithmetic;
@@ -44,4 +44,4 @@ bool is_same_site(const Point& a, const Point& b, Model model, const Sphere& sph
   return predicates::are_on_one_ray(a, b, sphere.center);
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

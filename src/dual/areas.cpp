@@ -57,6 +57,10 @@ double area_of(const LocalRing& ring) {
 
 double dual::careful_area(RingLocalizer& localize, Index rank) { return area_of(localize(rank)); }
 
+}  // namespace rondel
+
+namespace rondel::inline v0 {
+
 std::vector<double> areas(const Triangulation& triangulation, std::span<const Point> sites,
                           const Cells& cells) {
   const system::ArithmeticScope arithmetic;
@@ -67,4 +71,4 @@ std::vector<double> areas(const Triangulation& triangulation, std::span<const Po
   return result;
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

@@ -157,6 +157,10 @@ Cells dual::cells(const Triangulation& triangulation, const SplitSites& sites,
   return great_circle_cells(triangulation, sites);
 }
 
+}  // namespace rondel
+
+namespace rondel::inline v0 {
+
 Cells cells(const Triangulation& triangulation, std::span<const Point> sites) {
   const system::ArithmeticScope arithmetic;
   return dual::cells(triangulation, dual::SplitSites(triangulation, sites), nullptr);
@@ -169,4 +173,4 @@ Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites
   return result;
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

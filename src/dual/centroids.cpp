@@ -67,6 +67,9 @@ Point centroid_of(const LocalRing& ring) {
 }
 
 }  // namespace
+}  // namespace rondel
+
+namespace rondel::inline v0 {
 
 std::vector<Point> centroids(const Triangulation& triangulation, std::span<const Point> sites,
                              const Cells& cells) {
@@ -80,4 +83,4 @@ std::vector<Point> centroids(const Triangulation& triangulation, std::span<const
   return result;
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

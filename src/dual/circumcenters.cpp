@@ -44,9 +44,13 @@ std::vector<Point> dual::circumcenters(const Triangulation& triangulation, const
   return result;
 }
 
+}  // namespace rondel
+
+namespace rondel::inline v0 {
+
 std::vector<Point> circumcenters(const Triangulation& triangulation, std::span<const Point> sites) {
   const system::ArithmeticScope arithmetic;
   return dual::circumcenters(triangulation, dual::SplitSites(triangulation, sites));
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

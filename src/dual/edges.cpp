@@ -41,6 +41,11 @@ void for_each_edge(std::span<const Triple> faces, F visit) {
 }  // namespace
 
 // One counting sort by the lower end, then the few edges of each site.
+
+}  // namespace rondel
+
+namespace rondel::inline v0 {
+
 std::vector<Edge> edges(const Triangulation& triangulation) {
   if (triangulation.dimension() < 2) return ring_edges(triangulation.ring());
   const auto faces = triangulation.faces();
@@ -59,4 +64,4 @@ std::vector<Edge> edges(const Triangulation& triangulation) {
   return result;
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

@@ -140,10 +140,13 @@ class FacetFinder {
 };
 
 }  // namespace
+}  // namespace rondel
+
+namespace rondel::inline v0 {
 
 Polygons merge_cocircular(const Triangulation& triangulation, std::span<const Point> sites) {
   const system::ArithmeticScope arithmetic;
   return FacetFinder(triangulation, sites).facets();
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

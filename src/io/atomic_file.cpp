@@ -173,7 +173,7 @@ void AtomicFile::discard() noexcept {
 
 }  // namespace rondel::io
 
-namespace rondel {
+namespace rondel::inline v0 {
 
 void remove_temporaries_on_signal() {
   struct sigaction action {};
@@ -191,4 +191,4 @@ void remove_temporaries_on_signal() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

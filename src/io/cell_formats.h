@@ -18,6 +18,11 @@ struct CellsToWrite {
   const Progress& progress;
 };
 
+// What a caller brings may be any arrays. Throws InvalidInput where a reader of the diagram would leave
+// an array, or the sites are not as many as those of the triangulation.
+void require_diagram(std::size_t num_sites, const Triangulation& triangulation,
+                     const Diagram& diagram);
+
 // A FeatureCollection with a feature for each cell, in the order of the sites. Its properties are
 // `site`, `area` and the table's columns. A column whose name is taken (by these two or by a column
 // before it) gets underscores at its end until it is not. Numbers stay as they are

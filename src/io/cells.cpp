@@ -10,7 +10,25 @@
 #include "rondel/error.h"
 #include "system/arithmetic.h"
 
-namespace rondel {
+namespace rondel::io {
+
+void require_diagram(std::size_t num_sites, const Triangulation& triangulation,
+                     const Diagram& diagram) {
+  const std::size_t n = triangulation.num_sites();
+  const Cells& cells = diagram.cells;
+  const bool is_sized = num_sites == n && diagram.areas.size() == n &&
+                        cells.offsets.size() == n + 1 && cells.offsets.front() == 0 &&
+                        cells.offsets.back() == cells.rings.size() &&
+                        cells.points.size() >= triangulation.num_faces();
+  if (!is_sized || !std::ranges::is_sorted(cells.offsets) ||
+      std::ranges::any_of(cells.rings, [&](Index i) { return i >= cells.points.size(); })) {
+    throw InvalidInput("the sites, the triangulation and the diagram do not belong together", 0);
+  }
+}
+
+}  // namespace rondel::io
+
+namespace rondel::inline v0 {
 namespace {
 
 struct Writer {
@@ -20,21 +38,6 @@ struct Writer {
 constexpr std::array<Writer, 3> writers = {{{".geojson", &io::write_cells_geojson},
                                             {".vtp", &io::write_cells_vtp},
                                             {".npz", &io::write_cells_npz}}};
-
-// What a caller brings may be any arrays: no writer reads beyond their ends.
-void require_diagram(const SiteTable& table, const Triangulation& triangulation,
-                     const Diagram& diagram) {
-  const std::size_t n = triangulation.num_sites();
-  const Cells& cells = diagram.cells;
-  const bool is_sized = table.sites.size() == n && diagram.areas.size() == n &&
-                        cells.offsets.size() == n + 1 && cells.offsets.front() == 0 &&
-                        cells.offsets.back() == cells.rings.size() &&
-                        cells.points.size() >= triangulation.num_faces();
-  if (!is_sized || !std::ranges::is_sorted(cells.offsets) ||
-      std::ranges::any_of(cells.rings, [&](Index i) { return i >= cells.points.size(); })) {
-    throw InvalidInput("the sites, the triangulation and the diagram do not belong together", 0);
-  }
-}
 
 }  // namespace
 
@@ -46,11 +49,11 @@ void write_cells(const std::string& path, const SiteTable& table,
                  const Triangulation& triangulation, const Diagram& diagram, double tolerance_deg,
                  const Progress& progress) {
   const system::ArithmeticScope arithmetic;
-  require_diagram(table, triangulation, diagram);
+  io::require_diagram(table.sites.size(), triangulation, diagram);
   const auto& writer = io::require_format<Writer>(writers, path, "cells are written as");
   io::AtomicFile file(path);
   writer.write(file, {table, triangulation, diagram, tolerance_deg, progress});
   file.commit();
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

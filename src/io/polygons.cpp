@@ -4,15 +4,17 @@
 // Polygons in flat arrays: pieces are drawn in parallel and joined in order.
 #include "rondel/polygons.h"
 
+#include <algorithm>
 #include <string>
 
+#include "io/cell_formats.h"
 #include "io/cell_map.h"
 #include "io/face_map.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
 #include "system/parallel.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 namespace {
 
 constexpr std::size_t grain = 512;
@@ -56,21 +58,13 @@ LonLatPolygons collect(unsigned threads, std::size_t count, const Draw& draw) {
   return joined(pieces);
 }
 
-void require_sites(std::span<const Point> sites, std::size_t num_sites, const char* what) {
-  if (sites.size() == num_sites) return;
-  throw InvalidInput("there are " + std::to_string(sites.size()) + " sites, but " + what + " of " +
-                         std::to_string(num_sites),
-                     0);
-}
-
 }  // namespace
 
 LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& triangulation,
                              const Diagram& diagram, double tolerance_deg,
                              const Progress& progress) {
   const system::ArithmeticScope arithmetic;
-  require_sites(sites, triangulation.num_sites(), "a triangulation");
-  require_sites(sites, diagram.areas.size(), "a diagram");
+  io::require_diagram(sites.size(), triangulation, diagram);
   const unsigned threads = triangulation.report().threads;
   const io::CellMap map(sites, triangulation, diagram.cells, tolerance_deg, threads, progress);
   return collect(threads, sites.size(),
@@ -85,7 +79,11 @@ LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& 
 
 LonLatPolygons face_polygons(std::span<const Point> sites, const Triangulation& triangulation) {
   const system::ArithmeticScope arithmetic;
-  require_sites(sites, triangulation.num_sites(), "a triangulation");
+  if (sites.size() != triangulation.num_sites()) {
+    throw InvalidInput(std::to_string(sites.size()) + " sites for a triangulation of " +
+                           std::to_string(triangulation.num_sites()),
+                       std::min(sites.size(), triangulation.num_sites()));
+  }
   const io::FaceMap map(sites, triangulation);
   return collect(triangulation.report().threads, triangulation.num_faces(),
                  [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
@@ -96,4 +94,4 @@ LonLatPolygons face_polygons(std::span<const Point> sites, const Triangulation& 
                  });
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

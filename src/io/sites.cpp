@@ -13,7 +13,7 @@
 #include "rondel/io.h"
 #include "system/arithmetic.h"
 
-namespace rondel {
+namespace rondel::inline v0 {
 namespace {
 
 struct Reader {
@@ -94,4 +94,4 @@ void write_file(const std::string& path, std::string_view bytes) {
   file.commit();
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

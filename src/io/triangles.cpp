@@ -55,6 +55,10 @@ void io::Mesh::write_faces(AtomicFile& file,
       });
 }
 
+}  // namespace rondel
+
+namespace rondel::inline v0 {
+
 std::vector<Triple> read_triangles(const std::string& path) {
   const system::ArithmeticScope arithmetic;
   const io::FileBytes file(path);
@@ -81,4 +85,4 @@ void write_triangles(const std::string& path, const SiteTable& table,
   file.commit();
 }
 
-}  // namespace rondel
+}  // namespace rondel::inline v0

@@ -15,6 +15,8 @@
 #include <xmmintrin.h>
 #endif
 
+#include "rondel/export.h"
+
 #if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
 #error "Rondel does not compile with -ffast-math or its parts: every result rests on IEEE 754."
 #endif
@@ -27,7 +29,7 @@ static_assert(FLT_EVAL_METHOD == 0, "every operation rounds to a double");
 // While it lives, its thread computes as the proofs suppose; then as before. Every public function
 // that computes has one, and so has every piece of a parallel loop, which may run on any thread.
 // What changes something is out of line, so that the compiler moves no computation past it.
-class ArithmeticScope {
+class RONDEL_API ArithmeticScope {
  public:
 #if defined(__x86_64__) && defined(__GNUC__)
   ArithmeticScope() noexcept {

@@ -17,7 +17,7 @@ namespace rondel::system {
 
 // Tells the system that this memory, not used yet, is better in huge pages. Only advice: without
 // support for it nothing happens. Small ranges are left alone.
-void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
+RONDEL_API void advise_huge_pages(void* memory, std::size_t bytes) noexcept;
 
 // Memory for a large array that does not grow, where a LargeVector would have values to set.
 struct FreeLarge {

@@ -22,11 +22,15 @@
 #include <cstddef>
 #include <functional>
 
+#include "rondel/export.h"
+
 namespace rondel::system {
+
+// RONDEL_API marks what rondel::io uses; it is promised to nobody else.
 
 // How many threads a bound stands for: itself, but no more than 1024; for 0 the number of cores;
 // 1 without threads.
-unsigned num_threads(unsigned threads);
+RONDEL_API unsigned num_threads(unsigned threads);
 
 // How many pieces parallel_for makes.
 constexpr std::size_t num_pieces(std::size_t count, std::size_t grain) {
@@ -36,17 +40,17 @@ constexpr std::size_t num_pieces(std::size_t count, std::size_t grain) {
 // Calls piece(begin, end) for the pieces [0, grain), [grain, 2 grain), ... of [0, count); the last
 // one ends at `count`, and none is empty. begin / grain numbers them. A piece should take 10
 // microseconds or more.
-void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
-                  const std::function<void(std::size_t begin, std::size_t end)>& piece);
+RONDEL_API void parallel_for(unsigned threads, std::size_t count, std::size_t grain,
+                             const std::function<void(std::size_t begin, std::size_t end)>& piece);
 
 // Calls both functions, at once if it can. A call costs a few tenths of a microsecond: recurse
 // through it as long as the work is much longer.
-void parallel_invoke(unsigned threads, const std::function<void()>& first,
-                     const std::function<void()>& second);
+RONDEL_API void parallel_invoke(unsigned threads, const std::function<void()>& first,
+                                const std::function<void()>& second);
 
 // While it lives, calls that its thread makes obey the flag, wherever their pieces run; and no
 // other flag. Scopes are nested.
-class StopScope {
+class RONDEL_API StopScope {
  public:
   explicit StopScope(const std::atomic<bool>* stop) noexcept;
   ~StopScope();

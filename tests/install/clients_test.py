@@ -9,6 +9,7 @@ Each compiles client.cpp and compares what it prints.
 
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -69,11 +70,19 @@ class Client:
         self.expect(run([self.work / "host", plugin]), times=2)
 
     def shared(self):
-        """A program that links the shared libraries."""
+        """The shared libraries: what they show, and a program that links them."""
         paths = [f"-Wl,-rpath,{library.parent}" for library in self.libraries]
         run([*self.compile, self.file("client.cpp"), "-o", self.work / "client",
              f"-I{self.source}/include", f"-I{self.build}/include", *reversed(self.libraries), *paths])
         self.expect(run([self.work / "client"]))
+        for library in self.libraries:
+            names = run(["nm", "--dynamic", "--defined-only", "--demangle", library])
+            strange = [
+                line for line in names.splitlines()
+                if "rondel::" in line and not re.search(r"rondel::(v0|detail|system)::", line)
+            ]
+            if strange or "rondel::v0::" not in names:
+                sys.exit(f"{library} shows\n" + "\n".join(strange[:20]))
 
 
 def main():

@@ -16,6 +16,126 @@
 namespace rondel {
 namespace {
 
+TriangulationArrays arrays_of(const Triangulation& t) {
+  TriangulationArrays arrays;
+  arrays.num_sites = t.num_sites();
+  arrays.dimension = t.dimension();
+  arrays.faces.assign(t.faces().begin(), t.faces().end());
+  arrays.neighbors.assign(t.neighbors().begin(), t.neighbors().end());
+  arrays.ghost_faces.assign(t.ghost_faces().begin(), t.ghost_faces().end());
+  arrays.ring.assign(t.ring().begin(), t.ring().end());
+  arrays.duplicates.assign(t.duplicates().begin(), t.duplicates().end());
+  arrays.hidden.assign(t.hidden().begin(), t.hidden().end());
+  return arrays;
+}
+
+struct Input {
+  std::vector<Point> sites;
+  Options options;
+};
+
+// Every dimension, duplicates, hidden sites, ghost faces.
+std::vector<Input> inputs() {
+  std::vector<Input> result;
+  for (const auto name : {"uniform", "great_circle", "hemisphere", "ball", "integer_sphere"}) {
+    for (const Model model : {Model::projected, Model::weighted}) {
+      for (const std::size_t n : {0U, 1U, 2U, 3U, 4U, 40U}) {
+        test::SiteSet set = test::generator(name).make(n, 1);
+        if (n > 3) set.sites.push_back(set.sites[2]);
+        result.push_back({std::move(set.sites), {.model = model, .sphere = set.sphere}});
+      }
+    }
+  }
+  return result;
+}
+
+TEST(from_arrays, takes_what_the_library_made) {
+  for (const Input& in : inputs()) {
+    const Triangulation made = delaunay(in.sites, in.options);
+    const Triangulation taken = Triangulation::from_arrays(arrays_of(made), in.options);
+    EXPECT_EQ(taken.num_vertices(), made.num_vertices());
+    EXPECT_TRUE(std::ranges::equal(taken.faces(), made.faces()));
+  }
+}
+
+// Calls change(value) for each index of the arrays, by reference.
+template <class Change>
+void for_each_index(TriangulationArrays& arrays, const Change& change) {
+  for (auto* rows : {&arrays.faces, &arrays.neighbors}) {
+    for (Triple& row : *rows) {
+      for (Index& i : row) change(i);
+    }
+  }
+  for (auto* values : {&arrays.ghost_faces, &arrays.ring}) {
+    for (Index& i : *values) change(i);
+  }
+  for (Duplicate& d : arrays.duplicates) change(d.site);
+  for (Hidden& h : arrays.hidden) change(h.site);
+}
+
+// One index that is out of range, or another one: of a face or a neighbor that breaks the surface.
+TEST(from_arrays, refuses_one_wrong_index) {
+  for (const Input& in : inputs()) {
+    const TriangulationArrays made = arrays_of(delaunay(in.sites, in.options));
+    TriangulationArrays arrays = made;
+    for_each_index(arrays, [&](Index& index) {
+      const Index before = index;
+      for (const Index wrong : {no_index, before + 1000000}) {
+        index = wrong;
+        EXPECT_THROW(Triangulation::from_arrays(arrays, in.options), InvalidInput);
+      }
+      index = before;
+    });
+    for (auto* rows : {&arrays.faces, &arrays.neighbors}) {
+      for (Triple& row : *rows) {
+        for (Index& index : row) {
+          const Index before = index;
+          index = (before + 1) %
+                  static_cast<Index>(rows == &arrays.faces ? made.num_sites : made.faces.size());
+          if (made.faces.size() > 2) {
+            EXPECT_THROW(Triangulation::from_arrays(arrays, in.options), InvalidInput);
+          }
+          index = before;
+        }
+      }
+    }
+  }
+}
+
+TEST(from_arrays, refuses_surfaces_that_are_no_spheres) {
+  const std::vector<Point> sites = test::generator("uniform").make(20, 1).sites;
+  const TriangulationArrays made = arrays_of(delaunay(sites));
+  const auto refused = [](const TriangulationArrays& arrays) {
+    EXPECT_THROW(Triangulation::from_arrays(arrays, {}), InvalidInput);
+  };
+  TriangulationArrays arrays = made;
+  arrays.num_sites = 21;  // a vertex without a face
+  refused(arrays);
+  arrays = made;
+  arrays.faces.pop_back();
+  refused(arrays);
+  arrays.neighbors.pop_back();
+  refused(arrays);
+  arrays = made;
+  arrays.dimension = 1;
+  refused(arrays);
+  arrays = made;
+  for (Triple& face : arrays.faces) std::swap(face[0], face[1]);  // neighbors are those of before
+  refused(arrays);
+  arrays = made;  // two spheres
+  const auto m = static_cast<Index>(made.faces.size());
+  for (Index f = 0; f < m; ++f) {
+    const auto& [a, b, c] = made.faces[f];
+    const auto& [u, v, w] = made.neighbors[f];
+    arrays.faces.push_back({a + 20, b + 20, c + 20});
+    arrays.neighbors.push_back({u + m, v + m, w + m});
+  }
+  arrays.num_sites = 40;
+  refused(arrays);
+  arrays.num_sites = 38;
+  refused(arrays);
+}
+
 // Areas and centroids of cells in which one number is another one.
 TEST(cells, of_a_caller_are_those_of_the_triangulation_or_refused) {
   const std::vector<Point> sites = test::generator("uniform").make(60, 1).sites;

@@ -44,7 +44,7 @@ Rows copied_rows(const Array& array) {
   return {rows.begin(), rows.end()};
 }
 
-// For pickle: the arrays of a triangulation that the library made.
+// For pickle: arrays that somebody may have changed.
 Triangulation from_arrays(std::size_t num_sites, int dimension, bool is_weighted,
                           const Center& center, double squared_radius, const TriplesIn& faces,
                           const TriplesIn& neighbors, const IndicesIn& ghost_faces,
@@ -58,7 +58,8 @@ Triangulation from_arrays(std::size_t num_sites, int dimension, bool is_weighted
                              .ring = copied_rows<std::vector<Index>>(ring),
                              .duplicates = copied_rows<std::vector<Duplicate>>(duplicates),
                              .hidden = copied_rows<std::vector<Hidden>>(hidden)};
-  return {std::move(arrays), make_options(is_weighted, center, squared_radius), {}};
+  return Triangulation::from_arrays(std::move(arrays),
+                                    make_options(is_weighted, center, squared_radius));
 }
 
 nb::dict report_of(const Triangulation& t) {
