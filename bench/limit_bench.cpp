@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "inputs.h"
+#include "kernel/conflict_test.h"
 #include "measure.h"
 #include "models/projected_points.h"
 #include "order/spatial_order.h"
@@ -38,7 +39,7 @@ std::vector<Index> invert(std::span<const Index> order, std::size_t num_sites) {
 
 // One test for each edge, in the face of smaller number; the corner across is what the neighbor's
 // corners have beyond the two that are shared.
-std::size_t count_conflicts(const rondel::models::ProjectedPoints& sites,
+std::size_t count_conflicts(rondel::kernel::ConflictTest<rondel::models::ProjectedPoints>& test,
                             std::span<const Triple> faces, std::span<const Triple> neighbors) {
   std::size_t conflicts = 0;
   for (std::size_t f = 0; f < faces.size(); ++f) {
@@ -48,7 +49,7 @@ std::size_t count_conflicts(const rondel::models::ProjectedPoints& sites,
       const std::size_t g = neighbors[f][i];
       if (g < f) continue;
       const Index p = faces[g][0] ^ faces[g][1] ^ faces[g][2] ^ shared[i];
-      conflicts += sites.is_in_conflict(a, b, c, p) ? 1 : 0;
+      conflicts += test.is_in_conflict(faces[f], p) ? 1 : 0;
     }
   }
   return conflicts;
@@ -111,8 +112,9 @@ int main(int argc, char** argv) {
   const auto sorted = measure([&] { return source.next(); },
                               [&](const auto& sites) { return sort(sites, options); });
   const auto verified = measure(make, [](const Finished& t) {
-    const rondel::models::ProjectedPoints points(t.sites, t.order, {});
-    return count_conflicts(points, t.faces, t.triangulation.neighbors());
+    rondel::models::ProjectedPoints points(t.sites, t.order, {});
+    rondel::kernel::ConflictTest test(points);
+    return count_conflicts(test, t.faces, t.triangulation.neighbors());
   });
   if (*verified.result != 0) return 1;
   const auto written = measure(make, [](const Finished& t) {

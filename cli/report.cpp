@@ -15,7 +15,9 @@ using Json = nlohmann::ordered_json;
 
 Json json_of(const Tally& tally) {
   return {{"filter", tally.filter},
+          {"extended", tally.extended},
           {"double_double", tally.double_double},
+          {"close", tally.close},
           {"exact", tally.exact},
           {"perturbed", tally.perturbed}};
 }

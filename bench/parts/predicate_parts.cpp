@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The rungs of the conflict test, each on the calls that a verification of a triangulation makes:
+// The rungs of the conflict test (predicates/conflict.h), each on the calls that a verification of a triangulation makes:
 // a face and the corner across one of its edges. "patch" has its sites about 1e-8 apart.
 
 #include <array>
 
 #include "exact/unit_vector.h"
 #include "parts.h"
+#include "predicates/conflict.h"
 #include "predicates/perturbation.h"
 #include "predicates/side_of_circle.h"
 #include "predicates/side_of_plane.h"
@@ -98,7 +99,8 @@ void plane_filter(benchmark::State& state, const std::string& kind) {
 void plane_ladder_of_ties(benchmark::State& state) {
   measure_rung(state, coplanar_calls(), as_given,
                [](const auto& a, const auto& b, const auto& c, const auto& p) {
-                 return predicates::side_of_plane_ladder(a, b, c, p).sign;
+                 const predicates::FourPoints<Model::weighted> points{{a, b, c, p}};
+                 return predicates::side(points, 0, 1, 2, 3).sign;
                });
 }
 

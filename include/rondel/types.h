@@ -68,12 +68,15 @@ struct Options {
   Progress progress{};
 };
 
-/// How many predicate calls each rung of the exactness ladder decided.
+/// How many conflict tests each rung of the exactness ladder decided. Machines and versions may
+/// differ in these numbers, but not in a result.
 struct Tally {
-  std::uint64_t filter = 0;
-  std::uint64_t double_double = 0;
-  std::uint64_t exact = 0;
-  std::uint64_t perturbed = 0;
+  std::uint64_t filter = 0;         ///< doubles with an error bound
+  std::uint64_t extended = 0;       ///< numbers of 64 bits, where the processor has them
+  std::uint64_t double_double = 0;  ///< sums of two doubles
+  std::uint64_t close = 0;          ///< doubles again, from differences of the points as given
+  std::uint64_t exact = 0;          ///< words without end
+  std::uint64_t perturbed = 0;      ///< ties
 };
 
 }  // namespace rondel::inline v0

@@ -59,7 +59,7 @@ class Locator::Impl {
     sites_ = std::move(snapshot.sites);
   }
 
-  template <models::SphereTraits T>
+  template <models::SphereModel T>
   Impl(const dynamic::Editor<T>& editor, const Options& options)
       : model_(options.model),
         sphere_(options.sphere),

@@ -15,7 +15,7 @@
 namespace rondel::bulk {
 
 // Arrays that one block after the other uses.
-template <models::SphereTraits T>
+template <models::SphereModel T>
 struct Workspace {
   SquareCoordinates coordinates;
   SquareSites<T> sites;
@@ -32,7 +32,7 @@ struct Workspace {
   }
 };
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class BlockTriangulation {
  public:
   BlockTriangulation(const Input& input, const Block& block, Workspace<T>& workspace)

@@ -5,7 +5,7 @@
 // the sphere. There is no lower common tangent; the new faces form a ring:
 //
 //      .---------.
-//     /   .---.   \        A bridge (l, r) is an edge of the result between the parts. The climb
+//     /   .---.   \        A bridge (l, r) is an edge of the result between the parts. The sewing
 //    |   |  L  |   |       from there goes around and comes back to it.
 //    |   |     l---r
 //    |   |     |   |
@@ -26,13 +26,13 @@
 
 namespace rondel::bulk {
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class Closing {
  public:
   using Edge = PlaneGraph::Edge;
   using Vector = predicates::Vector;
 
-  Closing(const SphereSites<T>& sites, PlaneGraph& graph) : sites_(sites), graph_(graph) {}
+  Closing(SphereSites<T>& sites, PlaneGraph& graph) : sites_(sites), graph_(graph) {}
 
   // The parts lie on the side to which `normal` points and on the other one of a plane through the
   // center, which is inside the hull of all. Returns an edge of the result, or no_index if this
@@ -48,7 +48,7 @@ class Closing {
     const auto after_right = clear_way(bridge.right, l);
     if (!after_left || !after_right) return no_index;
     const Edge edge = graph_.add(l, r, *after_left, *after_right);
-    return climb_around(edge) ? edge : no_index;
+    return sew_around(edge) ? edge : no_index;
   }
 
  private:
@@ -179,9 +179,9 @@ class Closing {
     }
   }
 
-  // As Merge::climb, from the bridge to itself. The center is inside the hull, so no face of it is
+  // As Merge::sew, from the bridge to itself. The center is inside the hull, so no face of it is
   // in a plane with the center, and there is a next face until the ring is closed.
-  bool climb_around(Edge bridge) {
+  bool sew_around(Edge bridge) {
     Edge base = bridge;
     Index l = graph_.origin(base);
     Index r = graph_.target(base);
@@ -229,7 +229,7 @@ class Closing {
     const auto is_on_line = [&](Edge e, Edge own) {
       const Index n = graph_.target(e);
       return e != own && step.orientation(step.face(n)) == Sign::zero &&
-             is_between(sites_.site(step.l()), sites_.site(n), sites_.site(step.r()),
+             is_between(sites_.point(step.l()), sites_.point(n), sites_.point(step.r()),
                         sites_.center()) != Between::no;
     };
     if (is_on_line(graph_.next(base), base)) graph_.remove(graph_.next(base));
@@ -241,7 +241,7 @@ class Closing {
     while (graph_.next(e) != f) graph_.remove(graph_.next(e));
   }
 
-  // The first edge after `from` in its ring, in the direction in which the climb goes there, that
+  // The first edge after `from` in its ring, in the direction in which the sewing goes there, that
   // leads to a site above the step and is not deleted; no_index if there is none. The bridge stays.
   template <bool is_left>
   Edge first_stable(const Step& step, Edge from, Edge bridge) {
@@ -261,7 +261,7 @@ class Closing {
     return e;
   }
 
-  const SphereSites<T>& sites_;
+  SphereSites<T>& sites_;
   PlaneGraph& graph_;
 };
 

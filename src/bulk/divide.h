@@ -30,14 +30,14 @@ struct Misplaced {
   int bit;
 };
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class Divide {
  public:
   using Edge = PlaneGraph::Edge;
 
   // Apart from the misplaced ones the positions of the sites tell, exactly, on which side of a
   // split they lie.
-  Divide(const SquareSites<T>& sites, std::span<const Misplaced> misplaced, PlaneGraph& graph)
+  Divide(SquareSites<T>& sites, std::span<const Misplaced> misplaced, PlaneGraph& graph)
       : sites_(sites),
         positions_(sites.positions()),
         down_{1, -1, -sites.hand(), sites.hand()},
@@ -159,7 +159,7 @@ class Divide {
   // Of two weighted sites on one ray the lower one is hidden, which no square tells from the other.
   Part solve_two(Index a) {
     if (T::hides_sites && is_close(a, a + 1) &&
-        predicates::are_on_one_ray(sites_.site(a), sites_.site(a + 1), sites_.center())) {
+        predicates::are_on_one_ray(sites_.point(a), sites_.point(a + 1), sites_.center())) {
       return sewing_.fail();
     }
     return {a, graph_.add(a, a + 1)};
@@ -225,7 +225,7 @@ class Divide {
     return {middle, e};
   }
 
-  const SquareSites<T>& sites_;
+  SquareSites<T>& sites_;
   const SquarePosition* positions_;
   // On which side of the way from one part to the next is down: by axis, then by direction.
   std::array<double, 4> down_;

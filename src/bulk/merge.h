@@ -79,7 +79,7 @@ class Merge {
   using Limits = typename Step::Limits;
   using Sites = typename Step::Sites;
 
-  Merge(const Sites& sites, PlaneGraph& graph) : sites_(sites), graph_(graph) {}
+  Merge(Sites& sites, PlaneGraph& graph) : sites_(sites), graph_(graph) {}
 
   // Whether sites met that this cannot cope with; then the graph is worth nothing.
   [[nodiscard]] bool has_failed() const { return has_failed_; }
@@ -101,7 +101,7 @@ class Merge {
     const Edge base = graph_.add(l.vertex, r.vertex);
     if (l.edge != no_index) graph_.insert_after(base, graph_.previous(l.edge));
     if (r.edge != no_index) graph_.insert_after(base ^ 1, graph_.previous(r.edge));
-    climb(base, limits);
+    sew(base, limits);
     return {l.vertex, base};
   }
 
@@ -110,7 +110,7 @@ class Merge {
   [[nodiscard]] Index middle_of(Index a, Index b, Index c) {
     for (const auto& [x, m, y] : {std::array{a, b, c}, std::array{b, c, a}, std::array{c, a, b}}) {
       const Between between =
-          is_between(sites_.site(x), sites_.site(m), sites_.site(y), sites_.center());
+          is_between(sites_.point(x), sites_.point(m), sites_.point(y), sites_.center());
       if (between == Between::no) continue;
       if (between == Between::below && Step::hides_sites) has_failed_ = true;
       return m;
@@ -172,7 +172,7 @@ class Merge {
   // Sews the parts together above the edge `base` from the left one to the right one. Where the
   // next step begins is known from this one: to read it from links just written would take longer
   // than all else.
-  void climb(Edge base, const Limits& limits) {
+  void sew(Edge base, const Limits& limits) {
     const PlaneGraph::Ring* const rings = graph_.rings();
     const Index* const targets = graph_.targets();
     Index l = graph_.origin(base);
@@ -231,7 +231,7 @@ class Merge {
     has_failed_ = true;
   }
 
-  const Sites& sites_;
+  Sites& sites_;
   PlaneGraph& graph_;
   bool has_failed_ = false;
 };

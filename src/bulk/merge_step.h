@@ -17,7 +17,7 @@
 
 namespace rondel::bulk {
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class MergeStep {
  public:
   using Sites = SquareSites<T>;
@@ -29,7 +29,7 @@ class MergeStep {
     SquareVector normal;
   };
 
-  MergeStep(const SquareSites<T>& sites, const SquareLimits& limits, Index l, Index r)
+  MergeStep(SquareSites<T>& sites, const SquareLimits& limits, Index l, Index r)
       : sites_(sites),
         points_(sites.points()),
         orientation_limit_(limits.orientation),
@@ -84,7 +84,7 @@ class MergeStep {
     return {p.u - origin_.u, p.v - origin_.v, p.w - origin_.w};
   }
 
-  const SquareSites<T>& sites_;
+  SquareSites<T>& sites_;
   const SquarePoint* points_;
   double orientation_limit_;
   double conflict_limit_;

@@ -17,7 +17,7 @@
 
 #include "bulk/plane_graph.h"
 #include "bulk/squares.h"
-#include "predicates/filtered.h"
+#include "predicates/rung.h"
 
 namespace rondel::bulk {
 

@@ -17,7 +17,7 @@
 namespace rondel::bulk {
 
 // Positions that may be wrong, as far as divide and conquer would notice.
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class PositionCheck {
  public:
   PositionCheck(const Input& input, const Block& block, SquareSites<T>& sites,
@@ -38,11 +38,11 @@ class PositionCheck {
   }
 
   bool check_position(Index rank, Index i) {
-    if (sites_.site(i) == sites_.center()) return false;
+    if (sites_.point(i) == sites_.center()) return false;
     // The one by which the site is in its place. It may be exact, or none if a difference
     // overflows.
     const order::CubePosition p = input_.position(rank);
-    const order::CubePosition q = order::exact_cube_position(sites_.site(i), sites_.center());
+    const order::CubePosition q = order::exact_cube_position(sites_.point(i), sites_.center());
     if (p.face != q.face || q.face != block_.square.corner.face) return false;
     if (!is_close(p.u, q.u) || !is_close(p.v, q.v)) return false;
     sites_.set_position(i, {p.u, p.v});
@@ -61,7 +61,7 @@ class PositionCheck {
 
 // Triangulates the sites of a block, which are the sites first, first + 1, ... of `sites` and of
 // the graph; or returns nothing if this does not work.
-template <models::SphereTraits T>
+template <models::SphereModel T>
 std::optional<Part> solve_square(const Input& input, const Block& block, Index first,
                                  SquareSites<T>& sites, std::vector<Misplaced>& misplaced,
                                  PlaneGraph& graph) {

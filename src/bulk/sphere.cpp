@@ -17,7 +17,7 @@
 #include "bulk/solve_square.h"
 #include "bulk/sphere_step.h"
 #include "exact/eft.h"
-#include "predicates/tally.h"
+#include "models/with_model.h"
 #include "system/huge_pages.h"
 #include "system/parallel.h"
 #include "system/stage_progress.h"
@@ -83,7 +83,7 @@ class Parts {
   std::array<unsigned, num_parts> face_of_{};
 };
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class SphereTriangulation {
  public:
   SphereTriangulation(const Input& input, std::span<const order::Renamed> renamed)
@@ -123,7 +123,7 @@ class SphereTriangulation {
 
   void find_directions(Index begin, Index end) {
     for (Index i = begin; i < end; ++i) {
-      directions_[i] = models::direction(input_.sites[order_[i]], input_.options.sphere.center);
+      directions_[i] = predicates::direction(input_.sites[order_[i]], input_.options.sphere.center);
     }
   }
   [[nodiscard]] SphereSites<T> sphere_sites() const {
@@ -152,7 +152,7 @@ class SphereTriangulation {
   system::StageProgress progress_{input_.options.progress, "triangulate", num_lunes + 1};
 };
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 void SphereTriangulation<T>::divide() {
   const Parts parts(input_.options.sphere.center);
   const auto faces = cube_faces(num_sites_, [this](Index rank) { return input_.position(rank); });
@@ -186,7 +186,7 @@ void SphereTriangulation<T>::divide() {
   }
 }
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 std::optional<Part> SphereTriangulation<T>::solve_lune(std::size_t lune, PlaneGraph& graph) {
   const std::span parts = std::span(parts_).subspan(parts_of_lune * lune, parts_of_lune);
   const Index first = parts.front().begin;
@@ -195,8 +195,8 @@ std::optional<Part> SphereTriangulation<T>::solve_lune(std::size_t lune, PlaneGr
   SquareSites<T> sites;
   sites.assign(input.sites, order_, first, parts.back().end - first, input.options.sphere.center,
                input.extent, coordinates_);
-  if (!SphereSites<T>::has_weights) find_directions(first, parts.back().end);
-  const SphereSites<T> all = sphere_sites();
+  if (T::model == Model::projected) find_directions(first, parts.back().end);
+  SphereSites<T> all = sphere_sites();
   Merge<SphereStep<T>> merge(all, graph);
   std::vector<Misplaced> misplaced;
   Part result;
@@ -214,10 +214,10 @@ std::optional<Part> SphereTriangulation<T>::solve_lune(std::size_t lune, PlaneGr
   return result;
 }
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 std::optional<Part> SphereTriangulation<T>::merge_lunes(const Part& left, const Part& right,
                                                         PlaneGraph& graph) {
-  const SphereSites<T> sites = sphere_sites();
+  SphereSites<T> sites = sphere_sites();
   Merge<SphereStep<T>> merge(sites, graph);
   const Part result = merge.merge(left, right, {});
   if (merge.has_failed()) return std::nullopt;
@@ -227,10 +227,10 @@ std::optional<Part> SphereTriangulation<T>::merge_lunes(const Part& left, const 
 
 // All in one piece: glibc keeps freed memory in proportion to the largest piece, so that the next
 // build need not get it from the system again.
-template <models::SphereTraits T>
+template <models::SphereModel T>
 std::vector<PlaneGraph> SphereTriangulation<T>::allot(std::span<const Index> sizes) {
   const std::size_t of_coordinates = num_sites_ * SquareCoordinates::bytes_of_site;
-  const std::size_t of_directions = SphereSites<T>::has_weights ? 0 : num_sites_ * sizeof(Vector);
+  const std::size_t of_directions = T::model == Model::projected ? num_sites_ * sizeof(Vector) : 0;
   memory_ = system::make_large_array<std::byte>(of_coordinates + of_directions +
                                                 PlaneGraph::size_of_parts(sizes));
   coordinates_.place(memory_.get(), num_sites_);
@@ -238,7 +238,7 @@ std::vector<PlaneGraph> SphereTriangulation<T>::allot(std::span<const Index> siz
   return graph_.clear_parts(sizes, memory_.get() + of_coordinates + of_directions);
 }
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 PlaneGraph::Edge SphereTriangulation<T>::conquer() {
   const unsigned threads = num_sites_ < least_parallel_sites ? 1 : input_.options.threads;
   std::array<Index, num_lunes> sizes{};
@@ -264,7 +264,7 @@ PlaneGraph::Edge SphereTriangulation<T>::conquer() {
   graph_.append(graphs[2]);
   // No direction in which sites tend to be regular.
   const double half = std::sqrt(0.5);
-  const SphereSites<T> sites = sphere_sites();
+  SphereSites<T> sites = sphere_sites();
   const PlaneGraph::Edge edge =
       Closing<T>(sites, graph_)
           .run(*halves[0], *halves[1], {half, half, 0}, {0.8 * half, -0.8 * half, 0.6});
@@ -272,7 +272,7 @@ PlaneGraph::Edge SphereTriangulation<T>::conquer() {
   return edge;
 }
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 void SphereTriangulation<T>::write(const std::vector<Index>& hidden, TriangulationArrays& arrays) {
   graph_.clear_faces();
   Index* const targets = graph_.targets();
@@ -313,9 +313,8 @@ bool surround_center(std::span<const Point> sites, const Point& center) {
 
 std::optional<Triangulated> triangulate_sphere(const Input& input,
                                                std::span<const order::Renamed> renamed) {
-  return input.options.model == Model::projected
-             ? SphereTriangulation<models::ProjectedPoints>(input, renamed).run()
-             : SphereTriangulation<models::WeightedPoints>(input, renamed).run();
+  return models::with_model(input.options.model,
+                            [&]<class T> { return SphereTriangulation<T>(input, renamed).run(); });
 }
 
 }  // namespace rondel::bulk

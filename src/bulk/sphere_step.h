@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The questions of one step of a merge, as in merge_step.h, for parts that are in several squares:
-// the filters of the predicates, which hold for all sites, applied to what the questions of a step
-// have in common.
+// the bounds of the filters, which hold for all sites, applied to what the questions of a step
+// have in common. What they leave open goes up the ladder of predicates/conflict.h.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 
 #include "bulk/sphere_sites.h"
 #include "predicates/bounds.h"
-#include "predicates/filtered.h"
+#include "predicates/rung.h"
 
 namespace rondel::bulk {
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class SphereStep {
  public:
   using Sites = SphereSites<T>;
@@ -27,7 +27,7 @@ class SphereStep {
   };
   static constexpr bool hides_sites = T::hides_sites;
 
-  SphereStep(const Sites& sites, const Limits& /*limits*/, Index l, Index r)
+  SphereStep(Sites& sites, const Limits& /*limits*/, Index l, Index r)
       : sites_(sites),
         l_(l),
         r_(r),
@@ -46,7 +46,7 @@ class SphereStep {
 
   // Positive if the apex lies to the left of the edge from l to r, seen from outside.
   [[nodiscard]] Sign orientation(const Face& face) const {
-    if constexpr (!Sites::has_weights) {
+    if constexpr (T::model == Model::projected) {
       constexpr double bound = predicates::direction_orientation_bound;
       const double value = dot(origin_, face.normal);
       if (value * value > bound * bound * std::max(squared_, face.squared)) {
@@ -61,7 +61,7 @@ class SphereStep {
     const double value = dot(face.normal, to_y);
     const double squared = dot(to_y, to_y);
     const bool is_sure =
-        Sites::has_weights
+        T::model == Model::weighted
             ? predicates::is_beyond(value, predicates::plane_bound, squared_, face.squared, squared)
             : predicates::is_beyond_longest(value, predicates::circle_plane_bound, squared_,
                                             face.squared, squared);
@@ -75,7 +75,7 @@ class SphereStep {
  private:
   [[nodiscard]] bool is_end(Index x) const { return x == l_ || x == r_; }
 
-  const Sites& sites_;
+  Sites& sites_;
   Index l_;
   Index r_;
   predicates::Vector origin_;

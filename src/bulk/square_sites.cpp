@@ -6,19 +6,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <type_traits>
 
 #include "bulk/tangent_step.h"
 #include "order/cube_position.h"
 #include "predicates/bounds.h"
-#include "predicates/tally.h"
+#include "predicates/conflict.h"
+#include "predicates/orientation.h"
 #include "system/prefetch.h"
 #include "system/wide_vectors.h"
 
 namespace rondel::bulk {
 namespace {
 
-using predicates::add;
+using predicates::Decision;
 using predicates::unit_roundoff;
 
 // u and v are off by at most 3 units: a difference in each coordinate, and the quotient. In units:
@@ -91,18 +91,15 @@ bool is_doubtful(std::uint64_t position) {
 
 constexpr std::size_t batch = 128;  // coordinates found at once
 
-// Sites are given a traits class of their own for up to one question in so many sites.
+// The model of all sites is made at one question in so many sites.
 constexpr Index many = 128;
 
 // side_over_tangent() is asked until it has failed this much more often than not.
 constexpr std::uint64_t most_ties = 16;
 
-template <class T>
-constexpr bool is_weighted = std::is_same_v<T, models::WeightedPoints>;
-
 }  // namespace
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 void SquareSites<T>::assign(std::span<const Point> sites, std::span<const Index> order, Index first,
                             Index num_sites, const Point& center, const Extent& extent,
                             SquareCoordinates& coordinates, const system::SiteCopies& copies) {
@@ -118,18 +115,17 @@ void SquareSites<T>::assign(std::span<const Point> sites, std::span<const Index>
   extent_ = extent;
   bits_ = -1;
   num_unsure_ = 0;
-  num_filtered_ = 0;
   num_ties_ = 0;
   num_over_tangent_ = 0;
   tally_ = {};
-  exact_.assign({}, {}, center);
+  all_.assign({}, {}, center);
   accurate_.assign(sites, order.subspan(first, num_sites), center);
 }
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 void SquareSites<T>::find_bounds(int bits) {
   bits_ = bits;
-  if (is_weighted<T>) {
+  if (is_weighted) {
     // w is off by at most 2 units; it is below sqrt(3) s/|p|.
     const double most_w = 1.74 * extent_.most_size / extent_.least_size;
     square_bound_ = find_weighted_bound(2.1 * most_w, most_w);
@@ -148,7 +144,7 @@ void SquareSites<T>::find_bounds(int bits) {
   }
 }
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 void SquareSites<T>::read_sites(std::size_t first, std::size_t end, std::span<Point> sites) const {
   if (!copies_.is_empty()) return copies_.get(first, sites);
   for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -158,7 +154,7 @@ void SquareSites<T>::read_sites(std::size_t first, std::size_t end, std::span<Po
   }
 }
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 void SquareSites<T>::enter(const Square& square, Index num_sites) {
   if (bits_ != square.bits) find_bounds(square.bits);
   const unsigned cube_face = square.corner.face;
@@ -188,8 +184,8 @@ void SquareSites<T>::enter(const Square& square, Index num_sites) {
         const double depth = x * out.x + y * out.y + z * out.z;
         const double u = (x * u_axis.x + y * u_axis.y + z * u_axis.z) / depth;
         const double v = (x * v_axis.x + y * v_axis.y + z * v_axis.z) / depth;
-        const double size = is_weighted<T> ? most_size / depth : std::sqrt(1 + (u * u + v * v));
-        const double w = is_weighted<T> ? size : tangent.height(u, hand * v, size);
+        const double size = is_weighted ? most_size / depth : std::sqrt(1 + (u * u + v * v));
+        const double w = is_weighted ? size : tangent.height(u, hand * v, size);
         point[i] = {u, hand * v, w, size};
         position[i] = {position_of(u), position_of(v)};
       }
@@ -205,10 +201,10 @@ void SquareSites<T>::enter(const Square& square, Index num_sites) {
 
 // With weights w is sqrt(1 + u^2 + v^2) s/|p|, and the change of the root is at most that of (u,
 // v).
-template <models::SphereTraits T>
+template <models::SphereModel T>
 SquareLimits SquareSites<T>::limits(double length) const {
   double distance = 1.42 * length;
-  if (is_weighted<T>) {
+  if (is_weighted) {
     const double most_ratio = extent_.most_size / extent_.least_size;
     distance = most_ratio * 2.01 * length + 1.74 * (most_ratio - 1);
   }
@@ -216,45 +212,43 @@ SquareLimits SquareSites<T>::limits(double length) const {
           std::max(conflict_limit(distance), least_bound)};
 }
 
-template <models::SphereTraits T>
-template <std::size_t N, class Test>
-auto SquareSites<T>::ask_traits(const std::array<Index, N>& indices, Test test) const {
+template <models::SphereModel T>
+template <std::size_t N, class Decide>
+Decision SquareSites<T>::ask_ladder(const std::array<Index, N>& indices, Decide decide) {
   std::array<Index, N> names{};
   if (num_unsure_ <= num_sites_ / many) ++num_unsure_;
   if (num_unsure_ > num_sites_ / many) {
-    if (exact_.size() == 0) exact_.assign(sites_, order_.subspan(first_, num_sites_), center_);
+    if (all_.size() == 0) all_.assign(sites_, order_.subspan(first_, num_sites_), center_);
     for (std::size_t i = 0; i < N; ++i) names[i] = indices[i] - first_;
-    return test(exact_, names);
+    return decide(all_, names);
   }
-  std::array<Index, N> sites{};
+  predicates::FourPoints<T::model> few{{}, center_};
   for (Index i = 0; i < N; ++i) {
-    sites[i] = order_[indices[i]];
+    few.points[i] = point(indices[i]);
     names[i] = i;
   }
-  few_.assign(sites_, sites, center_);
-  const auto answer = test(few_, names);
-  add(tally_, few_.tally());
-  return answer;
+  return decide(few, names);
 }
 
-template <models::SphereTraits T>
-Sign SquareSites<T>::orientation(Index a, Index b, Index c) const {
+template <models::SphereModel T>
+Sign SquareSites<T>::orientation(Index a, Index b, Index c) {
   const SquareVector ab = points_[b] - points_[a];
   const SquareVector ac = points_[c] - points_[a];
   const double value = cross(ab, ac).w;
   const double bound =
       orientation_bound * std::sqrt(std::max(squared_in_plane(ab), squared_in_plane(ac)));
   if (std::abs(value) > std::max(bound, least_bound)) return exact::sign_of(value);
-  if (!is_weighted<T>) {
+  if (!is_weighted) {
     const Sign sign = accurate_.orientation(a - first_, b - first_, c - first_);
     if (sign != Sign::zero) return sign;
   }
-  return ask_traits(std::array{a, b, c}, [](const T& t, const std::array<Index, 3>& i) {
-    return t.orientation(i[0], i[1], i[2]);
-  });
+  const auto ladder = [](auto& points, const std::array<Index, 3>& i) {
+    return predicates::orientation(points, i[0], i[1], i[2]);
+  };
+  return ask_ladder(std::array{a, b, c}, ladder).sign;
 }
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 Sign SquareSites<T>::side_over_tangent(Index a, Index b, Index c, Index p) const {
   const SquarePoint& x = points_[a];
   const auto step_to = [&](Index i) {
@@ -271,40 +265,35 @@ Sign SquareSites<T>::side_over_tangent(Index a, Index b, Index c, Index p) const
   return std::abs(value) > std::max(bound, least_bound) ? exact::sign_of(value) : Sign::zero;
 }
 
-template <models::SphereTraits T>
-bool SquareSites<T>::is_in_conflict(Index a, Index b, Index c, Index p, double value) const {
-  if constexpr (is_weighted<T>) {
+template <models::SphereModel T>
+bool SquareSites<T>::is_in_conflict(Index a, Index b, Index c, Index p, double value) {
+  if constexpr (is_weighted) {
     const auto squared = [&](Index i) {
       const SquareVector x = points_[i] - points_[a];
       return dot(x, x);
     };
     const double distance = std::sqrt(std::max({squared(b), squared(c), squared(p)}));
     if (std::abs(value) > std::max(conflict_limit(distance), least_bound)) {
-      ++num_filtered_;
+      count_filtered();
       return value < 0;
     }
   } else {
     if (num_ties_ <= most_ties * (num_over_tangent_ + 1)) {
       const Sign side = side_over_tangent(a, b, c, p);
       if (side != Sign::zero) {
-        ++num_filtered_;
+        count_filtered();
         ++num_over_tangent_;
         return side == Sign::negative;
       }
       ++num_ties_;
     }
   }
-  return ask_traits(std::array{a, b, c, p}, [](const T& t, const std::array<Index, 4>& i) {
-    return t.climb(i[0], i[1], i[2], i[3]);
-  });
-}
-
-template <models::SphereTraits T>
-Tally SquareSites<T>::tally() const {
-  Tally tally = tally_;
-  if (exact_.size() != 0) add(tally, exact_.tally());
-  tally.filter += num_filtered_;
-  return tally;
+  const auto ladder = [](auto& points, const std::array<Index, 4>& i) {
+    return predicates::conflict_above_filter(points, i[0], i[1], i[2], i[3]);
+  };
+  const Decision decision = ask_ladder(std::array{a, b, c, p}, ladder);
+  count(tally_, decision.rung);
+  return decision.sign == Sign::positive;
 }
 
 template class SquareSites<models::ProjectedPoints>;

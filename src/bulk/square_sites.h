@@ -18,7 +18,7 @@
 // In the weighted model s is one number for all. In the projected model s = |p|, and w is the
 // height of w = sqrt(1 + u^2 + v^2) over its tangent plane in the middle of the square: no plane
 // becomes another one, and small squares have small numbers with small errors. Doubles decide when
-// they can (docs/theory/blocks.md), else the traits class does.
+// they can (docs/theory/blocks.md), else the ladders of predicates/ do.
 #pragma once
 
 #include <array>
@@ -95,7 +95,7 @@ struct Extent {
   double most_size = 1;   // 1 in the projected model
 };
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class SquareSites {
  public:
   // The sites sites[order[first]], sites[order[first + 1]], ..., num_sites of them in one or
@@ -112,7 +112,7 @@ class SquareSites {
   [[nodiscard]] const std::vector<Index>& doubtful() const { return doubtful_; }
 
   [[nodiscard]] const SquarePoint* points() const { return points_; }
-  [[nodiscard]] const Point& site(Index i) const { return sites_[order_[i]]; }
+  [[nodiscard]] const Point& point(Index i) const { return sites_[order_[i]]; }
   [[nodiscard]] const Point& center() const { return center_; }
   [[nodiscard]] const SquarePosition* positions() const { return positions_; }
   void set_position(Index i, const SquarePosition& position) { positions_[i] = position; }
@@ -139,28 +139,31 @@ class SquareSites {
     return distance * distance * (square_bound_ + distance * cube_bound_);
   }
 
-  // The rest of the ladder: a filter for the sites themselves, accurate places, the traits class.
-  [[nodiscard]] Sign orientation(Index a, Index b, Index c) const;
+  // What the limits leave open: filters for the very sites, then the ladders of
+  // predicates/orientation.h and, above its filter, predicates/conflict.h.
+  [[nodiscard]] Sign orientation(Index a, Index b, Index c);
   // `value` is N.(p-a).
-  [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p, double value) const;
+  [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p, double value);
 
   // In the projected model: positive if p lies above the face, over the tangent plane at a; zero if
   // this is not certain.
   [[nodiscard]] Sign side_over_tangent(Index a, Index b, Index c, Index p) const;
 
-  // Of all conflict tests, given that this is called for those that did not come here.
-  void count_filtered() const { ++num_filtered_; }
-  [[nodiscard]] Tally tally() const;
+  // Of all conflict tests, given that this is called for those that the limits decided.
+  void count_filtered() { ++tally_.filter; }
+  [[nodiscard]] const Tally& tally() const { return tally_; }
 
  private:
+  static constexpr bool is_weighted = T::model == Model::weighted;
+
   void find_bounds(int bits);
   // Reads the sites from `first` on; more will be read, up to `end`.
   void read_sites(std::size_t first, std::size_t end, std::span<Point> sites) const;
 
-  // Calls test(traits, a, b, ...) of the sites with these indices: few are given a traits class of
-  // their own, many one for all sites.
-  template <std::size_t N, class Test>
-  auto ask_traits(const std::array<Index, N>& indices, Test test) const;
+  // Returns decide(points, names) of these sites in a source of points and by their names there: on
+  // the stack for few questions, for many in the model of all sites, which remembers.
+  template <std::size_t N, class Decide>
+  predicates::Decision ask_ladder(const std::array<Index, N>& indices, Decide decide);
 
   SquarePoint* points_ = nullptr;
   SquarePosition* positions_ = nullptr;
@@ -178,14 +181,12 @@ class SquareSites {
   std::array<SquareLimits, order::position_bits + 1> limits_;
   double square_bound_ = 0;
   double cube_bound_ = 0;
-  mutable AccuratePlaces accurate_;
-  mutable T exact_;
-  mutable T few_;
-  mutable Index num_unsure_ = 0;
-  mutable std::uint64_t num_filtered_ = 0;
-  mutable std::uint64_t num_over_tangent_ = 0;  // what side_over_tangent() decided
-  mutable std::uint64_t num_ties_ = 0;          // and what it did not
-  mutable Tally tally_{};                       // of what the few were asked
+  AccuratePlaces accurate_;
+  T all_;                               // of all sites, once many questions were asked
+  Index num_unsure_ = 0;                // questions that came to the ladder
+  std::uint64_t num_over_tangent_ = 0;  // what side_over_tangent() decided
+  std::uint64_t num_ties_ = 0;          // and what it did not
+  Tally tally_{};
 };
 
 extern template class SquareSites<models::ProjectedPoints>;

@@ -13,7 +13,8 @@
 #include "bulk/block.h"
 #include "bulk/sphere.h"
 #include "bulk/stitch.h"
-#include "predicates/tally.h"
+#include "models/with_model.h"
+#include "predicates/rung.h"
 #include "system/parallel.h"
 #include "system/stage_progress.h"
 
@@ -35,7 +36,7 @@ constexpr std::size_t least_block_sites = std::size_t{1} << 13;
 constexpr std::size_t block_sites = 3 << 14;
 
 // What the threads that work on blocks share.
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class Work {
  public:
   Work(const Progress& progress, std::span<const Block> blocks)
@@ -71,7 +72,7 @@ class Work {
   std::vector<std::unique_ptr<Workspace<T>>> free_;
 };
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vector<Block>& blocks,
                                             const FaceStore& store) {
   std::vector<BlockResult> results(blocks.size());
@@ -87,7 +88,7 @@ std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vecto
 
 // Whether blocks would leave little to the seam, judged by some small ones. They do not where sites
 // lie on curves, or are hidden: then all is seam, and blocks are a detour.
-template <models::SphereTraits T>
+template <models::SphereModel T>
 bool has_short_seams(const Input& input) {
   constexpr std::size_t trial_sites = 1024;
   constexpr std::size_t share = 32;  // of the sites, for all trials
@@ -115,8 +116,8 @@ bool has_short_seams(const Input& input) {
 }
 
 bool is_worthwhile(const Input& input) {
-  return input.options.model == Model::projected ? has_short_seams<models::ProjectedPoints>(input)
-                                                 : has_short_seams<models::WeightedPoints>(input);
+  return models::with_model(input.options.model,
+                            [&]<class T> { return has_short_seams<T>(input); });
 }
 
 // Whether few sites can be hidden, as far as their distances from the center tell: between
@@ -169,9 +170,8 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const order:
   result.arrays.faces.resize(2 * num_ranks);
   result.arrays.neighbors.resize(2 * num_ranks);
   const FaceStore store = {result.arrays.faces, result.arrays.neighbors};
-  const auto results = input.options.model == Model::projected
-                           ? triangulate_blocks<models::ProjectedPoints>(input, blocks, store)
-                           : triangulate_blocks<models::WeightedPoints>(input, blocks, store);
+  const auto results = models::with_model(
+      input.options.model, [&]<class T> { return triangulate_blocks<T>(input, blocks, store); });
 
   Triangulated seam = triangulate_seam(input, results);
   if (seam.arrays.dimension < 2) return std::nullopt;

@@ -27,7 +27,7 @@
 
 namespace rondel::dynamic {
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class Editor {
  public:
   Editor(Model model, const Point& center)

@@ -21,22 +21,24 @@
 #include "dynamic/renumbering.h"
 #include "kernel/brio.h"
 #include "kernel/conflict_region.h"
+#include "kernel/conflict_test.h"
 #include "kernel/walk.h"
 #include "models/sphere_traits.h"
 #include "order/cube_position.h"
 #include "order/hilbert.h"
+#include "predicates/orientation.h"
 #include "system/prefetch.h"
 #include "topology/cavity.h"
 #include "topology/mesh.h"
 
 namespace rondel::dynamic {
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class Hull {
  public:
   // `first` are three places with a non-zero orientation.
-  Hull(const T& sites, std::array<Index, 3> first) : sites_(sites) {
-    if (sites.orientation(first[0], first[1], first[2]) == Sign::negative) {
+  Hull(T& sites, std::array<Index, 3> first) : test_(sites) {
+    if (predicates::orientation(sites, first[0], first[1], first[2]).sign == Sign::negative) {
       std::swap(first[1], first[2]);
     }
     const auto [top, bottom] = topology::flat_pair(mesh_, first);
@@ -46,7 +48,7 @@ class Hull {
 
   // The finished mesh of a build, its vertices renamed to places. Places that are hidden follow by
   // attach_hidden.
-  Hull(const T& sites, topology::Mesh mesh) : sites_(sites), mesh_(std::move(mesh)) {
+  Hull(T& sites, topology::Mesh mesh) : test_(sites), mesh_(std::move(mesh)) {
     for (Index f = 0; f < mesh_.num_slots(); ++f) {
       if (mesh_.is_alive(f)) adopt(f, false);
     }
@@ -69,7 +71,7 @@ class Hull {
   // Asks for the memory where a walk from this place, or its removal, starts.
   void prefetch(Index place) const {
     if (place >= corner_of_.size()) return;
-    sites_.prefetch(place);
+    sites().prefetch(place);
     system::prefetch(&corner_of_[place]);
   }
   // What comes next, when that has arrived.
@@ -119,7 +121,7 @@ class Hull {
       kinds_.remove(f);
       hidden_.take(f, displaced_);
     }
-    triangulation_.run(sites_, link_);
+    triangulation_.run(test_, link_);
     corner_of_[v] = no_index;
     sew();
     restart_at(outer_);
@@ -177,11 +179,14 @@ class Hull {
     return start;
   }
 
+  [[nodiscard]] const T& sites() const { return test_.sites(); }
+
   // A face that is new: its kind, its corners, and where walks start.
   void adopt(Index f, bool is_surely_solid) {
     const auto& v = mesh_[f].vertex;
-    const auto kind = is_surely_solid ? kernel::FaceKind::solid
-                                      : kernel::kind_of(sites_.orientation(v[0], v[1], v[2]));
+    const auto kind =
+        is_surely_solid ? kernel::FaceKind::solid
+                        : kernel::kind_of(predicates::orientation(sites(), v[0], v[1], v[2]).sign);
     kinds_.add(f, kind);
     if (kind == kernel::FaceKind::solid) solid_ = f;
     if (kind == kernel::FaceKind::entry) entry_ = f;
@@ -202,7 +207,7 @@ class Hull {
   }
 
   void insert_from(Index p, const Start& start) {
-    const auto place = kernel::Walk<T>(sites_, mesh_, kinds_)
+    const auto place = kernel::Walk<T>(test_, mesh_, kinds_)
                            .locate(p, current_solid(start.solid), current_entry(start.entry));
     if (place.conflict == no_index) {
       hidden_.attach(p, place.solid, place.entry);
@@ -210,7 +215,7 @@ class Hull {
     }
     // Once the center is strictly inside, insertions leave it there.
     const bool is_surely_solid = kinds_.all_solid();
-    region_.find(sites_, mesh_, p, place.conflict);
+    region_.find(test_, mesh_, p, place.conflict);
     std::vector<Index> covered = release_region();
     topology::star(mesh_, p, region_.horizon(), region_.faces());
     for (const Index f : region_.faces()) adopt(f, is_surely_solid);
@@ -244,7 +249,7 @@ class Hull {
     std::vector<std::pair<order::HilbertKey, Index>> order;
     order.reserve(places.size());
     for (const Index p : places) {
-      const auto position = order::cube_position(sites_.point(p), sites_.center());
+      const auto position = order::cube_position(sites().point(p), sites().center());
       order.emplace_back(order::hilbert_key(position), p);
     }
     std::ranges::sort(order);
@@ -290,7 +295,7 @@ class Hull {
 
   // Finds the faces that hide q.
   void cover(Index q, const Start& start) {
-    const auto place = kernel::Walk<T>(sites_, mesh_, kinds_).locate(q, start.solid, start.entry);
+    const auto place = kernel::Walk<T>(test_, mesh_, kinds_).locate(q, start.solid, start.entry);
     assert(place.conflict == no_index);
     hidden_.attach(q, place.solid, place.entry);
   }
@@ -319,7 +324,7 @@ class Hull {
     for (const Index f : star_) adopt(f, false);
   }
 
-  const T& sites_;
+  kernel::ConflictTest<T> test_;
   topology::Mesh mesh_;
   kernel::FaceKinds kinds_;
   HiddenSites hidden_;

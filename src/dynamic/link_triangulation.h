@@ -23,17 +23,17 @@
 #include <utility>
 #include <vector>
 
-#include "models/sphere_traits.h"
+#include "kernel/conflict_test.h"
 #include "topology/cavity.h"
 #include "topology/mesh.h"
 
 namespace rondel::dynamic {
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class LinkTriangulation {
  public:
   // `link` has at least three vertices, counterclockwise seen from outside.
-  void run(const T& sites, std::span<const Index> link) {
+  void run(kernel::ConflictTest<T>& test, std::span<const Index> link) {
     const auto size = static_cast<Index>(link.size());
     shuffle(size);
     for (Index i = 0; i + 3 < size; ++i) {
@@ -42,7 +42,7 @@ class LinkTriangulation {
       previous_[next_[u]] = previous_[u];
     }
     start(order_[size - 3]);
-    for (Index i = size - 3; i-- > 0;) put_back(sites, link, order_[i]);
+    for (Index i = size - 3; i-- > 0;) put_back(test, link, order_[i]);
   }
 
   // Vertices are positions in the link. An edge of the polygon has no opposite.
@@ -75,17 +75,17 @@ class LinkTriangulation {
     inner_[a] = topology::halfedge(0, 2);
   }
 
-  void put_back(const T& sites, std::span<const Index> link, Index u) {
+  void put_back(kernel::ConflictTest<T>& test, std::span<const Index> link, Index u) {
     const Index a = previous_[u];
     const Index b = next_[u];
-    find_conflict_region(sites, link, u, {b, inner_[a]});
+    find_conflict_region(test, link, u, {b, inner_[a]});
     fan(u, a);
     next_[a] = u;
     previous_[b] = u;
   }
 
   // As in kernel/conflict_region.h, entering through one edge of the polygon.
-  void find_conflict_region(const T& sites, std::span<const Index> link, Index u,
+  void find_conflict_region(kernel::ConflictTest<T>& test, std::span<const Index> link, Index u,
                             topology::HorizonEdge entry) {
     region_.clear();
     horizon_.clear();
@@ -93,7 +93,7 @@ class LinkTriangulation {
     while (!stack_.empty()) {
       const topology::HorizonEdge edge = stack_.back();
       stack_.pop_back();
-      if (edge.outside == no_index || !is_in_conflict(sites, link, u, edge.outside)) {
+      if (edge.outside == no_index || !is_in_conflict(test, link, u, edge.outside)) {
         horizon_.push_back(edge);
         continue;
       }
@@ -108,10 +108,10 @@ class LinkTriangulation {
     }
   }
 
-  [[nodiscard]] bool is_in_conflict(const T& sites, std::span<const Index> link, Index u,
-                                    topology::Halfedge h) const {
+  [[nodiscard]] bool is_in_conflict(kernel::ConflictTest<T>& test, std::span<const Index> link,
+                                    Index u, topology::Halfedge h) const {
     const auto& v = faces_[topology::face_of(h)].vertex;
-    return sites.is_in_conflict(link[v[0]], link[v[1]], link[v[2]], link[u]);
+    return test.is_in_conflict({link[v[0]], link[v[1]], link[v[2]]}, link[u]);
   }
 
   // One face (u, s, t) for each edge s -> t of the horizon, which ends at `last`.

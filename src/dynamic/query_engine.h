@@ -10,7 +10,7 @@
 
 namespace rondel::dynamic {
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class HullDirectory final : public query::Directory {
  public:
   explicit HullDirectory(const Editor<T>& editor) : editor_(editor) {}
@@ -35,7 +35,7 @@ class HullDirectory final : public query::Directory {
   const Editor<T>& editor_;
 };
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class HullEngine final : public query::SurfaceEngine<T> {
  public:
   HullEngine(const Editor<T>& editor, const Sphere& sphere)

@@ -14,7 +14,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "predicates/filtered.h"
+#include "predicates/rung.h"
 
 namespace rondel::hidden {
 

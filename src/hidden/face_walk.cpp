@@ -80,7 +80,7 @@ std::size_t FaceWalk::edge_by_corners(Index f, const Point& p, const Vector& v) 
 std::array<Sign, 3> FaceWalk::exact_sides(Index f, const Point& p) const {
   const auto& [a, b, c] = arrays_.faces[f];
   const auto side = [&](Index from, Index to) {
-    return predicates::orientation_ladder(sites_[from], sites_[to], p, center_).sign;
+    return predicates::orientation(sites_[from], sites_[to], p, center_).sign;
   };
   return {side(b, c), side(c, a), side(a, b)};
 }

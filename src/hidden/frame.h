@@ -11,7 +11,7 @@
 #include <cmath>
 #include <span>
 
-#include "predicates/filtered.h"
+#include "predicates/rung.h"
 #include "rondel/types.h"
 
 namespace rondel::hidden {

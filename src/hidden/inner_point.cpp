@@ -47,7 +47,7 @@ Point smallest(std::span<const Point> sites) {
 
 // The orientation of d seen from the face (a, b, c): zero when the four are coplanar.
 Sign orientation(const Tetrahedron& t) {
-  return predicates::orientation_ladder(t[1], t[2], t[3], t[0]).sign;
+  return predicates::orientation(t[1], t[2], t[3], t[0]).sign;
 }
 
 Tetrahedron far_corners(std::span<const Point> sites, const Point& a, const Frame& frame) {

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "models/sphere_traits.h"
+#include "kernel/conflict_test.h"
 #include "system/prefetch.h"
 #include "topology/cavity.h"
 #include "topology/mesh.h"
@@ -25,22 +25,21 @@ class ConflictRegion {
   //
   // Where no vertex can become hidden, the region has no inner vertex and its dual
   // graph is a tree: no face is met twice. Otherwise visited faces are remembered.
-  void find(const T& sites, const topology::Mesh& mesh, Index p, Index start) {
+  void find(ConflictTest<T>& test, const topology::Mesh& mesh, Index p, Index start) {
     faces_.assign(1, start);
     horizon_.clear();
     stack_.clear();
     const topology::Face& face = mesh[start];
     const auto& last = mesh[topology::face_of(face.opposite[2])].vertex;
-    stack_.push_back(
-        {face.vertex[0], face.opposite[2], sites.is_in_conflict(last[0], last[1], last[2], p)});
-    Crossing next = cross_edges(sites, mesh, p, face, 0, 1);
+    stack_.push_back({face.vertex[0], face.opposite[2], test.is_in_conflict(last, p)});
+    Crossing next = cross_edges(test, mesh, p, face, 0, 1);
     for (;;) {
       if (next.is_in_conflict) {
         const Index f = topology::face_of(next.outside);
         if (!is_known(f)) {
           add(f);
           const unsigned entered = topology::edge_of(next.outside);
-          next = cross_edges(sites, mesh, p, mesh[f], topology::next_corner[entered],
+          next = cross_edges(test, mesh, p, mesh[f], topology::next_corner[entered],
                              topology::previous_corner[entered]);
           continue;
         }
@@ -69,14 +68,15 @@ class ConflictRegion {
   };
 
   // Returns the first crossing and leaves the second for later. Edge i runs from corner i+1.
-  Crossing cross_edges(const T& sites, const topology::Mesh& mesh, Index p,
-                       const topology::Face& face, unsigned first, unsigned second) {
+  [[gnu::always_inline]] Crossing cross_edges(ConflictTest<T>& test, const topology::Mesh& mesh,
+                                              Index p, const topology::Face& face, unsigned first,
+                                              unsigned second) {
     const topology::Halfedge a = face.opposite[first];
     const topology::Halfedge b = face.opposite[second];
     prefetch_beyond(mesh, a);
     prefetch_beyond(mesh, b);
-    const auto [is_a, is_b] = sites.are_in_conflict(mesh[topology::face_of(a)].vertex,
-                                                    mesh[topology::face_of(b)].vertex, p);
+    const auto [is_a, is_b] = test.are_in_conflict(mesh[topology::face_of(a)].vertex,
+                                                   mesh[topology::face_of(b)].vertex, p);
     stack_.push_back({face.vertex[topology::next_corner[second]], b, is_b});
     return {face.vertex[topology::next_corner[first]], a, is_a};
   }

@@ -132,8 +132,8 @@ std::vector<Index> find_span(std::span<const Point> points, const Point& center)
         span.empty() ? points[i] != center
         : span.size() == 1
             ? !predicates::are_collinear(center, points[span[0]], points[i])
-            : predicates::orientation_ladder(points[span[0]], points[span[1]], points[i], center)
-                      .sign != Sign::zero;
+            : predicates::orientation(points[span[0]], points[span[1]], points[i], center).sign !=
+                  Sign::zero;
     if (is_new) span.push_back(i);
   }
   return span;

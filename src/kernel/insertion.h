@@ -17,8 +17,10 @@
 #include <vector>
 
 #include "kernel/conflict_region.h"
+#include "kernel/conflict_test.h"
 #include "kernel/walk.h"
 #include "models/sphere_traits.h"
+#include "predicates/orientation.h"
 #include "topology/cavity.h"
 #include "topology/mesh.h"
 
@@ -28,9 +30,9 @@ template <models::SphereTraits T>
 class Insertion {
  public:
   // `first` are three sites with a non-zero orientation.
-  Insertion(const T& sites, std::array<Index, 3> first) : sites_(sites) {
+  Insertion(T& sites, std::array<Index, 3> first) : test_(sites) {
     mesh_.reserve(2 * static_cast<std::size_t>(sites.size()));
-    if (sites.orientation(first[0], first[1], first[2]) == Sign::negative) {
+    if (predicates::orientation(sites, first[0], first[1], first[2]).sign == Sign::negative) {
       std::swap(first[1], first[2]);
     }
     const auto [top, bottom] = topology::flat_pair(mesh_, first);
@@ -41,9 +43,9 @@ class Insertion {
   }
 
   void insert(Index p) {
-    const Index start = Walk<T>(sites_, mesh_, kinds_).locate(p, solid_, entry_).conflict;
+    const Index start = Walk<T>(test_, mesh_, kinds_).locate(p, solid_, entry_).conflict;
     if (start == no_index) return;
-    region_.find(sites_, mesh_, p, start);
+    region_.find(test_, mesh_, p, start);
     assert(region_.horizon().size() >= 3);
     if (!tracks_kinds_) {
       topology::star(mesh_, p, region_.horizon(), region_.faces());
@@ -58,6 +60,8 @@ class Insertion {
   [[nodiscard]] const topology::Mesh& mesh() const { return mesh_; }
   [[nodiscard]] topology::Mesh& mesh() { return mesh_; }
   [[nodiscard]] const FaceKinds& kinds() const { return kinds_; }
+  // Of all conflict tests.
+  [[nodiscard]] const Tally& tally() const { return test_.tally(); }
 
  private:
   // Where the walks start next. A solid (entry) face can only vanish if the star has one too:
@@ -66,7 +70,7 @@ class Insertion {
     entry_ = entry_ != no_index && is_current(entry_, FaceKind::entry) ? entry_ : no_index;
     for (const Index f : region_.faces()) {
       const auto& v = mesh_[f].vertex;
-      const FaceKind kind = kind_of(sites_.orientation(v[0], v[1], v[2]));
+      const FaceKind kind = kind_of(predicates::orientation(test_.sites(), v[0], v[1], v[2]).sign);
       kinds_.add(f, kind);
       if (kind == FaceKind::solid) solid_ = f;
       if (kind == FaceKind::entry) entry_ = f;
@@ -84,7 +88,7 @@ class Insertion {
            kinds_[f] == kind;
   }
 
-  const T& sites_;
+  ConflictTest<T> test_;
   topology::Mesh mesh_;
   FaceKinds kinds_;
   bool tracks_kinds_ = true;

@@ -12,8 +12,7 @@
 #include "kernel/canonical.h"
 #include "kernel/great_circle.h"
 #include "kernel/insertion.h"
-#include "models/projected_points.h"
-#include "models/weighted_points.h"
+#include "models/with_model.h"
 
 namespace rondel::kernel {
 namespace {
@@ -54,7 +53,7 @@ std::vector<Hidden> find_hidden(const topology::Mesh& mesh, Index num_ranks) {
   return hidden;
 }
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 Triangulated build(std::span<const Point> sites, std::vector<Index> order,
                    std::span<const order::Renamed> renamed, std::vector<Index> insertion,
                    std::span<const Index> first, const Options& options) {
@@ -74,7 +73,7 @@ Triangulated build(std::span<const Point> sites, std::vector<Index> order,
   Triangulated result;
   result.arrays.dimension = 2;
   result.arrays.hidden = find_hidden<T>(kernel.mesh(), num_ranks);
-  result.tally = traits->tally();
+  result.tally = kernel.tally();
   traits.reset();
   write_canonical(kernel.mesh(), order, std::move(insertion), result.arrays);
   report_ghosts(kernel.mesh(), kernel.kinds(), result.arrays.ghost_faces);
@@ -114,11 +113,9 @@ Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
   auto insertion = insertion_order(static_cast<Index>(order.size()));
   const auto first = find_first(sites, order, insertion, options.sphere.center);
   if (first.size() < 3) return build_ring(sites, std::move(order), renamed, options);
-  return options.model == Model::projected
-             ? build<models::ProjectedPoints>(sites, std::move(order), renamed,
-                                              std::move(insertion), first, options)
-             : build<models::WeightedPoints>(sites, std::move(order), renamed, std::move(insertion),
-                                             first, options);
+  return models::with_model(options.model, [&]<class T> {
+    return build<T>(sites, std::move(order), renamed, std::move(insertion), first, options);
+  });
 }
 
 }  // namespace rondel::kernel

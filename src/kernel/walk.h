@@ -22,7 +22,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "models/sphere_traits.h"
+#include "kernel/conflict_test.h"
 #include "predicates/orientation.h"
 #include "system/prefetch.h"
 #include "topology/mesh.h"
@@ -66,8 +66,8 @@ class FaceKinds {
 template <models::SphereTraits T>
 class Walk {
  public:
-  Walk(const T& sites, const topology::Mesh& mesh, const FaceKinds& kinds)
-      : sites_(sites), mesh_(mesh), kinds_(kinds) {}
+  Walk(ConflictTest<T>& test, const topology::Mesh& mesh, const FaceKinds& kinds)
+      : test_(test), sites_(test.sites()), mesh_(mesh), kinds_(kinds) {}
 
   // Where p is. A hidden site has a solid face above it, and an entry face below it unless there
   // is none or its ray touches the hull in grazing faces only.
@@ -99,8 +99,7 @@ class Walk {
   };
 
   [[nodiscard]] bool is_in_conflict(Index f, Index p) const {
-    const auto& v = mesh_[f].vertex;
-    return sites_.is_in_conflict(v[0], v[1], v[2], p);
+    return test_.is_in_conflict(mesh_[f].vertex, p);
   }
 
   // A visibility walk in doubles, which crosses an edge only where p is beyond it for certain. So
@@ -152,8 +151,8 @@ class Walk {
       Index next = no_index;
       for (unsigned i = 0; i < 3 && next == no_index; ++i) {
         const unsigned a = topology::next_corner[i];
-        const Sign side =
-            sites_.orientation(face.vertex[a], face.vertex[topology::next_corner[a]], p);
+        const Index b = face.vertex[topology::next_corner[a]];
+        const Sign side = predicates::orientation(sites_, face.vertex[a], b, p).sign;
         if (side == outwards) next = topology::face_of(face.opposite[i]);
       }
       if (next == no_index) return {f};
@@ -162,6 +161,7 @@ class Walk {
     }
   }
 
+  ConflictTest<T>& test_;
   const T& sites_;
   const topology::Mesh& mesh_;
   const FaceKinds& kinds_;

@@ -15,15 +15,6 @@ namespace {
 using exact::Ball;
 using exact::DoubleDouble;
 
-Sign angle_by_double_double(const Point& a, const Point& b, const Point& p, const Point& center) {
-  const exact::SplitPoint u = exact::unit_vector(p, center);
-  const DoubleDouble a2 = squared_chord(u, exact::unit_vector(a, center));
-  const DoubleDouble b2 = squared_chord(u, exact::unit_vector(b, center));
-  const double value = (b2 - a2).hi;
-  constexpr double bound = angle_double_double_bound * angle_double_double_bound;
-  return unless_unsure(value, value * value > bound * std::max(a2.hi, b2.hi));
-}
-
 // The sign of pa sqrt(b2) - pb sqrt(a2), if it is known.
 template <std::size_t N>
 std::optional<Sign> sign_of_two_roots(const Ball<N>& pa, const Ball<N>& b2, const Ball<N>& pb,
@@ -39,7 +30,18 @@ std::optional<Sign> sign_of_two_roots(const Ball<N>& pa, const Ball<N>& b2, cons
   return are_equal ? *size : *sign * *size;
 }
 
-Sign angle_exact(const Point& a, const Point& b, const Point& p, const Point& center) {
+}  // namespace
+
+Sign compare_angle_double_double(const exact::SplitPoint& a, const exact::SplitPoint& b,
+                                 const exact::SplitPoint& p) {
+  const DoubleDouble a2 = squared_chord(p, a);
+  const DoubleDouble b2 = squared_chord(p, b);
+  const double value = (b2 - a2).hi;
+  constexpr double bound = angle_double_double_bound * angle_double_double_bound;
+  return unless_unsure(value, value * value > bound * std::max(a2.hi, b2.hi));
+}
+
+Sign compare_angle_exact(const Point& a, const Point& b, const Point& p, const Point& center) {
   return exact::sign_of_sextic([&](const auto& step) {
     const auto to_a = step(center, a);
     const auto to_b = step(center, b);
@@ -48,20 +50,8 @@ Sign angle_exact(const Point& a, const Point& b, const Point& p, const Point& ce
   });
 }
 
-Sign power_exact(const Point& a, const Point& b, const Point& p, const Point& center) {
+Sign compare_power_exact(const Point& a, const Point& b, const Point& p, const Point& center) {
   return exact::sign_of_cubic([&](const auto& step) { return dot(step(b, a), step(center, p)); });
-}
-
-}  // namespace
-
-Decision compare_angle_ladder(const Point& a, const Point& b, const Point& p, const Point& center) {
-  const Sign sign = angle_by_double_double(a, b, p, center);
-  if (sign != Sign::zero) return {sign, Rung::double_double};
-  return {angle_exact(a, b, p, center), Rung::exact};
-}
-
-Decision compare_power_ladder(const Point& a, const Point& b, const Point& p, const Point& center) {
-  return {power_exact(a, b, p, center), Rung::exact};
 }
 
 }  // namespace rondel::predicates

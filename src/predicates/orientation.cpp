@@ -70,7 +70,7 @@ Sign filter_of_scaled(const Point& a, const Point& b, const Point& c, const Poin
 
 }  // namespace
 
-Decision orientation_ladder(const Point& a, const Point& b, const Point& c, const Point& center) {
+Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center) {
   if (const Sign sign = filter(a, b, c, center); sign != Sign::zero) return {sign, Rung::filter};
   if (const Sign sign = filter_of_scaled(a, b, c, center); sign != Sign::zero) {
     return {sign, Rung::filter};

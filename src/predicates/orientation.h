@@ -9,8 +9,8 @@
 // 3. Unchanged when a point moves along its ray.
 #pragma once
 
-#include "predicates/filtered.h"
-#include "predicates/tally.h"
+#include "predicates/points.h"
+#include "predicates/rung.h"
 
 namespace rondel::predicates {
 
@@ -36,7 +36,19 @@ inline Sign orientation_filter(const Vector& a, const Vector& b, const Vector& c
   return unless_unsure(value, is_direction_orientation_certain(value, ab, ac));
 }
 
-// The whole ladder for exact data.
-Decision orientation_ladder(const Point& a, const Point& b, const Point& c, const Point& center);
+// The ladder, for points as given: a filter in doubles, then with vectors of length about 1, then
+// balls of more and more words.
+Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center);
+
+// The ladder, for points that may have directions: then these have a filter before.
+template <PointSource S>
+[[nodiscard]] Decision orientation(S& points, Index a, Index b, Index c) {
+  if constexpr (S::model == Model::projected) {
+    const Sign sign =
+        orientation_filter(points.direction(a), points.direction(b), points.direction(c));
+    if (sign != Sign::zero) return {sign, Rung::filter};
+  }
+  return orientation(points.point(a), points.point(b), points.point(c), points.center());
+}
 
 }  // namespace rondel::predicates

@@ -38,7 +38,7 @@ Order raising_order(const Four& points) {
 Sign raise_from_center(const Four& points, const Order& order, const Point& center) {
   for (const std::size_t role : order) {
     const auto& [i, j, k] = triple_of[role];
-    const Sign sign = orientation_ladder(points[i], points[j], points[k], center).sign;
+    const Sign sign = orientation(points[i], points[j], points[k], center).sign;
     if (sign != Sign::zero) return factor_of[role] * sign;
   }
   return Sign::zero;

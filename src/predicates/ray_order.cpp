@@ -8,7 +8,7 @@
 #include <cstddef>
 
 #include "exact/exact_sign.h"
-#include "predicates/filtered.h"
+#include "predicates/rung.h"
 
 namespace rondel::predicates {
 namespace {

@@ -12,7 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "predicates/filtered.h"
+#include "predicates/rung.h"
 
 namespace rondel::predicates {
 

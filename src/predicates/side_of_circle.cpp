@@ -89,16 +89,4 @@ Sign side_of_circle_double_double(const SplitPoint& b, const SplitPoint& c, cons
   return unless_unsure(value, std::abs(value) > circle_double_double_bound * m);
 }
 
-Decision side_of_circle_ladder(const Point& b, const Point& c, const Point& d, const Point& p,
-                               const Point& center) {
-  const Sign sign =
-      side_of_circle_double_double(exact::unit_vector(b, center), exact::unit_vector(c, center),
-                                   exact::unit_vector(d, center), exact::unit_vector(p, center));
-  if (sign != Sign::zero) return {sign, Rung::double_double};
-  if (const Sign close = side_of_circle_close(b, c, d, p, center); close != Sign::zero) {
-    return {close, Rung::double_double};
-  }
-  return {side_of_circle_exact(b, c, d, p, center), Rung::exact};
-}
-
 }  // namespace rondel::predicates

@@ -13,16 +13,16 @@
 // 2. Odd under exchange of two arguments.
 // 3. Unchanged when a point moves along its ray.
 //
-// Rungs: the left side in doubles, which decides while the sites are not close;
-// the right side in doubles, whose error is of order u H^3 against a value of order H^4 at
-// any distance H; the right side with 64 bits, from split unit vectors; the left side in
-// double-double; the right side in doubles from differences of the points as given, whose error is
-// of order u H^4; balls of more and more words; the sign of a sum of four square roots in integers.
+// These are the rungs; conflict.h composes them. Filter: the left side in doubles, which decides
+// while the sites are not close, then the right side in doubles, whose error is of order u H^3
+// against a value of order H^4 at any distance H. Extended: the right side with 64 bits, from split
+// unit vectors. Double-double: the left side. Close: the right side in doubles from differences of
+// the points as given, whose error is of order u H^4. Exact: balls of more and more words; the sign
+// of a sum of four square roots in integers.
 #pragma once
 
 #include "exact/unit_vector.h"
-#include "predicates/filtered.h"
-#include "predicates/tally.h"
+#include "predicates/rung.h"
 
 namespace rondel::predicates {
 
@@ -49,26 +49,22 @@ inline Sign side_of_circle_filter(const Vector& b, const Vector& c, const Vector
   return unless_unsure(value, value * value > bound * (m * m * m));
 }
 
-// The second rung, where the processor has numbers of 64 bits; zero elsewhere. It decides what the
-// roundings of coordinates leave of ties. The unit vectors must be within 2^-100 of the exact ones.
+// Unsure of everything where the processor has no numbers of 64 bits. Decides what the roundings of
+// coordinates leave of ties. The unit vectors must be within 2^-100 of the exact ones.
 Sign side_of_circle_extended(const exact::SplitPoint& b, const exact::SplitPoint& c,
                              const exact::SplitPoint& d, const exact::SplitPoint& p);
 
-// The third rung, for the same.
+// For unit vectors within 2^-100 of the exact ones.
 Sign side_of_circle_double_double(const exact::SplitPoint& b, const exact::SplitPoint& c,
                                   const exact::SplitPoint& d, const exact::SplitPoint& p);
 
-// The fourth rung, for points as given, however close: in doubles, from differences of the points
-// and not of their directions (side_of_circle_close.cpp).
+// For points as given, however close: in doubles, from differences of the points and not of their
+// directions (side_of_circle_close.cpp).
 Sign side_of_circle_close(const Point& b, const Point& c, const Point& d, const Point& p,
                           const Point& center);
 
-// The last rung: the exact sign for points as given.
+// For points as given. Never unsure: zero is a tie.
 Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const Point& p,
                           const Point& center);
-
-// The rungs above the filter, for points as given.
-Decision side_of_circle_ladder(const Point& b, const Point& c, const Point& d, const Point& p,
-                               const Point& center);
 
 }  // namespace rondel::predicates

@@ -33,12 +33,12 @@ struct Ray {
 };
 
 using FourRays = std::array<Ray, 4>;  // b, c, d, p
-using FourPoints = std::array<Vector, 4>;
+using GivenPoints = std::array<Vector, 4>;
 
 // Rays of lengths between 1 and 4, and the points that they lead to, all from the center:
 // multiplied by one power of two where lengths agree that far, by one for each ray where the center
 // is 0. Empty for lengths far out of the range of doubles.
-std::optional<FourRays> comparable_rays(FourPoints& points, const Point& center) {
+std::optional<FourRays> comparable_rays(GivenPoints& points, const Point& center) {
   const Vector origin = to_vector(center);
   FourRays rays{};
   std::array<int, 4> exponents{};
@@ -80,7 +80,7 @@ std::optional<Step> step_between(const Vector& difference, const Ray& p, const R
 
 Sign side_of_circle_close(const Point& b, const Point& c, const Point& d, const Point& p,
                           const Point& center) {
-  FourPoints points = {to_vector(b), to_vector(c), to_vector(d), to_vector(p)};
+  GivenPoints points = {to_vector(b), to_vector(c), to_vector(d), to_vector(p)};
   const std::optional<FourRays> rays = comparable_rays(points, center);
   if (!rays) return Sign::zero;
   const auto order = order_for_best_origin(points);

@@ -18,13 +18,13 @@ using exact::Ball;
 using exact::BallStep;
 using exact::BallVector;
 
-using FourPoints = std::array<Point, 4>;  // b, c, d, p
+using GivenPoints = std::array<Point, 4>;  // b, c, d, p
 
 template <std::size_t N>
 using FourRays = std::array<BallVector<N>, 4>;
 
 template <std::size_t N>
-FourRays<N> rays_to(const FourPoints& points, const Point& center, const BallStep<N>& step) {
+FourRays<N> rays_to(const GivenPoints& points, const Point& center, const BallStep<N>& step) {
   return {step(center, points[0]), step(center, points[1]), step(center, points[2]),
           step(center, points[3])};
 }
@@ -193,7 +193,7 @@ std::optional<Sign> sign_by_edges(const FourRays<N>& rays) {
   return *factor * *sign;
 }
 
-Sign sign_by_integers(const FourPoints& points, const Point& center) {
+Sign sign_by_integers(const GivenPoints& points, const Point& center) {
   const auto v = exact::scaled_rays({points[0], points[1], points[2], points[3]}, center);
   const std::array<exact::Integer, 4> coefficients = {
       -det(v[0], v[1], v[2]), det(v[3], v[1], v[2]), -det(v[3], v[0], v[2]), det(v[3], v[0], v[1])};
@@ -206,7 +206,7 @@ Sign sign_by_integers(const FourPoints& points, const Point& center) {
 
 Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const Point& p,
                           const Point& center) {
-  const FourPoints points = {b, c, d, p};
+  const GivenPoints points = {b, c, d, p};
   const auto by_edges = [&](const auto& step) {
     return sign_by_edges(rays_to(points, center, step));
   };

@@ -12,10 +12,13 @@
 // 1. Positive: in conflict. Zero: the four points are coplanar.
 // 2. Odd under exchange of two arguments.
 // 3. Does not depend on the center of the sphere.
+//
+// These are the rungs; conflict.h composes them.
 #pragma once
 
-#include "predicates/filtered.h"
-#include "predicates/tally.h"
+#include <array>
+
+#include "predicates/rung.h"
 
 namespace rondel::predicates {
 
@@ -28,8 +31,28 @@ inline Sign side_of_plane_filter(const Vector& b, const Vector& c, const Vector&
   return unless_unsure(value, is_beyond(value, plane_bound, dot(pb, pb), dot(pc, pc), dot(pd, pd)));
 }
 
-// All rungs: the filter again with the differences taken from the point from which they are
-// shortest, which decides when sites of very different weights meet, then those above.
-Decision side_of_plane_ladder(const Point& b, const Point& c, const Point& d, const Point& p);
+using Quad = std::array<Point, 4>;  // b, c, d, p
+
+// The same four in an even permutation, of which the last one, from which the rungs take the
+// differences, is the best for that: so the filter decides when sites of very different weights
+// meet.
+Quad with_best_origin(const Quad& q);
+
+// The differences b-p, c-p and d-p, exactly, each multiplied by a power of two that makes its
+// length about 1.
+struct PlaneSteps {
+  exact::Vector3<exact::DoubleDouble> b;
+  exact::Vector3<exact::DoubleDouble> c;
+  exact::Vector3<exact::DoubleDouble> d;
+};
+PlaneSteps scaled_steps(const Quad& q);
+
+// The filter for differences of any size.
+Sign side_of_plane_scaled_filter(const PlaneSteps& steps);
+
+Sign side_of_plane_double_double(const PlaneSteps& steps);
+
+// Never unsure: zero is a tie.
+Sign side_of_plane_exact(const Quad& q);
 
 }  // namespace rondel::predicates

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "exact/exact_sign.h"
-#include "predicates/filtered.h"
+#include "predicates/rung.h"
 
 namespace rondel::predicates {
 namespace {

@@ -32,34 +32,6 @@ std::optional<Sign> compare_with_root(const Ball<N>& x, const Cosine& cosine, co
   return left * *squares;
 }
 
-Sign angle_exact(const Point& a, const Point& p, const Cosine& cosine, const Point& center) {
-  return exact::sign_of_sextic([&](const auto& step) {
-    const auto v = step(center, a);
-    const auto w = step(center, p);
-    return compare_with_root(dot(v, w), cosine, dot(v, v) * dot(w, w));
-  });
-}
-
-Sign power_exact(const Point& a, const Point& p, const Cosine& cosine, const Sphere& sphere) {
-  return exact::sign_of_sextic([&]<std::size_t N>(const exact::BallStep<N>& step) {
-    const auto v = step(sphere.center, a);
-    const auto ray = step(sphere.center, p);
-    return compare_with_root(dot(ray, v), cosine, Ball<N>(sphere.squared_radius) * dot(ray, ray));
-  });
-}
-
-Sign power_filter(const Point& a, const Point& p, const Cosine& cosine, const Sphere& sphere) {
-  const Vector ray = to_vector(p) - to_vector(sphere.center);
-  const Vector v = to_vector(a) - to_vector(sphere.center);
-  const double ray2 = dot(ray, ray);
-  const double limit = std::sqrt(ray2 * sphere.squared_radius) * (1 - cosine.t / 2);
-  const double size = std::sqrt(ray2 * dot(v, v)) + std::abs(limit);
-  const double value = dot(ray, v) - (cosine.is_positive ? limit : -limit);
-  const bool is_safe =
-      size > 0x1p-400 && ray2 > 0x1p-800 && ray2 * sphere.squared_radius > 0x1p-800;
-  return unless_unsure(value, is_safe && std::abs(value) > within_power_bound * size);
-}
-
 }  // namespace
 
 Cosine cosine_of(double angle) {
@@ -70,25 +42,48 @@ Cosine cosine_of(double angle) {
   return {is_positive, std::min(4 * (sine * sine), 2.0)};
 }
 
-Decision is_within_angle_ladder(const Point& a, const Point& p, const Cosine& cosine,
-                                const Point& center) {
-  exact::SplitPoint u = exact::unit_vector(p, center);
+Sign is_within_angle_double_double(const exact::SplitPoint& a, const exact::SplitPoint& p,
+                                   const Cosine& cosine) {
+  exact::SplitPoint u = p;
   if (!cosine.is_positive) {
     u = {{-u.hi.x, -u.hi.y, -u.hi.z}, {-u.lo.x, -u.lo.y, -u.lo.z}};
   }
-  const exact::DoubleDouble d2 = squared_chord(u, exact::unit_vector(a, center));
+  const exact::DoubleDouble d2 = squared_chord(u, a);
   const double excess = (d2 - exact::DoubleDouble{cosine.t, 0}).hi;
   constexpr double bound = angle_double_double_bound * angle_double_double_bound;
   const Sign sign = unless_unsure(excess, excess * excess > bound * std::max(d2.hi, cosine.t));
-  if (sign != Sign::zero) return {cosine.is_positive ? -sign : sign, Rung::double_double};
-  return {angle_exact(a, p, cosine, center), Rung::exact};
+  return cosine.is_positive ? -sign : sign;
 }
 
-Decision is_within_power_ladder(const Point& a, const Point& p, const Cosine& cosine,
-                                const Sphere& sphere) {
-  const Sign sign = power_filter(a, p, cosine, sphere);
-  if (sign != Sign::zero) return {sign, Rung::filter};
-  return {power_exact(a, p, cosine, sphere), Rung::exact};
+Sign is_within_angle_exact(const Point& a, const Point& p, const Cosine& cosine,
+                           const Point& center) {
+  return exact::sign_of_sextic([&](const auto& step) {
+    const auto v = step(center, a);
+    const auto w = step(center, p);
+    return compare_with_root(dot(v, w), cosine, dot(v, v) * dot(w, w));
+  });
+}
+
+Sign is_within_power_exact(const Point& a, const Point& p, const Cosine& cosine,
+                           const Sphere& sphere) {
+  return exact::sign_of_sextic([&]<std::size_t N>(const exact::BallStep<N>& step) {
+    const auto v = step(sphere.center, a);
+    const auto ray = step(sphere.center, p);
+    return compare_with_root(dot(ray, v), cosine, Ball<N>(sphere.squared_radius) * dot(ray, ray));
+  });
+}
+
+Sign is_within_power_filter(const Point& a, const Point& p, const Cosine& cosine,
+                            const Sphere& sphere) {
+  const Vector ray = to_vector(p) - to_vector(sphere.center);
+  const Vector v = to_vector(a) - to_vector(sphere.center);
+  const double ray2 = dot(ray, ray);
+  const double limit = std::sqrt(ray2 * sphere.squared_radius) * (1 - cosine.t / 2);
+  const double size = std::sqrt(ray2 * dot(v, v)) + std::abs(limit);
+  const double value = dot(ray, v) - (cosine.is_positive ? limit : -limit);
+  const bool is_safe =
+      size > 0x1p-400 && ray2 > 0x1p-800 && ray2 * sphere.squared_radius > 0x1p-800;
+  return unless_unsure(value, is_safe && std::abs(value) > within_power_bound * size);
 }
 
 }  // namespace rondel::predicates

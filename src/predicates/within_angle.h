@@ -12,8 +12,8 @@
 // angles keep their full precision. For this c the test is exact.
 #pragma once
 
-#include "predicates/filtered.h"
-#include "predicates/tally.h"
+#include "predicates/points.h"
+#include "predicates/rung.h"
 
 namespace rondel::predicates {
 
@@ -26,8 +26,10 @@ struct Cosine {
 // below 1e-150 it counts as 0. Precondition: 0 <= angle < pi.
 Cosine cosine_of(double angle);
 
-// |u_p - u_a|^2 <= t, or |u_p + u_a|^2 >= t beyond 90 degrees, from stored directions: positive for
-// yes, zero for unsure.
+// --- the rungs: positive for inside ---
+
+// |u_p - u_a|^2 <= t, or |u_p + u_a|^2 >= t beyond 90 degrees, of directions within
+// `direction_error` of unit vectors.
 inline Sign is_within_angle_filter(const Vector& a, const Vector& p, const Cosine& cosine) {
   const Vector d = cosine.is_positive ? p - a : p + a;
   const double d2 = dot(d, d);
@@ -36,12 +38,40 @@ inline Sign is_within_angle_filter(const Vector& a, const Vector& p, const Cosin
   return unless_unsure(value, value * value > bound * std::max(d2, cosine.t));
 }
 
-// The rungs above the filter; zero means on the boundary, which belongs to the inside.
-Decision is_within_angle_ladder(const Point& a, const Point& p, const Cosine& cosine,
-                                const Point& center);
+// The same from unit vectors within 2^-100 of the exact ones.
+Sign is_within_angle_double_double(const exact::SplitPoint& a, const exact::SplitPoint& p,
+                                   const Cosine& cosine);
 
-// The whole ladder of the weighted model.
-Decision is_within_power_ladder(const Point& a, const Point& p, const Cosine& cosine,
-                                const Sphere& sphere);
+// Never unsure: zero on the boundary.
+Sign is_within_angle_exact(const Point& a, const Point& p, const Cosine& cosine,
+                           const Point& center);
+
+Sign is_within_power_filter(const Point& a, const Point& p, const Cosine& cosine,
+                            const Sphere& sphere);
+Sign is_within_power_exact(const Point& a, const Point& p, const Cosine& cosine,
+                           const Sphere& sphere);
+
+// --- the ladders: zero on the boundary, which belongs to the inside ---
+
+// Projected.
+template <RaySource S>
+[[nodiscard]] Decision is_within_angle(S& points, Index a, Index p, const Cosine& cosine) {
+  Sign sign = is_within_angle_filter(points.direction(a), points.direction(p), cosine);
+  if (sign != Sign::zero) return {sign, Rung::filter};
+  sign = is_within_angle_double_double(points.split(a), points.split(p), cosine);
+  if (sign != Sign::zero) return {sign, Rung::double_double};
+  return {is_within_angle_exact(points.point(a), points.point(p), cosine, points.center()),
+          Rung::exact};
+}
+
+// Weighted, on a sphere around the center of the points.
+template <PointSource S>
+[[nodiscard]] Decision is_within_power(S& points, Index a, Index p, const Cosine& cosine,
+                                       double squared_radius) {
+  const Sphere sphere = {points.center(), squared_radius};
+  const Sign sign = is_within_power_filter(points.point(a), points.point(p), cosine, sphere);
+  if (sign != Sign::zero) return {sign, Rung::filter};
+  return {is_within_power_exact(points.point(a), points.point(p), cosine, sphere), Rung::exact};
+}
 
 }  // namespace rondel::predicates

@@ -6,12 +6,31 @@
 #include <algorithm>
 #include <tuple>
 
-#include "exact/unit_vector.h"
-#include "predicates/side_of_circle.h"
+#include "models/with_model.h"
+#include "predicates/conflict.h"
+#include "predicates/orientation.h"
 #include "proof/axis_point.h"
-#include "rondel/predicates.h"
 
 namespace rondel::proof {
+namespace {
+
+// The places as the ladder of one model reads them. Raw points of one place have directions within
+// rounding of each other, so any will do.
+template <Model m>
+struct Source {
+  static constexpr Model model = m;
+
+  const PerturbedSites& sites;
+
+  [[nodiscard]] const Point& point(Index a) const { return sites.point(a); }
+  [[nodiscard]] const Point& center() const { return sites.center(); }
+  [[nodiscard]] const predicates::Vector& direction(Index a) const { return sites.direction(a); }
+  [[nodiscard]] exact::SplitPoint split(Index a) const {
+    return exact::unit_vector(point(a), center());
+  }
+};
+
+}  // namespace
 
 PerturbedSites::PerturbedSites(std::span<const Point> sites, const Places& places, Model model,
                                const Sphere& sphere)
@@ -29,7 +48,9 @@ PerturbedSites::PerturbedSites(std::span<const Point> sites, const Places& place
 bool PerturbedSites::are_dependent(Index a, Index b) const {
   for (const unsigned axis : {0U, 1U, 2U}) {
     const Point on_axis = axis_point(sphere_.center, axis);
-    if (orientation(point(a), point(b), on_axis, sphere_) != Sign::zero) return false;
+    if (predicates::orientation(point(a), point(b), on_axis, center()).sign != Sign::zero) {
+      return false;
+    }
   }
   return true;
 }
@@ -47,8 +68,7 @@ void PerturbedSites::find_frame() {
   if (n == 0) return;
   const bool has_two = find([](Index i) { return i > 0; }) != no_index;
   dimension_ = has_two ? 1 : 0;
-  const Index a =
-      find([&](Index i) { return !is_same_site(sites_[i], sphere_.center, Model::weighted); });
+  const Index a = find([&](Index i) { return sites_[i] != center(); });
   if (a == no_index) return;
   const Index b = find([&](Index i) { return !are_dependent(a, i); });
   if (b == no_index) return;
@@ -61,21 +81,21 @@ void PerturbedSites::find_frame() {
 }
 
 Sign PerturbedSites::oriented(Index a, Index b, Index c) const {
-  return orientation(point(a), point(b), point(c), sphere_);
+  return predicates::orientation(point(a), point(b), point(c), center()).sign;
 }
 
-// Raw points of one place have directions within rounding of each other, so any will do.
 Sign PerturbedSites::side(Index a, Index b, Index c, Index d) const {
-  if (model_ == Model::projected) {
-    const Sign sign = predicates::side_of_circle_filter(directions_[a], directions_[b],
-                                                        directions_[c], directions_[d]);
-    if (sign != Sign::zero) return sign;
-  }
-  return side_of_circle(point(a), point(b), point(c), point(d), model_, sphere_);
+  return models::with_model(model_, [&]<class T> {
+    const Source<T::model> source{*this};
+    return predicates::side(source, a, b, c, d).sign;
+  });
 }
 
 bool PerturbedSites::is_conflict(Index a, Index b, Index c, Index d) const {
-  return is_in_conflict(point(a), point(b), point(c), point(d), model_, sphere_);
+  return models::with_model(model_, [&]<class T> {
+    const Source<T::model> source{*this};
+    return predicates::conflict(source, a, b, c, d).sign == Sign::positive;
+  });
 }
 
 bool PerturbedSites::are_in_line_with_center(Index a, Index b, Index c) const {

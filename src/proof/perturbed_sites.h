@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The sites as the triangulation sees them: exact signs of the orientation of four
-// perturbed sites, from rondel/predicates.h (behind the proven filter of its conflict test).
+// perturbed sites, from the ladder of predicates/conflict.h.
 //
 // The perturbation (docs/theory/check.md) raises each site from the center of the sphere and,
-// infinitely less, from a point g strictly inside the hull. is_in_conflict() gives its sign, but
+// infinitely less, from a point g strictly inside the hull. The ladder gives its sign, but
 // when the four lie in one plane with the center it takes the side of g from the order
 // of the face, and whether that is a face is what we want to know. Here a frame of independent
 // sites defines g: infinitely near to the first of them, from there towards the second, and so on.
@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "predicates/filtered.h"
+#include "predicates/points.h"
 #include "proof/places.h"
 #include "rondel/types.h"
 
@@ -31,6 +31,12 @@ class PerturbedSites {
 
   [[nodiscard]] const Point& point(Index place) const { return sites_[places_.speaker[place]]; }
 
+  [[nodiscard]] const Point& center() const { return sphere_.center; }
+  // The unit vector of a place; in the projected model.
+  [[nodiscard]] const predicates::Vector& direction(Index place) const {
+    return directions_[place];
+  }
+
   // -1 without sites, 0 with one place, 1 when all lie on one great circle (in one
   // plane with the center), otherwise 2.
   [[nodiscard]] int dimension() const { return dimension_; }
@@ -43,7 +49,7 @@ class PerturbedSites {
   // lowest indices of different places; dimension() is 2.
   // 1. Never undecided, and odd under exchange of any two arguments, unless the four lie on one
   //    line with the center: those stay in one plane, and the answer is no.
-  // 2. The same as is_in_conflict() where that is defined.
+  // 2. The same as rondel::is_in_conflict() where that is defined.
   [[nodiscard]] bool is_above(Index a, Index b, Index c, Index d) const;
 
   // The same before the perturbation.

@@ -3,8 +3,8 @@
 
 #include "query/engine.h"
 
-#include "models/projected_points.h"
-#include "models/weighted_points.h"
+#include "models/with_model.h"
+#include "predicates/orientation.h"
 #include "query/graph_engine.h"
 #include "query/ring_location.h"
 #include "topology/linking.h"
@@ -16,7 +16,7 @@ using kernel::FaceKind;
 using kernel::FaceKinds;
 
 // What both engines of a finished triangulation own.
-template <models::SphereTraits T>
+template <models::SphereModel T>
 struct Built {
   Built(const Triangulation& triangulation, std::span<const Point> sites, const Vertices& names)
       : sphere(triangulation.sphere()),
@@ -28,7 +28,7 @@ struct Built {
   T traits;
 };
 
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class BuiltSurface final : private Built<T>, public SurfaceEngine<T> {
  public:
   BuiltSurface(const Triangulation& triangulation, std::span<const Point> sites,
@@ -52,9 +52,10 @@ class BuiltSurface final : private Built<T>, public SurfaceEngine<T> {
   void classify(const Triangulation& triangulation) {
     for (Index f = 0; f < mesh_.num_slots(); ++f) {
       const auto& v = mesh_[f].vertex;
-      const FaceKind kind = triangulation.is_ghost(f)
-                                ? kernel::kind_of(this->traits.orientation(v[0], v[1], v[2]))
-                                : FaceKind::solid;
+      const FaceKind kind =
+          triangulation.is_ghost(f)
+              ? kernel::kind_of(predicates::orientation(this->traits, v[0], v[1], v[2]).sign)
+              : FaceKind::solid;
       kinds_.add(f, kind);
       if (kind == FaceKind::entry) entry_ = f;
     }
@@ -68,7 +69,7 @@ class BuiltSurface final : private Built<T>, public SurfaceEngine<T> {
 };
 
 // Dimensions 0 and 1.
-template <models::SphereTraits T>
+template <models::SphereModel T>
 class BuiltRing final : private Built<T>, public GraphEngine<T> {
  public:
   BuiltRing(const Triangulation& triangulation, std::span<const Point> sites, const Vertices& names)
@@ -123,10 +124,9 @@ class BuiltRing final : private Built<T>, public GraphEngine<T> {
 template <template <class> class E>
 std::unique_ptr<Engine> make(const Triangulation& triangulation, std::span<const Point> sites,
                              const Vertices& vertices) {
-  if (triangulation.model() == Model::projected) {
-    return std::make_unique<E<models::ProjectedPoints>>(triangulation, sites, vertices);
-  }
-  return std::make_unique<E<models::WeightedPoints>>(triangulation, sites, vertices);
+  return models::with_model(triangulation.model(), [&]<class T>() -> std::unique_ptr<Engine> {
+    return std::make_unique<E<T>>(triangulation, sites, vertices);
+  });
 }
 
 }  // namespace

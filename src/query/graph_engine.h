@@ -99,7 +99,7 @@ class SurfaceEngine : public GraphEngine<T> {
   }
 
   std::vector<Index> conflict_region(const Point& p, Cursor& cursor) const override {
-    const Target<T> target(this->traits_, p);
+    Target<T> target(this->traits_, p);
     const Candidate top = this->find_nearest(surface(), target, cursor);
     if (target.is_duplicate(top)) return {};
     return query::conflict_region(surface(), target, start_face(cursor), entry_face());

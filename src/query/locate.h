@@ -72,8 +72,8 @@ Place locate(const Surface<T>& surface, const Target<T>& target, Index start) {
     for (; i < 3; ++i) {
       if (i == entered) continue;
       const unsigned a = topology::next_corner[i];
-      const Sign side = target.orientation(face.vertex[a], face.vertex[topology::next_corner[a]],
-                                           Target<T>::query);
+      const Index b = face.vertex[topology::next_corner[a]];
+      const Sign side = predicates::orientation(target, face.vertex[a], b, Target<T>::query).sign;
       if (side == Sign::negative) break;
       is_on[i] = side == Sign::zero;
     }
@@ -94,13 +94,14 @@ Place locate(const Surface<T>& surface, const Target<T>& target, Index start) {
 // The faces in conflict with the target, in increasing order. `solid` is a solid face near it,
 // `entry` an entry face if there is one. Precondition, projected: the target is no duplicate.
 template <models::SphereTraits T>
-std::vector<Index> conflict_region(const Surface<T>& surface, const Target<T>& target, Index solid,
+std::vector<Index> conflict_region(const Surface<T>& surface, Target<T>& target, Index solid,
                                    Index entry) {
-  const kernel::Walk<Target<T>> location(target, surface.mesh, surface.kinds);
+  kernel::ConflictTest<Target<T>> test(target);
+  const kernel::Walk<Target<T>> location(test, surface.mesh, surface.kinds);
   const Index start = location.locate(Target<T>::query, solid, entry).conflict;
   if (start == no_index) return {};
   kernel::ConflictRegion<Target<T>> region;
-  region.find(target, surface.mesh, Target<T>::query, start);
+  region.find(test, surface.mesh, Target<T>::query, start);
   std::vector<Index> faces = std::move(region.faces());
   std::ranges::sort(faces);
   return faces;

@@ -30,8 +30,8 @@ bool RingLocation::is_solid(Index edge) const {
 }
 
 bool RingLocation::is_in_plane(const Point& p) const {
-  return predicates::orientation_ladder(points_[spanning_[0]], points_[spanning_[1]], p, center_)
-             .sign == Sign::zero;
+  return predicates::orientation(points_[spanning_[0]], points_[spanning_[1]], p, center_).sign ==
+         Sign::zero;
 }
 
 RingLocation::Place RingLocation::locate(const Point& p, Index near) const {

@@ -16,7 +16,7 @@ TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 KEYS = ["sites", "vertices", "faces", "solid_faces", "ghost_faces", "duplicates", "hidden",
         "dimension", "model", "threads", "seconds", "peak_memory_bytes", "rungs"]
 SECONDS = ["read", "order", "triangulate", "dual", "write", "total"]
-RUNGS = ["filter", "double_double", "exact", "perturbed"]
+RUNGS = ["filter", "extended", "double_double", "close", "exact", "perturbed"]
 
 
 class JsonReport(unittest.TestCase):

@@ -93,9 +93,9 @@ Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
                coordinates);
   sites.enter(whole_face, num_sites);
   for (Index i = 0; i < num_sites; ++i) {
-    const auto exact = order::exact_cube_position(sites.site(i), center);
+    const auto exact = order::exact_cube_position(sites.point(i), center);
     const auto& p = sites.positions()[i];
-    if (order::cube_position(sites.site(i), center).face != first.face) return Divided::misplaced;
+    if (order::cube_position(sites.point(i), center).face != first.face) return Divided::misplaced;
     if (exact.u >> least_bit != p.u >> least_bit || exact.v >> least_bit != p.v >> least_bit) {
       return Divided::misplaced;
     }

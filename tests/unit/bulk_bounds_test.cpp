@@ -71,6 +71,7 @@ class Cell {
   }
 
   [[nodiscard]] const bulk::SquareSites<T>& sites() const { return sites_; }
+  [[nodiscard]] Sign orientation(Index a, Index b, Index c) { return sites_.orientation(a, b, c); }
   [[nodiscard]] bulk::AccuratePlaces& accurate() { return accurate_; }
 
   // In the axes of SquareSites::ray: of unit length, or relative to the largest one.
@@ -252,11 +253,11 @@ void expect_true_certificates(bool has_weights) {
     const std::size_t moved = random.below(3);
     const Point& other = points[(moved + 1) % 3];
     points[moved] = other + ratio * (points[moved] - other);
-    const Cell<T> cell(points, {}, has_weights);
+    Cell<T> cell(points, {}, has_weights);
     Index b = 1;
     Index c = 2;
-    if (cell.sites().orientation(0, b, c) == Sign::zero) continue;
-    if (cell.sites().orientation(0, b, c) == Sign::negative) std::swap(b, c);
+    if (cell.orientation(0, b, c) == Sign::zero) continue;
+    if (cell.orientation(0, b, c) == Sign::negative) std::swap(b, c);
 
     // The circle exactly: its center is the foot of the perpendicular from the center.
     const BigVector a = cell.ray(0);

@@ -28,8 +28,8 @@ Triangulation build(std::span<const Point> sites, const Point& center, unsigned 
 
 Index first_face_above(const Triangulation& t, std::span<const Point> sites, Index site) {
   const auto is_in_front = [&](Index from, Index to) {
-    return predicates::orientation_ladder(sites[from], sites[to], sites[site], t.sphere().center)
-               .sign != Sign::negative;
+    return predicates::orientation(sites[from], sites[to], sites[site], t.sphere().center).sign !=
+           Sign::negative;
   };
   for (Index f = 0; f < t.num_faces(); ++f) {
     const auto& [a, b, c] = t.faces()[f];

@@ -34,12 +34,17 @@ class Counting : public T {
     ++num_coordinates;
     return T::coordinates(a);
   }
-  [[nodiscard]] Sign orientation(Index a, Index b, Index c) const {
-    ++num_orientations;
-    return T::orientation(a, b, c);
+  // The first rungs of predicates read directions in the projected model, else points.
+  [[nodiscard]] predicates::Vector direction(Index a) const requires(!T::hides_sites) {
+    ++num_read;
+    return T::direction(a);
+  }
+  [[nodiscard]] Point point(Index a) const {
+    if (T::hides_sites) ++num_read;
+    return T::point(a);
   }
   mutable std::size_t num_coordinates = 0;
-  mutable std::size_t num_orientations = 0;
+  mutable std::size_t num_read = 0;
 };
 
 // Of a build, for each site.
@@ -64,8 +69,13 @@ Steps steps_of_build(const std::vector<Point>& sites) {
   }
   const auto n = static_cast<double>(order.size());
   const auto num_coordinates = static_cast<double>(traits.num_coordinates);
+  const Tally& rungs = kernel.tally();
+  const std::size_t num_conflict_tests = rungs.filter + rungs.extended + rungs.double_double +
+                                         rungs.close + rungs.exact + rungs.perturbed;
+  // A conflict test reads four points or more, an orientation three.
+  const auto num_orientations = static_cast<double>(traits.num_read - 4 * num_conflict_tests) / 3;
   // Each walk asks for its site, each step for three corners, or for up to three orientations.
-  return {(num_coordinates / n - 1) / 3, static_cast<double>(traits.num_orientations) / n};
+  return {(num_coordinates / n - 1) / 3, num_orientations / n};
 }
 
 struct Curve {

@@ -31,6 +31,33 @@ double squared_distance(const Point& a, const Point& b) {
   return dot(d, d);
 }
 
+// The ladders, of points that are given.
+
+Decision compare_angle(const Point& a, const Point& b, const Point& p, const Point& center = {}) {
+  const predicates::FourPoints<Model::projected> points{{a, b, p}, center};
+  const auto squared = [&points](Index i) {
+    const predicates::Vector d = points.direction(i) - points.direction(2);
+    return dot(d, d);
+  };
+  return predicates::compare_angle(points, 0, squared(0), 1, squared(1), 2);
+}
+
+Decision compare_power(const Point& a, const Point& b, const Point& p) {
+  const predicates::FourPoints<Model::weighted> points{{a, b, p}};
+  return predicates::compare_power(points, 0, 1, 2);
+}
+
+Decision is_within_angle(const Point& a, const Point& p, const Cosine& cosine) {
+  const predicates::FourPoints<Model::projected> points{{a, p}};
+  return predicates::is_within_angle(points, 0, 1, cosine);
+}
+
+Decision is_within_power(const Point& a, const Point& p, const Cosine& cosine,
+                         const Sphere& sphere) {
+  const predicates::FourPoints<Model::weighted> points{{a, p}, sphere.center};
+  return predicates::is_within_power(points, 0, 1, cosine, sphere.squared_radius);
+}
+
 // p.a |b| - p.b |a|, all three scaled to integers.
 int angle_sign(const Point& a, const Point& b, const Point& p) {
   const Point all[] = {a, b, p};
@@ -77,12 +104,18 @@ TEST_P(distance_rungs, never_give_a_wrong_sign) {
     if (filter != Sign::zero) {
       EXPECT_EQ(to_int(filter), angle);
     }
-    const Decision decision = predicates::compare_angle_ladder(a, b, p, {});
+    const Sign close = predicates::compare_angle_double_double(
+        exact::unit_vector(a, {}), exact::unit_vector(b, {}), exact::unit_vector(p, {}));
+    if (close != Sign::zero) {
+      EXPECT_EQ(to_int(close), angle);
+    }
+    EXPECT_EQ(to_int(predicates::compare_angle_exact(a, b, p, {})), angle);
+    const Decision decision = compare_angle(a, b, p);
     EXPECT_EQ(to_int(decision.sign), angle);
-    EXPECT_EQ(to_int(predicates::compare_angle_ladder(b, a, p, {}).sign), -angle);
+    EXPECT_EQ(to_int(compare_angle(b, a, p).sign), -angle);
     const Point twice = 2 * p;
     if (std::isfinite(twice.x + twice.y + twice.z)) {
-      EXPECT_EQ(to_int(predicates::compare_angle_ladder(a, b, twice, {}).sign), angle);
+      EXPECT_EQ(to_int(compare_angle(a, b, twice).sign), angle);
     }
     if (angle == 0) {
       EXPECT_EQ(decision.rung, Rung::exact);
@@ -95,7 +128,8 @@ TEST_P(distance_rungs, never_give_a_wrong_sign) {
     if (power_filter != Sign::zero) {
       EXPECT_EQ(to_int(power_filter), power);
     }
-    EXPECT_EQ(to_int(predicates::compare_power_ladder(a, b, p, {}).sign), power);
+    EXPECT_EQ(to_int(predicates::compare_power_exact(a, b, p, {})), power);
+    EXPECT_EQ(to_int(compare_power(a, b, p).sign), power);
   }
 }
 
@@ -115,7 +149,13 @@ TEST_P(distance_rungs, decide_on_the_boundary_of_an_angle) {
       if (filter != Sign::zero) {
         EXPECT_EQ(to_int(filter), expected);
       }
-      EXPECT_EQ(to_int(predicates::is_within_angle_ladder(a, p, cosine, {}).sign), expected);
+      const Sign close = predicates::is_within_angle_double_double(
+          exact::unit_vector(a, {}), exact::unit_vector(p, {}), cosine);
+      if (close != Sign::zero) {
+        EXPECT_EQ(to_int(close), expected);
+      }
+      EXPECT_EQ(to_int(predicates::is_within_angle_exact(a, p, cosine, {})), expected);
+      EXPECT_EQ(to_int(is_within_angle(a, p, cosine).sign), expected);
     }
   }
 }
@@ -141,7 +181,7 @@ TEST(compare_distance, decides_close_comparisons_in_double_double) {
   const Point b = {1, 0, std::nextafter(1e-9, 1)};
   EXPECT_EQ(predicates::compare_angle_filter(squared_distance(a, p), squared_distance(b, p)),
             Sign::zero);
-  const Decision decision = predicates::compare_angle_ladder(a, b, p, {});
+  const Decision decision = compare_angle(a, b, p);
   EXPECT_EQ(decision.sign, Sign::positive);
   EXPECT_EQ(decision.rung, Rung::double_double);
 }
@@ -149,7 +189,7 @@ TEST(compare_distance, decides_close_comparisons_in_double_double) {
 // Sites of equal and of different lengths, with and without a center.
 TEST(compare_distance, finds_ties) {
   const auto tie = [](const Point& a, const Point& b, const Point& p, const Point& center) {
-    const Decision decision = predicates::compare_angle_ladder(a, b, p, center);
+    const Decision decision = compare_angle(a, b, p, center);
     EXPECT_EQ(decision.sign, Sign::zero);
     EXPECT_EQ(decision.rung, Rung::exact);
   };
@@ -158,9 +198,8 @@ TEST(compare_distance, finds_ties) {
   tie({1e-200, 1e-200, 0}, {3e200, 0, 3e200}, {1, 0, 0}, {});
   tie({1, 0, 0}, {0, 5, 0}, {0, 0, 1}, {});
   tie({2, 3, 5}, {3, 2, 7}, {2, 2, 5}, {1, 2, 5});
-  EXPECT_EQ(predicates::compare_power_ladder({1, 1, 0}, {1, 0, 7}, {3, 0, 0}, {}).sign, Sign::zero);
-  EXPECT_EQ(predicates::compare_power_ladder({1e300, 1, 0}, {1e300, 0, 7}, {1e-300, 0, 0}, {}).sign,
-            Sign::zero);
+  EXPECT_EQ(compare_power({1, 1, 0}, {1, 0, 7}, {3, 0, 0}).sign, Sign::zero);
+  EXPECT_EQ(compare_power({1e300, 1, 0}, {1e300, 0, 7}, {1e-300, 0, 0}).sign, Sign::zero);
 }
 
 TEST(within_angle, cosines_are_accurate) {
@@ -177,21 +216,17 @@ TEST(within_angle, cosines_are_accurate) {
 // 60 degrees between (1,1,0) and (1,0,1): c = 1/2 and t = 1 are exact.
 TEST(within_angle, has_its_boundary) {
   const Cosine sixty{true, 1};
-  const Decision decision = predicates::is_within_angle_ladder({1, 1, 0}, {1, 0, 1}, sixty, {});
+  const Decision decision = is_within_angle({1, 1, 0}, {1, 0, 1}, sixty);
   EXPECT_EQ(decision.sign, Sign::zero);
   EXPECT_EQ(decision.rung, Rung::exact);
   const Cosine opposite{false, 1};
-  EXPECT_EQ(predicates::is_within_angle_ladder({1, 1, 0}, {-1, 0, -1}, opposite, {}).sign,
-            Sign::zero);
+  EXPECT_EQ(is_within_angle({1, 1, 0}, {-1, 0, -1}, opposite).sign, Sign::zero);
   // A circle of 60 degrees around the x axis: its pole is 1 / cos 60 = 2 away.
   const Sphere sphere{{1, 1, 1}, 4};
   const Point pole = {1 + 4, 1, 1};
-  EXPECT_EQ(predicates::is_within_power_ladder(pole, {2, 1, 1}, {true, 0}, sphere).rung,
-            Rung::filter);
-  EXPECT_EQ(predicates::is_within_power_ladder({1, 1, 3}, {1, 1, 9}, {true, 0}, sphere).sign,
-            Sign::zero);
-  EXPECT_EQ(predicates::is_within_power_ladder({1, 1, 3}, {1, 2, 1}, {true, 2}, sphere).sign,
-            Sign::zero);
+  EXPECT_EQ(is_within_power(pole, {2, 1, 1}, {true, 0}, sphere).rung, Rung::filter);
+  EXPECT_EQ(is_within_power({1, 1, 3}, {1, 1, 9}, {true, 0}, sphere).sign, Sign::zero);
+  EXPECT_EQ(is_within_power({1, 1, 3}, {1, 2, 1}, {true, 2}, sphere).sign, Sign::zero);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include <iostream>
 
 #include "exact/extended.h"
+#include "models/with_model.h"
+#include "predicates/conflict.h"
 #include "predicates/orientation.h"
-#include "predicates/side_of_circle.h"
-#include "predicates/side_of_plane.h"
 #include "support/adversarial.h"
 #include "support/generators.h"
 #include "support/oracle.h"
@@ -27,20 +27,41 @@ predicates::Vector direction(const Point& p) {
   return {high.x, high.y, high.z};
 }
 
-// The ladder of one model from its filter up.
+// The ladder that builds climb, but for the perturbation.
 Decision decide(const Four& four, Model model) {
-  const auto& [a, b, c, p] = four;
-  if (model == Model::projected) {
-    const Sign sign =
-        predicates::side_of_circle_filter(direction(a), direction(b), direction(c), direction(p));
-    return sign != Sign::zero ? Decision{sign, Rung::filter}
-                              : predicates::side_of_circle_ladder(a, b, c, p, {});
+  return models::with_model(model, [&]<class T> {
+    const predicates::FourPoints<T::model> points{four};
+    return predicates::side(points, 0, 1, 2, 3);
+  });
+}
+
+// A rung that may be unsure.
+void expect_no_other(Sign sign, int expected) {
+  if (sign != Sign::zero) {
+    EXPECT_EQ(to_int(sign), expected);
   }
-  using exact::to_vector;
-  const Sign sign =
-      predicates::side_of_plane_filter(to_vector(a), to_vector(b), to_vector(c), to_vector(p));
-  return sign != Sign::zero ? Decision{sign, Rung::filter}
-                            : predicates::side_of_plane_ladder(a, b, c, p);
+}
+
+// The rungs one by one, whether the ladder comes to them or not.
+void expect_circle_rungs(const Four& four, int expected) {
+  const auto& [a, b, c, p] = four;
+  const predicates::FourPoints<Model::projected> points{four};
+  const std::array split = {points.split(0), points.split(1), points.split(2), points.split(3)};
+  const auto& [u, v, w, x] = split;
+  expect_no_other(predicates::side_of_circle_extended(u, v, w, x), expected);
+  expect_no_other(predicates::side_of_circle_double_double(u, v, w, x), expected);
+  expect_no_other(predicates::side_of_circle_close(a, b, c, p, {}), expected);
+  EXPECT_EQ(to_int(predicates::side_of_circle_exact(a, b, c, p, {})), expected);
+  expect_no_other(predicates::side_of_circle_filter(exact::to_vector(u.hi), exact::to_vector(v.hi),
+                                                    exact::to_vector(w.hi), exact::to_vector(x.hi)),
+                  expected);
+}
+
+void expect_plane_rungs(const Four& four, int expected) {
+  const predicates::PlaneSteps steps = predicates::scaled_steps(predicates::with_best_origin(four));
+  expect_no_other(predicates::side_of_plane_scaled_filter(steps), expected);
+  expect_no_other(predicates::side_of_plane_double_double(steps), expected);
+  EXPECT_EQ(to_int(predicates::side_of_plane_exact(four)), expected);
 }
 
 class predicate_rungs : public testing::TestWithParam<FourGenerator> {};
@@ -58,8 +79,11 @@ TEST_P(predicate_rungs, never_give_a_wrong_sign) {
       if (expected == 0) {
         EXPECT_EQ(decision.rung, Rung::exact);
       }
-      if (model == Model::weighted) continue;
-      EXPECT_EQ(to_int(predicates::side_of_circle_exact(a, b, c, p, {})), expected);
+      if (model == Model::weighted) {
+        expect_plane_rungs(four, expected);
+        continue;
+      }
+      expect_circle_rungs(four, expected);
       // Directions that are not the nearest doubles, but within the contract's error.
       const Sign coarse = predicates::side_of_circle_filter(
           exact::to_vector(normalized(a)), exact::to_vector(normalized(b)),
@@ -175,13 +199,13 @@ TEST(rungs, orientation_filter_decides_at_any_scale) {
     const double size = random_distance(random, 1e-300);
     Four four;
     for (Point& p : four) p = {size * random.signed_unit(), size * random.signed_unit(), 1};
-    const Decision decision = predicates::orientation_ladder(four[0], four[1], four[2], {});
+    const Decision decision = predicates::orientation(four[0], four[1], four[2], {});
     ASSERT_EQ(decision.rung, Rung::filter);
     ASSERT_EQ(to_int(decision.sign), Oracle(four, Model::projected, {}).orientation(0, 1, 2));
   }
 }
 
-TEST(rungs, double_double_decides_near_ties) {
+TEST(rungs, above_the_filter_decide_near_ties) {
   Random random(33);
   std::size_t decided = 0;
   std::size_t unsure = 0;
@@ -190,7 +214,7 @@ TEST(rungs, double_double_decides_near_ties) {
     const Rung rung = decide(four, Model::projected).rung;
     if (rung == Rung::filter) continue;
     ++unsure;
-    if (rung == Rung::double_double) ++decided;
+    if (rung == Rung::extended || rung == Rung::double_double) ++decided;
   }
   EXPECT_GT(unsure, 1000U);
   EXPECT_EQ(decided, unsure);
@@ -244,8 +268,58 @@ TEST(rungs, structured_input_is_decided_exactly) {
       EXPECT_EQ(decision.rung, Rung::exact);
       EXPECT_EQ(decision.sign, Sign::zero);
     }
-    EXPECT_EQ(predicates::orientation_ladder(p, {-p.x, -p.y, p.z}, {0, 0, p.z}, {}).rung,
-              Rung::exact);
+    EXPECT_EQ(predicates::orientation(p, {-p.x, -p.y, p.z}, {0, 0, p.z}, {}).rung, Rung::exact);
+  }
+}
+
+// Every rung of the ladder decides somewhere, and says so; the exact sign never has another one.
+TEST(rungs, each_decides_what_is_left_to_it) {
+  Random random(37);
+  const auto rung_of = [](const Four& four) {
+    const predicates::FourPoints<Model::projected> points{four};
+    const Decision decision = predicates::conflict(points, 0, 1, 2, 3);
+    EXPECT_NE(decision.sign, Sign::zero);
+    const Sign exact = predicates::side_of_circle_exact(four[0], four[1], four[2], four[3], {});
+    EXPECT_EQ(decision.rung == Rung::perturbed, exact == Sign::zero);
+    if (exact != Sign::zero) {
+      EXPECT_EQ(decision.sign, exact);
+    }
+    return decision.rung;
+  };
+  Tally tally;
+  for (std::size_t i = 0; i < 200; ++i) {
+    Four four;
+    for (Point& p : four) p = random_direction(random);
+    predicates::count(tally, rung_of(four));
+    predicates::count(tally, rung_of(near_one_circle(random, 0.5)));
+    for (Point& p : four) p = random_near(random, four[0], 1e-13);
+    predicates::count(tally, rung_of(four));
+    const Point& p = four[0];
+    predicates::count(tally, rung_of({{p, {-p.x, p.y, p.z}, {-p.x, -p.y, p.z}, {p.x, -p.y, p.z}}}));
+  }
+  predicates::count(tally, rung_of({{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 1e-40}}}));
+  EXPECT_GT(tally.filter, 190U);
+  EXPECT_TRUE(tally.extended > 100 || !exact::has_extended_precision());
+  EXPECT_GT(tally.double_double, 100U);
+  EXPECT_GE(tally.exact, 1U);
+  EXPECT_GE(tally.perturbed, 200U);
+}
+
+// Queries ask about points in the places of vertices.
+TEST(conflict, a_point_in_the_place_of_a_corner_is_in_conflict_with_no_face) {
+  Random random(38);
+  for (std::size_t i = 0; i < 100; ++i) {
+    Four four;
+    for (Point& p : four) p = random_direction(random);
+    four[3] = four[i % 3];
+    for (const Model model : {Model::projected, Model::weighted}) {
+      const Decision decision = models::with_model(model, [&]<class T> {
+        const predicates::FourPoints<T::model> points{four};
+        return predicates::conflict(points, 0, 1, 2, 3);
+      });
+      EXPECT_EQ(decision.sign, Sign::negative);
+      EXPECT_EQ(decision.rung, Rung::perturbed);
+    }
   }
 }
 
@@ -260,7 +334,7 @@ TEST(rungs, orientation_filter_never_gives_a_wrong_sign) {
       if (filter != Sign::zero) {
         ASSERT_EQ(to_int(filter), expected) << kind.name;
       }
-      ASSERT_EQ(to_int(predicates::orientation_ladder(a, b, c, {}).sign), expected) << kind.name;
+      ASSERT_EQ(to_int(predicates::orientation(a, b, c, {}).sign), expected) << kind.name;
     }
   }
 }

@@ -66,7 +66,9 @@ nb::dict report_of(const Triangulation& t) {
   const BuildReport& report = t.report();
   nb::dict rungs;
   rungs["filter"] = report.rungs.filter;
+  rungs["extended"] = report.rungs.extended;
   rungs["double_double"] = report.rungs.double_double;
+  rungs["close"] = report.rungs.close;
   rungs["exact"] = report.rungs.exact;
   rungs["perturbed"] = report.rungs.perturbed;
   nb::dict result;

@@ -1,21 +1,65 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the inexact rungs of a ladder share.
+// What the ladders share. A ladder asks one rung after the other for an exact sign; the first rung
+// that is sure decides. Each predicate's ladder is composed once: conflict.h, orientation.h,
+// compare_distance.h, within_angle.h.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include "exact/vector.h"
 #include "predicates/bounds.h"
+#include "predicates/points.h"
 #include "rondel/types.h"
 
 namespace rondel::predicates {
 
 using exact::sign_of;
 using exact::to_vector;
-using Vector = exact::Vector3<double>;
+
+// From the cheapest to the last.
+enum class Rung : std::uint8_t { filter, extended, double_double, close, exact, perturbed };
+
+// An exact sign and the rung that found it.
+struct Decision {
+  Sign sign = Sign::zero;
+  Rung rung = Rung::filter;
+};
+
+inline void count(Tally& tally, Rung rung) {
+  switch (rung) {
+    case Rung::filter:
+      ++tally.filter;
+      break;
+    case Rung::extended:
+      ++tally.extended;
+      break;
+    case Rung::double_double:
+      ++tally.double_double;
+      break;
+    case Rung::close:
+      ++tally.close;
+      break;
+    case Rung::exact:
+      ++tally.exact;
+      break;
+    case Rung::perturbed:
+      ++tally.perturbed;
+      break;
+  }
+}
+
+inline void add(Tally& sum, const Tally& tally) {
+  sum.filter += tally.filter;
+  sum.extended += tally.extended;
+  sum.double_double += tally.double_double;
+  sum.close += tally.close;
+  sum.exact += tally.exact;
+  sum.perturbed += tally.perturbed;
+}
 
 // An inexact rung returns the proven sign, or Sign::zero for "unsure"; it never proves a zero.
 inline Sign unless_unsure(double value, bool is_proven) {
