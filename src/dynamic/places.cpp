@@ -58,7 +58,7 @@ Places::Spot Places::look_up(const Point& p) const {
   Spot spot;
   spot.key = key(p);
   spot.position = index_.seek(spot.key, order_of(p));
-  spot.close = index_.near(spot.position);
+  spot.close = index_.near(spot.position, spot.key);
   spot.around = index_.around(spot.position);
   spot.place = index_.find(spot.position, spot.key, [&](Index place) {
     const Point& q = place_point(place);
@@ -89,15 +89,15 @@ void Places::free_place(Index place, const order::HilbertKey& key) {
 }
 
 bool Places::would_speak(Index site, Index place) const {
-  return predicates::is_raised_more(points_[site], place_point(place));
+  return predicates::is_lexicographically_less(points_[site], place_point(place));
 }
 
 bool Places::SpeaksBefore::operator()(const Member& a, const Member& b) const {
   if (a.place != b.place) return a.place < b.place;
   const Point& p = (*points)[a.site];
   const Point& q = (*points)[b.site];
-  if (predicates::is_raised_more(p, q)) return true;
-  return !predicates::is_raised_more(q, p) && a.site < b.site;
+  if (predicates::is_lexicographically_less(p, q)) return true;
+  return !predicates::is_lexicographically_less(q, p) && a.site < b.site;
 }
 
 void Places::list(const Member& member) {

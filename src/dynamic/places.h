@@ -132,7 +132,8 @@ class Places {
   // that they are few.
   [[nodiscard]] auto order_of(const Point& p) const {
     return [this, &p](Index place) {
-      return model_ == Model::weighted && predicates::is_raised_more(place_point(place), p);
+      return model_ == Model::weighted &&
+             predicates::is_lexicographically_less(place_point(place), p);
     };
   }
 

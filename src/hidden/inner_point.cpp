@@ -19,7 +19,7 @@
 namespace rondel::hidden {
 namespace {
 
-using predicates::is_raised_more;
+using predicates::is_lexicographically_less;
 using predicates::Vector;
 using Tetrahedron = std::array<Point, 4>;
 
@@ -31,7 +31,7 @@ Point largest(std::span<const Point> sites, Size size) {
   for (const Point& p : sites) {
     const double s = size(p);
     if (s < most) continue;
-    if (s > most || is_raised_more(p, *best)) best = &p;
+    if (s > most || is_lexicographically_less(p, *best)) best = &p;
     most = s;
   }
   return *best;
@@ -40,7 +40,7 @@ Point largest(std::span<const Point> sites, Size size) {
 Point smallest(std::span<const Point> sites) {
   const Point* best = &sites.front();
   for (const Point& p : sites) {
-    if (p.x <= best->x && is_raised_more(p, *best)) best = &p;
+    if (p.x <= best->x && is_lexicographically_less(p, *best)) best = &p;
   }
   return *best;
 }
@@ -69,7 +69,7 @@ Tetrahedron far_corners(std::span<const Point> sites, const Point& a, const Fram
 // Where rounding hides that the sites span space: the first ones that do, by coordinates.
 Tetrahedron first_corners(std::span<const Point> sites, const Point& a) {
   std::vector<Point> sorted(sites.begin(), sites.end());
-  std::ranges::sort(sorted, is_raised_more);
+  std::ranges::sort(sorted, is_lexicographically_less);
   const auto span = kernel::find_span(sorted, a);
   return {a, sorted[span[0]], sorted[span[1]], sorted[span[2]]};
 }
@@ -115,15 +115,16 @@ struct Extremes {
 Extremes extremes(std::span<const Point> sites, double Point::*x) {
   Extremes e = {sites.front(), sites.front()};
   for (const Point& p : sites) {
-    if (p.*x <= e.lowest.*x && (p.*x < e.lowest.*x || is_raised_more(p, e.lowest))) e.lowest = p;
-    if (p.*x >= e.highest.*x && (p.*x > e.highest.*x || is_raised_more(p, e.highest)))
+    if (p.*x <= e.lowest.*x && (p.*x < e.lowest.*x || is_lexicographically_less(p, e.lowest)))
+      e.lowest = p;
+    if (p.*x >= e.highest.*x && (p.*x > e.highest.*x || is_lexicographically_less(p, e.highest)))
       e.highest = p;
   }
   return e;
 }
 
 bool is_strictly_inside_hull(const Point& p, std::vector<Point> sites) {
-  std::ranges::sort(sites, is_raised_more);
+  std::ranges::sort(sites, is_lexicographically_less);
   sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
   std::vector<Index> order(sites.size());
   std::iota(order.begin(), order.end(), Index{0});

@@ -38,7 +38,7 @@ class PlaneView {
     if (sign != Sign::zero) return sign;
     std::array<std::array<Index, 3>, 3> rotations = {{{a, b, c}, {b, c, a}, {c, a, b}}};
     std::ranges::sort(rotations, [this](const auto& r, const auto& s) {
-      return predicates::is_raised_more(points_[r[0]], points_[s[0]]);
+      return predicates::is_lexicographically_less(points_[r[0]], points_[s[0]]);
     });
     for (const auto& r : rotations) {
       if (const Sign change = turn(r[1], r[2]); change != Sign::zero) return -change;
@@ -53,7 +53,7 @@ class PlaneView {
     if (a != b) return a < b;
     const double origin = coordinates(center_)[u()];
     if (a == origin) return coordinates(points_[i])[v()] < coordinates(points_[j])[v()];
-    return predicates::is_raised_more(points_[i], points_[j]) == (a < origin);
+    return predicates::is_lexicographically_less(points_[i], points_[j]) == (a < origin);
   }
 
  private:
@@ -113,7 +113,7 @@ std::vector<Index> convex_polygon(Index size, const PlaneView& view) {
 // Points on one line through the center, whose order along the line is lexicographic.
 std::vector<Index> ends_of_line(std::span<const Point> points, Model model) {
   const auto less = [&points](Index i, Index j) {
-    return predicates::is_raised_more(points[i], points[j]);
+    return predicates::is_lexicographically_less(points[i], points[j]);
   };
   std::vector<Index> all(points.size());
   for (Index i = 0; i < points.size(); ++i) all[i] = i;

@@ -82,10 +82,15 @@ bool SpatialIndex::skip_end(Position& at) const {
   return true;
 }
 
-Index SpatialIndex::near(const Position& at) const {
+Index SpatialIndex::near(const Position& at, const HilbertKey& key) const {
   if (size_ == 0) return no_index;
   const Node& leaf = nodes_[at.path_[0].node];
-  return leaf.values[std::min(at.path_[0].entry, leaf.size - 1)];
+  const unsigned after = at.path_[0].entry;
+  if (after == 0) return leaf.values[0];
+  const unsigned before = after - 1;
+  const bool is_before =
+      after == leaf.size || key.high - leaf.highs[before] < leaf.highs[after] - key.high;
+  return leaf.values[is_before ? before : after];
 }
 
 std::array<Index, SpatialIndex::num_around> SpatialIndex::around(const Position& at) const {
@@ -101,7 +106,7 @@ std::array<Index, SpatialIndex::num_around> SpatialIndex::around(const Position&
 }
 
 Index SpatialIndex::near(const HilbertKey& key) const {
-  return near(seek(key, [](Index) { return false; }));
+  return near(seek(key, [](Index) { return false; }), key);
 }
 
 void SpatialIndex::insert(Position at, const HilbertKey& key, Index value) {

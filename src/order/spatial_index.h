@@ -56,8 +56,9 @@ class SpatialIndex {
   template <class IsWanted>
   [[nodiscard]] Index find(Position at, const HilbertKey& key, IsWanted is_wanted) const;
 
-  // The value of an entry next to the position; no_index when there is none.
-  [[nodiscard]] Index near(const Position& at) const;
+  // The value of the entry next to the position of the key, before or after it, that is closer on
+  // the curve, as far as its leaf tells; no_index when there is none.
+  [[nodiscard]] Index near(const Position& at, const HilbertKey& key) const;
   [[nodiscard]] Index near(const HilbertKey& key) const;
 
   // Asks for the memory that a search for the key reads last.

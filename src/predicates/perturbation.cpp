@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cassert>
 #include <tuple>
 
@@ -18,7 +19,8 @@ namespace {
 using exact::IntegerVector;
 
 // The roles of the four points. Raising one of them changes the determinant in the direction of a
-// triple of the others: +(b,c,d) for p, -(p,c,d) for b, +(p,b,d) for c, -(p,b,c) for d.
+// triple of the others: +(b,c,d) for p, -(p,c,d) for b, +(p,b,d) for c, -(p,b,c) for d. Lowering
+// changes it the other way.
 constexpr std::size_t role_p = 0;
 constexpr std::array<std::array<std::size_t, 3>, 4> triple_of = {
     {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
@@ -28,20 +30,53 @@ constexpr std::array<Sign, 4> factor_of = {Sign::positive, Sign::negative, Sign:
 using Four = std::array<Point, 4>;
 using Order = std::array<std::size_t, 4>;
 
-Order raising_order(const Four& points) {
+// The roles, from the site that moves most to the one that moves least.
+template <class Compare>
+Order sorted_roles(const Four& points, Compare moves_more) {
   Order order = {0, 1, 2, 3};
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t i, std::size_t j) { return is_raised_more(points[i], points[j]); });
+  std::ranges::sort(order,
+                    [&](std::size_t i, std::size_t j) { return moves_more(points[i], points[j]); });
   return order;
 }
 
-Sign raise_from_center(const Four& points, const Order& order, const Point& center) {
+// As sorted_roles(points, is_lowered_more), without branches that nothing would predict.
+Order lowering_order(const Four& points) {
+  std::array<std::uint64_t, 4> keys{};
+  std::ranges::transform(points, keys.begin(), lowering_key);
+  Order place{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    for (std::size_t j = i + 1; j < 4; ++j) {
+      if (keys[i] == keys[j]) [[unlikely]]
+        return sorted_roles(points, is_lowered_more);
+      const bool is_later = keys[i] > keys[j];
+      place[i] += static_cast<std::size_t>(is_later);
+      place[j] += static_cast<std::size_t>(!is_later);
+    }
+  }
+  Order order{};
+  for (std::size_t i = 0; i < 4; ++i) order[place[i]] = i;
+  return order;
+}
+
+// The first coefficient that is not zero, for sites that are raised.
+template <class SignOfTriple>
+Sign first_sign(const Order& order, SignOfTriple sign_of_triple) {
   for (const std::size_t role : order) {
+<<<<<<< HEAD
     const auto& [i, j, k] = triple_of[role];
     const Sign sign = orientation(points[i], points[j], points[k], center).sign;
+=======
+    const Sign sign = sign_of_triple(triple_of[role]);
+>>>>>>> 539abdc (Cocircular sites are lowered in the order of a hash of their coordinates: no facet seen from outside is a fan any more, and sites in order along a circle change few faces)
     if (sign != Sign::zero) return factor_of[role] * sign;
   }
   return Sign::zero;
+}
+
+Sign raise_from_center(const Four& points, const Order& order, const Point& center) {
+  return first_sign(order, [&](const std::array<std::size_t, 3>& t) {
+    return orientation_ladder(points[t[0]], points[t[1]], points[t[2]], center).sign;
+  });
 }
 
 // What follows concerns four sites in one plane W with the center. The sign of a triple seen from g
@@ -80,11 +115,7 @@ IntegerVector oriented_normal(const std::array<IntegerVector, 4>& v, const Order
 template <class OrientationInPlane>
 Sign raise_from_inside(const Order& order, OrientationInPlane orientation_in_plane) {
   const Sign face = orientation_in_plane(triple_of[role_p]);
-  for (const std::size_t role : order) {
-    const Sign sign = face * orientation_in_plane(triple_of[role]);
-    if (sign != Sign::zero) return factor_of[role] * sign;
-  }
-  return Sign::zero;
+  return face * first_sign(order, orientation_in_plane);
 }
 
 Sign raise_rays_from_inside(const Four& points, const Order& order, const Point& center) {
@@ -108,23 +139,49 @@ Sign raise_points_from_inside(const Four& points, const Order& order, const Poin
   });
 }
 
+bool is_in_conflict_projected(const Four& points, const Point& center) {
+  const Order order = lowering_order(points);
+  Sign raised = raise_from_center(points, order, center);
+  if (raised == Sign::zero) raised = raise_rays_from_inside(points, order, center);
+  assert(raised != Sign::zero);
+  return raised == Sign::negative;
+}
+
+bool is_in_conflict_weighted(const Four& points, const Point& center) {
+  const Order order = sorted_roles(points, is_lexicographically_less);
+  Sign raised = raise_from_center(points, order, center);
+  if (raised == Sign::zero) raised = raise_points_from_inside(points, order, center);
+  assert(raised != Sign::zero);
+  return raised == Sign::positive;
+}
+
 }  // namespace
 
-bool is_raised_more(const Point& a, const Point& b) {
+bool is_lexicographically_less(const Point& a, const Point& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+// The multipliers are the fractional parts of the square roots of 2, 3 and 5, made odd.
+std::uint64_t lowering_key(const Point& p) {
+  const auto bits = [](double x) { return std::bit_cast<std::uint64_t>(x == 0 ? 0.0 : x); };
+  const auto mixed = [](std::uint64_t x, std::uint64_t odd) { return (x ^ (x >> 32)) * odd; };
+  std::uint64_t key = mixed(bits(p.x), 0x6a09e667f3bcc909);
+  key = mixed(key + bits(p.y), 0xbb67ae8584caa73b);
+  key = mixed(key + bits(p.z), 0x3c6ef372fe94f82b);
+  return mixed(key, 0x6a09e667f3bcc909);
+}
+
+bool is_lowered_more(const Point& a, const Point& b) {
+  const std::uint64_t i = lowering_key(a);
+  const std::uint64_t j = lowering_key(b);
+  return i != j ? i < j : is_lexicographically_less(a, b);
 }
 
 bool is_in_conflict_perturbed(const Point& b, const Point& c, const Point& d, const Point& p,
                               Model model, const Point& center) {
   const Four points = {p, b, c, d};
-  const Order order = raising_order(points);
-  Sign sign = raise_from_center(points, order, center);
-  if (sign == Sign::zero) {
-    sign = model == Model::projected ? raise_rays_from_inside(points, order, center)
-                                     : raise_points_from_inside(points, order, center);
-  }
-  assert(sign != Sign::zero);
-  return sign == Sign::positive;
+  return model == Model::projected ? is_in_conflict_projected(points, center)
+                                   : is_in_conflict_weighted(points, center);
 }
 
 }  // namespace rondel::predicates

@@ -69,7 +69,7 @@ Vertices list_vertices(const Triangulation& triangulation, std::span<const Point
     result.vertex_of[site] = v;
     if (v == no_index) continue;
     Index& speaker = result.speakers[v];
-    if (predicates::is_raised_more(sites[site], sites[speaker])) speaker = site;
+    if (predicates::is_lexicographically_less(sites[site], sites[speaker])) speaker = site;
   }
   return result;
 }

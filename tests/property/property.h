@@ -10,10 +10,12 @@
 #include <algorithm>
 #include <numeric>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "rondel/delaunay.h"
+#include "rondel/diagram.h"
 #include "support/generators.h"
 #include "support/hull_oracle.h"
 
@@ -73,6 +75,25 @@ inline std::set<Triple> face_set(const Triangulation& t, bool solid_only = false
   }
   return faces;
 }
+
+// The facets, which do not depend on how ties are broken, each from its lowest corner, reversed if
+// wanted.
+inline std::set<std::vector<Index>> facets(const Triangulation& t, std::span<const Point> sites,
+                                           bool is_reversed = false) {
+  const Polygons polygons = merge_cocircular(t, sites);
+  std::set<std::vector<Index>> result;
+  for (std::size_t i = 0; i + 1 < polygons.offsets.size(); ++i) {
+    std::vector<Index> ring(
+        polygons.corners.begin() + static_cast<std::ptrdiff_t>(polygons.offsets[i]),
+        polygons.corners.begin() + static_cast<std::ptrdiff_t>(polygons.offsets[i + 1]));
+    if (is_reversed) std::reverse(ring.begin() + 1, ring.end());
+    result.insert(ring);
+  }
+  return result;
+}
+
+// Whether some conflict test was decided by the perturbation.
+inline bool has_ties(const Triangulation& t) { return t.report().rungs.perturbed > 0; }
 
 // Fixed seed and RONDEL_TEST_SCALE times `count` cases.
 template <typename Property>

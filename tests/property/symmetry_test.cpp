@@ -60,7 +60,7 @@ TEST(symmetry, signed_axis_permutations_keep_the_faces) {
   });
 }
 
-// Without the lexicographic order, ties leave at least the counts alone.
+// In another order of the sites, ties leave at least the counts alone.
 TEST(symmetry, vertices_survive_in_spite_of_ties) {
   expect_for_all(500, [] {
     const auto name = *rc::gen::element("globe_grid", "integer_sphere", "mirrored", "small_circle",

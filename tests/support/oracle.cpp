@@ -3,6 +3,7 @@
 #include "support/oracle.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -42,6 +43,25 @@ void shift_right(IntegerVector& v, mp_bitcnt_t bits) {
 
 auto coordinates(const Point& p) { return std::tie(p.x, p.y, p.z); }
 
+// The bits of a double, put together from its parts.
+mpz_class encoding(double x) {
+  if (x == 0) return 0;
+  int exponent = 0;
+  const double half = std::frexp(std::abs(x), &exponent);  // at least 1/2, below 1
+  const bool is_subnormal = exponent < -1021;
+  mpz_class mantissa(std::ldexp(half, is_subnormal ? exponent + 1074 : 53));
+  mpz_class fields = is_subnormal ? 0 : exponent + 1022;
+  if (!is_subnormal) mantissa -= mpz_class(1) << 52;
+  if (std::signbit(x)) fields += 2048;
+  return mpz_class(fields << 52) + mantissa;
+}
+
+// The first 64 bits of the fraction of the square root, the last one set.
+mpz_class odd_fraction_of_root(unsigned n) {
+  const mpz_class root = sqrt(mpz_class(mpz_class(n) << 128));
+  return mpz_class(root % (mpz_class(1) << 64)) | 1;
+}
+
 }  // namespace
 
 IntegerVector cross(const IntegerVector& a, const IntegerVector& b) {
@@ -54,6 +74,18 @@ mpz_class dot(const IntegerVector& a, const IntegerVector& b) {
 
 mpz_class determinant(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c) {
   return dot(a, cross(b, c));
+}
+
+mpz_class hash_of_coordinates(const Point& p) {
+  const mpz_class word = mpz_class(1) << 64;
+  const auto mixed = [&word](const mpz_class& x, unsigned n) {
+    const mpz_class folded = x ^ mpz_class(x >> 32);
+    return mpz_class(folded * odd_fraction_of_root(n) % word);
+  };
+  mpz_class hash = mixed(encoding(p.x), 2);
+  hash = mixed((hash + encoding(p.y)) % word, 3);
+  hash = mixed((hash + encoding(p.z)) % word, 5);
+  return mixed(hash, 2);
 }
 
 Oracle::Oracle(std::span<const Point> sites, Model model, const Sphere& sphere) : model_(model) {
@@ -79,8 +111,12 @@ Oracle::Oracle(std::span<const Point> sites, Model model, const Sphere& sphere) 
   }
   std::vector<std::size_t> order(sites.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(
-      order, [&](auto a, auto b) { return coordinates(sites[a]) < coordinates(sites[b]); });
+  std::vector<mpz_class> hashes(sites.size());
+  if (model == Model::projected) std::ranges::transform(sites, hashes.begin(), hash_of_coordinates);
+  std::ranges::stable_sort(order, [&](auto a, auto b) {
+    if (hashes[a] != hashes[b]) return hashes[a] < hashes[b];
+    return coordinates(sites[a]) < coordinates(sites[b]);
+  });
   rank_.resize(sites.size());
   for (std::size_t i = 0; i < order.size(); ++i) rank_[order[i]] = i;
 }
@@ -218,7 +254,9 @@ int Oracle::perturbed_side(std::size_t a, std::size_t b, std::size_t c, std::siz
     }
     if ((e_set & d_set) != 0) continue;  // no row holds both
     const int result = coefficient_sign(quad, e_set, d_set);
-    if (result != 0) return result;
+    if (result == 0) continue;
+    const bool is_odd = std::popcount(e_set | d_set) % 2 != 0;
+    return model_ == Model::projected && is_odd ? -result : result;
   }
   return 0;
 }

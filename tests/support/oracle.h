@@ -23,10 +23,10 @@ using IntegerVector = std::array<mpz_class, 3>;
 // Perturbation. Site i moves from its exact place p_i (in the projected model p_i is the unit
 // vector) to
 //
-//     p_i (1 + e_i) + d_i (p_i - g)
+//     p_i (1 + s e_i) + s d_i (p_i - g),    s = -1 in the projected model, 1 in the weighted one,
 //
-// where g is a point inside the hull and, with the sites in lexicographic order of
-// their coordinates, 1 >> e_1 >> e_2 >> ... >> d_1 >> d_2 >> ...: each is positive and smaller than
+// where g is a point inside the hull and, with the sites in the order of `rank`,
+// 1 >> e_1 >> e_2 >> ... >> d_1 >> d_2 >> ...: each is positive and smaller than
 // any power of those before. The determinant of four moved sites is a polynomial in
 // the e's and d's, linear in each; its sign is that of its leading coefficient.
 class Oracle {
@@ -44,7 +44,8 @@ class Oracle {
   [[nodiscard]] int perturbed_side(std::size_t a, std::size_t b, std::size_t c,
                                    std::size_t p) const;
   [[nodiscard]] bool is_same_site(std::size_t a, std::size_t b) const;
-  // The place of the site in the lexicographic order.
+  // The place of the site in the order of the infinitesimals: the lexicographic order of the
+  // coordinates; in the projected model hash_of_coordinates() comes before these.
   [[nodiscard]] std::size_t rank(std::size_t a) const { return rank_[a]; }
   // Whether the site is the center of the sphere.
   [[nodiscard]] bool is_center(std::size_t a) const;
@@ -72,10 +73,13 @@ class Oracle {
   Model model_;
   std::vector<IntegerVector> vectors_;
   std::vector<mpz_class> squares_;  // squared lengths; 1 in the weighted model
-  std::vector<std::size_t> rank_;   // place in the lexicographic order
-  IntegerVector inner_;             // g = inner_ / inner_weight_
+  std::vector<std::size_t> rank_;
+  IntegerVector inner_;  // g = inner_ / inner_weight_
   mpz_class inner_weight_;
 };
+
+// The hash that docs/theory/perturbation.md defines.
+mpz_class hash_of_coordinates(const Point& p);
 
 mpz_class determinant(const IntegerVector& a, const IntegerVector& b, const IntegerVector& c);
 IntegerVector cross(const IntegerVector& a, const IntegerVector& b);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numeric>
 #include <sstream>
+#include <tuple>
 #include <vector>
 
 #include "support/oracle.h"
@@ -197,9 +198,9 @@ std::string geometry_error(const Triangulation& t, std::span<const Point> sites)
   std::vector<std::size_t> speaker(sites.size());
   std::iota(speaker.begin(), speaker.end(), std::size_t{0});
   for (const Duplicate& d : t.duplicates()) {
-    if (oracle.rank(d.site) < oracle.rank(speaker[d.representative])) {
-      speaker[d.representative] = d.site;
-    }
+    const Point& p = sites[d.site];
+    const Point& q = sites[speaker[d.representative]];
+    if (std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z)) speaker[d.representative] = d.site;
   }
   IntegerVector direction;
   for (Index f = 0; f < t.num_faces(); ++f) {

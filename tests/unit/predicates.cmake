@@ -4,6 +4,7 @@ rondel_add_test(predicates_test
   exact_ball_test.cpp
   predicates_distance_test.cpp
   predicates_oracle_test.cpp
+  predicates_perturbation_test.cpp
   predicates_rung_test.cpp
   predicates_sign_test.cpp
   predicates_symmetry_test.cpp

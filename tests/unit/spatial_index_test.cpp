@@ -105,6 +105,16 @@ TEST(spatial_index, near_finds_a_neighbor) {
   }
 }
 
+// Sites that come in order along a curve have the last one behind them, and nothing near ahead.
+TEST(spatial_index, near_finds_the_neighbor_that_is_closer) {
+  SpatialIndex index;
+  for (Index i = 0; i < 20; ++i) insert(index, {std::uint64_t{10} * i, 0}, i, unordered);
+  for (Index i = 0; i < 19; ++i) {
+    EXPECT_EQ(index.near({std::uint64_t{10} * i + 2, 0}), i);
+    EXPECT_EQ(index.near({std::uint64_t{10} * i + 8, 0}), i + 1);
+  }
+}
+
 TEST(spatial_index, lists_values_around_a_position) {
   SpatialIndex index;
   const auto around = [&index](const HilbertKey& key) {
