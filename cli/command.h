@@ -25,6 +25,7 @@
 
 namespace CLI {  // NOLINT(readability-identifier-naming): not ours
 class App;
+class Option;
 }  // namespace CLI
 
 namespace rondel::cli {
@@ -47,26 +48,34 @@ struct Command {
 
 /// The options that mean the same in every command that has them.
 struct CommonOptions {
-  std::string input;   ///< INPUT
-  std::string output;  ///< -o, --output
-  ReadOptions read;    ///< --lon --lat --x --y --z --radius --radians
-  Options build;       ///< --model --threads --center --squared-radius
-  bool json = false;   ///< --json
-  bool quiet = false;  ///< --quiet
+  std::string input;          ///< INPUT; "-": standard input
+  std::string input_format;   ///< --input-format
+  std::string output;         ///< -o, --output; "-": standard output
+  std::string output_format;  ///< --format
+  ReadOptions read;           ///< --lon --lat --x --y --z --radius --radians
+  Options build;              ///< --model --threads --center --squared-radius
+  bool json = false;          ///< --json
+  bool quiet = false;         ///< --quiet
+
+  [[nodiscard]] FileName source() const { return {input, input_format}; }
+  [[nodiscard]] FileName target() const { return {output, output_format}; }
+  /// The format of the output, "ply", by its name or ending in lower case.
+  [[nodiscard]] std::string format() const;
 };
 
 /// \pre comes before add_build_options(): --radius sets the model, which --model may contradict.
 void add_input_options(CLI::App& command, CommonOptions& options);
 /// The same for a command that takes points in space: x, y, z only.
 void add_point_input_options(CLI::App& command, CommonOptions& options);
-/// `what` says what is written and to which endings, for the help.
-void add_output_option(CLI::App& command, CommonOptions& options, const std::string& what);
+/// --output, which the caller may require, and --format. `what` says what is written and to which
+/// endings, for the help.
+CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const std::string& what);
 void add_build_options(CLI::App& command, CommonOptions& options);
 void add_threads_option(CLI::App& command, CommonOptions& options);
 void add_report_options(CLI::App& command, CommonOptions& options);
 
-/// Throws UsageError unless the output's ending is one of those written (`is_known`), and if
-/// the output is the input. Call it before any work.
+/// Throws UsageError unless the output's format is one of those written (`is_known`), if the output
+/// is the input, and if output and report both want standard output. Call it before any work.
 void require_output(const CommonOptions& options, bool is_known, const std::string& endings);
 
 /// The stages of a job that a command times itself.
@@ -94,7 +103,7 @@ class Job {
   /// The sites of INPUT. \throws FileError
   SiteTable read();
   /// The sites of another file. \throws FileError
-  SiteTable read(const std::string& path, const ReadOptions& read);
+  SiteTable read(const FileName& file, const ReadOptions& read);
   /// \throws FileError with the file and line of a site that the library does not accept.
   Triangulation triangulate(const SiteTable& table);
   /// \throws FileError as triangulate()
@@ -106,7 +115,8 @@ class Job {
   /// The time so far.
   [[nodiscard]] Seconds seconds() const;
 
-  /// Prints the summary, or the JSON object of --json, or nothing with --quiet. `what` names what
+  /// Prints the summary, or the JSON object of --json, or nothing with --quiet or where standard
+  /// output has the output. `what` names what
   /// was written to OUTPUT: "the triangulation". \throws FileError if stdout cannot be written.
   void report(const Triangulation& triangulation, const std::string& what);
   /// The same for a command with a report of its own; `json` is printed under --json.

@@ -43,6 +43,7 @@ std::string kinds_help() {
 std::string distance_error(const std::string& text) { return range_error(text, 0, 180); }
 
 void add_query_options(CLI::App& parser, QueryOptions& options, const std::string& formats) {
+  options.common.output = "-";
   add_input_options(parser, options.common);
   parser
       .add_option("QUERIES", options.queries,
@@ -50,8 +51,7 @@ void add_query_options(CLI::App& parser, QueryOptions& options, const std::strin
                   "by an option have the same name in both. One of the two may be -")
       ->required()
       ->type_name("");
-  parser.add_option("-o,--output", options.common.output, "Where to write the answers: " + formats)
-      ->type_name("FILE");
+  add_output_option(parser, options.common, "Where to write the answers: " + formats);
   add_build_options(parser, options.common);
   add_report_options(parser, options.common);
 }
@@ -64,7 +64,8 @@ Command add_delaunay_command(CLI::App& tool) {
   add_input_options(*parser, *options);
   add_output_option(*parser, *options,
                     "Where to write the triangles: .npy (m x 3 input indices), .off .ply .obj\n"
-                    ".stl .vtp .geojson");
+                    ".stl .vtp .geojson")
+      ->required();
   add_build_options(*parser, *options);
   add_report_options(*parser, *options);
   parser->footer(
@@ -83,7 +84,8 @@ Command add_voronoi_command(CLI::App& tool) {
   add_output_option(
       *parser, options->common,
       "Where to write the cells: .geojson (a feature per cell, with its area and the\n"
-      "input's columns), .vtp .npz");
+      "input's columns), .vtp .npz")
+      ->required();
   parser
       ->add_option("--tolerance", options->tolerance_deg,
                    "GeoJSON: how far a line may be from its great circle (default: 0.01)")
@@ -106,7 +108,8 @@ Command add_hull_command(CLI::App& tool) {
   add_point_input_options(*parser, options->common);
   add_output_option(*parser, options->common,
                     "Where to write the triangles: .npy (m x 3 input indices), .off .ply .obj\n"
-                    ".stl .vtp");
+                    ".stl .vtp")
+      ->required();
   parser->add_flag("--compact", options->is_compact,
                    "Write the vertices of the hull only, renumbered; otherwise every input point\n"
                    "is written, in input order");
@@ -156,7 +159,8 @@ Command add_generate_command(CLI::App& tool) {
       ->transform(digits_of_whole)
       ->type_name("N");
   add_output_option(*parser, options->common,
-                    "Where to write the sites: .csv .tsv (with a header), .xyz .txt .npy");
+                    "Where to write the sites: .csv .tsv (with a header), .xyz .txt .npy")
+      ->required();
   parser->add_option("--seed", recipe.seed, "Seed of the random numbers (default: 1)")
       ->check(seed_error)
       ->type_name("S");

@@ -49,7 +49,7 @@ Mesh compact(const SiteTable& table, const Triangulation& surface) {
   for (std::size_t i = 0; i < name.size(); ++i) {
     if (name[i] == no_index) continue;
     name[i] = static_cast<Index>(mesh.table.sites.size());
-    mesh.table.sites.owned().push_back(table.sites[i]);
+    mesh.table.sites.push_back(table.sites[i]);
   }
   TriangulationArrays arrays;
   arrays.num_sites = mesh.table.sites.size();
@@ -66,11 +66,12 @@ Mesh compact(const SiteTable& table, const Triangulation& surface) {
 }
 
 void require_mesh(const HullCommandOptions& options) {
-  const std::string& output = options.common.output;
-  require_output(options.common, can_write_triangles(output) && !output.ends_with("json"),
+  const CommonOptions& common = options.common;
+  const std::string format = common.format();
+  require_output(common, can_write_triangles(common.target()) && format != "geojson",
                  ".npy .off .ply .obj .stl .vtp");
-  if (options.is_compact && output.ends_with(".npy")) {
-    throw UsageError("--compact: '" + output + "' has no list of vertices to shorten");
+  if (options.is_compact && format == "npy") {
+    throw UsageError("--compact: .npy has no list of vertices to shorten");
   }
 }
 
@@ -93,9 +94,9 @@ ExitStatus run_hull(const HullCommandOptions& options) {
     const Triangulation surface = is_polygon ? two_sided(hull) : hull;
     if (options.is_compact) {
       const Mesh mesh = compact(table, surface);
-      write_triangles(options.common.output, mesh.table, mesh.surface, job.progress());
+      write_triangles(options.common.target(), mesh.table, mesh.surface, job.progress());
     } else {
-      write_triangles(options.common.output, table, surface, job.progress());
+      write_triangles(options.common.target(), table, surface, job.progress());
     }
   });
   job.report(options.common.json ? hull_json_report(hull, size, job.seconds()) : std::string(),

@@ -97,7 +97,7 @@ Facts find_facts(const SiteTable& table, Job& job, const Sphere& sphere) {
   facts.height = heights_of(table.sites, sphere);
   SiteTable rays;
   rays.name = table.name;
-  std::ranges::copy_if(table.sites, std::back_inserter(rays.sites.owned()),
+  std::ranges::copy_if(table.sites, std::back_inserter(rays.sites),
                        [&](const Point& site) { return site != sphere.center; });
   facts.at_center = table.sites.size() - rays.sites.size();
   facts.triangulation = job.triangulate(rays);
@@ -125,6 +125,7 @@ std::string json_of(const SiteTable& table, const Facts& facts, const Seconds& s
                      {"at_center", facts.at_center},
                      {"duplicates", triangulation.duplicates().size()},
                      {"hidden", triangulation.hidden().size()},
+                     {"unlocated", table.num_unlocated},
                      {"dimension", triangulation.dimension()},
                      {"model", name_of(triangulation.model())},
                      {"columns", columns},

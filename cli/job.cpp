@@ -43,20 +43,27 @@ struct Job::State {
   }
 
   Seconds seconds{};
+  std::uint64_t num_unlocated = 0;  // features read
   Clock::time_point start = Clock::now();
 };
 
 Job::Job(const CommonOptions& options) : state_(std::make_unique<State>(options)) {}
 Job::~Job() = default;
 
-SiteTable Job::read() { return read(state_->options.input, state_->options.read); }
+SiteTable Job::read() { return read(state_->options.source(), state_->options.read); }
 
-SiteTable Job::read(const std::string& path, const ReadOptions& read) {
+SiteTable Job::read(const FileName& file, const ReadOptions& read) {
   const Clock::time_point start = Clock::now();
   ReadOptions options = read;
   options.progress = progress();
-  SiteTable table = read_sites(path, options);
+  SiteTable table = read_sites(file, options);
   state_->seconds.read += seconds_since(start);
+  state_->num_unlocated += table.num_unlocated;
+  if (table.num_unlocated > 0 && !state_->options.quiet) {
+    state_->line.clear();
+    std::fprintf(stderr, "rondel: %s: left out %s without a place\n", table.name.c_str(),
+                 count(table.num_unlocated, "feature", "features").c_str());
+  }
   return table;
 }
 
@@ -87,12 +94,14 @@ Seconds Job::seconds() const {
 
 void Job::report(const Triangulation& triangulation, const std::string& what) {
   const CommonOptions& options = state_->options;
-  report(options.json ? json_report(triangulation, seconds()) : std::string(),
-         summary(triangulation, seconds(), what, options.output));
+  report(
+      options.json ? json_report(triangulation, seconds(), state_->num_unlocated) : std::string(),
+      summary(triangulation, seconds(), what, options.output));
 }
 
 void Job::report(const std::string& json, const std::string& summary) {
   state_->line.clear();
+  if (state_->options.output == "-") return;
   if (state_->options.json) {
     print(json);
   } else if (!state_->options.quiet) {

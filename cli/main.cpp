@@ -13,7 +13,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,6 +35,26 @@ void guard_standard_streams() {
     const int mode = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
     if (open("/dev/null", mode) == -1) std::_Exit(failed);
   }
+}
+
+extern "C" void rondel_remove_temporaries_and_end(int signal) {
+  remove_temporaries();
+  std::raise(signal);  // its default action has been restored (SA_RESETHAND)
+}
+
+// What ends the process leaves no temporary file; a reader that goes away (SIGPIPE) ends it
+// silently, as it does other tools. A limit on the size of files is an error, no signal.
+void handle_signals() {
+  struct sigaction action {};
+  action.sa_handler = &rondel_remove_temporaries_and_end;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGTERM}) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 int fail(ExitStatus status, std::string message) {
@@ -78,6 +100,16 @@ void require_known_command(const std::vector<Command>& commands, int argc,
   }
 }
 
+// A hint where the name of a file was taken for an option.
+std::string file_like_an_option(int argc, const char* const* argv) {
+  for (const std::string name : std::span(argv, static_cast<std::size_t>(argc)).subspan(1)) {
+    std::error_code ignored;
+    if (name.size() < 2 || name.front() != '-' || !std::filesystem::exists(name, ignored)) continue;
+    return "; the file is ./" + name;
+  }
+  return {};
+}
+
 int run(int argc, const char* const* argv) {
   CLI::App tool{"Exact Delaunay triangulations and Voronoi diagrams on the sphere."};
   configure(tool);
@@ -94,7 +126,8 @@ int run(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const Command* command = selected(commands);
     const std::string name = command == nullptr ? "" : " " + command->parser->get_name();
-    throw UsageError(error.what() + std::string(" (see rondel") + name + " --help)");
+    throw UsageError(error.what() + std::string(" (see rondel") + name + " --help)" +
+                     file_like_an_option(argc, argv));
   }
   const Command* command = selected(commands);
   if (command == nullptr) throw UsageError("no command (see rondel --help)");
@@ -118,7 +151,6 @@ int run_and_report(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   rondel::cli::guard_standard_streams();
-  std::signal(SIGPIPE, SIG_IGN);  // a broken pipe is an error of write, reported like others
-  rondel::remove_temporaries_on_signal();
+  rondel::cli::handle_signals();
   return rondel::cli::run_and_report(argc, argv);
 }

@@ -4,6 +4,7 @@
 // The options that several commands share.
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 
 #include "command.h"
@@ -46,6 +47,38 @@ void add_columns(CLI::App& command, ReadOptions& read) {
       ->excludes(x);
 }
 
+// "-" for the name that the system has for a standard stream.
+std::string standard(const std::string& name, const char* stream) {
+  return name == stream ? "-" : name;
+}
+
+void add_input(CLI::App& command, CommonOptions& options, const std::string& what) {
+  command
+      .add_option_function<std::string>(
+          "INPUT",
+          [&options](const std::string& name) { options.input = standard(name, "/dev/stdin"); },
+          what)
+      ->required()
+      ->type_name("");
+  command
+      .add_option("--input-format", options.input_format,
+                  "Format of standard input (default: csv) or, where that is not read, of\n"
+                  "INPUT (default: by its ending)")
+      ->type_name("FORMAT");
+  command
+      .add_option_function<std::string>(
+          "--delimiter",
+          [&options](const std::string& text) {
+            const bool is_tab = text == "tab" || text == "\\t";
+            if (!is_tab && text.size() != 1) {
+              throw UsageError("--delimiter: '" + text + "' is neither one character nor 'tab'");
+            }
+            options.read.delimiter = is_tab ? '\t' : text.front();
+          },
+          "Between the fields of .csv and .tsv: one character, or 'tab'")
+      ->type_name("C");
+}
+
 void add_radius(CLI::App& command, CommonOptions& options) {
   command
       .add_option_function<std::string>(
@@ -63,28 +96,39 @@ void add_radius(CLI::App& command, CommonOptions& options) {
 }  // namespace
 
 void add_input_options(CLI::App& command, CommonOptions& options) {
-  command
-      .add_option("INPUT", options.input,
-                  "The sites: .csv .tsv .xyz .txt .npy .geojson, or - for CSV from\n"
-                  "standard input. Longitude and latitude in degrees, or x, y, z.")
-      ->required()
-      ->type_name("");
+  add_input(command, options,
+            "The sites: .csv .tsv .xyz .txt .npy .geojson, or - for standard input.\n"
+            "Longitude and latitude in degrees, or x, y, z.");
   add_radius(command, options);
   add_columns(command, options.read);
 }
 
 void add_point_input_options(CLI::App& command, CommonOptions& options) {
-  command
-      .add_option("INPUT", options.input,
-                  "The points, x, y, z: .csv .tsv .xyz .txt .npy, or - for CSV from\n"
-                  "standard input")
-      ->required()
-      ->type_name("");
+  add_input(command, options,
+            "The points, x, y, z: .csv .tsv .xyz .txt .npy, or - for standard input");
   add_xyz(command, options.read);
 }
 
-void add_output_option(CLI::App& command, CommonOptions& options, const std::string& what) {
-  command.add_option("-o,--output", options.output, what)->required()->type_name("FILE");
+CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const std::string& what) {
+  command
+      .add_option("--format", options.output_format,
+                  "Format of the output, 'ply' for example (default: by the ending of FILE)")
+      ->type_name("FORMAT");
+  return command
+      .add_option_function<std::string>(
+          "-o,--output",
+          [&options](const std::string& name) { options.output = standard(name, "/dev/stdout"); },
+          what)
+      ->type_name("FILE");
+}
+
+std::string CommonOptions::format() const {
+  std::string format = std::filesystem::path(output).extension();
+  if (!output_format.empty()) format = output_format;
+  if (format.starts_with('.')) format.erase(0, 1);
+  std::ranges::transform(format, format.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  return format;
 }
 
 void add_build_options(CLI::App& command, CommonOptions& options) {
@@ -137,8 +181,18 @@ void add_report_options(CLI::App& command, CommonOptions& options) {
 }
 
 void require_output(const CommonOptions& options, bool is_known, const std::string& endings) {
+  if (!is_known && !options.output_format.empty()) {
+    throw UsageError("--format: '" + options.output_format + "' is not one of " + endings);
+  }
+  if (!is_known && options.output == "-") {
+    throw UsageError("--output: standard output needs --format, one of " + endings);
+  }
   if (!is_known) {
-    throw UsageError("--output: the ending of '" + options.output + "' is not one of " + endings);
+    throw UsageError("--output: the ending of '" + options.output + "' is not one of " + endings +
+                     "; --format names one");
+  }
+  if (options.json && options.output == "-") {
+    throw UsageError("--json: standard output has the output; name a file");
   }
   std::error_code ignored;  // a file that does not exist is equivalent to none
   if (std::filesystem::equivalent(options.input, options.output, ignored)) {

@@ -36,11 +36,11 @@ struct PlotOptions {
   double up_deg = 0;
 };
 
-std::optional<FigureFormat> format_of(const std::string& path) {
-  for (const auto& [ending, format] : {std::pair{".png", FigureFormat::png},
-                                       {".svg", FigureFormat::svg},
-                                       {".pdf", FigureFormat::pdf}}) {
-    if (path.ends_with(ending)) return format;
+std::optional<FigureFormat> figure_format(const std::string& name) {
+  for (const auto& [known, format] : {std::pair{"png", FigureFormat::png},
+                                      {"svg", FigureFormat::svg},
+                                      {"pdf", FigureFormat::pdf}}) {
+    if (name == known) return format;
   }
   return std::nullopt;
 }
@@ -131,7 +131,7 @@ void warn_of_size(const PlotOptions& options, const Figure& figure, FigureFormat
 }
 
 ExitStatus run_plot(const PlotOptions& options) {
-  const auto format = format_of(options.common.output);
+  const auto format = figure_format(options.common.format());
   require_output(options.common, format.has_value(), ".png .svg .pdf");
   if (!options.view.empty() && std::abs(options.view[1]) > 90) {
     throw UsageError("--view: the latitude is outside [-90, 90]");
@@ -232,7 +232,8 @@ Command add_plot_command(CLI::App& tool) {
   CLI::App* parser =
       tool.add_subcommand("plot", "Draw the triangulation or the cells on the globe");
   add_input_options(*parser, options->common);
-  add_output_option(*parser, options->common, "Where to write the figure: .png .svg .pdf");
+  add_output_option(*parser, options->common, "Where to write the figure: .png .svg .pdf")
+      ->required();
   add_content_options(*parser, *options);
   add_view_options(*parser, *options);
   add_build_options(*parser, options->common);

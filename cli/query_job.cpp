@@ -14,9 +14,14 @@
 namespace rondel::cli {
 namespace {
 
-bool ends_with(const std::string& path, std::string_view ending) {
-  return path.size() > ending.size() &&
-         path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+// Standard output is CSV where no format is named, and a format of standard input is that of the
+// file which is read from it.
+QueryOptions completed(QueryOptions options) {
+  CommonOptions& common = options.common;
+  if (common.output == "-" && common.output_format.empty()) common.output_format = "csv";
+  if (options.queries == "/dev/stdin") options.queries = "-";
+  if (options.queries == "-") std::swap(common.input_format, options.query_format);
+  return options;
 }
 
 // The queries are points, whatever the sites are.
@@ -28,17 +33,14 @@ ReadOptions query_options(const QueryOptions& options) {
 
 }  // namespace
 
-QueryJob::QueryJob(const QueryOptions& options) : options_(options), job_(options.common) {
+QueryJob::QueryJob(const QueryOptions& options)
+    : options_(completed(options)), job_(options_.common) {
   const CommonOptions& common = options_.common;
   if (common.input == "-" && options_.queries == "-") {
     throw UsageError("INPUT and QUERIES: only one of them can be standard input");
   }
-  if (common.output.empty()) {
-    if (common.json) throw UsageError("--json: standard output has the answers; use --output");
-    return;
-  }
-  const bool is_known =
-      is_npy() || ends_with(common.output, ".csv") || ends_with(common.output, ".tsv");
+  const std::string format = common.format();
+  const bool is_known = format == "npy" || format == "csv" || format == "tsv";
   require_output(common, is_known, ".csv .tsv .npy");
   std::error_code ignored;
   if (std::filesystem::equivalent(options_.queries, common.output, ignored)) {
@@ -49,24 +51,18 @@ QueryJob::QueryJob(const QueryOptions& options) : options_(options), job_(option
 void QueryJob::prepare() {
   ReadOptions read = options_.common.read;
   read.keep_columns = !options_.columns.empty();
-  sites_ = job_.read(options_.common.input, read);
-  queries_ = job_.read(options_.queries, query_options(options_));
+  sites_ = job_.read(options_.common.source(), read);
+  queries_ = job_.read({options_.queries, options_.query_format}, query_options(options_));
   triangulation_ = job_.triangulate(sites_);
   job_.time(Stage::locator, [this] { locator_.emplace(triangulation_, sites_.sites); });
 }
 
-bool QueryJob::is_npy() const { return ends_with(options_.common.output, ".npy"); }
+bool QueryJob::is_npy() const { return options_.common.format() == "npy"; }
 
-char QueryJob::separator() const { return ends_with(options_.common.output, ".tsv") ? '\t' : ','; }
+char QueryJob::separator() const { return options_.common.format() == "tsv" ? '\t' : ','; }
 
 void QueryJob::write_text(const std::string& text) {
-  job_.time(Stage::write, [&] {
-    if (options_.common.output.empty()) {
-      print(text);
-    } else {
-      write_file(options_.common.output, text);
-    }
-  });
+  job_.time(Stage::write, [&] { write_file(options_.common.output, text); });
 }
 
 void QueryJob::write_npy(const std::vector<Index>& values,
@@ -75,7 +71,6 @@ void QueryJob::write_npy(const std::vector<Index>& values,
 }
 
 void QueryJob::report(const Counts& answers) {
-  if (options_.common.output.empty()) return;
   const Seconds seconds = job_.seconds();
   const BuildReport& build = triangulation_.report();
   nlohmann::ordered_json json = {{"sites", sites_.sites.size()},

@@ -113,8 +113,11 @@ std::string hull_line(const Triangulation& hull, const HullSize& size) {
 
 }  // namespace
 
-std::string json_report(const Triangulation& triangulation, const Seconds& seconds) {
-  return contract(triangulation, seconds).dump(2) + '\n';
+std::string json_report(const Triangulation& triangulation, const Seconds& seconds,
+                        std::uint64_t unlocated) {
+  Json json = contract(triangulation, seconds);
+  json["unlocated"] = unlocated;
+  return json.dump(2) + '\n';
 }
 
 std::string hull_json_report(const Triangulation& hull, const HullSize& size,

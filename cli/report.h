@@ -22,8 +22,10 @@ std::string count(std::size_t number, const std::string& one, const std::string&
 /// The largest resident size of this process so far.
 std::uint64_t peak_memory_bytes();
 
-/// The JSON object of a triangulation, with a newline. Its keys are a contract.
-std::string json_report(const Triangulation& triangulation, const Seconds& seconds);
+/// The JSON object of a triangulation, with a newline. Its keys are a contract. `unlocated` counts
+/// the features of the input that have no geometry.
+std::string json_report(const Triangulation& triangulation, const Seconds& seconds,
+                        std::uint64_t unlocated);
 
 /// The same with what only a hull has: flat, volume, area.
 std::string hull_json_report(const Triangulation& hull, const HullSize& size,

@@ -38,8 +38,9 @@ struct GenerateOptions {
 
 /// What locate and nearest share, and what only nearest has.
 struct QueryOptions {
-  CommonOptions common;              ///< an empty output is standard output
-  std::string queries;               ///< QUERIES
+  CommonOptions common;
+  std::string queries;               ///< QUERIES; "-": standard input
+  std::string query_format;          ///< empty: by the ending
   std::vector<std::string> columns;  ///< --column: columns of INPUT to add to the answers
   std::uint64_t k = 0;               ///< -k; 0: not given
   double within_deg = -1;            ///< --within; negative: not given

@@ -35,8 +35,9 @@ void require_parts(const Kind& kind, const Recipe& recipe) {
 }  // namespace
 
 ExitStatus run_generate(const GenerateOptions& options) {
-  const CommonOptions& common = options.common;
-  require_output(common, can_write_sites(common.output), ".csv .tsv .xyz .txt .npy");
+  CommonOptions common = options.common;
+  if (common.output == "-" && common.output_format.empty()) common.output_format = "csv";
+  require_output(common, can_write_sites(common.target()), ".csv .tsv .xyz .txt .npy");
   const Kind& kind = *inputs::find_kind(options.kind);
   Recipe recipe = options.recipe;
   recipe.angle_deg =
@@ -45,7 +46,7 @@ ExitStatus run_generate(const GenerateOptions& options) {
   Job job(common);
   const inputs::Input made = make(kind, recipe);
   job.time(Stage::write,
-           [&] { write_sites(common.output, made.sites, made.positions, made.radii_deg); });
+           [&] { write_sites(common.target(), made.sites, made.positions, made.radii_deg); });
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {
       {"kind", options.kind},

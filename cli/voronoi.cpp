@@ -8,15 +8,15 @@ namespace rondel::cli {
 
 ExitStatus run_voronoi(const VoronoiOptions& options) {
   CommonOptions common = options.common;
-  require_output(common, can_write_cells(common.output), ".geojson .vtp .npz");
-  common.read.keep_columns = common.output.ends_with("json");  // only GeoJSON has properties
+  require_output(common, can_write_cells(common.target()), ".geojson .vtp .npz");
+  common.read.keep_columns = common.format() == "geojson";  // only GeoJSON has properties
   Job job(common);
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
   Diagram diagram;
   job.time(Stage::dual, [&] { diagram = rondel::diagram(triangulation, table.sites); });
   job.time(Stage::write, [&] {
-    write_cells(common.output, table, triangulation, diagram, options.tolerance_deg,
+    write_cells(common.target(), table, triangulation, diagram, options.tolerance_deg,
                 job.progress());
   });
   job.report(triangulation,

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Files in and out (target rondel::io). Every function throws FileError with one line that
-/// names the file and, where there is one, the line and the value. Output
-/// goes to a temporary name beside the file and is renamed when it is complete.
+/// Files in and out (target rondel::io, Linux only). Every function throws FileError with one line
+/// that names the file and, where there is one, the line and the value. Output goes to a temporary
+/// file beside the named one and is renamed when it is complete: a failure or a signal leaves what
+/// was there before. A power failure soon after may not: nothing waits for the disk.
 #pragma once
 
-#include <algorithm>
+#include <concepts>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,10 +23,23 @@
 
 namespace rondel::inline v0 {
 
+/// A file and its format.
+struct FileName {
+  /// Of a std::string, "a literal" or a std::filesystem::path.
+  template <class Name>
+  requires std::convertible_to<Name, std::string> FileName(Name&& name,
+                                                           std::string format_name = "")
+      : path(std::forward<Name>(name)), format(std::move(format_name)) {}
+
+  std::string path;    ///< "-" is standard input or output
+  std::string format;  ///< "ply", "npy" ...; empty: by the ending of the path
+};
+
 /// How to read sites.
 struct ReadOptions {
-  std::string lon, lat;  ///< column names; empty: found by header (lon, lng, long, longitude ...)
-  std::string x, y, z;   ///< column names; empty: found by header
+  char delimiter = '\0';  ///< of .csv and .tsv; 0: a comma, a tab
+  std::string lon, lat;   ///< column names; empty: found by header (lon, lng, long, longitude ...)
+  std::string x, y, z;    ///< column names; empty: found by header
   /// Column of the angular radius in degrees, for GeoJSON a property: each site is then the
   /// weighted site of a circle, see polar_point(). Empty: sites have no radius.
   std::string radius;
@@ -44,87 +57,50 @@ struct Column {
   std::vector<std::uint64_t> ends;  ///< where each cell ends in `text`
 };
 
-/// Points of a vector, or of a file that is mapped into memory and stays so as long as it is
-/// needed.
-class PointArray {
- public:
-  using value_type = Point;
-  using const_iterator = const Point*;
-  using iterator = const_iterator;
-
-  PointArray() = default;
-  PointArray(std::vector<Point> points) : owned_(std::move(points)) {}
-  /// Refers to points that live as long as `memory`.
-  PointArray(std::span<const Point> points, std::shared_ptr<const void> memory)
-      : mapped_(points), memory_(std::move(memory)) {}
-
-  [[nodiscard]] std::span<const Point> view() const noexcept {
-    return mapped_.empty() ? std::span<const Point>(owned_) : mapped_;
-  }
-  [[nodiscard]] const_iterator begin() const noexcept { return view().data(); }
-  [[nodiscard]] const_iterator end() const noexcept { return begin() + size(); }
-  [[nodiscard]] std::size_t size() const noexcept { return view().size(); }
-  [[nodiscard]] bool empty() const noexcept { return size() == 0; }
-  const Point& operator[](std::size_t i) const { return view()[i]; }
-
-  /// Whether the points are those of a mapped file.
-  [[nodiscard]] bool is_mapped() const noexcept { return !mapped_.empty(); }
-  /// The vector, to change it; not for mapped points.
-  std::vector<Point>& owned() { return owned_; }
-
-  friend bool operator==(const PointArray& a, const PointArray& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end());
-  }
-
- private:
-  std::vector<Point> owned_;
-  std::span<const Point> mapped_;
-  std::shared_ptr<const void> memory_;
-};
-
 /// The sites of a file.
 struct SiteTable {
-  std::string name;                  ///< the file, for messages; "<stdin>" for "-"
-  PointArray sites;                  ///< unit vectors for lon/lat input, otherwise as given;
+  std::string name;                  ///< the file, for messages; "<stdin>" for standard input
+  std::vector<Point> sites;          ///< unit vectors for lon/lat input, otherwise as given;
                                      ///< of circles the polar points
   std::vector<LonLat> positions;     ///< degrees as given; empty for xyz input
   std::vector<double> radii_deg;     ///< of circles; empty without a radius column
   std::vector<Column> columns;       ///< if kept
   std::vector<std::uint64_t> lines;  ///< the line of each site; empty where every line is a site
-  std::uint64_t first_line =
-      1;  ///< the line of site 0 when `lines` is empty; 0: the format has none
+  /// The line of site 0 when `lines` is empty; 0: the format has none.
+  std::uint64_t first_line = 1;
+  std::uint64_t num_unlocated = 0;  ///< GeoJSON: features left out, as they have no geometry
 
   [[nodiscard]] bool is_lonlat() const noexcept { return !positions.empty(); }
   /// "stations.csv:17" or, for formats without lines, "sites.npy: row 16".
   [[nodiscard]] std::string where(std::size_t site) const;
 };
 
-/// Reads .csv .tsv .xyz .txt .npy .geojson; "-" is CSV from standard input. The numbers of a large
-/// .npy file, (n, 3) float64 little-endian in C order, are not copied: the sites are the mapped
-/// file, which must not be cut or changed as long as they are used.
-RONDEL_API SiteTable read_sites(const std::string& path, const ReadOptions& options = {});
+/// Reads .csv .tsv .xyz .txt .npy .geojson; "-" is standard input, CSV where no format is named. A
+/// file without sites is an answer; one without a byte is an error.
+RONDEL_API SiteTable read_sites(const FileName& file, const ReadOptions& options = {});
 
 /// Reads the faces (m, 3) of .npy .off .ply .obj .vtp.
-RONDEL_API std::vector<Triple> read_triangles(const std::string& path);
+RONDEL_API std::vector<Triple> read_triangles(const FileName& file);
 
-/// Whether the format that the name's ending tells can hold triangles (.npy
-/// .off .ply .obj .stl .vtp .geojson), cells (.geojson .vtp .npz), sites (.csv .xyz .npy ...).
-RONDEL_API bool can_write_triangles(const std::string& path);
-RONDEL_API bool can_write_cells(const std::string& path);
-RONDEL_API bool can_write_sites(const std::string& path);
+/// Whether the format can hold triangles (.npy .off .ply .obj .stl .vtp .geojson), cells (.geojson
+/// .vtp .npz), sites (.csv .xyz .npy ...).
+RONDEL_API bool can_write_triangles(const FileName& file);
+RONDEL_API bool can_write_cells(const FileName& file);
+RONDEL_API bool can_write_sites(const FileName& file);
 
 /// Writes the triangles; throws InvalidInput, as write_cells() does, if the arguments do not belong
-/// together. .npy has input indices (m, 3) uint32; formats with vertices list every input site in
-/// input order with digits that round-trip. .stl repeats the corners as 32-bit floats, the only
-/// numbers that it has. GeoJSON has the solid faces: seen from the center, ghost faces are flat or
-/// reversed. `triangulation.report().threads` threads at most, here and below.
-RONDEL_API void write_triangles(const std::string& path, const SiteTable& table,
+/// together. .npy has input indices (m, 3) uint32; formats with vertices list every
+/// input site in input order with digits that round-trip.
+/// .stl repeats the corners as 32-bit floats, the only numbers that it has. GeoJSON has the solid
+/// faces: seen from the center, ghost faces are flat or reversed. Text is made by at most
+/// `triangulation.report().threads` threads, here and below, and does not depend on their number.
+RONDEL_API void write_triangles(const FileName& file, const SiteTable& table,
                                 const Triangulation& triangulation, const Progress& progress = {});
 
 /// Writes the cells. GeoJSON obeys RFC 7946 with one feature a cell: arcs are densified until the
 /// straight line in longitude and latitude is within `tolerance_deg` of the arc
 /// (closer between sites that are close).
-RONDEL_API void write_cells(const std::string& path, const SiteTable& table,
+RONDEL_API void write_cells(const FileName& file, const SiteTable& table,
                             const Triangulation& triangulation, const Diagram& diagram,
                             double tolerance_deg = 0.01, const Progress& progress = {});
 
@@ -132,7 +108,7 @@ RONDEL_API void write_cells(const std::string& path, const SiteTable& table,
 /// With the radii of circles at `positions`, .csv and .tsv have lon,lat,radius, and .npy has
 /// `sites`, the polar points, as .xyz and .txt always do. At most `threads` threads make the text,
 /// 0: one for each core.
-RONDEL_API void write_sites(const std::string& path, std::span<const Point> sites,
+RONDEL_API void write_sites(const FileName& file, std::span<const Point> sites,
                             std::span<const LonLat> positions = {},
                             std::span<const double> radii_deg = {}, unsigned threads = 0);
 
@@ -140,13 +116,11 @@ RONDEL_API void write_sites(const std::string& path, std::span<const Point> site
 RONDEL_API void write_indices(const std::string& path, std::span<const Index> values,
                               std::span<const std::uint64_t> shape);
 
-/// Writes any bytes to a temporary name and renames it to `path`: all or nothing.
+/// Writes any bytes: all or nothing.
 RONDEL_API void write_file(const std::string& path, std::string_view bytes);
 
-/// For programs, once, at their start: SIGHUP, SIGINT and SIGTERM will remove all temporary files
-/// before they end the process, a limit on the size of files will be an error, no signal, and a
-/// file that is cut while read_sites() or the use of its sites reads it (SIGBUS) ends the process
-/// with status 1 and the line "rondel: sites.npy: the file was cut while it was read".
-RONDEL_API void remove_temporaries_on_signal();
+/// Removes the temporary files of all outputs in work. For handlers of signals that end the
+/// program: it may be called at any moment, and what is being written is then lost.
+RONDEL_API void remove_temporaries() noexcept;
 
 }  // namespace rondel::inline v0

@@ -6,16 +6,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <atomic>
 #include <cerrno>
-#include <csignal>
-#include <cstdlib>
+#include <climits>
 #include <cstring>
-#include <memory>
+#include <filesystem>
 #include <system_error>
 
-#include "io/file_bytes.h"
-#include "io/signal_slots.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
 
@@ -24,35 +22,45 @@ namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
-// A file beyond the last slot is not removed by a signal.
-constexpr std::size_t num_slots = 8;
-SignalSlots<num_slots> temporaries;
+// The names of temporary files for signal handlers, which may touch neither the heap nor a lock. A
+// slot goes free -> claimed -> in_use -> free; handlers read slots in use, which do not change.
+class Temporaries {
+ public:
+  // A file that finds no free slot is not removed by a signal.
+  static constexpr std::size_t num_slots = 8;
 
-void remove_temporaries() noexcept {
-  static_cast<void>(temporaries.find([](const auto& file) {
-    ::unlink(file.name.data());
-    return false;
-  }));
-}
-
-extern "C" void rondel_remove_temporaries_and_end(int signal) {
-  remove_temporaries();
-  std::raise(signal);  // its default action has been restored (SA_RESETHAND)
-}
-
-// Memory that is mapped from a file is no longer there.
-extern "C" void rondel_report_cut_file(int signal, siginfo_t* info, void* /*context*/) {
-  remove_temporaries();
-  const char* const name = mapped_file_at(info->si_addr);
-  if (name == nullptr) {
-    std::raise(signal);
-    return;
+  // Returns the number of the slot, for forget().
+  std::size_t remember(const std::string& name) noexcept {
+    if (name.size() >= PATH_MAX) return num_slots;
+    for (std::size_t i = 0; i < num_slots; ++i) {
+      State expected = State::free;
+      if (!states_[i].compare_exchange_strong(expected, State::claimed)) continue;
+      std::memcpy(names_[i].data(), name.c_str(), name.size() + 1);
+      states_[i].store(State::in_use);
+      return i;
+    }
+    return num_slots;
   }
-  for (const char* text : {"rondel: ", name, ": the file was cut while it was read\n"}) {
-    if (::write(STDERR_FILENO, text, std::strlen(text)) < 0) break;
+
+  void forget(std::size_t slot) noexcept {
+    if (slot < num_slots) states_[slot].store(State::free);
   }
-  ::_exit(1);
-}
+
+  void remove_all() const noexcept {
+    for (std::size_t i = 0; i < num_slots; ++i) {
+      if (states_[i].load() == State::in_use) ::unlink(names_[i].data());
+    }
+  }
+
+ private:
+  enum class State : int { free, claimed, in_use };
+  static_assert(std::atomic<State>::is_always_lock_free);
+
+  std::array<std::atomic<State>, num_slots> states_ = {};
+  std::array<std::array<char, PATH_MAX>, num_slots> names_ = {};
+};
+
+Temporaries temporaries;
 
 // Short and independent of the target's name, which may be as long as a name can be.
 std::string temporary_name(const std::string& directory) {
@@ -61,46 +69,69 @@ std::string temporary_name(const std::string& directory) {
          std::to_string(counter.fetch_add(1)) + ".tmp";
 }
 
+// Where the file of that name is, or would be made: the last symbolic link may lead to nothing.
 std::string resolve_links(const std::string& path) {
-  const std::unique_ptr<char, decltype(&std::free)> resolved(::realpath(path.c_str(), nullptr),
-                                                             &std::free);
-  return resolved ? resolved.get() : path;
+  constexpr int most_links = 40;  // as many as Linux follows
+  std::filesystem::path target = path;
+  std::error_code error;
+  for (int i = 0; i < most_links && std::filesystem::is_symlink(target, error); ++i) {
+    target = target.parent_path() / std::filesystem::read_symlink(target, error);
+    if (error) return path;
+  }
+  return target;
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(path), slot_(num_slots) {
-  if (path == "-") throw FileError("-: standard output is not supported; name a file");
+AtomicFile::AtomicFile(const std::string& path) : path_(path), slot_(Temporaries::num_slots) {
+  buffer_.reserve(buffer_size);
+  if (path == "-") {
+    path_ = "<stdout>";
+    descriptor_ = STDOUT_FILENO;
+    return;
+  }
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
+  if (!exists && errno != ENOENT) fail(errno);
   if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
   if (exists && ::access(path.c_str(), W_OK) != 0) fail(errno);
-  buffer_.reserve(buffer_size);
   if (exists && !S_ISREG(status.st_mode)) {
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail(errno);
     return;
   }
-  if (exists) target_ = resolve_links(path);
-  const std::size_t slash = target_.rfind('/');
-  create(slash == std::string::npos ? "" : target_.substr(0, slash + 1));
+  target_ = resolve_links(path);
+  directory_ = target_.substr(0, target_.rfind('/') + 1);
+  create(exists ? 0600 : 0666);
+  if (exists) take_permissions(status);
 }
 
 AtomicFile::~AtomicFile() { discard(); }
 
-void AtomicFile::create(const std::string& directory) {
-  directory_ = directory;
+void AtomicFile::create(mode_t mode) {
   // Without a name, so that not even a killed process leaves a file; some file systems cannot.
   if (::access("/proc/self/fd", X_OK) == 0) {
-    descriptor_ =
-        ::open(directory.empty() ? "." : directory.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
+    descriptor_ = ::open(directory_.empty() ? "." : directory_.c_str(),
+                         O_WRONLY | O_TMPFILE | O_CLOEXEC, mode);
     is_nameless_ = descriptor_ >= 0;
   }
   if (is_nameless_) return;
   make_temporary([&](const char* name) {
-    descriptor_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    descriptor_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
     return descriptor_ >= 0;
   });
+}
+
+// The file was made for its owner alone, so that it has at no moment more rights than it may have.
+// Where a file system knows no permissions, nothing is lost if it refuses them.
+void AtomicFile::take_permissions(const struct stat& replaced) {
+  constexpr auto same_owner = static_cast<uid_t>(-1);
+  mode_t mode = replaced.st_mode & 0777U;
+  if (::fchown(descriptor_, replaced.st_uid, replaced.st_gid) != 0 &&
+      ::fchown(descriptor_, same_owner, replaced.st_gid) != 0) {
+    mode &= 0707U | (mode & 07U) << 3U;  // this process has another group
+  }
+  static_cast<void>(::fchmod(descriptor_, mode));
 }
 
 void AtomicFile::make_temporary(const std::function<bool(const char*)>& make) {
@@ -148,9 +179,7 @@ void AtomicFile::commit() {
       return ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
     });
   }
-  const int closed = ::close(descriptor_);
-  descriptor_ = -1;
-  if (closed != 0) fail(errno);
+  if (close() != 0) fail(errno);
   if (temporary_.empty()) return;
   if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
   temporaries.forget(slot_);
@@ -162,9 +191,15 @@ void AtomicFile::fail(int error) {
   throw FileError(path_ + ": " + std::generic_category().message(error));
 }
 
-void AtomicFile::discard() noexcept {
-  if (descriptor_ >= 0) ::close(descriptor_);
+// Standard output stays open for others.
+int AtomicFile::close() noexcept {
+  const int descriptor = descriptor_;
   descriptor_ = -1;
+  return descriptor < 0 || descriptor == STDOUT_FILENO ? 0 : ::close(descriptor);
+}
+
+void AtomicFile::discard() noexcept {
+  close();
   if (temporary_.empty()) return;
   ::unlink(temporary_.c_str());
   temporaries.forget(slot_);
@@ -175,20 +210,6 @@ void AtomicFile::discard() noexcept {
 
 namespace rondel::inline v0 {
 
-void remove_temporaries_on_signal() {
-  struct sigaction action {};
-  action.sa_handler = &io::rondel_remove_temporaries_and_end;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGHUP, SIGINT, SIGTERM}) {
-    struct sigaction before {};
-    ::sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) ::sigaction(signal, &action, nullptr);
-  }
-  action.sa_sigaction = &io::rondel_report_cut_file;
-  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_SIGINFO);
-  ::sigaction(SIGBUS, &action, nullptr);
-  std::signal(SIGXFSZ, SIG_IGN);
-}
+void remove_temporaries() noexcept { io::temporaries.remove_all(); }
 
 }  // namespace rondel::inline v0

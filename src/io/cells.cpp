@@ -41,17 +41,16 @@ constexpr std::array<Writer, 3> writers = {{{".geojson", &io::write_cells_geojso
 
 }  // namespace
 
-bool can_write_cells(const std::string& path) {
-  return io::find_format<Writer>(writers, path) != nullptr;
+bool can_write_cells(const FileName& file) {
+  return io::find_format<Writer>(writers, file) != nullptr;
 }
 
-void write_cells(const std::string& path, const SiteTable& table,
-                 const Triangulation& triangulation, const Diagram& diagram, double tolerance_deg,
-                 const Progress& progress) {
+void write_cells(const FileName& output, const SiteTable& table, const Triangulation& triangulation,
+                 const Diagram& diagram, double tolerance_deg, const Progress& progress) {
   const system::ArithmeticScope arithmetic;
   io::require_diagram(table.sites.size(), triangulation, diagram);
-  const auto& writer = io::require_format<Writer>(writers, path, "cells are written as");
-  io::AtomicFile file(path);
+  const auto& writer = io::require_format<Writer>(writers, output, "cells are written as");
+  io::AtomicFile file(output.path);
   writer.write(file, {table, triangulation, diagram, tolerance_deg, progress});
   file.commit();
 }

@@ -20,6 +20,24 @@ bool equal_but_for_case(std::string_view a, std::string_view b) {
   return std::ranges::equal(a, b, {}, lower, lower);
 }
 
+// What may be wrong with a table whose header has not the columns.
+std::string hint(const Header& header) {
+  if (is_comment(header.front())) return "; a table has no lines of comments";
+  if (std::ranges::all_of(header, [](auto name) { return is_json_number(trim(name)); })) {
+    return "; the first line must name the columns";
+  }
+  if (std::ranges::any_of(header, [](auto name) { return name.find('\r') != name.npos; })) {
+    return "; lines end with CR alone, not LF";
+  }
+  if (header.size() > 1) return {};
+  for (const char c : {';', '\t', '|', ','}) {
+    if (header.front().find(c) == std::string_view::npos) continue;
+    const std::string name = c == '\t' ? "a tab" : std::string("\"") + c + '"';
+    return "; is the delimiter " + name + "? (--delimiter)";
+  }
+  return {};
+}
+
 std::string found(const Header& header) {
   constexpr std::size_t most = 30;
   std::string text = "; found: ";
@@ -27,7 +45,7 @@ std::string found(const Header& header) {
     const std::string name = in_quotes(trim(header[i]));
     text += (i == 0 ? "" : ", ") + name.substr(1, name.size() - 2);
   }
-  return header.size() > most ? text + ", ..." : text;
+  return (header.size() > most ? text + ", ..." : text) + hint(header);
 }
 
 struct Coordinate {
@@ -99,6 +117,8 @@ bool is_xyz(const Header& header, std::span<const Coordinate> lonlat,
 }
 
 }  // namespace
+
+bool is_comment(std::string_view first_field) { return trim(first_field).starts_with('#'); }
 
 CoordinateColumns find_columns(const Header& header, const ReadOptions& options) {
   const Coordinate lonlat[] = {{"longitude", options.lon, {"lon", "lng", "long", "longitude"}},

@@ -26,4 +26,7 @@ struct CoordinateColumns {
 CoordinateColumns find_columns(const std::vector<std::string_view>& header,
                                const ReadOptions& options);
 
+// Whether a record that begins with this field is a comment in other programs.
+bool is_comment(std::string_view first_field);
+
 }  // namespace rondel::io

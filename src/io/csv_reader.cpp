@@ -28,10 +28,17 @@ std::size_t most_sites(std::string_view text) {
   return std::min(lines, text.size() / 4 + 1);
 }
 
-void require_width(std::size_t found, std::size_t header) {
+void require_width(const CsvRecords& records, std::size_t header) {
+  const std::size_t found = records.fields().size();
   if (found == header) return;
+  std::string hint;
+  if (is_comment(records.fields().front())) {
+    hint = "; a table has no lines of comments";
+  } else if (found == 2 * header) {
+    hint = "; is the comma both delimiter and decimal point?";
+  }
   throw BadValue(std::to_string(found) + (found == 1 ? " field" : " fields") +
-                 " where the header has " + std::to_string(header));
+                 " where the header has " + std::to_string(header) + hint);
 }
 
 void read_rows(CsvRecords& records, std::string_view text, const ReadOptions& options,
@@ -46,7 +53,7 @@ void read_rows(CsvRecords& records, std::string_view text, const ReadOptions& op
   const auto [a, b, c] = coordinates.columns;
   while (records.next()) {
     const auto& fields = records.fields();
-    require_width(fields.size(), width);
+    require_width(records, width);
     if (coordinates.is_lonlat) {
       const double lon = parse_number(fields[a], "longitude");
       const double lat = parse_number(fields[b], "latitude");
@@ -66,19 +73,15 @@ void read_rows(CsvRecords& records, std::string_view text, const ReadOptions& op
   }
 }
 
-void read_delimited(std::string_view bytes, char delimiter, const ReadOptions& options,
+void read_delimited(std::string_view bytes, char usual_delimiter, const ReadOptions& options,
                     SiteTable& table) {
+  const char delimiter = options.delimiter != '\0' ? options.delimiter : usual_delimiter;
   CsvRecords records({}, delimiter);
   try {
     const std::string_view text = without_bom(bytes);
     records = CsvRecords(text, delimiter);
     if (!records.next()) throw FileError(table.name + ": the file is empty");
-    const std::uint64_t header_line = records.line();
     read_rows(records, text, options, table);
-    if (table.sites.empty()) {
-      throw FileError(table.name + ":" + std::to_string(header_line) +
-                      ": no sites after the header");
-    }
   } catch (const BadValue& bad) {
     throw FileError(table.name + ":" + std::to_string(records.line()) + ": " + bad.what());
   }

@@ -6,23 +6,31 @@
 
 namespace rondel::io {
 
-std::string ending(std::string_view path) {
-  const std::size_t slash = path.rfind('/');
-  if (slash != std::string_view::npos) path.remove_prefix(slash + 1);
-  const std::size_t dot = path.rfind('.');
-  if (dot == std::string_view::npos || dot + 1 == path.size()) return {};
-  std::string result(path.substr(dot));
+std::string ending(const FileName& file) {
+  std::string_view name = file.path;
+  name.remove_prefix(name.rfind('/') + 1);
+  const std::size_t dot = name.rfind('.');
+  std::string result;
+  if (!file.format.empty()) {
+    result = (file.format.front() == '.' ? "" : ".") + file.format;
+  } else if (dot < name.size() - 1) {
+    result = name.substr(dot);
+  }
   for (char& c : result) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return result;
 }
 
-void throw_unknown_ending(const std::string& path, std::string_view what,
+void throw_unknown_ending(const FileName& file, std::string_view what,
                           std::span<const std::string_view> known) {
-  const std::string found = ending(path);
-  std::string message = path + ": ";
-  message += found.empty() ? "the name has no ending" : "unknown ending \"" + found + "\"";
+  const std::string found = ending(file);
+  std::string message = file.path + ": ";
+  if (!file.format.empty()) {
+    message += "unknown format \"" + file.format + "\"";
+  } else {
+    message += found.empty() ? "the name has no ending" : "unknown ending \"" + found + "\"";
+  }
   message += "; ";
   message += what;
   for (const std::string_view format : known) (message += ' ') += format;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A file's ending tells its format.
+// A file's format is named, or told by its ending.
 #pragma once
 
 #include <span>
@@ -9,15 +9,18 @@
 #include <string_view>
 #include <vector>
 
+#include "rondel/io.h"
+
 namespace rondel::io {
 
-// ".csv" of "data/Stations.CSV": the ending in lower case; empty if the name has none.
-std::string ending(std::string_view path);
+// ".csv" of the format "CSV" or, if none is named, of the path "data/Stations.CSV": in lower case;
+// empty if the path has no ending.
+std::string ending(const FileName& file);
 
-// The row of a table of formats whose member `ending` fits the path; null if there is none.
+// The row of a table of formats whose member `ending` fits the file; null if there is none.
 template <typename Format>
-const Format* find_format(std::span<const Format> formats, std::string_view path) {
-  const std::string wanted = ending(path);
+const Format* find_format(std::span<const Format> formats, const FileName& file) {
+  const std::string wanted = ending(file);
   for (const Format& format : formats) {
     if (format.ending == wanted) return &format;
   }
@@ -26,17 +29,17 @@ const Format* find_format(std::span<const Format> formats, std::string_view path
 
 // Throws FileError: `out.dat: unknown ending ".dat"; cells are written as .geojson .vtp .npz`,
 // where `what` is "cells are written as".
-[[noreturn]] void throw_unknown_ending(const std::string& path, std::string_view what,
+[[noreturn]] void throw_unknown_ending(const FileName& file, std::string_view what,
                                        std::span<const std::string_view> known);
 
 // The same as find_format, which must not fail.
 template <typename Format>
-const Format& require_format(std::span<const Format> formats, const std::string& path,
+const Format& require_format(std::span<const Format> formats, const FileName& file,
                              std::string_view what) {
-  if (const Format* const format = find_format(formats, path)) return *format;
+  if (const Format* const format = find_format(formats, file)) return *format;
   std::vector<std::string_view> known;
   for (const Format& format : formats) known.push_back(format.ending);
-  throw_unknown_ending(path, what, known);
+  throw_unknown_ending(file, what, known);
 }
 
 }  // namespace rondel::io

@@ -3,99 +3,76 @@
 #include "io/file_bytes.h"
 
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
-#include <functional>
 #include <system_error>
+#include <utility>
 
-#include "io/signal_slots.h"
 #include "rondel/error.h"
 
 namespace rondel::io {
 namespace {
 
-SignalSlots<4> mapped_files;
+// The longest header of .npy of version 1 has 65545 bytes.
+constexpr std::size_t head_size = 131072;
 
-[[noreturn]] void fail(const std::string& path, int error) {
-  throw FileError((path == "-" ? "<stdin>" : path) + ": " + std::generic_category().message(error));
-}
-
-class Descriptor {
- public:
-  explicit Descriptor(const std::string& path)
-      : is_owned_(path != "-"),
-        value_(is_owned_ ? ::open(path.c_str(), O_RDONLY | O_CLOEXEC) : STDIN_FILENO) {
-    if (value_ < 0) fail(path, errno);
-  }
-  ~Descriptor() {
-    if (is_owned_) ::close(value_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  [[nodiscard]] int get() const noexcept { return value_; }
-
- private:
-  bool is_owned_;
-  int value_;
-};
-
-std::string read_to_end(int descriptor, const std::string& path) {
-  std::string bytes;
-  std::size_t size = 0;
-  while (true) {
-    if (bytes.size() == size) bytes.resize(size < 65536 ? 65536 : 2 * size);
-    const ssize_t count = ::read(descriptor, bytes.data() + size, bytes.size() - size);
-    if (count == 0) break;
-    if (count > 0) {
-      size += static_cast<std::size_t>(count);
-    } else if (errno != EINTR) {
-      fail(path, errno);
-    }
-  }
-  bytes.resize(size);
-  return bytes;
-}
+constexpr std::pair<std::string_view, const char*> compressed[] = {{"\x1F\x8B", "gzip"},
+                                                                   {"PK\x03\x04", "zip"},
+                                                                   {"\xFD"
+                                                                    "7zXZ",
+                                                                    "xz"},
+                                                                   {"\x28\xB5\x2F\xFD", "zstd"}};
 
 }  // namespace
 
-FileBytes::FileBytes(const std::string& path) {
-  const Descriptor file(path);
+FileBytes::FileBytes(const std::string& path)
+    : name_(path == "-" ? "<stdin>" : path),
+      descriptor_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (descriptor_.value < 0) fail(errno);
   struct stat status {};
-  if (::fstat(file.get(), &status) != 0) fail(path, errno);
-  if (S_ISDIR(status.st_mode)) fail(path, EISDIR);
-  // Files of /proc and /sys are regular too, but claim to be empty.
-  if (path == "-" || !S_ISREG(status.st_mode) || status.st_size == 0) {
-    copy_ = read_to_end(file.get(), path);
-    return;
+  if (::fstat(descriptor_.value, &status) != 0) fail(errno);
+  if (S_ISDIR(status.st_mode)) fail(EISDIR);
+  if (S_ISREG(status.st_mode)) claimed_size_ = static_cast<std::uint64_t>(status.st_size);
+  bytes_ = system::make_large_array<char>(head_size);
+  read_up_to(head_size);
+  for (const auto& [magic, format] : compressed) {
+    if (!head().starts_with(magic)) continue;
+    throw FileError(name_ + ": compressed (" + format + "); unpack it first");
   }
-  size_ = static_cast<std::size_t>(status.st_size);
-  void* const mapping = ::mmap(nullptr, size_, PROT_READ, MAP_PRIVATE, file.get(), 0);
-  if (mapping == MAP_FAILED) fail(path, errno);
-  ::madvise(mapping, size_, MADV_SEQUENTIAL);
-  mapping_ = mapping;
-  const auto* const bytes = static_cast<const char*>(mapping);
-  slot_ = mapped_files.remember(path, bytes, bytes + size_);
 }
 
-void FileBytes::keep() const noexcept {
-  if (mapping_ != nullptr) ::madvise(mapping_, size_, MADV_NORMAL);
+FileBytes::Descriptor::~Descriptor() {
+  if (value > STDIN_FILENO) ::close(value);
 }
 
-FileBytes::~FileBytes() {
-  if (mapping_ == nullptr) return;
-  mapped_files.forget(slot_);
-  ::munmap(mapping_, size_);
+// The file may be longer than it claims: those of /proc say that they are empty.
+std::string_view FileBytes::text() {
+  std::size_t capacity = head_size;
+  while (!is_at_end_) {
+    capacity = std::max<std::size_t>(2 * capacity, claimed_size_ + 1);
+    auto longer = system::make_large_array<char>(capacity);
+    std::copy_n(bytes_.get(), num_read_, longer.get());
+    bytes_ = std::move(longer);
+    read_up_to(capacity);
+  }
+  return head();
 }
 
-const char* mapped_file_at(const void* address) noexcept {
-  const auto* const byte = static_cast<const char*>(address);
-  const auto* const slot = mapped_files.find([&](const auto& file) {
-    return std::less_equal<>()(file.begin, byte) && std::less<>()(byte, file.end);
-  });
-  return slot == nullptr ? nullptr : slot->name.data();
+// Precondition: `bytes_` has room for so many.
+void FileBytes::read_up_to(std::size_t size) {
+  while (num_read_ < size && !is_at_end_) {
+    const ssize_t count = ::read(descriptor_.value, bytes_.get() + num_read_, size - num_read_);
+    if (count < 0 && errno != EINTR) fail(errno);
+    if (count > 0) num_read_ += static_cast<std::size_t>(count);
+    is_at_end_ = count == 0;
+  }
+}
+
+void FileBytes::fail(int error) const {
+  throw FileError(name_ + ": " + std::generic_category().message(error));
 }
 
 }  // namespace rondel::io

@@ -5,38 +5,50 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
+#include "system/huge_pages.h"
+
 namespace rondel::io {
 
-// A regular file is mapped, so that a large one costs no copy; it must not be cut while it is
-// read: then the system sends SIGBUS, whose handler can ask what was read. Anything else (a pipe;
-// standard input under the name "-") is read to its end.
+// The file is read in two steps, so that what its head claims can be refused before the rest takes
+// time and memory.
 class FileBytes {
  public:
-  // Throws FileError: "stations.csv: No such file or directory".
+  // Opens the file and reads its head. "-" is standard input. Throws FileError:
+  // "stations.csv: No such file or directory", "stations.csv: compressed (gzip); unpack it first".
   explicit FileBytes(const std::string& path);
-  ~FileBytes();
-  FileBytes(const FileBytes&) = delete;
-  FileBytes& operator=(const FileBytes&) = delete;
 
-  // The bytes will be read again, in any order.
-  void keep() const noexcept;
+  // The file in messages.
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  // The first bytes, 128 KiB or all.
+  [[nodiscard]] std::string_view head() const noexcept { return {bytes_.get(), num_read_}; }
+  // The number of bytes as the system tells it; 0 if it does not know.
+  [[nodiscard]] std::uint64_t claimed_size() const noexcept { return claimed_size_; }
 
-  [[nodiscard]] std::string_view text() const noexcept {
-    return mapping_ ? std::string_view(static_cast<const char*>(mapping_), size_) : copy_;
-  }
+  // All bytes. Throws FileError.
+  std::string_view text();
 
  private:
-  void* mapping_ = nullptr;
-  std::size_t size_ = 0;
-  std::string copy_;
-  std::size_t slot_ = 0;  // in the registry of mapped files
-};
+  struct Descriptor {
+    int value;
+    explicit Descriptor(int descriptor) : value(descriptor) {}
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    ~Descriptor();
+  };
 
-// The name of the mapped file in which the address lies; nullptr if it is in none, or in one of
-// more files at once than are remembered. For signal handlers.
-const char* mapped_file_at(const void* address) noexcept;
+  void read_up_to(std::size_t size);
+  [[noreturn]] void fail(int error) const;
+
+  std::string name_;
+  Descriptor descriptor_;
+  std::uint64_t claimed_size_ = 0;
+  system::LargeArray<char> bytes_;
+  std::size_t num_read_ = 0;
+  bool is_at_end_ = false;
+};
 
 }  // namespace rondel::io

@@ -56,6 +56,13 @@ std::string type_of(const JsonTree& object) {
   return type.is_string() ? type.string() : std::string();
 }
 
+// RFC 7946, sections 3.1 and 3.2: a feature without a place has the geometry null, or one whose
+// coordinates are empty.
+bool is_unlocated(const JsonTree& geometry) {
+  const JsonTree& coordinates = geometry.member("coordinates");
+  return geometry.is_null() || (coordinates.is_array() && coordinates.items.empty());
+}
+
 std::string unquoted(const JsonTree& value) {
   return value.is_string() ? value.string() : value.text();
 }
@@ -95,6 +102,7 @@ class GeoJsonReader {
       : bytes_(bytes),
         radius_(options.radius),
         keep_columns_(options.keep_columns),
+        table_(table),
         collector_(table, options),
         columns_(table.columns) {}
 
@@ -116,6 +124,7 @@ class GeoJsonReader {
   std::string_view bytes_;
   std::string radius_;  // the property
   bool keep_columns_;
+  SiteTable& table_;
   SiteCollector collector_;
   PropertyColumns columns_;
   Cursor cursor_;                // of the parser
@@ -181,8 +190,13 @@ void GeoJsonReader::on_root(const JsonTree& root) {
 void GeoJsonReader::add_feature(const JsonTree& feature) {
   const std::string type = type_of(feature);
   if (type != "Feature") throw BadValue("type " + in_quotes(type) + " where a Feature is needed");
-  if (feature.member("geometry").is_null()) throw BadValue("no geometry");
-  add_geometry(feature.member("geometry"), feature.member("properties"));
+  if (!feature.members.contains("geometry")) throw BadValue("no geometry");
+  const JsonTree& geometry = feature.member("geometry");
+  if (is_unlocated(geometry)) {
+    ++table_.num_unlocated;
+  } else {
+    add_geometry(geometry, feature.member("properties"));
+  }
 }
 
 void GeoJsonReader::add_geometry(const JsonTree& geometry, const JsonTree& properties) {
@@ -228,14 +242,12 @@ double GeoJsonReader::radius_in(const JsonTree& properties) const {
 }  // namespace
 
 void read_geojson(std::string_view bytes, const ReadOptions& options, SiteTable& table) {
-  if (bytes.empty()) throw FileError(table.name + ": the file is empty");
   GeoJsonReader reader(bytes, options, table);
   try {
     reader.read();
   } catch (const BadValue& bad) {
     throw FileError(table.name + ":" + std::to_string(reader.line()) + ": " + bad.what());
   }
-  if (table.sites.empty()) throw FileError(table.name + ": no sites");
 }
 
 }  // namespace rondel::io

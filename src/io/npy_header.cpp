@@ -137,11 +137,12 @@ std::string make_npy_header(std::string_view dtype, std::span<const std::uint64_
   return header + dictionary;
 }
 
-NpyTable::NpyTable(std::string_view bytes, std::span<const std::string_view> types,
-                   std::string_view needed)
+NpyTable::NpyTable(std::string_view bytes, std::uint64_t file_size,
+                   std::span<const std::string_view> types, std::string_view needed)
     : header_(parse_npy_header(bytes)) {
   const std::string_view dtype = header_.dtype;
-  const bool has_order = dtype.starts_with('<') || dtype.starts_with('>');
+  const bool has_order = dtype.starts_with('<') || dtype.starts_with('>') ||
+                         (dtype.starts_with('|') && dtype.ends_with('1'));
   if (!has_order || std::ranges::find(types, type()) == types.end()) {
     throw BadValue("dtype " + in_quotes(dtype) + " where " + std::string(needed) + " is needed");
   }
@@ -150,11 +151,11 @@ NpyTable::NpyTable(std::string_view bytes, std::span<const std::string_view> typ
   }
   if (dtype[0] == '>') order_ = std::endian::big;
   data_ = bytes.data() + header_.data_offset;
-  check_size(bytes.size() - header_.data_offset);
+  check_size(file_size - header_.data_offset);
 }
 
 // A header may claim anything: nothing is allocated before its claim is compared with the file.
-void NpyTable::check_size(std::size_t num_bytes) const {
+void NpyTable::check_size(std::uint64_t num_bytes) const {
   std::uint64_t needed = 0;
   const auto item_size = static_cast<std::uint64_t>(type()[1] - '0');
   if (__builtin_mul_overflow(header_.shape[0], header_.shape[1], &needed) ||

@@ -37,23 +37,16 @@ std::string shape_text(std::span<const std::uint64_t> shape);
 class NpyTable {
  public:
   // Throws BadValue unless the type is one of `types` ("f8", of any byte order), which `needed`
-  // says in words, and the file has just the bytes of the array.
-  NpyTable(std::string_view bytes, std::span<const std::string_view> types,
+  // says in words, and the file, of `file_size` bytes, has just those of the array. Where `bytes`
+  // are only the head of the file, no number may be read.
+  NpyTable(std::string_view bytes, std::uint64_t file_size, std::span<const std::string_view> types,
            std::string_view needed);
 
+  // "f8", of any byte order.
   [[nodiscard]] std::string_view type() const { return std::string_view(header_.dtype).substr(1); }
   [[nodiscard]] std::size_t num_rows() const { return header_.shape[0]; }
   [[nodiscard]] std::size_t num_columns() const { return header_.shape[1]; }
   [[nodiscard]] std::string shape() const { return shape_text(header_.shape); }
-
-  // Where the numbers of all rows lie one after the other as memory has them; nullptr if they do
-  // not.
-  template <typename T>
-  [[nodiscard]] const T* in_place() const {
-    const bool is_aligned = reinterpret_cast<std::uintptr_t>(data_) % alignof(T) == 0;
-    const bool is_native = order_ == std::endian::native && !header_.is_fortran_order;
-    return is_aligned && is_native ? reinterpret_cast<const T*>(data_) : nullptr;
-  }
 
   // Precondition: T is what type() says.
   template <typename T>
@@ -64,7 +57,7 @@ class NpyTable {
   }
 
  private:
-  void check_size(std::size_t num_bytes) const;
+  void check_size(std::uint64_t num_bytes) const;
 
   NpyHeader header_;
   std::endian order_ = std::endian::little;

@@ -1,60 +1,49 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
 
 #include "io/npy_header.h"
 #include "io/number.h"
 #include "io/site_collector.h"
 #include "io/site_formats.h"
 #include "rondel/error.h"
-#include "system/view_as.h"
 
 namespace rondel::io {
 namespace {
 
-constexpr std::array<std::string_view, 1> types = {"f8"};
-
-// Fewer sites are copied: that costs little, and their file may change meanwhile.
-constexpr std::size_t least_mapped = std::size_t{1} << 22;
-
-void refer_to(std::span<const Point> sites, const ReadOptions& options, SiteTable& table) {
-  constexpr std::size_t interval = 65536;
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    try {
-      checked_point(sites[i]);
-    } catch (const BadValue& bad) {
-      throw FileError(table.where(i) + ": " + bad.what());
-    }
-    if (i % interval == 0 && options.progress) {
-      options.progress("read", static_cast<double>(i) / static_cast<double>(sites.size()));
+// The doubles nearest to most integers of 64 bits are others.
+template <typename Number>
+double exact_double(Number value) {
+  if constexpr (std::is_integral_v<Number> && sizeof(Number) == 8) {
+    constexpr int most_bits = std::numeric_limits<double>::digits;
+    const auto bits = static_cast<std::uint64_t>(value);
+    const std::uint64_t magnitude = value < 0 ? 0 - bits : bits;
+    if (magnitude != 0 && magnitude >> std::countr_zero(magnitude) >> most_bits != 0) {
+      throw BadValue(std::to_string(value) + " is no double");
     }
   }
-  table.sites = PointArray(sites, nullptr);
+  return static_cast<double>(value);
 }
 
-void read_table(std::string_view bytes, const ReadOptions& options, SiteTable& table) {
-  const NpyTable array(bytes, types, "float64");
+template <typename Number>
+void read_rows(const NpyTable& array, const ReadOptions& options, SiteTable& table) {
   const bool is_lonlat = array.num_columns() == 2;
-  if (!is_lonlat && array.num_columns() != 3) {
-    throw BadValue("shape " + array.shape() + " where (n, 3) or (n, 2) is needed");
-  }
-  require_indices(array.num_rows());
-  table.first_line = 0;
-  const double* const numbers = array.in_place<double>();
-  if (!is_lonlat && numbers != nullptr && array.num_rows() >= least_mapped) {
-    return refer_to(system::view_as<Point>(std::span(numbers, 3 * array.num_rows())), options,
-                    table);
-  }
   SiteCollector collector(table, options);
   collector.reserve(array.num_rows(), is_lonlat);
+  const auto number = [&](std::size_t row, std::size_t column) {
+    return exact_double(array.at<Number>(row, column));
+  };
   for (std::size_t i = 0; i < array.num_rows(); ++i) {
-    const double a = array.at<double>(i, 0);
-    const double b = array.at<double>(i, 1);
     try {
       if (is_lonlat) {
-        collector.add_position(a, b, 0);
+        collector.add_position(number(i, 0), number(i, 1), 0);
       } else {
-        collector.add_point({a, b, array.at<double>(i, 2)}, 0);
+        collector.add_point({number(i, 0), number(i, 1), number(i, 2)}, 0);
       }
     } catch (const BadValue& bad) {
       throw FileError(table.where(i) + ": " + bad.what());
@@ -63,16 +52,45 @@ void read_table(std::string_view bytes, const ReadOptions& options, SiteTable& t
   }
 }
 
+constexpr std::array<std::string_view, 10> types = {"f8", "f4", "i1", "i2", "i4",
+                                                    "i8", "u1", "u2", "u4", "u8"};
+constexpr std::array readers = {
+    &read_rows<double>,        &read_rows<float>,         &read_rows<std::int8_t>,
+    &read_rows<std::int16_t>,  &read_rows<std::int32_t>,  &read_rows<std::int64_t>,
+    &read_rows<std::uint8_t>,  &read_rows<std::uint16_t>, &read_rows<std::uint32_t>,
+    &read_rows<std::uint64_t>,
+};
+static_assert(types.size() == readers.size());
+
+NpyTable checked_table(std::string_view bytes, std::uint64_t file_size) {
+  NpyTable array(bytes, file_size, types, "float64, float32 or an integer");
+  if (array.num_columns() != 2 && array.num_columns() != 3) {
+    throw BadValue("shape " + array.shape() + " where (n, 3) or (n, 2) is needed");
+  }
+  require_indices(array.num_rows());
+  return array;
+}
+
 }  // namespace
 
-void read_npy_sites(std::string_view bytes, const ReadOptions& options, SiteTable& table) {
-  if (bytes.empty()) throw FileError(table.name + ": the file is empty");
+void check_npy_sites(std::string_view head, std::uint64_t file_size, const SiteTable& table) {
+  if (file_size <= head.size()) return;
   try {
-    read_table(bytes, options, table);
+    checked_table(head, file_size);
   } catch (const BadValue& bad) {
     throw FileError(table.name + ": " + bad.what());
   }
-  if (table.sites.empty()) throw FileError(table.name + ": no sites");
+}
+
+void read_npy_sites(std::string_view bytes, const ReadOptions& options, SiteTable& table) {
+  table.first_line = 0;
+  try {
+    const NpyTable array = checked_table(bytes, bytes.size());
+    const auto type = std::ranges::find(types, array.type()) - types.begin();
+    readers[static_cast<std::size_t>(type)](array, options, table);
+  } catch (const BadValue& bad) {
+    throw FileError(table.name + ": " + bad.what());
+  }
 }
 
 void write_npy_sites(AtomicFile& file, const SitesToWrite& to_write) {

@@ -28,7 +28,8 @@ std::vector<Triple> rows_of(const NpyTable& array, const std::string& name) {
   return triangles;
 }
 
-std::vector<Triple> read_table(const NpyTable& array, const std::string& name) {
+NpyTable checked_table(std::string_view bytes, std::uint64_t file_size) {
+  NpyTable array(bytes, file_size, types, "an integer of 32 or 64 bits");
   if (array.num_columns() != 3) {
     throw BadValue("shape " + array.shape() + " where (m, 3) is needed");
   }
@@ -36,6 +37,10 @@ std::vector<Triple> read_table(const NpyTable& array, const std::string& name) {
     throw BadValue(std::to_string(array.num_rows()) + " triangles are more than the " +
                    std::to_string(2 * max_sites) + " that one triangulation can hold");
   }
+  return array;
+}
+
+std::vector<Triple> read_table(const NpyTable& array, const std::string& name) {
   if (array.type() == "u4") return rows_of<std::uint32_t>(array, name);
   if (array.type() == "i4") return rows_of<std::int32_t>(array, name);
   if (array.type() == "u8") return rows_of<std::uint64_t>(array, name);
@@ -44,9 +49,18 @@ std::vector<Triple> read_table(const NpyTable& array, const std::string& name) {
 
 }  // namespace
 
+void check_npy(std::string_view head, std::uint64_t file_size, const std::string& name) {
+  if (file_size <= head.size()) return;
+  try {
+    checked_table(head, file_size);
+  } catch (const BadValue& bad) {
+    throw FileError(name + ": " + bad.what());
+  }
+}
+
 std::vector<Triple> read_npy(std::string_view bytes, const std::string& name) {
   try {
-    return read_table(NpyTable(bytes, types, "an integer of 32 or 64 bits"), name);
+    return read_table(checked_table(bytes, bytes.size()), name);
   } catch (const BadValue& bad) {
     throw FileError(name + ": " + bad.what());
   }

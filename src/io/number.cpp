@@ -36,6 +36,14 @@ void require_finite(double value, std::string_view what) {
   }
 }
 
+bool has_decimal_comma(std::string_view digits) {
+  const std::size_t comma = digits.find(',');
+  if (comma == std::string_view::npos) return false;
+  std::string number(digits);
+  number[comma] = '.';
+  return is_json_number(number);
+}
+
 }  // namespace
 
 std::string_view trim(std::string_view text) {
@@ -55,7 +63,9 @@ double parse_number(std::string_view field, std::string_view what) {
   const bool is_number = stop == end && error != std::errc::invalid_argument;
   if (is_number && std::isfinite(value)) return value;
   throw BadValue(std::string(what) + " " + in_quotes(trim(field)) +
-                 (is_number ? " is not finite" : " is not a number"));
+                 (is_number                   ? " is not finite"
+                  : has_decimal_comma(digits) ? " is not a number: its decimal point is a comma"
+                                              : " is not a number"));
 }
 
 std::int64_t parse_integer(std::string_view field, std::string_view what) {

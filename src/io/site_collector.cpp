@@ -19,7 +19,7 @@ void require_indices(std::uint64_t n) {
 
 void SiteCollector::reserve(std::size_t n, bool is_lonlat) {
   n = std::min(n, max_sites);
-  system::reserve_large(table_.sites.owned(), n);
+  system::reserve_large(table_.sites, n);
   if (is_lonlat) table_.positions.reserve(n);
 }
 
@@ -27,20 +27,20 @@ void SiteCollector::add_position(double lon, double lat, std::uint64_t line) {
   const LonLat position = checked_position(lon, lat, options_.radians);
   note_line(line);
   table_.positions.push_back(position);
-  table_.sites.owned().push_back(unit_vector(position));
+  table_.sites.push_back(unit_vector(position));
 }
 
 void SiteCollector::add_point(const Point& point, std::uint64_t line) {
   checked_point(point);
   note_line(line);
-  table_.sites.owned().push_back(point);
+  table_.sites.push_back(point);
 }
 
 void SiteCollector::make_circle(double radius) {
   const double radius_deg = checked_radius(radius, options_.radians);
-  Point& site = table_.sites.owned().back();
+  Point& site = table_.sites.back();
   site = checked_point(polar_point(site, radius_deg));
-  if (table_.radii_deg.empty()) table_.radii_deg.reserve(table_.sites.owned().capacity());
+  if (table_.radii_deg.empty()) table_.radii_deg.reserve(table_.sites.capacity());
   table_.radii_deg.push_back(radius_deg);
 }
 
@@ -51,7 +51,7 @@ void SiteCollector::note_line(std::uint64_t line) {
   if (n == 0) table_.first_line = line;
   if (table_.lines.empty()) {
     if (line == 0 || line == table_.first_line + n) return;
-    table_.lines.reserve(table_.sites.owned().capacity());
+    table_.lines.reserve(table_.sites.capacity());
     for (std::size_t i = 0; i < n; ++i) table_.lines.push_back(table_.first_line + i);
   }
   table_.lines.push_back(line);

@@ -3,7 +3,6 @@
 
 // read_sites, write_sites and write_file: which format, and what all have in common.
 #include <array>
-#include <memory>
 
 #include "io/atomic_file.h"
 #include "io/ending.h"
@@ -20,13 +19,16 @@ struct Reader {
   std::string_view ending;
   void (*read)(std::string_view, const ReadOptions&, SiteTable&);
   bool has_columns = false;
+  // What can be refused by the head of a file and its size.
+  void (*check)(std::string_view, std::uint64_t, const SiteTable&) = nullptr;
 };
-constexpr std::array<Reader, 6> readers = {{{".csv", &io::read_csv, true},
-                                            {".tsv", &io::read_tsv, true},
-                                            {".xyz", &io::read_xyz},
-                                            {".txt", &io::read_xyz},
-                                            {".npy", &io::read_npy_sites},
-                                            {".geojson", &io::read_geojson}}};
+constexpr std::array<Reader, 6> readers = {
+    {{".csv", &io::read_csv, true},
+     {".tsv", &io::read_tsv, true},
+     {".xyz", &io::read_xyz},
+     {".txt", &io::read_xyz},
+     {".npy", &io::read_npy_sites, false, &io::check_npy_sites},
+     {".geojson", &io::read_geojson}}};
 
 struct Writer {
   std::string_view ending;
@@ -38,9 +40,21 @@ constexpr std::array<Writer, 5> writers = {{{".csv", &io::write_csv},
                                             {".txt", &io::write_xyz},
                                             {".npy", &io::write_npy_sites}}};
 
-bool names_a_column(const ReadOptions& options) {
-  return !(options.lon.empty() && options.lat.empty() && options.x.empty() && options.y.empty() &&
-           options.z.empty());
+void require_columns(const Reader& reader, const ReadOptions& options, const SiteTable& table) {
+  if (reader.has_columns) return;
+  const bool names_a_column = !(options.lon.empty() && options.lat.empty() && options.x.empty() &&
+                                options.y.empty() && options.z.empty());
+  const std::string start = table.name + ": ";
+  const std::string end =
+      ", but " + std::string(reader.ending) + " files have no names for columns";
+  if (names_a_column) throw FileError(start + "columns are named" + end);
+  if (!options.radius.empty() && reader.ending != ".geojson") {
+    throw FileError(start + "a radius is named" + end + "; give weighted sites as x, y, z");
+  }
+  if (options.delimiter != '\0') {
+    throw FileError(start + "a delimiter is named, but " + std::string(reader.ending) +
+                    " files have none");
+  }
 }
 
 }  // namespace
@@ -51,39 +65,31 @@ std::string SiteTable::where(std::size_t site) const {
   return name + ": row " + std::to_string(site);
 }
 
-SiteTable read_sites(const std::string& path, const ReadOptions& options) {
+SiteTable read_sites(const FileName& file, const ReadOptions& options) {
   const system::ArithmeticScope arithmetic;
+  io::FileBytes bytes(file.path);
   SiteTable table;
-  table.name = path == "-" ? "<stdin>" : path;
-  const auto file = std::make_shared<const io::FileBytes>(path);
+  table.name = bytes.name();
+  const bool is_csv = file.path == "-" && file.format.empty();
   const Reader& reader =
-      path == "-" ? readers[0] : io::require_format<Reader>(readers, path, "sites are read from");
-  if (!reader.has_columns && names_a_column(options)) {
-    throw FileError(table.name + ": columns are named, but " + std::string(reader.ending) +
-                    " files have no names for columns");
-  }
-  if (!reader.has_columns && !options.radius.empty() && reader.ending != ".geojson") {
-    throw FileError(table.name + ": a radius is named, but " + std::string(reader.ending) +
-                    " files have no names for columns; give weighted sites as x, y, z");
-  }
-  reader.read(file->text(), options, table);
-  if (table.sites.is_mapped()) {
-    file->keep();
-    table.sites = PointArray(table.sites, file);
-  }
+      is_csv ? readers[0] : io::require_format<Reader>(readers, file, "sites are read from");
+  require_columns(reader, options, table);
+  if (bytes.head().empty()) throw FileError(table.name + ": the file is empty");
+  if (reader.check != nullptr) reader.check(bytes.head(), bytes.claimed_size(), table);
+  reader.read(bytes.text(), options, table);
   return table;
 }
 
-bool can_write_sites(const std::string& path) {
-  return io::find_format<Writer>(writers, path) != nullptr;
+bool can_write_sites(const FileName& file) {
+  return io::find_format<Writer>(writers, file) != nullptr;
 }
 
-void write_sites(const std::string& path, std::span<const Point> sites,
+void write_sites(const FileName& output, std::span<const Point> sites,
                  std::span<const LonLat> positions, std::span<const double> radii_deg,
                  unsigned threads) {
   const system::ArithmeticScope arithmetic;
-  const Writer& writer = io::require_format<Writer>(writers, path, "sites are written as");
-  io::AtomicFile file(path);
+  const Writer& writer = io::require_format<Writer>(writers, output, "sites are written as");
+  io::AtomicFile file(output.path);
   writer.write(file, {sites, positions, radii_deg, threads});
   file.commit();
 }

@@ -42,4 +42,8 @@ std::vector<Triple> read_ply(std::string_view bytes, const std::string& name);
 std::vector<Triple> read_obj(std::string_view bytes, const std::string& name);
 std::vector<Triple> read_vtp(std::string_view bytes, const std::string& name);
 
+// Throws FileError if the head of a file of `file_size` bytes, or of a size not known (0), claims
+// what read_npy would refuse.
+void check_npy(std::string_view head, std::uint64_t file_size, const std::string& name);
+
 }  // namespace rondel::io

@@ -21,8 +21,10 @@ namespace {
 struct Reader {
   std::string_view ending;
   std::vector<Triple> (*read)(std::string_view, const std::string&);
+  // What can be refused by the head of a file and its size.
+  void (*check)(std::string_view, std::uint64_t, const std::string&) = nullptr;
 };
-constexpr std::array<Reader, 5> readers = {{{".npy", &io::read_npy},
+constexpr std::array<Reader, 5> readers = {{{".npy", &io::read_npy, &io::check_npy},
                                             {".off", &io::read_off},
                                             {".ply", &io::read_ply},
                                             {".obj", &io::read_obj},
@@ -59,19 +61,20 @@ void io::Mesh::write_faces(AtomicFile& file,
 
 namespace rondel::inline v0 {
 
-std::vector<Triple> read_triangles(const std::string& path) {
+std::vector<Triple> read_triangles(const FileName& file) {
   const system::ArithmeticScope arithmetic;
-  const io::FileBytes file(path);
-  const Reader& reader = io::require_format<Reader>(readers, path, "triangles are read from");
-  if (file.text().empty()) throw FileError(path + ": the file is empty");
-  return reader.read(file.text(), path);
+  io::FileBytes bytes(file.path);
+  const Reader& reader = io::require_format<Reader>(readers, file, "triangles are read from");
+  if (bytes.head().empty()) throw FileError(bytes.name() + ": the file is empty");
+  if (reader.check != nullptr) reader.check(bytes.head(), bytes.claimed_size(), bytes.name());
+  return reader.read(bytes.text(), bytes.name());
 }
 
-bool can_write_triangles(const std::string& path) {
-  return io::find_format<Writer>(writers, path) != nullptr;
+bool can_write_triangles(const FileName& file) {
+  return io::find_format<Writer>(writers, file) != nullptr;
 }
 
-void write_triangles(const std::string& path, const SiteTable& table,
+void write_triangles(const FileName& output, const SiteTable& table,
                      const Triangulation& triangulation, const Progress& progress) {
   const system::ArithmeticScope arithmetic;
   if (table.sites.size() != triangulation.num_sites()) {
@@ -79,8 +82,8 @@ void write_triangles(const std::string& path, const SiteTable& table,
                            std::to_string(triangulation.num_sites()),
                        std::min(table.sites.size(), triangulation.num_sites()));
   }
-  const Writer& writer = io::require_format<Writer>(writers, path, "triangles are written as");
-  io::AtomicFile file(path);
+  const Writer& writer = io::require_format<Writer>(writers, output, "triangles are written as");
+  io::AtomicFile file(output.path);
   writer.write(file, {table, triangulation, progress});
   file.commit();
 }

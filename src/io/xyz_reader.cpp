@@ -30,14 +30,12 @@ void read_lines(TextLines& lines, const ReadOptions& options, SiteTable& table) 
 }  // namespace
 
 void read_xyz(std::string_view bytes, const ReadOptions& options, SiteTable& table) {
-  if (bytes.empty()) throw FileError(table.name + ": the file is empty");
   TextLines lines(bytes);
   try {
     read_lines(lines, options, table);
   } catch (const BadValue& bad) {
     throw FileError(table.name + ":" + std::to_string(lines.number()) + ": " + bad.what());
   }
-  if (table.sites.empty()) throw FileError(table.name + ": no sites");
 }
 
 }  // namespace rondel::io

@@ -109,13 +109,24 @@ class Interruption(unittest.TestCase):
         self.assertEqual((done.returncode, done.stderr),
                          (1, "rondel: out.npy: Permission denied\n"))
 
-    def test_a_broken_pipe_is_one_line(self):
+    def to_nobody(self, *command):
+        """Exit status and standard error of a run whose standard output nobody reads."""
         reader, writer = os.pipe()
         os.close(reader)
-        done = subprocess.run([TOOL, "--help"], stdout=writer, stderr=subprocess.PIPE, text=True,
-                              timeout=60, check=False)
+        done = subprocess.run([*command], stdout=writer, stderr=subprocess.PIPE, text=True,
+                              timeout=60, check=False, cwd=self.folder)
         os.close(writer)
-        self.assertEqual((done.returncode, done.stderr), (1, "rondel: <stdout>: Broken pipe\n"))
+        return done.returncode, done.stderr
+
+    def test_a_reader_that_goes_away_ends_the_tool_silently(self):
+        self.assertEqual(self.to_nobody(TOOL, "--help"), (-signal.SIGPIPE, ""))
+        self.assertEqual(self.to_nobody(TOOL, *GENERATE, "-"), (-signal.SIGPIPE, ""))
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_a_broken_pipe_is_one_line_where_its_signal_is_ignored(self):
+        ignoring = ["/bin/sh", "-c", 'trap "" PIPE; exec "$@"', "sh"]
+        self.assertEqual(self.to_nobody(*ignoring, TOOL, "--help"),
+                         (1, "rondel: <stdout>: Broken pipe\n"))
 
     def progress(self, *options):
         """What a terminal shows on standard error: nothing of work of less than 0.3 seconds."""

@@ -14,7 +14,7 @@ INPUTS = pathlib.Path(__file__).resolve().parent / "inputs"
 TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 
 KEYS = ["sites", "vertices", "faces", "solid_faces", "ghost_faces", "duplicates", "hidden",
-        "dimension", "model", "threads", "seconds", "peak_memory_bytes", "rungs"]
+        "dimension", "model", "threads", "seconds", "peak_memory_bytes", "rungs", "unlocated"]
 SECONDS = ["read", "order", "triangulate", "dual", "write", "total"]
 RUNGS = ["filter", "extended", "double_double", "close", "exact", "perturbed"]
 
@@ -33,8 +33,8 @@ class JsonReport(unittest.TestCase):
     def build(self, command, name, output, *options):
         return self.report(command, INPUTS / name, "-o", output, *options)
 
-    def assert_contract(self, report):
-        self.assertEqual(list(report), KEYS)
+    def assert_contract(self, report, keys=KEYS):
+        self.assertEqual(list(report), keys)
         self.assertEqual(list(report["seconds"]), SECONDS)
         self.assertEqual(list(report["rungs"]), RUNGS)
         self.assertEqual(report["sites"],
@@ -74,10 +74,10 @@ class JsonReport(unittest.TestCase):
     def test_hull_has_these_keys_and_more(self):
         report = self.build("hull", "cube.xyz", "out.off")
         self.assertEqual([report.pop(key) for key in ("flat", "volume", "area")], [False, 8, 24])
-        self.assert_contract(report)
+        self.assert_contract(report, KEYS[:-1])
         flat = self.build("hull", "square.csv", "out.off")
         self.assertEqual([flat.pop(key) for key in ("flat", "volume", "area")], [True, 0, 8])
-        self.assert_contract(flat)
+        self.assert_contract(flat, KEYS[:-1])
         self.assertEqual((flat["dimension"], flat["vertices"], flat["faces"]), (1, 4, 0))
 
     def test_voronoi_has_the_same_keys_and_times_the_dual(self):
@@ -107,6 +107,15 @@ class JsonReport(unittest.TestCase):
             self.assert_contract(report)
             self.assertEqual((report["dimension"], report["vertices"], report["duplicates"],
                               report["faces"]), (dimension, vertices, duplicates, 0))
+
+    def test_features_without_a_place_are_counted(self):
+        done = subprocess.run([TOOL, "delaunay", INPUTS / "unlocated.geojson", "-o", "out.npy",
+                               "--json"], cwd=self.folder.name, text=True, capture_output=True,
+                              timeout=60, check=True)
+        report = json.loads(done.stdout)
+        self.assert_contract(report)
+        self.assertEqual((report["sites"], report["unlocated"]), (1, 2))
+        self.assertIn("left out 2 features without a place", done.stderr)
 
     def test_quiet_does_not_silence_json(self):
         self.assert_contract(self.build("delaunay", "towns.csv", "out.npy", "--quiet"))

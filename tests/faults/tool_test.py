@@ -126,23 +126,6 @@ class Faults(unittest.TestCase):
         self.expect_failure(["delaunay", "deep.geojson", "-o", "out.npy"],
                             "deep.geojson:1: values nested more than 512 deep")
 
-    # --- A file that is cut while it is used ---
-
-    def test_a_mapped_file_that_is_cut_is_one_line(self):
-        rows = 1 << 22  # as many are used where they are
-        page = struct.pack("<3d", 1, 0, 0) * 400  # the first page stays; its sites are right
-        self.write_sparse("sites.npy", npy_header((rows, 3)) + page, rows * 24 - len(page))
-        os.mkfifo(self.folder / "faces.off")
-        process = subprocess.Popen([TOOL, "check", "sites.npy", "faces.off"], cwd=self.folder,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        # Opened when the tool has read the sites and comes to the faces.
-        with open(self.folder / "faces.off", "w", encoding="ascii") as faces:
-            os.truncate(self.folder / "sites.npy", 4096)
-            faces.write("OFF\n0 0 0\n")
-        out, error = process.communicate(timeout=120)
-        self.assertEqual((process.returncode, out, error),
-                         (1, "", "rondel: sites.npy: the file was cut while it was read\n"))
-
     # --- Less memory than needed ---
 
     def test_too_little_memory_is_one_line(self):

@@ -36,14 +36,6 @@ void test(std::string_view bytes, const ReadOptions& options) {
   for (const Point& p : table.sites) {
     require(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "sites are finite");
   }
-  if (table.sites.is_mapped()) {
-    const auto* const begin = reinterpret_cast<const char*>(table.sites.begin());
-    const auto* const end = reinterpret_cast<const char*>(table.sites.end());
-    require(begin >= bytes.data() && end <= bytes.data() + bytes.size(),
-            "mapped sites are bytes of the file");
-  } else {
-    require(table.sites.owned().size() == table.sites.size(), "other sites are a vector");
-  }
   for (std::size_t i = 0; i < table.sites.size(); ++i) {
     require(table.where(i).starts_with("name:"), "a site is somewhere");
   }

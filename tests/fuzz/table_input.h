@@ -21,13 +21,13 @@ inline SiteTable next_table(ByteSource& source, std::size_t limit) {
   if (source.byte() % 2 == 0) {
     const Scales scales = next_scales(source);
     table.sites = all_sites(source, limit, scales);
-    remove_center(table.sites.owned(), {});
+    remove_center(table.sites, {});
     return table;
   }
   while (!source.is_empty() && table.sites.size() < limit) {
     table.positions.push_back({source.small() * 1.5 + source.byte() / 256.0,
                                source.small() % 90 + source.small() / 128.0});
-    table.sites.owned().push_back(unit_vector(table.positions.back()));
+    table.sites.push_back(unit_vector(table.positions.back()));
     table.radii_deg.push_back(source.byte() * 0.35);
   }
   return table;

@@ -19,7 +19,7 @@ del sys.argv[1:]
 # What only a program can ask for, once; and the memory of vectors, which calls of others use.
 NOT_CALLED = {
     "operator",
-    "remove_temporaries_on_signal",
+    "remove_temporaries",
     "allocate_large",
     "free_large",
     "allocate",

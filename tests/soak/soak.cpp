@@ -160,12 +160,12 @@ void round_trip(Random& random) {
   write_sites(sites, in.sites, {}, {}, in.options.threads);
   const SiteTable table = read_sites(sites);
   require(std::ranges::equal(table.sites, in.sites), "sites from a file");
-  const Triangulation built = delaunay(table.sites.view(), in.options);
+  const Triangulation built = delaunay(table.sites, in.options);
   constexpr std::array face_endings = {".npy", ".off", ".ply", ".obj", ".vtp"};
   const std::string faces = folder.file("faces") + face_endings[random.below(face_endings.size())];
   write_triangles(faces, table, built);
   require(std::ranges::equal(read_triangles(faces), built.faces()), "triangles from a file");
-  write_cells(folder.file("cells.npz"), table, built, diagram(built, table.sites.view()));
+  write_cells(folder.file("cells.npz"), table, built, diagram(built, table.sites));
 }
 
 std::size_t memory_in_use() {

@@ -185,11 +185,11 @@ std::string files(const Subject& s) {
   ReadOptions options;
   if (s.options.model == Model::weighted) options.radius = "radius";
   const SiteTable table = read_sites(csv, options);
-  const Triangulation t = delaunay(table.sites.view(), s.options);
+  const Triangulation t = delaunay(table.sites, s.options);
   write_triangles(folder / "t.off", table, t);
   write_triangles(folder / "t.geojson", table, t);
-  write_cells(folder / "c.geojson", table, t, diagram(t, table.sites.view()));
-  write_sites(folder / "s.csv", table.sites.view());
+  write_cells(folder / "c.geojson", table, t, diagram(t, table.sites));
+  write_sites(folder / "s.csv", table.sites);
   std::string all;
   for (const char* name : {"t.off", "t.geojson", "c.geojson", "s.csv"})
     all += text_of(folder / name);

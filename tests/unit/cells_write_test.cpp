@@ -212,8 +212,8 @@ assert a['hidden'].dtype == 'u4' and a['hidden'].shape == (0, 2)
 TEST(write_cells, names_hidden_sites) {
   SiteTable table;
   table.name = "hidden.csv";
-  table.sites.owned() = {{2, 0, 0}, {-2, 0, 0}, {0, 2, 0},        {0, -2, 0},
-                         {0, 0, 2}, {0, 0, -2}, {1, 0.25, 0.125}, {0, 0, -1.5}};
+  table.sites = {{2, 0, 0}, {-2, 0, 0}, {0, 2, 0},        {0, -2, 0},
+                 {0, 0, 2}, {0, 0, -2}, {1, 0.25, 0.125}, {0, 0, -1.5}};
   const Triangulation triangulation = delaunay(table.sites, {.model = Model::weighted});
   const Diagram cells = diagram(triangulation, table.sites);
   write_cells(file_name("hidden.geojson"), table, triangulation, cells);

@@ -110,54 +110,5 @@ TEST(write_sites, has_the_same_bytes_for_any_number_of_threads) {
   }
 }
 
-// Just as many rows as are not copied.
-class LargeNpy : public testing::Test {
- protected:
-  static constexpr std::size_t n = std::size_t{1} << 22;
-
-  // A file whose rows are zeros but for the last one.
-  [[nodiscard]] std::string write(std::string_view dtype, std::size_t rows,
-                                  const Point& last) const {
-    const std::string name = directory_.file("a.npy");
-    std::ofstream file(name, std::ios::binary);
-    file << io::make_npy_header(dtype, std::array<std::uint64_t, 2>{rows, 3});
-    file.seekp(static_cast<std::streamoff>((rows - 1) * sizeof(Point)), std::ios::cur);
-    file.write(reinterpret_cast<const char*>(&last), sizeof(last));
-    return name;
-  }
-
-  TemporaryDirectory directory_;
-};
-
-TEST_F(LargeNpy, is_mapped) {
-  const SiteTable table = read_sites(write("<f8", n, {1, 2, 3}));
-  EXPECT_TRUE(table.sites.is_mapped());
-  ASSERT_EQ(table.sites.size(), n);
-  EXPECT_EQ(table.sites[0], (Point{0, 0, 0}));
-  EXPECT_EQ(table.sites[n - 1], (Point{1, 2, 3}));
-  EXPECT_EQ(table.where(5), table.name + ": row 5");
-}
-
-TEST_F(LargeNpy, stays_mapped_in_copies_of_the_table_only_as_long_as_they_live) {
-  SiteTable copy;
-  {
-    const SiteTable table = read_sites(write("<f8", n, {1, 2, 3}));
-    copy = table;
-  }
-  std::filesystem::remove(directory_.file("a.npy"));
-  EXPECT_EQ(copy.sites[n - 1], (Point{1, 2, 3}));
-}
-
-TEST_F(LargeNpy, is_copied_if_it_is_smaller_or_in_another_byte_order) {
-  EXPECT_FALSE(read_sites(write("<f8", n - 1, {1, 2, 3})).sites.is_mapped());
-  EXPECT_FALSE(read_sites(write(">f8", n, {0, 0, 0})).sites.is_mapped());
-}
-
-TEST_F(LargeNpy, is_checked_as_any_other) {
-  const std::string name = write("<f8", n, {1, std::numeric_limits<double>::infinity(), 3});
-  const std::string message = message_of([&] { read_sites(name); });
-  EXPECT_TRUE(message.starts_with(name + ": row " + std::to_string(n - 1) + ": ")) << message;
-}
-
 }  // namespace
 }  // namespace rondel::test

@@ -6,10 +6,13 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
 #include <limits>
 #include <map>
 #include <numbers>
 
+#include "io/npy_header.h"
 #include "io_support.h"
 
 namespace rondel::test {
@@ -43,6 +46,79 @@ TEST(read_sites, says_what_is_wrong_with_every_bad_file) {
     options.keep_columns = true;
     read_sites(file, options);
   });
+}
+
+TEST(read_sites, a_file_without_sites_is_an_answer) {
+  const auto files = files_in(corpus / "none");
+  EXPECT_EQ(files.size(), 6U);
+  ReadOptions options;
+  options.keep_columns = true;
+  for (const auto& file : files) {
+    const SiteTable table = read_sites(file.string(), options);
+    EXPECT_TRUE(table.sites.empty() && table.positions.empty() && table.lines.empty()) << file;
+    EXPECT_EQ(table.num_unlocated, file.stem() == "null_geometry" ? 1U : 0U);
+  }
+}
+
+// Writes rows of three numbers of any type, which read_sites must give back as doubles.
+template <class Number>
+void expect_rows(const std::string& path, std::string_view dtype,
+                 const std::vector<std::array<Number, 3>>& rows) {
+  std::ofstream file(path, std::ios::binary);
+  file << io::make_npy_header(dtype, std::array<std::uint64_t, 2>{rows.size(), 3});
+  std::vector<Point> expected;
+  for (const auto& [x, y, z] : rows) {
+    expected.push_back({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
+    for (const Number value : {x, y, z}) {
+      file.write(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  }
+  file.close();
+  EXPECT_EQ(read_sites(path).sites, expected) << dtype;
+}
+
+TEST(read_sites, numbers_of_arrays_become_doubles_exactly) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("a.npy");
+  expect_rows<float>(path, "<f4", {{0.1F, -1.5e-40F, 3e38F}});
+  expect_rows<std::int8_t>(path, "|i1", {{-128, 0, 127}, {1, 2, 3}});
+  expect_rows<std::uint8_t>(path, "|u1", {{255, 0, 1}});
+  expect_rows<std::int16_t>(path, "<i2", {{-32768, 0, 32767}});
+  expect_rows<std::uint16_t>(path, "<u2", {{65535, 0, 1}});
+  expect_rows<std::int32_t>(path, "<i4", {{-2147483647, 0, 7}});
+  expect_rows<std::uint32_t>(path, "<u4", {{4294967295U, 0, 7}});
+  constexpr std::int64_t exact = (std::int64_t{1} << 53) - 1;
+  expect_rows<std::int64_t>(path, "<i8",
+                            {{-1024 * exact, exact, std::numeric_limits<std::int64_t>::min()}});
+  expect_rows<std::uint64_t>(path, "<u8", {{2048 * std::uint64_t{exact}, 0, 1}});
+}
+
+TEST(read_sites, reads_the_format_and_the_delimiter_that_are_named) {
+  const TemporaryDirectory directory;
+  const std::string file = directory.with("a.txt", "lon;lat\n1;2\n");
+  ReadOptions options;
+  options.delimiter = ';';
+  EXPECT_EQ(read_sites({file, "CSV"}, options).positions.at(0), (LonLat{1, 2}));
+  EXPECT_EQ(message_of([&] { read_sites(file, options); }),
+            file + ": a delimiter is named, but .txt files have none");
+  EXPECT_EQ(message_of([&] {
+              read_sites({file, "xlsx"});
+            }),
+            file +
+                ": unknown format \"xlsx\"; sites are read from .csv .tsv .xyz .txt .npy "
+                ".geojson");
+}
+
+TEST(read_sites, counts_features_without_a_place) {
+  const TemporaryDirectory directory;
+  const SiteTable table =
+      read_sites(directory.with("a.geojson", R"({"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"a":1},"geometry":null},
+{"type":"Feature","properties":{"a":2},"geometry":{"type":"Point","coordinates":[1,2]}},
+{"type":"Feature","properties":{"a":3},"geometry":{"type":"Point","coordinates":[]}}]})"));
+  EXPECT_EQ(table.positions, (std::vector<LonLat>{{1, 2}}));
+  EXPECT_EQ(table.num_unlocated, 2U);
+  EXPECT_EQ(table.where(0), table.name + ":3");
 }
 
 TEST(read_sites, names_the_line_of_every_site) {

@@ -7,6 +7,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -27,7 +28,8 @@ using PolygonsOut = std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOu
 
 SiteTable make_table(const PointsIn& points, const std::vector<ColumnIn>& columns) {
   SiteTable table;
-  table.sites = PointArray(points_of(points), nullptr);
+  const std::span<const Point> sites = points_of(points);
+  table.sites.assign(sites.begin(), sites.end());
   for (const auto& [name, cells] : columns) {
     Column column{.name = name, .is_numeric = true, .text = {}, .ends = {}};
     for (const std::string& cell : cells) {
