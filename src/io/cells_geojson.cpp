@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "io/cell_formats.h"
-#include "io/cell_map.h"
 #include "io/geojson_geometry.h"
 #include "io/number.h"
 #include "io/parallel_write.h"
+#include "map/cell_map.h"
 
 namespace rondel::io {
 namespace {
@@ -73,12 +73,12 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
   const std::vector<std::string> keys = property_keys(columns);
   const std::size_t n = cells.table.sites.size();
   const unsigned threads = cells.triangulation.report().threads;
-  const CellMap map(cells.table.sites, cells.triangulation, cells.diagram.cells,
-                    cells.tolerance_deg, threads, cells.progress);
+  const map::CellMap cell_map(cells.table.sites, cells.triangulation, cells.diagram.cells,
+                              cells.tolerance_deg, threads, cells.progress);
   std::size_t first_cell = 0;
-  while (first_cell < n && !map.has_cell(first_cell)) ++first_cell;
+  while (first_cell < n && !cell_map.has_cell(first_cell)) ++first_cell;
 
-  const auto append_feature = [&](std::string& text, std::size_t site, CellMap::Pen& pen) {
+  const auto append_feature = [&](std::string& text, std::size_t site, map::CellMap::Pen& pen) {
     text += site == first_cell ? "\n" : ",\n";
     text += R"({"type":"Feature","properties":{"site":)";
     append_integer(text, site);
@@ -89,16 +89,16 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
       append_value(text, columns[k], site);
     }
     text += R"(},"geometry":)";
-    append_geometry(text, map.polygons(site, pen));
+    append_geometry(text, cell_map.polygons(site, pen));
     text += '}';
   };
   file.write(R"({"type":"FeatureCollection","features":[)");
   write_in_parallel(
       file, threads, n, grain,
       [&](std::string& text, std::size_t begin, std::size_t end) {
-        CellMap::Pen pen;
+        map::CellMap::Pen pen;
         for (std::size_t site = begin; site < end; ++site) {
-          if (map.has_cell(site)) append_feature(text, site, pen);
+          if (cell_map.has_cell(site)) append_feature(text, site, pen);
         }
       },
       [&](std::size_t done) {

@@ -8,7 +8,7 @@ namespace rondel::io {
 namespace {
 
 // [[[lon,lat],...]]: a polygon is its outer ring alone.
-void append_polygon(std::string& out, const LonLatPolygon& polygon) {
+void append_polygon(std::string& out, const map::LonLatPolygon& polygon) {
   out += "[[";
   for (const LonLat& position : polygon.ring) {
     out += '[';
@@ -23,7 +23,7 @@ void append_polygon(std::string& out, const LonLatPolygon& polygon) {
 
 }  // namespace
 
-void append_geometry(std::string& out, const std::vector<LonLatPolygon>& polygons) {
+void append_geometry(std::string& out, const std::vector<map::LonLatPolygon>& polygons) {
   if (polygons.empty()) {
     out += "null";
     return;
@@ -35,7 +35,7 @@ void append_geometry(std::string& out, const std::vector<LonLatPolygon>& polygon
     return;
   }
   out += R"({"type":"MultiPolygon","coordinates":[)";
-  for (const LonLatPolygon& polygon : polygons) {
+  for (const map::LonLatPolygon& polygon : polygons) {
     append_polygon(out, polygon);
     out += ',';
   }

@@ -6,15 +6,15 @@
 // others, flat or from behind; it is left out.
 #include <string>
 
-#include "io/face_map.h"
 #include "io/geojson_geometry.h"
 #include "io/number.h"
 #include "io/triangle_formats.h"
+#include "map/face_map.h"
 
 namespace rondel::io {
 
 void write_geojson(AtomicFile& file, const Mesh& mesh) {
-  const FaceMap map(mesh.table.sites, mesh.triangulation);
+  const map::FaceMap face_map(mesh.table.sites, mesh.triangulation);
   Index first_solid = 0;
   while (first_solid < mesh.triangulation.num_faces() && mesh.triangulation.is_ghost(first_solid)) {
     ++first_solid;
@@ -30,7 +30,7 @@ void write_geojson(AtomicFile& file, const Mesh& mesh) {
     }
     text.back() = ']';
     text += R"(},"geometry":)";
-    append_geometry(text, map.polygons(face));
+    append_geometry(text, face_map.polygons(face));
     text += '}';
   });
   file.write("\n]}\n");

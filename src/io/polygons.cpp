@@ -8,8 +8,8 @@
 #include <string>
 
 #include "io/cell_formats.h"
-#include "io/cell_map.h"
-#include "io/face_map.h"
+#include "map/cell_map.h"
+#include "map/face_map.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
 #include "system/parallel.h"
@@ -19,8 +19,8 @@ namespace {
 
 constexpr std::size_t grain = 512;
 
-void append(LonLatPolygons& all, const std::vector<io::LonLatPolygon>& polygons, Index owner) {
-  for (const io::LonLatPolygon& polygon : polygons) {
+void append(LonLatPolygons& all, const std::vector<map::LonLatPolygon>& polygons, Index owner) {
+  for (const map::LonLatPolygon& polygon : polygons) {
     all.positions.insert(all.positions.end(), polygon.ring.begin(), polygon.ring.end());
     all.offsets.push_back(all.positions.size());
     all.owners.push_back(owner);
@@ -66,13 +66,13 @@ LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& 
   const system::ArithmeticScope arithmetic;
   io::require_diagram(sites.size(), triangulation, diagram);
   const unsigned threads = triangulation.report().threads;
-  const io::CellMap map(sites, triangulation, diagram.cells, tolerance_deg, threads, progress);
+  const map::CellMap cell_map(sites, triangulation, diagram.cells, tolerance_deg, threads, progress);
   return collect(threads, sites.size(),
                  [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
-                   io::CellMap::Pen pen;
+                   map::CellMap::Pen pen;
                    for (std::size_t site = begin; site < end; ++site) {
-                     if (!map.has_cell(site)) continue;
-                     append(piece, map.polygons(site, pen), static_cast<Index>(site));
+                     if (!cell_map.has_cell(site)) continue;
+                     append(piece, cell_map.polygons(site, pen), static_cast<Index>(site));
                    }
                  });
 }
@@ -84,12 +84,12 @@ LonLatPolygons face_polygons(std::span<const Point> sites, const Triangulation& 
                            std::to_string(triangulation.num_sites()),
                        std::min(sites.size(), triangulation.num_sites()));
   }
-  const io::FaceMap map(sites, triangulation);
+  const map::FaceMap face_map(sites, triangulation);
   return collect(triangulation.report().threads, triangulation.num_faces(),
                  [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
                    for (std::size_t f = begin; f < end; ++f) {
                      const auto face = static_cast<Index>(f);
-                     if (!triangulation.is_ghost(face)) append(piece, map.polygons(face), face);
+                     if (!triangulation.is_ghost(face)) append(piece, face_map.polygons(face), face);
                    }
                  });
 }

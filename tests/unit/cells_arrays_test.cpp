@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "cells_planar.h"
-#include "io/cell_map.h"
+#include "map/cell_map.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/polygons.h"
@@ -24,8 +24,8 @@ std::vector<Point> random_points(std::size_t n, std::uint64_t seed) {
 }
 
 // The polygons of an owner, out of the arrays.
-std::vector<io::LonLatPolygon> polygons_of(const LonLatPolygons& all, Index owner) {
-  std::vector<io::LonLatPolygon> found;
+std::vector<map::LonLatPolygon> polygons_of(const LonLatPolygons& all, Index owner) {
+  std::vector<map::LonLatPolygon> found;
   for (std::size_t k = 0; k < all.owners.size(); ++k) {
     if (all.owners[k] != owner) continue;
     const auto first = all.positions.begin();
@@ -49,8 +49,8 @@ TEST(cells, arrays_have_the_polygons_of_every_site) {
   const Diagram dual = diagram(triangulation, sites);
   const LonLatPolygons all = cell_polygons(sites, triangulation, dual);
   expect_arrays(all);
-  const io::CellMap map(sites, triangulation, dual.cells, 0.01, 1, {});
-  io::CellMap::Pen pen;
+  const map::CellMap map(sites, triangulation, dual.cells, 0.01, 1, {});
+  map::CellMap::Pen pen;
   for (Index site = 0; site < sites.size(); ++site) {
     const auto found = polygons_of(all, site);
     const auto expected = map.has_cell(site) ? map.polygons(site, pen) : decltype(found){};

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "cells_planar.h"
-#include "io/cell_map.h"
+#include "map/cell_map.h"
 #include "rondel/delaunay.h"
 #include "support/generators.h"
 
@@ -34,8 +34,8 @@ void expect_map(const std::vector<Point>& sites, const std::string& name,
   const Triangulation triangulation = delaunay(sites, options);
   const Cells diagram = cells(triangulation, sites);
   const std::vector<double> own_areas = areas(triangulation, sites, diagram);
-  const io::CellMap map(sites, triangulation, diagram, demands.tolerance_deg, 2, {});
-  io::CellMap::Pen pen;
+  const map::CellMap map(sites, triangulation, diagram, demands.tolerance_deg, 2, {});
+  map::CellMap::Pen pen;
   double total = 0;
   for (std::size_t site = 0; site < sites.size(); ++site) {
     const auto polygons = map.polygons(site, pen);

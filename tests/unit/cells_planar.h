@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "io/lonlat_polygon.h"
+#include "map/polygon.h"
 
 namespace rondel::test {
 
@@ -59,7 +59,7 @@ inline bool contains(const Ring& ring, const LonLat& p) {
   return inside;
 }
 
-inline bool contains(const std::vector<io::LonLatPolygon>& polygons, const LonLat& p) {
+inline bool contains(const std::vector<map::LonLatPolygon>& polygons, const LonLat& p) {
   return std::ranges::any_of(polygons,
                              [&](const auto& polygon) { return contains(polygon.ring, p); });
 }
@@ -97,20 +97,20 @@ inline std::string fault(const Ring& ring) {
   return "";
 }
 
-inline std::string fault(const std::vector<io::LonLatPolygon>& polygons) {
+inline std::string fault(const std::vector<map::LonLatPolygon>& polygons) {
   for (const auto& polygon : polygons) {
     if (const std::string what = fault(polygon.ring); !what.empty()) return what;
   }
   return "";
 }
 
-inline double spherical_area(const std::vector<io::LonLatPolygon>& polygons) {
+inline double spherical_area(const std::vector<map::LonLatPolygon>& polygons) {
   double area = 0;
   for (const auto& polygon : polygons) area += spherical_area(polygon.ring);
   return area;
 }
 
-inline double planar_area(const std::vector<io::LonLatPolygon>& polygons) {
+inline double planar_area(const std::vector<map::LonLatPolygon>& polygons) {
   double area = 0;
   for (const auto& polygon : polygons) area += planar_area(polygon.ring);
   return area;

@@ -12,7 +12,7 @@
 namespace rondel::test {
 namespace {
 
-using io::lonlat_polygons;
+using map::lonlat_polygons;
 using std::numbers::pi;
 
 Point at(double lon_deg, double lat_deg) {
@@ -34,11 +34,11 @@ double fan_area(const std::vector<Point>& ring) {
   double area = 0;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
     const Point& a = ring[0];
-    const Point u = io::difference(ring[i], a);
-    const Point v = io::difference(ring[i + 1], a);
+    const Point u = map::difference(ring[i], a);
+    const Point v = map::difference(ring[i + 1], a);
     const double divisor =
-        1 + io::dot(a, ring[i]) + io::dot(ring[i], ring[i + 1]) + io::dot(ring[i + 1], a);
-    area += 2 * std::atan2(io::dot(a, io::cross(u, v)), divisor);
+        1 + map::dot(a, ring[i]) + map::dot(ring[i], ring[i + 1]) + map::dot(ring[i + 1], a);
+    area += 2 * std::atan2(map::dot(a, map::cross(u, v)), divisor);
   }
   return area;
 }
@@ -166,8 +166,8 @@ TEST(lonlat_polygon, touches_the_antimeridian_without_a_cut) {
 std::vector<Point> ring_around(const Point& center, double radius, int count,
                                std::mt19937_64& random) {
   const Point helper = std::abs(center.z) < 0.5 ? Point{0, 0, 1} : Point{1, 0, 0};
-  const Point u = io::normalized(io::cross(helper, center));
-  const Point v = io::cross(center, u);
+  const Point u = map::normalized(map::cross(helper, center));
+  const Point v = map::cross(center, u);
   std::vector<Point> ring;
   for (int i = 0; i < count; ++i) {
     const double jitter = std::uniform_real_distribution<double>(0, 0.8)(random);
@@ -176,8 +176,8 @@ std::vector<Point> ring_around(const Point& center, double radius, int count,
     const double b = std::sin(radius) * std::sin(angle);
     const double c = std::cos(radius);
     ring.push_back(
-        io::normalized({a * u.x + b * v.x + c * center.x, a * u.y + b * v.y + c * center.y,
-                        a * u.z + b * v.z + c * center.z}));
+        map::normalized({a * u.x + b * v.x + c * center.x, a * u.y + b * v.y + c * center.y,
+                         a * u.z + b * v.z + c * center.z}));
   }
   return ring;
 }
@@ -210,11 +210,11 @@ TEST(lonlat_polygon, neighbors_share_their_positions) {
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int trial = 0; trial < 500; ++trial) {
     const auto point = [&] {
-      return io::normalized({unit(random) - 1.2, unit(random), unit(random)});
+      return map::normalized({unit(random) - 1.2, unit(random), unit(random)});
     };
     std::array<Point, 4> p{point(), point(), point(), point()};
     const auto orientation = [](const Point& a, const Point& b, const Point& c) {
-      return io::dot(a, io::cross(io::difference(b, a), io::difference(c, a)));
+      return map::dot(a, map::cross(map::difference(b, a), map::difference(c, a)));
     };
     if (orientation(p[0], p[1], p[2]) < 0) std::swap(p[0], p[1]);
     if (orientation(p[1], p[0], p[3]) <= 0) continue;
@@ -227,11 +227,11 @@ TEST(lonlat_polygon, neighbors_share_their_positions) {
     };
     const auto left = positions({p[0], p[1], p[2]});
     const auto right = positions({p[1], p[0], p[3]});
-    const Point normal = io::normalized(io::cross(p[0], p[1]));
+    const Point normal = map::normalized(map::cross(p[0], p[1]));
     for (const auto& [lon, lat] : left) {
       const Point q = at(lon, lat);
-      const bool is_inside = io::dot(q, io::sum(p[0], p[1])) > 1 + io::dot(p[0], p[1]) - 1e-12;
-      if (std::abs(io::dot(q, normal)) > 1e-14 || !is_inside) continue;
+      const bool is_inside = map::dot(q, map::sum(p[0], p[1])) > 1 + map::dot(p[0], p[1]) - 1e-12;
+      if (std::abs(map::dot(q, normal)) > 1e-14 || !is_inside) continue;
       EXPECT_TRUE(right.contains({lon, lat})) << trial << ": " << lon << ' ' << lat;
     }
   }

@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
-#include "io/lonlat_polygon.h"
+#include "map/polygon.h"
 #include "rondel/diagram.h"
 #include "rondel/triangulation.h"
 
-namespace rondel::io {
+namespace rondel::map {
 
 // Four things concern more than one cell:
 // 1. Points nearer to each other than merge_distance become one point, for all cells: between
@@ -110,4 +110,4 @@ class CellMap::Pen {
   Trace trace_;
 };
 
-}  // namespace rondel::io
+}  // namespace rondel::map

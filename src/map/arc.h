@@ -10,7 +10,7 @@
 
 #include "rondel/types.h"
 
-namespace rondel::io {
+namespace rondel::map {
 
 inline constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
@@ -62,4 +62,4 @@ struct ArcTolerance {
 void append_arc(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
                 std::vector<MapPoint>& out);
 
-}  // namespace rondel::io
+}  // namespace rondel::map

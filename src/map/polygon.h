@@ -7,10 +7,10 @@
 #include <span>
 #include <vector>
 
-#include "io/lonlat_trace.h"
+#include "map/trace.h"
 #include "rondel/types.h"
 
-namespace rondel::io {
+namespace rondel::map {
 
 struct LonLatPolygon {
   std::vector<LonLat> ring;  // degrees; closed (the last position is the first), counterclockwise
@@ -39,4 +39,4 @@ std::vector<LonLatPolygon> polygons_of(const Trace& trace);
 // opposite sides have passed each other from end to end.
 bool is_turned_over(const Trace& trace);
 
-}  // namespace rondel::io
+}  // namespace rondel::map

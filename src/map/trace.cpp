@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/lonlat_trace.h"
+#include "map/trace.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace rondel::io {
+namespace rondel::map {
 namespace {
 
 // The antimeridian belongs to the east: think of it as shifted by an infinitesimal to the west, so
@@ -153,4 +153,4 @@ void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances,
   drawing.finish();
 }
 
-}  // namespace rondel::io
+}  // namespace rondel::map

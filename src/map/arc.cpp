@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/lonlat_arc.h"
+#include "map/arc.h"
 
 #include <algorithm>
 #include <cmath>
 #include <tuple>
 
-namespace rondel::io {
+namespace rondel::map {
 namespace {
 
 double squared_norm(const Point& p) { return dot(p, p); }
@@ -128,4 +128,4 @@ void append_arc(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolera
   std::reverse(out.begin() + start, out.end());
 }
 
-}  // namespace rondel::io
+}  // namespace rondel::map

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/crossing_lines.h"
+#include "map/crossing_lines.h"
 
 #include <algorithm>
 #include <limits>
 
-namespace rondel::io {
+namespace rondel::map {
 namespace {
 
 struct Line {
@@ -152,4 +152,4 @@ std::vector<std::pair<std::size_t, std::size_t>> crossing_lines(const Trace& tra
   return pairs;
 }
 
-}  // namespace rondel::io
+}  // namespace rondel::map

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/lonlat_polygon.h"
+#include "map/polygon.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <map>
 
-namespace rondel::io {
+namespace rondel::map {
 namespace {
 
 // The border of the rectangle, counterclockwise from its corner in the north west.
@@ -236,4 +236,4 @@ std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring, double t
   return lonlat_polygons(ring, tolerances);
 }
 
-}  // namespace rondel::io
+}  // namespace rondel::map

@@ -19,9 +19,9 @@
 #include <span>
 #include <vector>
 
-#include "io/lonlat_arc.h"
+#include "map/arc.h"
 
-namespace rondel::io {
+namespace rondel::map {
 
 struct Trace {
   std::vector<MapPoint> points;     // of all chains, one after the other
@@ -37,4 +37,4 @@ struct Trace {
 // Precondition: the region, to the left of the ring, is spherically convex (at most a hemisphere).
 void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances, Trace& trace);
 
-}  // namespace rondel::io
+}  // namespace rondel::map

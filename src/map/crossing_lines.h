@@ -8,13 +8,13 @@
 #include <utility>
 #include <vector>
 
-#include "io/lonlat_trace.h"
+#include "map/trace.h"
 
-namespace rondel::io {
+namespace rondel::map {
 
 // The pairs of lines of a trace, named by their first points, that meet without being neighbors.
 // Two nearly parallel arcs have such lines where they are densified at different places.
 // Time: n log n, and the number of lines whose rectangles overlap.
 std::vector<std::pair<std::size_t, std::size_t>> crossing_lines(const Trace& trace);
 
-}  // namespace rondel::io
+}  // namespace rondel::map

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/face_map.h"
+#include "map/face_map.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "io/lonlat_arc.h"
+#include "map/arc.h"
 
-namespace rondel::io {
+namespace rondel::map {
 namespace {
 
 constexpr double largest_tolerance_deg = 0.01;
@@ -64,4 +64,4 @@ Point FaceMap::direction(const Point& site) const {
   return normalized({p.x / largest, p.y / largest, p.z / largest});
 }
 
-}  // namespace rondel::io
+}  // namespace rondel::map

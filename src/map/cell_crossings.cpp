@@ -7,11 +7,11 @@
 #include <optional>
 #include <tuple>
 
-#include "io/cell_map.h"
-#include "io/crossing_lines.h"
+#include "map/cell_map.h"
+#include "map/crossing_lines.h"
 #include "system/parallel.h"
 
-namespace rondel::io {
+namespace rondel::map {
 namespace {
 
 // In radians. At a tip whole arcs of the diagram are no longer than the rounding of a distant
@@ -244,4 +244,4 @@ bool CellMap::merge(const Edge& edge, const ArcTolerance& tolerance) {
   return true;
 }
 
-}  // namespace rondel::io
+}  // namespace rondel::map

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "io/cell_map.h"
+#include "map/cell_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-namespace rondel::io {
+namespace rondel::map {
 namespace {
 
 double largest_coordinate(const Point& p) {
@@ -178,4 +178,4 @@ bool CellMap::draw_ring(std::size_t site, Ring& ring, Trace& trace) const {
   return true;
 }
 
-}  // namespace rondel::io
+}  // namespace rondel::map

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "io/lonlat_polygon.h"
+#include "map/polygon.h"
 #include "rondel/triangulation.h"
 
-namespace rondel::io {
+namespace rondel::map {
 
 // Sides are within a hundredth of a degree of the arcs, and within a tenth of the width of the
 // thinner of the two faces at an edge, so that faces do not overlap; but never closer than a meter
@@ -36,4 +36,4 @@ class FaceMap {
   const Triangulation& triangulation_;
 };
 
-}  // namespace rondel::io
+}  // namespace rondel::map
