@@ -23,7 +23,8 @@ constexpr double short_line = 0x1p-10;
 constexpr double shortest_line = 0x1p-20;
 // A ring with more is not bisected: a narrow cell shall not fill a file.
 constexpr std::size_t most_lines = 4096;
-// Each pass carries points across one more cell of a row of narrow ones.
+// Each pass carries points across one more cell of a row of narrow ones, and may add as many as the
+// pass before it: this bounds time and size where rows are longer. docs/theory/map.md has figures.
 constexpr int max_passes = 46;
 
 bool is_before(const Point& p, const Point& q) {

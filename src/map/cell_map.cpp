@@ -34,7 +34,7 @@ bool CellMap::has_cell(std::size_t site) const {
 }
 
 std::vector<LonLatPolygon> CellMap::polygons(std::size_t site, Pen& pen) const {
-  if (site == only_vertex_) return lonlat_polygons({}, tolerance_);
+  if (site == only_vertex_) return lonlat_polygons({}, {});
   if (unresolved_.contains(site) || !draw_ring(site, pen.ring_, pen.trace_)) return {};
   return polygons_of(pen.trace_);
 }

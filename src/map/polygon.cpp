@@ -65,8 +65,9 @@ bool visits_twice(std::span<const LonLat> positions) {
   return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
 }
 
-// Twice what a sliver as wide as rounding covers, from one end of the map to the other.
-constexpr double area_of_rounding = 1e-9;  // square degrees
+// Twice what a sliver as wide as rounding covers, from one end of the map to the other, in square
+// degrees.
+constexpr double area_of_rounding = 2 * 360 * merge_distance * degrees_per_radian;
 
 struct Loops {
   std::vector<LonLatPolygon> polygons;
@@ -229,11 +230,6 @@ std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring,
   Trace trace;
   draw(points, tolerances, trace);
   return polygons_of(trace);
-}
-
-std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring, double tolerance_deg) {
-  const std::vector<double> tolerances(ring.size(), tolerance_deg);
-  return lonlat_polygons(ring, tolerances);
 }
 
 }  // namespace rondel::map

@@ -20,8 +20,7 @@ struct LonLatPolygon {
 // the first) joined by the shorter arc of a great circle.
 // 1. Simple polygons inside [-180, 180] x [-90, 90], cut along the antimeridian; at a pole they
 //    reach the side lat = +-90.
-// 2. Their sides are within a tolerance (degrees, measured on the sphere) of the arcs: one for
-//    each arc, or one for all. Sides along the antimeridian and the poles are exact.
+// 2. Their sides are within the arc's tolerance (degrees, measured on the sphere) of it. Sides along the antimeridian and the poles are exact.
 // 3. An arc gives the same positions, bit by bit, to the regions on both sides of it.
 // 4. An empty ring is the whole sphere. A ring with one or two distinct points, those within
 //    merge_distance of a pole taken as one, has no polygon.
@@ -30,7 +29,6 @@ struct LonLatPolygon {
 // compared with its width.
 std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring,
                                            std::span<const double> tolerances_deg);
-std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring, double tolerance_deg);
 
 // The polygons that a drawn ring bounds.
 std::vector<LonLatPolygon> polygons_of(const Trace& trace);

@@ -12,13 +12,17 @@
 namespace rondel::test {
 namespace {
 
-using map::lonlat_polygons;
 using std::numbers::pi;
 
 Point at(double lon_deg, double lat_deg) {
   const double lon = lon_deg * pi / 180;
   const double lat = lat_deg * pi / 180;
   return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+}
+
+std::vector<map::LonLatPolygon> lonlat_polygons(const std::vector<Point>& ring,
+                                                double tolerance_deg) {
+  return map::lonlat_polygons(ring, std::vector<double>(ring.size(), tolerance_deg));
 }
 
 constexpr Point north{0, 0, 1};
