@@ -66,7 +66,8 @@ LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& 
   const system::ArithmeticScope arithmetic;
   io::require_diagram(sites.size(), triangulation, diagram);
   const unsigned threads = triangulation.report().threads;
-  const map::CellMap cell_map(sites, triangulation, diagram.cells, tolerance_deg, threads, progress);
+  const map::CellMap cell_map(sites, triangulation, diagram.cells, tolerance_deg, threads,
+                              progress);
   return collect(threads, sites.size(),
                  [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
                    map::CellMap::Pen pen;
@@ -89,7 +90,8 @@ LonLatPolygons face_polygons(std::span<const Point> sites, const Triangulation& 
                  [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
                    for (std::size_t f = begin; f < end; ++f) {
                      const auto face = static_cast<Index>(f);
-                     if (!triangulation.is_ghost(face)) append(piece, face_map.polygons(face), face);
+                     if (!triangulation.is_ghost(face))
+                       append(piece, face_map.polygons(face), face);
                    }
                  });
 }

@@ -62,12 +62,7 @@ Order lowering_order(const Four& points) {
 template <class SignOfTriple>
 Sign first_sign(const Order& order, SignOfTriple sign_of_triple) {
   for (const std::size_t role : order) {
-<<<<<<< HEAD
-    const auto& [i, j, k] = triple_of[role];
-    const Sign sign = orientation(points[i], points[j], points[k], center).sign;
-=======
     const Sign sign = sign_of_triple(triple_of[role]);
->>>>>>> 539abdc (Cocircular sites are lowered in the order of a hash of their coordinates: no facet seen from outside is a fan any more, and sites in order along a circle change few faces)
     if (sign != Sign::zero) return factor_of[role] * sign;
   }
   return Sign::zero;
@@ -75,7 +70,7 @@ Sign first_sign(const Order& order, SignOfTriple sign_of_triple) {
 
 Sign raise_from_center(const Four& points, const Order& order, const Point& center) {
   return first_sign(order, [&](const std::array<std::size_t, 3>& t) {
-    return orientation_ladder(points[t[0]], points[t[1]], points[t[2]], center).sign;
+    return orientation(points[t[0]], points[t[1]], points[t[2]], center).sign;
   });
 }
 

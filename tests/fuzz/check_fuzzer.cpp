@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// check: any list of triangles gives a verdict, and only the triangulation is accepted.
+// check and Triangulation::from_arrays: any list of triangles gives a verdict, and only the
+// triangulation is accepted.
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "fuzz/fuzz_input.h"
 #include "rondel/check.h"
 #include "rondel/delaunay.h"
+#include "rondel/error.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -61,6 +63,25 @@ void change(std::vector<Triple>& faces, ByteSource& source, std::size_t num_site
   }
 }
 
+// Whether the arrays of `built`, with these faces instead of its own, are taken.
+bool are_taken(const Triangulation& built, std::vector<Triple> faces, const Options& options) {
+  TriangulationArrays arrays;
+  arrays.num_sites = built.num_sites();
+  arrays.dimension = built.dimension();
+  arrays.faces.assign(faces.begin(), faces.end());
+  arrays.neighbors.assign(built.neighbors().begin(), built.neighbors().end());
+  arrays.ghost_faces.assign(built.ghost_faces().begin(), built.ghost_faces().end());
+  arrays.ring.assign(built.ring().begin(), built.ring().end());
+  arrays.duplicates.assign(built.duplicates().begin(), built.duplicates().end());
+  arrays.hidden.assign(built.hidden().begin(), built.hidden().end());
+  try {
+    return std::ranges::equal(Triangulation::from_arrays(std::move(arrays), options).faces(),
+                              faces);
+  } catch (const InvalidInput&) {
+    return false;
+  }
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -87,6 +108,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::require(report.is_valid == is_right, is_right
                                                  ? "the triangulation is accepted: " + report.reason
                                                  : "only the triangulation is accepted");
+  fuzz::require(fuzz::are_taken(built, faces, options) == std::ranges::equal(faces, built.faces()),
+                "arrays are taken if no face was changed, and only then");
   fuzz::require(report.is_valid == report.reason.empty(), "a refusal has a reason");
   fuzz::require(report.reason.find('\n') == std::string::npos, "a reason is one line");
   return 0;

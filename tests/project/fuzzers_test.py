@@ -48,7 +48,7 @@ def public_names(text):
             scopes[-1] = scopes[-1].split()[0] + (" private" if label[1] == "private" else "")
             is_private = label[1] == "private"
             statement = statement[label.end() :]
-        opened = re.search(r"\b(?:class|struct) (\w+)[^;()]*\{$", statement)
+        opened = re.search(r"\b(?:class|struct) (?:RONDEL_API )?(\w+)[^;()]*\{$", statement)
         found = re.search(r"([~\w]+) ?\(", re.sub(r"\boperator[^\w\s(]+", "operator", statement))
         is_body = "()" in scopes
         if found and not (opened or is_private or is_body or re.search(r"\b(friend|using)\b", statement)):

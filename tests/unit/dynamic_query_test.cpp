@@ -140,7 +140,8 @@ TEST(dynamic_query, refuses_ids_and_faces_that_do_not_exist) {
   EXPECT_THROW((void)locator.distance({1, 0, 0}, 2), InvalidInput);
   EXPECT_THROW((void)changing.face(100), InvalidInput);
   EXPECT_EQ(locator.neighbors(3), (std::vector<Index>{0, 1}));
-  const Locator none{DynamicTriangulation()};
+  const DynamicTriangulation without_sites;
+  const Locator none(without_sites);
   EXPECT_EQ(none.nearest({1, 0, 0}), no_index);
 }
 
