@@ -37,8 +37,9 @@ struct Snapshot {
 ///    as long as delaunay(), throw std::bad_alloc again, and gives faces new numbers.
 /// 5. Insertion takes O(log n) expected time for sites in random places, removal O(d) expected for
 ///    a vertex with d neighbors. Exceptions: the sites that a change hides, or that come back, are
-///    inserted once more each; while all sites lie on one great circle, and when the center of the
-///    sphere leaves the hull of weighted sites, a change may take O(n). Whenever the number of
+///    inserted once more each; a change may take O(n) while all sites lie on one great circle, when
+///    the center of the sphere leaves the hull of weighted sites, and when weighted sites come in
+///    order along a circle (projected ones cost no more than others). Whenever the number of
 ///    sites has doubled or halved, one change takes O(n) to bring close sites together in memory.
 ///    Ranges are faster than the same changes one by one. A range that changes most of the sites is
 ///    made by one build of those that are there afterwards: from 4 insertions for 7 of these on, 2
