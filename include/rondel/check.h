@@ -13,7 +13,7 @@
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// The verdict on a list of triangles.
 struct CheckReport {
@@ -34,4 +34,4 @@ struct CheckReport {
 RONDEL_API CheckReport check(std::span<const Point> sites, std::span<const Triple> triangles,
                              const Options& options = {});
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -13,7 +13,7 @@
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// The unit vector of a longitude and latitude, the same bits on every
 /// platform. Quadrants are exact: every longitude at latitude 90 gives
@@ -63,4 +63,4 @@ RONDEL_API Triangulation delaunay(std::span<const Point> sites, const Options& o
 /// \throws InvalidInput also if the length is not a multiple of 3.
 RONDEL_API Triangulation delaunay(std::span<const double> xyz, const Options& options = {});
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -17,7 +17,7 @@
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// The cells of a diagram in compressed rows: the ring of site i is
 /// `rings[offsets[i]] ... rings[offsets[i+1]-1]`, positions in `points`,
@@ -82,4 +82,4 @@ RONDEL_API std::vector<std::array<Index, 2>> edges(const Triangulation& triangul
 RONDEL_API Polygons merge_cocircular(const Triangulation& triangulation,
                                      std::span<const Point> sites);
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -14,7 +14,7 @@
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// An immutable copy of a DynamicTriangulation.
 struct Snapshot {
@@ -128,4 +128,4 @@ class RONDEL_API DynamicTriangulation {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

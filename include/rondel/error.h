@@ -11,7 +11,7 @@
 
 #include "rondel/export.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// An argument breaks its contract: a coordinate that is not finite, a site at
 /// the center of the sphere, an array of the wrong length, too many sites.
@@ -40,4 +40,4 @@ class RONDEL_API FileError : public std::runtime_error {
   ~FileError() override;
 };
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -12,7 +12,7 @@
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// How to build a hull.
 struct HullOptions {
@@ -61,4 +61,4 @@ struct HullSize {
 /// \throws InvalidInput if the number of points differs from hull.num_sites().
 RONDEL_API HullSize size_of_hull(const Triangulation& hull, std::span<const Point> points);
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

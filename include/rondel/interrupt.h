@@ -11,7 +11,7 @@
 
 #include "rondel/export.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// What ends the work of call_interruptible().
 class RONDEL_API Interrupted : public std::exception {
@@ -29,4 +29,4 @@ class RONDEL_API Interrupted : public std::exception {
 RONDEL_API void call_interruptible(const std::atomic<bool>& stop,
                                    const std::function<void()>& work);
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -8,8 +8,8 @@
 /// was there before. A power failure soon after may not: nothing waits for the disk.
 #pragma once
 
-#include <concepts>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,15 +21,16 @@
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// A file and its format.
 struct FileName {
-  /// Of a std::string, "a literal" or a std::filesystem::path.
-  template <class Name>
-  requires std::convertible_to<Name, std::string> FileName(Name&& name,
-                                                           std::string format_name = "")
-      : path(std::forward<Name>(name)), format(std::move(format_name)) {}
+  FileName(std::string name, std::string format_name = "")
+      : path(std::move(name)), format(std::move(format_name)) {}
+  FileName(const char* name, std::string format_name = "")
+      : path(name), format(std::move(format_name)) {}
+  FileName(const std::filesystem::path& name, std::string format_name = "")
+      : path(name.string()), format(std::move(format_name)) {}
 
   std::string path;    ///< "-" is standard input or output
   std::string format;  ///< "ply", "npy" ...; empty: by the ending of the path
@@ -123,4 +124,4 @@ RONDEL_API void write_file(const std::string& path, std::string_view bytes);
 /// program: it may be called at any moment, and what is being written is then lost.
 RONDEL_API void remove_temporaries() noexcept;
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -15,7 +15,7 @@
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// Polygons in flat arrays. Each is one ring, counterclockwise, whose last position is its first,
 /// within [-180, 180] x [-90, 90]. A region that the antimeridian cuts has several polygons.
@@ -38,4 +38,4 @@ RONDEL_API LonLatPolygons cell_polygons(std::span<const Point> sites,
 RONDEL_API LonLatPolygons face_polygons(std::span<const Point> sites,
                                         const Triangulation& triangulation);
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

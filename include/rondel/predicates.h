@@ -9,7 +9,7 @@
 #include "rondel/export.h"
 #include "rondel/types.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// The sign of det(a-o, b-o, c-o), o the center of the sphere: positive when
 /// a, b, c are in counterclockwise order seen from outside.
@@ -39,4 +39,4 @@ RONDEL_API bool is_in_conflict(const Point& a, const Point& b, const Point& c, c
 RONDEL_API bool is_same_site(const Point& a, const Point& b, Model model = Model::projected,
                              const Sphere& sphere = {});
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

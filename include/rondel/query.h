@@ -17,7 +17,7 @@
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// What the ray from the center through a point meets.
 enum class Where : std::uint8_t {
@@ -123,4 +123,4 @@ class RONDEL_API Locator {
   std::unique_ptr<const Impl> impl_;
 };
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

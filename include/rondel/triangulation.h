@@ -14,7 +14,7 @@
 #include "rondel/large_vector.h"
 #include "rondel/types.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// Corners or neighbors of a face.
 using Triple = std::array<Index, 3>;
@@ -117,4 +117,4 @@ class RONDEL_API Triangulation {
   BuildReport report_{};
 };
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

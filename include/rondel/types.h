@@ -10,7 +10,7 @@
 #include <functional>
 #include <string_view>
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 /// Names a site (its position in the input), a face or a point of a diagram.
 using Index = std::uint32_t;
@@ -79,4 +79,4 @@ struct Tally {
   std::uint64_t perturbed = 0;      ///< ties
 };
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -7,7 +7,7 @@
 #include "proof/validator.h"
 #include "system/arithmetic.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 CheckReport check(std::span<const Point> sites, std::span<const Triple> triangles,
                   const Options& options) {
@@ -16,4 +16,4 @@ CheckReport check(std::span<const Point> sites, std::span<const Triple> triangle
   return proof::check_triangles(sites, triangles, options);
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -7,7 +7,7 @@
 #include "api/validation.h"
 #include "system/arithmetic.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 Triangulation delaunay(std::span<const Point> sites, const Options& options) {
   const system::ArithmeticScope arithmetic;
@@ -23,4 +23,4 @@ Triangulation delaunay(std::span<const double> xyz, const Options& options) {
   return delaunay(api::as_points(xyz), options);
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -7,7 +7,7 @@
 
 #include "rondel/interrupt.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 InvalidInput::InvalidInput(const std::string& message, std::size_t index)
     : std::invalid_argument(message), index_(index) {}
@@ -20,4 +20,4 @@ FileError::~FileError() = default;
 
 const char* Interrupted::what() const noexcept { return "interrupted"; }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -46,7 +46,7 @@ int exponent_of(std::span<const Point> points) {
 }  // namespace
 }  // namespace rondel
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 Triangulation convex_hull(std::span<const Point> points, const HullOptions& options) {
   const system::ArithmeticScope arithmetic;
@@ -92,4 +92,4 @@ HullSize size_of_hull(const Triangulation& hull, std::span<const Point> points) 
           std::ldexp(is_flat ? 2 * sums.area : sums.area, 2 * exponent)};
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -5,11 +5,11 @@
 
 #include "system/parallel.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 void call_interruptible(const std::atomic<bool>& stop, const std::function<void()>& work) {
   const system::StopScope scope(&stop);
   work();
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -9,7 +9,7 @@
 #include "rondel/error.h"
 #include "system/arithmetic.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 Point unit_vector(const LonLat& position) {
   const system::ArithmeticScope arithmetic;
@@ -34,4 +34,4 @@ std::vector<Point> unit_vectors(std::span<const LonLat> positions) {
   return result;
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

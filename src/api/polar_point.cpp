@@ -41,7 +41,7 @@ void require_radii(std::size_t num_centers, std::span<const double> radii_deg) {
 }  // namespace
 }  // namespace rondel
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 Point polar_point(const Point& center, double radius_deg) {
   const system::ArithmeticScope arithmetic;
@@ -69,4 +69,4 @@ std::vector<Point> polar_points(std::span<const LonLat> centers,
   return polar_points(unit_vectors(centers), radii_deg);
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -9,7 +9,7 @@
 #include "predicates/ray_order.h"
 #include "system/arithmetic.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 using predicates::FourPoints;
 
@@ -43,4 +43,4 @@ bool is_same_site(const Point& a, const Point& b, Model model, const Sphere& sph
   return predicates::are_on_one_ray(a, b, sphere.center);
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -59,7 +59,7 @@ double dual::careful_area(RingLocalizer& localize, Index rank) { return area_of(
 
 }  // namespace rondel
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 std::vector<double> areas(const Triangulation& triangulation, std::span<const Point> sites,
                           const Cells& cells) {
@@ -71,4 +71,4 @@ std::vector<double> areas(const Triangulation& triangulation, std::span<const Po
   return result;
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -159,7 +159,7 @@ Cells dual::cells(const Triangulation& triangulation, const SplitSites& sites,
 
 }  // namespace rondel
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 Cells cells(const Triangulation& triangulation, std::span<const Point> sites) {
   const system::ArithmeticScope arithmetic;
@@ -173,4 +173,4 @@ Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites
   return result;
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

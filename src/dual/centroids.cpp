@@ -69,7 +69,7 @@ Point centroid_of(const LocalRing& ring) {
 }  // namespace
 }  // namespace rondel
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 std::vector<Point> centroids(const Triangulation& triangulation, std::span<const Point> sites,
                              const Cells& cells) {
@@ -83,4 +83,4 @@ std::vector<Point> centroids(const Triangulation& triangulation, std::span<const
   return result;
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

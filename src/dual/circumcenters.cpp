@@ -46,11 +46,11 @@ std::vector<Point> dual::circumcenters(const Triangulation& triangulation, const
 
 }  // namespace rondel
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 std::vector<Point> circumcenters(const Triangulation& triangulation, std::span<const Point> sites) {
   const system::ArithmeticScope arithmetic;
   return dual::circumcenters(triangulation, dual::SplitSites(triangulation, sites));
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -44,7 +44,7 @@ void for_each_edge(std::span<const Triple> faces, F visit) {
 
 }  // namespace rondel
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 std::vector<Edge> edges(const Triangulation& triangulation) {
   if (triangulation.dimension() < 2) return ring_edges(triangulation.ring());
@@ -64,4 +64,4 @@ std::vector<Edge> edges(const Triangulation& triangulation) {
   return result;
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -142,11 +142,11 @@ class FacetFinder {
 }  // namespace
 }  // namespace rondel
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 Polygons merge_cocircular(const Triangulation& triangulation, std::span<const Point> sites) {
   const system::ArithmeticScope arithmetic;
   return FacetFinder(triangulation, sites).facets();
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -208,8 +208,8 @@ void AtomicFile::discard() noexcept {
 
 }  // namespace rondel::io
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 void remove_temporaries() noexcept { io::temporaries.remove_all(); }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -28,7 +28,7 @@ void require_diagram(std::size_t num_sites, const Triangulation& triangulation,
 
 }  // namespace rondel::io
 
-namespace rondel::inline v0 {
+namespace rondel {
 namespace {
 
 struct Writer {
@@ -55,4 +55,4 @@ void write_cells(const FileName& output, const SiteTable& table, const Triangula
   file.commit();
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

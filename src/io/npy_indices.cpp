@@ -4,7 +4,7 @@
 #include "io/npy_header.h"
 #include "rondel/io.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 void write_indices(const std::string& path, std::span<const Index> values,
                    std::span<const std::uint64_t> shape) {
@@ -14,4 +14,4 @@ void write_indices(const std::string& path, std::span<const Index> values,
   file.commit();
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

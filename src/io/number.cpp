@@ -38,10 +38,9 @@ void require_finite(double value, std::string_view what) {
 
 bool has_decimal_comma(std::string_view digits) {
   const std::size_t comma = digits.find(',');
-  if (comma == std::string_view::npos) return false;
-  std::string number(digits);
-  number[comma] = '.';
-  return is_json_number(number);
+  if (comma == std::string_view::npos || comma + 1 == digits.size()) return false;
+  return is_json_number(digits.substr(0, comma)) &&
+         std::ranges::all_of(digits.substr(comma + 1), [](char c) { return c >= '0' && c <= '9'; });
 }
 
 }  // namespace

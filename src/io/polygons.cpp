@@ -14,7 +14,7 @@
 #include "system/arithmetic.h"
 #include "system/parallel.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 namespace {
 
 constexpr std::size_t grain = 512;
@@ -96,4 +96,4 @@ LonLatPolygons face_polygons(std::span<const Point> sites, const Triangulation& 
                  });
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -12,7 +12,7 @@
 #include "rondel/io.h"
 #include "system/arithmetic.h"
 
-namespace rondel::inline v0 {
+namespace rondel {
 namespace {
 
 struct Reader {
@@ -100,4 +100,4 @@ void write_file(const std::string& path, std::string_view bytes) {
   file.commit();
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

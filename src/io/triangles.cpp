@@ -59,7 +59,7 @@ void io::Mesh::write_faces(AtomicFile& file,
 
 }  // namespace rondel
 
-namespace rondel::inline v0 {
+namespace rondel {
 
 std::vector<Triple> read_triangles(const FileName& file) {
   const system::ArithmeticScope arithmetic;
@@ -88,4 +88,4 @@ void write_triangles(const FileName& output, const SiteTable& table,
   file.commit();
 }
 
-}  // namespace rondel::inline v0
+}  // namespace rondel

@@ -21,10 +21,10 @@ using exact::BallVector;
 using GivenPoints = std::array<Point, 4>;  // b, c, d, p
 
 template <std::size_t N>
-using FourRays = std::array<BallVector<N>, 4>;
+using FourBalls = std::array<BallVector<N>, 4>;
 
 template <std::size_t N>
-FourRays<N> rays_to(const GivenPoints& points, const Point& center, const BallStep<N>& step) {
+FourBalls<N> rays_to(const GivenPoints& points, const Point& center, const BallStep<N>& step) {
   return {step(center, points[0]), step(center, points[1]), step(center, points[2]),
           step(center, points[3])};
 }
@@ -35,7 +35,7 @@ FourRays<N> rays_to(const GivenPoints& points, const Point& center, const BallSt
 // sums agree in sign, or all are zero, that is the answer: so it is for sites on one great circle,
 // on one sphere, and for mirrored sites. Otherwise nothing is returned.
 template <std::size_t N>
-std::optional<Sign> sign_by_equal_lengths(const FourRays<N>& rays) {
+std::optional<Sign> sign_by_equal_lengths(const FourBalls<N>& rays) {
   const auto& [b, c, d, p] = rays;
   const BallVector<N> cd = cross(c, d);
   const BallVector<N> pb = cross(p, b);
@@ -154,7 +154,7 @@ std::array<std::size_t, 3> shortest_tree(const std::array<Coordinates<N>, 4>& un
 // Where c is closer to b than to p, the row of b is taken away from that of c, which leaves
 // (c-b)_x, (c-b)_y and |C|^2 - |B|^2 = (c-b).(C+B): no row is then larger than it must be.
 template <std::size_t N>
-std::optional<Sign> sign_by_edges(const FourRays<N>& rays) {
+std::optional<Sign> sign_by_edges(const FourBalls<N>& rays) {
   std::array<Coordinates<N>, 4> units;
   for (std::size_t i = 0; i < 4; ++i) {
     const auto unit = unit_vector_along(rays[i]);
