@@ -125,7 +125,8 @@ template <template <class> class E>
 std::unique_ptr<Engine> make(const Triangulation& triangulation, std::span<const Point> sites,
                              const Vertices& vertices) {
   return models::with_model(triangulation.model(), [&]<class T>() -> std::unique_ptr<Engine> {
-    return std::make_unique<E<T>>(triangulation, sites, vertices);
+    using Made = E<T>;
+    return std::make_unique<Made>(triangulation, sites, vertices);
   });
 }
 

@@ -80,7 +80,7 @@ class Client:
         private = re.compile(rf"\brondel::({'|'.join(sorted(layers))})::")
         for library, known in zip(self.libraries, ("rondel::delaunay(", "rondel::read_sites("), strict=True):
             names = run(["nm", "--dynamic", "--defined-only", "--demangle", library])
-            strange = [line for line in names.splitlines() if private.search(line)]
+            strange = [line for line in names.splitlines() if private.search(line.partition("(")[0])]
             if strange or known not in names:
                 sys.exit(f"{library} shows\n" + "\n".join(strange[:20]))
 
