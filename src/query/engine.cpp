@@ -124,9 +124,8 @@ class BuiltRing final : private Built<T>, public GraphEngine<T> {
 template <template <class> class E>
 std::unique_ptr<Engine> make(const Triangulation& triangulation, std::span<const Point> sites,
                              const Vertices& vertices) {
-  return models::with_model(triangulation.model(), [&]<class T>() -> std::unique_ptr<Engine> {
-    using Made = E<T>;
-    return std::make_unique<Made>(triangulation, sites, vertices);
+  return models::with_model(triangulation.model(), [&]<class T> {
+    return std::unique_ptr<Engine>(std::make_unique<E<T>>(triangulation, sites, vertices));
   });
 }
 
