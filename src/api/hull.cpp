@@ -44,9 +44,6 @@ int exponent_of(std::span<const Point> points) {
 }
 
 }  // namespace
-}  // namespace rondel
-
-namespace rondel {
 
 Triangulation convex_hull(std::span<const Point> points, const HullOptions& options) {
   const system::ArithmeticScope arithmetic;

@@ -39,9 +39,6 @@ void require_radii(std::size_t num_centers, std::span<const double> radii_deg) {
 }
 
 }  // namespace
-}  // namespace rondel
-
-namespace rondel {
 
 Point polar_point(const Point& center, double radius_deg) {
   const system::ArithmeticScope arithmetic;

@@ -57,10 +57,6 @@ double area_of(const LocalRing& ring) {
 
 double dual::careful_area(RingLocalizer& localize, Index rank) { return area_of(localize(rank)); }
 
-}  // namespace rondel
-
-namespace rondel {
-
 std::vector<double> areas(const Triangulation& triangulation, std::span<const Point> sites,
                           const Cells& cells) {
   const system::ArithmeticScope arithmetic;

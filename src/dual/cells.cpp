@@ -157,10 +157,6 @@ Cells dual::cells(const Triangulation& triangulation, const SplitSites& sites,
   return great_circle_cells(triangulation, sites);
 }
 
-}  // namespace rondel
-
-namespace rondel {
-
 Cells cells(const Triangulation& triangulation, std::span<const Point> sites) {
   const system::ArithmeticScope arithmetic;
   return dual::cells(triangulation, dual::SplitSites(triangulation, sites), nullptr);

@@ -67,9 +67,6 @@ Point centroid_of(const LocalRing& ring) {
 }
 
 }  // namespace
-}  // namespace rondel
-
-namespace rondel {
 
 std::vector<Point> centroids(const Triangulation& triangulation, std::span<const Point> sites,
                              const Cells& cells) {

@@ -44,10 +44,6 @@ std::vector<Point> dual::circumcenters(const Triangulation& triangulation, const
   return result;
 }
 
-}  // namespace rondel
-
-namespace rondel {
-
 std::vector<Point> circumcenters(const Triangulation& triangulation, std::span<const Point> sites) {
   const system::ArithmeticScope arithmetic;
   return dual::circumcenters(triangulation, dual::SplitSites(triangulation, sites));

@@ -42,10 +42,6 @@ void for_each_edge(std::span<const Triple> faces, F visit) {
 
 // One counting sort by the lower end, then the few edges of each site.
 
-}  // namespace rondel
-
-namespace rondel {
-
 std::vector<Edge> edges(const Triangulation& triangulation) {
   if (triangulation.dimension() < 2) return ring_edges(triangulation.ring());
   const auto faces = triangulation.faces();

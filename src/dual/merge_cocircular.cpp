@@ -140,9 +140,6 @@ class FacetFinder {
 };
 
 }  // namespace
-}  // namespace rondel
-
-namespace rondel {
 
 Polygons merge_cocircular(const Triangulation& triangulation, std::span<const Point> sites) {
   const system::ArithmeticScope arithmetic;

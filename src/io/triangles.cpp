@@ -57,10 +57,6 @@ void io::Mesh::write_faces(AtomicFile& file,
       });
 }
 
-}  // namespace rondel
-
-namespace rondel {
-
 std::vector<Triple> read_triangles(const FileName& file) {
   const system::ArithmeticScope arithmetic;
   io::FileBytes bytes(file.path);
