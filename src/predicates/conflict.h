@@ -8,8 +8,9 @@
 //
 //     rung             projected (side_of_circle.h)             weighted (side_of_plane.h)
 //     filter           4 directions in doubles                  4 points in doubles, from p
-//                                                               and from the best of the four
-//     extended         4 split unit vectors with 64 bits
+//     exact            -                                        integers of 128 bits, where they do
+//     filter           -                                        in doubles, from the best of the 4
+//     extended         4 split unit vectors with 64 bits        -
 //     double_double    4 split unit vectors in double-double    4 points in double-double
 //     close            4 points in doubles, from the best       -
 //     exact            a sum of 4 square roots                  balls of more and more words
@@ -60,8 +61,9 @@ Decision side_of_circle_above_filter(S& points, Index b, Index c, Index d, Index
 
 template <PointSource S>
 Decision side_of_plane_above_filter(S& points, Index b, Index c, Index d, Index p) {
-  const Quad q =
-      with_best_origin({points.point(b), points.point(c), points.point(d), points.point(p)});
+  const Quad given = {points.point(b), points.point(c), points.point(d), points.point(p)};
+  if (const auto exact = side_of_plane_integers_exact(given)) return {*exact, Rung::exact};
+  const Quad q = with_best_origin(given);
   const PlaneSteps steps = scaled_steps(q);
   Sign sign = side_of_plane_scaled_filter(steps);
   if (sign != Sign::zero) return {sign, Rung::filter};

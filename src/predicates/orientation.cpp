@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "exact/exact_sign.h"
+#include "exact/integer_steps.h"
 #include "predicates/scale.h"
 
 namespace rondel::predicates {
@@ -72,6 +73,9 @@ Sign filter_of_scaled(const Point& a, const Point& b, const Point& c, const Poin
 
 Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center) {
   if (const Sign sign = filter(a, b, c, center); sign != Sign::zero) return {sign, Rung::filter};
+  if (const auto sign = exact::sign_of_volume_in_integers(center, a, b, c)) {
+    return {*sign, Rung::exact};
+  }
   if (const Sign sign = filter_of_scaled(a, b, c, center); sign != Sign::zero) {
     return {sign, Rung::filter};
   }

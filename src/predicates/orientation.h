@@ -36,8 +36,8 @@ inline Sign orientation_filter(const Vector& a, const Vector& b, const Vector& c
   return unless_unsure(value, is_direction_orientation_certain(value, ab, ac));
 }
 
-// The ladder, for points as given: a filter in doubles, then with vectors of length about 1, then
-// balls of more and more words.
+// The ladder, for points as given: a filter in doubles, integers where they can tell, the filter
+// with vectors of length about 1, balls of more and more words.
 Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center);
 
 // The ladder, for points that may have directions: then these have a filter before.

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "exact/exact_sign.h"
+#include "exact/integer_steps.h"
 #include "predicates/scale.h"
 
 namespace rondel::predicates {
@@ -27,6 +28,11 @@ DifferenceVector scaled_to_one(const DifferenceVector& v) {
 }
 
 }  // namespace
+
+std::optional<Sign> side_of_plane_integers_exact(const Quad& q) {
+  const auto volume = exact::sign_of_volume_in_integers(q[3], q[0], q[1], q[2]);
+  return volume ? std::optional(-*volume) : std::nullopt;
+}
 
 Quad with_best_origin(const Quad& q) {
   const auto [i, j, k, origin] =

@@ -17,6 +17,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "predicates/rung.h"
 
@@ -32,6 +33,9 @@ inline Sign side_of_plane_filter(const Vector& b, const Vector& c, const Vector&
 }
 
 using Quad = std::array<Point, 4>;  // b, c, d, p
+
+// Where integers of the machine can tell, as among sites of a mesh: ties, too.
+std::optional<Sign> side_of_plane_integers_exact(const Quad& q);
 
 // The same four in an even permutation, of which the last one, from which the rungs take the
 // differences, is the best for that: so the filter decides when sites of very different weights

@@ -15,7 +15,7 @@ import unittest
 ROOT = pathlib.Path(sys.argv.pop(1))
 
 ENDS = "filter|extended|double_double|close|exact|perturbed"
-DECLARATION = re.compile(rf"^(?:\[\[.*\]\] )?(?:inline )?(?:Sign|bool) (\w+_(?:{ENDS}))\(", re.MULTILINE)
+DECLARATION = re.compile(rf"^(?:\[\[.*\]\] )?(?:inline )?(?:Sign|bool|std::optional<Sign>) (\w+_(?:{ENDS}))\(", re.MULTILINE)
 # The file that composes the rungs whose names begin so.
 LADDERS = {
     "side_of_circle_": "conflict.h",
