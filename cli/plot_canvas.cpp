@@ -13,7 +13,6 @@
 #include <utility>
 
 namespace rondel::cli {
-namespace {
 
 struct Release {
   void operator()(cairo_t* context) const { cairo_destroy(context); }
@@ -22,6 +21,8 @@ struct Release {
 };
 template <typename Object>
 using Owned = std::unique_ptr<Object, Release>;
+
+namespace {
 
 constexpr double margin = 0.02;  // of the side, on each of the four
 

@@ -39,9 +39,8 @@ function(rondel_library_settings target)
   endif()
 endfunction()
 
-# Lint and the sanitizers compile the files of a target together (CMAKE_UNITY_BUILD), to read what they
-# include once. These files stay alone: names in their unnamed namespaces mean something else in their
-# neighbours'.
+# Where files are compiled together (CMAKE_UNITY_BUILD), these stay alone: names in their unnamed namespaces
+# mean something else in their neighbours', or they are large themselves.
 function(rondel_compile_alone target)
   set_source_files_properties(${ARGN} TARGET_DIRECTORY ${target}
                               PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
