@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-#include "dynamic/hull.h"
+#include "dynamic/place_hull.h"
 #include "dynamic/places.h"
 #include "dynamic/renumbering.h"
 #include "kernel/brio.h"
@@ -38,7 +38,7 @@ class Editor {
   [[nodiscard]] const Places& places() const { return places_; }
   [[nodiscard]] const T& sites() const { return sites_; }
   // None below dimension 2. Its vertices are places.
-  [[nodiscard]] const std::optional<Hull<T>>& hull() const { return hull_; }
+  [[nodiscard]] const std::optional<PlaceHull<T>>& hull() const { return hull_; }
 
   // `hint` is a site close to p, or no_index: the place to start is looked up.
   Index insert(const Point& p, Index hint) {
@@ -335,7 +335,7 @@ class Editor {
   Point center_;
   Places places_;
   T sites_;
-  std::optional<Hull<T>> hull_;
+  std::optional<PlaceHull<T>> hull_;
   std::vector<Index> span_;  // without a hull
   RenumberingSchedule schedule_;
 };

@@ -43,7 +43,7 @@ class HullEngine final : public query::SurfaceEngine<T> {
 
  private:
   [[nodiscard]] query::Surface<T> surface() const override {
-    const Hull<T>& hull = *editor_.hull();
+    const PlaceHull<T>& hull = *editor_.hull();
     return {editor_.sites(), hull.mesh(), hull.kinds(), hull.corners(), editor_.places().names()};
   }
   [[nodiscard]] Index solid_face() const override { return editor_.hull()->solid_face(); }

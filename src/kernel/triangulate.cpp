@@ -11,7 +11,7 @@
 #include "kernel/brio.h"
 #include "kernel/canonical.h"
 #include "kernel/great_circle.h"
-#include "kernel/insertion.h"
+#include "kernel/mutable_hull.h"
 #include "models/with_model.h"
 
 namespace rondel::kernel {
@@ -59,11 +59,11 @@ Triangulated build(std::span<const Point> sites, std::vector<Index> order,
                    std::span<const Index> first, const Options& options) {
   const auto num_ranks = static_cast<Index>(order.size());
   std::optional<T> traits(std::in_place, sites, order, options.sphere.center);
-  Insertion<T> kernel(*traits, {first[0], first[1], first[2]});
+  MutableHull<T> hull(*traits, {first[0], first[1], first[2]});
   constexpr std::size_t stride = std::size_t{1} << 16;
   for (std::size_t i = 0; i < insertion.size(); ++i) {
     const Index p = insertion[i];
-    if (p != first[0] && p != first[1] && p != first[2]) kernel.insert(p);
+    if (p != first[0] && p != first[1] && p != first[2]) hull.insert(p);
     if (options.progress && i % stride == 0) {
       options.progress("triangulate",
                        static_cast<double>(i) / static_cast<double>(insertion.size()));
@@ -72,11 +72,11 @@ Triangulated build(std::span<const Point> sites, std::vector<Index> order,
   order::rename(order, renamed);
   Triangulated result;
   result.arrays.dimension = 2;
-  result.arrays.hidden = find_hidden<T>(kernel.mesh(), num_ranks);
-  result.tally = kernel.tally();
+  result.arrays.hidden = find_hidden<T>(hull.mesh(), num_ranks);
+  result.tally = hull.tally();
   traits.reset();
-  write_canonical(kernel.mesh(), order, std::move(insertion), result.arrays);
-  report_ghosts(kernel.mesh(), kernel.kinds(), result.arrays.ghost_faces);
+  write_canonical(hull.mesh(), order, std::move(insertion), result.arrays);
+  report_ghosts(hull.mesh(), hull.kinds(), result.arrays.ghost_faces);
   for (Hidden& h : result.arrays.hidden) h.site = order[h.site];
   std::ranges::sort(result.arrays.hidden, {}, &Hidden::site);
   return result;

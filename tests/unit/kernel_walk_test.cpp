@@ -16,7 +16,7 @@
 #include "bulk_support.h"
 #include "kernel/brio.h"
 #include "kernel/great_circle.h"
-#include "kernel/insertion.h"
+#include "kernel/mutable_hull.h"
 #include "models/projected_points.h"
 #include "models/weighted_points.h"
 #include "order/spatial_order.h"
@@ -63,13 +63,13 @@ Steps steps_of_build(const std::vector<Point>& sites) {
   std::vector<Index> first = kernel::find_span(points, {});
   for (Index& i : first) i = insertion[i];
   Counting<T> traits(sites, order, {});
-  kernel::Insertion<Counting<T>> kernel(traits, {first[0], first[1], first[2]});
+  kernel::MutableHull<Counting<T>> hull(traits, {first[0], first[1], first[2]});
   for (const Index p : insertion) {
-    if (std::ranges::find(first, p) == first.end()) kernel.insert(p);
+    if (std::ranges::find(first, p) == first.end()) hull.insert(p);
   }
   const auto n = static_cast<double>(order.size());
   const auto num_coordinates = static_cast<double>(traits.num_coordinates);
-  const Tally& rungs = kernel.tally();
+  const Tally& rungs = hull.tally();
   const std::size_t num_conflict_tests = rungs.filter + rungs.extended + rungs.double_double +
                                          rungs.close + rungs.exact + rungs.perturbed;
   // A conflict test reads four points or more, an orientation three.
