@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::array<std::string_view, 4> names = {"vertex", "edge", "face", "outside"};
 
-std::string_view name_of(Where where) { return names[static_cast<std::size_t>(where)]; }
+std::string_view word_for(Where where) { return names[static_cast<std::size_t>(where)]; }
 
 std::string table_of(const std::vector<Location>& locations, char separator) {
   std::string text;
@@ -25,7 +25,7 @@ std::string table_of(const std::vector<Location>& locations, char separator) {
     text += '\n';
     append(text, i);
     text += separator;
-    text += name_of(location.where);
+    text += word_for(location.where);
     for (const Index index :
          {location.face, location.sites[0], location.sites[1], location.sites[2]}) {
       text += separator;

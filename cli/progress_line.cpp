@@ -13,10 +13,10 @@
 
 namespace rondel::cli {
 
-using Clock = std::chrono::steady_clock;
-
 // Shared by the copies of the callback; the library may call it from several threads.
 struct ProgressLine::Screen {
+  using Clock = std::chrono::steady_clock;
+
   std::mutex mutex;
   Clock::time_point next = Clock::now() + std::chrono::milliseconds(300);
   bool is_dirty = false;

@@ -31,25 +31,25 @@ void require_diagram(std::size_t num_sites, const Triangulation& triangulation,
 namespace rondel {
 namespace {
 
-struct Writer {
+struct CellWriter {
   std::string_view ending;
   void (*write)(io::AtomicFile&, const io::CellsToWrite&);
 };
-constexpr std::array<Writer, 3> writers = {{{".geojson", &io::write_cells_geojson},
-                                            {".vtp", &io::write_cells_vtp},
-                                            {".npz", &io::write_cells_npz}}};
+constexpr std::array<CellWriter, 3> cell_writers = {{{".geojson", &io::write_cells_geojson},
+                                                     {".vtp", &io::write_cells_vtp},
+                                                     {".npz", &io::write_cells_npz}}};
 
 }  // namespace
 
 bool can_write_cells(const FileName& file) {
-  return io::find_format<Writer>(writers, file) != nullptr;
+  return io::find_format<CellWriter>(cell_writers, file) != nullptr;
 }
 
 void write_cells(const FileName& output, const SiteTable& table, const Triangulation& triangulation,
                  const Diagram& diagram, double tolerance_deg, const Progress& progress) {
   const system::ArithmeticScope arithmetic;
   io::require_diagram(table.sites.size(), triangulation, diagram);
-  const auto& writer = io::require_format<Writer>(writers, output, "cells are written as");
+  const auto& writer = io::require_format<CellWriter>(cell_writers, output, "cells are written as");
   io::AtomicFile file(output.path);
   writer.write(file, {table, triangulation, diagram, tolerance_deg, progress});
   file.commit();

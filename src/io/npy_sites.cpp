@@ -52,18 +52,18 @@ void read_rows(const NpyTable& array, const ReadOptions& options, SiteTable& tab
   }
 }
 
-constexpr std::array<std::string_view, 10> types = {"f8", "f4", "i1", "i2", "i4",
-                                                    "i8", "u1", "u2", "u4", "u8"};
+constexpr std::array<std::string_view, 10> number_types = {"f8", "f4", "i1", "i2", "i4",
+                                                           "i8", "u1", "u2", "u4", "u8"};
 constexpr std::array readers = {
     &read_rows<double>,        &read_rows<float>,         &read_rows<std::int8_t>,
     &read_rows<std::int16_t>,  &read_rows<std::int32_t>,  &read_rows<std::int64_t>,
     &read_rows<std::uint8_t>,  &read_rows<std::uint16_t>, &read_rows<std::uint32_t>,
     &read_rows<std::uint64_t>,
 };
-static_assert(types.size() == readers.size());
+static_assert(number_types.size() == readers.size());
 
 NpyTable checked_table(std::string_view bytes, std::uint64_t file_size) {
-  NpyTable array(bytes, file_size, types, "float64, float32 or an integer");
+  NpyTable array(bytes, file_size, number_types, "float64, float32 or an integer");
   if (array.num_columns() != 2 && array.num_columns() != 3) {
     throw BadValue("shape " + array.shape() + " where (n, 3) or (n, 2) is needed");
   }
@@ -86,7 +86,7 @@ void read_npy_sites(std::string_view bytes, const ReadOptions& options, SiteTabl
   table.first_line = 0;
   try {
     const NpyTable array = checked_table(bytes, bytes.size());
-    const auto type = std::ranges::find(types, array.type()) - types.begin();
+    const auto type = std::ranges::find(number_types, array.type()) - number_types.begin();
     readers[static_cast<std::size_t>(type)](array, options, table);
   } catch (const BadValue& bad) {
     throw FileError(table.name + ": " + bad.what());

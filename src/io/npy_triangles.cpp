@@ -10,7 +10,7 @@
 namespace rondel::io {
 namespace {
 
-constexpr std::array<std::string_view, 4> types = {"u4", "i4", "u8", "i8"};
+constexpr std::array<std::string_view, 4> index_types = {"u4", "i4", "u8", "i8"};
 
 template <typename Integer>
 std::vector<Triple> rows_of(const NpyTable& array, const std::string& name) {
@@ -28,8 +28,8 @@ std::vector<Triple> rows_of(const NpyTable& array, const std::string& name) {
   return triangles;
 }
 
-NpyTable checked_table(std::string_view bytes, std::uint64_t file_size) {
-  NpyTable array(bytes, file_size, types, "an integer of 32 or 64 bits");
+NpyTable checked_triangles(std::string_view bytes, std::uint64_t file_size) {
+  NpyTable array(bytes, file_size, index_types, "an integer of 32 or 64 bits");
   if (array.num_columns() != 3) {
     throw BadValue("shape " + array.shape() + " where (m, 3) is needed");
   }
@@ -52,7 +52,7 @@ std::vector<Triple> read_table(const NpyTable& array, const std::string& name) {
 void check_npy(std::string_view head, std::uint64_t file_size, const std::string& name) {
   if (file_size <= head.size()) return;
   try {
-    checked_table(head, file_size);
+    checked_triangles(head, file_size);
   } catch (const BadValue& bad) {
     throw FileError(name + ": " + bad.what());
   }
@@ -60,7 +60,7 @@ void check_npy(std::string_view head, std::uint64_t file_size, const std::string
 
 std::vector<Triple> read_npy(std::string_view bytes, const std::string& name) {
   try {
-    return read_table(checked_table(bytes, bytes.size()), name);
+    return read_table(checked_triangles(bytes, bytes.size()), name);
   } catch (const BadValue& bad) {
     throw FileError(name + ": " + bad.what());
   }

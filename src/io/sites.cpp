@@ -15,14 +15,14 @@
 namespace rondel {
 namespace {
 
-struct Reader {
+struct SiteReader {
   std::string_view ending;
   void (*read)(std::string_view, const ReadOptions&, SiteTable&);
   bool has_columns = false;
   // What can be refused by the head of a file and its size.
   void (*check)(std::string_view, std::uint64_t, const SiteTable&) = nullptr;
 };
-constexpr std::array<Reader, 6> readers = {
+constexpr std::array<SiteReader, 6> site_readers = {
     {{".csv", &io::read_csv, true},
      {".tsv", &io::read_tsv, true},
      {".xyz", &io::read_xyz},
@@ -30,17 +30,17 @@ constexpr std::array<Reader, 6> readers = {
      {".npy", &io::read_npy_sites, false, &io::check_npy_sites},
      {".geojson", &io::read_geojson}}};
 
-struct Writer {
+struct SiteWriter {
   std::string_view ending;
   void (*write)(io::AtomicFile&, const io::SitesToWrite&);
 };
-constexpr std::array<Writer, 5> writers = {{{".csv", &io::write_csv},
-                                            {".tsv", &io::write_tsv},
-                                            {".xyz", &io::write_xyz},
-                                            {".txt", &io::write_xyz},
-                                            {".npy", &io::write_npy_sites}}};
+constexpr std::array<SiteWriter, 5> site_writers = {{{".csv", &io::write_csv},
+                                                     {".tsv", &io::write_tsv},
+                                                     {".xyz", &io::write_xyz},
+                                                     {".txt", &io::write_xyz},
+                                                     {".npy", &io::write_npy_sites}}};
 
-void require_columns(const Reader& reader, const ReadOptions& options, const SiteTable& table) {
+void require_columns(const SiteReader& reader, const ReadOptions& options, const SiteTable& table) {
   if (reader.has_columns) return;
   const bool names_a_column = !(options.lon.empty() && options.lat.empty() && options.x.empty() &&
                                 options.y.empty() && options.z.empty());
@@ -71,8 +71,9 @@ SiteTable read_sites(const FileName& file, const ReadOptions& options) {
   SiteTable table;
   table.name = bytes.name();
   const bool is_csv = file.path == "-" && file.format.empty();
-  const Reader& reader =
-      is_csv ? readers[0] : io::require_format<Reader>(readers, file, "sites are read from");
+  const SiteReader& reader =
+      is_csv ? site_readers[0]
+             : io::require_format<SiteReader>(site_readers, file, "sites are read from");
   require_columns(reader, options, table);
   if (bytes.head().empty()) throw FileError(table.name + ": the file is empty");
   if (reader.check != nullptr) reader.check(bytes.head(), bytes.claimed_size(), table);
@@ -81,14 +82,15 @@ SiteTable read_sites(const FileName& file, const ReadOptions& options) {
 }
 
 bool can_write_sites(const FileName& file) {
-  return io::find_format<Writer>(writers, file) != nullptr;
+  return io::find_format<SiteWriter>(site_writers, file) != nullptr;
 }
 
 void write_sites(const FileName& output, std::span<const Point> sites,
                  std::span<const LonLat> positions, std::span<const double> radii_deg,
                  unsigned threads) {
   const system::ArithmeticScope arithmetic;
-  const Writer& writer = io::require_format<Writer>(writers, output, "sites are written as");
+  const SiteWriter& writer =
+      io::require_format<SiteWriter>(site_writers, output, "sites are written as");
   io::AtomicFile file(output.path);
   writer.write(file, {sites, positions, radii_deg, threads});
   file.commit();

@@ -18,29 +18,30 @@
 namespace rondel {
 namespace {
 
-struct Reader {
+struct TriangleReader {
   std::string_view ending;
   std::vector<Triple> (*read)(std::string_view, const std::string&);
   // What can be refused by the head of a file and its size.
   void (*check)(std::string_view, std::uint64_t, const std::string&) = nullptr;
 };
-constexpr std::array<Reader, 5> readers = {{{".npy", &io::read_npy, &io::check_npy},
-                                            {".off", &io::read_off},
-                                            {".ply", &io::read_ply},
-                                            {".obj", &io::read_obj},
-                                            {".vtp", &io::read_vtp}}};
+constexpr std::array<TriangleReader, 5> triangle_readers = {
+    {{".npy", &io::read_npy, &io::check_npy},
+     {".off", &io::read_off},
+     {".ply", &io::read_ply},
+     {".obj", &io::read_obj},
+     {".vtp", &io::read_vtp}}};
 
-struct Writer {
+struct TriangleWriter {
   std::string_view ending;
   void (*write)(io::AtomicFile&, const io::Mesh&);
 };
-constexpr std::array<Writer, 7> writers = {{{".npy", &io::write_npy},
-                                            {".off", &io::write_off},
-                                            {".ply", &io::write_ply},
-                                            {".obj", &io::write_obj},
-                                            {".stl", &io::write_stl},
-                                            {".vtp", &io::write_vtp_triangles},
-                                            {".geojson", &io::write_geojson}}};
+constexpr std::array<TriangleWriter, 7> triangle_writers = {{{".npy", &io::write_npy},
+                                                             {".off", &io::write_off},
+                                                             {".ply", &io::write_ply},
+                                                             {".obj", &io::write_obj},
+                                                             {".stl", &io::write_stl},
+                                                             {".vtp", &io::write_vtp_triangles},
+                                                             {".geojson", &io::write_geojson}}};
 
 }  // namespace
 
@@ -60,14 +61,15 @@ void io::Mesh::write_faces(AtomicFile& file,
 std::vector<Triple> read_triangles(const FileName& file) {
   const system::ArithmeticScope arithmetic;
   io::FileBytes bytes(file.path);
-  const Reader& reader = io::require_format<Reader>(readers, file, "triangles are read from");
+  const TriangleReader& reader =
+      io::require_format<TriangleReader>(triangle_readers, file, "triangles are read from");
   if (bytes.head().empty()) throw FileError(bytes.name() + ": the file is empty");
   if (reader.check != nullptr) reader.check(bytes.head(), bytes.claimed_size(), bytes.name());
   return reader.read(bytes.text(), bytes.name());
 }
 
 bool can_write_triangles(const FileName& file) {
-  return io::find_format<Writer>(writers, file) != nullptr;
+  return io::find_format<TriangleWriter>(triangle_writers, file) != nullptr;
 }
 
 void write_triangles(const FileName& output, const SiteTable& table,
@@ -78,7 +80,8 @@ void write_triangles(const FileName& output, const SiteTable& table,
                            std::to_string(triangulation.num_sites()),
                        std::min(table.sites.size(), triangulation.num_sites()));
   }
-  const Writer& writer = io::require_format<Writer>(writers, output, "triangles are written as");
+  const TriangleWriter& writer =
+      io::require_format<TriangleWriter>(triangle_writers, output, "triangles are written as");
   io::AtomicFile file(output.path);
   writer.write(file, {table, triangulation, progress});
   file.commit();

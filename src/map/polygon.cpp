@@ -47,7 +47,7 @@ double doubled_area(const std::vector<LonLat>& ring) {
   return area;
 }
 
-bool is_before(const LonLat& p, const LonLat& q) {
+bool is_before_in_plane(const LonLat& p, const LonLat& q) {
   return p.lon_deg != q.lon_deg ? p.lon_deg < q.lon_deg : p.lat_deg < q.lat_deg;
 }
 
@@ -61,7 +61,7 @@ bool visits_twice(std::span<const LonLat> positions) {
     return false;
   }
   std::vector<LonLat> ring(positions.begin(), positions.end());
-  std::sort(ring.begin(), ring.end(), is_before);
+  std::sort(ring.begin(), ring.end(), is_before_in_plane);
   return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
 }
 
@@ -89,7 +89,7 @@ void append_simple_loop(std::vector<LonLat> ring, bool is_part, Loops& out) {
 // Takes the loops apart of which a ring consists that comes back to the same positions: one
 // between two visits of a position that has no such visits itself.
 void append_loops_of(const std::vector<LonLat>& ring, Loops& out) {
-  const auto before = [](const LonLat& p, const LonLat& q) { return is_before(p, q); };
+  const auto before = [](const LonLat& p, const LonLat& q) { return is_before_in_plane(p, q); };
   std::map<LonLat, std::size_t, decltype(before)> places(before);
   std::vector<LonLat> open;
   for (const LonLat& position : ring) {

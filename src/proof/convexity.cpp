@@ -9,8 +9,6 @@
 namespace rondel::proof {
 namespace {
 
-std::string text(std::size_t value) { return std::to_string(value); }
-
 bool is_above_face(const PerturbedSites& sites, const Triple& face, Index site) {
   return sites.is_above(face[0], face[1], face[2], site);
 }
@@ -56,10 +54,6 @@ std::string find_concave_edge(const Surface& surface, const PerturbedSites& site
     }
   }
   return {};
-}
-
-bool contains(const Triple& face, Index site) {
-  return std::ranges::find(face, site) != face.end();
 }
 
 struct PoleCount {

@@ -13,10 +13,6 @@
 namespace rondel::proof {
 namespace {
 
-bool contains(const Triple& face, Index site) {
-  return std::ranges::find(face, site) != face.end();
-}
-
 // Interleaves the upper 21 bits of three coordinates in [0, 1]: a space-filling order.
 std::uint64_t morton_key(const std::array<double, 3>& unit) {
   std::uint64_t key = 0;

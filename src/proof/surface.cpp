@@ -12,8 +12,6 @@ namespace {
 
 Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
 
-std::string text(std::size_t value) { return std::to_string(value); }
-
 bool have_same_corners(Triple f, Triple g) {
   std::ranges::sort(f);
   std::ranges::sort(g);

@@ -15,6 +15,7 @@
 //         apex(opposite(h))
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -24,6 +25,13 @@
 #include "rondel/types.h"
 
 namespace rondel::proof {
+
+// A number in the description of a flaw.
+inline std::string text(std::size_t value) { return std::to_string(value); }
+
+inline bool contains(const Triple& face, Index site) {
+  return std::ranges::find(face, site) != face.end();
+}
 
 class Surface {
  public:

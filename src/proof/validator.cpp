@@ -17,8 +17,6 @@
 namespace rondel::proof {
 namespace {
 
-std::string text(std::size_t value) { return std::to_string(value); }
-
 class Validator {
  public:
   Validator(std::span<const Point> sites, std::span<const Triple> triangles, const Options& options)
