@@ -37,7 +37,6 @@ int main(int argc, char** argv) {
   rondel::inputs::Random random(~seed);
   random.shuffle(sites);
   rondel::Options options;
-  options.threads = 1;
   if (argc > 3 && std::strcmp(argv[3], "weighted") == 0) options.model = rondel::Model::weighted;
 
   const double before = peak_bytes();
@@ -53,7 +52,8 @@ int main(int argc, char** argv) {
   const double remove = rondel::bench::seconds_of([&] {
     for (const rondel::Index id : ids) changing.remove(id);
   });
-  const double bulk = rondel::bench::seconds_of([&] { rondel::delaunay(sites, options); });
+  const double bulk = rondel::bench::seconds_of(
+      [&] { rondel::delaunay(rondel::Sites::view(sites), options, {.threads = 1}); });
 
   const auto n = static_cast<double>(sites.size());
   std::printf(

@@ -28,7 +28,7 @@ using rondel::Index;
 using rondel::Triple;
 
 auto sort(std::span<const rondel::Point> sites, const rondel::Options& options) {
-  return rondel::order::spatial_order(sites, options.model, {}, options.threads);
+  return rondel::order::spatial_order(sites, options.model, {}, 1);
 }
 
 std::vector<Index> invert(std::span<const Index> order, std::size_t num_sites) {
@@ -66,7 +66,7 @@ struct Finished {
 Finished finish(std::vector<rondel::Point> sites, const rondel::Options& options) {
   Finished finished;
   finished.sites = std::move(sites);
-  finished.triangulation = rondel::delaunay(finished.sites, options);
+  finished.triangulation = rondel::delaunay(finished.sites, options, {.threads = 1});
   finished.order = sort(finished.sites, options).order;
   if (finished.order.size() != finished.sites.size()) {
     std::fprintf(stderr, "limit_bench: the input has duplicates\n");
@@ -106,7 +106,6 @@ int main(int argc, char** argv) {
   }
   rondel::bench::Source source(argv[1], argv[2], seed);
   rondel::Options options;
-  options.threads = 1;
   const auto make = [&] { return finish(source.next(), options); };
   using rondel::bench::measure;
   const auto sorted = measure([&] { return source.next(); },

@@ -36,17 +36,18 @@ int main(int argc, char** argv) {
   const auto triangulation = rondel::delaunay(sites, options);
   const double build = build_watch.seconds();
   const rondel::bench::Stopwatch locator_watch;
-  const rondel::Locator locator(triangulation, sites);
+  const rondel::Locator locator(triangulation);
   const double prepare = locator_watch.seconds();
 
   using rondel::bench::seconds_of;
   std::vector<rondel::Index> nearest;
-  const double nearest_seconds = seconds_of([&] { nearest = locator.nearest(queries, threads); });
+  const double nearest_seconds =
+      seconds_of([&] { nearest = locator.nearest(queries, {.threads = threads}); });
   const double locate_seconds =
-      seconds_of([&] { static_cast<void>(locator.locate(queries, threads)); });
+      seconds_of([&] { static_cast<void>(locator.locate(queries, {.threads = threads})); });
   constexpr std::size_t k = 8;
   const double k_nearest_seconds =
-      seconds_of([&] { static_cast<void>(locator.k_nearest(queries, k, threads)); });
+      seconds_of([&] { static_cast<void>(locator.k_nearest(queries, k, {.threads = threads})); });
   std::uint64_t single_sum = 0;
   const double single_seconds = seconds_of([&] {
     for (const rondel::Point& p : queries) single_sum += locator.nearest(p);

@@ -40,12 +40,13 @@ Task parse(int argc, char** argv) {
   return task;
 }
 
-rondel::Triangulation build(const std::vector<Point>& sites, const Task& task) {
-  if (task.what == "hull") return rondel::convex_hull(sites, {.threads = task.threads});
+rondel::Triangulation build(const std::vector<Point>& points, const Task& task) {
+  const auto sites = rondel::Sites::view(points);
+  const rondel::Execution execution{.threads = task.threads};
+  if (task.what == "hull") return rondel::convex_hull(sites, execution);
   rondel::Options options;
-  options.threads = task.threads;
   if (task.what == "weighted") options.model = rondel::Model::weighted;
-  return rondel::delaunay(sites, options);
+  return rondel::delaunay(sites, options, execution);
 }
 
 }  // namespace
@@ -73,7 +74,7 @@ int main(int argc, char** argv) {
   double total_area = 0;
   if (task.with_dual) {
     const rondel::bench::Stopwatch watch;
-    const auto diagram = rondel::diagram(triangulation, *measured.input);
+    const auto diagram = rondel::diagram(triangulation);
     dual = watch.seconds();
     total_area = std::accumulate(diagram.areas.begin(), diagram.areas.end(), 0.0);
   }

@@ -48,10 +48,8 @@ ExitStatus run_check(const CheckOptions& options) {
   Job job(options.common);
   const SiteTable table = job.read();
   const std::vector<Triple> triangles = read_triangles(options.triangles);
-  Options build = options.common.build;
-  build.progress = job.progress();
-  const CheckReport verdict =
-      with_places(table, [&] { return check(table.sites, triangles, build); });
+  const CheckReport verdict = with_places(
+      table, [&] { return check(table.sites, triangles, options.common.build, job.execution()); });
   const std::size_t sites = table.sites.size();
   job.report(json_of(verdict, options.common, sites, triangles.size(), job.seconds()),
              proof_of(verdict, options, sites, triangles.size()));

@@ -53,7 +53,8 @@ struct CommonOptions {
   std::string output;         ///< -o, --output; "-": standard output
   std::string output_format;  ///< --format
   ReadOptions read;           ///< --lon --lat --x --y --z --radius --radians
-  Options build;              ///< --model --threads --center --squared-radius
+  Options build;              ///< --model --center --squared-radius
+  unsigned threads = 0;       ///< --threads
   bool json = false;          ///< --json
   bool quiet = false;         ///< --quiet
 
@@ -105,13 +106,14 @@ class Job {
   /// The sites of another file. \throws FileError
   SiteTable read(const FileName& file, const ReadOptions& read);
   /// \throws FileError with the file and line of a site that the library does not accept.
+  /// The result refers to the table's sites, which must live as long.
   Triangulation triangulate(const SiteTable& table);
   /// \throws FileError as triangulate()
   Triangulation hull(const SiteTable& table);
   /// Runs `work` on the clock of `stage`.
   void time(Stage stage, const std::function<void()>& work);
-  /// To hand to functions that take a Progress; empty where no progress is shown.
-  [[nodiscard]] const Progress& progress() const;
+  /// The threads that are wanted, and a progress, empty where none is shown.
+  [[nodiscard]] Execution execution() const;
   /// The time so far.
   [[nodiscard]] Seconds seconds() const;
 

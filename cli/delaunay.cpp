@@ -12,7 +12,7 @@ ExitStatus run_delaunay(const CommonOptions& options) {
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
   job.time(Stage::write,
-           [&] { write_triangles(options.target(), table, triangulation, job.progress()); });
+           [&] { write_triangles(options.target(), table, triangulation, job.execution()); });
   job.report(triangulation, "the triangulation");
   return done;
 }

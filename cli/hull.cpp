@@ -3,33 +3,43 @@
 
 #include "rondel/hull.h"
 
+#include <numeric>
+
 #include "report.h"
 #include "run.h"
 
 namespace rondel::cli {
 namespace {
 
-// A polygon as a closed surface: each triangle of a fan on both sides. Without three corners there
-// are no faces.
+// A polygon as a closed surface: each triangle of a fan on both sides.
 Triangulation two_sided(const Triangulation& flat) {
   const auto ring = flat.ring();
-  TriangulationArrays arrays;
-  arrays.num_sites = flat.num_sites();
-  arrays.dimension = 2;
-  const auto triangles = static_cast<Index>(ring.size() < 3 ? 0 : ring.size() - 2);
+  std::vector<Triple> faces;
+  std::vector<Triple> neighbors;
+  const auto triangles = static_cast<Index>(ring.size() - 2);
   for (Index i = 0; i < triangles; ++i) {
     // The upper side is face i, the lower one face triangles + i. Where the fan ends, they meet.
     const Index lower = triangles + i;
-    arrays.faces.push_back({ring[0], ring[i + 1], ring[i + 2]});
-    arrays.neighbors.push_back({lower, i + 1 < triangles ? i + 1 : lower, i > 0 ? i - 1 : lower});
+    faces.push_back({ring[0], ring[i + 1], ring[i + 2]});
+    neighbors.push_back({lower, i + 1 < triangles ? i + 1 : lower, i > 0 ? i - 1 : lower});
   }
   for (Index i = 0; i < triangles; ++i) {
     const Index lower = triangles + i;
-    arrays.faces.push_back({ring[0], ring[i + 2], ring[i + 1]});
-    arrays.neighbors.push_back({i, i > 0 ? lower - 1 : i, i + 1 < triangles ? lower + 1 : i});
+    faces.push_back({ring[0], ring[i + 2], ring[i + 1]});
+    neighbors.push_back({i, i > 0 ? lower - 1 : i, i + 1 < triangles ? lower + 1 : i});
   }
-  for (Index f = 0; f < 2 * triangles; ++f) arrays.ghost_faces.push_back(f);
-  return {std::move(arrays), {.model = Model::weighted, .sphere = flat.sphere()}, flat.report()};
+  std::vector<Index> ghost_faces(faces.size());
+  std::iota(ghost_faces.begin(), ghost_faces.end(), Index{0});
+  std::vector<Hidden> hidden(flat.hidden().begin(), flat.hidden().end());
+  for (Hidden& h : hidden) h.face = 0;
+  return Triangulation::from_arrays(flat.sites(),
+                                    {.dimension = 2,
+                                     .faces = faces,
+                                     .neighbors = neighbors,
+                                     .ghost_faces = ghost_faces,
+                                     .duplicates = flat.duplicates(),
+                                     .hidden = hidden},
+                                    {.model = Model::weighted, .sphere = flat.sphere()});
 }
 
 struct Mesh {
@@ -51,17 +61,17 @@ Mesh compact(const SiteTable& table, const Triangulation& surface) {
     name[i] = static_cast<Index>(mesh.table.sites.size());
     mesh.table.sites.push_back(table.sites[i]);
   }
-  TriangulationArrays arrays;
-  arrays.num_sites = mesh.table.sites.size();
-  arrays.dimension = surface.dimension();
-  arrays.neighbors.assign(surface.neighbors().begin(), surface.neighbors().end());
-  arrays.ghost_faces.assign(surface.ghost_faces().begin(), surface.ghost_faces().end());
-  for (const auto& [a, b, c] : surface.faces()) {
-    arrays.faces.push_back({name[a], name[b], name[c]});
-  }
-  for (const Index corner : surface.ring()) arrays.ring.push_back(name[corner]);
-  mesh.surface = {
-      std::move(arrays), {.model = Model::weighted, .sphere = surface.sphere()}, surface.report()};
+  std::vector<Triple> faces;
+  std::vector<Index> ring;
+  for (const auto& [a, b, c] : surface.faces()) faces.push_back({name[a], name[b], name[c]});
+  for (const Index corner : surface.ring()) ring.push_back(name[corner]);
+  mesh.surface = Triangulation::from_arrays(Sites(mesh.table.sites),
+                                            {.dimension = surface.dimension(),
+                                             .faces = faces,
+                                             .neighbors = surface.neighbors(),
+                                             .ghost_faces = surface.ghost_faces(),
+                                             .ring = ring},
+                                            {.model = Model::weighted, .sphere = surface.sphere()});
   return mesh;
 }
 
@@ -88,15 +98,15 @@ ExitStatus run_hull(const HullCommandOptions& options) {
   }
   const Triangulation hull = job.hull(table);
   HullSize size;
-  job.time(Stage::dual, [&] { size = size_of_hull(hull, table.sites); });
+  job.time(Stage::dual, [&] { size = size_of_hull(hull); });
   job.time(Stage::write, [&] {
     const bool is_polygon = hull.ring().size() > 2;
     const Triangulation surface = is_polygon ? two_sided(hull) : hull;
     if (options.is_compact) {
       const Mesh mesh = compact(table, surface);
-      write_triangles(options.common.target(), mesh.table, mesh.surface, job.progress());
+      write_triangles(options.common.target(), mesh.table, mesh.surface, job.execution());
     } else {
-      write_triangles(options.common.target(), table, surface, job.progress());
+      write_triangles(options.common.target(), table, surface, job.execution());
     }
   });
   job.report(options.common.json ? hull_json_report(hull, size, job.seconds()) : std::string(),

@@ -54,9 +54,7 @@ SiteTable Job::read() { return read(state_->options.source(), state_->options.re
 
 SiteTable Job::read(const FileName& file, const ReadOptions& read) {
   const Clock::time_point start = Clock::now();
-  ReadOptions options = read;
-  options.progress = progress();
-  SiteTable table = read_sites(file, options);
+  SiteTable table = read_sites(file, read, execution());
   state_->seconds.read += seconds_since(start);
   state_->num_unlocated += table.num_unlocated;
   if (table.num_unlocated > 0 && !state_->options.quiet) {
@@ -68,14 +66,13 @@ SiteTable Job::read(const FileName& file, const ReadOptions& read) {
 }
 
 Triangulation Job::triangulate(const SiteTable& table) {
-  Options options = state_->options.build;
-  options.progress = progress();
-  return with_places(table, [&] { return delaunay(table.sites, options); });
+  return with_places(table, [&] {
+    return delaunay(Sites::view(table.sites), state_->options.build, execution());
+  });
 }
 
 Triangulation Job::hull(const SiteTable& table) {
-  const HullOptions options = {.threads = state_->options.build.threads, .progress = progress()};
-  return with_places(table, [&] { return convex_hull(table.sites, options); });
+  return with_places(table, [&] { return convex_hull(Sites::view(table.sites), execution()); });
 }
 
 void Job::time(Stage stage, const std::function<void()>& work) {
@@ -84,7 +81,9 @@ void Job::time(Stage stage, const std::function<void()>& work) {
   state_->clock(stage) += seconds_since(start);
 }
 
-const Progress& Job::progress() const { return state_->line.callback(); }
+Execution Job::execution() const {
+  return {.threads = state_->options.threads, .progress = state_->line.callback()};
+}
 
 Seconds Job::seconds() const {
   Seconds seconds = state_->seconds;

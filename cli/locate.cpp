@@ -41,7 +41,7 @@ ExitStatus run_locate(const QueryOptions& options) {
   QueryJob job(options);
   job.prepare();
   const auto locations =
-      job.ask([&] { return job.locator().locate(job.queries(), job.threads()); });
+      job.ask([&] { return job.locator().locate(job.queries(), job.execution()); });
   if (job.is_npy()) {
     std::vector<Index> faces(locations.size());
     std::ranges::transform(locations, faces.begin(), &Location::face);

@@ -32,12 +32,13 @@ std::string_view cell(const Column& column, Index row) {
 SiteLists find_sites(QueryJob& job, const QueryOptions& options) {
   if (options.within_deg >= 0) {
     const double angle = options.within_deg / degrees_per_radian;
-    return job.ask([&] { return job.locator().within(job.queries(), angle, job.threads()); });
+    return job.ask([&] { return job.locator().within(job.queries(), angle, job.execution()); });
   }
   const std::size_t k = std::max<std::uint64_t>(options.k, 1);
   const std::size_t row = std::min(k, job.triangulation().num_vertices());
   SiteLists lists;
-  lists.sites = job.ask([&] { return job.locator().k_nearest(job.queries(), row, job.threads()); });
+  lists.sites =
+      job.ask([&] { return job.locator().k_nearest(job.queries(), row, job.execution()); });
   for (std::size_t i = 0; i <= job.queries().size(); ++i) lists.offsets.push_back(i * row);
   return lists;
 }

@@ -169,8 +169,7 @@ void add_build_options(CLI::App& command, CommonOptions& options) {
 
 void add_threads_option(CLI::App& command, CommonOptions& options) {
   command
-      .add_option("--threads", options.build.threads,
-                  "Number of threads (default: one for each core)")
+      .add_option("--threads", options.threads, "Number of threads (default: one for each core)")
       ->check([](const std::string& text) { return whole_error(text, 1, 1024); })
       ->type_name("N");
 }

@@ -90,7 +90,7 @@ std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Poin
 }
 
 Figure make_figure(const PlotOptions& options, const Triangulation& triangulation,
-                   const SiteTable& table) {
+                   const SiteTable& table, const Execution& execution) {
   const Show show =
       options.show.value_or(options.fill == Fill::area ? Show::voronoi : Show::delaunay);
   Figure figure;
@@ -108,9 +108,7 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   figure.sites = vertices(triangulation, points);
   if (show != Show::voronoi) figure.triangulation = {std::move(points), std::move(arcs)};
   if (show != Show::delaunay || options.fill == Fill::area) {
-    Cells cells = rondel::cells(triangulation, table.sites);
-    std::vector<double> cell_areas;
-    if (options.fill == Fill::area) cell_areas = areas(triangulation, table.sites, cells);
+    auto [cells, cell_areas] = diagram(triangulation, execution);
     cells.points = turned(std::move(cells.points), figure.view);
     if (show != Show::delaunay) {
       figure.diagram.arcs = cell_arcs(cells);
@@ -143,7 +141,8 @@ ExitStatus run_plot(const PlotOptions& options) {
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
   Figure figure;
-  job.time(Stage::dual, [&] { figure = make_figure(options, triangulation, table); });
+  job.time(Stage::dual,
+           [&] { figure = make_figure(options, triangulation, table, job.execution()); });
   warn_of_size(options, figure, *format);
   job.time(Stage::write, [&] { write_file(options.common.output, draw(figure, *format)); });
   job.report(triangulation, "the figure");

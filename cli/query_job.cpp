@@ -54,7 +54,7 @@ void QueryJob::prepare() {
   sites_ = job_.read(options_.common.source(), read);
   queries_ = job_.read({options_.queries, options_.query_format}, query_options(options_));
   triangulation_ = job_.triangulate(sites_);
-  job_.time(Stage::locator, [this] { locator_.emplace(triangulation_, sites_.sites); });
+  job_.time(Stage::locator, [this] { locator_.emplace(triangulation_); });
 }
 
 bool QueryJob::is_npy() const { return options_.common.format() == "npy"; }

@@ -31,7 +31,7 @@ class QueryJob {
   [[nodiscard]] std::span<const Point> queries() const { return queries_.sites; }
   [[nodiscard]] const Triangulation& triangulation() const { return triangulation_; }
   [[nodiscard]] const Locator& locator() const { return *locator_; }
-  [[nodiscard]] unsigned threads() const { return options_.common.build.threads; }
+  [[nodiscard]] Execution execution() const { return job_.execution(); }
 
   /// Whether the answers go to a .npy file.
   [[nodiscard]] bool is_npy() const;

@@ -45,8 +45,9 @@ ExitStatus run_generate(const GenerateOptions& options) {
   require_parts(kind, recipe);
   Job job(common);
   const inputs::Input made = make(kind, recipe);
-  job.time(Stage::write,
-           [&] { write_sites(common.target(), made.sites, made.positions, made.radii_deg); });
+  job.time(Stage::write, [&] {
+    write_sites(common.target(), made.sites, made.positions, made.radii_deg, job.execution());
+  });
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {
       {"kind", options.kind},

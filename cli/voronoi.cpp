@@ -14,10 +14,10 @@ ExitStatus run_voronoi(const VoronoiOptions& options) {
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
   Diagram diagram;
-  job.time(Stage::dual, [&] { diagram = rondel::diagram(triangulation, table.sites); });
+  job.time(Stage::dual, [&] { diagram = rondel::diagram(triangulation, job.execution()); });
   job.time(Stage::write, [&] {
     write_cells(common.target(), table, triangulation, diagram, options.tolerance_deg,
-                job.progress());
+                job.execution());
   });
   job.report(triangulation,
              common.build.model == Model::projected ? "the Voronoi cells" : "the power cells");

@@ -26,8 +26,7 @@ void print_site(const char* what, const rondel::SiteTable& table, std::size_t si
 void print_areas(const char* path) {
   const rondel::SiteTable table = rondel::read_sites(path);
   const rondel::Triangulation triangulation = rondel::delaunay(table.sites);
-  const rondel::Cells cells = rondel::cells(triangulation, table.sites);
-  std::vector<double> areas = rondel::areas(triangulation, table.sites, cells);
+  std::vector<double> areas = rondel::areas(triangulation);
 
   const double sum = std::reduce(areas.begin(), areas.end());
   const auto largest = std::max_element(areas.begin(), areas.end());

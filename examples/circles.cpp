@@ -19,7 +19,7 @@ int main() {
   const std::vector<rondel::Point> sites = rondel::polar_points(centers, radii_deg);
   const rondel::Triangulation triangulation =
       rondel::delaunay(sites, {.model = rondel::Model::weighted});
-  const rondel::Diagram diagram = rondel::diagram(triangulation, sites);
+  const rondel::Diagram diagram = rondel::diagram(triangulation);
 
   for (std::size_t i = 0; i < sites.size(); ++i) {
     std::printf("circle %zu: radius %.0f degrees, power cell %.6f steradians\n", i, radii_deg[i],

@@ -46,7 +46,7 @@ int main() {
 
   // An immutable copy for all that needs arrays. Site i of it is ids[i].
   const rondel::Snapshot now = network.snapshot();
-  const rondel::Diagram cells = rondel::diagram(now.triangulation, now.sites);
+  const rondel::Diagram cells = rondel::diagram(now.triangulation);
   for (std::size_t i = 0; i < now.ids.size(); ++i) {
     std::printf("site %u looks after %.3f steradians\n", now.ids[i], cells.areas[i]);
   }

@@ -18,7 +18,7 @@ int main() {
       {4, 4, 0},                                   // a corner again
   };
   const rondel::Triangulation hull = rondel::convex_hull(points);
-  const rondel::HullSize size = rondel::size_of_hull(hull, points);
+  const rondel::HullSize size = rondel::size_of_hull(hull);
 
   std::printf("%zu vertices, %zu faces, volume %g, area %.6f\n", hull.num_vertices(),
               hull.num_faces(), size.volume, size.area);

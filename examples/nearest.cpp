@@ -29,7 +29,7 @@ int main() {
   const double degree = std::numbers::pi / 180;
 
   const rondel::Triangulation triangulation = rondel::delaunay(airports);
-  const rondel::Locator locator(triangulation, airports);
+  const rondel::Locator locator(triangulation);
 
   const std::vector<rondel::Index> nearest = locator.nearest(planes);
   for (std::size_t i = 0; i < planes.size(); ++i) {

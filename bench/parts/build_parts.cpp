@@ -11,16 +11,15 @@ namespace {
 
 void build(benchmark::State& state, const std::string& kind, Model model) {
   const auto& sites = case_of(kind, state.range(0)).sites;
-  Options options;
-  options.model = model;
-  options.threads = 1;
-  for (auto _ : state) benchmark::DoNotOptimize(delaunay(sites, options));
+  for (auto _ : state) {
+    benchmark::DoNotOptimize(delaunay(Sites::view(sites), {.model = model}, {.threads = 1}));
+  }
   report_each(state, sites.size());
 }
 
 void hull(benchmark::State& state, const std::string& kind) {
   const auto points = make_input(kind, static_cast<std::size_t>(state.range(0)));
-  for (auto _ : state) benchmark::DoNotOptimize(convex_hull(points, {.threads = 1}));
+  for (auto _ : state) benchmark::DoNotOptimize(convex_hull(Sites::view(points), {.threads = 1}));
   report_each(state, points.size());
 }
 

@@ -9,34 +9,34 @@
 namespace rondel::bench {
 namespace {
 
-// work(triangulation, sites)
+// work(triangulation)
 template <class Work>
 void measure_dual(benchmark::State& state, Work work) {
   const Case& uniform = case_of("uniform", state.range(0));
   for (auto _ : state) {
-    benchmark::DoNotOptimize(work(uniform.triangulation, uniform.sites));
+    benchmark::DoNotOptimize(work(uniform.triangulation));
   }
   report_each(state, uniform.sites.size());
 }
 
 void dual_circumcenters(benchmark::State& state) {
-  measure_dual(state, [](const auto& t, const auto& sites) { return circumcenters(t, sites); });
+  measure_dual(state, [](const auto& t) { return circumcenters(t); });
 }
 
 void dual_cells(benchmark::State& state) {
-  measure_dual(state, [](const auto& t, const auto& sites) { return cells(t, sites); });
+  measure_dual(state, [](const auto& t) { return cells(t); });
 }
 
 void dual_cells_and_areas(benchmark::State& state) {
-  measure_dual(state, [](const auto& t, const auto& sites) { return diagram(t, sites); });
+  measure_dual(state, [](const auto& t) { return diagram(t); });
 }
 
 void dual_edges(benchmark::State& state) {
-  measure_dual(state, [](const auto& t, const auto& /*sites*/) { return edges(t); });
+  measure_dual(state, [](const auto& t) { return edges(t); });
 }
 
 void dual_merged_facets(benchmark::State& state) {
-  measure_dual(state, [](const auto& t, const auto& sites) { return merge_cocircular(t, sites); });
+  measure_dual(state, [](const auto& t) { return merge_cocircular(t); });
 }
 
 BENCHMARK(dual_circumcenters)->Arg(small_size)->Arg(large_size);

@@ -34,9 +34,7 @@ inline const Case& case_of(const std::string& kind, std::int64_t n) {
   Case& found = entry->second;
   if (is_new) {
     found.sites = make_input(kind, static_cast<std::size_t>(n));
-    Options options;
-    options.threads = 1;
-    found.triangulation = delaunay(found.sites, options);
+    found.triangulation = delaunay(found.sites, {}, {.threads = 1});
   }
   return found;
 }

@@ -23,14 +23,14 @@ std::span<const Point> queries() {
 template <class Work>
 void measure_queries(benchmark::State& state, Work work) {
   const Case& uniform = case_of("uniform", state.range(0));
-  const Locator locator(uniform.triangulation, uniform.sites);
+  const Locator locator(uniform.triangulation);
   for (auto _ : state) benchmark::DoNotOptimize(work(locator));
   report_each(state, num_queries);
 }
 
 void query_prepare(benchmark::State& state) {
   const Case& uniform = case_of("uniform", state.range(0));
-  for (auto _ : state) benchmark::DoNotOptimize(Locator(uniform.triangulation, uniform.sites));
+  for (auto _ : state) benchmark::DoNotOptimize(Locator(uniform.triangulation));
   report_each(state, uniform.sites.size());
 }
 

@@ -32,6 +32,6 @@ struct CheckReport {
 /// as delaunay() does, every star convex.
 /// \throws InvalidInput as delaunay() does.
 RONDEL_API CheckReport check(std::span<const Point> sites, std::span<const Triple> triangles,
-                             const Options& options = {});
+                             const Options& options = {}, const Execution& execution = {});
 
 }  // namespace rondel

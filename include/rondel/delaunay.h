@@ -57,10 +57,12 @@ RONDEL_API std::vector<Point> polar_points(std::span<const LonLat> centers,
 ///         projected site is the center, the sphere is not valid (squared
 ///         radius not positive, center not finite) or there are more than
 ///         `max_sites` sites.
-RONDEL_API Triangulation delaunay(std::span<const Point> sites, const Options& options = {});
+RONDEL_API Triangulation delaunay(Sites sites, const Options& options = {},
+                                  const Execution& execution = {});
 
-/// The same for an array of 3n numbers x0 y0 z0 x1 y1 z1 ...
+/// Of an array of 3n numbers x0 y0 z0 x1 y1 z1 ..., which are copied.
 /// \throws InvalidInput also if the length is not a multiple of 3.
-RONDEL_API Triangulation delaunay(std::span<const double> xyz, const Options& options = {});
+RONDEL_API Triangulation delaunay(std::span<const double> xyz, const Options& options = {},
+                                  const Execution& execution = {});
 
 }  // namespace rondel

@@ -3,14 +3,11 @@
 
 /// \file
 /// Duals of a triangulation: Voronoi diagrams and, in the weighted model,
-/// power (Laguerre) diagrams. In all functions `sites` are the n sites from
-/// which `triangulation` was made.
-/// \throws InvalidInput if their number differs from triangulation.num_sites().
+/// power (Laguerre) diagrams.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "rondel/export.h"
@@ -51,27 +48,24 @@ struct Polygons {
 /// (m, 3): outward unit normals, also right for ghost faces. The
 /// distance to the exact value is at most 4 ulp (4 * 2^-53), whatever the face's shape.
 RONDEL_API std::vector<Point> circumcenters(const Triangulation& triangulation,
-                                            std::span<const Point> sites);
+                                            const Execution& execution = {});
 
 /// The Voronoi or power cells of all sites, in every dimension.
-RONDEL_API Cells cells(const Triangulation& triangulation, std::span<const Point> sites);
+RONDEL_API Cells cells(const Triangulation& triangulation, const Execution& execution = {});
 
 /// The areas of the cells in steradians, length n; 0 for duplicates and hidden
 /// sites. The relative error is small for tiny cells too, as long as their sites are 1e-28 radians
 /// apart or more; the sum is 4*pi.
-/// \throws InvalidInput (a bad site) also if `cells` cannot be those of the triangulation.
 RONDEL_API std::vector<double> areas(const Triangulation& triangulation,
-                                     std::span<const Point> sites, const Cells& cells);
+                                     const Execution& execution = {});
 
-/// The cells and their areas at once: faster than cells() and then areas(), which both need the
-/// sites' places in more than double precision.
-RONDEL_API Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites);
+/// The cells and their areas at once, for little more than one of them.
+RONDEL_API Diagram diagram(const Triangulation& triangulation, const Execution& execution = {});
 
 /// The directions of the cells' centers of mass, unit vectors, shape (n, 3);
 /// (0, 0, 0) where the center of mass is the center of the sphere or the cell is empty.
-/// \throws InvalidInput (a bad site) also if `cells` cannot be those of the triangulation.
 RONDEL_API std::vector<Point> centroids(const Triangulation& triangulation,
-                                        std::span<const Point> sites, const Cells& cells);
+                                        const Execution& execution = {});
 
 /// The edges, each once with the lower index first, in lexicographic order.
 RONDEL_API std::vector<std::array<Index, 2>> edges(const Triangulation& triangulation);
@@ -80,6 +74,6 @@ RONDEL_API std::vector<std::array<Index, 2>> edges(const Triangulation& triangul
 /// merged into one polygon (a cube has 6 facets, not 12). Each polygon starts
 /// with its lowest index.
 RONDEL_API Polygons merge_cocircular(const Triangulation& triangulation,
-                                     std::span<const Point> sites);
+                                     const Execution& execution = {});
 
 }  // namespace rondel

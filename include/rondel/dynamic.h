@@ -19,8 +19,7 @@ namespace rondel {
 /// An immutable copy of a DynamicTriangulation.
 struct Snapshot {
   std::vector<Index> ids;       ///< increasing; site i of `triangulation` is ids[i]
-  std::vector<Point> sites;     ///< shape (n, 3)
-  Triangulation triangulation;  ///< of `sites`, as delaunay() makes it, without a report
+  Triangulation triangulation;  ///< as delaunay() makes it of the sites, without a report
 };
 
 /// A Delaunay or regular triangulation under insertions, removals and moves
@@ -49,16 +48,16 @@ struct Snapshot {
 /// 8. One that was moved from can only be assigned to or destroyed.
 class RONDEL_API DynamicTriangulation {
  public:
-  /// Without sites. `options.threads` is for builds of ranges.
-  /// \throws InvalidInput if the sphere is not valid.
+  /// Without sites. \throws InvalidInput if the sphere is not valid.
   explicit DynamicTriangulation(const Options& options = {});
 
-  /// With n sites, by delaunay(). \throws InvalidInput as delaunay() does.
-  explicit DynamicTriangulation(std::span<const Point> sites, const Options& options = {});
+  /// With n sites, by delaunay(), which are copied. \throws InvalidInput as delaunay() does.
+  explicit DynamicTriangulation(std::span<const Point> sites, const Options& options = {},
+                                const Execution& execution = {});
 
-  /// From a triangulation and the sites from which it was made.
-  /// \throws InvalidInput if their number differs from triangulation.num_sites().
-  DynamicTriangulation(const Triangulation& triangulation, std::span<const Point> sites);
+  /// From a triangulation and its sites, which are copied.
+  explicit DynamicTriangulation(const Triangulation& triangulation,
+                                const Execution& execution = {});
 
   ~DynamicTriangulation();
   DynamicTriangulation(DynamicTriangulation&& other) noexcept;
@@ -74,13 +73,13 @@ class RONDEL_API DynamicTriangulation {
   Index insert(const Point& site, Index hint);
 
   /// Adds n sites and returns their ids in the order of `sites`: the same as one by one.
-  std::vector<Index> insert(std::span<const Point> sites);
+  std::vector<Index> insert(std::span<const Point> sites, const Execution& execution = {});
 
   /// \throws InvalidInput if there is no such site.
   void remove(Index id);
 
   /// \throws InvalidInput (first bad position) if there is no such site or an id appears twice.
-  void remove(std::span<const Index> ids);
+  void remove(std::span<const Index> ids, const Execution& execution = {});
 
   /// Moves a site, which keeps its id.
   /// \throws InvalidInput as remove() and insert() do.
@@ -88,7 +87,7 @@ class RONDEL_API DynamicTriangulation {
 
   /// Moves ids[i] to to[i], one after the other; an id may appear again.
   /// \throws InvalidInput if there is no such site, as insert() does, and if the lengths differ.
-  void move(std::span<const Index> ids, std::span<const Point> to);
+  void move(std::span<const Index> ids, std::span<const Point> to, const Execution& execution = {});
 
   [[nodiscard]] Model model() const noexcept;
   [[nodiscard]] const Sphere& sphere() const noexcept;

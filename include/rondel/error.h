@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -38,6 +39,12 @@ class RONDEL_API FileError : public std::runtime_error {
   FileError(const FileError&) = default;
   FileError& operator=(const FileError&) = default;
   ~FileError() override;
+};
+
+/// Somebody set the flag of an Execution before the work was done.
+class RONDEL_API Interrupted : public std::exception {
+ public:
+  [[nodiscard]] const char* what() const noexcept override;
 };
 
 }  // namespace rondel

@@ -14,12 +14,6 @@
 
 namespace rondel {
 
-/// How to build a hull.
-struct HullOptions {
-  unsigned threads = 0;  ///< at most, 0: one for each core; the result does not depend on it
-  Progress progress{};
-};
-
 /// The convex hull of n points: a triangulation of Model::weighted around a center that is chosen.
 ///
 /// Exact for every finite input, and unique: it depends on the set of points only. Its vertices
@@ -42,12 +36,11 @@ struct HullOptions {
 /// Expected time O(n log n), in practice O(n) when most points are inside.
 /// \throws InvalidInput (first bad index) if a coordinate is not finite or there are more than
 ///         `max_sites` points.
-RONDEL_API Triangulation convex_hull(std::span<const Point> points,
-                                     const HullOptions& options = {});
+RONDEL_API Triangulation convex_hull(Sites points, const Execution& execution = {});
 
-/// The same for an array of 3n numbers x0 y0 z0 x1 y1 z1 ...
+/// Of an array of 3n numbers x0 y0 z0 x1 y1 z1 ..., which are copied.
 /// \throws InvalidInput also if the length is not a multiple of 3.
-RONDEL_API Triangulation convex_hull(std::span<const double> xyz, const HullOptions& options = {});
+RONDEL_API Triangulation convex_hull(std::span<const double> xyz, const Execution& execution = {});
 
 /// Volume and surface area of a hull.
 struct HullSize {
@@ -57,8 +50,7 @@ struct HullSize {
 
 /// Sums over the faces in doubles. The relative error is near 1e-15 for a body that is as thick as
 /// wide, larger by the ratio for a thin one. Infinity where the size exceeds the range of doubles.
-/// \pre `hull` comes from convex_hull(points).
-/// \throws InvalidInput if the number of points differs from hull.num_sites().
-RONDEL_API HullSize size_of_hull(const Triangulation& hull, std::span<const Point> points);
+/// \pre `hull` comes from convex_hull().
+RONDEL_API HullSize size_of_hull(const Triangulation& hull);
 
 }  // namespace rondel

@@ -46,7 +46,6 @@ struct ReadOptions {
   std::string radius;
   bool radians = false;       ///< longitude, latitude and radius are in radians
   bool keep_columns = false;  ///< keep the text of every column, for the properties of GeoJSON
-  Progress progress{};
 };
 
 /// One column of a table, as text.
@@ -78,7 +77,8 @@ struct SiteTable {
 
 /// Reads .csv .tsv .xyz .txt .npy .geojson; "-" is standard input, CSV where no format is named. A
 /// file without sites is an answer; one without a byte is an error.
-RONDEL_API SiteTable read_sites(const FileName& file, const ReadOptions& options = {});
+RONDEL_API SiteTable read_sites(const FileName& file, const ReadOptions& options = {},
+                                const Execution& execution = {});
 
 /// Reads the faces (m, 3) of .npy .off .ply .obj .vtp.
 RONDEL_API std::vector<Triple> read_triangles(const FileName& file);
@@ -89,29 +89,29 @@ RONDEL_API bool can_write_triangles(const FileName& file);
 RONDEL_API bool can_write_cells(const FileName& file);
 RONDEL_API bool can_write_sites(const FileName& file);
 
-/// Writes the triangles; throws InvalidInput, as write_cells() does, if the arguments do not belong
-/// together. .npy has input indices (m, 3) uint32; formats with vertices list every
+/// Writes the triangles; throws InvalidInput, as write_cells() does, if the sites of the table are not
+/// those of the triangulation. .npy has input indices (m, 3) uint32; formats with vertices list every
 /// input site in input order with digits that round-trip.
 /// .stl repeats the corners as 32-bit floats, the only numbers that it has. GeoJSON has the solid
-/// faces: seen from the center, ghost faces are flat or reversed. Text is made by at most
-/// `triangulation.report().threads` threads, here and below, and does not depend on their number.
+/// faces: seen from the center, ghost faces are flat or reversed.
 RONDEL_API void write_triangles(const FileName& file, const SiteTable& table,
-                                const Triangulation& triangulation, const Progress& progress = {});
+                                const Triangulation& triangulation,
+                                const Execution& execution = {});
 
 /// Writes the cells. GeoJSON obeys RFC 7946 with one feature a cell: arcs are densified until the
 /// straight line in longitude and latitude is within `tolerance_deg` of the arc
 /// (closer between sites that are close).
 RONDEL_API void write_cells(const FileName& file, const SiteTable& table,
                             const Triangulation& triangulation, const Diagram& diagram,
-                            double tolerance_deg = 0.01, const Progress& progress = {});
+                            double tolerance_deg = 0.01, const Execution& execution = {});
 
 /// Writes sites, for generators: .csv and .tsv (lon,lat or x,y,z with a header), .xyz, .txt, .npy.
 /// With the radii of circles at `positions`, .csv and .tsv have lon,lat,radius, and .npy has
-/// `sites`, the polar points, as .xyz and .txt always do. At most `threads` threads make the text,
-/// 0: one for each core.
+/// `sites`, the polar points, as .xyz and .txt always do.
 RONDEL_API void write_sites(const FileName& file, std::span<const Point> sites,
                             std::span<const LonLat> positions = {},
-                            std::span<const double> radii_deg = {}, unsigned threads = 0);
+                            std::span<const double> radii_deg = {},
+                            const Execution& execution = {});
 
 /// Writes indices as .npy (uint32) of this shape, whose product is their number.
 RONDEL_API void write_indices(const std::string& path, std::span<const Index> values,

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "rondel/diagram.h"
@@ -27,15 +26,14 @@ struct LonLatPolygons {
 
 /// The polygons of the cells of a diagram, by site. Arcs are densified as write_cells() does. A
 /// cell no wider than rounding has none.
-/// \throws InvalidInput if the arguments do not belong together.
-RONDEL_API LonLatPolygons cell_polygons(std::span<const Point> sites,
-                                        const Triangulation& triangulation, const Diagram& diagram,
-                                        double tolerance_deg = 0.01, const Progress& progress = {});
+/// \throws InvalidInput if the diagram cannot be that of the triangulation.
+RONDEL_API LonLatPolygons cell_polygons(const Triangulation& triangulation, const Diagram& diagram,
+                                        double tolerance_deg = 0.01,
+                                        const Execution& execution = {});
 
 /// The polygons of the solid faces, as write_triangles() writes them. A face no wider than rounding
 /// has none.
-/// \throw InvalidInput if the numbers of sites differ
-RONDEL_API LonLatPolygons face_polygons(std::span<const Point> sites,
-                                        const Triangulation& triangulation);
+RONDEL_API LonLatPolygons face_polygons(const Triangulation& triangulation,
+                                        const Execution& execution = {});
 
 }  // namespace rondel

@@ -50,8 +50,7 @@ struct SiteLists {
 ///    the Laguerre distance arccos(cos(angle) |P|/R), which puts p into the power cell of the
 ///    nearest site (Model::weighted; Sugihara 2002). Vectors are taken from the center.
 /// 3. The answers are vertices: input indices, for duplicates the lowest one; never a hidden site.
-/// 4. A range of queries is answered in spatial order, faster than one by one, by `threads` threads
-///    (0: one for each core). The result does not depend on that.
+/// 4. A range of queries is answered in spatial order, faster than one by one.
 /// 5. Any number of threads may use one Locator at once.
 /// 6. One that was moved from can only be assigned to or destroyed.
 ///
@@ -60,10 +59,8 @@ struct SiteLists {
 /// Memory: 96 bytes a vertex.
 class RONDEL_API Locator {
  public:
-  /// Keeps a reference to `sites`, which must live as long, but none to `triangulation`. O(n).
-  /// \throws InvalidInput if their number differs from triangulation.num_sites().
-  Locator(const Triangulation& triangulation, std::span<const Point> sites);
-  Locator(const Triangulation& triangulation, std::vector<Point>&& sites) = delete;
+  /// Keeps the sites of the triangulation. O(n).
+  explicit Locator(const Triangulation& triangulation);
 
   /// O(1) in dimension 2. Keeps a reference, and is of no use any more after the next change, even
   /// one that failed. Sites have their ids, faces numbers for DynamicTriangulation::face().
@@ -77,19 +74,19 @@ class RONDEL_API Locator {
   ///         index if one is not finite or the center of the sphere; before any work.
   [[nodiscard]] Location locate(const Point& query) const;
   [[nodiscard]] std::vector<Location> locate(std::span<const Point> queries,
-                                             unsigned threads = 0) const;
+                                             const Execution& execution = {}) const;
 
   /// The nearest vertex; of several the lowest index. no_index without sites.
   [[nodiscard]] Index nearest(const Point& query) const;
   [[nodiscard]] std::vector<Index> nearest(std::span<const Point> queries,
-                                           unsigned threads = 0) const;
+                                           const Execution& execution = {}) const;
 
   /// The k nearest vertices in order of distance, of equal ones the lower index first; all vertices
   /// if there are fewer. For a range of q queries an array of shape (q, k), filled up with
   /// no_index. \throws InvalidInput if q * k is not a size that an array can have.
   [[nodiscard]] std::vector<Index> k_nearest(const Point& query, std::size_t k) const;
   [[nodiscard]] std::vector<Index> k_nearest(std::span<const Point> queries, std::size_t k,
-                                             unsigned threads = 0) const;
+                                             const Execution& execution = {}) const;
 
   /// All vertices at a distance of at most `angle` radians, in increasing order; with pi or more
   /// all vertices. Weighted with angle 0: the circles that hold the query. Exact for an angle that
@@ -98,7 +95,7 @@ class RONDEL_API Locator {
   /// is negative or not a number.
   [[nodiscard]] std::vector<Index> within(const Point& query, double angle) const;
   [[nodiscard]] SiteLists within(std::span<const Point> queries, double angle,
-                                 unsigned threads = 0) const;
+                                 const Execution& execution = {}) const;
 
   /// The distance of any site, hidden ones too, in radians from 0 to pi. Projected: within 8e-16 of
   /// itself and 1e-29. Weighted: its cosine, clamped to [-1, 1], is within 1e-15 (1 + |P|/R);

@@ -12,10 +12,9 @@
 #include "rondel/error.h"          // IWYU pragma: export
 #include "rondel/export.h"         // IWYU pragma: export
 #include "rondel/hull.h"           // IWYU pragma: export
-#include "rondel/interrupt.h"      // IWYU pragma: export
-#include "rondel/large_vector.h"   // IWYU pragma: export
 #include "rondel/predicates.h"     // IWYU pragma: export
 #include "rondel/query.h"          // IWYU pragma: export
+#include "rondel/sites.h"          // IWYU pragma: export
 #include "rondel/triangulation.h"  // IWYU pragma: export
 #include "rondel/types.h"          // IWYU pragma: export
 #include "rondel/version.h"        // IWYU pragma: export

@@ -7,11 +7,12 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <span>
-#include <vector>
 
 #include "rondel/export.h"
-#include "rondel/large_vector.h"
+#include "rondel/sites.h"
 #include "rondel/types.h"
 
 namespace rondel {
@@ -33,24 +34,33 @@ struct Hidden {
   friend bool operator==(const Hidden&, const Hidden&) = default;
 };
 
+/// Who made a triangulation.
+enum class Builder : std::uint8_t {
+  given,        ///< nobody: it was made from arrays, or by changes
+  ring,         ///< below dimension 2 the sites are sorted around the great circle
+  incremental,  ///< one site after the other: any configuration
+  sphere,       ///< divide and conquer over the whole sphere
+  blocks,       ///< divide and conquer in blocks that are certified, in parallel
+};
+
 /// What a build did and how long it took.
 struct BuildReport {
+  Builder builder = Builder::given;
   Tally rungs{};
   unsigned threads = 1;  ///< at most
   double order_seconds = 0;
   double triangulate_seconds = 0;
 };
 
-/// The arrays of a Triangulation, for those who make one.
-struct TriangulationArrays {
-  std::size_t num_sites = 0;
+/// What Triangulation::from_arrays() takes; each array is as the function of that name returns it.
+struct TriangulationParts {
   int dimension = -1;
-  LargeVector<Triple> faces;
-  LargeVector<Triple> neighbors;
-  std::vector<Index> ghost_faces;
-  std::vector<Index> ring;
-  std::vector<Duplicate> duplicates;
-  std::vector<Hidden> hidden;
+  std::span<const Triple> faces{};
+  std::span<const Triple> neighbors{};
+  std::span<const Index> ghost_faces{};
+  std::span<const Index> ring{};
+  std::span<const Duplicate> duplicates{};
+  std::span<const Hidden> hidden{};
 };
 
 /// A triangulation of sites on or close to a sphere.
@@ -69,52 +79,59 @@ struct TriangulationArrays {
 /// 4. Canonical order: a face starts with the corner that comes first in the
 ///    spatial order, and faces are listed by that corner, then counterclockwise.
 /// 5. Every site is a vertex, a duplicate or hidden, and only one of these.
+/// 6. It is immutable and keeps its sites. Copies are cheap, as they share everything; several threads
+///    may use one.
 class RONDEL_API Triangulation {
  public:
-  Triangulation() = default;
-  /// Of arrays that the library made.
-  Triangulation(TriangulationArrays arrays, const Options& options, const BuildReport& report);
+  /// Without sites.
+  Triangulation();
+
   /// Of arrays that come from elsewhere, a file say. Expected time O(n).
-  /// \throws InvalidInput (position in the array that the message names) if they do not obey 1, 2
-  ///         and 5: indices in range, a closed surface around every vertex, each edge in two faces.
-  ///         Whether the faces are Delaunay is for check() to say.
-  static Triangulation from_arrays(TriangulationArrays arrays, const Options& options);
+  /// \throws InvalidInput (position in the array that the message names) as delaunay() does, and if the
+  ///         arrays do not obey 1, 2 and 5: indices in range, a closed surface around every vertex, each
+  ///         edge in two faces. Whether the faces are Delaunay is for check() to say.
+  static Triangulation from_arrays(Sites sites, const TriangulationParts& parts,
+                                   const Options& options = {});
 
-  [[nodiscard]] int dimension() const noexcept { return arrays_.dimension; }
-  [[nodiscard]] Model model() const noexcept { return model_; }
-  [[nodiscard]] const Sphere& sphere() const noexcept { return sphere_; }
+  [[nodiscard]] int dimension() const noexcept;
+  [[nodiscard]] Model model() const noexcept;
+  [[nodiscard]] const Sphere& sphere() const noexcept;
 
-  [[nodiscard]] std::size_t num_sites() const noexcept { return arrays_.num_sites; }
+  [[nodiscard]] const Sites& sites() const noexcept;
+  [[nodiscard]] std::size_t num_sites() const noexcept;
   [[nodiscard]] std::size_t num_vertices() const noexcept;
-  [[nodiscard]] std::size_t num_faces() const noexcept { return arrays_.faces.size(); }
-  [[nodiscard]] std::size_t num_ghost_faces() const noexcept { return arrays_.ghost_faces.size(); }
+  [[nodiscard]] std::size_t num_faces() const noexcept;
+  [[nodiscard]] std::size_t num_ghost_faces() const noexcept;
 
   /// Corners of the faces, shape (m, 3).
-  [[nodiscard]] std::span<const Triple> faces() const noexcept { return arrays_.faces; }
+  [[nodiscard]] std::span<const Triple> faces() const noexcept;
   /// Faces across the edges, shape (m, 3).
-  [[nodiscard]] std::span<const Triple> neighbors() const noexcept { return arrays_.neighbors; }
+  [[nodiscard]] std::span<const Triple> neighbors() const noexcept;
   /// The ghost faces in increasing order.
-  [[nodiscard]] std::span<const Index> ghost_faces() const noexcept { return arrays_.ghost_faces; }
+  [[nodiscard]] std::span<const Index> ghost_faces() const noexcept;
   [[nodiscard]] bool is_ghost(Index face) const noexcept;
 
   /// Below dimension 2: the vertices in their order around the great circle.
   /// Empty in dimension 2.
-  [[nodiscard]] std::span<const Index> ring() const noexcept { return arrays_.ring; }
+  [[nodiscard]] std::span<const Index> ring() const noexcept;
 
   /// In increasing order of `site`.
-  [[nodiscard]] std::span<const Duplicate> duplicates() const noexcept {
-    return arrays_.duplicates;
-  }
+  [[nodiscard]] std::span<const Duplicate> duplicates() const noexcept;
   /// In increasing order of `site`.
-  [[nodiscard]] std::span<const Hidden> hidden() const noexcept { return arrays_.hidden; }
+  [[nodiscard]] std::span<const Hidden> hidden() const noexcept;
 
-  [[nodiscard]] const BuildReport& report() const noexcept { return report_; }
+  [[nodiscard]] const BuildReport& report() const noexcept;
+
+  struct Impl;
+  /// For the library itself.
+  explicit Triangulation(std::shared_ptr<const Impl> impl) noexcept;
+  // A move copies, so that what was moved from remains a triangulation.
+  Triangulation(const Triangulation& other) noexcept = default;
+  Triangulation& operator=(const Triangulation& other) noexcept = default;
+  ~Triangulation() = default;
 
  private:
-  TriangulationArrays arrays_;
-  Model model_ = Model::projected;
-  Sphere sphere_{};
-  BuildReport report_{};
+  std::shared_ptr<const Impl> impl_;
 };
 
 }  // namespace rondel

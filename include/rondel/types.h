@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <string_view>
@@ -52,6 +53,12 @@ struct Sphere {
   double squared_radius = 1;
 };
 
+/// What to triangulate.
+struct Options {
+  Model model = Model::projected;
+  Sphere sphere{};
+};
+
 /// Called now and then during long work with the name of the stage ("order",
 /// "triangulate", ...) and the fraction of it that is done, from 0 to 1.
 /// 1. One thread at a time calls it, any of those that work; the fractions never decrease.
@@ -59,13 +66,13 @@ struct Sphere {
 /// 3. It may throw: then the work ends, and nothing is left of it.
 using Progress = std::function<void(std::string_view stage, double fraction)>;
 
-/// How to triangulate.
-struct Options {
-  Model model = Model::projected;
-  Sphere sphere{};
-  /// At most, 0: one for each core; more than 1024 count as 1024. The result does not depend on it.
-  unsigned threads = 0;
+/// How long work is done, on which its result never depends.
+struct Execution {
+  unsigned threads = 0;  ///< at most, 0: one for each core; more than 1024 count as 1024
   Progress progress{};
+  /// Once it is true, the call throws Interrupted (error.h) soon, at the next piece of a parallel loop
+  /// on any of its threads, and nothing is left of its work. Short work goes on to its end.
+  const std::atomic<bool>* stop = nullptr;
 };
 
 /// How many conflict tests each rung of the exactness ladder decided. Machines and versions may

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "api/triangulation_impl.h"
 #include "api/validation.h"
 #include "bulk/triangulate.h"
 #include "hidden/hidden_faces.h"
@@ -28,10 +29,6 @@ double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-void announce(const Options& options, std::string_view stage, double fraction) {
-  if (options.progress) options.progress(stage, fraction);
-}
-
 // The sites to insert when others can be left out, or nothing if all are to be inserted.
 std::vector<Index> find_rest(std::span<const Point> sites, const Options& options,
                              const hidden::InnerPoint* inner) {
@@ -48,7 +45,7 @@ std::vector<Index> find_rest(std::span<const Point> sites, const Options& option
 }
 
 // Rays are looked at when they are read anyway, as memory is slow; weighted sites were before.
-order::SpatialOrder order_valid(std::span<const Point> sites, const Options& options,
+order::SpatialOrder order_valid(std::span<const Point> sites, const system::Job& options,
                                 const system::SiteCopies& copies) {
   order::SitesCheck check;
   if (options.model == Model::projected) {
@@ -113,12 +110,12 @@ std::vector<Point> select(std::span<const Point> sites, std::span<const Index> i
 
 }  // namespace
 
-Triangulation build(std::span<const Point> sites, const Options& options,
-                    const hidden::InnerPoint* inner) {
+Triangulation build(Sites all_sites, const system::Job& options, const hidden::InnerPoint* inner) {
+  const std::span<const Point> sites = all_sites.points();
   BuildReport report;
   report.threads = system::num_threads(options.threads);
   const auto start = Clock::now();
-  announce(options, "order", 0);
+  system::announce(options, "order", 0);
   const auto rest = find_rest(sites, options, inner);
   const auto rest_points = select(sites, rest);
   const std::span<const Point> inserted = rest.empty() ? sites : rest_points;
@@ -135,10 +132,11 @@ Triangulation build(std::span<const Point> sites, const Options& options,
   built.arrays.duplicates = std::move(order.duplicates);
   if (!rest.empty()) add_inner_sites(sites, rest, built.arrays);
   hidden::assign_hidden_faces(sites, options.sphere.center, built.arrays, options.threads);
-  announce(options, "triangulate", 1);
+  system::announce(options, "triangulate", 1);
   report.triangulate_seconds = seconds_since(order_end);
   report.rungs = built.tally;
-  return {std::move(built.arrays), options, report};
+  report.builder = built.arrays.dimension < 2 ? Builder::ring : built.builder;
+  return make_triangulation(std::move(all_sites), std::move(built.arrays), options, report);
 }
 
 std::span<const Point> as_points(std::span<const double> xyz) {

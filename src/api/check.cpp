@@ -5,15 +5,15 @@
 
 #include "api/validation.h"
 #include "proof/validator.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 
 namespace rondel {
 
 CheckReport check(std::span<const Point> sites, std::span<const Triple> triangles,
-                  const Options& options) {
-  const system::ArithmeticScope arithmetic;
+                  const Options& options, const Execution& execution) {
+  const system::Call call(execution);
   api::validate(sites, options);
-  return proof::check_triangles(sites, triangles, options);
+  return proof::check_triangles(sites, triangles, {options, execution});
 }
 
 }  // namespace rondel

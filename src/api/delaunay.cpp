@@ -3,24 +3,27 @@
 
 #include "rondel/delaunay.h"
 
+#include <utility>
+
 #include "api/build.h"
 #include "api/validation.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 
 namespace rondel {
 
-Triangulation delaunay(std::span<const Point> sites, const Options& options) {
-  const system::ArithmeticScope arithmetic;
+Triangulation delaunay(Sites sites, const Options& options, const Execution& execution) {
+  const system::Call call(execution);
   if (options.model == Model::projected) {
     api::validate(options, sites.size());
   } else {
-    api::validate(sites, options);
+    api::validate(sites.points(), options);
   }
-  return api::build(sites, options);
+  return api::build(std::move(sites), {options, execution});
 }
 
-Triangulation delaunay(std::span<const double> xyz, const Options& options) {
-  return delaunay(api::as_points(xyz), options);
+Triangulation delaunay(std::span<const double> xyz, const Options& options,
+                       const Execution& execution) {
+  return delaunay(Sites(api::as_points(xyz)), options, execution);
 }
 
 }  // namespace rondel

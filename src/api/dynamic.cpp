@@ -9,12 +9,13 @@
 #include <utility>
 
 #include "api/dynamic_impl.h"
+#include "api/triangulation_impl.h"
 #include "api/validation.h"
 #include "dynamic/query_engine.h"
 #include "dynamic/snapshot.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 
 namespace rondel {
 namespace {
@@ -33,11 +34,7 @@ bool is_build_faster(std::size_t num_changes, double builds_of_change, std::size
 
 DynamicTriangulation::Impl::Impl(Options wanted)
     : options(std::move(wanted)),
-      range_threads(options.threads),
       editor(std::in_place_index<0>, Model::projected, options.sphere.center) {
-  options.progress = {};
-  // What is built later is built under a lock, which no thread may hold while it waits for others.
-  options.threads = 1;
   if (options.model == Model::weighted) {
     editor.emplace<1>(Model::weighted, options.sphere.center);
   }
@@ -76,8 +73,8 @@ void DynamicTriangulation::Impl::require_room(std::size_t more) const {
 }
 
 void DynamicTriangulation::Impl::assign(const Triangulation& triangulation,
-                                        std::span<const Point> sites, std::span<const Index> ids) {
-  dynamic::Build build = dynamic::make_build(triangulation, sites);
+                                        std::span<const Index> ids, const Execution& execution) {
+  dynamic::Build build = dynamic::make_build(triangulation, execution.threads);
   std::vector<Index> place_of_id(places().site_limit(), no_index);
   for (std::size_t i = 0; i < ids.size(); ++i) place_of_id[ids[i]] = build.place_of_site[i];
   for (Index& speaker : build.speakers) speaker = ids[speaker];
@@ -91,36 +88,35 @@ void DynamicTriangulation::Impl::assign(const Triangulation& triangulation,
   });
 }
 
-void DynamicTriangulation::Impl::rebuild(unsigned threads) {
-  const Snapshot now = live_sites();
-  Options build_options = options;
-  build_options.threads = threads;
-  assign(delaunay(now.sites, build_options), now.sites, now.ids);
+void DynamicTriangulation::Impl::rebuild(const Execution& execution) {
+  const std::vector<Index> ids = dynamic::live_sites(places());
+  assign(delaunay(sites_of(ids), options, execution), ids, execution);
 }
 
 DynamicTriangulation::Impl& DynamicTriangulation::Impl::current() {
   if (!is_in_pieces) return *this;
   const std::lock_guard guard(mutex);
   if (is_in_pieces) {
-    rebuild(options.threads);
+    rebuild({.threads = 1});  // under a lock, which no thread may hold while it waits for others
     is_in_pieces = false;
   }
   return *this;
 }
 
-Snapshot DynamicTriangulation::Impl::live_sites() const {
-  Snapshot now;
-  now.ids = dynamic::live_sites(places());
-  now.sites.reserve(now.ids.size());
-  for (const Index id : now.ids) now.sites.push_back(places().point(id));
-  return now;
+Sites DynamicTriangulation::Impl::sites_of(std::span<const Index> ids) const {
+  std::vector<Point> sites;
+  sites.reserve(ids.size());
+  for (const Index id : ids) sites.push_back(places().point(id));
+  return Sites(std::move(sites));
 }
 
 const Snapshot& DynamicTriangulation::Impl::flat_snapshot() const {
   const std::lock_guard guard(mutex);
   if (!flat) {
-    flat = live_sites();
-    flat->triangulation = delaunay(flat->sites, options);
+    Snapshot now;
+    now.ids = dynamic::live_sites(places());
+    now.triangulation = delaunay(sites_of(now.ids), options, {.threads = 1});
+    flat = std::move(now);
   }
   return *flat;
 }
@@ -138,27 +134,19 @@ DynamicTriangulation::DynamicTriangulation(const Options& options) {
   impl_ = std::make_unique<Impl>(options);
 }
 
-DynamicTriangulation::DynamicTriangulation(std::span<const Point> sites, const Options& options)
-    : DynamicTriangulation(delaunay(sites, options), sites) {}
+DynamicTriangulation::DynamicTriangulation(std::span<const Point> sites, const Options& options,
+                                           const Execution& execution)
+    : DynamicTriangulation(delaunay(Sites::view(sites), options, execution), execution) {}
 
 DynamicTriangulation::DynamicTriangulation(const Triangulation& triangulation,
-                                           std::span<const Point> sites) {
-  const system::ArithmeticScope arithmetic;
-  if (sites.size() != triangulation.num_sites()) {
-    throw InvalidInput("there are " + std::to_string(sites.size()) +
-                           " sites for a triangulation of " +
-                           std::to_string(triangulation.num_sites()),
-                       std::min(sites.size(), triangulation.num_sites()));
-  }
-  Options options;
-  options.model = triangulation.model();
-  options.sphere = triangulation.sphere();
-  options.threads = triangulation.report().threads;
-  impl_ = std::make_unique<Impl>(options);
+                                           const Execution& execution) {
+  const system::Call call(execution);
+  const auto sites = triangulation.sites().points();
+  impl_ = std::make_unique<Impl>(Options{triangulation.model(), triangulation.sphere()});
   impl_->visit([&](auto& e) { e.assign_points(sites); });
   std::vector<Index> ids(sites.size());
   std::iota(ids.begin(), ids.end(), Index{0});
-  impl_->assign(triangulation, sites, ids);
+  impl_->assign(triangulation, ids, execution);
 }
 
 DynamicTriangulation::~DynamicTriangulation() = default;
@@ -180,15 +168,16 @@ Index DynamicTriangulation::insert(const Point& site, Index hint) {
   return impl_->change([&](auto& e) { return e.insert(site, hint); });
 }
 
-std::vector<Index> DynamicTriangulation::insert(std::span<const Point> sites) {
-  const system::ArithmeticScope arithmetic;
+std::vector<Index> DynamicTriangulation::insert(std::span<const Point> sites,
+                                                const Execution& execution) {
+  const system::Call call(execution);
   api::validate(sites, impl_->options);
   impl_->require_room(sites.size());
   const bool is_rebuilt =
       is_build_faster(sites.size(), builds_of_insertion, num_sites() + sites.size());
   return impl_->change([&](auto& e) {
-    return is_rebuilt ? e.insert(sites, [&] { impl_->rebuild(impl_->range_threads); })
-                      : e.insert(sites);
+    return is_rebuilt ? e.insert(sites, [&] { impl_->rebuild(execution); })
+                      : e.insert(sites, execution);
   });
 }
 
@@ -198,12 +187,12 @@ void DynamicTriangulation::remove(Index id) {
   impl_->change([&](auto& e) { e.remove(id); });
 }
 
-void DynamicTriangulation::remove(std::span<const Index> ids) {
-  const system::ArithmeticScope arithmetic;
+void DynamicTriangulation::remove(std::span<const Index> ids, const Execution& execution) {
+  const system::Call call(execution);
   impl_->require_distinct_sites(ids);
   const bool is_rebuilt = is_build_faster(ids.size(), builds_of_removal, num_sites() - ids.size());
   impl_->change([&](auto& e) {
-    is_rebuilt ? e.remove(ids, [&] { impl_->rebuild(impl_->range_threads); }) : e.remove(ids);
+    is_rebuilt ? e.remove(ids, [&] { impl_->rebuild(execution); }) : e.remove(ids, execution);
   });
 }
 
@@ -211,11 +200,12 @@ void DynamicTriangulation::move(Index id, const Point& to) {
   const system::ArithmeticScope arithmetic;
   impl_->require_site(id, 0);
   api::validate({&to, 1}, impl_->options);
-  impl_->change([&](auto& e) { e.move({&id, 1}, {&to, 1}); });
+  impl_->change([&](auto& e) { e.move({&id, 1}, {&to, 1}, {}); });
 }
 
-void DynamicTriangulation::move(std::span<const Index> ids, std::span<const Point> to) {
-  const system::ArithmeticScope arithmetic;
+void DynamicTriangulation::move(std::span<const Index> ids, std::span<const Point> to,
+                                const Execution& execution) {
+  const system::Call call(execution);
   if (ids.size() != to.size()) {
     throw InvalidInput("there are " + std::to_string(to.size()) + " points for " +
                            std::to_string(ids.size()) + " sites to move",
@@ -225,7 +215,7 @@ void DynamicTriangulation::move(std::span<const Index> ids, std::span<const Poin
   api::validate(to, impl_->options);
   const bool is_rebuilt = is_build_faster(ids.size(), builds_of_move, num_sites());
   impl_->change([&](auto& e) {
-    is_rebuilt ? e.move(ids, to, [&] { impl_->rebuild(impl_->range_threads); }) : e.move(ids, to);
+    is_rebuilt ? e.move(ids, to, [&] { impl_->rebuild(execution); }) : e.move(ids, to, execution);
   });
 }
 
@@ -319,12 +309,14 @@ Snapshot DynamicTriangulation::snapshot() const {
   const system::ArithmeticScope arithmetic;
   if (!impl_->current().has_hull()) return impl_->flat_snapshot();
   return impl_->visit([this](const auto& e) {
-    Snapshot now = impl_->live_sites();
-    now.triangulation = {dynamic::make_arrays(e.places(), now.ids, now.sites, e.hull()->mesh(),
-                                              e.hull()->kinds(), e.hull()->hidden(),
-                                              impl_->options.model, impl_->options.sphere.center),
-                         impl_->options,
-                         {}};
+    Snapshot now;
+    now.ids = dynamic::live_sites(e.places());
+    Sites sites = impl_->sites_of(now.ids);
+    auto arrays = dynamic::make_arrays(e.places(), now.ids, sites.points(), e.hull()->mesh(),
+                                       e.hull()->kinds(), e.hull()->hidden(), impl_->options.model,
+                                       impl_->options.sphere.center);
+    now.triangulation =
+        api::make_triangulation(std::move(sites), std::move(arrays), impl_->options, {});
     return now;
   });
 }

@@ -55,11 +55,11 @@ struct DynamicTriangulation::Impl {
   void require_room(std::size_t more) const;
 
   // Takes a build of sites; `ids` are theirs, of all that are there.
-  void assign(const Triangulation& triangulation, std::span<const Point> sites,
-              std::span<const Index> ids);
+  void assign(const Triangulation& triangulation, std::span<const Index> ids,
+              const Execution& execution);
 
   // Makes all that follows from the sites anew.
-  void rebuild(unsigned threads);
+  void rebuild(const Execution& execution);
 
   // This, in pieces no longer: what follows from the sites is made anew if a change has failed.
   // Several threads may ask.
@@ -78,8 +78,8 @@ struct DynamicTriangulation::Impl {
     }
   }
 
-  // A snapshot without its triangulation.
-  [[nodiscard]] Snapshot live_sites() const;
+  // The sites with these ids.
+  [[nodiscard]] Sites sites_of(std::span<const Index> ids) const;
 
   // Below dimension 2 there is no hull to ask. A snapshot answers, made when first needed.
   [[nodiscard]] bool has_hull() const {
@@ -89,7 +89,6 @@ struct DynamicTriangulation::Impl {
   [[nodiscard]] std::vector<Index> flat_ring() const;
 
   Options options;
-  unsigned range_threads;  // of a build for a range of changes
   std::variant<dynamic::Editor<models::ProjectedPoints>, dynamic::Editor<models::WeightedPoints>>
       editor;
   std::atomic<bool> is_in_pieces = false;

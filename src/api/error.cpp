@@ -5,8 +5,6 @@
 
 #include "rondel/error.h"
 
-#include "rondel/interrupt.h"
-
 namespace rondel {
 
 InvalidInput::InvalidInput(const std::string& message, std::size_t index)

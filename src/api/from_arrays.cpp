@@ -3,20 +3,22 @@
 
 // Arrays that come from elsewhere are looked at before anything walks through them. What is proved:
 //
-// 1. Indices are in range, and every site is a vertex, hidden, or a duplicate of one of these.
-// 2. Neighbors agree: across edge i of face f lies the face that has the same two corners in the
-//    other order, and it names f.
+// 1. Indices are in range, and every site is a vertex, a duplicate of a vertex or of a hidden site
+//    in its place, or hidden: one of these.
+// 2. Neighbors agree: across edge i of face f lies the face that has the same two corners in the other
+//    order, and it names f.
 // 3. The faces at a corner make one turn around it. So the surface is closed and without pinches.
 // 4. It is connected and has 2V - 4 faces, so that it is a sphere.
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "api/triangulation_impl.h"
 #include "api/validation.h"
 #include "rondel/error.h"
-#include "rondel/triangulation.h"
+#include "rondel/predicates.h"
+#include "system/arithmetic.h"
 
 namespace rondel {
 namespace {
@@ -31,24 +33,28 @@ std::string name_of(const char* array, std::size_t index) {
 
 class Inspection {
  public:
-  explicit Inspection(const TriangulationArrays& arrays)
-      : arrays_(arrays), num_sites_(arrays.num_sites), is_vertex_(arrays.num_sites, true) {}
+  Inspection(std::span<const Point> sites, const TriangulationParts& parts, const Options& options)
+      : sites_(sites),
+        parts_(parts),
+        options_(options),
+        num_sites_(sites.size()),
+        is_vertex_(sites.size(), true) {}
 
   void run() {
     look_at_duplicates();
     look_at_hidden();
-    num_vertices_ = num_sites_ - arrays_.duplicates.size() - arrays_.hidden.size();
-    for (std::size_t i = 0; i < arrays_.ghost_faces.size(); ++i) {
-      const bool is_next = i == 0 || arrays_.ghost_faces[i - 1] < arrays_.ghost_faces[i];
-      if (!is_next || arrays_.ghost_faces[i] >= arrays_.faces.size()) {
+    num_vertices_ = num_sites_ - parts_.duplicates.size() - parts_.hidden.size();
+    for (std::size_t i = 0; i < parts_.ghost_faces.size(); ++i) {
+      const bool is_next = i == 0 || parts_.ghost_faces[i - 1] < parts_.ghost_faces[i];
+      if (!is_next || parts_.ghost_faces[i] >= parts_.faces.size()) {
         refuse(name_of("ghost_faces", i) + " is not the next face", i);
       }
     }
-    if (arrays_.neighbors.size() != arrays_.faces.size()) {
+    if (parts_.neighbors.size() != parts_.faces.size()) {
       refuse("there is not one row of neighbors for each face",
-             std::min(arrays_.neighbors.size(), arrays_.faces.size()));
+             std::min(parts_.neighbors.size(), parts_.faces.size()));
     }
-    if (arrays_.dimension == 2) {
+    if (parts_.dimension == 2) {
       look_at_surface();
     } else {
       look_at_ring();
@@ -57,10 +63,11 @@ class Inspection {
 
  private:
   void look_at_duplicates() {
-    for (std::size_t i = 0; i < arrays_.duplicates.size(); ++i) {
-      const auto [site, lowest] = arrays_.duplicates[i];
-      const bool is_next = i == 0 || arrays_.duplicates[i - 1].site < site;
-      if (!is_next || site >= num_sites_ || lowest >= site || !is_vertex_[lowest]) {
+    for (std::size_t i = 0; i < parts_.duplicates.size(); ++i) {
+      const auto [site, lowest] = parts_.duplicates[i];
+      const bool is_next = i == 0 || parts_.duplicates[i - 1].site < site;
+      if (!is_next || site >= num_sites_ || lowest >= site || !is_vertex_[lowest] ||
+          !is_same_site(sites_[site], sites_[lowest], options_.model, options_.sphere)) {
         refuse(name_of("duplicates", i) + " is no site with the lowest one in its place", i);
       }
       is_vertex_[site] = false;
@@ -68,10 +75,10 @@ class Inspection {
   }
 
   void look_at_hidden() {
-    for (std::size_t i = 0; i < arrays_.hidden.size(); ++i) {
-      const auto [site, face] = arrays_.hidden[i];
-      const bool is_next = i == 0 || arrays_.hidden[i - 1].site < site;
-      const bool has_face = arrays_.dimension == 2 ? face < arrays_.faces.size() : face == no_index;
+    for (std::size_t i = 0; i < parts_.hidden.size(); ++i) {
+      const auto [site, face] = parts_.hidden[i];
+      const bool is_next = i == 0 || parts_.hidden[i - 1].site < site;
+      const bool has_face = parts_.dimension == 2 ? face < parts_.faces.size() : face == no_index;
       if (!is_next || !has_face || site >= num_sites_ || !is_vertex_[site]) {
         refuse(name_of("hidden", i) + " is no site with a face above it", i);
       }
@@ -81,14 +88,14 @@ class Inspection {
 
   void look_at_ring() {
     const int dimension = num_vertices_ < 2 ? static_cast<int>(num_vertices_) - 1 : 1;
-    if (arrays_.dimension != dimension) {
-      refuse("dimension " + std::to_string(arrays_.dimension) + " with " +
+    if (parts_.dimension != dimension) {
+      refuse("dimension " + std::to_string(parts_.dimension) + " with " +
                  std::to_string(num_vertices_) + " vertices",
              0);
     }
-    if (!arrays_.faces.empty()) refuse("there are faces below dimension 2", 0);
-    for (std::size_t i = 0; i < arrays_.ring.size(); ++i) take_vertex(arrays_.ring[i], "ring", i);
-    if (arrays_.ring.size() != num_vertices_) refuse("the ring leaves vertices out", 0);
+    if (!parts_.faces.empty()) refuse("there are faces below dimension 2", 0);
+    for (std::size_t i = 0; i < parts_.ring.size(); ++i) take_vertex(parts_.ring[i], "ring", i);
+    if (parts_.ring.size() != num_vertices_) refuse("the ring leaves vertices out", 0);
   }
 
   // Every vertex is met once.
@@ -102,28 +109,28 @@ class Inspection {
   }
 
   void look_at_surface() {
-    if (!arrays_.ring.empty()) refuse("there is a ring in dimension 2", 0);
-    if (num_vertices_ < 3 || arrays_.faces.size() != 2 * num_vertices_ - 4) {
-      refuse(std::to_string(arrays_.faces.size()) + " faces with " + std::to_string(num_vertices_) +
+    if (!parts_.ring.empty()) refuse("there is a ring in dimension 2", 0);
+    if (num_vertices_ < 3 || parts_.faces.size() != 2 * num_vertices_ - 4) {
+      refuse(std::to_string(parts_.faces.size()) + " faces with " + std::to_string(num_vertices_) +
                  " vertices",
              0);
     }
-    for (std::size_t f = 0; f < arrays_.faces.size(); ++f) look_at_face(f);
-    for (std::size_t f = 0; f < arrays_.faces.size(); ++f) look_across(f);
+    for (std::size_t f = 0; f < parts_.faces.size(); ++f) look_at_face(f);
+    for (std::size_t f = 0; f < parts_.faces.size(); ++f) look_across(f);
     turn_around_vertices();
     require_connected();
   }
 
   void look_at_face(std::size_t f) const {
-    const auto& [a, b, c] = arrays_.faces[f];
+    const auto& [a, b, c] = parts_.faces[f];
     for (const Index v : {a, b, c}) {
       if (v >= num_sites_ || !is_vertex_[v]) {
         refuse(name_of("faces", f) + " names " + std::to_string(v) + ", which is no vertex", f);
       }
     }
     if (a == b || b == c || c == a) refuse(name_of("faces", f) + " names a vertex twice", f);
-    for (const Index g : arrays_.neighbors[f]) {
-      if (g >= arrays_.faces.size()) {
+    for (const Index g : parts_.neighbors[f]) {
+      if (g >= parts_.faces.size()) {
         refuse(
             name_of("neighbors", f) + " names face " + std::to_string(g) + ", which is not there",
             f);
@@ -134,13 +141,13 @@ class Inspection {
   // In a pair of faces back to back each has three edges with the other: the corners tell which.
   void look_across(std::size_t f) const {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Index from = arrays_.faces[f][(i + 1) % 3];
-      const Index to = arrays_.faces[f][(i + 2) % 3];
-      const Index g = arrays_.neighbors[f][i];
+      const Index from = parts_.faces[f][(i + 1) % 3];
+      const Index to = parts_.faces[f][(i + 2) % 3];
+      const Index g = parts_.neighbors[f][i];
       bool is_mutual = false;
       for (std::size_t j = 0; j < 3; ++j) {
-        is_mutual |= arrays_.faces[g][(j + 1) % 3] == to && arrays_.faces[g][(j + 2) % 3] == from &&
-                     arrays_.neighbors[g][j] == f;
+        is_mutual |= parts_.faces[g][(j + 1) % 3] == to && parts_.faces[g][(j + 2) % 3] == from &&
+                     parts_.neighbors[g][j] == f;
       }
       if (!is_mutual) {
         refuse(name_of("neighbors", f) + " names face " + std::to_string(g) +
@@ -152,46 +159,48 @@ class Inspection {
 
   // A turn begins at the first face that names a vertex, and must meet all corners there are.
   void turn_around_vertices() {
-    std::vector<bool> is_met(3 * arrays_.faces.size());
-    for (std::size_t f = 0; f < arrays_.faces.size(); ++f) {
+    std::vector<bool> is_met(3 * parts_.faces.size());
+    for (std::size_t f = 0; f < parts_.faces.size(); ++f) {
       for (std::size_t i = 0; i < 3; ++i) {
         if (is_met[3 * f + i]) continue;
-        take_vertex(arrays_.faces[f][i], "faces", f);
+        take_vertex(parts_.faces[f][i], "faces", f);
         turn(f, i, is_met);
       }
     }
   }
   void turn(std::size_t first, std::size_t corner, std::vector<bool>& is_met) const {
-    const Index vertex = arrays_.faces[first][corner];
+    const Index vertex = parts_.faces[first][corner];
     std::size_t f = first;
     std::size_t i = corner;
     do {
       is_met[3 * f + i] = true;
-      f = arrays_.neighbors[f][(i + 1) % 3];
+      f = parts_.neighbors[f][(i + 1) % 3];
       i = 0;
-      while (arrays_.faces[f][i] != vertex) ++i;
+      while (parts_.faces[f][i] != vertex) ++i;
     } while (f != first);
   }
 
   void require_connected() const {
-    std::vector<bool> is_met(arrays_.faces.size());
+    std::vector<bool> is_met(parts_.faces.size());
     std::vector<Index> to_visit = {0};
     is_met[0] = true;
     std::size_t num_met = 1;
     while (!to_visit.empty()) {
       const Index f = to_visit.back();
       to_visit.pop_back();
-      for (const Index g : arrays_.neighbors[f]) {
+      for (const Index g : parts_.neighbors[f]) {
         if (is_met[g]) continue;
         is_met[g] = true;
         ++num_met;
         to_visit.push_back(g);
       }
     }
-    if (num_met != arrays_.faces.size()) refuse("the surface has several parts", 0);
+    if (num_met != parts_.faces.size()) refuse("the surface has several parts", 0);
   }
 
-  const TriangulationArrays& arrays_;
+  std::span<const Point> sites_;
+  const TriangulationParts& parts_;
+  const Options& options_;
   std::size_t num_sites_;
   std::size_t num_vertices_ = 0;
   std::vector<bool> is_vertex_;  // and not met yet
@@ -199,10 +208,24 @@ class Inspection {
 
 }  // namespace
 
-Triangulation Triangulation::from_arrays(TriangulationArrays arrays, const Options& options) {
-  api::validate(options, arrays.num_sites);
-  Inspection(arrays).run();
-  return {std::move(arrays), options, {}};
+Triangulation Triangulation::from_arrays(Sites sites, const TriangulationParts& parts,
+                                         const Options& options) {
+  const system::ArithmeticScope arithmetic;
+  api::validate(sites.points(), options);
+  Inspection(sites.points(), parts, options).run();
+  const auto copy = [](const auto& values, auto& copies) {
+    copies.assign(values.begin(), values.end());
+  };
+  TriangulationArrays arrays;
+  arrays.num_sites = sites.size();
+  arrays.dimension = parts.dimension;
+  copy(parts.faces, arrays.faces);
+  copy(parts.neighbors, arrays.neighbors);
+  copy(parts.ghost_faces, arrays.ghost_faces);
+  copy(parts.ring, arrays.ring);
+  copy(parts.duplicates, arrays.duplicates);
+  copy(parts.hidden, arrays.hidden);
+  return api::make_triangulation(std::move(sites), std::move(arrays), options, {});
 }
 
 }  // namespace rondel

@@ -6,14 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <string>
+#include <utility>
 
 #include "api/build.h"
 #include "api/validation.h"
 #include "exact/vector.h"
 #include "hidden/inner_point.h"
-#include "rondel/error.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 
 namespace rondel {
 namespace {
@@ -45,32 +44,25 @@ int exponent_of(std::span<const Point> points) {
 
 }  // namespace
 
-Triangulation convex_hull(std::span<const Point> points, const HullOptions& options) {
-  const system::ArithmeticScope arithmetic;
-  Options build_options;
-  build_options.model = Model::weighted;
-  build_options.threads = options.threads;
-  build_options.progress = options.progress;
-  api::validate(points, build_options);
-  const auto inner = hidden::find_inner_point(points);
+Triangulation convex_hull(Sites points, const Execution& execution) {
+  const system::Call call(execution);
+  system::Job job{{.model = Model::weighted}, execution};
+  api::validate(points.points(), job);
+  const auto inner = hidden::find_inner_point(points.points());
   const Point center =
-      (inner.is_inside ? hidden::find_middle(points) : std::nullopt).value_or(inner.point);
+      (inner.is_inside ? hidden::find_middle(points.points()) : std::nullopt).value_or(inner.point);
   // Adding 0 turns -0 into 0: which of them is found first depends on the order of input.
-  build_options.sphere.center = {center.x + 0.0, center.y + 0.0, center.z + 0.0};
-  return api::build(points, build_options, &inner);
+  job.sphere.center = {center.x + 0.0, center.y + 0.0, center.z + 0.0};
+  return api::build(std::move(points), job, &inner);
 }
 
-Triangulation convex_hull(std::span<const double> xyz, const HullOptions& options) {
-  return convex_hull(api::as_points(xyz), options);
+Triangulation convex_hull(std::span<const double> xyz, const Execution& execution) {
+  return convex_hull(Sites(api::as_points(xyz)), execution);
 }
 
-HullSize size_of_hull(const Triangulation& hull, std::span<const Point> points) {
+HullSize size_of_hull(const Triangulation& hull) {
   const system::ArithmeticScope arithmetic;
-  if (points.size() != hull.num_sites()) {
-    throw InvalidInput(
-        std::to_string(points.size()) + " points for a hull of " + std::to_string(hull.num_sites()),
-        0);
-  }
+  const auto points = hull.sites().points();
   const int exponent = exponent_of(points);
   const double scale = std::ldexp(1.0, -exponent);
   const auto scaled = [scale](const Point& p) {

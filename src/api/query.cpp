@@ -13,14 +13,13 @@
 
 #include "api/dynamic_impl.h"
 #include "api/validation.h"
-#include "dual/split_sites.h"
 #include "dynamic/query_engine.h"
 #include "query/batch.h"
 #include "query/directory.h"
 #include "query/distance.h"
 #include "query/engine.h"
 #include "rondel/error.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 
 namespace rondel {
 namespace {
@@ -50,13 +49,15 @@ struct RangeLists {
 
 class Locator::Impl {
  public:
-  Impl(const Triangulation& triangulation, std::span<const Point> sites)
-      : Impl(triangulation, sites, {}) {}
-
-  // The sites of the snapshot are named by their ids.
-  explicit Impl(Snapshot snapshot)
-      : Impl(snapshot.triangulation, snapshot.sites, std::move(snapshot.ids)) {
-    sites_ = std::move(snapshot.sites);
+  // `ids`, if any, name the sites.
+  explicit Impl(const Triangulation& triangulation, std::vector<Index> ids = {})
+      : model_(triangulation.model()),
+        sphere_(triangulation.sphere()),
+        sites_(triangulation.sites()) {
+    auto directory =
+        std::make_unique<query::BuiltDirectory>(triangulation, sites_.points(), std::move(ids));
+    engine_ = query::make_engine(triangulation, sites_.points(), directory->vertices());
+    directory_ = std::move(directory);
   }
 
   template <models::SphereModel T>
@@ -122,16 +123,9 @@ class Locator::Impl {
                                  unsigned threads) const;
 
  private:
-  Impl(const Triangulation& triangulation, std::span<const Point> sites, std::vector<Index> ids)
-      : model_(triangulation.model()), sphere_(triangulation.sphere()) {
-    auto directory = std::make_unique<query::BuiltDirectory>(triangulation, sites, std::move(ids));
-    engine_ = query::make_engine(triangulation, sites, directory->vertices());
-    directory_ = std::move(directory);
-  }
-
   Model model_;
   Sphere sphere_;
-  std::vector<Point> sites_;  // of a snapshot: the same memory that the others refer to
+  Sites sites_;  // the others refer to them
   std::unique_ptr<query::Directory> directory_;
   std::unique_ptr<query::Engine> engine_;
 };
@@ -180,16 +174,16 @@ SiteLists Locator::Impl::within(std::span<const Point> queries, const Limit& lim
   return result;
 }
 
-Locator::Locator(const Triangulation& triangulation, std::span<const Point> sites) {
+Locator::Locator(const Triangulation& triangulation) {
   const system::ArithmeticScope arithmetic;
-  dual::check_size(triangulation, sites.size());
-  impl_ = std::make_unique<const Impl>(triangulation, sites);
+  impl_ = std::make_unique<const Impl>(triangulation);
 }
 Locator::Locator(const DynamicTriangulation& triangulation) {
   const system::ArithmeticScope arithmetic;
   const DynamicTriangulation::Impl& changing = triangulation.impl_->current();
   if (!changing.has_hull()) {
-    impl_ = std::make_unique<const Impl>(changing.flat_snapshot());
+    const Snapshot& now = changing.flat_snapshot();
+    impl_ = std::make_unique<const Impl>(now.triangulation, now.ids);
     return;
   }
   impl_ = changing.visit([&changing](const auto& editor) {
@@ -208,12 +202,13 @@ Location Locator::locate(const Point& query) const {
   return impl_->renamed(impl_->engine().locate(query, cursor));
 }
 
-std::vector<Location> Locator::locate(std::span<const Point> queries, unsigned threads) const {
-  const system::ArithmeticScope arithmetic;
+std::vector<Location> Locator::locate(std::span<const Point> queries,
+                                      const Execution& execution) const {
+  const system::Call call(execution);
   impl_->validate(queries);
   std::vector<Location> result(queries.size());
   if (impl_->is_empty()) return result;
-  impl_->for_each_query(queries, threads, [&](Index i, Cursor& cursor) {
+  impl_->for_each_query(queries, execution.threads, [&](Index i, Cursor& cursor) {
     result[i] = impl_->renamed(impl_->engine().locate(queries[i], cursor));
   });
   return result;
@@ -227,12 +222,13 @@ Index Locator::nearest(const Point& query) const {
   return impl_->name(impl_->engine().nearest(query, cursor));
 }
 
-std::vector<Index> Locator::nearest(std::span<const Point> queries, unsigned threads) const {
-  const system::ArithmeticScope arithmetic;
+std::vector<Index> Locator::nearest(std::span<const Point> queries,
+                                    const Execution& execution) const {
+  const system::Call call(execution);
   impl_->validate(queries);
   std::vector<Index> result(queries.size(), no_index);
   if (impl_->is_empty()) return result;
-  impl_->for_each_query(queries, threads, [&](Index i, Cursor& cursor) {
+  impl_->for_each_query(queries, execution.threads, [&](Index i, Cursor& cursor) {
     result[i] = impl_->name(impl_->engine().nearest(queries[i], cursor));
   });
   return result;
@@ -250,8 +246,8 @@ std::vector<Index> Locator::k_nearest(const Point& query, std::size_t k) const {
 }
 
 std::vector<Index> Locator::k_nearest(std::span<const Point> queries, std::size_t k,
-                                      unsigned threads) const {
-  const system::ArithmeticScope arithmetic;
+                                      const Execution& execution) const {
+  const system::Call call(execution);
   impl_->validate(queries);
   std::vector<Index> result;
   if (!queries.empty() && k > result.max_size() / queries.size()) {
@@ -261,7 +257,7 @@ std::vector<Index> Locator::k_nearest(std::span<const Point> queries, std::size_
   }
   result.assign(queries.size() * k, no_index);
   if (impl_->is_empty() || k == 0) return result;
-  impl_->for_each_query(queries, threads, [&](Index i, Cursor& cursor) {
+  impl_->for_each_query(queries, execution.threads, [&](Index i, Cursor& cursor) {
     std::vector<Index>& found = cursor.scratch.found;
     found.clear();
     impl_->engine().k_nearest(queries[i], k, cursor, found);
@@ -280,11 +276,12 @@ std::vector<Index> Locator::within(const Point& query, double angle) const {
   return impl_->within(query, limit_of(angle), cursor);
 }
 
-SiteLists Locator::within(std::span<const Point> queries, double angle, unsigned threads) const {
-  const system::ArithmeticScope arithmetic;
+SiteLists Locator::within(std::span<const Point> queries, double angle,
+                          const Execution& execution) const {
+  const system::Call call(execution);
   impl_->validate(queries);
   check_angle(angle);
-  if (!impl_->is_empty()) return impl_->within(queries, limit_of(angle), threads);
+  if (!impl_->is_empty()) return impl_->within(queries, limit_of(angle), execution.threads);
   SiteLists none;
   none.offsets.assign(queries.size() + 1, 0);
   return none;

@@ -30,8 +30,8 @@ void find_sizes(Input& input) {
 
 }  // namespace
 
-Input make_input(std::span<const Point> sites, std::span<const Index> order, const Options& options,
-                 const system::SiteCopies& copies) {
+Input make_input(std::span<const Point> sites, std::span<const Index> order,
+                 const system::Job& options, const system::SiteCopies& copies) {
   Input input = {sites, order, options, copies};
   if (options.model == Model::weighted) find_sizes(input);
   return input;

@@ -9,6 +9,7 @@
 #include "bulk/square_sites.h"
 #include "order/cube_position.h"
 #include "rondel/triangulation.h"
+#include "system/job.h"
 #include "system/site_copies.h"
 
 namespace rondel::bulk {
@@ -17,7 +18,7 @@ namespace rondel::bulk {
 struct Input {
   std::span<const Point> sites;
   std::span<const Index> order;  // the site of each rank
-  Options options;
+  system::Job options;
   system::SiteCopies copies{};  // of the sites by rank, or none
   Extent extent{};
 
@@ -30,7 +31,7 @@ struct Input {
 };
 
 // Also finds the extent.
-Input make_input(std::span<const Point> sites, std::span<const Index> order, const Options& options,
-                 const system::SiteCopies& copies = {});
+Input make_input(std::span<const Point> sites, std::span<const Index> order,
+                 const system::Job& options, const system::SiteCopies& copies = {});
 
 }  // namespace rondel::bulk

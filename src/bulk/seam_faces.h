@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bulk/faces.h"
+#include "topology/triangulation_arrays.h"
 
 namespace rondel::bulk {
 

@@ -103,6 +103,7 @@ class SphereTriangulation {
       if (!is_complete()) return std::nullopt;
     }
     Triangulated result;
+    result.builder = Builder::sphere;
     result.tally = tally_;
     write(hidden, result.arrays);
     return result;

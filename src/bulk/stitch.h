@@ -13,6 +13,7 @@
 #include <span>
 
 #include "bulk/faces.h"
+#include "topology/triangulation_arrays.h"
 
 namespace rondel::bulk {
 

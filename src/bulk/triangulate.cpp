@@ -137,7 +137,7 @@ bool suit_sphere(const Input& input, std::size_t most_sites) {
 }
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
-                         std::span<const order::Renamed> renamed, const Options& options,
+                         std::span<const order::Renamed> renamed, const system::Job& options,
                          std::size_t most_sphere_sites, LargeVector<Triple> copies);
 
 // The seam sites in their order. Most of them lie along borders of blocks, so blocks would not
@@ -150,7 +150,7 @@ Triangulated triangulate_seam(const Input& input, std::span<const BlockResult> r
   }
   std::vector<Index> order(sites.size());
   std::iota(order.begin(), order.end(), Index{0});
-  Options options = input.options;
+  system::Job options = input.options;
   options.progress = {};
   if (2 * sites.size() >= num_ranks)
     return kernel::triangulate(sites, std::move(order), {}, options);
@@ -166,6 +166,7 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const order:
   const auto blocks = make_blocks(static_cast<Index>(num_ranks), max_block_sites,
                                   [&](Index rank) { return input.position(rank); });
   Triangulated result;
+  result.builder = Builder::blocks;
   result.arrays.faces = std::move(copies);
   result.arrays.faces.resize(2 * num_ranks);
   result.arrays.neighbors.resize(2 * num_ranks);
@@ -190,7 +191,7 @@ std::optional<Triangulated> by_blocks(const Input& input, std::span<const order:
 }
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
-                         std::span<const order::Renamed> renamed, const Options& options,
+                         std::span<const order::Renamed> renamed, const system::Job& options,
                          std::size_t most_sphere_sites, LargeVector<Triple> copies) {
   const Input input = make_input(sites, order, options, system::SiteCopies(std::span(copies)));
   std::optional<bool> trial;  // it takes time, and may not be needed
@@ -216,7 +217,7 @@ Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
 std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
                                                   std::span<const Index> order,
                                                   std::span<const order::Renamed> renamed,
-                                                  const Options& options,
+                                                  const system::Job& options,
                                                   std::size_t max_block_sites,
                                                   LargeVector<Triple> copies) {
   const Input input = make_input(sites, order, options, system::SiteCopies(std::span(copies)));
@@ -224,7 +225,7 @@ std::optional<Triangulated> triangulate_by_blocks(std::span<const Point> sites,
 }
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
-                         std::span<const order::Renamed> renamed, const Options& options,
+                         std::span<const order::Renamed> renamed, const system::Job& options,
                          LargeVector<Triple> copies) {
   return triangulate(sites, std::move(order), renamed, options, sphere_sites, std::move(copies));
 }

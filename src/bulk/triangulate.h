@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "kernel/triangulate.h"
-#include "rondel/large_vector.h"
+#include "system/large_vector.h"
 
 namespace rondel::bulk {
 
@@ -29,15 +29,15 @@ inline constexpr std::size_t least_copied_sites = std::size_t{3} << 18;
 // As kernel::triangulate. `copies` is empty, or system::SiteCopies of the sites by rank lie in
 // its memory, which becomes that of the faces.
 kernel::Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
-                                 std::span<const order::Renamed> renamed, const Options& options,
-                                 LargeVector<Triple> copies = {});
+                                 std::span<const order::Renamed> renamed,
+                                 const system::Job& options, LargeVector<Triple> copies = {});
 
 // The same with blocks of at most so many sites, or nothing if the sites do not suit this: when the
 // seam has no hull, because all its sites lie on one great circle.
 std::optional<kernel::Triangulated> triangulate_by_blocks(std::span<const Point> sites,
                                                           std::span<const Index> order,
                                                           std::span<const order::Renamed> renamed,
-                                                          const Options& options,
+                                                          const system::Job& options,
                                                           std::size_t max_block_sites,
                                                           LargeVector<Triple> copies = {});
 

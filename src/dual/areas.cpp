@@ -15,17 +15,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "dual/great_circle.h"
 #include "dual/local_ring.h"
 #include "dual/parts.h"
-#include "rondel/diagram.h"
-#include "system/arithmetic.h"
 
-namespace rondel {
+namespace rondel::dual {
 namespace {
-
-using dual::LocalRing;
-using dual::RingPoint;
 
 // |z| <= 4. The factor keeps products below 1; they are raised before they underflow.
 constexpr double factor_scale = 0.25;
@@ -55,16 +49,6 @@ double area_of(const LocalRing& ring) {
 
 }  // namespace
 
-double dual::careful_area(RingLocalizer& localize, Index rank) { return area_of(localize(rank)); }
+double careful_area(RingLocalizer& localize, Index rank) { return area_of(localize(rank)); }
 
-std::vector<double> areas(const Triangulation& triangulation, std::span<const Point> sites,
-                          const Cells& cells) {
-  const system::ArithmeticScope arithmetic;
-  const dual::SplitSites split_sites(triangulation, sites);
-  if (triangulation.dimension() < 2) return dual::great_circle_areas(triangulation, split_sites);
-  std::vector<double> result(triangulation.num_sites(), 0.0);
-  dual::measure_cells(triangulation, split_sites, cells, area_of, result);
-  return result;
-}
-
-}  // namespace rondel
+}  // namespace rondel::dual

@@ -15,8 +15,8 @@
 #include "dual/parts.h"
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
-#include "system/arithmetic.h"
 #include "system/huge_pages.h"
+#include "system/job.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
 
@@ -139,7 +139,7 @@ Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& 
   result.offsets = ring_offsets(triangulation, sites, arc_points);
   result.rings = system::large_vector<Index>(result.offsets.back());
   if (areas != nullptr) *areas = system::large_vector<double>(triangulation.num_sites());
-  system::parallel_for(triangulation.report().threads, sites.order().size(), dual::parallel_grain,
+  system::parallel_for(sites.threads(), sites.order().size(), dual::parallel_grain,
                        [&](std::size_t begin, std::size_t end) {
                          CellWriter(triangulation, sites, result)
                              .write(begin, end, arc_points, kites.of.get(),
@@ -157,16 +157,25 @@ Cells dual::cells(const Triangulation& triangulation, const SplitSites& sites,
   return great_circle_cells(triangulation, sites);
 }
 
-Cells cells(const Triangulation& triangulation, std::span<const Point> sites) {
-  const system::ArithmeticScope arithmetic;
-  return dual::cells(triangulation, dual::SplitSites(triangulation, sites), nullptr);
+}  // namespace rondel
+
+namespace rondel {
+
+Cells cells(const Triangulation& triangulation, const Execution& execution) {
+  const system::Call call(execution);
+  return dual::cells(triangulation, dual::SplitSites(triangulation, execution.threads), nullptr);
 }
 
-Diagram diagram(const Triangulation& triangulation, std::span<const Point> sites) {
-  const system::ArithmeticScope arithmetic;
+Diagram diagram(const Triangulation& triangulation, const Execution& execution) {
+  const system::Call call(execution);
   Diagram result;
-  result.cells = dual::cells(triangulation, dual::SplitSites(triangulation, sites), &result.areas);
+  result.cells =
+      dual::cells(triangulation, dual::SplitSites(triangulation, execution.threads), &result.areas);
   return result;
+}
+
+std::vector<double> areas(const Triangulation& triangulation, const Execution& execution) {
+  return diagram(triangulation, execution).areas;
 }
 
 }  // namespace rondel

@@ -12,8 +12,9 @@
 
 #include "dual/great_circle.h"
 #include "dual/local_ring.h"
+#include "dual/parts.h"
 #include "rondel/diagram.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 
 namespace rondel {
 namespace {
@@ -68,15 +69,13 @@ Point centroid_of(const LocalRing& ring) {
 
 }  // namespace
 
-std::vector<Point> centroids(const Triangulation& triangulation, std::span<const Point> sites,
-                             const Cells& cells) {
-  const system::ArithmeticScope arithmetic;
-  const dual::SplitSites split_sites(triangulation, sites);
-  if (triangulation.dimension() < 2) {
-    return dual::great_circle_centroids(triangulation, split_sites);
-  }
-  std::vector<Point> result(sites.size());
-  dual::measure_cells(triangulation, split_sites, cells, centroid_of, result);
+std::vector<Point> centroids(const Triangulation& triangulation, const Execution& execution) {
+  const system::Call call(execution);
+  const dual::SplitSites sites(triangulation, execution.threads);
+  if (triangulation.dimension() < 2) return dual::great_circle_centroids(triangulation, sites);
+  std::vector<Point> result(triangulation.num_sites());
+  dual::measure_cells(triangulation, sites, dual::cells(triangulation, sites, nullptr), centroid_of,
+                      result);
   return result;
 }
 

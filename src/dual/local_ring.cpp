@@ -25,48 +25,7 @@ constexpr double underflow_square = 0x1p-200;
 // 4u.
 constexpr double circumcenter_error = 0x1p-51;
 
-[[noreturn]] void refuse(std::size_t site) {
-  throw InvalidInput(
-      "the cells are not those of the triangulation: see that of site " + std::to_string(site),
-      site);
-}
-
 }  // namespace
-
-void require_rows(const Triangulation& triangulation, const Cells& cells) {
-  const std::size_t n = triangulation.num_sites();
-  if (cells.offsets.size() != n + 1 || cells.offsets[0] != 0 ||
-      cells.points.size() < triangulation.num_faces()) {
-    refuse(0);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (cells.offsets[i + 1] < cells.offsets[i] || cells.offsets[i + 1] > cells.rings.size()) {
-      refuse(i);
-    }
-  }
-  for (const Index position : cells.rings) {
-    if (position >= cells.points.size()) refuse(0);
-  }
-}
-
-void require_ring(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
-                  Index rank) {
-  const auto faces = triangulation.faces();
-  const auto neighbors = triangulation.neighbors();
-  const Index site = sites.order()[rank];
-  Index num_faces = 0;
-  Index first = no_index;
-  Index expected = no_index;
-  for (std::uint64_t k = cells.offsets[site]; k < cells.offsets[site + 1]; ++k) {
-    const Index f = cells.rings[k];
-    if (f >= faces.size()) continue;
-    const Index i = corner_of(faces[f], site);
-    if (faces[f][i] != site || (num_faces > 0 && f != expected)) refuse(site);
-    if (num_faces++ == 0) first = f;
-    expected = neighbors[f][next_corner(i)];
-  }
-  if (num_faces != sites.degree(rank) || expected != first) refuse(site);
-}
 
 const LocalRing& RingLocalizer::operator()(Index rank) {
   const Index site = sites_.order()[rank];

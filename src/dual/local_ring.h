@@ -55,7 +55,7 @@ inline RingPoint ring_point(const Vec& r, double cosine) {
 class RingLocalizer {
  public:
   RingLocalizer(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells)
-      : triangulation_(triangulation), sites_(sites), cells_(cells) {}
+      : num_faces_(triangulation.num_faces()), sites_(sites), cells_(cells) {}
 
   // Precondition: the cell of the vertex of this rank is not empty. The result lives until the next
   // call.
@@ -78,29 +78,19 @@ class RingLocalizer {
   [[nodiscard]] bool is_small(std::span<const Index> ring) const;
 
   [[nodiscard]] Vec point(Index position) const { return to_vector(cells_.points[position]); }
-  [[nodiscard]] bool is_face(Index position) const { return position < triangulation_.num_faces(); }
+  [[nodiscard]] bool is_face(Index position) const { return position < num_faces_; }
 
-  const Triangulation& triangulation_;
+  std::size_t num_faces_;
   const SplitSites& sites_;
   const Cells& cells_;
   LocalRing ring_;
 };
-
-// Cells that a caller brings may be any arrays. Throws InvalidInput unless there is a row for each
-// site, within the rings, with a point for each face and for each position.
-void require_rows(const Triangulation& triangulation, const Cells& cells);
-
-// Throws InvalidInput unless the faces in the ring of this rank are those around its vertex, in
-// order.
-void require_ring(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
-                  Index rank);
 
 // result[site] = measure(local ring) for the cell of every vertex, in parallel and in the order of
 // the ranks. The rings and results lie in the order of the input, so they are asked for ahead.
 template <class T>
 void measure_cells(const Triangulation& triangulation, const SplitSites& sites, const Cells& cells,
                    T (*measure)(const LocalRing&), std::vector<T>& result) {
-  require_rows(triangulation, cells);
   const auto order = sites.order();
   const auto measure_range = [&](std::size_t begin, std::size_t end) {
     RingLocalizer localize(triangulation, sites, cells);
@@ -112,11 +102,10 @@ void measure_cells(const Triangulation& triangulation, const SplitSites& sites, 
         prefetch(&cells.rings[cells.offsets[ahead + 1] - 1]);
         prefetch_to_write(&result[ahead]);
       }
-      require_ring(triangulation, sites, cells, static_cast<Index>(k));
       result[order[k]] = measure(localize(static_cast<Index>(k)));
     }
   };
-  system::parallel_for(triangulation.report().threads, order.size(), parallel_grain, measure_range);
+  system::parallel_for(sites.threads(), order.size(), parallel_grain, measure_range);
 }
 
 }  // namespace rondel::dual

@@ -13,7 +13,7 @@
 #include "dual/ring_walk.h"
 #include "rondel/diagram.h"
 #include "rondel/predicates.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 
 namespace rondel {
 namespace {
@@ -40,11 +40,11 @@ class FaceSets {
 
 class FacetFinder {
  public:
-  FacetFinder(const Triangulation& triangulation, std::span<const Point> sites)
+  FacetFinder(const Triangulation& triangulation, unsigned threads)
       : triangulation_(triangulation),
         faces_(triangulation.faces()),
         neighbors_(triangulation.neighbors()),
-        split_sites_(triangulation, sites),
+        split_sites_(triangulation, threads),
         normals_(dual::circumcenters(triangulation, split_sites_)),
         sets_(faces_.size()) {}
 
@@ -141,9 +141,9 @@ class FacetFinder {
 
 }  // namespace
 
-Polygons merge_cocircular(const Triangulation& triangulation, std::span<const Point> sites) {
-  const system::ArithmeticScope arithmetic;
-  return FacetFinder(triangulation, sites).facets();
+Polygons merge_cocircular(const Triangulation& triangulation, const Execution& execution) {
+  const system::Call call(execution);
+  return FacetFinder(triangulation, execution.threads).facets();
 }
 
 }  // namespace rondel

@@ -6,12 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <string>
 
 #include "dual/exact_normal.h"
 #include "dual/face_batch.h"
 #include "exact/unit_vectors.h"
-#include "rondel/error.h"
 #include "system/huge_pages.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
@@ -39,14 +37,6 @@ exact::SplitPoint scaled_place(const Point& p, int shift) {
 
 }  // namespace
 
-void check_size(const Triangulation& triangulation, std::size_t num_sites) {
-  if (num_sites == triangulation.num_sites()) return;
-  throw InvalidInput("the triangulation was made from " +
-                         std::to_string(triangulation.num_sites()) + " sites, not from " +
-                         std::to_string(num_sites),
-                     std::min(num_sites, triangulation.num_sites()));
-}
-
 Vec normalized(const Vec& v) {
   const double square = dot(v, v);
   if (square < 0x1p-900) {
@@ -58,11 +48,13 @@ Vec normalized(const Vec& v) {
   return {v.x / length, v.y / length, v.z / length};
 }
 
-SplitSites::SplitSites(const Triangulation& triangulation, std::span<const Point> sites)
-    : sites_(sites), center_(triangulation.sphere().center), model_(triangulation.model()) {
-  check_size(triangulation, sites.size());
+SplitSites::SplitSites(const Triangulation& triangulation, unsigned threads)
+    : sites_(triangulation.sites().points()),
+      center_(triangulation.sphere().center),
+      model_(triangulation.model()),
+      threads_(threads) {
   set_order(triangulation);
-  set_places(triangulation.report().threads);
+  set_places();
 }
 
 // Without a branch for new ranks, which would be mispredicted: what belongs to the next new rank is
@@ -99,10 +91,10 @@ void SplitSites::set_order(const Triangulation& triangulation) {
   order_ = {sites_of_ranks_.get(), count};
 }
 
-void SplitSites::set_places(unsigned threads) {
+void SplitSites::set_places() {
   places_ = system::make_large_array<exact::SplitPoint>(order_.size());
   const int shift = is_projected() ? 0 : scale_exponent(sites_);
-  system::parallel_for(threads, order_.size(), parallel_grain,
+  system::parallel_for(threads_, order_.size(), parallel_grain,
                        [&](std::size_t begin, std::size_t end) {
                          const auto order = order_.subspan(begin, end - begin);
                          if (is_projected()) {

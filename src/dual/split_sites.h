@@ -49,16 +49,14 @@ inline Offset offset(const exact::SplitPoint& a, const exact::SplitPoint& b) {
           {x.lo + (b.lo.x - a.lo.x), y.lo + (b.lo.y - a.lo.y), z.lo + (b.lo.z - a.lo.z)}};
 }
 
-// Throws InvalidInput if the triangulation was not made from so many sites.
-void check_size(const Triangulation& triangulation, std::size_t num_sites);
-
 // Vertices are named by their rank: the order in which the faces first come to them (below
 // dimension 2, the order of the ring). Faces are in spatial order and sites are not, so places by
 // rank are near in memory when they are near in space; by site, every corner would miss the caches.
 class SplitSites {
  public:
-  // Throws InvalidInput if the number of sites is not that of the triangulation.
-  SplitSites(const Triangulation& triangulation, std::span<const Point> sites);
+  // Keeps a reference to the sites of the triangulation. At most so many threads work, here and for
+  // what is made of these places.
+  SplitSites(const Triangulation& triangulation, unsigned threads);
 
   // The site of each rank.
   [[nodiscard]] std::span<const Index> order() const { return order_; }
@@ -77,6 +75,7 @@ class SplitSites {
   // Its unit vector, also where the difference is below the smallest double.
   [[nodiscard]] Vec direction(Index a, Index b) const;
 
+  [[nodiscard]] unsigned threads() const { return threads_; }
   [[nodiscard]] bool is_projected() const { return model_ == Model::projected; }
   // The input point of a rank, and all input points.
   [[nodiscard]] const Point& point(Index rank) const { return sites_[order_[rank]]; }
@@ -86,7 +85,7 @@ class SplitSites {
  private:
   [[nodiscard]] bool is_rounded_enough(const Vec& difference) const;
   void set_order(const Triangulation& triangulation);
-  void set_places(unsigned threads);
+  void set_places();
 
   std::span<const Index> order_;
   system::LargeArray<Index> sites_of_ranks_;
@@ -97,6 +96,7 @@ class SplitSites {
   std::span<const Point> sites_;
   Point center_;
   Model model_;
+  unsigned threads_;
 };
 
 }  // namespace rondel::dual

@@ -24,6 +24,7 @@
 #include "kernel/brio.h"
 #include "kernel/great_circle.h"
 #include "models/sphere_traits.h"
+#include "system/job.h"
 
 namespace rondel::dynamic {
 
@@ -55,7 +56,7 @@ class Editor {
   }
 
   // Ids in the order of `points`, although they are inserted in rounds along the spatial order.
-  std::vector<Index> insert(std::span<const Point> points) {
+  std::vector<Index> insert(std::span<const Point> points, const Execution& execution) {
     const auto size = static_cast<Index>(points.size());
     std::vector<std::pair<order::HilbertKey, Index>> order(size);
     std::vector<Index> ids;
@@ -67,10 +68,12 @@ class Editor {
       }
       sites_.rebind(places_.points(), places_.speakers());
       std::ranges::sort(order);
+      std::size_t num_done = 0;
       for (const Index rank : kernel::insertion_order(size)) {
         const Index i = order[rank].second;
         arrive(ids[i], points[i], no_index);
         renumber_if_due();
+        report(execution, ++num_done, size);
       }
     } catch (...) {
       places_.roll_back(ids, false);
@@ -92,7 +95,7 @@ class Editor {
 
   // Backwards in the order in which a range is inserted: what is close leaves together, and what
   // remains is spread evenly. Numbers of places are close enough to the spatial order.
-  void remove(std::span<const Index> sites) {
+  void remove(std::span<const Index> sites, const Execution& execution) {
     std::vector<std::pair<Index, Index>> order;
     order.reserve(sites.size());
     for (const Index site : sites) order.emplace_back(places_.place_of(site), site);
@@ -100,9 +103,11 @@ class Editor {
     std::vector<Index> ranks = kernel::insertion_order(static_cast<Index>(sites.size()));
     std::ranges::reverse(ranks);
     try {
+      std::size_t num_done = 0;
       for (const Index rank : ranks) {
         depart(order[rank].second);
         renumber_if_due();
+        report(execution, ++num_done, sites.size());
       }
       for (const Index site : sites) places_.free_site(site);
     } catch (...) {
@@ -112,7 +117,7 @@ class Editor {
   }
 
   // One after the other; a site may appear again.
-  void move(std::span<const Index> sites, std::span<const Point> to) {
+  void move(std::span<const Index> sites, std::span<const Point> to, const Execution& execution) {
     std::vector<Point> from;
     from.reserve(sites.size());
     try {
@@ -121,6 +126,7 @@ class Editor {
         depart(sites[i]);
         arrive(sites[i], to[i], no_index);
         renumber_if_due();
+        report(execution, i + 1, sites.size());
       }
     } catch (...) {
       restore(sites, from);
@@ -191,6 +197,14 @@ class Editor {
   void adopt_flat() { rebuild(no_index); }
 
  private:
+  // Between the changes of a range.
+  static void report(const Execution& execution, std::size_t num_done, std::size_t num_changes) {
+    if (num_done % 1024 != 0) return;
+    system::obey_stop();
+    system::announce(execution, "change",
+                     static_cast<double>(num_done) / static_cast<double>(num_changes));
+  }
+
   void refresh(Index place) { sites_.set(place, places_.points(), places_.speakers()); }
 
   // After a failed move: the first sites have left these points.

@@ -59,10 +59,11 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
   return arrays;
 }
 
-Build make_build(const Triangulation& triangulation, std::span<const Point> sites) {
+Build make_build(const Triangulation& triangulation, unsigned threads) {
   Build build;
-  auto order = order::spatial_order(sites, triangulation.model(), triangulation.sphere().center,
-                                    triangulation.report().threads);
+  const auto sites = triangulation.sites().points();
+  auto order =
+      order::spatial_order(sites, triangulation.model(), triangulation.sphere().center, threads);
   build.place_of_site.assign(sites.size(), no_index);
   build.speakers = std::move(order.order);
   for (Index place = 0; place < build.speakers.size(); ++place) {

@@ -13,6 +13,7 @@
 #include "kernel/walk.h"
 #include "rondel/triangulation.h"
 #include "topology/mesh.h"
+#include "topology/triangulation_arrays.h"
 
 namespace rondel::dynamic {
 
@@ -32,6 +33,6 @@ struct Build {
   topology::Mesh mesh;
   std::vector<std::array<Index, 2>> hidden;
 };
-Build make_build(const Triangulation& triangulation, std::span<const Point> sites);
+Build make_build(const Triangulation& triangulation, unsigned threads);
 
 }  // namespace rondel::dynamic

@@ -21,7 +21,7 @@
 
 #include "hidden/frame.h"
 #include "predicates/orientation.h"
-#include "rondel/triangulation.h"
+#include "topology/triangulation_arrays.h"
 
 namespace rondel::hidden {
 

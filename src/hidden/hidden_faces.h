@@ -6,8 +6,8 @@
 
 #include <span>
 
-#include "rondel/triangulation.h"
 #include "rondel/types.h"
+#include "topology/triangulation_arrays.h"
 
 namespace rondel::hidden {
 

@@ -128,7 +128,7 @@ bool is_strictly_inside_hull(const Point& p, std::vector<Point> sites) {
   sites.erase(std::unique(sites.begin(), sites.end()), sites.end());
   std::vector<Index> order(sites.size());
   std::iota(order.begin(), order.end(), Index{0});
-  Options options;
+  system::Job options;
   options.model = Model::weighted;
   options.sphere.center = p;
   options.threads = 1;

@@ -28,7 +28,7 @@ constexpr double rounding = 64 * predicates::unit_roundoff;
 double size_of(const Vector& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); }
 
 TriangulationArrays hull_of(std::span<const Point> sites, const Point& center) {
-  Options options;
+  system::Job options;
   options.model = Model::weighted;
   options.sphere.center = center;
   auto order = order::spatial_order(sites, options.model, center, options.threads);

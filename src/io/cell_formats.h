@@ -15,13 +15,16 @@ struct CellsToWrite {
   const Triangulation& triangulation;
   const Diagram& diagram;
   double tolerance_deg;
-  const Progress& progress;
+  const Execution& execution;
 };
 
 // What a caller brings may be any arrays. Throws InvalidInput where a reader of the diagram would leave
-// an array, or the sites are not as many as those of the triangulation.
-void require_diagram(std::size_t num_sites, const Triangulation& triangulation,
-                     const Diagram& diagram);
+// an array.
+void require_diagram(const Triangulation& triangulation, const Diagram& diagram);
+
+// Throws InvalidInput (the first other site) if the sites of the table are not those of the
+// triangulation.
+void require_sites(const SiteTable& table, const Triangulation& triangulation);
 
 // A FeatureCollection with a feature for each cell, in the order of the sites. Its properties are
 // `site`, `area` and the table's columns. A column whose name is taken (by these two or by a column

@@ -8,21 +8,27 @@
 #include "io/cell_formats.h"
 #include "io/ending.h"
 #include "rondel/error.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 
 namespace rondel::io {
 
-void require_diagram(std::size_t num_sites, const Triangulation& triangulation,
-                     const Diagram& diagram) {
+void require_sites(const SiteTable& table, const Triangulation& triangulation) {
+  const auto sites = triangulation.sites().points();
+  const auto [ours, theirs] = std::ranges::mismatch(table.sites, sites);
+  if (ours == table.sites.end() && theirs == sites.end()) return;
+  throw InvalidInput("the sites of the table are not those of the triangulation",
+                     static_cast<std::size_t>(ours - table.sites.begin()));
+}
+
+void require_diagram(const Triangulation& triangulation, const Diagram& diagram) {
   const std::size_t n = triangulation.num_sites();
   const Cells& cells = diagram.cells;
-  const bool is_sized = num_sites == n && diagram.areas.size() == n &&
-                        cells.offsets.size() == n + 1 && cells.offsets.front() == 0 &&
-                        cells.offsets.back() == cells.rings.size() &&
+  const bool is_sized = diagram.areas.size() == n && cells.offsets.size() == n + 1 &&
+                        cells.offsets.front() == 0 && cells.offsets.back() == cells.rings.size() &&
                         cells.points.size() >= triangulation.num_faces();
   if (!is_sized || !std::ranges::is_sorted(cells.offsets) ||
       std::ranges::any_of(cells.rings, [&](Index i) { return i >= cells.points.size(); })) {
-    throw InvalidInput("the sites, the triangulation and the diagram do not belong together", 0);
+    throw InvalidInput("the diagram is not that of the triangulation", 0);
   }
 }
 
@@ -46,12 +52,13 @@ bool can_write_cells(const FileName& file) {
 }
 
 void write_cells(const FileName& output, const SiteTable& table, const Triangulation& triangulation,
-                 const Diagram& diagram, double tolerance_deg, const Progress& progress) {
-  const system::ArithmeticScope arithmetic;
-  io::require_diagram(table.sites.size(), triangulation, diagram);
+                 const Diagram& diagram, double tolerance_deg, const Execution& execution) {
+  const system::Call call(execution);
+  io::require_sites(table, triangulation);
+  io::require_diagram(triangulation, diagram);
   const auto& writer = io::require_format<CellWriter>(cell_writers, output, "cells are written as");
   io::AtomicFile file(output.path);
-  writer.write(file, {table, triangulation, diagram, tolerance_deg, progress});
+  writer.write(file, {table, triangulation, diagram, tolerance_deg, execution});
   file.commit();
 }
 

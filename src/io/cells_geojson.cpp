@@ -11,6 +11,7 @@
 #include "io/number.h"
 #include "io/parallel_write.h"
 #include "map/cell_map.h"
+#include "system/job.h"
 
 namespace rondel::io {
 namespace {
@@ -72,9 +73,8 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
   const std::vector<Column>& columns = cells.table.columns;
   const std::vector<std::string> keys = property_keys(columns);
   const std::size_t n = cells.table.sites.size();
-  const unsigned threads = cells.triangulation.report().threads;
-  const map::CellMap cell_map(cells.table.sites, cells.triangulation, cells.diagram.cells,
-                              cells.tolerance_deg, threads, cells.progress);
+  const map::CellMap cell_map(cells.triangulation, cells.diagram.cells, cells.tolerance_deg,
+                              cells.execution);
   std::size_t first_cell = 0;
   while (first_cell < n && !cell_map.has_cell(first_cell)) ++first_cell;
 
@@ -94,7 +94,7 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
   };
   file.write(R"({"type":"FeatureCollection","features":[)");
   write_in_parallel(
-      file, threads, n, grain,
+      file, cells.execution.threads, n, grain,
       [&](std::string& text, std::size_t begin, std::size_t end) {
         map::CellMap::Pen pen;
         for (std::size_t site = begin; site < end; ++site) {
@@ -102,9 +102,8 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
         }
       },
       [&](std::size_t done) {
-        if (cells.progress) {
-          cells.progress("write", static_cast<double>(done) / static_cast<double>(n));
-        }
+        system::announce(cells.execution, "write",
+                         static_cast<double>(done) / static_cast<double>(n));
       });
   file.write("\n]");
   file.write(hidden_member(cells.triangulation));

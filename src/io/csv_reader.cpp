@@ -41,7 +41,7 @@ void require_width(const CsvRecords& records, std::size_t header) {
                  " where the header has " + std::to_string(header) + hint);
 }
 
-void read_rows(CsvRecords& records, std::string_view text, const ReadOptions& options,
+void read_rows(CsvRecords& records, std::string_view text, const ReadJob& options,
                SiteTable& table) {
   const CoordinateColumns coordinates = find_columns(records.fields(), options);
   const std::size_t width = records.fields().size();
@@ -73,7 +73,7 @@ void read_rows(CsvRecords& records, std::string_view text, const ReadOptions& op
   }
 }
 
-void read_delimited(std::string_view bytes, char usual_delimiter, const ReadOptions& options,
+void read_delimited(std::string_view bytes, char usual_delimiter, const ReadJob& options,
                     SiteTable& table) {
   const char delimiter = options.delimiter != '\0' ? options.delimiter : usual_delimiter;
   CsvRecords records({}, delimiter);
@@ -89,11 +89,11 @@ void read_delimited(std::string_view bytes, char usual_delimiter, const ReadOpti
 
 }  // namespace
 
-void read_csv(std::string_view bytes, const ReadOptions& options, SiteTable& table) {
+void read_csv(std::string_view bytes, const ReadJob& options, SiteTable& table) {
   read_delimited(bytes, ',', options, table);
 }
 
-void read_tsv(std::string_view bytes, const ReadOptions& options, SiteTable& table) {
+void read_tsv(std::string_view bytes, const ReadJob& options, SiteTable& table) {
   read_delimited(bytes, '\t', options, table);
 }
 

@@ -98,7 +98,7 @@ class PropertyColumns {
 
 class GeoJsonReader {
  public:
-  GeoJsonReader(std::string_view bytes, const ReadOptions& options, SiteTable& table)
+  GeoJsonReader(std::string_view bytes, const ReadJob& options, SiteTable& table)
       : bytes_(bytes),
         radius_(options.radius),
         keep_columns_(options.keep_columns),
@@ -241,7 +241,7 @@ double GeoJsonReader::radius_in(const JsonTree& properties) const {
 
 }  // namespace
 
-void read_geojson(std::string_view bytes, const ReadOptions& options, SiteTable& table) {
+void read_geojson(std::string_view bytes, const ReadJob& options, SiteTable& table) {
   GeoJsonReader reader(bytes, options, table);
   try {
     reader.read();

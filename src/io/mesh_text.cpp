@@ -11,7 +11,7 @@ namespace rondel::io {
 
 void write_vertex_lines(AtomicFile& file, const Mesh& mesh, std::string_view prefix) {
   const std::span<const Point> sites = mesh.table.sites;
-  write_in_parallel(file, mesh.threads(), sites.size(), items_per_piece,
+  write_in_parallel(file, mesh.execution.threads, sites.size(), items_per_piece,
                     [&](std::string& text, std::size_t begin, std::size_t end) {
                       for (const Point& site : sites.subspan(begin, end - begin)) {
                         text += prefix;

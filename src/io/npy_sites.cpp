@@ -31,7 +31,7 @@ double exact_double(Number value) {
 }
 
 template <typename Number>
-void read_rows(const NpyTable& array, const ReadOptions& options, SiteTable& table) {
+void read_rows(const NpyTable& array, const ReadJob& options, SiteTable& table) {
   const bool is_lonlat = array.num_columns() == 2;
   SiteCollector collector(table, options);
   collector.reserve(array.num_rows(), is_lonlat);
@@ -82,7 +82,7 @@ void check_npy_sites(std::string_view head, std::uint64_t file_size, const SiteT
   }
 }
 
-void read_npy_sites(std::string_view bytes, const ReadOptions& options, SiteTable& table) {
+void read_npy_sites(std::string_view bytes, const ReadJob& options, SiteTable& table) {
   table.first_line = 0;
   try {
     const NpyTable array = checked_table(bytes, bytes.size());

@@ -4,14 +4,10 @@
 // Polygons in flat arrays: pieces are drawn in parallel and joined in order.
 #include "rondel/polygons.h"
 
-#include <algorithm>
-#include <string>
-
 #include "io/cell_formats.h"
 #include "map/cell_map.h"
 #include "map/face_map.h"
-#include "rondel/error.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 #include "system/parallel.h"
 
 namespace rondel {
@@ -60,15 +56,12 @@ LonLatPolygons collect(unsigned threads, std::size_t count, const Draw& draw) {
 
 }  // namespace
 
-LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& triangulation,
-                             const Diagram& diagram, double tolerance_deg,
-                             const Progress& progress) {
-  const system::ArithmeticScope arithmetic;
-  io::require_diagram(sites.size(), triangulation, diagram);
-  const unsigned threads = triangulation.report().threads;
-  const map::CellMap cell_map(sites, triangulation, diagram.cells, tolerance_deg, threads,
-                              progress);
-  return collect(threads, sites.size(),
+LonLatPolygons cell_polygons(const Triangulation& triangulation, const Diagram& diagram,
+                             double tolerance_deg, const Execution& execution) {
+  const system::Call call(execution);
+  io::require_diagram(triangulation, diagram);
+  const map::CellMap cell_map(triangulation, diagram.cells, tolerance_deg, execution);
+  return collect(execution.threads, triangulation.num_sites(),
                  [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
                    map::CellMap::Pen pen;
                    for (std::size_t site = begin; site < end; ++site) {
@@ -78,15 +71,10 @@ LonLatPolygons cell_polygons(std::span<const Point> sites, const Triangulation& 
                  });
 }
 
-LonLatPolygons face_polygons(std::span<const Point> sites, const Triangulation& triangulation) {
-  const system::ArithmeticScope arithmetic;
-  if (sites.size() != triangulation.num_sites()) {
-    throw InvalidInput(std::to_string(sites.size()) + " sites for a triangulation of " +
-                           std::to_string(triangulation.num_sites()),
-                       std::min(sites.size(), triangulation.num_sites()));
-  }
-  const map::FaceMap face_map(sites, triangulation);
-  return collect(triangulation.report().threads, triangulation.num_faces(),
+LonLatPolygons face_polygons(const Triangulation& triangulation, const Execution& execution) {
+  const system::Call call(execution);
+  const map::FaceMap face_map(triangulation);
+  return collect(execution.threads, triangulation.num_faces(),
                  [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
                    for (std::size_t f = begin; f < end; ++f) {
                      const auto face = static_cast<Index>(f);

@@ -8,6 +8,7 @@
 #include "io/number.h"
 #include "rondel/delaunay.h"
 #include "system/huge_pages.h"
+#include "system/job.h"
 
 namespace rondel::io {
 
@@ -59,8 +60,8 @@ void SiteCollector::note_line(std::uint64_t line) {
 
 void SiteCollector::report_progress(std::size_t done, std::size_t total) const {
   constexpr std::size_t interval = 65536;
-  if (size() % interval != 0 || !options_.progress) return;
-  options_.progress("read", static_cast<double>(done) / static_cast<double>(total));
+  if (size() % interval != 0) return;
+  system::announce(options_, "read", static_cast<double>(done) / static_cast<double>(total));
 }
 
 }  // namespace rondel::io

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "rondel/io.h"
+#include "io/site_formats.h"
 
 namespace rondel::io {
 
@@ -17,7 +17,7 @@ void require_indices(std::uint64_t n);
 class SiteCollector {
  public:
   // Fills `table`, whose name is set.
-  SiteCollector(SiteTable& table, const ReadOptions& options) : table_(table), options_(options) {}
+  SiteCollector(SiteTable& table, const ReadJob& options) : table_(table), options_(options) {}
 
   // Room for n sites, as far as one triangulation can hold them.
   void reserve(std::size_t n, bool is_lonlat);
@@ -38,7 +38,7 @@ class SiteCollector {
   void note_line(std::uint64_t line);
 
   SiteTable& table_;
-  const ReadOptions& options_;
+  const ReadJob& options_;
 };
 
 }  // namespace rondel::io

@@ -12,13 +12,16 @@
 
 namespace rondel::io {
 
+// How to read, and with what.
+struct ReadJob : ReadOptions, Execution {};
+
 // Each reads `bytes`, the content of the file `table.name`, into `table`.
 // Throws FileError as read_sites does.
-void read_csv(std::string_view bytes, const ReadOptions& options, SiteTable& table);
-void read_tsv(std::string_view bytes, const ReadOptions& options, SiteTable& table);
-void read_xyz(std::string_view bytes, const ReadOptions& options, SiteTable& table);
-void read_npy_sites(std::string_view bytes, const ReadOptions& options, SiteTable& table);
-void read_geojson(std::string_view bytes, const ReadOptions& options, SiteTable& table);
+void read_csv(std::string_view bytes, const ReadJob& options, SiteTable& table);
+void read_tsv(std::string_view bytes, const ReadJob& options, SiteTable& table);
+void read_xyz(std::string_view bytes, const ReadJob& options, SiteTable& table);
+void read_npy_sites(std::string_view bytes, const ReadJob& options, SiteTable& table);
+void read_geojson(std::string_view bytes, const ReadJob& options, SiteTable& table);
 
 // Throws FileError if the head of a file of `file_size` bytes, or of a size not known (0), claims
 // what read_npy_sites would refuse.
@@ -29,7 +32,7 @@ struct SitesToWrite {
   std::span<const Point> sites;
   std::span<const LonLat> positions;
   std::span<const double> radii_deg;
-  unsigned threads;
+  const Execution& execution;
 };
 
 // Each writes the positions if there are any, otherwise the sites. Where there are radii, the

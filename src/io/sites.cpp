@@ -10,14 +10,14 @@
 #include "io/site_formats.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 
 namespace rondel {
 namespace {
 
 struct SiteReader {
   std::string_view ending;
-  void (*read)(std::string_view, const ReadOptions&, SiteTable&);
+  void (*read)(std::string_view, const io::ReadJob&, SiteTable&);
   bool has_columns = false;
   // What can be refused by the head of a file and its size.
   void (*check)(std::string_view, std::uint64_t, const SiteTable&) = nullptr;
@@ -65,8 +65,8 @@ std::string SiteTable::where(std::size_t site) const {
   return name + ": row " + std::to_string(site);
 }
 
-SiteTable read_sites(const FileName& file, const ReadOptions& options) {
-  const system::ArithmeticScope arithmetic;
+SiteTable read_sites(const FileName& file, const ReadOptions& options, const Execution& execution) {
+  const system::Call call(execution);
   io::FileBytes bytes(file.path);
   SiteTable table;
   table.name = bytes.name();
@@ -77,7 +77,7 @@ SiteTable read_sites(const FileName& file, const ReadOptions& options) {
   require_columns(reader, options, table);
   if (bytes.head().empty()) throw FileError(table.name + ": the file is empty");
   if (reader.check != nullptr) reader.check(bytes.head(), bytes.claimed_size(), table);
-  reader.read(bytes.text(), options, table);
+  reader.read(bytes.text(), {options, execution}, table);
   return table;
 }
 
@@ -87,12 +87,12 @@ bool can_write_sites(const FileName& file) {
 
 void write_sites(const FileName& output, std::span<const Point> sites,
                  std::span<const LonLat> positions, std::span<const double> radii_deg,
-                 unsigned threads) {
-  const system::ArithmeticScope arithmetic;
+                 const Execution& execution) {
+  const system::Call call(execution);
   const SiteWriter& writer =
       io::require_format<SiteWriter>(site_writers, output, "sites are written as");
   io::AtomicFile file(output.path);
-  writer.write(file, {sites, positions, radii_deg, threads});
+  writer.write(file, {sites, positions, radii_deg, execution});
   file.commit();
 }
 

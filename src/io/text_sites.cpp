@@ -20,7 +20,7 @@ void append_row(std::string& line, std::initializer_list<double> values, char de
 }
 
 void write_points(AtomicFile& file, const SitesToWrite& to_write, char delimiter) {
-  write_in_parallel(file, to_write.threads, to_write.sites.size(), items_per_piece,
+  write_in_parallel(file, to_write.execution.threads, to_write.sites.size(), items_per_piece,
                     [&](std::string& text, std::size_t begin, std::size_t end) {
                       for (const Point& site : to_write.sites.subspan(begin, end - begin)) {
                         append_row(text, {site.x, site.y, site.z}, delimiter);
@@ -39,7 +39,7 @@ void write_delimited(AtomicFile& file, const SitesToWrite& to_write, char delimi
   }
   file.write(line);
   if (positions.empty()) return write_points(file, to_write, delimiter);
-  write_in_parallel(file, to_write.threads, positions.size(), items_per_piece,
+  write_in_parallel(file, to_write.execution.threads, positions.size(), items_per_piece,
                     [&](std::string& text, std::size_t begin, std::size_t end) {
                       for (std::size_t i = begin; i < end; ++i) {
                         const auto& [lon_deg, lat_deg] = positions[i];

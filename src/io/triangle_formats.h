@@ -11,6 +11,7 @@
 
 #include "io/atomic_file.h"
 #include "rondel/io.h"
+#include "system/job.h"
 
 namespace rondel::io {
 
@@ -18,12 +19,11 @@ namespace rondel::io {
 struct Mesh {
   const SiteTable& table;
   const Triangulation& triangulation;
-  const Progress& progress;
+  const Execution& execution;
 
   // Writes a text for every face, as write_in_parallel does, and reports how far it is.
   void write_faces(AtomicFile& file,
                    const std::function<void(std::string& text, Index face)>& append) const;
-  [[nodiscard]] unsigned threads() const { return triangulation.report().threads; }
 };
 
 void write_npy(AtomicFile& file, const Mesh& mesh);

@@ -7,13 +7,14 @@
 #include <string>
 
 #include "io/atomic_file.h"
+#include "io/cell_formats.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
 #include "io/parallel_write.h"
 #include "io/triangle_formats.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
-#include "system/arithmetic.h"
+#include "system/job.h"
 
 namespace rondel {
 namespace {
@@ -49,12 +50,13 @@ void io::Mesh::write_faces(AtomicFile& file,
                            const std::function<void(std::string&, Index)>& append) const {
   const std::size_t num_faces = triangulation.num_faces();
   write_in_parallel(
-      file, threads(), num_faces, items_per_piece,
+      file, execution.threads, num_faces, items_per_piece,
       [&](std::string& text, std::size_t begin, std::size_t end) {
         for (std::size_t face = begin; face < end; ++face) append(text, static_cast<Index>(face));
       },
       [&](std::size_t done) {
-        if (progress) progress("write", static_cast<double>(done) / static_cast<double>(num_faces));
+        system::announce(execution, "write",
+                         static_cast<double>(done) / static_cast<double>(num_faces));
       });
 }
 
@@ -73,17 +75,13 @@ bool can_write_triangles(const FileName& file) {
 }
 
 void write_triangles(const FileName& output, const SiteTable& table,
-                     const Triangulation& triangulation, const Progress& progress) {
-  const system::ArithmeticScope arithmetic;
-  if (table.sites.size() != triangulation.num_sites()) {
-    throw InvalidInput(std::to_string(table.sites.size()) + " sites for a triangulation of " +
-                           std::to_string(triangulation.num_sites()),
-                       std::min(table.sites.size(), triangulation.num_sites()));
-  }
+                     const Triangulation& triangulation, const Execution& execution) {
+  const system::Call call(execution);
+  io::require_sites(table, triangulation);
   const TriangleWriter& writer =
       io::require_format<TriangleWriter>(triangle_writers, output, "triangles are written as");
   io::AtomicFile file(output.path);
-  writer.write(file, {table, triangulation, progress});
+  writer.write(file, {table, triangulation, execution});
   file.commit();
 }
 

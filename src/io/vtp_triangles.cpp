@@ -22,8 +22,9 @@ void write_vtp_triangles(AtomicFile& file, const Mesh& mesh) {
                       [=, &mesh](AtomicFile& out) {
                         write_values<std::int64_t>(out, 3 * m, [&](std::size_t i) {
                           const std::size_t f = i / 3;
-                          if (mesh.progress && i % 196608 == 0) {
-                            mesh.progress("write", static_cast<double>(f) / static_cast<double>(m));
+                          if (i % 196608 == 0) {
+                            system::announce(mesh.execution, "write",
+                                             static_cast<double>(f) / static_cast<double>(m));
                           }
                           return faces[f][i % 3];
                         });

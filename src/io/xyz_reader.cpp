@@ -12,7 +12,7 @@
 namespace rondel::io {
 namespace {
 
-void read_lines(TextLines& lines, const ReadOptions& options, SiteTable& table) {
+void read_lines(TextLines& lines, const ReadJob& options, SiteTable& table) {
   SiteCollector collector(table, options);
   while (lines.next()) {
     const auto& words = lines.words();
@@ -29,7 +29,7 @@ void read_lines(TextLines& lines, const ReadOptions& options, SiteTable& table) 
 
 }  // namespace
 
-void read_xyz(std::string_view bytes, const ReadOptions& options, SiteTable& table) {
+void read_xyz(std::string_view bytes, const ReadJob& options, SiteTable& table) {
   TextLines lines(bytes);
   try {
     read_lines(lines, options, table);

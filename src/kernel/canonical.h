@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "kernel/walk.h"
-#include "rondel/triangulation.h"
 #include "topology/mesh.h"
+#include "topology/triangulation_arrays.h"
 
 namespace rondel::kernel {
 

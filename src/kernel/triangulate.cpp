@@ -56,7 +56,7 @@ std::vector<Hidden> find_hidden(const topology::Mesh& mesh, Index num_ranks) {
 template <models::SphereModel T>
 Triangulated build(std::span<const Point> sites, std::vector<Index> order,
                    std::span<const order::Renamed> renamed, std::vector<Index> insertion,
-                   std::span<const Index> first, const Options& options) {
+                   std::span<const Index> first, const system::Job& options) {
   const auto num_ranks = static_cast<Index>(order.size());
   std::optional<T> traits(std::in_place, sites, order, options.sphere.center);
   MutableHull<T> hull(*traits, {first[0], first[1], first[2]});
@@ -84,7 +84,7 @@ Triangulated build(std::span<const Point> sites, std::vector<Index> order,
 
 // Dimension 1 and below.
 Triangulated build_ring(std::span<const Point> sites, std::vector<Index> order,
-                        std::span<const order::Renamed> renamed, const Options& options) {
+                        std::span<const order::Renamed> renamed, const system::Job& options) {
   Triangulated result;
   std::vector<Point> points;
   points.reserve(order.size());
@@ -109,7 +109,7 @@ Triangulated build_ring(std::span<const Point> sites, std::vector<Index> order,
 }  // namespace
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
-                         std::span<const order::Renamed> renamed, const Options& options) {
+                         std::span<const order::Renamed> renamed, const system::Job& options) {
   auto insertion = insertion_order(static_cast<Index>(order.size()));
   const auto first = find_first(sites, order, insertion, options.sphere.center);
   if (first.size() < 3) return build_ring(sites, std::move(order), renamed, options);

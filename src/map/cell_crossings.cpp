@@ -9,6 +9,7 @@
 
 #include "map/cell_map.h"
 #include "map/crossing_lines.h"
+#include "system/job.h"
 #include "system/parallel.h"
 
 namespace rondel::map {
@@ -43,18 +44,16 @@ std::vector<CellMap::LinePair> CellMap::crossed_lines(const Trace& trace) const 
 }
 
 // The cells whose lines cross, in increasing order.
-std::vector<std::size_t> CellMap::find_crossing_lines(unsigned threads,
-                                                      const Progress& progress) const {
+std::vector<std::size_t> CellMap::find_crossing_lines(const Execution& execution) const {
   constexpr std::size_t grain = 1024;
   constexpr std::size_t stretch = 64 * grain;  // between two reports
   const std::size_t num_sites = sites_.size();
   std::vector<std::vector<std::size_t>> found(system::num_pieces(num_sites, grain));
   for (std::size_t first = 0; first < num_sites; first += stretch) {
-    if (progress) {
-      progress("outline", static_cast<double>(first) / static_cast<double>(num_sites));
-    }
+    system::announce(execution, "outline",
+                     static_cast<double>(first) / static_cast<double>(num_sites));
     const std::size_t size = std::min(stretch, num_sites - first);
-    system::parallel_for(threads, size, grain, [&](std::size_t begin, std::size_t end) {
+    system::parallel_for(execution.threads, size, grain, [&](std::size_t begin, std::size_t end) {
       Pen pen;
       for (std::size_t site = first + begin; site < first + end; ++site) {
         if (draw_ring(site, pen.ring_, pen.trace_) && !crossed_lines(pen.trace_).empty()) {
@@ -71,8 +70,8 @@ std::vector<std::size_t> CellMap::find_crossing_lines(unsigned threads,
 // What a cell's lines do depends on its points and their representatives alone. So the first pass
 // needs to look again only at cells whose lines crossed, and at those changed since by others: the
 // result is that of one pass over all cells in order.
-void CellMap::resolve_crossing_lines(unsigned threads, const Progress& progress) {
-  const std::vector<std::size_t> crossed = find_crossing_lines(threads, progress);
+void CellMap::resolve_crossing_lines(const Execution& execution) {
+  const std::vector<std::size_t> crossed = find_crossing_lines(execution);
   if (crossed.empty()) return;
   bool has_changed = false;
   auto next = crossed.begin();

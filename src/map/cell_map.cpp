@@ -15,18 +15,17 @@ double largest_coordinate(const Point& p) {
 
 }  // namespace
 
-CellMap::CellMap(std::span<const Point> sites, const Triangulation& triangulation,
-                 const Cells& cells, double tolerance_deg, unsigned threads,
-                 const Progress& progress)
-    : sites_(sites),
+CellMap::CellMap(const Triangulation& triangulation, const Cells& cells, double tolerance_deg,
+                 const Execution& execution)
+    : sites_(triangulation.sites().points()),
       triangulation_(triangulation),
       cells_(cells),
       tolerance_(tolerance_deg / degrees_per_radian),
-      only_vertex_(triangulation.dimension() == 0 ? triangulation.ring().front() : sites.size()),
+      only_vertex_(triangulation.dimension() == 0 ? triangulation.ring().front() : sites_.size()),
       representatives_(cells.points.size()) {
   if (triangulation.dimension() == 1) prepare_great_circle();
   merge_close_points();
-  resolve_crossing_lines(threads, progress);
+  resolve_crossing_lines(execution);
 }
 
 bool CellMap::has_cell(std::size_t site) const {

@@ -32,9 +32,8 @@ namespace rondel::map {
 // 5. What still crosses itself after that is not drawn.
 class CellMap {
  public:
-  // At most `threads` threads draw; 0: one for each core.
-  CellMap(std::span<const Point> sites, const Triangulation& triangulation, const Cells& cells,
-          double tolerance_deg, unsigned threads, const Progress& progress);
+  CellMap(const Triangulation& triangulation, const Cells& cells, double tolerance_deg,
+          const Execution& execution);
 
   // Whether the site has a cell.
   [[nodiscard]] bool has_cell(std::size_t site) const;
@@ -66,9 +65,8 @@ class CellMap {
   [[nodiscard]] Index representative(Index point) const;
   Index find_representative(Index point);
   [[nodiscard]] std::vector<LinePair> crossed_lines(const Trace& trace) const;
-  [[nodiscard]] std::vector<std::size_t> find_crossing_lines(unsigned threads,
-                                                             const Progress& progress) const;
-  void resolve_crossing_lines(unsigned threads, const Progress& progress);
+  [[nodiscard]] std::vector<std::size_t> find_crossing_lines(const Execution& execution) const;
+  void resolve_crossing_lines(const Execution& execution);
   bool resolve_crossing_lines(std::size_t site);
   bool bisect(std::span<const LinePair> pairs, double shortest);
   [[nodiscard]] std::map<Edge, Inner> drawn_points(std::span<const LinePair> pairs) const;

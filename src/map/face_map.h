@@ -18,8 +18,8 @@ namespace rondel::map {
 // on the earth.
 class FaceMap {
  public:
-  FaceMap(std::span<const Point> sites, const Triangulation& triangulation)
-      : sites_(sites), triangulation_(triangulation) {}
+  explicit FaceMap(const Triangulation& triangulation)
+      : sites_(triangulation.sites().points()), triangulation_(triangulation) {}
 
   // The polygons of a solid face; none if the face is no wider than rounding.
   [[nodiscard]] std::vector<LonLatPolygon> polygons(Index face) const;

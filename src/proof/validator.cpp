@@ -19,7 +19,8 @@ namespace {
 
 class Validator {
  public:
-  Validator(std::span<const Point> sites, std::span<const Triple> triangles, const Options& options)
+  Validator(std::span<const Point> sites, std::span<const Triple> triangles,
+            const system::Job& options)
       : sites_(sites), triangles_(triangles), options_(options) {}
 
   CheckReport run() {
@@ -41,7 +42,7 @@ class Validator {
 
   std::span<const Point> sites_;
   std::span<const Triple> triangles_;
-  const Options& options_;
+  const system::Job& options_;
   Places places_;
   std::vector<Index> unlisted_;  // lowest indices of the places that are no vertices
   CheckReport report_;
@@ -131,7 +132,7 @@ Index Validator::find_pole() const {
 }  // namespace
 
 CheckReport check_triangles(std::span<const Point> sites, std::span<const Triple> triangles,
-                            const Options& options) {
+                            const system::Job& options) {
   return Validator(sites, triangles, options).run();
 }
 

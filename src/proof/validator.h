@@ -9,10 +9,11 @@
 #include "rondel/check.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
+#include "system/job.h"
 
 namespace rondel::proof {
 
 CheckReport check_triangles(std::span<const Point> sites, std::span<const Triple> triangles,
-                            const Options& options);
+                            const system::Job& options);
 
 }  // namespace rondel::proof

@@ -10,8 +10,8 @@
 #include <span>
 #include <vector>
 
-#include "rondel/large_vector.h"
 #include "system/huge_pages.h"
+#include "system/large_vector.h"
 #include "system/prefetch.h"
 
 namespace rondel::system {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <new>
 
-#include "rondel/large_vector.h"
+#include "system/large_vector.h"
 
 #if defined(__linux__)
 #include <sys/mman.h>

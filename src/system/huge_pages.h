@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "rondel/large_vector.h"
+#include "system/large_vector.h"
 
 namespace rondel::system {
 

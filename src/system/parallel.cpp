@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "rondel/interrupt.h"
+#include "rondel/error.h"
 #include "system/arithmetic.h"
 
 #if defined(RONDEL_HAS_TBB)
@@ -146,6 +146,10 @@ void run_piece(const std::atomic<bool>* stop, const Piece& piece) {
 }
 
 }  // namespace
+
+void obey_stop() {
+  if (current_stop != nullptr && current_stop->load(std::memory_order_relaxed)) throw Interrupted();
+}
 
 StopScope::StopScope(const std::atomic<bool>* stop) noexcept : before_(current_stop) {
   current_stop = stop;

@@ -48,6 +48,9 @@ RONDEL_API void parallel_for(unsigned threads, std::size_t count, std::size_t gr
 RONDEL_API void parallel_invoke(unsigned threads, const std::function<void()>& first,
                                 const std::function<void()>& second);
 
+// Throws Interrupted if the flag of the calling thread's scope is true.
+RONDEL_API void obey_stop();
+
 // While it lives, calls that its thread makes obey the flag, wherever their pieces run; and no
 // other flag. Scopes are nested.
 class RONDEL_API StopScope {

@@ -32,7 +32,6 @@ void expect_brute_force(const SiteSet& set, Model model) {
   Options options;
   options.model = model;
   options.sphere = set.sphere;
-  options.threads = 1;
   const Triangulation actual = delaunay(set.sites, options);
   EXPECT_EQ(difference(actual, set.sites, expected), "")
       << (model == Model::projected ? "projected\n" : "weighted\n") << text(set);

@@ -42,7 +42,7 @@ class Allocation : public testing::TestWithParam<std::tuple<std::string_view, Mo
     const auto& [name, model] = GetParam();
     SiteSet set = generator(name).make(n, 1);
     set.sites.push_back(set.sites.front());  // a duplicate
-    return {std::move(set.sites), {.model = model, .sphere = set.sphere, .threads = 1}};
+    return {std::move(set.sites), {.model = model, .sphere = set.sphere}};
   }
 };
 
@@ -66,17 +66,17 @@ TEST_P(Allocation, duals) {
   const Input in = input(16);
   const Triangulation built = delaunay(in.sites, in.options);
   expect_result_or_bad_alloc([&] {
-    const Diagram d = diagram(built, in.sites);
-    const auto centers = centroids(built, in.sites, d.cells);
+    const Diagram d = diagram(built);
+    const auto centers = centroids(built);
     return std::tuple(d.cells.offsets, d.cells.rings, d.cells.points, d.areas, centers);
   });
-  expect_result_or_bad_alloc([&] { return circumcenters(built, in.sites); });
+  expect_result_or_bad_alloc([&] { return circumcenters(built); });
   expect_result_or_bad_alloc([&] {
-    const Cells c = cells(built, in.sites);
-    return std::tuple(c.offsets, areas(built, in.sites, c));
+    const Cells c = cells(built);
+    return std::tuple(c.offsets, areas(built));
   });
   expect_result_or_bad_alloc([&] {
-    const Polygons p = merge_cocircular(built, in.sites);
+    const Polygons p = merge_cocircular(built);
     return std::tuple(p.offsets, p.corners, edges(built));
   });
 }
@@ -85,13 +85,14 @@ TEST_P(Allocation, queries) {
   const Input in = input(16);
   const Triangulation built = delaunay(in.sites, in.options);
   const std::vector<Point> queries = {{1, 2, 3}, {-1, 0.5, 0.25}, {0.1, -3, 1}, {-1, -1, -1}};
-  expect_result_or_bad_alloc([&] { return Locator(built, in.sites).nearest(queries.front()); });
-  const Locator locator(built, in.sites);
-  expect_result_or_bad_alloc([&] { return locator.nearest(queries, 1); });
-  expect_result_or_bad_alloc([&] { return locator.k_nearest(queries, 3, 1); });
-  expect_result_or_bad_alloc([&] { return locator.within(queries, 1, 1).sites; });
+  expect_result_or_bad_alloc([&] { return Locator(built).nearest(queries.front()); });
+  const Locator locator(built);
+  const Execution one{.threads = 1};
+  expect_result_or_bad_alloc([&] { return locator.nearest(queries, one); });
+  expect_result_or_bad_alloc([&] { return locator.k_nearest(queries, 3, one); });
+  expect_result_or_bad_alloc([&] { return locator.within(queries, 1, one).sites; });
   expect_result_or_bad_alloc([&] { return locator.conflict_region(queries.front()); });
-  expect_result_or_bad_alloc([&] { return locator.locate(queries, 1); });
+  expect_result_or_bad_alloc([&] { return locator.locate(queries, one); });
 }
 
 INSTANTIATE_TEST_SUITE_P(sites, Allocation,
@@ -109,19 +110,19 @@ TEST(allocation_of_blocks, delaunay) {
   for (const Model model : {Model::projected, Model::weighted}) {
     std::vector<Point> sites = generator("uniform").make(9000, 1).sites;
     expect_result_or_bad_alloc(
-        [&] { return parts(delaunay(sites, {.model = model, .threads = 1})); });
+        [&] { return parts(delaunay(sites, {.model = model}, {.threads = 1})); });
   }
 }
 
 // The exception crosses threads.
 TEST(allocation_of_blocks, delaunay_with_threads) {
   std::vector<Point> sites = generator("uniform").make(150'000, 1).sites;
-  const Triangulation expected = delaunay(sites, {.threads = 2});
+  const Triangulation expected = delaunay(sites, {}, {.threads = 2});
   std::size_t num_failed = 0;
   for (std::size_t n = 1; n < 300; n += 37) {
     FailingAllocation failing(n, Shortage::of_one_block);
     try {
-      const Triangulation built = delaunay(sites, {.threads = 2});
+      const Triangulation built = delaunay(sites, {}, {.threads = 2});
       failing.stop();
       EXPECT_TRUE(std::ranges::equal(built.faces(), expected.faces()));
     } catch (const std::bad_alloc&) {

@@ -64,7 +64,7 @@ const std::vector<Change> changes = {
 
 struct State {
   std::vector<Index> ids;
-  std::vector<Point> sites;
+  Sites sites;
   std::vector<Triple> faces;
   std::vector<Hidden> hidden;
   std::vector<Duplicate> duplicates;
@@ -75,7 +75,7 @@ State state_of(const DynamicTriangulation& changing) {
   const Snapshot now = changing.snapshot();
   const Triangulation& t = now.triangulation;
   return {now.ids,
-          now.sites,
+          now.triangulation.sites(),
           {t.faces().begin(), t.faces().end()},
           {t.hidden().begin(), t.hidden().end()},
           {t.duplicates().begin(), t.duplicates().end()}};
@@ -91,7 +91,7 @@ class AllocationOfChange : public testing::TestWithParam<Case> {
     sites_ = std::move(set.sites);
     sites_.resize(num_sites);
     sites_.push_back(sites_[1]);
-    options_ = {.model = model, .sphere = set.sphere, .threads = 1};
+    options_ = {.model = model, .sphere = set.sphere};
     others_ = generator("uniform").make(40, 2).sites;
     for (Point& p : others_) p = p + set.sphere.center;
   }
@@ -116,8 +116,8 @@ class AllocationOfChange : public testing::TestWithParam<Case> {
       change.make(changing, others_);
     }
     const Snapshot now = changing.snapshot();
-    EXPECT_TRUE(
-        std::ranges::equal(now.triangulation.faces(), delaunay(now.sites, options_).faces()));
+    EXPECT_TRUE(std::ranges::equal(now.triangulation.faces(),
+                                   delaunay(now.triangulation.sites(), options_).faces()));
     return has_failed;
   }
 
@@ -194,10 +194,10 @@ TEST(allocation_after_failed_change, every_question_is_answered) {
 
 TEST(allocation_of_constructor, loses_nothing) {
   const std::vector<Point> sites = generator("uniform").make(num_sites, 1).sites;
-  const Triangulation built = delaunay(sites, {.threads = 1});
+  const Triangulation built = delaunay(sites, {}, {.threads = 1});
   expect_result_or_bad_alloc([&] { return DynamicTriangulation().num_sites(); });
-  expect_result_or_bad_alloc([&] { return DynamicTriangulation(built, sites).num_faces(); });
-  const DynamicTriangulation changing(built, sites);
+  expect_result_or_bad_alloc([&] { return DynamicTriangulation(built).num_faces(); });
+  const DynamicTriangulation changing(built);
   expect_result_or_bad_alloc([&] { return state_of(changing); });
   expect_result_or_bad_alloc([&] { return changing.neighbors(0); });
 }

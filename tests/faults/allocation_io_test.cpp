@@ -59,19 +59,21 @@ TEST(allocation_of_files, are_written_or_bad_alloc) {
   ReadOptions options;
   options.keep_columns = true;
   const SiteTable table = read_sites((corpus / "good" / "features.geojson").string(), options);
-  const Triangulation built = delaunay(table.sites, {.threads = 1});
-  const Diagram cells = diagram(built, table.sites);
+  const Execution one{.threads = 1};
+  const Triangulation built = delaunay(table.sites, {}, one);
+  const Diagram cells = diagram(built);
   for (const char* ending : {".npy", ".off", ".ply", ".obj", ".stl", ".vtp", ".geojson"}) {
     expect_file_or_bad_alloc(ending,
-                             [&](const auto& path) { write_triangles(path, table, built); });
+                             [&](const auto& path) { write_triangles(path, table, built, one); });
   }
   for (const char* ending : {".geojson", ".vtp", ".npz"}) {
-    expect_file_or_bad_alloc(ending,
-                             [&](const auto& path) { write_cells(path, table, built, cells); });
+    expect_file_or_bad_alloc(
+        ending, [&](const auto& path) { write_cells(path, table, built, cells, 0.01, one); });
   }
   for (const char* ending : {".csv", ".xyz", ".npy"}) {
-    expect_file_or_bad_alloc(
-        ending, [&](const auto& path) { write_sites(path, table.sites, table.positions, {}, 1); });
+    expect_file_or_bad_alloc(ending, [&](const auto& path) {
+      write_sites(path, table.sites, table.positions, {}, one);
+    });
   }
 }
 

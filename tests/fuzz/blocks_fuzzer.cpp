@@ -139,10 +139,7 @@ void require_same(const TriangulationArrays& built, const TriangulationArrays& e
 
 void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsigned threads,
                  bool has_copies) {
-  Options options;
-  options.model = model;
-  options.sphere = set.sphere;
-  options.threads = 1;
+  system::Job options{{.model = model, .sphere = set.sphere}, {.threads = 1}};
   LargeVector<Triple> copies(has_copies ? 2 * set.sites.size() : 0);
   const auto order = order::spatial_order(set.sites, model, set.sphere.center, 1, {},
                                           system::SiteCopies(std::span(copies)));

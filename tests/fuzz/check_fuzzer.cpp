@@ -64,19 +64,18 @@ void change(std::vector<Triple>& faces, ByteSource& source, std::size_t num_site
 }
 
 // Whether the arrays of `built`, with these faces instead of its own, are taken.
-bool are_taken(const Triangulation& built, std::vector<Triple> faces, const Options& options) {
-  TriangulationArrays arrays;
-  arrays.num_sites = built.num_sites();
-  arrays.dimension = built.dimension();
-  arrays.faces.assign(faces.begin(), faces.end());
-  arrays.neighbors.assign(built.neighbors().begin(), built.neighbors().end());
-  arrays.ghost_faces.assign(built.ghost_faces().begin(), built.ghost_faces().end());
-  arrays.ring.assign(built.ring().begin(), built.ring().end());
-  arrays.duplicates.assign(built.duplicates().begin(), built.duplicates().end());
-  arrays.hidden.assign(built.hidden().begin(), built.hidden().end());
+bool are_taken(const Triangulation& built, const std::vector<Triple>& faces,
+               const Options& options) {
+  const TriangulationParts parts = {.dimension = built.dimension(),
+                                    .faces = faces,
+                                    .neighbors = built.neighbors(),
+                                    .ghost_faces = built.ghost_faces(),
+                                    .ring = built.ring(),
+                                    .duplicates = built.duplicates(),
+                                    .hidden = built.hidden()};
   try {
-    return std::ranges::equal(Triangulation::from_arrays(std::move(arrays), options).faces(),
-                              faces);
+    const Triangulation taken = Triangulation::from_arrays(built.sites(), parts, options);
+    return std::ranges::equal(taken.faces(), faces);
   } catch (const InvalidInput&) {
     return false;
   }
@@ -93,7 +92,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::size_t num_changes = source.below(8);
   std::vector<std::uint8_t> changes(3 * num_changes);
   for (std::uint8_t& byte : changes) byte = source.byte();
-  options.threads = 1;
   const fuzz::Scales scales = fuzz::next_scales(source);
   options.sphere = fuzz::next_sphere(source, scales);
   const std::vector<Point> sites = fuzz::all_sites(source, 14, scales, options);

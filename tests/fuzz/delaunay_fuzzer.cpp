@@ -12,7 +12,6 @@
 #include "rondel/check.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "rondel/interrupt.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -54,7 +53,6 @@ void test_valid(const std::vector<Point>& sites, const Options& options) {
   const Triangulation built = delaunay(sites, options);
   const CheckReport report = check(sites, built.faces(), options);
   require(report.is_valid, "the validator accepts what delaunay builds: " + report.reason);
-  require(built.report().threads == 1, "as many threads as wanted");
   require(report.num_duplicates == built.duplicates().size(), "as many duplicates");
   if (built.dimension() == 2) {
     require(report.num_vertices == built.num_vertices(), "as many vertices");
@@ -78,7 +76,7 @@ void test_interrupted(const std::vector<Point>& sites, const Options& options) {
   Triangulation built;
   bool is_done = true;
   try {
-    call_interruptible(stop, [&] { built = delaunay(sites, options); });
+    built = delaunay(sites, options, {.stop = &stop});
   } catch (const Interrupted& interrupted) {
     is_done = false;
     require(std::string(interrupted.what()) == "interrupted", "it says so");
@@ -123,7 +121,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rondel;
   fuzz::ByteSource source(data, size);
   Options options;
-  options.threads = 1;
   const std::uint8_t what = source.byte();
   options.model = what % 2 == 0 ? Model::weighted : Model::projected;
   const fuzz::Scales scales = fuzz::next_scales(source);

@@ -170,10 +170,12 @@ class Script {
   // From a snapshot, or from its sites.
   void begin_anew() {
     const Snapshot now = changing_.snapshot();
-    changing_ = source_.below(2) == 0 ? DynamicTriangulation(now.triangulation, now.sites)
-                                      : DynamicTriangulation(now.sites, options_);
+    changing_ = source_.below(2) == 0
+                    ? DynamicTriangulation(now.triangulation)
+                    : DynamicTriangulation(now.triangulation.sites().points(), options_);
     live_.clear();
-    for (std::size_t i = 0; i < now.sites.size(); ++i) put(static_cast<Index>(i), now.sites[i]);
+    const Sites& sites = now.triangulation.sites();
+    for (std::size_t i = 0; i < sites.size(); ++i) put(static_cast<Index>(i), sites[i]);
   }
 
   template <class Call>
@@ -214,7 +216,7 @@ class Script {
       sites.push_back(point);
     }
     require(now.ids == ids && changing_.ids() == ids, "the ids are those in use");
-    require(now.sites == sites, "the sites are where they were put");
+    require(now.triangulation.sites() == sites, "the sites are where they were put");
     const Triangulation built = delaunay(sites, options_);
     const Triangulation& t = now.triangulation;
     require(changing_.model() == options_.model && t.model() == options_.model &&
@@ -274,7 +276,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace rondel;
   fuzz::ByteSource source(data, size);
   Options options;
-  options.threads = 1;
   options.model = source.byte() % 2 == 0 ? Model::weighted : Model::projected;
   const fuzz::Scales scales = fuzz::next_scales(source);
   const std::size_t steps_between = 1 + source.below(4);

@@ -29,7 +29,7 @@ std::vector<Point> vertices(const Triangulation& hull, const std::vector<Point>&
 }
 
 Triangulation hull_of(const std::vector<Point>& points) {
-  return convex_hull(points, {.threads = 1, .progress = {}});
+  return convex_hull(points, {.threads = 1});
 }
 
 void test(const std::vector<Point>& points) {
@@ -48,7 +48,7 @@ void test(const std::vector<Point>& points) {
   require(corners.size() == hull.num_vertices(), "every site is accounted for");
   require(hull_of(corners).num_vertices() == corners.size(), "vertices are extreme");
 
-  const HullSize size = size_of_hull(hull, points);
+  const HullSize size = size_of_hull(hull);
   require(size.volume >= 0 && size.area >= 0, "volume and area are not negative");
 }
 

@@ -155,10 +155,10 @@ void test_neighbors(const Locator& locator, const Scene& scene) {
 
 void test_ranges(const Locator& locator, const Scene& scene, double angle) {
   const std::vector<Point>& queries = scene.queries;
-  const auto locations = locator.locate(queries, 1);
-  const auto nearest = locator.nearest(queries, 1);
-  const auto three = locator.k_nearest(queries, 3, 1);
-  const SiteLists within = locator.within(queries, angle, 1);
+  const auto locations = locator.locate(queries);
+  const auto nearest = locator.nearest(queries);
+  const auto three = locator.k_nearest(queries, 3);
+  const SiteLists within = locator.within(queries, angle);
   require(within.offsets.size() == queries.size() + 1, "a list for each query");
   for (std::size_t i = 0; i < queries.size(); ++i) {
     require(locations[i] == locator.locate(queries[i]), "one or many are located in one place");
@@ -228,17 +228,17 @@ void refuse_wrong_calls(const Locator& locator, const Scene& scene) {
   bad.push_back({0, std::nan(""), 0});
   const std::size_t first = scene.queries.size();
   const auto size = static_cast<Index>(scene.sites.size());
-  refuse(first, [&] { return locator.locate(bad, 1); });
-  refuse(first, [&] { return locator.nearest(bad, 1); });
-  refuse(first, [&] { return locator.k_nearest(bad, 2, 1); });
-  refuse(first, [&] { return locator.within(bad, 1.0, 1); });
+  refuse(first, [&] { return locator.locate(bad); });
+  refuse(first, [&] { return locator.nearest(bad); });
+  refuse(first, [&] { return locator.k_nearest(bad, 2); });
+  refuse(first, [&] { return locator.within(bad, 1.0); });
   refuse(size, [&] { return locator.neighbors(size); });
   refuse(0, [&] { return locator.within(scene.queries[0], -1); });
   refuse(size, [&] { return locator.distance(scene.queries[0], size); });
 }
 
 void test(const Scene& scene, double angle, std::uint8_t what) {
-  const Locator locator(scene.triangulation, scene.sites);
+  const Locator locator(scene.triangulation);
   const test::QueryOracle oracle(scene.triangulation, scene.sites, scene.queries);
   for (std::size_t i = 0; i < scene.queries.size(); ++i) {
     const Point& query = scene.queries[i];
@@ -278,7 +278,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::ByteSource source(data, size);
   fuzz::Scene scene;
   const std::uint8_t what = source.byte();
-  scene.options.threads = 1;
   scene.options.model = source.byte() % 2 == 0 ? Model::weighted : Model::projected;
   const fuzz::Scales scales = fuzz::next_scales(source);
   const std::size_t limit = 4 + source.below(8);

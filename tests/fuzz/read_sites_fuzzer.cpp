@@ -17,7 +17,7 @@ void test(std::string_view bytes, const ReadOptions& options) {
   SiteTable table;
   table.name = "name";
   try {
-    io::RONDEL_FUZZED_READER(bytes, options, table);
+    io::RONDEL_FUZZED_READER(bytes, {options, {}}, table);
   } catch (const FileError& error) {
     const std::string what = error.what();
     require(what.starts_with("name:"), "a message starts with the file: " + what);

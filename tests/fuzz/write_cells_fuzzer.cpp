@@ -79,12 +79,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string ending = fuzz::next_ending(source);
   const std::string path = folder.file("cells" + ending);
   Options options;
-  options.threads = 1;
   options.model = source.byte() % 2 == 0 ? Model::projected : Model::weighted;
   const double tolerance_deg = source.below(4) == 0 ? 0.1 : 5;
   const SiteTable table = fuzz::next_table(source, 30, ending);
   const Triangulation t = delaunay(table.sites, options);
-  const Diagram both = diagram(t, table.sites);
+  const Diagram both = diagram(t);
   fuzz::require(can_write_cells(path), "a format of cells can be written");
   fuzz::require(!can_write_cells(folder.file("cells.obj")), "other formats cannot");
   write_cells(path, table, t, both, tolerance_deg);
@@ -92,7 +91,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (ending == ".geojson") {
     const fuzz::FeatureCount found = fuzz::check_geojson(written);
     fuzz::test_geojson(found, t, both, tolerance_deg);
-    fuzz::test_polygons(found, cell_polygons(table.sites, t, both, tolerance_deg));
+    fuzz::test_polygons(found, cell_polygons(t, both, tolerance_deg));
     return 0;
   }
   fuzz::require_bytes(written, fuzz::bytes_of(both.cells.points));

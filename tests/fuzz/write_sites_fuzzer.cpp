@@ -20,12 +20,12 @@ bool has_header(const std::string& path) {
 }
 
 void test_sites(const std::string& path, const SiteTable& table) {
-  write_sites(path, table.sites, {}, {}, 1);
+  write_sites(path, table.sites);
   require(read_sites(path).sites == table.sites, "sites survive");
 }
 
 void test_positions(const std::string& path, const SiteTable& table) {
-  write_sites(path, table.sites, table.positions, {}, 1);
+  write_sites(path, table.sites, table.positions);
   const SiteTable back = read_sites(path);
   require(back.sites == table.sites, "the sites of positions survive");
   const bool has_positions = has_header(path) || path.ends_with(".npy");
@@ -34,7 +34,7 @@ void test_positions(const std::string& path, const SiteTable& table) {
 
 void test_circles(const std::string& path, const SiteTable& table) {
   const auto sites = polar_points(table.positions, table.radii_deg);
-  write_sites(path, sites, table.positions, table.radii_deg, 1);
+  write_sites(path, sites, table.positions, table.radii_deg);
   ReadOptions options;
   if (has_header(path)) options.radius = "radius";
   const SiteTable back = read_sites(path, options);

@@ -40,7 +40,7 @@ void test_geojson(const std::string& path, const SiteTable& table, const Triangu
   write_triangles(path, table, t);
   const FeatureCount found = check_geojson(content(path));
   require(found.features == t.num_faces() - t.num_ghost_faces(), "a feature for each solid face");
-  const LonLatPolygons all = face_polygons(table.sites, t);
+  const LonLatPolygons all = face_polygons(t);
   const std::set<Index> drawn(all.owners.begin(), all.owners.end());
   require(drawn.size() + found.not_drawn.size() == found.features, "the same faces are drawn");
 }
@@ -55,7 +55,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string ending = fuzz::next_ending(source);
   const std::string path = folder.file("triangles" + ending);
   Options options;
-  options.threads = 1;
   const SiteTable table = fuzz::next_table(source, 40, ending);
   const Triangulation t = delaunay(table.sites, options);
   fuzz::require(can_write_triangles(path), "a format of triangles can be written");

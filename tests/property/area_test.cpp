@@ -19,7 +19,7 @@ TEST(areas, sum_to_the_whole_sphere) {
     // Power cells cover the sphere if the center is inside the hull.
     RC_PRE(input.model == Model::projected || (t.dimension() == 2 && t.num_ghost_faces() == 0));
     RC_PRE(t.dimension() >= 0);
-    const auto area = areas(t, set.sites, cells(t, set.sites));
+    const auto area = areas(t);
     RC_ASSERT(area.size() == set.sites.size());
     const double sum = std::accumulate(area.begin(), area.end(), 0.0);
     RC_ASSERT(std::abs(sum / (4 * std::numbers::pi) - 1) < 1e-12);

@@ -65,7 +65,7 @@ std::vector<Point> tied_pool() {
 
 void expect_equal_to_a_build(const DynamicTriangulation& changing, const Options& options) {
   const Snapshot now = changing.snapshot();
-  const Triangulation fresh = delaunay(now.sites, options);
+  const Triangulation fresh = delaunay(now.triangulation.sites(), options);
   ASSERT_EQ(now.triangulation.dimension(), fresh.dimension());
   ASSERT_TRUE(std::ranges::equal(now.triangulation.faces(), fresh.faces()));
   ASSERT_TRUE(std::ranges::equal(now.triangulation.neighbors(), fresh.neighbors()));

@@ -65,8 +65,7 @@ TEST(input_order, threads_change_nothing) {
     Options options;
     options.model = input.model;
     options.sphere = set.sphere;
-    options.threads = 3;
-    const Triangulation three = delaunay(set.sites, options);
+    const Triangulation three = delaunay(set.sites, options, {.threads = 3});
     RC_ASSERT(std::ranges::equal(one.faces(), three.faces()));
     RC_ASSERT(std::ranges::equal(one.neighbors(), three.neighbors()));
   });

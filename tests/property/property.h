@@ -25,7 +25,6 @@ inline Triangulation triangulate(const SiteSet& set, Model model) {
   Options options;
   options.model = model;
   options.sphere = set.sphere;
-  options.threads = 1;
   return delaunay(set.sites, options);
 }
 
@@ -78,9 +77,8 @@ inline std::set<Triple> face_set(const Triangulation& t, bool solid_only = false
 
 // The facets, which do not depend on how ties are broken, each from its lowest corner, reversed if
 // wanted.
-inline std::set<std::vector<Index>> facets(const Triangulation& t, std::span<const Point> sites,
-                                           bool is_reversed = false) {
-  const Polygons polygons = merge_cocircular(t, sites);
+inline std::set<std::vector<Index>> facets(const Triangulation& t, bool is_reversed = false) {
+  const Polygons polygons = merge_cocircular(t);
   std::set<std::vector<Index>> result;
   for (std::size_t i = 0; i + 1 < polygons.offsets.size(); ++i) {
     std::vector<Index> ring(

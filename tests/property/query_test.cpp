@@ -34,7 +34,7 @@ Question any_question() {
 TEST(queries, nearest_lists_are_prefixes_of_each_other_and_in_order) {
   expect_for_all(400, [] {
     const Question q = any_question();
-    const Locator locator(q.triangulation, q.set.sites);
+    const Locator locator(q.triangulation);
     const std::size_t n = q.triangulation.num_vertices();
     const std::vector<Index> all = locator.k_nearest(q.query, n);
     RC_ASSERT(all.size() == n);
@@ -57,7 +57,7 @@ TEST(queries, nearest_lists_are_prefixes_of_each_other_and_in_order) {
 TEST(queries, what_is_within_an_angle_is_a_prefix_of_the_nearest) {
   expect_for_all(400, [] {
     const Question q = any_question();
-    const Locator locator(q.triangulation, q.set.sites);
+    const Locator locator(q.triangulation);
     const double angle = *rc::gen::inRange(0, 320) / 100.0;
     const std::vector<Index> inside = locator.within(q.query, angle);
     std::vector<Index> first = locator.k_nearest(q.query, inside.size());
@@ -72,11 +72,11 @@ TEST(queries, a_projected_site_is_nearest_to_itself) {
   expect_for_all(200, [] {
     const Question q = any_question();
     RC_PRE(q.input.model == Model::projected);
-    const Locator locator(q.triangulation, q.set.sites);
+    const Locator locator(q.triangulation);
     std::vector<Index> expected(q.set.sites.size());
     std::iota(expected.begin(), expected.end(), Index{0});
     for (const Duplicate& d : q.triangulation.duplicates()) expected[d.site] = d.representative;
-    RC_ASSERT(locator.nearest(q.set.sites, 1) == expected);
+    RC_ASSERT(locator.nearest(q.set.sites, {.threads = 1}) == expected);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const Location at = locator.locate(q.set.sites[i]);
       const bool is_there = at.where == Where::vertex && at.sites[0] == expected[i];
@@ -93,7 +93,7 @@ TEST(queries, a_projected_point_is_in_conflict_with_its_face) {
   expect_for_all(400, [] {
     const Question q = any_question();
     RC_PRE(q.input.model == Model::projected && q.triangulation.dimension() == 2);
-    const Locator locator(q.triangulation, q.set.sites);
+    const Locator locator(q.triangulation);
     const Location at = locator.locate(q.query);
     RC_PRE(at.where == Where::face || at.where == Where::edge);
     RC_ASSERT(std::ranges::binary_search(locator.conflict_region(q.query), at.face));
@@ -104,7 +104,7 @@ TEST(queries, the_length_of_a_query_does_not_matter) {
   expect_for_all(300, [] {
     const Question q = any_question();
     RC_PRE(q.set.sphere.center == Point{});
-    const Locator locator(q.triangulation, q.set.sites);
+    const Locator locator(q.triangulation);
     const double factor = std::ldexp(1.0, *rc::gen::inRange(-20, 20));
     const Point moved = factor * q.query;
     const bool is_exact = (1 / factor) * moved == q.query;

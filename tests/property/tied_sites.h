@@ -62,7 +62,6 @@ struct TiedSites {
 inline Options options_of(Model model) {
   Options options;
   options.model = model;
-  options.threads = 1;
   return options;
 }
 

@@ -75,14 +75,14 @@ std::string hash_of(const Triangulation& t) {
   return hash.text();
 }
 
-std::string hash_of_duals(const Triangulation& t, std::span<const Point> sites) {
-  const Diagram duals = diagram(t, sites);
+std::string hash_of_duals(const Triangulation& t) {
+  const Diagram duals = diagram(t);
   Hash hash;
   hash.add(duals.cells.offsets);
   hash.add(duals.cells.rings);
   hash.add(duals.cells.points);
   hash.add(duals.areas);
-  hash.add(centroids(t, sites, duals.cells));
+  hash.add(centroids(t));
   return hash.text();
 }
 
@@ -96,8 +96,8 @@ class Lines {
       std::set<std::string> seen;
       for (const unsigned threads : {1U, 2U, 5U}) {
         const Triangulation t =
-            delaunay(sites, {.model = model, .sphere = sphere, .threads = threads});
-        if (seen.empty()) duals = hash_of_duals(t, sites);
+            delaunay(sites, {.model = model, .sphere = sphere}, {.threads = threads});
+        if (seen.empty()) duals = hash_of_duals(t);
         seen.insert(hash_of(t));
       }
       for (const std::string& hash : seen) {

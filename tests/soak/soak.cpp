@@ -36,6 +36,7 @@ void require(bool holds, const char* what) {
 struct Input {
   std::vector<Point> sites;
   Options options;
+  Execution execution;
 };
 
 bool is_same(const Triangulation& a, const Triangulation& b) {
@@ -57,20 +58,19 @@ Input random_input(Random& random, std::size_t most) {
   if (set.sites.empty()) set.sites.push_back({1, 2, 3});
   const bool is_weighted = g.weighted_only || random.coin();
   return {std::move(set.sites),
-          {.model = is_weighted ? Model::weighted : Model::projected,
-           .sphere = set.sphere,
-           .threads = static_cast<unsigned>(random.between(1, 4))}};
+          {.model = is_weighted ? Model::weighted : Model::projected, .sphere = set.sphere},
+          {.threads = static_cast<unsigned>(random.between(1, 4))}};
 }
 
 void build(Random& random) {
-  Input in = random_input(random, 60'000);
-  const Triangulation built = delaunay(in.sites, in.options);
+  const Input in = random_input(random, 60'000);
+  const Triangulation built = delaunay(in.sites, in.options, in.execution);
   const CheckReport report = check(in.sites, built.faces(), in.options);
   require(report.is_valid, report.reason.c_str());
-  in.options.threads = 5;
-  require(is_same(built, delaunay(in.sites, in.options)), "threads change the result");
+  require(is_same(built, delaunay(in.sites, in.options, {.threads = 5})),
+          "threads change the result");
   if (in.sites.size() > 1000) return;
-  const Diagram duals = diagram(built, in.sites);
+  const Diagram duals = diagram(built);
   double sum = 0;
   for (const double area : duals.areas) sum += area;
   if (built.num_vertices() > 0) require(std::abs(sum - 12.566370614359172) < 1e-9, "areas");
@@ -97,7 +97,7 @@ void change(Random& random) {
   }
   const std::vector<Index> more = changing.insert(in.sites);
   const Snapshot now = changing.snapshot();
-  require(is_same(now.triangulation, delaunay(now.sites, in.options)), "changes");
+  require(is_same(now.triangulation, delaunay(now.triangulation.sites(), in.options)), "changes");
   changing.remove(more);
   require(changing.num_sites() == live.size(), "number of sites after changes");
 }
@@ -105,7 +105,7 @@ void change(Random& random) {
 void ask(Random& random) {
   const Input in = random_input(random, 20'000);
   const Triangulation built = delaunay(in.sites, in.options);
-  const Locator locator(built, in.sites);
+  const Locator locator(built);
   std::vector<Point> queries(50);
   const Point& center = in.options.sphere.center;
   for (Point& q : queries) {
@@ -113,8 +113,8 @@ void ask(Random& random) {
     if (q == center) q = in.sites[random.below(in.sites.size())];  // the center is very far
     if (q == center) return;
   }
-  const std::vector<Index> nearest = locator.nearest(queries, in.options.threads);
-  const std::vector<Location> places = locator.locate(queries, in.options.threads);
+  const std::vector<Index> nearest = locator.nearest(queries, in.execution);
+  const std::vector<Location> places = locator.locate(queries, in.execution);
   for (std::size_t i = 0; i < queries.size(); ++i) {
     require(locator.nearest(queries[i]) == nearest[i], "nearest in a range");
     require(locator.locate(queries[i]) == places[i], "locate in a range");
@@ -129,7 +129,7 @@ void ask(Random& random) {
 
 void hull(Random& random) {
   const Input in = random_input(random, 20'000);
-  const Triangulation built = convex_hull(in.sites, {.threads = in.options.threads});
+  const Triangulation built = convex_hull(in.sites, in.execution);
   require(is_same(built, convex_hull(in.sites, {.threads = 5})), "threads change the hull");
   if (built.dimension() < 2) return;
   const CheckReport report =
@@ -157,7 +157,7 @@ void round_trip(Random& random) {
   const Input in = random_input(random, 20'000);
   constexpr std::array site_endings = {".csv", ".tsv", ".xyz", ".npy"};
   const std::string sites = folder.file("sites") + site_endings[random.below(site_endings.size())];
-  write_sites(sites, in.sites, {}, {}, in.options.threads);
+  write_sites(sites, in.sites, {}, {}, in.execution);
   const SiteTable table = read_sites(sites);
   require(std::ranges::equal(table.sites, in.sites), "sites from a file");
   const Triangulation built = delaunay(table.sites, in.options);
@@ -165,7 +165,7 @@ void round_trip(Random& random) {
   const std::string faces = folder.file("faces") + face_endings[random.below(face_endings.size())];
   write_triangles(faces, table, built);
   require(std::ranges::equal(read_triangles(faces), built.faces()), "triangles from a file");
-  write_cells(folder.file("cells.npz"), table, built, diagram(built, table.sites));
+  write_cells(folder.file("cells.npz"), table, built, diagram(built));
 }
 
 std::size_t memory_in_use() {

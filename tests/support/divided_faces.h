@@ -57,9 +57,7 @@ inline std::set<Triple> faces_of(const bulk::PlaneGraph& graph, bulk::PlaneGraph
 // The faces that the center sees, by rank.
 inline std::set<Triple> solid_faces(const SiteSet& set, const order::SpatialOrder& order,
                                     Model model) {
-  Options options;
-  options.model = model;
-  options.sphere = set.sphere;
+  const system::Job options{{.model = model, .sphere = set.sphere}, {.threads = 1}};
   const auto arrays = kernel::triangulate(set.sites, order.order, {}, options).arrays;
   std::vector<Index> rank(set.sites.size(), no_index);
   for (Index i = 0; i < order.order.size(); ++i) rank[order.order[i]] = i;

@@ -5,7 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
+#include <memory>
+#include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -16,18 +20,30 @@
 namespace rondel {
 namespace {
 
-TriangulationArrays arrays_of(const Triangulation& t) {
-  TriangulationArrays arrays;
-  arrays.num_sites = t.num_sites();
-  arrays.dimension = t.dimension();
-  arrays.faces.assign(t.faces().begin(), t.faces().end());
-  arrays.neighbors.assign(t.neighbors().begin(), t.neighbors().end());
-  arrays.ghost_faces.assign(t.ghost_faces().begin(), t.ghost_faces().end());
-  arrays.ring.assign(t.ring().begin(), t.ring().end());
-  arrays.duplicates.assign(t.duplicates().begin(), t.duplicates().end());
-  arrays.hidden.assign(t.hidden().begin(), t.hidden().end());
-  return arrays;
-}
+// Arrays that can be changed.
+struct Arrays {
+  explicit Arrays(const Triangulation& t)
+      : dimension(t.dimension()),
+        faces(t.faces().begin(), t.faces().end()),
+        neighbors(t.neighbors().begin(), t.neighbors().end()),
+        ghost_faces(t.ghost_faces().begin(), t.ghost_faces().end()),
+        ring(t.ring().begin(), t.ring().end()),
+        duplicates(t.duplicates().begin(), t.duplicates().end()),
+        hidden(t.hidden().begin(), t.hidden().end()) {}
+
+  [[nodiscard]] Triangulation of(const Sites& sites, const Options& options = {}) const {
+    return Triangulation::from_arrays(
+        sites, {dimension, faces, neighbors, ghost_faces, ring, duplicates, hidden}, options);
+  }
+
+  int dimension;
+  std::vector<Triple> faces;
+  std::vector<Triple> neighbors;
+  std::vector<Index> ghost_faces;
+  std::vector<Index> ring;
+  std::vector<Duplicate> duplicates;
+  std::vector<Hidden> hidden;
+};
 
 struct Input {
   std::vector<Point> sites;
@@ -52,7 +68,7 @@ std::vector<Input> inputs() {
 TEST(from_arrays, takes_what_the_library_made) {
   for (const Input& in : inputs()) {
     const Triangulation made = delaunay(in.sites, in.options);
-    const Triangulation taken = Triangulation::from_arrays(arrays_of(made), in.options);
+    const Triangulation taken = Arrays(made).of(in.sites, in.options);
     EXPECT_EQ(taken.num_vertices(), made.num_vertices());
     EXPECT_TRUE(std::ranges::equal(taken.faces(), made.faces()));
   }
@@ -60,7 +76,7 @@ TEST(from_arrays, takes_what_the_library_made) {
 
 // Calls change(value) for each index of the arrays, by reference.
 template <class Change>
-void for_each_index(TriangulationArrays& arrays, const Change& change) {
+void for_each_index(Arrays& arrays, const Change& change) {
   for (auto* rows : {&arrays.faces, &arrays.neighbors}) {
     for (Triple& row : *rows) {
       for (Index& i : row) change(i);
@@ -76,13 +92,14 @@ void for_each_index(TriangulationArrays& arrays, const Change& change) {
 // One index that is out of range, or another one: of a face or a neighbor that breaks the surface.
 TEST(from_arrays, refuses_one_wrong_index) {
   for (const Input& in : inputs()) {
-    const TriangulationArrays made = arrays_of(delaunay(in.sites, in.options));
-    TriangulationArrays arrays = made;
+    const Sites sites(in.sites);
+    const Arrays made(delaunay(sites, in.options));
+    Arrays arrays = made;
     for_each_index(arrays, [&](Index& index) {
       const Index before = index;
       for (const Index wrong : {no_index, before + 1000000}) {
         index = wrong;
-        EXPECT_THROW(Triangulation::from_arrays(arrays, in.options), InvalidInput);
+        EXPECT_THROW(arrays.of(sites, in.options), InvalidInput);
       }
       index = before;
     });
@@ -91,9 +108,9 @@ TEST(from_arrays, refuses_one_wrong_index) {
         for (Index& index : row) {
           const Index before = index;
           index = (before + 1) %
-                  static_cast<Index>(rows == &arrays.faces ? made.num_sites : made.faces.size());
+                  static_cast<Index>(rows == &arrays.faces ? sites.size() : made.faces.size());
           if (made.faces.size() > 2) {
-            EXPECT_THROW(Triangulation::from_arrays(arrays, in.options), InvalidInput);
+            EXPECT_THROW(arrays.of(sites, in.options), InvalidInput);
           }
           index = before;
         }
@@ -103,15 +120,15 @@ TEST(from_arrays, refuses_one_wrong_index) {
 }
 
 TEST(from_arrays, refuses_surfaces_that_are_no_spheres) {
-  const std::vector<Point> sites = test::generator("uniform").make(20, 1).sites;
-  const TriangulationArrays made = arrays_of(delaunay(sites));
-  const auto refused = [](const TriangulationArrays& arrays) {
-    EXPECT_THROW(Triangulation::from_arrays(arrays, {}), InvalidInput);
+  std::vector<Point> sites = test::generator("uniform").make(20, 1).sites;
+  const Arrays made(delaunay(sites));
+  const auto refused = [&sites](const Arrays& arrays) {
+    EXPECT_THROW(static_cast<void>(arrays.of(sites)), InvalidInput);
   };
-  TriangulationArrays arrays = made;
-  arrays.num_sites = 21;  // a vertex without a face
+  Arrays arrays = made;
+  sites.push_back({1, 2, 3});  // a vertex without a face
   refused(arrays);
-  arrays = made;
+  sites.pop_back();
   arrays.faces.pop_back();
   refused(arrays);
   arrays.neighbors.pop_back();
@@ -130,45 +147,59 @@ TEST(from_arrays, refuses_surfaces_that_are_no_spheres) {
     arrays.faces.push_back({a + 20, b + 20, c + 20});
     arrays.neighbors.push_back({u + m, v + m, w + m});
   }
-  arrays.num_sites = 40;
+  const std::vector<Point> more = test::generator("uniform").make(20, 2).sites;
+  sites.insert(sites.end(), more.begin(), more.end());
   refused(arrays);
-  arrays.num_sites = 38;
+  sites.resize(38);
   refused(arrays);
 }
 
-// Areas and centroids of cells in which one number is another one.
-TEST(cells, of_a_caller_are_those_of_the_triangulation_or_refused) {
-  const std::vector<Point> sites = test::generator("uniform").make(60, 1).sites;
-  const Triangulation t = delaunay(sites);
-  const Cells right = cells(t, sites);
-  const auto refused = [&](const Cells& wrong) {
-    EXPECT_THROW(areas(t, sites, wrong), InvalidInput);
-    EXPECT_THROW(centroids(t, sites, wrong), InvalidInput);
-  };
-  EXPECT_EQ(areas(t, sites, right).size(), sites.size());
-  refused({});
-  Cells wrong = right;
-  for (std::uint64_t& offset : wrong.offsets) {
-    const std::uint64_t before = offset;
-    for (const std::uint64_t other : {before + 1, before - 1, std::uint64_t{1} << 40}) {
-      offset = other;
-      refused(wrong);
-    }
-    offset = before;
+TEST(from_arrays, refuses_what_is_no_site_and_no_duplicate) {
+  std::vector<Point> sites = test::generator("uniform").make(20, 1).sites;
+  sites.push_back(sites[7]);
+  const Arrays made(delaunay(sites));
+  ASSERT_EQ(made.duplicates.size(), 1U);
+  EXPECT_EQ(made.of(sites).num_vertices(), 20U);
+  sites[20] = sites[8];
+  EXPECT_THROW(static_cast<void>(made.of(sites)), InvalidInput);
+  sites[20] = {std::nan(""), 0, 0};
+  EXPECT_THROW(static_cast<void>(made.of(sites)), InvalidInput);
+}
+
+// A copy shares everything, and outlives what it was copied from; so does what was moved from.
+TEST(triangulation, is_cheap_to_copy_and_keeps_its_sites) {
+  Triangulation copy;
+  EXPECT_EQ(copy.dimension(), -1);
+  EXPECT_EQ(copy.num_sites(), 0U);
+  const Triple* faces = nullptr;
+  {
+    std::vector<Point> sites = test::generator("uniform").make(50, 1).sites;
+    const Point* const first = sites.data();
+    Triangulation t = delaunay(std::move(sites));
+    EXPECT_EQ(t.sites().points().data(), first);
+    faces = t.faces().data();
+    copy = t;
+    const Triangulation moved = std::move(t);
+    EXPECT_EQ(t.num_faces(), moved.num_faces());  // NOLINT: that is the promise
   }
-  for (Index& position : wrong.rings) {
-    const Index before = position;
-    for (const Index other : {(before + 1) % static_cast<Index>(t.num_faces()), no_index}) {
-      position = other;
-      refused(wrong);
-    }
-    position = before;
-  }
-  std::swap(wrong.rings[0], wrong.rings[1]);
-  refused(wrong);
-  wrong = right;
-  wrong.points.resize(t.num_faces() - 1);
-  refused(wrong);
+  EXPECT_EQ(copy.faces().data(), faces);
+  EXPECT_NEAR(std::reduce(areas(copy).begin(), areas(copy).end()), 4 * std::numbers::pi, 1e-12);
+}
+
+TEST(sites, are_copied_or_viewed) {
+  std::vector<Point> points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  const Sites copied(points);
+  const Sites seen = Sites::view(points);
+  auto owner = std::make_shared<const std::vector<Point>>(points);
+  const Sites owned = Sites::view(*owner, owner);
+  const std::weak_ptr<const std::vector<Point>> watch = owner;
+  const Point* const theirs = owner->data();
+  owner.reset();
+  EXPECT_FALSE(watch.expired());
+  EXPECT_EQ(owned.points().data(), theirs);
+  points[1] = {0, 2, 0};
+  EXPECT_EQ(copied[1], (Point{0, 1, 0}));
+  EXPECT_EQ(seen[1], (Point{0, 2, 0}));
 }
 
 TEST(writers, refuse_what_does_not_belong_together) {
@@ -177,7 +208,7 @@ TEST(writers, refuse_what_does_not_belong_together) {
   table.sites = test::generator("uniform").make(30, 1).sites;
   const std::vector<Point> sites(table.sites.begin(), table.sites.end());
   const Triangulation t = delaunay(sites);
-  const Diagram right = diagram(t, sites);
+  const Diagram right = diagram(t);
   const auto refused = [&](const Diagram& wrong) {
     for (const char* ending : {".geojson", ".vtp", ".npz"}) {
       EXPECT_THROW(write_cells(path + ending, table, t, wrong), InvalidInput);
@@ -198,8 +229,11 @@ TEST(writers, refuse_what_does_not_belong_together) {
   wrong.cells.points.clear();
   refused(wrong);
   const Triangulation fewer = delaunay(std::span(sites).first(20));
+  SiteTable others = table;
+  others.sites[29] = {1, 2, 3};
   for (const char* ending : {".off", ".ply", ".obj", ".stl", ".vtp", ".geojson", ".npy"}) {
     EXPECT_THROW(write_triangles(path + ending, table, fewer), InvalidInput);
+    EXPECT_THROW(write_triangles(path + ending, others, t), InvalidInput);
   }
 }
 

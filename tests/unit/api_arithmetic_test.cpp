@@ -103,7 +103,7 @@ Subject subject(std::string_view kind, Model model, double size) {
   test::SiteSet set = test::generator(kind).make(600, 1);
   Subject s;
   s.sites = std::move(set.sites);
-  s.options = {.model = model, .sphere = set.sphere, .threads = 2, .progress = {}};
+  s.options = {.model = model, .sphere = set.sphere};
   s.queries = test::generator("uniform").make(100, 2).sites;
   for (Point& p : s.sites) p = {size * p.x, size * p.y, size * p.z};
   for (Point& p : s.queries) p = {size * p.x, size * p.y, size * p.z};
@@ -116,7 +116,9 @@ struct Function {
   std::function<std::string(const Subject&)> call;
 };
 
-Triangulation triangulation_of(const Subject& s) { return delaunay(s.sites, s.options); }
+Triangulation triangulation_of(const Subject& s) {
+  return delaunay(s.sites, s.options, {.threads = 2});
+}
 
 std::string changed(const Subject& s) {
   DynamicTriangulation changing(s.sites, s.options);
@@ -126,12 +128,13 @@ std::string changed(const Subject& s) {
   changing.remove(3);
   changing.move(4, s.queries[62]);
   const Snapshot now = changing.snapshot();
-  return bytes_of(now.triangulation) + bytes_of(now.ids) + bytes_of(now.sites);
+  return bytes_of(now.triangulation) + bytes_of(now.ids) +
+         bytes_of(now.triangulation.sites().points());
 }
 
 std::string answers(const Subject& s) {
   const Triangulation t = triangulation_of(s);
-  const Locator locator(t, s.sites);
+  const Locator locator(t);
   std::string all = bytes_of(locator.nearest(s.queries)) +
                     bytes_of(locator.k_nearest(s.queries, 3)) +
                     bytes_of(locator.within(s.queries, 0.2).sites);
@@ -188,7 +191,7 @@ std::string files(const Subject& s) {
   const Triangulation t = delaunay(table.sites, s.options);
   write_triangles(folder / "t.off", table, t);
   write_triangles(folder / "t.geojson", table, t);
-  write_cells(folder / "c.geojson", table, t, diagram(t, table.sites));
+  write_cells(folder / "c.geojson", table, t, diagram(t));
   write_sites(folder / "s.csv", table.sites);
   std::string all;
   for (const char* name : {"t.off", "t.geojson", "c.geojson", "s.csv"})
@@ -202,30 +205,27 @@ const std::vector<Function> functions = {
     {"convex_hull",
      [](const auto& s) {
        const Triangulation hull = convex_hull(s.sites);
-       const HullSize size = size_of_hull(hull, s.sites);
+       const HullSize size = size_of_hull(hull);
        return bytes_of(hull) + bytes_of_one(size.volume) + bytes_of_one(size.area);
      }},
     {"check",
      [](const auto& s) { return check(s.sites, triangulation_of(s).faces(), s.options).reason; }},
     {"predicates", predicates_of},
     {"conversions", converted},
-    {"circumcenters",
-     [](const auto& s) { return bytes_of(circumcenters(triangulation_of(s), s.sites)); }},
+    {"circumcenters", [](const auto& s) { return bytes_of(circumcenters(triangulation_of(s))); }},
     {"diagram",
      [](const auto& s) {
-       const Diagram d = diagram(triangulation_of(s), s.sites);
+       const Diagram d = diagram(triangulation_of(s));
        return bytes_of(d.cells) + bytes_of(d.areas);
      }},
     {"areas",
      [](const auto& s) {
        const Triangulation t = triangulation_of(s);
-       const Cells c = cells(t, s.sites);
-       return bytes_of(c) + bytes_of(areas(t, s.sites, c)) + bytes_of(centroids(t, s.sites, c));
+       const Cells c = cells(t);
+       return bytes_of(c) + bytes_of(areas(t)) + bytes_of(centroids(t));
      }},
     {"merge_cocircular",
-     [](const auto& s) {
-       return bytes_of(merge_cocircular(triangulation_of(s), s.sites).corners);
-     }},
+     [](const auto& s) { return bytes_of(merge_cocircular(triangulation_of(s)).corners); }},
     {"Locator", answers},
     {"DynamicTriangulation", changed},
     {"files", files},

@@ -67,17 +67,15 @@ TEST(progress, may_triangulate_itself) {
   const std::size_t num_faces = delaunay(sites).num_faces();
   std::atomic<int> callers = 0;
   double last = 0;
-  Options options;
-  options.threads = 4;
-  options.progress = [&](std::string_view stage, double fraction) {
+  const Progress progress = [&](std::string_view stage, double fraction) {
     if (stage != "triangulate") return;
     EXPECT_EQ(++callers, 1);
     EXPECT_LE(last, fraction);
     last = fraction;
-    EXPECT_EQ(delaunay(few, {.threads = 4}).num_sites(), few.size());
+    EXPECT_EQ(delaunay(few, {}, {.threads = 4}).num_sites(), few.size());
     --callers;
   };
-  EXPECT_EQ(delaunay(sites, options).num_faces(), num_faces);
+  EXPECT_EQ(delaunay(sites, {}, {.threads = 4, .progress = progress}).num_faces(), num_faces);
   EXPECT_EQ(last, 1);
 }
 

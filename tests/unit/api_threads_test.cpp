@@ -45,12 +45,12 @@ TEST(threads, of_any_number_triangulate) {
   for (const std::size_t n : {0U, 5U, 20000U}) {
     const std::vector<Point> sites = test::generator("uniform").make(n, 1).sites;
     for (const Model model : {Model::projected, Model::weighted}) {
-      const Triangulation expected = delaunay(sites, {.model = model, .threads = 1});
+      const Triangulation expected = delaunay(sites, {.model = model}, {.threads = 1});
       for (const unsigned threads : thread_counts) {
         SCOPED_TRACE(threads);
-        const Options options = {.model = model, .threads = threads};
-        EXPECT_TRUE(std::ranges::equal(delaunay(sites, options).faces(), expected.faces()));
-        EXPECT_EQ(check(sites, expected.faces(), options).reason, "");
+        const Triangulation t = delaunay(sites, {.model = model}, {.threads = threads});
+        EXPECT_TRUE(std::ranges::equal(t.faces(), expected.faces()));
+        EXPECT_EQ(check(sites, t.faces(), {.model = model}, {.threads = threads}).reason, "");
       }
     }
   }
@@ -59,16 +59,16 @@ TEST(threads, of_any_number_triangulate) {
 TEST(threads, of_any_number_answer_and_write) {
   const std::vector<Point> sites = test::generator("uniform").make(9000, 1).sites;
   const Triangulation t = delaunay(sites);
-  const Locator locator(t, sites);
+  const Locator locator(t);
   const std::string path =
       std::filesystem::temp_directory_path() /
       ("rondel_threads_" + std::to_string(static_cast<long>(getpid())) + ".csv");
-  const auto expected = locator.nearest(sites, 1);
+  const auto expected = locator.nearest(sites, {.threads = 1});
   for (const unsigned threads : thread_counts) {
     SCOPED_TRACE(threads);
-    EXPECT_EQ(locator.nearest(sites, threads), expected);
-    EXPECT_EQ(locator.within(sites, 0.01, threads).offsets.size(), sites.size() + 1);
-    write_sites(path, sites, {}, {}, threads);
+    EXPECT_EQ(locator.nearest(sites, {.threads = threads}), expected);
+    EXPECT_EQ(locator.within(sites, 0.01, {.threads = threads}).offsets.size(), sites.size() + 1);
+    write_sites(path, sites, {}, {}, {.threads = threads});
     EXPECT_EQ(read_sites(path).sites.size(), sites.size());
   }
   std::remove(path.c_str());

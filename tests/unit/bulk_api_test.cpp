@@ -28,13 +28,14 @@ constexpr Case cases[] = {
 
 // Whether the first sign of progress is that of a block or of a part of the sphere: the incremental
 // build begins with 0.
-bool is_divided(const SiteSet& set, Options options) {
+bool is_divided(const SiteSet& set, const Options& options) {
   double first = -1;
-  options.progress = [&first](std::string_view stage, double fraction) {
+  system::Job job{options, {.threads = 1}};
+  job.progress = [&first](std::string_view stage, double fraction) {
     if (stage == "triangulate" && first < 0) first = fraction;
   };
   const auto order = order::spatial_order(set.sites, options.model, set.sphere.center, 1);
-  bulk::triangulate(set.sites, order.order, order.renamed, options);
+  bulk::triangulate(set.sites, order.order, order.renamed, job);
   return first > 0;
 }
 
@@ -55,15 +56,13 @@ TEST(bulk_api, what_many_sites_give) {
     options.model = c.model;
     options.sphere = set.sphere;
     EXPECT_EQ(is_divided(set, options), c.is_divided);
-    options.threads = 1;
     const Triangulation built = delaunay(set.sites, options);
     const CheckReport report = check(set.sites, built.faces(), options);
     EXPECT_TRUE(report.is_valid) << report.reason;
     EXPECT_EQ(report.num_vertices, built.num_vertices());
     EXPECT_EQ(report.num_hidden, built.hidden().size());
     EXPECT_EQ(report.num_duplicates, built.duplicates().size());
-    options.threads = 3;
-    expect_equal(delaunay(set.sites, options), built);
+    expect_equal(delaunay(set.sites, options, {.threads = 3}), built);
     // In another order, duplicates first, the vertices have other names.
     std::ranges::reverse(set.sites);
     const auto last = static_cast<Index>(set.sites.size() - 1);
@@ -85,11 +84,9 @@ TEST(bulk_api, copies_of_sites_change_nothing) {
     while (set.sites.size() < bulk::least_copied_sites + 1000) {
       set.sites.push_back(set.sites[set.sites.size() / 2]);
     }
-    Options options;
-    options.threads = 2;
-    const Triangulation built = delaunay(set.sites, options);
-    const auto order = order::spatial_order(set.sites, options.model, {}, 1);
-    const auto without = bulk::triangulate(set.sites, order.order, order.renamed, options).arrays;
+    const Triangulation built = delaunay(set.sites, {}, {.threads = 2});
+    const auto order = order::spatial_order(set.sites, Model::projected, {}, 1);
+    const auto without = bulk::triangulate(set.sites, order.order, order.renamed, {}).arrays;
     EXPECT_EQ(built.num_vertices(), num_different);
     EXPECT_TRUE(std::ranges::equal(built.faces(), without.faces));
     EXPECT_TRUE(std::ranges::equal(built.neighbors(), without.neighbors));
@@ -99,12 +96,10 @@ TEST(bulk_api, copies_of_sites_change_nothing) {
 TEST(bulk_api, progress_never_goes_back_and_ends_once) {
   const SiteSet set = generator("uniform").make(100000, 1);
   std::vector<double> fractions;
-  Options options;
-  options.threads = 2;
-  options.progress = [&fractions](std::string_view stage, double fraction) {
+  const Progress progress = [&fractions](std::string_view stage, double fraction) {
     if (stage == "triangulate") fractions.push_back(fraction);
   };
-  const Triangulation built = delaunay(set.sites, options);
+  const Triangulation built = delaunay(set.sites, {}, {.threads = 2, .progress = progress});
   EXPECT_EQ(built.num_vertices(), set.sites.size());
   EXPECT_GE(fractions.size(), 4U);
   EXPECT_TRUE(std::ranges::is_sorted(fractions));

@@ -72,7 +72,7 @@ class BulkCase {
   }
 
   std::vector<Point> sites_;
-  Options options_;
+  system::Job options_;
   order::SpatialOrder order_;
   TriangulationArrays expected_;
 };

@@ -46,10 +46,10 @@ TEST(cells, arrays_have_the_polygons_of_every_site) {
   std::vector<Point> sites = random_points(1500, 3);
   sites.push_back(sites[7]);
   const Triangulation triangulation = delaunay(sites);
-  const Diagram dual = diagram(triangulation, sites);
-  const LonLatPolygons all = cell_polygons(sites, triangulation, dual);
+  const Diagram dual = diagram(triangulation);
+  const LonLatPolygons all = cell_polygons(triangulation, dual);
   expect_arrays(all);
-  const map::CellMap map(sites, triangulation, dual.cells, 0.01, 1, {});
+  const map::CellMap map(triangulation, dual.cells, 0.01, {.threads = 1});
   map::CellMap::Pen pen;
   for (Index site = 0; site < sites.size(); ++site) {
     const auto found = polygons_of(all, site);
@@ -67,7 +67,7 @@ TEST(cells, arrays_have_the_polygons_of_every_site) {
 TEST(cells, arrays_of_faces_fill_the_map) {
   const std::vector<Point> sites = random_points(1500, 4);
   const Triangulation triangulation = delaunay(sites);
-  const LonLatPolygons all = face_polygons(sites, triangulation);
+  const LonLatPolygons all = face_polygons(triangulation);
   expect_arrays(all);
   double total = 0;
   for (Index face = 0; face < triangulation.num_faces(); ++face) {
@@ -80,19 +80,14 @@ TEST(cells, arrays_of_faces_fill_the_map) {
 
 TEST(cells, arrays_are_empty_without_sites) {
   const Triangulation none = delaunay(std::vector<Point>{});
-  expect_arrays(cell_polygons({}, none, diagram(none, {})));
-  expect_arrays(face_polygons({}, none));
+  expect_arrays(cell_polygons(none, diagram(none)));
+  expect_arrays(face_polygons(none));
 }
 
-TEST(cells, arrays_want_the_sites_of_the_triangulation) {
+TEST(cells, arrays_want_the_diagram_of_the_triangulation) {
   const std::vector<Point> sites = random_points(20, 5);
-  const Triangulation triangulation = delaunay(sites);
-  const Diagram dual = diagram(triangulation, sites);
-  const auto fewer = std::span(sites).first(19);
-  EXPECT_THROW(cell_polygons(fewer, triangulation, dual), InvalidInput);
-  EXPECT_THROW(face_polygons(fewer, triangulation), InvalidInput);
-  const Triangulation other = delaunay(fewer);
-  EXPECT_THROW(cell_polygons(fewer, other, dual), InvalidInput);
+  const Triangulation fewer = delaunay(std::span(sites).first(19));
+  EXPECT_THROW(cell_polygons(fewer, diagram(delaunay(sites))), InvalidInput);
 }
 
 }  // namespace

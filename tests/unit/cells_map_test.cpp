@@ -32,9 +32,9 @@ struct Demands {
 void expect_map(const std::vector<Point>& sites, const std::string& name,
                 const Options& options = {}, const Demands& demands = {}) {
   const Triangulation triangulation = delaunay(sites, options);
-  const Cells diagram = cells(triangulation, sites);
-  const std::vector<double> own_areas = areas(triangulation, sites, diagram);
-  const map::CellMap map(sites, triangulation, diagram, demands.tolerance_deg, 2, {});
+  const Cells diagram = cells(triangulation);
+  const std::vector<double> own_areas = areas(triangulation);
+  const map::CellMap map(triangulation, diagram, demands.tolerance_deg, {.threads = 2});
   map::CellMap::Pen pen;
   double total = 0;
   for (std::size_t site = 0; site < sites.size(); ++site) {

@@ -56,8 +56,8 @@ SiteTable table_of(const std::vector<LonLat>& positions) {
 void write(const std::string& path, const SiteTable& table, const Options& options = {}) {
   const Triangulation triangulation = delaunay(table.sites, options);
   Diagram diagram;
-  diagram.cells = cells(triangulation, table.sites);
-  diagram.areas = areas(triangulation, table.sites, diagram.cells);
+  diagram.cells = cells(triangulation);
+  diagram.areas = areas(triangulation);
   write_cells(path, table, triangulation, diagram);
 }
 
@@ -215,7 +215,7 @@ TEST(write_cells, names_hidden_sites) {
   table.sites = {{2, 0, 0}, {-2, 0, 0}, {0, 2, 0},        {0, -2, 0},
                  {0, 0, 2}, {0, 0, -2}, {1, 0.25, 0.125}, {0, 0, -1.5}};
   const Triangulation triangulation = delaunay(table.sites, {.model = Model::weighted});
-  const Diagram cells = diagram(triangulation, table.sites);
+  const Diagram cells = diagram(triangulation);
   write_cells(file_name("hidden.geojson"), table, triangulation, cells);
   const auto json = nlohmann::json::parse(content(file_name("hidden.geojson")));
   EXPECT_EQ(json["features"].size(), 6U);

@@ -17,8 +17,11 @@ struct Solid {
   std::vector<Point> sites;
   std::vector<Triple> faces;
   Options options{};
+  Progress progress{};
 
-  [[nodiscard]] CheckReport check() const { return proof::check_triangles(sites, faces, options); }
+  [[nodiscard]] CheckReport check() const {
+    return proof::check_triangles(sites, faces, {options, {.progress = progress}});
+  }
   [[nodiscard]] std::string reason() const { return check().reason; }
 };
 
@@ -28,7 +31,7 @@ inline Solid solid(std::vector<Point> sites, Model model = Model::projected,
   Options options;
   options.model = model;
   options.sphere = sphere;
-  return {std::move(sites), {hull.faces.begin(), hull.faces.end()}, options};
+  return {std::move(sites), {hull.faces.begin(), hull.faces.end()}, options, {}};
 }
 
 inline std::vector<Point> tetrahedron_sites() {

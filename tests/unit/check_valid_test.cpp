@@ -53,7 +53,7 @@ TEST(check_valid, ignores_the_order_of_faces_and_of_their_corners) {
 TEST(check_valid, tells_how_far_it_is) {
   Solid cube = solid(cube_sites());
   std::vector<double> told;
-  cube.options.progress = [&](std::string_view stage, double fraction) {
+  cube.progress = [&](std::string_view stage, double fraction) {
     EXPECT_EQ(stage, "check");
     told.push_back(fraction);
   };

@@ -15,7 +15,7 @@ namespace {
 TEST(cells, keep_the_contract_for_every_generator) {
   for_each_case(14, 3, [](const DualCase& c) {
     const Triangulation& t = c.triangulation;
-    const Cells diagram = cells(t, c.sites);
+    const Cells diagram = cells(t);
     ASSERT_EQ(diagram.offsets.size(), c.sites.size() + 1);
     ASSERT_EQ(diagram.offsets.back(), diagram.rings.size());
     std::set<Index> empty;
@@ -43,7 +43,7 @@ TEST(cells, list_the_faces_of_each_site) {
   for_each_case(20, 1, [](const DualCase& c) {
     const Triangulation& t = c.triangulation;
     if (t.dimension() < 2) return;
-    const Cells diagram = cells(t, c.sites);
+    const Cells diagram = cells(t);
     std::vector<std::set<Index>> expected(c.sites.size());
     for (Index f = 0; f < t.num_faces(); ++f) {
       for (const Index v : t.faces()[f]) expected[v].insert(f);
@@ -61,7 +61,7 @@ TEST(cells, list_the_faces_of_each_site) {
 // Each arc separates two cells: it occurs once in each direction.
 TEST(cells, share_their_arcs_with_their_neighbors) {
   for_each_case(20, 2, [](const DualCase& c) {
-    const Cells diagram = cells(c.triangulation, c.sites);
+    const Cells diagram = cells(c.triangulation);
     std::map<std::pair<Index, Index>, int> arcs;
     for (std::size_t i = 0; i < c.sites.size(); ++i) {
       const auto ring = ring_of(diagram, i);
@@ -78,7 +78,7 @@ TEST(cells, share_their_arcs_with_their_neighbors) {
 
 TEST(cells, hold_their_sites_counterclockwise) {
   const auto sites = generator("uniform").make(500, 1).sites;
-  const Cells diagram = cells(triangulated(sites), sites);
+  const Cells diagram = cells(triangulated(sites));
   for (std::size_t i = 0; i < sites.size(); ++i) {
     const auto ring = ring_of(diagram, i);
     for (std::size_t j = 0; j < ring.size(); ++j) {
@@ -93,7 +93,7 @@ TEST(cells, have_arc_points_on_the_bisector_between_antipodal_circumcenters) {
   const std::vector<Point> sites = {{1, 0, 1}, {0, 1, 1}, {-1, -1, 1}};
   const Triangulation triangulation = triangulated(sites);
   ASSERT_EQ(triangulation.num_faces(), 2U);
-  const Cells diagram = cells(triangulation, sites);
+  const Cells diagram = cells(triangulation);
   ASSERT_EQ(diagram.points.size(), 5U);
   for (std::size_t i = 0; i < 3; ++i) {
     const auto ring = ring_of(diagram, i);
@@ -116,7 +116,7 @@ TEST(cells, have_arc_points_on_the_bisector_between_antipodal_circumcenters) {
 
 TEST(cells, are_hemispheres_for_two_sites) {
   const std::vector<Point> sites = {{0, 0, 1}, {0, 0, -3}, {0, 0, 5}};
-  const Cells diagram = cells(triangulated(sites), sites);
+  const Cells diagram = cells(triangulated(sites));
   EXPECT_EQ(diagram.offsets, (std::vector<std::uint64_t>{0, 4, 8, 8}));
   for (const Point& p : diagram.points) EXPECT_EQ(p.z, 0);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -128,7 +128,7 @@ TEST(cells, are_hemispheres_for_two_sites) {
 
 TEST(cells, are_lunes_on_a_great_circle) {
   const std::vector<Point> sites = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
-  const Cells diagram = cells(triangulated(sites), sites);
+  const Cells diagram = cells(triangulated(sites));
   ASSERT_EQ(diagram.points.size(), 6U);
   EXPECT_EQ(std::abs(diagram.points[0].z), 1);
   EXPECT_EQ(diagram.points[1].z, -diagram.points[0].z);
@@ -144,7 +144,7 @@ TEST(cells, are_lunes_on_a_great_circle) {
 TEST(cells, of_one_site_and_of_none_are_empty) {
   EXPECT_EQ(cells(Triangulation{}, {}).offsets, std::vector<std::uint64_t>{0});
   const std::vector<Point> sites = {{1, 2, 3}, {2, 4, 6}};
-  const Cells diagram = cells(triangulated(sites), sites);
+  const Cells diagram = cells(triangulated(sites));
   EXPECT_EQ(diagram.offsets, (std::vector<std::uint64_t>{0, 0, 0}));
   EXPECT_TRUE(diagram.points.empty());
 }

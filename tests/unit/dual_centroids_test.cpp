@@ -9,10 +9,6 @@
 namespace rondel::test {
 namespace {
 
-std::vector<Point> centroids_of(const Triangulation& triangulation, std::span<const Point> sites) {
-  return centroids(triangulation, sites, cells(triangulation, sites));
-}
-
 double perimeter(const Cells& cells, std::size_t site) {
   const auto ring = ring_of(cells, site);
   double sum = 0;
@@ -25,9 +21,9 @@ double perimeter(const Cells& cells, std::size_t site) {
 
 TEST(centroids, agree_with_long_numbers_for_every_generator) {
   for_each_case(12, 2, [](const DualCase& c) {
-    const Cells diagram = cells(c.triangulation, c.sites);
-    const auto result = centroids(c.triangulation, c.sites, diagram);
-    const auto area = areas(c.triangulation, c.sites, diagram);
+    const Cells diagram = cells(c.triangulation);
+    const auto result = centroids(c.triangulation);
+    const auto area = areas(c.triangulation);
     const DualOracle oracle(c.triangulation, c.sites);
     for (Index i = 0; i < c.sites.size(); ++i) {
       if (ring_of(diagram, i).empty()) {
@@ -49,7 +45,7 @@ TEST(centroids, agree_with_long_numbers_for_every_generator) {
 
 TEST(centroids, of_the_octahedron_are_its_corners) {
   const auto sites = octahedron();
-  const auto result = centroids_of(triangulated(sites), sites);
+  const auto result = centroids(triangulated(sites));
   for (std::size_t i = 0; i < sites.size(); ++i) {
     EXPECT_LE(distance_in_ulps(result[i], to_real(sites[i])), 4);
   }
@@ -57,9 +53,9 @@ TEST(centroids, of_the_octahedron_are_its_corners) {
 
 TEST(centroids, of_tiny_cells_are_within_a_few_ulp) {
   const DualCase c = make_case(generator("patch_1e_9"), 60, 1, Model::projected);
-  const Cells diagram = cells(c.triangulation, c.sites);
-  const auto result = centroids(c.triangulation, c.sites, diagram);
-  const auto area = areas(c.triangulation, c.sites, diagram);
+  const Cells diagram = cells(c.triangulation);
+  const auto result = centroids(c.triangulation);
+  const auto area = areas(c.triangulation);
   const DualOracle oracle(c.triangulation, c.sites);
   int num_tiny = 0;
   for (Index i = 0; i < c.sites.size(); ++i) {
@@ -73,15 +69,15 @@ TEST(centroids, of_tiny_cells_are_within_a_few_ulp) {
 
 TEST(centroids, of_hemispheres_and_lunes) {
   const std::vector<Point> two = {{0, 0, 1}, {0, 0, -1}};
-  EXPECT_EQ(centroids_of(triangulated(two), two), two);
+  EXPECT_EQ(centroids(triangulated(two)), two);
   const std::vector<Point> four = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}};
-  const auto result = centroids_of(triangulated(four), four);
+  const auto result = centroids(triangulated(four));
   for (std::size_t i = 0; i < 4; ++i) EXPECT_LE(distance_in_ulps(result[i], to_real(four[i])), 4);
 }
 
 TEST(centroids, of_the_whole_sphere_is_its_center) {
   const std::vector<Point> sites = {{1, 2, 3}};
-  EXPECT_EQ(centroids_of(triangulated(sites), sites), std::vector<Point>{Point{}});
+  EXPECT_EQ(centroids(triangulated(sites)), std::vector<Point>{Point{}});
 }
 
 }  // namespace

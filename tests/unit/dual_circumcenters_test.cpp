@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "api/triangulation_impl.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
 #include "support/mpfr_oracle.h"
@@ -11,15 +12,15 @@
 namespace rondel::test {
 namespace {
 
-// Faces that belong to no surface: circumcenters looks at corners only.
-Triangulation loose_faces(std::size_t num_faces, Model model) {
+// Faces that belong to no surface: circumcenters looks at corners only, of which each face has three.
+Triangulation loose_faces(const std::vector<Point>& sites, Model model) {
+  const std::size_t num_faces = sites.size() / 3;
   TriangulationArrays arrays;
-  arrays.num_sites = 3 * num_faces;
+  arrays.num_sites = sites.size();
   arrays.dimension = 2;
   for (Index f = 0; f < num_faces; ++f) arrays.faces.push_back({3 * f, 3 * f + 1, 3 * f + 2});
   arrays.neighbors.resize(num_faces);
-  return {std::move(arrays), Options{.model = model, .sphere = {}, .threads = 1, .progress = {}},
-          BuildReport{}};
+  return api::make_triangulation(Sites::view(sites), std::move(arrays), {.model = model}, {});
 }
 
 // Whether no two corners are one site.
@@ -40,8 +41,8 @@ double worst_error(Model model, std::uint64_t seed, F make) {
     while (!is_face(corners, model)) corners = make(random);
     sites.insert(sites.end(), corners.begin(), corners.end());
   }
-  const Triangulation triangulation = loose_faces(num_faces, model);
-  const auto centers = circumcenters(triangulation, sites);
+  const Triangulation triangulation = loose_faces(sites, model);
+  const auto centers = circumcenters(triangulation);
   const DualOracle oracle(triangulation, sites);
   double worst = 0;
   for (std::size_t f = 0; f < num_faces; ++f) {
@@ -54,7 +55,7 @@ double worst_error(Model model, std::uint64_t seed, F make) {
 
 TEST(circumcenters, are_right_to_4_ulp_for_every_generator) {
   for_each_case(12, 2, [](const DualCase& c) {
-    const auto centers = circumcenters(c.triangulation, c.sites);
+    const auto centers = circumcenters(c.triangulation);
     const DualOracle oracle(c.triangulation, c.sites);
     ASSERT_EQ(centers.size(), c.triangulation.num_faces());
     for (std::size_t f = 0; f < centers.size(); ++f) {
@@ -124,7 +125,7 @@ TEST(circumcenters, do_not_overflow) {
 
 TEST(circumcenters, of_the_octahedron_are_the_corners_of_the_cube) {
   const auto sites = octahedron();
-  const auto centers = circumcenters(triangulated(sites), sites);
+  const auto centers = circumcenters(triangulated(sites));
   ASSERT_EQ(centers.size(), 8U);
   for (const Point& n : centers) {
     for (const double x : {n.x, n.y, n.z}) EXPECT_DOUBLE_EQ(std::abs(x), 1 / std::sqrt(3.0));
@@ -133,28 +134,20 @@ TEST(circumcenters, of_the_octahedron_are_the_corners_of_the_cube) {
 
 TEST(circumcenters, do_not_depend_on_the_number_of_threads) {
   const auto sites = generator("uniform").make(20000, 1).sites;
-  const Triangulation one = triangulated(sites);
-  const Triangulation four = with_threads(one, 4);
-  EXPECT_EQ(circumcenters(one, sites), circumcenters(four, sites));
+  const Triangulation t = triangulated(sites);
+  EXPECT_EQ(circumcenters(t, {.threads = 1}), circumcenters(t, {.threads = 4}));
 }
 
-TEST(circumcenters, refuse_other_sites) {
-  const auto sites = octahedron();
-  const Triangulation triangulation = triangulated(sites);
-  const std::span<const Point> fewer(sites.data(), 5);
-  EXPECT_THROW(circumcenters(triangulation, fewer), InvalidInput);
-  EXPECT_THROW(cells(triangulation, fewer), InvalidInput);
-  EXPECT_THROW(merge_cocircular(triangulation, fewer), InvalidInput);
-}
-
-// As many sites as there should be, but several in one place: no number of digits tells them apart.
+// Arrays of another triangulation with sites in one place: no number of digits tells them apart.
 TEST(circumcenters, refuse_vertices_in_one_place) {
   for (const Model model : {Model::projected, Model::weighted}) {
-    const Triangulation faces = loose_faces(2, model);
     const std::vector<Point> same(6, Point{0.5, 0.25, 0.75});
-    EXPECT_THROW(circumcenters(faces, same), InvalidInput);
+    EXPECT_THROW(circumcenters(loose_faces(same, model)), InvalidInput);
     const Triangulation octahedral = delaunay(octahedron(), {.model = model});
-    EXPECT_THROW(diagram(octahedral, same), InvalidInput);
+    const Triangulation taken = Triangulation::from_arrays(
+        same, {.dimension = 2, .faces = octahedral.faces(), .neighbors = octahedral.neighbors()},
+        {.model = model});
+    EXPECT_THROW(diagram(taken), InvalidInput);
   }
 }
 

@@ -18,7 +18,7 @@ namespace {
 using Polygon = std::vector<Index>;
 
 std::vector<Polygon> polygons_of(std::span<const Point> sites, Model model = Model::projected) {
-  const Polygons facets = merge_cocircular(triangulated(sites, model), sites);
+  const Polygons facets = merge_cocircular(triangulated(sites, model));
   std::vector<Polygon> result;
   for (std::size_t k = 0; k + 1 < facets.offsets.size(); ++k) {
     const auto begin = facets.corners.begin();
@@ -104,7 +104,7 @@ TEST(merge_cocircular, leaves_no_corner_inside_a_facet) {
 
 TEST(merge_cocircular, gives_a_closed_surface_for_every_generator) {
   for_each_case(20, 2, [](const DualCase& c) {
-    const Polygons facets = merge_cocircular(c.triangulation, c.sites);
+    const Polygons facets = merge_cocircular(c.triangulation);
     if (c.triangulation.dimension() < 2) {
       EXPECT_EQ(facets.offsets, std::vector<std::uint64_t>{0});
       return;

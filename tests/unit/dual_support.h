@@ -28,8 +28,8 @@ struct DualCase {
 inline DualCase make_case(const Generator& generator, std::size_t n, std::uint64_t seed,
                           Model model) {
   SiteSet set = generator.make(n, seed);
-  const Options options{.model = model, .sphere = set.sphere, .threads = 1, .progress = {}};
-  Triangulation triangulation = delaunay(set.sites, options);
+  Triangulation triangulation =
+      delaunay(set.sites, {.model = model, .sphere = set.sphere}, {.threads = 1});
   return {std::string(generator.name) + (model == Model::weighted ? " weighted " : " projected ") +
               std::to_string(n) + " " + std::to_string(seed),
           std::move(set.sites), std::move(triangulation)};
@@ -49,21 +49,7 @@ void for_each_case(std::size_t n, std::uint64_t num_seeds, F visit) {
 }
 
 inline Triangulation triangulated(std::span<const Point> sites, Model model = Model::projected) {
-  return delaunay(sites, Options{.model = model, .sphere = {}, .threads = 1, .progress = {}});
-}
-
-// The same triangulation, whose duals are computed with this number of threads.
-inline Triangulation with_threads(const Triangulation& t, unsigned threads) {
-  TriangulationArrays arrays;
-  arrays.num_sites = t.num_sites();
-  arrays.dimension = t.dimension();
-  arrays.faces.assign(t.faces().begin(), t.faces().end());
-  arrays.neighbors.assign(t.neighbors().begin(), t.neighbors().end());
-  BuildReport report;
-  report.threads = threads;
-  return {std::move(arrays),
-          Options{.model = t.model(), .sphere = t.sphere(), .threads = threads, .progress = {}},
-          report};
+  return delaunay(sites, {.model = model}, {.threads = 1});
 }
 
 inline std::span<const Index> ring_of(const Cells& cells, std::size_t site) {

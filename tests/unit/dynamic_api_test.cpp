@@ -52,7 +52,7 @@ void expect_refused(const DynamicTriangulation& changing, std::size_t index,
   }
   const Snapshot after = changing.snapshot();
   EXPECT_EQ(before.ids, after.ids);
-  EXPECT_EQ(before.sites, after.sites);
+  EXPECT_TRUE(before.triangulation.sites() == after.triangulation.sites());
   expect_same(before.triangulation, after.triangulation);
 }
 
@@ -171,7 +171,6 @@ TEST(dynamic, refuses_what_is_not_valid_and_changes_nothing) {
   Options options;
   options.sphere.squared_radius = -1;
   EXPECT_THROW(DynamicTriangulation{options}, InvalidInput);
-  EXPECT_THROW((DynamicTriangulation{delaunay(octahedron), std::vector<Point>(5)}), InvalidInput);
 }
 
 TEST(dynamic, takes_and_gives_triangulations) {
@@ -183,9 +182,9 @@ TEST(dynamic, takes_and_gives_triangulations) {
       options.model = model;
       options.sphere = set.sphere;
       const Triangulation built = delaunay(set.sites, options);
-      const DynamicTriangulation changing(built, set.sites);
+      const DynamicTriangulation changing(built);
       const Snapshot now = changing.snapshot();
-      EXPECT_EQ(now.sites, set.sites);
+      EXPECT_TRUE(now.triangulation.sites() == set.sites);
       SCOPED_TRACE(kind.name);
       expect_same(now.triangulation, built);
       EXPECT_EQ(now.triangulation.model(), model);

@@ -29,7 +29,7 @@ class Comparison {
       : changing_(changing),
         now_(changing.snapshot()),
         direct_(changing),
-        copy_(now_.triangulation, now_.sites) {}
+        copy_(now_.triangulation) {}
 
   void run(const std::vector<Point>& queries) const {
     ASSERT_EQ(direct_.nearest(queries), named(copy_.nearest(queries)));

@@ -103,7 +103,7 @@ void change_many(Model model) {
   std::ranges::shuffle(sites, random);
   const auto expect_equal_to_a_build = [&] {
     const Snapshot now = changing.snapshot();
-    const Triangulation fresh = delaunay(now.sites, options);
+    const Triangulation fresh = delaunay(now.triangulation.sites(), options);
     ASSERT_TRUE(std::ranges::equal(now.triangulation.faces(), fresh.faces()));
     ASSERT_TRUE(std::ranges::equal(now.triangulation.hidden(), fresh.hidden()));
     ASSERT_TRUE(std::ranges::equal(now.triangulation.duplicates(), fresh.duplicates()));

@@ -42,10 +42,10 @@ void expect_equal_to_a_build(const DynamicTriangulation& changing, const Live& l
   std::size_t i = 0;
   for (const auto& [id, point] : live) {
     ASSERT_EQ(now.ids[i], id);
-    ASSERT_EQ(now.sites[i], point);
+    ASSERT_EQ(now.triangulation.sites()[i], point);
     ++i;
   }
-  const Triangulation fresh = delaunay(now.sites, options);
+  const Triangulation fresh = delaunay(now.triangulation.sites(), options);
   const Triangulation& t = now.triangulation;
   ASSERT_EQ(t.dimension(), fresh.dimension());
   ASSERT_TRUE(std::ranges::equal(t.hidden(), fresh.hidden()));

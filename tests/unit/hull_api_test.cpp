@@ -74,27 +74,27 @@ TEST(hull_api, lists_the_corners_of_a_flat_hull_counterclockwise) {
 
 TEST(hull_api, measures_volume_and_area) {
   const auto points = cube_corners();
-  const HullSize cube = size_of_hull(convex_hull(points), points);
+  const HullSize cube = size_of_hull(convex_hull(points));
   EXPECT_DOUBLE_EQ(cube.volume, 8);
   EXPECT_DOUBLE_EQ(cube.area, 24);
   const std::vector<Point> square = {{1, 1, 7}, {3, 1, 7}, {3, 3, 7}, {1, 3, 7}, {2, 2, 7}};
-  const HullSize flat = size_of_hull(convex_hull(square), square);
+  const HullSize flat = size_of_hull(convex_hull(square));
   EXPECT_EQ(flat.volume, 0);
   EXPECT_DOUBLE_EQ(flat.area, 8);
   const auto ball = solid_clouds()[0].make(100000, 1);
-  const HullSize size = size_of_hull(convex_hull(ball), ball);
+  const HullSize size = size_of_hull(convex_hull(ball));
   EXPECT_LT(size.volume, 4 * std::numbers::pi / 3);
   EXPECT_GT(size.volume, 0.98 * 4 * std::numbers::pi / 3);
   EXPECT_LT(size.area, 4 * std::numbers::pi);
   EXPECT_GT(size.area, 0.98 * 4 * std::numbers::pi);
-  EXPECT_THROW(size_of_hull(convex_hull(square), points), InvalidInput);
+  EXPECT_THROW(size_of_hull(convex_hull(square)), InvalidInput);
 }
 
 TEST(hull_api, measures_at_both_ends_of_the_range) {
   const auto scaled_size = [](double scale) {
     auto points = cube_corners();
     for (Point& p : points) p = {scale * (p.x - 1), scale * (p.y - 1), scale * (p.z - 1)};
-    return size_of_hull(convex_hull(points), points);
+    return size_of_hull(convex_hull(points));
   };
   const double largest = std::numeric_limits<double>::max();
   EXPECT_EQ(scaled_size(largest).volume, std::numeric_limits<double>::infinity());
@@ -115,9 +115,7 @@ TEST(hull_api, does_not_depend_on_the_sign_of_zero) {
 
 TEST(hull_api, reports_progress) {
   std::size_t calls = 0;
-  HullOptions options;
-  options.progress = [&calls](std::string_view, double) { ++calls; };
-  convex_hull(cube_corners(), options);
+  convex_hull(cube_corners(), {.progress = [&calls](std::string_view, double) { ++calls; }});
   EXPECT_GT(calls, 0U);
 }
 

@@ -22,8 +22,7 @@ Triangulation build(std::span<const Point> sites, const Point& center, unsigned 
   Options options;
   options.model = Model::weighted;
   options.sphere.center = center;
-  options.threads = threads;
-  return delaunay(sites, options);
+  return delaunay(sites, options, {.threads = threads});
 }
 
 Index first_face_above(const Triangulation& t, std::span<const Point> sites, Index site) {

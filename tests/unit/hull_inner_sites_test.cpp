@@ -24,7 +24,7 @@ namespace {
 
 // The kernel alone: every site is inserted.
 TriangulationArrays insert_all(std::span<const Point> sites, const Point& center) {
-  Options options;
+  system::Job options;
   options.model = Model::weighted;
   options.sphere.center = center;
   auto order = order::spatial_order(sites, options.model, center, options.threads);

@@ -75,19 +75,18 @@ TEST(write_triangles, and_cells_have_the_same_bytes_for_any_number_of_threads) {
   table.sites = unit_vectors(random_positions(20000));
   std::vector<std::string> expected;
   for (const unsigned threads : thread_counts) {
-    Options options;
-    options.threads = threads;
-    const Triangulation triangulation = delaunay(table.sites, options);
-    const Diagram cells = diagram(triangulation, table.sites);
+    const Execution execution{.threads = threads};
+    const Triangulation triangulation = delaunay(table.sites, {}, execution);
+    const Diagram cells = diagram(triangulation, execution);
     std::vector<std::string> written;
     for (const char* const ending : {"off", "obj", "ply", "stl", "vtp", "npy", "geojson"}) {
       const std::string name = directory.file(std::string("a.") += ending);
-      write_triangles(name, table, triangulation);
+      write_triangles(name, table, triangulation, execution);
       written.push_back(read_all(name));
     }
     for (const char* const ending : {"geojson", "vtp", "npz"}) {
       const std::string name = directory.file(std::string("a.") += ending);
-      write_cells(name, table, triangulation, cells);
+      write_cells(name, table, triangulation, cells, 0.01, execution);
       written.push_back(read_all(name));
     }
     if (expected.empty()) expected = written;
@@ -101,10 +100,10 @@ TEST(write_sites, has_the_same_bytes_for_any_number_of_threads) {
   const auto sites = unit_vectors(positions);
   for (const char* const ending : {"csv", "tsv", "xyz", "npy"}) {
     const std::string name = directory.file(std::string("a.") += ending);
-    write_sites(name, sites, positions, {}, 1);
+    write_sites(name, sites, positions, {}, {.threads = 1});
     const std::string expected = read_all(name);
     for (const unsigned threads : thread_counts) {
-      write_sites(name, sites, positions, {}, threads);
+      write_sites(name, sites, positions, {}, {.threads = threads});
       EXPECT_TRUE(read_all(name) == expected) << ending << ' ' << threads;
     }
   }

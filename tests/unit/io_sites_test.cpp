@@ -278,12 +278,11 @@ TEST(read_sites, reports_progress) {
   for (int i = 0; i < 200000; ++i) text += "1,2,3\n";
   const std::string file = directory.with("a.csv", text);
   std::vector<double> fractions;
-  ReadOptions options;
-  options.progress = [&](std::string_view stage, double fraction) {
+  const Progress progress = [&](std::string_view stage, double fraction) {
     EXPECT_EQ(stage, "read");
     fractions.push_back(fraction);
   };
-  read_sites(file, options);
+  read_sites(file, {}, {.progress = progress});
   ASSERT_EQ(fractions.size(), 3U);
   EXPECT_NEAR(fractions[0], 65536.0 / 200000, 1e-4);
   EXPECT_NEAR(fractions[2], 3 * 65536.0 / 200000, 1e-4);

@@ -29,9 +29,9 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void expect_invalid(const std::vector<Point>& sites, const Options& options, std::size_t index,
-                    const std::string& text) {
+                    const std::string& text, const Execution& execution = {}) {
   try {
-    delaunay(sites, options);
+    delaunay(sites, options, execution);
     FAIL() << "accepted: " << text;
   } catch (const InvalidInput& error) {
     EXPECT_EQ(error.index(), index);
@@ -58,10 +58,8 @@ TEST(delaunay_misuse, names_the_first_bad_site_of_many_whatever_the_threads) {
   for (int i = 0; i < 100000; ++i) sites.push_back(test::random_direction(random));
   const auto expect_first = [&sites](Model model, std::size_t index) {
     for (const unsigned threads : {1U, 5U}) {
-      Options options;
-      options.model = model;
-      options.threads = threads;
-      expect_invalid(sites, options, index, "site " + std::to_string(index) + ": ");
+      expect_invalid(sites, {.model = model}, index, "site " + std::to_string(index) + ": ",
+                     {.threads = threads});
     }
   };
   sites[99000] = {0, nan, 0};
@@ -192,11 +190,10 @@ TEST(delaunay_progress, is_told_in_stages_that_begin_and_end) {
   std::vector<Point> sites;
   for (int i = 0; i < 1000; ++i) sites.push_back(test::random_direction(random));
   std::vector<std::pair<std::string, double>> calls;
-  Options options;
-  options.progress = [&calls](std::string_view stage, double fraction) {
+  const Progress progress = [&calls](std::string_view stage, double fraction) {
     calls.emplace_back(stage, fraction);
   };
-  delaunay(sites, options);
+  delaunay(sites, {}, {.progress = progress});
   ASSERT_GE(calls.size(), 3U);
   EXPECT_EQ(calls.front().first, "order");
   EXPECT_EQ(calls.back(), (std::pair<std::string, double>("triangulate", 1)));

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel/large_vector.h: memory of any size, and what users of vectors expect.
+// system/large_vector.h: memory of any size, and what users of vectors expect.
 
-#include "rondel/large_vector.h"
+#include "system/large_vector.h"
 
 #include <gtest/gtest.h>
 

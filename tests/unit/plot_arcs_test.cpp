@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "api/triangulation_impl.h"
 #include "globe.h"
 
 namespace rondel::cli {
@@ -25,12 +26,12 @@ std::set<std::set<Index>> undirected(const std::vector<ArcEnds>& arcs) {
 // A tetrahedron; face i is opposite to site i.
 Triangulation tetrahedron(std::vector<Index> ghost_faces) {
   TriangulationArrays arrays;
-  arrays.num_sites = 4;
   arrays.dimension = 2;
   arrays.faces = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
   arrays.neighbors = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+  arrays.num_sites = 4;
   arrays.ghost_faces = std::move(ghost_faces);
-  return {std::move(arrays), {}, {}};
+  return api::make_triangulation({}, std::move(arrays), {}, {});
 }
 
 Triangulation ring(std::vector<Index> order) {
@@ -38,7 +39,7 @@ Triangulation ring(std::vector<Index> order) {
   arrays.num_sites = order.size();
   arrays.dimension = 1;
   arrays.ring = std::move(order);
-  return {std::move(arrays), {}, {}};
+  return api::make_triangulation({}, std::move(arrays), {}, {});
 }
 
 Point on_equator(double radians) { return {std::cos(radians), std::sin(radians), 0}; }

@@ -28,11 +28,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 // The sites of a test with their triangulation and locator.
 struct Asked {
   explicit Asked(std::vector<Point> points, const Options& options = {})
-      : sites(std::move(points)), triangulation(delaunay(sites, options)) {}
+      : triangulation(delaunay(std::move(points), options)),
+        sites(triangulation.sites().points()) {}
 
-  std::vector<Point> sites;
   Triangulation triangulation;
-  Locator locator{triangulation, sites};
+  std::span<const Point> sites;
+  Locator locator{triangulation};
 };
 
 std::vector<Point> octahedron() {
@@ -96,16 +97,15 @@ TEST(query_misuse, rejects_angles_sites_and_sizes_that_are_none) {
   const std::size_t huge = std::numeric_limits<std::size_t>::max() / 2;
   expect_invalid(0, "is more than an array can hold",
                  [&] { static_cast<void>(s.locator.k_nearest(queries, huge)); });
-  expect_invalid(2, "made from 6 sites, not from 2",
-                 [&] { const Locator locator(s.triangulation, std::span(s.sites).first(2)); });
 }
 
 // Sites in other places make faces that lie over one another, among which a walk may go around.
 TEST(query_misuse, ends_among_sites_that_were_not_triangulated) {
   const std::vector<Point> sites = random_points(2000, 5);
-  const Triangulation triangulation = delaunay(sites);
-  const std::vector<Point> others = random_points(2000, 6);
-  const Locator locator(triangulation, others);
+  const Triangulation built = delaunay(sites);
+  const Locator locator(Triangulation::from_arrays(
+      random_points(2000, 6),
+      {.dimension = 2, .faces = built.faces(), .neighbors = built.neighbors()}));
   int num_refused = 0;
   for (const Point& p : random_points(300, 7)) {
     try {
@@ -214,8 +214,9 @@ struct Answers {
 };
 
 Answers answer(const Locator& locator, std::span<const Point> queries, unsigned threads) {
-  return {locator.locate(queries, threads), locator.nearest(queries, threads),
-          locator.k_nearest(queries, 3, threads), locator.within(queries, 0.2, threads)};
+  const Execution execution{.threads = threads};
+  return {locator.locate(queries, execution), locator.nearest(queries, execution),
+          locator.k_nearest(queries, 3, execution), locator.within(queries, 0.2, execution)};
 }
 
 void expect_equal(const Answers& a, const Answers& b) {
@@ -295,11 +296,11 @@ TEST(query_batch, fills_up_what_is_missing) {
 
 TEST(query_batch, a_locator_may_be_moved) {
   const Asked s(octahedron());
-  Locator from(s.triangulation, s.sites);
+  Locator from(s.triangulation);
   Locator to = std::move(from);
   EXPECT_EQ(to.nearest({0, 0, 1}), 4U);
   const Asked one({{1, 0, 0}});
-  Locator other(one.triangulation, one.sites);
+  Locator other(one.triangulation);
   other = std::move(to);
   EXPECT_EQ(other.nearest({0, 0, 1}), 4U);
 }

@@ -52,7 +52,7 @@ void for_each_case(std::size_t n, const std::function<void(const Case&)>& work) 
 
 TEST(query_oracle, nearest_and_k_nearest_agree_with_brute_force) {
   for_each_case(40, [](const Case& c) {
-    const Locator locator(c.triangulation, c.set.sites);
+    const Locator locator(c.triangulation);
     const QueryOracle oracle(c.triangulation, c.set.sites, c.queries);
     for (std::size_t q = 0; q < c.queries.size(); ++q) {
       const std::vector<Index> sorted = oracle.by_distance(q);
@@ -71,7 +71,7 @@ TEST(query_oracle, nearest_and_k_nearest_agree_with_brute_force) {
 TEST(query_oracle, locate_agrees_with_brute_force) {
   std::set<Where> met;
   for_each_case(40, [&met](const Case& c) {
-    const Locator locator(c.triangulation, c.set.sites);
+    const Locator locator(c.triangulation);
     const QueryOracle oracle(c.triangulation, c.set.sites, c.queries);
     for (std::size_t q = 0; q < c.queries.size(); ++q) {
       const Location found = locator.locate(c.queries[q]);
@@ -85,7 +85,7 @@ TEST(query_oracle, locate_agrees_with_brute_force) {
 TEST(query_oracle, within_agrees_with_brute_force) {
   constexpr double pi = std::numbers::pi;
   for_each_case(30, [](const Case& c) {
-    const Locator locator(c.triangulation, c.set.sites);
+    const Locator locator(c.triangulation);
     const QueryOracle oracle(c.triangulation, c.set.sites, c.queries);
     for (std::size_t q = 0; q < c.queries.size(); q += 2) {
       const Point& p = c.queries[q];
@@ -116,7 +116,7 @@ double length(const Point& p) { return std::hypot(p.x, p.y, p.z); }
 
 TEST(query_oracle, distances_are_accurate) {
   for_each_case(20, [](const Case& c) {
-    const Locator locator(c.triangulation, c.set.sites);
+    const Locator locator(c.triangulation);
     const QueryOracle oracle(c.triangulation, c.set.sites, c.queries);
     const bool is_projected = c.triangulation.model() == Model::projected;
     for (std::size_t q = 0; q < c.queries.size(); ++q) {
@@ -141,7 +141,7 @@ TEST(query_oracle, distances_are_accurate) {
 // What an insertion changes is the definition; the triangulation with the query shows it.
 TEST(query_oracle, conflict_regions_are_the_faces_that_an_insertion_removes) {
   for_each_case(25, [](const Case& c) {
-    const Locator locator(c.triangulation, c.set.sites);
+    const Locator locator(c.triangulation);
     for (const Point& p : c.queries) {
       std::vector<Point> more = c.set.sites;
       more.push_back(p);
@@ -164,7 +164,7 @@ TEST(query_oracle, conflict_regions_are_the_faces_that_an_insertion_removes) {
 
 TEST(query_oracle, neighbors_are_those_of_the_faces) {
   for_each_case(30, [](const Case& c) {
-    const Locator locator(c.triangulation, c.set.sites);
+    const Locator locator(c.triangulation);
     std::vector<std::set<std::array<Index, 2>>> links(c.set.sites.size());
     for (const Triple& v : c.triangulation.faces()) {
       for (std::size_t i = 0; i < 3; ++i) {

@@ -9,11 +9,18 @@
 #include <vector>
 
 #include "gtest/gtest.h"
-#include "rondel/interrupt.h"
+#include "rondel/error.h"
 #include "system/parallel.h"
 
 namespace rondel::system {
 namespace {
+
+// Calls `work` in the scope of a flag.
+template <class Work>
+void call_interruptible(const std::atomic<bool>& stop, const Work& work) {
+  const StopScope scope(&stop);
+  work();
+}
 
 constexpr unsigned thread_counts[] = {0, 1, 2, 3, 7, 16};
 

@@ -17,10 +17,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
 
+#include "rondel/sites.h"
 #include "rondel/types.h"
 
 namespace rondel::python {
@@ -46,6 +48,15 @@ std::span<const Row> rows_of(const Array& array) {
   return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
 }
 inline std::span<const Point> points_of(const PointsIn& array) { return rows_of<Point>(array); }
+
+// The points as sites, which keep the array.
+inline Sites sites_of(const PointsIn& array) {
+  std::shared_ptr<const PointsIn> owner(new PointsIn(array), [](const PointsIn* kept) {
+    const nb::gil_scoped_acquire acquired;
+    delete kept;
+  });
+  return Sites::view(points_of(array), std::move(owner));
+}
 
 inline Point point_of(const std::array<double, 3>& p) { return {p[0], p[1], p[2]}; }
 

@@ -26,9 +26,11 @@ struct Lists {
 };
 using ListsOut = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
 
-Diagram make_diagram(const Triangulation& t, const PointsIn& points, const nb::object& listener) {
-  return watched(points.shape(0), listener,
-                 [&](const Progress&) { return diagram(t, points_of(points)); });
+// By as many threads as the triangulation was built by.
+template <class Work>
+auto watched_dual(const Triangulation& t, const Work& work) {
+  return watched_quietly(t.num_sites(), t.report().threads,
+                         [&](const Execution& execution) { return work(t, execution); });
 }
 
 Lists ring_neighbors(const Triangulation& t) {
@@ -166,22 +168,16 @@ void add_diagram_class(nb::module_& module) {
 
 void add_diagram(nb::module_& module) {
   add_diagram_class(module);
-  module.def("diagram", &make_diagram, nb::arg("triangulation"), nb::arg("points").noconvert(),
-             nb::arg("progress").none());
+  module.def(
+      "diagram", [](const Triangulation& t) { return watched_dual(t, &diagram); },
+      nb::arg("triangulation"));
   module.def(
       "circumcenters",
-      [](const Triangulation& t, const PointsIn& points) {
-        return points_out(
-            watched_quietly(points.shape(0), [&] { return circumcenters(t, points_of(points)); }));
-      },
-      nb::arg("triangulation"), nb::arg("points").noconvert());
+      [](const Triangulation& t) { return points_out(watched_dual(t, &circumcenters)); },
+      nb::arg("triangulation"));
   module.def(
-      "centroids",
-      [](const Triangulation& t, const PointsIn& points, const Diagram& diagram) {
-        return points_out(watched_quietly(
-            points.shape(0), [&] { return centroids(t, points_of(points), diagram.cells); }));
-      },
-      nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"));
+      "centroids", [](const Triangulation& t) { return points_out(watched_dual(t, &centroids)); },
+      nb::arg("triangulation"));
   module.def(
       "edges",
       [](const Triangulation& t) {
@@ -195,12 +191,11 @@ void add_diagram(nb::module_& module) {
   module.def("lists", &to_lists, nb::arg("items").noconvert(), nb::arg("offsets").noconvert());
   module.def(
       "merge_cocircular",
-      [](const Triangulation& t, const PointsIn& points) -> ListsOut {
-        Polygons polygons = watched_quietly(points.shape(0),
-                                            [&] { return merge_cocircular(t, points_of(points)); });
+      [](const Triangulation& t) -> ListsOut {
+        Polygons polygons = watched_dual(t, &merge_cocircular);
         return {offsets_out(std::move(polygons.offsets)), indices_out(std::move(polygons.corners))};
       },
-      nb::arg("triangulation"), nb::arg("points").noconvert());
+      nb::arg("triangulation"));
   module.def("largest_discrepancy", &largest_discrepancy, nb::arg("points").noconvert(),
              nb::arg("center"), nb::arg("radius"));
 }

@@ -6,6 +6,7 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/tuple.h>
 
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <shared_mutex>
@@ -25,14 +26,23 @@ namespace {
 class SharedDynamic {
  public:
   explicit SharedDynamic(const Options& options) : triangulation_(options) {}
-  SharedDynamic(const Triangulation& triangulation, std::span<const Point> sites)
-      : triangulation_(triangulation, sites) {}
+  explicit SharedDynamic(const Triangulation& triangulation)
+      : triangulation_(triangulation), threads_(triangulation.report().threads) {}
 
   template <class Change>
   auto change(const Change& change) {
     const nb::gil_scoped_release released;
     const std::unique_lock lock(mutex_);
     return change(triangulation_);
+  }
+  // A change of so many sites, which Ctrl-C ends.
+  void change_many(
+      std::size_t size,
+      const std::function<void(DynamicTriangulation&, const Execution& execution)>& change) {
+    run_watched(size, threads_, nb::none(), [&](const Execution& execution) {
+      const std::unique_lock lock(mutex_);
+      change(triangulation_, execution);
+    });
   }
   template <class Question>
   auto ask(const Question& question) const {
@@ -44,6 +54,7 @@ class SharedDynamic {
  private:
   mutable std::shared_mutex mutex_;
   DynamicTriangulation triangulation_;
+  unsigned threads_ = 0;  // of builds for ranges of changes; 0: one for each core
 };
 
 template <auto get>
@@ -57,8 +68,11 @@ void add_changes(nb::class_<SharedDynamic>& type) {
   type.def(
           "insert",
           [](SharedDynamic& self, const PointsIn& points) {
-            return indices_out(
-                self.change([&](DynamicTriangulation& t) { return t.insert(points_of(points)); }));
+            std::vector<Index> ids;
+            self.change_many(points.shape(0), [&](DynamicTriangulation& t, const Execution& e) {
+              ids = t.insert(points_of(points), e);
+            });
+            return indices_out(std::move(ids));
           },
           nb::arg("points").noconvert())
       .def(
@@ -77,14 +91,17 @@ void add_changes(nb::class_<SharedDynamic>& type) {
       .def(
           "remove",
           [](SharedDynamic& self, const IndicesIn& ids) {
-            self.change([&](DynamicTriangulation& t) { t.remove(rows_of<Index>(ids)); });
+            self.change_many(ids.shape(0), [&](DynamicTriangulation& t, const Execution& e) {
+              t.remove(rows_of<Index>(ids), e);
+            });
           },
           nb::arg("ids").noconvert())
       .def(
           "move",
           [](SharedDynamic& self, const IndicesIn& ids, const PointsIn& to) {
-            self.change(
-                [&](DynamicTriangulation& t) { t.move(rows_of<Index>(ids), points_of(to)); });
+            self.change_many(ids.shape(0), [&](DynamicTriangulation& t, const Execution& e) {
+              t.move(rows_of<Index>(ids), points_of(to), e);
+            });
           },
           nb::arg("ids").noconvert(), nb::arg("to").noconvert());
 }
@@ -122,8 +139,7 @@ void add_sites(nb::class_<SharedDynamic>& type) {
            })
       .def("snapshot", [](const SharedDynamic& self) {
         Snapshot now = self.ask([](const DynamicTriangulation& t) { return t.snapshot(); });
-        return std::tuple(indices_out(std::move(now.ids)), points_out(std::move(now.sites)),
-                          std::move(now.triangulation));
+        return std::tuple(indices_out(std::move(now.ids)), std::move(now.triangulation));
       });
 }
 
@@ -134,7 +150,8 @@ void add_queries(nb::class_<SharedDynamic>& type) {
             return self.ask([&](const DynamicTriangulation& t) {
               const Locator locator(t);
               std::vector<Triple> corners;
-              const std::vector<Location> found = locator.locate(points_of(queries), threads);
+              const std::vector<Location> found =
+                  locator.locate(points_of(queries), {.threads = threads});
               corners.reserve(found.size());
               for (const Location& location : found) corners.push_back(location.sites);
               const nb::gil_scoped_acquire acquired;
@@ -146,7 +163,7 @@ void add_queries(nb::class_<SharedDynamic>& type) {
           "nearest",
           [](const SharedDynamic& self, const PointsIn& queries, unsigned threads) {
             return indices_out(self.ask([&](const DynamicTriangulation& t) {
-              return Locator(t).nearest(points_of(queries), threads);
+              return Locator(t).nearest(points_of(queries), {.threads = threads});
             }));
           },
           nb::arg("queries").noconvert(), nb::arg("threads"))
@@ -154,7 +171,7 @@ void add_queries(nb::class_<SharedDynamic>& type) {
           "k_nearest",
           [](const SharedDynamic& self, const PointsIn& queries, std::size_t k, unsigned threads) {
             return indices_out(self.ask([&](const DynamicTriangulation& t) {
-              return Locator(t).k_nearest(points_of(queries), k, threads);
+              return Locator(t).k_nearest(points_of(queries), k, {.threads = threads});
             }));
           },
           nb::arg("queries").noconvert(), nb::arg("k"), nb::arg("threads"))
@@ -162,7 +179,7 @@ void add_queries(nb::class_<SharedDynamic>& type) {
           "within",
           [](const SharedDynamic& self, const PointsIn& queries, double angle, unsigned threads) {
             return site_lists_out(self.ask([&](const DynamicTriangulation& t) {
-              return Locator(t).within(points_of(queries), angle, threads);
+              return Locator(t).within(points_of(queries), angle, {.threads = threads});
             }));
           },
           nb::arg("queries").noconvert(), nb::arg("angle"), nb::arg("threads"))
@@ -189,11 +206,11 @@ void add_dynamic(nb::module_& module) {
           nb::arg("is_weighted"), nb::arg("center"), nb::arg("squared_radius"))
       .def(
           "__init__",
-          [](SharedDynamic* self, const Triangulation& t, const PointsIn& points) {
+          [](SharedDynamic* self, const Triangulation& t) {
             const nb::gil_scoped_release released;
-            new (self) SharedDynamic(t, points_of(points));
+            new (self) SharedDynamic(t);
           },
-          nb::arg("triangulation"), nb::arg("points").noconvert());
+          nb::arg("triangulation"));
   add_changes(type);
   add_sites(type);
   add_queries(type);

@@ -54,37 +54,39 @@ void add_files(nb::module_& module) {
       "write_cells",
       [](const std::string& path, const Triangulation& t, const PointsIn& points,
          const Diagram& diagram, const std::vector<ColumnIn>& columns, double tolerance_deg) {
-        run_watched(points.shape(0), nb::none(), [&](const Progress& progress) {
-          write_cells(path, make_table(points, columns), t, diagram, tolerance_deg, progress);
-        });
+        run_watched(
+            points.shape(0), t.report().threads, nb::none(), [&](const Execution& execution) {
+              write_cells(path, make_table(points, columns), t, diagram, tolerance_deg, execution);
+            });
       },
       nb::arg("path"), nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"),
       nb::arg("columns"), nb::arg("tolerance_deg"));
   module.def(
       "write_triangles",
       [](const std::string& path, const Triangulation& t, const PointsIn& points) {
-        run_watched(points.shape(0), nb::none(), [&](const Progress& progress) {
-          write_triangles(path, make_table(points, {}), t, progress);
-        });
+        run_watched(points.shape(0), t.report().threads, nb::none(),
+                    [&](const Execution& execution) {
+                      write_triangles(path, make_table(points, {}), t, execution);
+                    });
       },
       nb::arg("path"), nb::arg("triangulation"), nb::arg("points").noconvert());
   module.def(
       "cell_polygons",
-      [](const Triangulation& t, const PointsIn& points, const Diagram& diagram,
-         double tolerance_deg) {
-        return polygons_out(watched_quietly(points.shape(0), [&] {
-          return cell_polygons(points_of(points), t, diagram, tolerance_deg);
-        }));
+      [](const Triangulation& t, const Diagram& diagram, double tolerance_deg) {
+        return polygons_out(
+            watched_quietly(t.num_sites(), t.report().threads, [&](const Execution& execution) {
+              return cell_polygons(t, diagram, tolerance_deg, execution);
+            }));
       },
-      nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"),
-      nb::arg("tolerance_deg"));
+      nb::arg("triangulation"), nb::arg("diagram"), nb::arg("tolerance_deg"));
   module.def(
       "face_polygons",
-      [](const Triangulation& t, const PointsIn& points) {
-        return polygons_out(
-            watched_quietly(points.shape(0), [&] { return face_polygons(points_of(points), t); }));
+      [](const Triangulation& t) {
+        return polygons_out(watched_quietly(
+            t.num_sites(), t.report().threads,
+            [&](const Execution& execution) { return face_polygons(t, execution); }));
       },
-      nb::arg("triangulation"), nb::arg("points").noconvert());
+      nb::arg("triangulation"));
 }
 
 }  // namespace rondel::python

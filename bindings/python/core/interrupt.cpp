@@ -11,7 +11,7 @@
 #include <string>
 #include <thread>
 
-#include "rondel/interrupt.h"
+#include "rondel/error.h"
 
 namespace rondel::python {
 namespace {
@@ -25,8 +25,8 @@ constexpr auto nap = 50ms;
 // What the thread that works and the one that watches share.
 class Work {
  public:
-  explicit Work(const std::function<void(const Progress&)>& work)
-      : thread_([this, &work] { run(work); }) {}
+  Work(unsigned threads, const std::function<void(const Execution&)>& work)
+      : thread_([this, threads, &work] { run(threads, work); }) {}
 
   // Whether the work ended within a nap.
   bool wait() {
@@ -51,12 +51,13 @@ class Work {
   }
 
  private:
-  void run(const std::function<void(const Progress&)>& work) {
+  void run(unsigned threads, const std::function<void(const Execution&)>& work) {
     std::exception_ptr error;
+    const auto progress = [this](std::string_view stage, double fraction) {
+      report(stage, fraction);
+    };
     try {
-      call_interruptible(stop_, [&] {
-        work([this](std::string_view stage, double fraction) { report(stage, fraction); });
-      });
+      work({.threads = threads, .progress = progress, .stop = &stop_});
     } catch (const Interrupted&) {
       error = nullptr;
     } catch (...) {
@@ -97,18 +98,18 @@ std::exception_ptr watch(Work& work, const nb::object& listener) {
 
 }  // namespace
 
-void run_watched(std::size_t size, const nb::object& listener,
-                 const std::function<void(const Progress&)>& work) {
+void run_watched(std::size_t size, unsigned threads, const nb::object& listener,
+                 const std::function<void(const Execution&)>& work) {
   if (size < many_items && listener.is_none()) {
     const nb::gil_scoped_release released;
-    work({});
+    work({.threads = threads});
     return;
   }
   std::exception_ptr raised;
   std::exception_ptr error;
   {
     const nb::gil_scoped_release released;
-    Work running(work);
+    Work running(threads, work);
     while (!running.wait()) {
       if (raised) continue;
       const nb::gil_scoped_acquire acquired;

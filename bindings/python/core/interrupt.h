@@ -21,22 +21,25 @@ namespace rondel::python {
 //    KeyboardInterrupt;
 // 2. to tell `listener`, if it is not None, the stage and the fraction done. An exception of the
 //    listener ends the work, too.
-// Called with the lock of the interpreter.
-void run_watched(std::size_t size, const nanobind::object& listener,
-                 const std::function<void(const Progress&)>& work);
+// The work passes what it is given, with the number of threads, to the library. Called with the lock
+// of the interpreter.
+void run_watched(std::size_t size, unsigned threads, const nanobind::object& listener,
+                 const std::function<void(const Execution&)>& work);
 
 // The same for work that returns something.
 template <class Work>
-auto watched(std::size_t size, const nanobind::object& listener, const Work& work) {
-  std::optional<std::invoke_result_t<Work, const Progress&>> result;
-  run_watched(size, listener, [&](const Progress& progress) { result.emplace(work(progress)); });
+auto watched(std::size_t size, unsigned threads, const nanobind::object& listener,
+             const Work& work) {
+  std::optional<std::invoke_result_t<Work, const Execution&>> result;
+  run_watched(size, threads, listener,
+              [&](const Execution& execution) { result.emplace(work(execution)); });
   return std::move(*result);
 }
 
 // Work on many items without progress.
 template <class Work>
-auto watched_quietly(std::size_t size, const Work& work) {
-  return watched(size, nanobind::none(), [&](const Progress&) { return work(); });
+auto watched_quietly(std::size_t size, unsigned threads, const Work& work) {
+  return watched(size, threads, nanobind::none(), work);
 }
 
 // Work that is not watched, without the lock of the interpreter.

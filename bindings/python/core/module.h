@@ -21,12 +21,9 @@ void add_files(nanobind::module_& module);
 
 // The options of a build, from what the package passes.
 inline Options make_options(bool is_weighted, const std::array<double, 3>& center,
-                            double squared_radius, unsigned threads = 0,
-                            const Progress& progress = {}) {
+                            double squared_radius) {
   return {.model = is_weighted ? Model::weighted : Model::projected,
-          .sphere = {{center[0], center[1], center[2]}, squared_radius},
-          .threads = threads,
-          .progress = progress};
+          .sphere = {{center[0], center[1], center[2]}, squared_radius}};
 }
 
 }  // namespace rondel::python

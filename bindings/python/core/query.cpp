@@ -18,14 +18,15 @@
 
 namespace rondel::python {
 
-LocationsOut locate_all(const Locator& locator, std::span<const Point> queries, unsigned threads) {
+LocationsOut locate_all(const Locator& locator, std::span<const Point> queries,
+                        const Execution& execution) {
   struct Columns {
     std::vector<Index> where;
     std::vector<Index> faces;
     std::vector<Triple> sites;
   };
   Columns columns;
-  const std::vector<Location> found = locator.locate(queries, threads);
+  const std::vector<Location> found = locator.locate(queries, execution);
   columns.where.reserve(found.size());
   columns.faces.reserve(found.size());
   columns.sites.reserve(found.size());
@@ -54,38 +55,43 @@ void add_query(nb::module_& module) {
   nb::class_<Locator>(module, "Locator")
       .def(
           "__init__",
-          [](Locator* self, const Triangulation& t, const PointsIn& points) {
-            new (self) Locator(
-                watched_quietly(points.shape(0), [&] { return Locator(t, points_of(points)); }));
+          [](Locator* self, const Triangulation& t) {
+            new (self) Locator(unlocked([&] { return Locator(t); }));
           },
-          nb::arg("triangulation"), nb::arg("points").noconvert(),
-          nb::keep_alive<1, 3>())  // it refers to the sites
+          nb::arg("triangulation"))
       .def(
           "locate",
           [](const Locator& self, const PointsIn& queries, unsigned threads) {
-            return watched_quietly(queries.shape(0),
-                                   [&] { return locate_all(self, points_of(queries), threads); });
+            return watched_quietly(queries.shape(0), threads, [&](const Execution& execution) {
+              return locate_all(self, points_of(queries), execution);
+            });
           },
           nb::arg("queries").noconvert(), nb::arg("threads"))
       .def(
           "nearest",
           [](const Locator& self, const PointsIn& queries, unsigned threads) {
-            return indices_out(watched_quietly(
-                queries.shape(0), [&] { return self.nearest(points_of(queries), threads); }));
+            return indices_out(
+                watched_quietly(queries.shape(0), threads, [&](const Execution& execution) {
+                  return self.nearest(points_of(queries), execution);
+                }));
           },
           nb::arg("queries").noconvert(), nb::arg("threads"))
       .def(
           "k_nearest",
           [](const Locator& self, const PointsIn& queries, std::size_t k, unsigned threads) {
-            return indices_out(watched_quietly(
-                queries.shape(0), [&] { return self.k_nearest(points_of(queries), k, threads); }));
+            return indices_out(
+                watched_quietly(queries.shape(0), threads, [&](const Execution& execution) {
+                  return self.k_nearest(points_of(queries), k, execution);
+                }));
           },
           nb::arg("queries").noconvert(), nb::arg("k"), nb::arg("threads"))
       .def(
           "within",
           [](const Locator& self, const PointsIn& queries, double angle, unsigned threads) {
-            return site_lists_out(watched_quietly(
-                queries.shape(0), [&] { return self.within(points_of(queries), angle, threads); }));
+            return site_lists_out(
+                watched_quietly(queries.shape(0), threads, [&](const Execution& execution) {
+                  return self.within(points_of(queries), angle, execution);
+                }));
           },
           nb::arg("queries").noconvert(), nb::arg("angle"), nb::arg("threads"))
       .def(

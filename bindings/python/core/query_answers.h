@@ -20,7 +20,8 @@ using LocationsOut =
 using SiteListsOut = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
 
 // Called without the lock of the interpreter.
-LocationsOut locate_all(const Locator& locator, std::span<const Point> queries, unsigned threads);
+LocationsOut locate_all(const Locator& locator, std::span<const Point> queries,
+                        const Execution& execution);
 
 std::vector<double> distances(const Locator& locator, std::span<const Point> queries,
                               std::span<const Index> sites);

@@ -26,40 +26,50 @@ using Center = std::array<double, 3>;
 
 Triangulation build(const PointsIn& points, bool is_weighted, const Center& center,
                     double squared_radius, unsigned threads, const nb::object& listener) {
-  return watched(points.shape(0), listener, [&](const Progress& progress) {
-    return delaunay(points_of(points),
-                    make_options(is_weighted, center, squared_radius, threads, progress));
+  Sites sites = sites_of(points);
+  return watched(points.shape(0), threads, listener, [&](const Execution& execution) {
+    return delaunay(std::move(sites), make_options(is_weighted, center, squared_radius), execution);
   });
 }
 
 Triangulation build_hull(const PointsIn& points, unsigned threads, const nb::object& listener) {
-  return watched(points.shape(0), listener, [&](const Progress& progress) {
-    return convex_hull(points_of(points), {.threads = threads, .progress = progress});
+  Sites sites = sites_of(points);
+  return watched(points.shape(0), threads, listener, [&](const Execution& execution) {
+    return convex_hull(std::move(sites), execution);
   });
 }
 
-template <class Rows, class Array>
-Rows copied_rows(const Array& array) {
-  const auto rows = rows_of<typename Rows::value_type>(array);
-  return {rows.begin(), rows.end()};
-}
-
 // For pickle: arrays that somebody may have changed.
-Triangulation from_arrays(std::size_t num_sites, int dimension, bool is_weighted,
+Triangulation from_arrays(const PointsIn& points, int dimension, bool is_weighted,
                           const Center& center, double squared_radius, const TriplesIn& faces,
                           const TriplesIn& neighbors, const IndicesIn& ghost_faces,
                           const IndicesIn& ring, const IndexPairsIn& duplicates,
                           const IndexPairsIn& hidden) {
-  TriangulationArrays arrays{.num_sites = num_sites,
-                             .dimension = dimension,
-                             .faces = copied_rows<LargeVector<Triple>>(faces),
-                             .neighbors = copied_rows<LargeVector<Triple>>(neighbors),
-                             .ghost_faces = copied_rows<std::vector<Index>>(ghost_faces),
-                             .ring = copied_rows<std::vector<Index>>(ring),
-                             .duplicates = copied_rows<std::vector<Duplicate>>(duplicates),
-                             .hidden = copied_rows<std::vector<Hidden>>(hidden)};
-  return Triangulation::from_arrays(std::move(arrays),
+  return Triangulation::from_arrays(sites_of(points),
+                                    {.dimension = dimension,
+                                     .faces = rows_of<Triple>(faces),
+                                     .neighbors = rows_of<Triple>(neighbors),
+                                     .ghost_faces = rows_of<Index>(ghost_faces),
+                                     .ring = rows_of<Index>(ring),
+                                     .duplicates = rows_of<Duplicate>(duplicates),
+                                     .hidden = rows_of<Hidden>(hidden)},
                                     make_options(is_weighted, center, squared_radius));
+}
+
+const char* name_of(Builder builder) {
+  switch (builder) {
+    case Builder::ring:
+      return "ring";
+    case Builder::incremental:
+      return "incremental";
+    case Builder::sphere:
+      return "sphere";
+    case Builder::blocks:
+      return "blocks";
+    case Builder::given:
+      break;
+  }
+  return "given";
 }
 
 nb::dict report_of(const Triangulation& t) {
@@ -72,6 +82,7 @@ nb::dict report_of(const Triangulation& t) {
   rungs["exact"] = report.rungs.exact;
   rungs["perturbed"] = report.rungs.perturbed;
   nb::dict result;
+  result["builder"] = name_of(report.builder);
   result["threads"] = report.threads;
   result["order_seconds"] = report.order_seconds;
   result["triangulate_seconds"] = report.triangulate_seconds;
@@ -88,25 +99,26 @@ auto array_getter() {
   };
 }
 
-std::tuple<double, double> volume_and_area(const Triangulation& hull, const PointsIn& points) {
-  const HullSize size = unlocked([&] { return size_of_hull(hull, points_of(points)); });
+std::tuple<double, double> volume_and_area(const Triangulation& hull) {
+  const HullSize size = unlocked([&] { return size_of_hull(hull); });
   return {size.volume, size.area};
 }
 
 std::tuple<bool, std::string, std::size_t, std::size_t, std::size_t, std::size_t> check_faces(
     const PointsIn& points, const TriplesIn& faces, bool is_weighted, const Center& center,
     double squared_radius, unsigned threads) {
-  const CheckReport report = watched_quietly(points.shape(0), [&] {
-    return check(points_of(points), rows_of<Triple>(faces),
-                 make_options(is_weighted, center, squared_radius, threads));
-  });
+  const CheckReport report =
+      watched_quietly(points.shape(0), threads, [&](const Execution& execution) {
+        return check(points_of(points), rows_of<Triple>(faces),
+                     make_options(is_weighted, center, squared_radius), execution);
+      });
   return {report.is_valid,  report.reason,         report.num_vertices,
           report.num_edges, report.num_duplicates, report.num_hidden};
 }
 
 void add_triangulation_class(nb::module_& module) {
   nb::class_<Triangulation>(module, "Triangulation")
-      .def_static("from_arrays", &from_arrays, nb::arg("num_sites"), nb::arg("dimension"),
+      .def_static("from_arrays", &from_arrays, nb::arg("points").noconvert(), nb::arg("dimension"),
                   nb::arg("is_weighted"), nb::arg("center"), nb::arg("squared_radius"),
                   nb::arg("faces").noconvert(), nb::arg("neighbors").noconvert(),
                   nb::arg("ghost_faces").noconvert(), nb::arg("ring").noconvert(),
@@ -124,6 +136,11 @@ void add_triangulation_class(nb::module_& module) {
       .def_prop_ro("num_sites", &Triangulation::num_sites)
       .def_prop_ro("num_vertices", &Triangulation::num_vertices)
       .def_prop_ro("num_faces", &Triangulation::num_faces)
+      .def_prop_ro("points",
+                   [](const nb::object& self) {
+                     return array_of<double>(self,
+                                             nb::cast<const Triangulation&>(self).sites().points());
+                   })
       .def_prop_ro("faces", array_getter<std::int32_t, &Triangulation::faces>())
       .def_prop_ro("neighbors", array_getter<std::int32_t, &Triangulation::neighbors>())
       .def_prop_ro("ghost_faces", array_getter<std::int32_t, &Triangulation::ghost_faces>())
@@ -142,7 +159,7 @@ void add_triangulation(nb::module_& module) {
              nb::arg("progress").none());
   module.def("convex_hull", &build_hull, nb::arg("points").noconvert(), nb::arg("threads"),
              nb::arg("progress").none());
-  module.def("size_of_hull", &volume_and_area, nb::arg("hull"), nb::arg("points").noconvert());
+  module.def("size_of_hull", &volume_and_area, nb::arg("hull"));
   module.def("check", &check_faces, nb::arg("points").noconvert(), nb::arg("faces").noconvert(),
              nb::arg("is_weighted"), nb::arg("center"), nb::arg("squared_radius"),
              nb::arg("threads"));

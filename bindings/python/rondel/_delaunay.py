@@ -198,11 +198,11 @@ class SphericalDelaunay(Mesh, Queries):
         centers of their circles (model 'weighted': their power centers), seen from the center of
         the sphere. Within 4 ulp, whatever the shape of the face.
         """
-        return frozen(_core.circumcenters(self._triangulation, self._points))
+        return frozen(_core.circumcenters(self._triangulation))
 
     @cached_property
     def _lazy_locator(self) -> _core.Locator:
-        return _core.Locator(self._triangulation, self._points)
+        return _core.Locator(self._triangulation)
 
     def _locator(self) -> _core.Locator:
         return self._lazy_locator

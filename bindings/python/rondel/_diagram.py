@@ -71,7 +71,7 @@ class Diagram(Described, Generic[Delaunay]):
 
     @cached_property
     def _diagram(self) -> _core.Diagram:
-        return _core.diagram(self._delaunay._triangulation, self._delaunay.points, None)
+        return _core.diagram(self._delaunay._triangulation)
 
     def _on_sphere(self, directions: FloatArray) -> FloatArray:
         radius, center = self._delaunay.radius, self._delaunay._triangulation.center
@@ -197,9 +197,7 @@ class Diagram(Described, Generic[Delaunay]):
         """Ndarray of float64, shape (n, 3): the cells' centers of mass, moved out to the sphere;
         nan where a cell is empty or its center of mass is that of the sphere.
         """
-        directions = _core.centroids(
-            self._delaunay._triangulation, self._delaunay.points, self._diagram
-        )
+        directions = _core.centroids(self._delaunay._triangulation)
         none = ~directions.any(axis=1)
         if none.any():
             directions[none] = np.nan

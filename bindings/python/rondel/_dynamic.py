@@ -103,7 +103,7 @@ class DynamicTriangulation(Described, Queries):
             )
         else:
             first = SphericalDelaunay(points, model, radius=radius, center=center, threads=threads)
-            self._state = _core.DynamicTriangulation(first._triangulation, first.points)
+            self._state = _core.DynamicTriangulation(first._triangulation)
 
     @classmethod
     def from_lonlat(
@@ -268,8 +268,10 @@ class DynamicTriangulation(Described, Queries):
             `ids`, increasing, and `delaunay`, a `SphericalDelaunay` of their points.
 
         """
-        ids, points, triangulation = self._state.snapshot()
-        return Snapshot(ids, SphericalDelaunay._from_parts(points, triangulation, self._radius))
+        ids, triangulation = self._state.snapshot()
+        return Snapshot(
+            ids, SphericalDelaunay._from_parts(triangulation.points, triangulation, self._radius)
+        )
 
     @property
     def ids(self) -> IntArray:

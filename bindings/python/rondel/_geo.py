@@ -179,7 +179,7 @@ def triangles_to_geopandas(self: Triangulated) -> geopandas.GeoDataFrame:
     faces = np.flatnonzero(~self.ghost)
     corners = self.simplices[faces]
     columns = {f"site_{k}": corners[:, k] for k in range(3)}
-    return _frame(columns, _core.face_polygons(self._triangulation, self.points), faces)
+    return _frame(columns, _core.face_polygons(self._triangulation), faces)
 
 
 def cells_to_geopandas(
@@ -215,7 +215,7 @@ def cells_to_geopandas(
     for name, values in given.items():
         columns[name] = pandas.Series(values).array[sites]
     polygons = _core.cell_polygons(
-        self.delaunay._triangulation, self.points, self._diagram, float(tolerance_deg)
+        self.delaunay._triangulation, self._diagram, float(tolerance_deg)
     )
     return _frame(columns, polygons, sites)
 

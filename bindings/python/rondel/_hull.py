@@ -64,7 +64,7 @@ class ConvexHull(Mesh):
 
     @cached_property
     def _size(self) -> tuple[float, float]:
-        return _core.size_of_hull(self._triangulation, self._points)
+        return _core.size_of_hull(self._triangulation)
 
     @property
     def volume(self) -> float:

@@ -36,13 +36,15 @@ class Mesh(Described):
         arrays = ("faces", "neighbors", "ghost_faces", "ring", "duplicates", "hidden")
         return {
             "points": self._points,
-            "scalars": (t.num_sites, t.dimension, t.is_weighted, t.center, t.squared_radius),
+            "scalars": (t.dimension, t.is_weighted, t.center, t.squared_radius),
             "arrays": tuple(getattr(t, name) for name in arrays),
         }
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self._points = frozen(state["points"])
-        self._triangulation = _core.Triangulation.from_arrays(*state["scalars"], *state["arrays"])
+        self._triangulation = _core.Triangulation.from_arrays(
+            self._points, *state["scalars"], *state["arrays"]
+        )
 
     @property
     def points(self) -> FloatArray:
@@ -134,7 +136,7 @@ class Mesh(Described):
         """Lists: the faces that lie in one plane merged into polygons, each from its lowest index
         counterclockwise: a cube has 6, not 12.
         """
-        return Lists(*_core.merge_cocircular(self._triangulation, self._points))
+        return Lists(*_core.merge_cocircular(self._triangulation))
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [("points", count(self.npoints, "point"))]

@@ -166,7 +166,7 @@ def _draw_cells(
     if len(values) != len(self.points):
         raise ValueError(f"{len(values)} values for {len(self.points)} sites")
     positions, offsets, owners = _core.cell_polygons(
-        self.delaunay._triangulation, self.points, self._diagram, 0.1
+        self.delaunay._triangulation, self._diagram, 0.1
     )
 
     def owner_at(degrees: Any) -> int:

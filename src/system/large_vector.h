@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-/// \file
-/// Vectors for large results.
+// Vectors for large results.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +23,7 @@ RONDEL_API void free_large(void* memory) noexcept;
 
 }  // namespace detail
 
-/// The allocator of LargeVector.
+// The allocator of LargeVector.
 template <class T>
 class LargeAllocator {
  public:
@@ -53,9 +52,9 @@ class LargeAllocator {
   friend bool operator==(const LargeAllocator&, const LargeAllocator&) { return true; }
 };
 
-/// A vector whose elements have no value yet when resize(n) or a constructor
-/// makes them without one: to write zeros first takes time, in one thread.
-/// It is aligned to cache lines of 64 bytes, from 2 MB on to huge pages.
+// A vector whose elements have no value yet when resize(n) or a constructor
+// makes them without one: to write zeros first takes time, in one thread.
+// It is aligned to cache lines of 64 bytes, from 2 MB on to huge pages.
 template <class T>
 using LargeVector = std::vector<T, LargeAllocator<T>>;
 

@@ -1,0 +1,44 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// The sites that a triangulation was made from, and keeps.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "rondel/export.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// Points that are kept and never change. Copies are cheap, and share them.
+///
+/// 1. Sites(std::move(points)) takes a vector over, without a copy of its points.
+/// 2. Sites(points) copies them, 24 bytes each. \throws InvalidInput if they are more than max_sites.
+/// 3. Sites::view(points) refers to points of somebody else, who must neither change nor free them as
+///    long as anything that was made of these sites is in use: triangulations, locators, their copies.
+///    Sites::view(points, owner) keeps `owner` as long.
+class RONDEL_API Sites {
+ public:
+  Sites() = default;
+  Sites(std::vector<Point>&& points);
+  Sites(const std::vector<Point>& points);
+  Sites(std::span<const Point> points);
+  static Sites view(std::span<const Point> points, std::shared_ptr<const void> owner = nullptr);
+
+  [[nodiscard]] std::span<const Point> points() const noexcept { return points_; }
+  [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
+  [[nodiscard]] const Point& operator[](std::size_t site) const { return points_[site]; }
+  /// The same points, wherever they are.
+  RONDEL_API friend bool operator==(const Sites& a, const Sites& b);
+
+ private:
+  std::span<const Point> points_;
+  std::shared_ptr<const void> owner_;
+};
+
+}  // namespace rondel

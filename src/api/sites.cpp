@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/sites.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "api/validation.h"
+
+namespace rondel {
+
+Sites::Sites(std::vector<Point>&& points) {
+  auto owner = std::make_shared<const std::vector<Point>>(std::move(points));
+  points_ = *owner;
+  owner_ = std::move(owner);
+}
+
+Sites::Sites(const std::vector<Point>& points) : Sites(std::span(points)) {}
+
+Sites::Sites(std::span<const Point> points) {
+  api::validate({}, points.size());
+  *this = Sites(std::vector<Point>(points.begin(), points.end()));
+}
+
+Sites Sites::view(std::span<const Point> points, std::shared_ptr<const void> owner) {
+  Sites sites;
+  sites.points_ = points;
+  sites.owner_ = std::move(owner);
+  return sites;
+}
+
+bool operator==(const Sites& a, const Sites& b) { return std::ranges::equal(a.points_, b.points_); }
+
+}  // namespace rondel
