@@ -71,6 +71,7 @@ Json contract(const Triangulation& triangulation, const Seconds& seconds) {
           {"hidden", triangulation.hidden().size()},
           {"dimension", triangulation.dimension()},
           {"model", name_of(triangulation.model())},
+          {"builder", name_of(build.builder)},
           {"threads", build.threads},
           {"seconds",
            {{"read", seconds.read},

@@ -43,6 +43,9 @@ enum class Builder : std::uint8_t {
   blocks,       ///< divide and conquer in blocks that are certified, in parallel
 };
 
+/// "ring", "incremental" ...
+RONDEL_API const char* name_of(Builder builder) noexcept;
+
 /// What a build did and how long it took.
 struct BuildReport {
   Builder builder = Builder::given;
@@ -84,7 +87,7 @@ struct TriangulationParts {
 class RONDEL_API Triangulation {
  public:
   /// Without sites.
-  Triangulation();
+  Triangulation() = default;
 
   /// Of arrays that come from elsewhere, a file say. Expected time O(n).
   /// \throws InvalidInput (position in the array that the message names) as delaunay() does, and if the
@@ -125,13 +128,11 @@ class RONDEL_API Triangulation {
   struct Impl;
   /// For the library itself.
   explicit Triangulation(std::shared_ptr<const Impl> impl) noexcept;
-  // A move copies, so that what was moved from remains a triangulation.
-  Triangulation(const Triangulation& other) noexcept = default;
-  Triangulation& operator=(const Triangulation& other) noexcept = default;
-  ~Triangulation() = default;
 
  private:
-  std::shared_ptr<const Impl> impl_;
+  [[nodiscard]] const Impl& impl() const noexcept;
+
+  std::shared_ptr<const Impl> impl_;  // none: without sites
 };
 
 }  // namespace rondel

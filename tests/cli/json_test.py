@@ -14,7 +14,8 @@ INPUTS = pathlib.Path(__file__).resolve().parent / "inputs"
 TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
 
 KEYS = ["sites", "vertices", "faces", "solid_faces", "ghost_faces", "duplicates", "hidden",
-        "dimension", "model", "threads", "seconds", "peak_memory_bytes", "rungs", "unlocated"]
+        "dimension", "model", "builder", "threads", "seconds", "peak_memory_bytes", "rungs",
+        "unlocated"]
 SECONDS = ["read", "order", "triangulate", "dual", "write", "total"]
 RUNGS = ["filter", "extended", "double_double", "close", "exact", "perturbed"]
 

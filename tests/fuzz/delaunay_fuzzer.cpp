@@ -53,6 +53,9 @@ void test_valid(const std::vector<Point>& sites, const Options& options) {
   const Triangulation built = delaunay(sites, options);
   const CheckReport report = check(sites, built.faces(), options);
   require(report.is_valid, "the validator accepts what delaunay builds: " + report.reason);
+  const Builder builder = built.report().builder;
+  require((builder == Builder::ring) == (built.dimension() < 2),
+          std::string("not built by ") + name_of(builder));
   require(report.num_duplicates == built.duplicates().size(), "as many duplicates");
   if (built.dimension() == 2) {
     require(report.num_vertices == built.num_vertices(), "as many vertices");
@@ -67,7 +70,8 @@ void test_order(std::vector<Point> sites, const Options& options) {
   } else {
     std::ranges::sort(sites, {}, [](const Point& p) { return std::tuple(p.z, p.x, p.y); });
   }
-  require(shape(delaunay(sites, options), sites) == before, "input order changes nothing");
+  require(shape(delaunay(Sites::view(sites), options), sites) == before,
+          "input order changes nothing");
 }
 
 // A build that somebody wants to end either ends or is done, and the next one is not concerned.

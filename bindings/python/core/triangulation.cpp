@@ -56,22 +56,6 @@ Triangulation from_arrays(const PointsIn& points, int dimension, bool is_weighte
                                     make_options(is_weighted, center, squared_radius));
 }
 
-const char* name_of(Builder builder) {
-  switch (builder) {
-    case Builder::ring:
-      return "ring";
-    case Builder::incremental:
-      return "incremental";
-    case Builder::sphere:
-      return "sphere";
-    case Builder::blocks:
-      return "blocks";
-    case Builder::given:
-      break;
-  }
-  return "given";
-}
-
 nb::dict report_of(const Triangulation& t) {
   const BuildReport& report = t.report();
   nb::dict rungs;

@@ -178,7 +178,8 @@ class SphericalDelaunay(Mesh, Queries):
 
     @property
     def report(self) -> dict[str, Any]:
-        """dict: the threads used, seconds of the stages, and how many predicates each rung of the
+        """dict: the builder (ring, incremental, sphere or blocks; given, if nobody built it), the
+        threads used, seconds of the stages, and how many predicates each rung of the
         ladder of precisions decided.
         """
         return self._triangulation.report
