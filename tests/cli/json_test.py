@@ -52,8 +52,8 @@ class JsonReport(unittest.TestCase):
     def test_delaunay_has_exactly_the_keys_of_the_contract(self):
         report = self.build("delaunay", "towns.csv", "out.npy", "--threads", "1")
         self.assert_contract(report)
-        self.assertEqual([report[key] for key in KEYS[:10]],
-                         [10, 9, 14, 14, 0, 1, 0, 2, "projected", 1])
+        self.assertEqual([report[key] for key in KEYS[:11]],
+                         [10, 9, 14, 14, 0, 1, 0, 2, "projected", "incremental", 1])
         self.assertGreater(report["rungs"]["filter"], 0)
         self.assertEqual(report["seconds"]["dual"], 0)
 
