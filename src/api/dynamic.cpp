@@ -11,8 +11,8 @@
 #include "api/dynamic_impl.h"
 #include "api/triangulation_impl.h"
 #include "api/validation.h"
-#include "dynamic/query_engine.h"
 #include "dynamic/snapshot.h"
+#include "query/engine.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/job.h"
@@ -284,12 +284,10 @@ std::vector<Index> DynamicTriangulation::neighbors(Index id) const {
     const Index before = ring[(i + ring.size() - 1) % ring.size()];
     return {std::min(next, before), std::max(next, before)};
   }
-  return impl_->visit([this, id](const auto& e) {
+  return impl_->visit([id](const auto& e) {
     const Index place = e.places().place_of(id);
     if (!e.hull()->is_vertex(place)) return std::vector<Index>();
-    std::vector<Index> result = dynamic::HullEngine(e, sphere()).neighbors(place);
-    for (Index& v : result) v = e.places().names()[v];
-    return result;
+    return query::Engine(e.graph()).neighbors(place);
   });
 }
 

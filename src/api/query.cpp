@@ -13,9 +13,8 @@
 
 #include "api/dynamic_impl.h"
 #include "api/validation.h"
-#include "dynamic/query_engine.h"
 #include "query/batch.h"
-#include "query/directory.h"
+#include "query/built.h"
 #include "query/distance.h"
 #include "query/engine.h"
 #include "rondel/error.h"
@@ -25,7 +24,7 @@ namespace rondel {
 namespace {
 
 using query::Cursor;
-using Limit = std::optional<predicates::Cosine>;
+using query::Limit;
 
 void check_angle(double angle) {
   if (angle >= 0) return;
@@ -33,14 +32,14 @@ void check_angle(double angle) {
 }
 
 // No limit from 180 degrees on.
-Limit limit_of(double angle) {
-  if (angle >= std::numbers::pi) return std::nullopt;
-  return predicates::cosine_of(angle);
+Limit limit_of(double angle, const Sphere& sphere) {
+  if (angle >= std::numbers::pi) return {};
+  return {predicates::cosine_of(angle), sphere.squared_radius};
 }
 
 // The answers of one range of queries.
 struct RangeLists {
-  std::span<const Index> queries;
+  std::vector<Index> queries;
   std::vector<std::uint64_t> ends;
   std::vector<Index> sites;
 };
@@ -49,107 +48,100 @@ struct RangeLists {
 
 class Locator::Impl {
  public:
-  // `ids`, if any, name the sites.
-  explicit Impl(const Triangulation& triangulation, std::vector<Index> ids = {})
+  explicit Impl(const Triangulation& triangulation)
+      : Impl(triangulation, {}, triangulation.sites().points()) {}
+
+  // The sites are called `ids` outside, and these are their points.
+  Impl(const Triangulation& triangulation, std::span<const Index> ids,
+       std::span<const Point> points_by_id)
       : model_(triangulation.model()),
         sphere_(triangulation.sphere()),
-        sites_(triangulation.sites()) {
-    auto directory =
-        std::make_unique<query::BuiltDirectory>(triangulation, sites_.points(), std::move(ids));
-    engine_ = query::make_engine(triangulation, sites_.points(), directory->vertices());
-    directory_ = std::move(directory);
-  }
+        points_(points_by_id),
+        built_(std::in_place, triangulation, ids),
+        engine_(built_->graph()) {}
 
-  template <models::SphereModel T>
-  Impl(const dynamic::Editor<T>& editor, const Options& options)
-      : model_(options.model),
-        sphere_(options.sphere),
-        directory_(std::make_unique<dynamic::HullDirectory<T>>(editor)),
-        engine_(std::make_unique<dynamic::HullEngine<T>>(editor, sphere_)) {}
+  template <class Editor>
+  Impl(const DynamicTriangulation::Impl& changing, const Editor& editor)
+      : model_(changing.options.model),
+        sphere_(changing.options.sphere),
+        points_(editor.places().points()),
+        changing_(&changing),
+        engine_(editor.graph()) {}
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
 
   void validate(std::span<const Point> queries) const {
     api::validate_queries(queries, sphere_.center);
   }
   void validate_site(Index site) const {
-    if (directory_->has_site(site)) return;
+    if (changing_ ? changing_->is_alive(site) : built_->has_site(site)) return;
     throw InvalidInput("there is no site " + std::to_string(site), site);
   }
 
-  [[nodiscard]] bool is_empty() const { return engine_ == nullptr; }
-  [[nodiscard]] const query::Engine& engine() const { return *engine_; }
+  [[nodiscard]] bool is_empty() const { return built_ && built_->num_vertices() == 0; }
+  [[nodiscard]] const query::Engine& engine() const { return engine_; }
   [[nodiscard]] const Sphere& sphere() const { return sphere_; }
   [[nodiscard]] Model model() const { return model_; }
-  [[nodiscard]] Point site(Index i) const { return directory_->site(i); }
-  [[nodiscard]] Index vertex_of(Index site) const { return directory_->vertex_of(site); }
+  [[nodiscard]] Point site(Index i) const { return points_[i]; }
+  [[nodiscard]] Index vertex_of(Index site) const {
+    if (built_) return built_->vertex_of(site);
+    return changing_->visit([site](const auto& e) {
+      const Index place = e.places().place_of(site);
+      return e.hull()->is_vertex(place) ? place : no_index;
+    });
+  }
 
+  [[nodiscard]] Index near(const Point& p) const {
+    if (built_) return built_->near(p);
+    return changing_->visit([&p](const auto& e) { return e.vertex_near(p); });
+  }
   [[nodiscard]] Cursor cursor_at(const Point& p) const {
     Cursor cursor;
-    cursor.vertex = directory_->near(p);
+    cursor.vertex = near(p);
     return cursor;
+  }
+
+  template <class Work>
+  void for_each_range(std::span<const Point> queries, unsigned threads, const Work& work) const {
+    query::for_each_range(
+        queries, model_, sphere_.center, threads, [this](const Point& p) { return near(p); }, work);
   }
   template <class Answer>
   void for_each_query(std::span<const Point> queries, unsigned threads,
                       const Answer& answer) const {
-    const auto sorted = query::sort_queries(queries, sphere_.center, threads);
-    query::for_each_range(sorted, queries, *directory_, threads,
-                          [&](std::span<const Index> range, Cursor& cursor) {
-                            query::for_each_query(range, queries, cursor, answer);
-                          });
+    for_each_range(queries, threads, [&](std::span<const Index> range, Cursor& cursor) {
+      query::for_each_query(range, queries, cursor, answer);
+    });
   }
 
-  [[nodiscard]] Index name(Index vertex) const { return directory_->name(vertex); }
-  void rename(std::span<Index> found) const {
-    for (Index& v : found) v = name(v);
-  }
-  [[nodiscard]] Location renamed(Location location) const {
-    for (Index& v : location.sites) {
-      if (v != no_index) v = name(v);
-    }
-    if (location.where == Where::edge && location.sites[1] < location.sites[0]) {
-      std::swap(location.sites[0], location.sites[1]);
-    }
-    return location;
-  }
-
-  [[nodiscard]] std::vector<Index> within(const Point& p, const Limit& limit,
-                                          Cursor& cursor) const {
-    std::vector<Index> found;
-    engine_->within(p, limit, cursor, found);
-    rename(found);
-    std::ranges::sort(found);
-    return found;
-  }
   [[nodiscard]] SiteLists within(std::span<const Point> queries, const Limit& limit,
                                  unsigned threads) const;
 
  private:
   Model model_;
   Sphere sphere_;
-  Sites sites_;  // the others refer to them
-  std::unique_ptr<query::Directory> directory_;
-  std::unique_ptr<query::Engine> engine_;
+  std::span<const Point> points_;
+  // One of these two, and what is asked of it.
+  std::optional<const query::Built> built_;
+  const DynamicTriangulation::Impl* changing_ = nullptr;
+  query::Engine engine_;
 };
 
 // The ranges collect their lists apart; these are put together when their lengths are known.
 SiteLists Locator::Impl::within(std::span<const Point> queries, const Limit& limit,
                                 unsigned threads) const {
-  const auto sorted = query::sort_queries(queries, sphere_.center, threads);
   std::vector<RangeLists> ranges;
   std::mutex mutex;
-  query::for_each_range(sorted, queries, *directory_, threads,
-                        [&](std::span<const Index> range, Cursor& cursor) {
-                          RangeLists lists{range, {}, {}};
-                          query::for_each_query(range, queries, cursor, [&](Index i, Cursor& at) {
-                            const std::size_t begin = lists.sites.size();
-                            engine_->within(queries[i], limit, at, lists.sites);
-                            const auto found = std::span(lists.sites).subspan(begin);
-                            rename(found);
-                            std::ranges::sort(found);
-                            lists.ends.push_back(lists.sites.size());
-                          });
-                          const std::lock_guard lock(mutex);
-                          ranges.push_back(std::move(lists));
-                        });
+  for_each_range(queries, threads, [&](std::span<const Index> range, Cursor& cursor) {
+    RangeLists lists;
+    lists.queries.assign(range.begin(), range.end());
+    query::for_each_query(range, queries, cursor, [&](Index i, Cursor& at) {
+      engine_.within(queries[i], limit, at, lists.sites);
+      lists.ends.push_back(lists.sites.size());
+    });
+    const std::lock_guard lock(mutex);
+    ranges.push_back(std::move(lists));
+  });
 
   SiteLists result;
   result.offsets.resize(queries.size() + 1);
@@ -183,12 +175,11 @@ Locator::Locator(const DynamicTriangulation& triangulation) {
   const DynamicTriangulation::Impl& changing = triangulation.impl_->current();
   if (!changing.has_hull()) {
     const Snapshot& now = changing.flat_snapshot();
-    impl_ = std::make_unique<const Impl>(now.triangulation, now.ids);
+    impl_ = std::make_unique<const Impl>(now.triangulation, now.ids, changing.places().points());
     return;
   }
-  impl_ = changing.visit([&changing](const auto& editor) {
-    return std::make_unique<const Impl>(editor, changing.options);
-  });
+  impl_ = changing.visit(
+      [&changing](const auto& editor) { return std::make_unique<const Impl>(changing, editor); });
 }
 Locator::~Locator() = default;
 Locator::Locator(Locator&& other) noexcept = default;
@@ -199,7 +190,7 @@ Location Locator::locate(const Point& query) const {
   impl_->validate({&query, 1});
   if (impl_->is_empty()) return {};
   Cursor cursor = impl_->cursor_at(query);
-  return impl_->renamed(impl_->engine().locate(query, cursor));
+  return impl_->engine().locate(query, cursor);
 }
 
 std::vector<Location> Locator::locate(std::span<const Point> queries,
@@ -209,7 +200,7 @@ std::vector<Location> Locator::locate(std::span<const Point> queries,
   std::vector<Location> result(queries.size());
   if (impl_->is_empty()) return result;
   impl_->for_each_query(queries, execution.threads, [&](Index i, Cursor& cursor) {
-    result[i] = impl_->renamed(impl_->engine().locate(queries[i], cursor));
+    result[i] = impl_->engine().locate(queries[i], cursor);
   });
   return result;
 }
@@ -219,7 +210,7 @@ Index Locator::nearest(const Point& query) const {
   impl_->validate({&query, 1});
   if (impl_->is_empty()) return no_index;
   Cursor cursor = impl_->cursor_at(query);
-  return impl_->name(impl_->engine().nearest(query, cursor));
+  return impl_->engine().nearest(query, cursor);
 }
 
 std::vector<Index> Locator::nearest(std::span<const Point> queries,
@@ -229,7 +220,7 @@ std::vector<Index> Locator::nearest(std::span<const Point> queries,
   std::vector<Index> result(queries.size(), no_index);
   if (impl_->is_empty()) return result;
   impl_->for_each_query(queries, execution.threads, [&](Index i, Cursor& cursor) {
-    result[i] = impl_->name(impl_->engine().nearest(queries[i], cursor));
+    result[i] = impl_->engine().nearest(queries[i], cursor);
   });
   return result;
 }
@@ -241,7 +232,6 @@ std::vector<Index> Locator::k_nearest(const Point& query, std::size_t k) const {
   if (impl_->is_empty()) return found;
   Cursor cursor = impl_->cursor_at(query);
   impl_->engine().k_nearest(query, k, cursor, found);
-  impl_->rename(found);
   return found;
 }
 
@@ -261,7 +251,6 @@ std::vector<Index> Locator::k_nearest(std::span<const Point> queries, std::size_
     std::vector<Index>& found = cursor.scratch.found;
     found.clear();
     impl_->engine().k_nearest(queries[i], k, cursor, found);
-    impl_->rename(found);
     std::ranges::copy(found, result.begin() + static_cast<std::ptrdiff_t>(i * k));
   });
   return result;
@@ -272,8 +261,10 @@ std::vector<Index> Locator::within(const Point& query, double angle) const {
   impl_->validate({&query, 1});
   check_angle(angle);
   if (impl_->is_empty()) return {};
+  std::vector<Index> found;
   Cursor cursor = impl_->cursor_at(query);
-  return impl_->within(query, limit_of(angle), cursor);
+  impl_->engine().within(query, limit_of(angle, impl_->sphere()), cursor, found);
+  return found;
 }
 
 SiteLists Locator::within(std::span<const Point> queries, double angle,
@@ -281,7 +272,8 @@ SiteLists Locator::within(std::span<const Point> queries, double angle,
   const system::Call call(execution);
   impl_->validate(queries);
   check_angle(angle);
-  if (!impl_->is_empty()) return impl_->within(queries, limit_of(angle), execution.threads);
+  if (!impl_->is_empty())
+    return impl_->within(queries, limit_of(angle, impl_->sphere()), execution.threads);
   SiteLists none;
   none.offsets.assign(queries.size() + 1, 0);
   return none;
@@ -301,9 +293,7 @@ std::vector<Index> Locator::neighbors(Index site) const {
   impl_->validate_site(site);
   const Index v = impl_->vertex_of(site);
   if (v == no_index) return {};
-  std::vector<Index> found = impl_->engine().neighbors(v);
-  impl_->rename(found);
-  return found;
+  return impl_->engine().neighbors(v);
 }
 
 std::vector<Index> Locator::conflict_region(const Point& query) const {

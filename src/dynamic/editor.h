@@ -24,6 +24,7 @@
 #include "kernel/brio.h"
 #include "kernel/great_circle.h"
 #include "models/sphere_traits.h"
+#include "query/graph.h"
 #include "system/job.h"
 
 namespace rondel::dynamic {
@@ -40,6 +41,18 @@ class Editor {
   [[nodiscard]] const T& sites() const { return sites_; }
   // None below dimension 2. Its vertices are places.
   [[nodiscard]] const std::optional<PlaceHull<T>>& hull() const { return hull_; }
+
+  // For queries, as long as nothing changes. Precondition: there is a hull.
+  [[nodiscard]] query::SurfaceGraph<T> graph() const {
+    return {sites_,          hull_->mesh(),       hull_->kinds(),     hull_->corners(),
+            places_.names(), hull_->solid_face(), hull_->entry_face()};
+  }
+  // A vertex close to p. Precondition: there is a hull.
+  [[nodiscard]] Index vertex_near(const Point& p) const {
+    const Index place = places_.near(p);
+    if (hull_->is_vertex(place)) return place;
+    return hull_->mesh()[hull_->hidden().solid_face(place)].vertex[0];
+  }
 
   // `hint` is a site close to p, or no_index: the place to start is looked up.
   Index insert(const Point& p, Index hint) {

@@ -15,8 +15,7 @@
 
 #include "hidden/direction_grid.h"
 #include "hidden/face_walk.h"
-#include "order/place_keys.h"
-#include "order/radix_sort.h"
+#include "order/along_the_curve.h"
 #include "system/parallel.h"
 
 namespace rondel::hidden {
@@ -142,18 +141,8 @@ class FaceFinder {
   // The curve of the frame's coordinates, in which flat clouds are round.
   [[nodiscard]] std::vector<Index> along_the_curve(std::vector<Index> far) const {
     constexpr std::size_t many_close = 64;  // fewer have few faces, across which walks are short
-    order::KeyedIndices data;
-    data.indices = std::move(far);
-    data.keys.resize(data.indices.size());
-    system::parallel_for(threads_, data.keys.size(), grain,
-                         [&](std::size_t begin, std::size_t end) {
-                           std::vector<Point> points;
-                           for (std::size_t i = begin; i < end; ++i)
-                             points.push_back(in_frame(data.indices[i]));
-                           order::place_keys(points, Model::weighted, {},
-                                             std::span(data.keys).subspan(begin, end - begin));
-                         });
-    order::radix_sort(data, order::high_key_bits);
+    auto data = order::along_the_curve(std::move(far), Model::weighted, {}, threads_,
+                                       [this](Index k) { return in_frame(k); });
     for (std::size_t i = 0; i < data.keys.size();) {
       std::size_t end = i + 1;
       while (end < data.keys.size() && data.keys[end] == data.keys[i]) ++end;

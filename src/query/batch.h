@@ -5,11 +5,11 @@
 // what it needs in the cache; ranges of that order in parallel.
 #pragma once
 
+#include <numeric>
 #include <span>
+#include <utility>
 
-#include "order/hilbert.h"
-#include "order/radix_sort.h"
-#include "query/directory.h"
+#include "order/along_the_curve.h"
 #include "query/engine.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
@@ -19,30 +19,19 @@ namespace rondel::query {
 // So many queries are one thread's work at a time.
 inline constexpr std::size_t queries_per_piece = 4096;
 
-inline order::KeyedIndices sort_queries(std::span<const Point> queries, const Point& center,
-                                        unsigned threads) {
-  order::KeyedIndices sorted;
-  sorted.keys.resize(queries.size());
-  sorted.indices.resize(queries.size());
-  system::parallel_for(threads, queries.size(), queries_per_piece,
-                       [&](std::size_t first, std::size_t last) {
-                         for (std::size_t i = first; i < last; ++i) {
-                           sorted.keys[i] = spatial_key(queries[i], center);
-                           sorted.indices[i] = static_cast<Index>(i);
-                         }
-                       });
-  order::radix_sort(sorted, 3 + 2 * order::high_levels);
-  return sorted;
-}
-
-// Calls work(range, cursor) for ranges of the queries in spatial order, given by their indices.
-template <class Work>
-void for_each_range(const order::KeyedIndices& sorted, std::span<const Point> queries,
-                    const Directory& directory, unsigned threads, const Work& work) {
+// Calls work(range, cursor) for ranges of the queries in spatial order, given by their indices. A
+// cursor begins at near(query), a vertex close to the first query of its range.
+template <class Near, class Work>
+void for_each_range(std::span<const Point> queries, Model model, const Point& center,
+                    unsigned threads, const Near& near, const Work& work) {
+  std::vector<Index> indices(queries.size());
+  std::iota(indices.begin(), indices.end(), Index{0});
+  const auto sorted = order::along_the_curve(std::move(indices), model, center, threads,
+                                             [queries](Index i) { return queries[i]; });
   system::parallel_for(
-      threads, sorted.indices.size(), queries_per_piece, [&](std::size_t first, std::size_t last) {
+      threads, queries.size(), queries_per_piece, [&](std::size_t first, std::size_t last) {
         Cursor cursor;
-        cursor.vertex = directory.near(queries[sorted.indices[first]]);
+        cursor.vertex = near(queries[sorted.indices[first]]);
         work(std::span<const Index>(sorted.indices).subspan(first, last - first), cursor);
       });
 }

@@ -3,139 +3,124 @@
 
 #include "query/engine.h"
 
-#include "models/with_model.h"
-#include "predicates/orientation.h"
-#include "query/graph_engine.h"
-#include "query/ring_location.h"
-#include "topology/linking.h"
+#include <algorithm>
+#include <span>
+
+#include "query/locate.h"
+#include "query/nearest.h"
 
 namespace rondel::query {
 namespace {
 
-using kernel::FaceKind;
-using kernel::FaceKinds;
+template <Graph G>
+void rename(const G& graph, std::span<Index> vertices) {
+  for (Index& v : vertices) v = graph.name(v);
+}
 
-// What both engines of a finished triangulation own.
-template <models::SphereModel T>
-struct Built {
-  Built(const Triangulation& triangulation, std::span<const Point> sites, const Vertices& names)
-      : sphere(triangulation.sphere()),
-        vertices(names),
-        traits(sites, names.speakers, triangulation.sphere().center) {}
+template <Graph G, class T>
+Candidate nearest_from(Cursor& cursor, const G& graph, const Target<T>& target) {
+  const Candidate top = nearest(graph, target, cursor.vertex);
+  cursor.vertex = top.vertex;
+  return top;
+}
 
-  Sphere sphere;
-  const Vertices& vertices;
-  T traits;
-};
+template <class T>
+Index& solid_face_near(const SurfaceGraph<T>& surface, Cursor& cursor) {
+  if (cursor.face == no_index) cursor.face = first_solid_face(surface, cursor.vertex);
+  if (cursor.face == no_index) cursor.face = surface.solid_face;
+  return cursor.face;
+}
 
-template <models::SphereModel T>
-class BuiltSurface final : private Built<T>, public SurfaceEngine<T> {
- public:
-  BuiltSurface(const Triangulation& triangulation, std::span<const Point> sites,
-               const Vertices& names)
-      : Built<T>(triangulation, sites, names),
-        SurfaceEngine<T>(this->traits, this->sphere),
-        mesh_(topology::link_faces(triangulation.faces(), triangulation.neighbors(),
-                                   names.vertex_of)),
-        corner_of_(corners_of(mesh_, names.names.size())) {
-    while (triangulation.is_ghost(solid_)) ++solid_;
-    if (triangulation.num_ghost_faces() > 0) classify(triangulation);
-  }
+template <class T>
+Location locate_from(Cursor& cursor, const SurfaceGraph<T>& surface, const Target<T>& target) {
+  return locate(surface, target, solid_face_near(surface, cursor));
+}
+template <class T>
+Location locate_from(Cursor& cursor, const RingGraph<T>& ring, const Target<T>& target) {
+  return ring.location.locate(target.point(Target<T>::query),
+                              nearest_from(cursor, ring, target).vertex);
+}
 
- private:
-  [[nodiscard]] Surface<T> surface() const override {
-    return {this->traits, mesh_, kinds_, corner_of_, this->vertices.names};
-  }
-  [[nodiscard]] Index solid_face() const override { return solid_; }
-  [[nodiscard]] Index entry_face() const override { return entry_; }
+template <class T>
+std::vector<Index> region_from(Cursor& cursor, const SurfaceGraph<T>& surface,
+                               const Target<T>& target) {
+  if (target.is_duplicate(nearest_from(cursor, surface, target))) return {};
+  return conflict_region(surface, target, solid_face_near(surface, cursor));
+}
+template <class T>
+std::vector<Index> region_from(Cursor& /*cursor*/, const RingGraph<T>& /*ring*/,
+                               const Target<T>& /*target*/) {
+  return {};
+}
 
-  void classify(const Triangulation& triangulation) {
-    for (Index f = 0; f < mesh_.num_slots(); ++f) {
-      const auto& v = mesh_[f].vertex;
-      const FaceKind kind =
-          triangulation.is_ghost(f)
-              ? kernel::kind_of(predicates::orientation(this->traits, v[0], v[1], v[2]).sign)
-              : FaceKind::solid;
-      kinds_.add(f, kind);
-      if (kind == FaceKind::entry) entry_ = f;
-    }
-  }
-
-  topology::Mesh mesh_;
-  std::vector<topology::Halfedge> corner_of_;
-  FaceKinds kinds_;
-  Index solid_ = 0;
-  Index entry_ = no_index;
-};
-
-// Dimensions 0 and 1.
-template <models::SphereModel T>
-class BuiltRing final : private Built<T>, public GraphEngine<T> {
- public:
-  BuiltRing(const Triangulation& triangulation, std::span<const Point> sites, const Vertices& names)
-      : Built<T>(triangulation, sites, names),
-        GraphEngine<T>(this->traits, this->sphere),
-        points_(points_of(sites, names)),
-        location_(points_, triangulation.sphere().center) {}
-
-  Location locate(const Point& p, Cursor& cursor) const override {
-    const Index near = nearest(p, cursor);
-    const auto place = location_.locate(p, near);
-    return {place.where, no_index, {place.vertices[0], place.vertices[1], no_index}};
-  }
-
-  Index nearest(const Point& p, Cursor& cursor) const override {
-    return this->find_nearest(ring(), Target<T>(this->traits, p), cursor).vertex;
-  }
-
-  void k_nearest(const Point& p, std::size_t k, Cursor& cursor,
-                 std::vector<Index>& found) const override {
-    this->find_k_nearest(ring(), p, k, cursor, found);
-  }
-
-  void within(const Point& p, const std::optional<predicates::Cosine>& cosine, Cursor& cursor,
-              std::vector<Index>& found) const override {
-    this->find_within(ring(), p, cosine, cursor, found);
-  }
-
-  [[nodiscard]] std::vector<Index> neighbors(Index v) const override {
-    return this->find_neighbors(ring(), v);
-  }
-
-  std::vector<Index> conflict_region(const Point& /*p*/, Cursor& /*cursor*/) const override {
-    return {};
-  }
-
- private:
-  static std::vector<Point> points_of(std::span<const Point> sites, const Vertices& vertices) {
-    std::vector<Point> points;
-    for (const Index i : vertices.speakers) points.push_back(sites[i]);
-    return points;
-  }
-
-  [[nodiscard]] Ring<T> ring() const {
-    return {this->traits, static_cast<Index>(points_.size()), this->vertices.names};
-  }
-
-  std::vector<Point> points_;
-  RingLocation location_;
-};
-
-template <template <class> class E>
-std::unique_ptr<Engine> make(const Triangulation& triangulation, std::span<const Point> sites,
-                             const Vertices& vertices) {
-  return models::with_model(triangulation.model(), [&]<class T> {
-    return std::unique_ptr<Engine>(std::make_unique<E<T>>(triangulation, sites, vertices));
-  });
+// Returns work(graph, target), where the target is p seen from the graph's sites.
+template <class Work>
+decltype(auto) ask(const AnyGraph& any, const Point& p, const Work& work) {
+  return std::visit([&](const auto& graph) { return work(graph, Target(graph.sites, p)); }, any);
 }
 
 }  // namespace
 
-std::unique_ptr<Engine> make_engine(const Triangulation& triangulation,
-                                    std::span<const Point> sites, const Vertices& vertices) {
-  if (triangulation.dimension() < 0) return nullptr;
-  return triangulation.dimension() < 2 ? make<BuiltRing>(triangulation, sites, vertices)
-                                       : make<BuiltSurface>(triangulation, sites, vertices);
+Location Engine::locate(const Point& p, Cursor& cursor) const {
+  return ask(graph_, p, [&](const auto& graph, const auto& target) {
+    Location location = locate_from(cursor, graph, target);
+    for (Index& v : location.sites) {
+      if (v != no_index) v = graph.name(v);
+    }
+    if (location.where == Where::edge && location.sites[1] < location.sites[0]) {
+      std::swap(location.sites[0], location.sites[1]);
+    }
+    return location;
+  });
+}
+
+Index Engine::nearest(const Point& p, Cursor& cursor) const {
+  return ask(graph_, p, [&](const auto& graph, const auto& target) {
+    return graph.name(nearest_from(cursor, graph, target).vertex);
+  });
+}
+
+void Engine::k_nearest(const Point& p, std::size_t k, Cursor& cursor,
+                       std::vector<Index>& found) const {
+  ask(graph_, p, [&](const auto& graph, const auto& target) {
+    const std::size_t begin = found.size();
+    const Candidate start = nearest_from(cursor, graph, target);
+    query::k_nearest(graph, target, start, k, cursor.scratch, found);
+    rename(graph, std::span(found).subspan(begin));
+  });
+}
+
+void Engine::within(const Point& p, const Limit& limit, Cursor& cursor,
+                    std::vector<Index>& found) const {
+  ask(graph_, p, [&](const auto& graph, const auto& target) {
+    const std::size_t begin = found.size();
+    const Index start = nearest_from(cursor, graph, target).vertex;
+    const auto is_inside = [&](Index v) { return target.is_within(v, limit); };
+    flood(graph, start, is_inside, cursor.scratch, found);
+    const auto new_ones = std::span(found).subspan(begin);
+    rename(graph, new_ones);
+    std::ranges::sort(new_ones);
+  });
+}
+
+std::vector<Index> Engine::neighbors(Index v) const {
+  std::vector<Index> found;
+  std::visit(
+      [&](const auto& graph) {
+        graph.visit_neighbors(v, [&](Index w) {
+          found.push_back(graph.name(w));
+          return false;
+        });
+      },
+      graph_);
+  std::ranges::rotate(found, std::ranges::min_element(found));
+  return found;
+}
+
+std::vector<Index> Engine::conflict_region(const Point& p, Cursor& cursor) const {
+  return ask(graph_, p, [&](const auto& graph, const auto& target) {
+    return region_from(cursor, graph, target);
+  });
 }
 
 }  // namespace rondel::query

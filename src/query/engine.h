@@ -1,20 +1,18 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The queries of one triangulation, whatever its model and dimension. Answers and vertices
-// have internal names (vertices.h).
+// The questions to one triangulation, whatever its model and dimension: each is asked of the graph
+// that it is told at its making. Vertices go in under internal names, and come out under those that
+// they have outside.
 #pragma once
 
-#include <memory>
-#include <optional>
-#include <span>
+#include <utility>
 #include <vector>
 
-#include "predicates/within_angle.h"
+#include "query/graph.h"
 #include "query/neighborhood.h"
-#include "query/vertices.h"
+#include "query/target.h"
 #include "rondel/query.h"
-#include "rondel/triangulation.h"
 
 namespace rondel::query {
 
@@ -27,21 +25,19 @@ struct Cursor {
 
 class Engine {
  public:
-  virtual ~Engine() = default;
+  explicit Engine(AnyGraph graph) : graph_(std::move(graph)) {}
 
-  virtual Location locate(const Point& p, Cursor& cursor) const = 0;
-  virtual Index nearest(const Point& p, Cursor& cursor) const = 0;
-  virtual void k_nearest(const Point& p, std::size_t k, Cursor& cursor,
-                         std::vector<Index>& found) const = 0;
-  // Without a cosine: all vertices.
-  virtual void within(const Point& p, const std::optional<predicates::Cosine>& cosine,
-                      Cursor& cursor, std::vector<Index>& found) const = 0;
-  [[nodiscard]] virtual std::vector<Index> neighbors(Index v) const = 0;
-  virtual std::vector<Index> conflict_region(const Point& p, Cursor& cursor) const = 0;
+  Location locate(const Point& p, Cursor& cursor) const;
+  Index nearest(const Point& p, Cursor& cursor) const;
+  // Append to `found`; those within a limit in increasing order.
+  void k_nearest(const Point& p, std::size_t k, Cursor& cursor, std::vector<Index>& found) const;
+  void within(const Point& p, const Limit& limit, Cursor& cursor, std::vector<Index>& found) const;
+  // Counterclockwise from the lowest.
+  [[nodiscard]] std::vector<Index> neighbors(Index v) const;
+  std::vector<Index> conflict_region(const Point& p, Cursor& cursor) const;
+
+ private:
+  AnyGraph graph_;
 };
-
-// Keeps all arguments by reference. None for a triangulation without vertices.
-std::unique_ptr<Engine> make_engine(const Triangulation& triangulation,
-                                    std::span<const Point> sites, const Vertices& vertices);
 
 }  // namespace rondel::query

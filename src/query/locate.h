@@ -11,24 +11,16 @@
 
 #include "kernel/conflict_region.h"
 #include "kernel/walk.h"
-#include "query/surface.h"
+#include "query/graph.h"
 #include "query/target.h"
 #include "rondel/error.h"
 #include "rondel/query.h"
 
 namespace rondel::query {
 
-// A place among internal names: `last_face` is where the next walk may start.
-struct Place {
-  Where where = Where::outside;
-  std::array<Index, 3> vertices = {no_index, no_index, no_index};
-  Index face = no_index;
-  Index last_face = no_index;
-};
-
 // Of the solid faces that share a vertex, the one of the smallest number.
 template <models::SphereTraits T>
-Index first_solid_face(const Surface<T>& surface, Index v) {
+Index first_solid_face(const SurfaceGraph<T>& surface, Index v) {
   Index first = no_index;
   surface.visit_corners(v, [&](topology::Halfedge h) {
     const Index f = topology::face_of(h);
@@ -40,30 +32,29 @@ Index first_solid_face(const Surface<T>& surface, Index v) {
 
 // The query lies in the closed cone of the solid face f. `is_on[i]`: in the plane of edge i.
 template <models::SphereTraits T>
-Place place_in(const Surface<T>& surface, Index f, const std::array<bool, 3>& is_on) {
+Location location_in(const SurfaceGraph<T>& surface, Index f, const std::array<bool, 3>& is_on) {
   const topology::Face& face = surface.mesh[f];
   const auto count = std::ranges::count(is_on, true);
-  if (count == 0) return {Where::face, face.vertex, f, f};
+  if (count == 0) return {Where::face, f, face.vertex};
   if (count == 1) {
     const auto i = static_cast<unsigned>(std::ranges::find(is_on, true) - is_on.begin());
     const unsigned a = topology::next_corner[i];
     const Index other = topology::face_of(face.opposite[i]);
     const bool is_shared = surface.kinds[other] == kernel::FaceKind::solid;
     return {Where::edge,
-            {face.vertex[a], face.vertex[topology::next_corner[a]], no_index},
             is_shared ? std::min(f, other) : f,
-            f};
+            {face.vertex[a], face.vertex[topology::next_corner[a]], no_index}};
   }
   const auto i = static_cast<unsigned>(std::ranges::find(is_on, false) - is_on.begin());
   const Index v = face.vertex[i];
-  return {Where::vertex, {v, no_index, no_index}, first_solid_face(surface, v), f};
+  return {Where::vertex, first_solid_face(surface, v), {v, no_index, no_index}};
 }
 
-// `start` is a solid face. The walk comes to no face twice, unless the sites are not those that
-// were triangulated; then it throws InvalidInput at last.
+// `f` is a solid face to start from, and becomes the one where the walk ends. The walk comes to no
+// face twice, unless the sites are not those that were triangulated; then it throws InvalidInput at
+// last.
 template <models::SphereTraits T>
-Place locate(const Surface<T>& surface, const Target<T>& target, Index start) {
-  Index f = start;
+Location locate(const SurfaceGraph<T>& surface, const Target<T>& target, Index& f) {
   unsigned entered = 3;
   for (Index left = surface.mesh.num_slots(); left > 0; --left) {
     const topology::Face& face = surface.mesh[f];
@@ -77,28 +68,23 @@ Place locate(const Surface<T>& surface, const Target<T>& target, Index start) {
       if (side == Sign::negative) break;
       is_on[i] = side == Sign::zero;
     }
-    if (i == 3) return place_in(surface, f, is_on);
+    if (i == 3) return location_in(surface, f, is_on);
     const topology::Halfedge h = face.opposite[i];
     const Index next = topology::face_of(h);
-    if (surface.kinds[next] != kernel::FaceKind::solid) {
-      Place outside;
-      outside.last_face = f;
-      return outside;
-    }
+    if (surface.kinds[next] != kernel::FaceKind::solid) return {};
     f = next;
     entered = topology::edge_of(h);
   }
   throw InvalidInput("the sites are not those of the triangulation", 0);
 }
 
-// The faces in conflict with the target, in increasing order. `solid` is a solid face near it,
-// `entry` an entry face if there is one. Precondition, projected: the target is no duplicate.
+// The faces in conflict with the target, in increasing order. `solid` is a solid face near it.
+// Precondition, projected: the target is no duplicate.
 template <models::SphereTraits T>
-std::vector<Index> conflict_region(const Surface<T>& surface, Target<T>& target, Index solid,
-                                   Index entry) {
+std::vector<Index> conflict_region(const SurfaceGraph<T>& surface, Target<T> target, Index solid) {
   kernel::ConflictTest<Target<T>> test(target);
-  const kernel::Walk<Target<T>> location(test, surface.mesh, surface.kinds);
-  const Index start = location.locate(Target<T>::query, solid, entry).conflict;
+  const kernel::Walk<Target<T>> walk(test, surface.mesh, surface.kinds);
+  const Index start = walk.locate(Target<T>::query, solid, surface.entry_face).conflict;
   if (start == no_index) return {};
   kernel::ConflictRegion<Target<T>> region;
   region.find(test, surface.mesh, Target<T>::query, start);

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The nearest vertex by steepest ascent over neighbors, which surface.h proves right: exact for any
+// The nearest vertex by steepest ascent over neighbors, which graph.h proves right: exact for any
 // start, fast from a near one.
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
-#include "query/surface.h"
+#include "query/graph.h"
 #include "query/target.h"
 #include "query/visited.h"
 

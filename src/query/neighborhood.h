@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The k nearest vertices, and all within an angle: searches that spread from the nearest vertex
-// over neighbors, because the vertices nearer than any bound are connected (surface.h).
+// over neighbors, because the vertices nearer than any bound are connected (graph.h).
 #pragma once
 
 #include <algorithm>
 #include <vector>
 
+#include "query/graph.h"
 #include "query/nearest.h"
-#include "query/surface.h"
 #include "query/target.h"
 #include "query/visited.h"
 

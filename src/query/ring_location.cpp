@@ -3,20 +3,27 @@
 
 #include "query/ring_location.h"
 
+#include <utility>
+
 #include "kernel/great_circle.h"
 #include "predicates/orientation.h"
 #include "predicates/ray_order.h"
 #include "predicates/turn.h"
 
 namespace rondel::query {
+namespace {
 
-RingLocation::RingLocation(std::span<const Point> points, const Point& center)
-    : points_(points), center_(center) {
-  const auto span = kernel::find_span(points, center);
+Location on_vertex(Index v) { return {Where::vertex, no_index, {v, no_index, no_index}}; }
+
+}  // namespace
+
+RingLocation::RingLocation(std::vector<Point> points, const Point& center)
+    : points_(std::move(points)), center_(center) {
+  const auto span = kernel::find_span(points_, center);
   if (span.size() < 2) return;
   spanning_ = {span[0], span[1]};
-  while (turn(span[0], points[span[1]]) == Sign::zero) ++axis_;
-  for (Index i = 0; i < points.size() && solid_ == no_index; ++i) {
+  while (turn(span[0], points_[span[1]]) == Sign::zero) ++axis_;
+  for (Index i = 0; i < points_.size() && solid_ == no_index; ++i) {
     if (is_solid(i)) solid_ = i;
   }
 }
@@ -34,10 +41,9 @@ bool RingLocation::is_in_plane(const Point& p) const {
          Sign::zero;
 }
 
-RingLocation::Place RingLocation::locate(const Point& p, Index near) const {
+Location RingLocation::locate(const Point& p, Index near) const {
   if (solid_ == no_index) {
-    if (predicates::are_on_one_ray(points_[near], p, center_))
-      return {Where::vertex, {near, no_index}};
+    if (predicates::are_on_one_ray(points_[near], p, center_)) return on_vertex(near);
     return {};
   }
   if (!is_in_plane(p)) return {};
@@ -46,7 +52,7 @@ RingLocation::Place RingLocation::locate(const Point& p, Index near) const {
 
 // Ahead as long as p is beyond the end of the edge, back as long as it is before the begin. Within
 // a cone of less than 180 degrees, or around a full circle, neither turns into the other.
-RingLocation::Place RingLocation::walk(const Point& p, Index edge) const {
+Location RingLocation::walk(const Point& p, Index edge) const {
   for (Index i = edge;;) {
     const Index end = next(i);
     const Sign from_end = turn(end, p);
@@ -56,9 +62,9 @@ RingLocation::Place RingLocation::walk(const Point& p, Index edge) const {
     } else if (from_begin == Sign::negative) {
       i = previous(i);
     } else {
-      if (from_begin == Sign::zero) return {Where::vertex, {i, no_index}};
-      if (from_end == Sign::zero) return {Where::vertex, {end, no_index}};
-      return {Where::edge, {i, end}};
+      if (from_begin == Sign::zero) return on_vertex(i);
+      if (from_end == Sign::zero) return on_vertex(end);
+      return {Where::edge, no_index, {i, end, no_index}};
     }
     if (!is_solid(i)) return {};
   }

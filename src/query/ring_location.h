@@ -9,7 +9,7 @@
 #pragma once
 
 #include <array>
-#include <span>
+#include <vector>
 
 #include "rondel/query.h"
 #include "rondel/types.h"
@@ -18,16 +18,11 @@ namespace rondel::query {
 
 class RingLocation {
  public:
-  // The vertices in their order, as great_circle.h makes it. Keeps `points`.
-  RingLocation(std::span<const Point> points, const Point& center);
+  // The vertices in their order, as great_circle.h makes it.
+  RingLocation(std::vector<Point> points, const Point& center);
 
-  struct Place {
-    Where where = Where::outside;
-    std::array<Index, 2> vertices = {no_index, no_index};  // positions in the ring
-  };
-
-  // `near` is a vertex to start from: the nearest one.
-  [[nodiscard]] Place locate(const Point& p, Index near) const;
+  // `near` is a vertex to start from: the nearest one. Vertices are positions in the ring.
+  [[nodiscard]] Location locate(const Point& p, Index near) const;
 
  private:
   [[nodiscard]] Index next(Index i) const { return i + 1 < points_.size() ? i + 1 : 0; }
@@ -38,9 +33,9 @@ class RingLocation {
   [[nodiscard]] Sign turn(Index i, const Point& p) const;
   [[nodiscard]] bool is_solid(Index edge) const;
   [[nodiscard]] bool is_in_plane(const Point& p) const;
-  [[nodiscard]] Place walk(const Point& p, Index edge) const;
+  [[nodiscard]] Location walk(const Point& p, Index edge) const;
 
-  std::span<const Point> points_;
+  std::vector<Point> points_;
   Point center_;
   std::array<Index, 2> spanning_ = {no_index,
                                     no_index};  // two vertices not in line with the center

@@ -6,6 +6,8 @@
 // nothing in the sites, so that any number of threads may query at once.
 #pragma once
 
+#include <optional>
+
 #include "models/sphere_traits.h"
 #include "predicates/compare_distance.h"
 #include "predicates/points.h"
@@ -20,6 +22,12 @@ using predicates::Vector;
 struct Candidate {
   Index vertex = no_index;
   double value = 0;  // projected: squared distance of the directions; weighted: not used
+};
+
+// All at most an angle away, or all there are.
+struct Limit {
+  std::optional<predicates::Cosine> cosine;
+  double squared_radius = 1;  // of the sphere
 };
 
 template <models::SphereTraits T>
@@ -70,14 +78,13 @@ class Target {
       return predicates::compare_power(*this, a.vertex, b.vertex, query).sign;
     }
   }
-  // `sphere` is the one of the sites.
-  [[nodiscard]] bool is_within(Index v, const predicates::Cosine& cosine,
-                               const Sphere& sphere) const {
+  [[nodiscard]] bool is_within(Index v, const Limit& limit) const {
+    if (!limit.cosine) return true;
     if constexpr (is_projected) {
-      return predicates::is_within_angle(*this, v, query, cosine).sign != Sign::negative;
+      return predicates::is_within_angle(*this, v, query, *limit.cosine).sign != Sign::negative;
     } else {
-      return predicates::is_within_power(*this, v, query, cosine, sphere.squared_radius).sign !=
-             Sign::negative;
+      return predicates::is_within_power(*this, v, query, *limit.cosine, limit.squared_radius)
+                 .sign != Sign::negative;
     }
   }
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // What queries run on: a graph of vertices with exact traits. There are two: the closed surface of
-// dimension 2, and the ring of the dimensions below.
+// dimension 2, and the ring of the dimensions below. Searches for near vertices ask both alike.
 //
 // Queries for near vertices rest on one property. With f(v) the closeness of vertex v to the query
 // (the cosine of the angle, or the scalar product of the weighted model), the vertices with
@@ -15,15 +15,18 @@
 
 #include <concepts>
 #include <span>
+#include <variant>
 
 #include "kernel/walk.h"
-#include "models/sphere_traits.h"
+#include "models/projected_points.h"
+#include "models/weighted_points.h"
+#include "query/ring_location.h"
 #include "topology/mesh.h"
 
 namespace rondel::query {
 
-// Vertices have internal names: whatever the mesh and the traits use. `names` translates them for
-// ties, which go to the smallest name; if it is empty the internal names count.
+// Vertices have internal names: whatever the mesh and the traits use. `name` is what a vertex is
+// called outside; ties go to the smallest name.
 template <class G>
 concept Graph = requires(const G& graph, Index v, bool (*visit)(Index)) {
   graph.sites;
@@ -33,15 +36,17 @@ concept Graph = requires(const G& graph, Index v, bool (*visit)(Index)) {
 };
 
 template <models::SphereTraits T>
-struct Surface {
+struct SurfaceGraph {
   const T& sites;
   const topology::Mesh& mesh;  // may have slots that are not alive
   const kernel::FaceKinds& kinds;
   std::span<const topology::Halfedge>
       corner_of;  // of a vertex: 3*face + corner of one of its faces
-  std::span<const Index> names = {};
+  std::span<const Index> names;
+  Index solid_face;             // some solid face
+  Index entry_face = no_index;  // some entry face, if there is one
 
-  [[nodiscard]] Index name(Index v) const { return names.empty() ? v : names[v]; }
+  [[nodiscard]] Index name(Index v) const { return names[v]; }
 
   // Calls visit(3*face + corner) for the corners at v, counterclockwise, until it returns true.
   template <class Visit>
@@ -63,21 +68,27 @@ struct Surface {
   }
 };
 
-// Dimensions 0 and 1: vertex i is at place i of a ring of `size` vertices.
+// Dimensions 0 and 1: vertex i is at place i of a ring.
 template <models::SphereTraits T>
-struct Ring {
+struct RingGraph {
   const T& sites;
-  Index size = 0;
-  std::span<const Index> names = {};
+  std::span<const Index> names;
+  RingLocation location;
 
-  [[nodiscard]] Index name(Index v) const { return names.empty() ? v : names[v]; }
+  [[nodiscard]] Index name(Index v) const { return names[v]; }
 
   template <class Visit>
   void visit_neighbors(Index v, Visit&& visit) const {
+    const auto size = static_cast<Index>(names.size());
     if (size < 2) return;
     if (visit(v + 1 < size ? v + 1 : 0) || size == 2) return;
     visit(v > 0 ? v - 1 : size - 1);
   }
 };
+
+// Refers to what a finished triangulation (built.h) or one that changes (Editor::graph()) keeps.
+using AnyGraph =
+    std::variant<SurfaceGraph<models::ProjectedPoints>, SurfaceGraph<models::WeightedPoints>,
+                 RingGraph<models::ProjectedPoints>, RingGraph<models::WeightedPoints>>;
 
 }  // namespace rondel::query

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A finished triangulation, prepared for queries. Vertices get internal names that suit queries:
+// their spatial rank in dimension 2, so that neighbors are close in memory; their place in the ring
+// below.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "models/projected_points.h"
+#include "models/weighted_points.h"
+#include "query/graph.h"
+#include "rondel/triangulation.h"
+#include "topology/mesh.h"
+
+namespace rondel::query {
+
+class Built {
+ public:
+  // `ids`, if any, are what the sites are called outside, in increasing order; otherwise that is
+  // their index.
+  Built(const Triangulation& triangulation, std::span<const Index> ids);
+  Built(const Built&) = delete;
+  Built& operator=(const Built&) = delete;
+
+  // Refers to this object.
+  [[nodiscard]] AnyGraph graph() const;
+  [[nodiscard]] std::size_t num_vertices() const { return names_.size(); }
+
+  [[nodiscard]] bool has_site(Index site) const {
+    return site < vertex_of_.size() && vertex_of_[site] != not_there;
+  }
+  // Precondition: there is such a site. no_index if it is hidden.
+  [[nodiscard]] Index vertex_of(Index site) const { return vertex_of_[site]; }
+  // A vertex close to p. Precondition: there is a vertex.
+  [[nodiscard]] Index near(const Point& p) const;
+
+ private:
+  static constexpr Index not_there = no_index - 1;
+
+  void list_vertices(const Triangulation& triangulation);
+  void rename(std::span<const Index> ids);
+  template <class T>
+  void link_faces(const Triangulation& triangulation, const T& model);
+
+  Sites sites_;
+  Model model_;
+  Point center_;
+  bool is_ring_;
+
+  std::vector<Index> names_;         // of each vertex
+  std::vector<Index> speakers_;      // the site whose coordinates count: of duplicates the smallest
+  std::vector<Index> vertex_of_;     // the vertex of each site
+  std::vector<std::uint64_t> keys_;  // sorted
+  std::vector<Index> at_key_;        // their vertices; empty: 0, 1, 2 ...
+
+  std::variant<models::ProjectedPoints, models::WeightedPoints> points_;
+
+  // In dimension 2.
+  topology::Mesh mesh_;
+  std::vector<topology::Halfedge> corner_of_;
+  kernel::FaceKinds kinds_;
+  Index solid_face_ = 0;
+  Index entry_face_ = no_index;
+};
+
+}  // namespace rondel::query
