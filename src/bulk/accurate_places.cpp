@@ -72,20 +72,20 @@ const AccuratePlaces::Low& AccuratePlaces::known_low(Index i) {
 
 Sign AccuratePlaces::orientation(Index a, Index b, Index c) {
   if (!exact::has_extended_precision()) return Sign::zero;
-  struct Step {
+  struct WideStep {
     long double u, v;
     [[nodiscard]] long double squared() const { return u * u + v * v; }
   };
   const SquarePoint& from = points_[a];
   const Low& from_low = known_low(a);
-  const auto step_to = [&](Index i) -> Step {
+  const auto step_to = [&](Index i) -> WideStep {
     const SquarePoint& to = points_[i];
     const Low& low = known_low(i);
     return {(static_cast<long double>(to.u) - from.u) + (low.u - from_low.u),
             (static_cast<long double>(to.v) - from.v) + (low.v - from_low.v)};
   };
-  const Step ab = step_to(b);
-  const Step ac = step_to(c);
+  const WideStep ab = step_to(b);
+  const WideStep ac = step_to(c);
   const long double squared = std::max(ab.squared(), ac.squared());
   const long double value = ab.u * ac.v - ab.v * ac.u;
   if (!(squared > least_squared_distance && std::abs(value) > orientation_bound * squared))

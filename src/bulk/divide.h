@@ -196,7 +196,7 @@ class Divide {
     }
     if (is_zero) [[unlikely]]
       return false;
-    const FourPoints& four = few_sites::orders[signs];
+    const FourSites& four = few_sites::orders[signs];
     std::array<Index, 4> p{};
     for (std::size_t i = 0; i < 4; ++i) p[i] = a + four.order[i];
     const auto is_last_in_conflict = [&] {

@@ -44,7 +44,7 @@ class Emission {
 
  private:
   void find_owned() {
-    const PlaneGraph::Ring* const rings = graph_.rings();
+    const PlaneGraph::Links* const rings = graph_.rings();
     const Index* const targets = graph_.targets();
     const Index* const faces = graph_.faces();
     Owned* const owned = owned_.data();
@@ -90,7 +90,7 @@ class Emission {
   // times, plus the number of the corner opposite to the halfedge.
   template <class Name>
   void write_corners(Name name) {
-    const PlaneGraph::Ring* const rings = graph_.rings();
+    const PlaneGraph::Links* const rings = graph_.rings();
     const Index* const targets = graph_.targets();
     Index* const faces = graph_.faces();
     const Owned* const owned = owned_.data();

@@ -17,7 +17,7 @@
 
 namespace rondel::bulk {
 
-struct FourPoints {
+struct FourSites {
   std::array<std::uint8_t, 4> order{0, 1, 2, 3};
   bool has_inner_point = false;
 };
@@ -25,7 +25,7 @@ struct FourPoints {
 namespace few_sites {
 
 // `signs` has a bit for each of abc, abd, acd and bcd, set if the triple is counterclockwise.
-constexpr FourPoints find_order(unsigned signs) {
+constexpr FourSites find_order(unsigned signs) {
   const bool is_swapped = (signs & 1U) == 0;  // b and c are, so that abc is counterclockwise
   const bool ab = (signs >> (is_swapped ? 2U : 1U) & 1U) != 0;  // d lies to the left of ab
   const bool ca = (signs >> (is_swapped ? 1U : 2U) & 1U) == 0;
@@ -43,13 +43,13 @@ constexpr FourPoints find_order(unsigned signs) {
   return {{b, c, d, a}, true};  // bc
 }
 
-constexpr std::array<FourPoints, 16> make_orders() {
-  std::array<FourPoints, 16> orders{};
+constexpr std::array<FourSites, 16> make_orders() {
+  std::array<FourSites, 16> orders{};
   for (unsigned signs = 0; signs < orders.size(); ++signs) orders[signs] = find_order(signs);
   return orders;
 }
 
-inline constexpr std::array<FourPoints, 16> orders = make_orders();
+inline constexpr std::array<FourSites, 16> orders = make_orders();
 
 }  // namespace few_sites
 

@@ -75,7 +75,7 @@ template <class Step>
 class Merge {
  public:
   using Edge = PlaneGraph::Edge;
-  using Face = typename Step::Face;
+  using ApexFace = typename Step::ApexFace;
   using Limits = typename Step::Limits;
   using Sites = typename Step::Sites;
 
@@ -162,7 +162,7 @@ class Merge {
     }
   }
 
-  [[nodiscard, gnu::always_inline]] bool is_above(const Step& step, const Face& face) {
+  [[nodiscard, gnu::always_inline]] bool is_above(const Step& step, const ApexFace& face) {
     const Sign side = step.orientation(face);
     if (Step::hides_sites && side == Sign::zero && face.apex != step.l() && face.apex != step.r())
       std::ignore = middle_of(step.l(), step.r(), face.apex);
@@ -173,7 +173,7 @@ class Merge {
   // next step begins is known from this one: to read it from links just written would take longer
   // than all else.
   void sew(Edge base, const Limits& limits) {
-    const PlaneGraph::Ring* const rings = graph_.rings();
+    const PlaneGraph::Links* const rings = graph_.rings();
     const Index* const targets = graph_.targets();
     Index l = graph_.origin(base);
     Index r = graph_.target(base);
@@ -181,7 +181,7 @@ class Merge {
     Edge right = rings[base ^ 1].previous;
     while (!graph_.is_full()) {
       const Step step(sites_, limits, l, r);
-      Face left_face = step.face(targets[left]);
+      ApexFace left_face = step.face(targets[left]);
       bool has_left = is_above(step, left_face);
       if (Step::hides_sites && !has_left && remove_covered_left(graph_, base, step)) {
         left = rings[base].next;
@@ -198,7 +198,7 @@ class Merge {
           left_face = step.face(y);
         }
       }
-      Face right_face = step.face(targets[right]);
+      ApexFace right_face = step.face(targets[right]);
       bool has_right = is_above(step, right_face);
       if (Step::hides_sites && !has_right && remove_covered_right(graph_, base ^ 1, step)) {
         right = rings[base ^ 1].previous;

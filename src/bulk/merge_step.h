@@ -24,7 +24,7 @@ class MergeStep {
   using Limits = SquareLimits;
   static constexpr bool hides_sites = T::hides_sites;
 
-  struct Face {
+  struct ApexFace {
     Index apex;
     SquareVector normal;
   };
@@ -49,12 +49,12 @@ class MergeStep {
     return {sites_, {orientation_limit_, conflict_limit_}, l, r};
   }
 
-  [[nodiscard, gnu::always_inline]] Face face(Index x) const {
+  [[nodiscard, gnu::always_inline]] ApexFace face(Index x) const {
     return {x, cross(edge_, from_l(x))};
   }
 
   // Positive if the apex lies to the left of the edge, seen from outside; zero if it is l or r.
-  [[nodiscard, gnu::always_inline]] Sign orientation(const Face& face) const {
+  [[nodiscard, gnu::always_inline]] Sign orientation(const ApexFace& face) const {
     if (face.normal.w > orientation_limit_) return Sign::positive;
     if (face.normal.w < -orientation_limit_) return Sign::negative;
     // Overflow leaves infinities and what is not a number: unsure, too.
@@ -62,7 +62,7 @@ class MergeStep {
   }
 
   // Not if y is l or r.
-  [[nodiscard, gnu::always_inline]] bool is_in_conflict(const Face& face, Index y) const {
+  [[nodiscard, gnu::always_inline]] bool is_in_conflict(const ApexFace& face, Index y) const {
     const double value = dot(face.normal, from_l(y));
     if (value > conflict_limit_) {
       sites_.count_filtered();

@@ -30,7 +30,7 @@ class PlaneGraph {
   using Edge = Index;  // a halfedge
 
   // Elements of eight bytes or less, which machines address by their index.
-  struct Ring {
+  struct Links {
     Edge next;
     Edge previous;
   };
@@ -90,7 +90,7 @@ class PlaneGraph {
   }
 
   // For loops: the same arrays without a look at this object for each element.
-  [[nodiscard]] const Ring* rings() const { return rings_; }
+  [[nodiscard]] const Links* rings() const { return rings_; }
   [[nodiscard]] Index* targets() { return targets_; }
   [[nodiscard]] Index* faces() { return faces_; }
 
@@ -126,13 +126,13 @@ class PlaneGraph {
     return pairs;
   }
 
-  struct Spoke {
+  struct EdgeTo {
     Edge edge;
     Index target;
   };
   // All halfedges of a vertex, counterclockwise.
   template <std::size_t N>
-  void set_ring(const std::array<Spoke, N>& ring) {
+  void set_ring(const std::array<EdgeTo, N>& ring) {
     for (std::size_t i = 0; i < N; ++i) {
       rings_[ring[i].edge] = {ring[(i + 1) % N].edge, ring[(i + N - 1) % N].edge};
       targets_[ring[i].edge] = ring[i].target;
@@ -152,7 +152,7 @@ class PlaneGraph {
     return add(a, b, {rings_[f].next, f}, {rings_[g].next, g});
   }
   // The same with the edges next to it in both rings.
-  [[gnu::always_inline]] Edge add(Index a, Index b, const Ring& at_a, const Ring& at_b) {
+  [[gnu::always_inline]] Edge add(Index a, Index b, const Links& at_a, const Links& at_b) {
     const Edge e = new_pair();
     rings_[e] = at_a;
     rings_[e + 1] = at_b;
@@ -185,7 +185,7 @@ class PlaneGraph {
   }
 
  private:
-  static constexpr std::size_t halfedge_bytes = sizeof(Ring) + 2 * sizeof(Index);
+  static constexpr std::size_t halfedge_bytes = sizeof(Links) + 2 * sizeof(Index);
   // Deleted pairs are used again, and a plane graph has less than three edges a vertex. One pair is
   // always ready (new_pair()).
   static std::size_t size_of(std::size_t num_vertices) { return 6 * num_vertices + 2; }
@@ -199,7 +199,7 @@ class PlaneGraph {
   }
 
   void place(std::byte* memory, std::size_t size) {
-    rings_ = reinterpret_cast<Ring*>(memory);
+    rings_ = reinterpret_cast<Links*>(memory);
     targets_ = reinterpret_cast<Index*>(rings_ + size);
     faces_ = targets_ + size;
   }
@@ -222,14 +222,14 @@ class PlaneGraph {
   }
 
   [[gnu::always_inline]] void unlink(Edge e) {
-    const Ring links = rings_[e];
+    const Links links = rings_[e];
     rings_[links.previous].next = links.next;
     rings_[links.next].previous = links.previous;
   }
 
   system::LargeArray<std::byte> memory_;  // of the arrays, if it is its own
   std::size_t capacity_ = 0;              // halfedges for which it has room
-  Ring* rings_ = nullptr;
+  Links* rings_ = nullptr;
   Index* targets_ = nullptr;
   Index* faces_ = nullptr;
   // Of another type than the links, so that these are not read again after each link is written.

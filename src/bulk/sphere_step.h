@@ -20,7 +20,7 @@ class SphereStep {
  public:
   using Sites = SphereSites<T>;
   struct Limits {};
-  struct Face {
+  struct ApexFace {
     Index apex;
     predicates::Vector normal;  // outward
     double squared;             // of the side from l to the apex
@@ -39,13 +39,13 @@ class SphereStep {
   [[nodiscard]] Index r() const { return r_; }
   [[nodiscard]] SphereStep from_to(Index l, Index r) const { return {sites_, {}, l, r}; }
 
-  [[nodiscard]] Face face(Index x) const {
+  [[nodiscard]] ApexFace face(Index x) const {
     const predicates::Vector side = sites_.coordinates(x) - origin_;
     return {x, cross(edge_, side), dot(side, side)};
   }
 
   // Positive if the apex lies to the left of the edge from l to r, seen from outside.
-  [[nodiscard]] Sign orientation(const Face& face) const {
+  [[nodiscard]] Sign orientation(const ApexFace& face) const {
     if constexpr (T::model == Model::projected) {
       constexpr double bound = predicates::direction_orientation_bound;
       const double value = dot(origin_, face.normal);
@@ -56,7 +56,7 @@ class SphereStep {
     return is_end(face.apex) ? Sign::zero : sites_.orientation(l_, r_, face.apex);
   }
 
-  [[nodiscard]] bool is_in_conflict(const Face& face, Index y) const {
+  [[nodiscard]] bool is_in_conflict(const ApexFace& face, Index y) const {
     const predicates::Vector to_y = sites_.coordinates(y) - origin_;
     const double value = dot(face.normal, to_y);
     const double squared = dot(to_y, to_y);

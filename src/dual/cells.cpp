@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "dual/arc_points.h"
-#include "dual/great_circle.h"
+#include "dual/great_circle_diagrams.h"
 #include "dual/local_ring.h"
 #include "dual/parts.h"
 #include "dual/ring_walk.h"
@@ -50,9 +50,9 @@ std::vector<std::uint64_t> ring_offsets(const Triangulation& triangulation,
 }
 
 // Writes rings and areas for ranges of ranks.
-class CellWriter {
+class DiagramWriter {
  public:
-  CellWriter(const Triangulation& triangulation, const dual::SplitSites& sites, Cells& cells)
+  DiagramWriter(const Triangulation& triangulation, const dual::SplitSites& sites, Cells& cells)
       : faces_(triangulation.faces()),
         neighbors_(triangulation.neighbors()),
         sites_(sites),
@@ -141,7 +141,7 @@ Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& 
   if (areas != nullptr) *areas = system::large_vector<double>(triangulation.num_sites());
   system::parallel_for(sites.threads(), sites.order().size(), dual::parallel_grain,
                        [&](std::size_t begin, std::size_t end) {
-                         CellWriter(triangulation, sites, result)
+                         DiagramWriter(triangulation, sites, result)
                              .write(begin, end, arc_points, kites.of.get(),
                                     areas == nullptr ? nullptr : areas->data());
                        });

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-#include "dual/great_circle.h"
+#include "dual/great_circle_diagrams.h"
 #include "dual/local_ring.h"
 #include "dual/parts.h"
 #include "rondel/diagram.h"

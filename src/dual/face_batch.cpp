@@ -34,7 +34,7 @@ struct Vectors {
   [[nodiscard]] Vec operator[](std::size_t j) const { return {x[j], y[j], z[j]}; }
 };
 
-struct Places {
+struct SplitVectors {
   Vectors hi;
   Vectors lo;
 
@@ -64,7 +64,7 @@ inline double smaller(double a, double b) { return a < b ? a : b; }
 inline double larger(double a, double b) { return a > b ? a : b; }
 
 struct FaceBatch {
-  Places a, b, c;
+  SplitVectors a, b, c;
   Vectors normals;
   alignas(64) Numbers lengths;
   alignas(64) Numbers accurate;  // 1 or 0

@@ -11,13 +11,13 @@ namespace rondel::dual {
 namespace {
 
 // N = B x C, rounded.
-struct Candidate {
+struct RoundedNormal {
   Vec normal;
   double squared;
   bool is_accurate;
 };
 
-inline Candidate candidate(const SplitSites& sites, Index a, Index b, Index c) {
+inline RoundedNormal rounded_normal(const SplitSites& sites, Index a, Index b, Index c) {
   const exact::SplitPoint& place = sites[a];
   const Offset to_b = offset(place, sites[b]);
   const Offset to_c = offset(place, sites[c]);
@@ -39,14 +39,14 @@ double split_dot(const SplitNormal& n, const Offset& d) {
 }
 
 Point unit_normal(const SplitSites& sites, Index a, Index b, Index c) {
-  const Candidate n = candidate(sites, a, b, c);
+  const RoundedNormal n = rounded_normal(sites, a, b, c);
   if (!n.is_accurate) return exact_normal(sites, a, b, c).normal;
   const double length = std::sqrt(n.squared);
   return {n.normal.x / length, n.normal.y / length, n.normal.z / length};
 }
 
 bool is_degenerate(const SplitSites& sites, Index a, Index b, Index c) {
-  if (sites.is_projected() || candidate(sites, a, b, c).is_accurate) return false;
+  if (sites.is_projected() || rounded_normal(sites, a, b, c).is_accurate) return false;
   return exact_normal(sites, a, b, c).is_degenerate;
 }
 

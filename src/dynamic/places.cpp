@@ -92,7 +92,7 @@ bool Places::would_speak(Index site, Index place) const {
   return predicates::is_lexicographically_less(points_[site], place_point(place));
 }
 
-bool Places::SpeaksBefore::operator()(const Member& a, const Member& b) const {
+bool Places::SpeaksBefore::operator()(const Resident& a, const Resident& b) const {
   if (a.place != b.place) return a.place < b.place;
   const Point& p = (*points)[a.site];
   const Point& q = (*points)[b.site];
@@ -100,19 +100,19 @@ bool Places::SpeaksBefore::operator()(const Member& a, const Member& b) const {
   return !predicates::is_lexicographically_less(q, p) && a.site < b.site;
 }
 
-void Places::list(const Member& member) {
-  by_name_.insert(member);
-  by_triple_.insert(member);
+void Places::insert(const Resident& resident) {
+  by_name_.insert(resident);
+  by_triple_.insert(resident);
 }
 
-void Places::strike(const Member& member) {
-  by_name_.erase(member);
-  by_triple_.erase(member);
+void Places::erase(const Resident& resident) {
+  by_name_.erase(resident);
+  by_triple_.erase(resident);
 }
 
 void Places::join(Index site, Index place) {
-  list({place, speakers_[place]});
-  list({place, site});
+  insert({place, speakers_[place]});
+  insert({place, site});
   place_of_[site] = place;
   names_[place] = std::min(names_[place], site);
 }
@@ -128,13 +128,13 @@ Index Places::next_speaker(Index site) const {
 
 void Places::leave(Index site) {
   const Index place = std::exchange(place_of_[site], no_index);
-  strike({place, site});
+  erase({place, site});
   const auto first = by_name_.lower_bound({place, 0});
   if (first == by_name_.end() || first->place != place) return;
   names_[place] = first->site;
   const auto second = std::next(first);
   const bool is_alone = second == by_name_.end() || second->place != place;
-  if (is_alone) strike({place, names_[place]});
+  if (is_alone) erase({place, names_[place]});
 }
 
 void Places::renumber(const Renumbering& places) {
@@ -145,9 +145,9 @@ void Places::renumber(const Renumbering& places) {
     if (place != no_index) place = places.new_place[place];
   }
   index_.renumber();
-  const std::set<Member> members = std::exchange(by_name_, {});
+  const std::set<Resident> residents = std::exchange(by_name_, {});
   by_triple_.clear();
-  for (const auto& [place, site] : members) list({places.new_place[place], site});
+  for (const auto& [place, site] : residents) insert({places.new_place[place], site});
 }
 
 void Places::assign_points(std::span<const Point> points) {

@@ -115,17 +115,17 @@ class Places {
  private:
   // Places with several sites list them twice, so that whoever leaves has a successor at once: by
   // name, and by who speaks.
-  struct Member {
+  struct Resident {
     Index place;
     Index site;
-    friend auto operator<=>(const Member&, const Member&) = default;
+    friend auto operator<=>(const Resident&, const Resident&) = default;
   };
   struct SpeaksBefore {
     using is_transparent = void;
     const std::vector<Point>* points;
-    bool operator()(const Member& a, const Member& b) const;
-    bool operator()(const Member& a, Index place) const { return a.place < place; }
-    bool operator()(Index place, const Member& b) const { return place < b.place; }
+    bool operator()(const Resident& a, const Resident& b) const;
+    bool operator()(const Resident& a, Index place) const { return a.place < place; }
+    bool operator()(Index place, const Resident& b) const { return place < b.place; }
   };
 
   // How the index orders weighted places of equal keys. In the projected model these are so close
@@ -138,8 +138,8 @@ class Places {
   }
 
   void count_sites() noexcept;
-  void list(const Member& member);
-  void strike(const Member& member);
+  void insert(const Resident& resident);
+  void erase(const Resident& resident);
 
   Model model_;
   Point center_;
@@ -152,8 +152,8 @@ class Places {
   std::vector<Index> names_;
   std::vector<Index> free_sites_;  // all that are not there; after roll_back() none
   std::vector<Index> free_places_;
-  std::set<Member> by_name_;
-  std::set<Member, SpeaksBefore> by_triple_{SpeaksBefore{&points_}};
+  std::set<Resident> by_name_;
+  std::set<Resident, SpeaksBefore> by_triple_{SpeaksBefore{&points_}};
   order::SpatialIndex index_;
 };
 

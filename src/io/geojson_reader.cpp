@@ -21,7 +21,7 @@ namespace {
 
 using nlohmann::json;
 
-struct Cursor {
+struct TextPosition {
   const char* position = nullptr;
   std::uint64_t line = 1;
 };
@@ -35,7 +35,8 @@ class CursorIterator {
   using pointer = const char*;
   using reference = const char&;
 
-  CursorIterator(const char* position, Cursor& cursor) : position_(position), cursor_(&cursor) {}
+  CursorIterator(const char* position, TextPosition& cursor)
+      : position_(position), cursor_(&cursor) {}
   reference operator*() const { return *position_; }
   CursorIterator& operator++() {
     if (*position_ == '\n') ++cursor_->line;
@@ -48,7 +49,7 @@ class CursorIterator {
 
  private:
   const char* position_;
-  Cursor* cursor_;
+  TextPosition* cursor_;
 };
 
 std::string type_of(const JsonTree& object) {
@@ -127,7 +128,7 @@ class GeoJsonReader {
   SiteTable& table_;
   SiteCollector collector_;
   PropertyColumns columns_;
-  Cursor cursor_;                // of the parser
+  TextPosition cursor_;          // of the parser
   std::uint64_t item_line_ = 0;  // of the feature or geometry in work, 0 between them
   std::size_t num_items_ = 0;
 };

@@ -13,7 +13,7 @@
 
 namespace rondel::io {
 
-void write_geojson(AtomicFile& file, const Mesh& mesh) {
+void write_geojson(AtomicFile& file, const MeshToWrite& mesh) {
   const map::FaceMap face_map(mesh.triangulation);
   Index first_solid = 0;
   while (first_solid < mesh.triangulation.num_faces() && mesh.triangulation.is_ghost(first_solid)) {

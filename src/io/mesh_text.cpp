@@ -9,7 +9,7 @@
 
 namespace rondel::io {
 
-void write_vertex_lines(AtomicFile& file, const Mesh& mesh, std::string_view prefix) {
+void write_vertex_lines(AtomicFile& file, const MeshToWrite& mesh, std::string_view prefix) {
   const std::span<const Point> sites = mesh.table.sites;
   write_in_parallel(file, mesh.execution.threads, sites.size(), items_per_piece,
                     [&](std::string& text, std::size_t begin, std::size_t end) {
@@ -25,7 +25,8 @@ void write_vertex_lines(AtomicFile& file, const Mesh& mesh, std::string_view pre
                     });
 }
 
-void write_face_lines(AtomicFile& file, const Mesh& mesh, std::string_view prefix, Index base) {
+void write_face_lines(AtomicFile& file, const MeshToWrite& mesh, std::string_view prefix,
+                      Index base) {
   mesh.write_faces(file, [&](std::string& text, Index face) {
     text += prefix;
     for (const Index corner : mesh.triangulation.faces()[face]) {

@@ -11,9 +11,10 @@
 namespace rondel::io {
 
 // A line "<prefix>x y z" for every site.
-void write_vertex_lines(AtomicFile& file, const Mesh& mesh, std::string_view prefix);
+void write_vertex_lines(AtomicFile& file, const MeshToWrite& mesh, std::string_view prefix);
 
 // A line "<prefix>a b c" for every face; the first site has the number `base`.
-void write_face_lines(AtomicFile& file, const Mesh& mesh, std::string_view prefix, Index base);
+void write_face_lines(AtomicFile& file, const MeshToWrite& mesh, std::string_view prefix,
+                      Index base);
 
 }  // namespace rondel::io

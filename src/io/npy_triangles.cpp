@@ -66,7 +66,7 @@ std::vector<Triple> read_npy(std::string_view bytes, const std::string& name) {
   }
 }
 
-void write_npy(AtomicFile& file, const Mesh& mesh) {
+void write_npy(AtomicFile& file, const MeshToWrite& mesh) {
   const std::span<const Triple> faces = mesh.triangulation.faces();
   file.write(make_npy_header("<u4", std::array<std::uint64_t, 2>{faces.size(), 3}));
   file.write({reinterpret_cast<const char*>(faces.data()), faces.size_bytes()});

@@ -46,7 +46,7 @@ std::vector<Triple> read_obj(std::string_view bytes, const std::string& name) {
   }
 }
 
-void write_obj(AtomicFile& file, const Mesh& mesh) {
+void write_obj(AtomicFile& file, const MeshToWrite& mesh) {
   write_vertex_lines(file, mesh, "v ");
   write_face_lines(file, mesh, "f ", 1);
 }

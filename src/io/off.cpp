@@ -67,7 +67,7 @@ std::vector<Triple> read_off(std::string_view bytes, const std::string& name) {
   }
 }
 
-void write_off(AtomicFile& file, const Mesh& mesh) {
+void write_off(AtomicFile& file, const MeshToWrite& mesh) {
   // Readers ignore the number of edges; on a closed surface it is 3/2 of that of the faces.
   const std::size_t num_faces = mesh.triangulation.num_faces();
   file.write("OFF\n" + std::to_string(mesh.table.sites.size()) + " " + std::to_string(num_faces) +

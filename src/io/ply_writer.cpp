@@ -10,7 +10,7 @@
 
 namespace rondel::io {
 
-void write_ply(AtomicFile& file, const Mesh& mesh) {
+void write_ply(AtomicFile& file, const MeshToWrite& mesh) {
   const std::span<const Point> sites = mesh.table.sites;
   file.write("ply\nformat binary_little_endian 1.0\ncomment Rondel\nelement vertex " +
              std::to_string(sites.size()) +

@@ -47,7 +47,7 @@ void require_floats(const SiteTable& table) {
 
 }  // namespace
 
-void write_stl(AtomicFile& file, const Mesh& mesh) {
+void write_stl(AtomicFile& file, const MeshToWrite& mesh) {
   const auto& sites = mesh.table.sites;
   require_floats(mesh.table);
   std::string head = "Rondel; 32-bit floats, see the other formats for exact coordinates";

@@ -16,7 +16,7 @@
 namespace rondel::io {
 
 // What the writers write: corners are input indices, and vertices are all sites in input order.
-struct Mesh {
+struct MeshToWrite {
   const SiteTable& table;
   const Triangulation& triangulation;
   const Execution& execution;
@@ -26,13 +26,13 @@ struct Mesh {
                    const std::function<void(std::string& text, Index face)>& append) const;
 };
 
-void write_npy(AtomicFile& file, const Mesh& mesh);
-void write_off(AtomicFile& file, const Mesh& mesh);
-void write_ply(AtomicFile& file, const Mesh& mesh);
-void write_obj(AtomicFile& file, const Mesh& mesh);
-void write_stl(AtomicFile& file, const Mesh& mesh);
-void write_vtp_triangles(AtomicFile& file, const Mesh& mesh);
-void write_geojson(AtomicFile& file, const Mesh& mesh);
+void write_npy(AtomicFile& file, const MeshToWrite& mesh);
+void write_off(AtomicFile& file, const MeshToWrite& mesh);
+void write_ply(AtomicFile& file, const MeshToWrite& mesh);
+void write_obj(AtomicFile& file, const MeshToWrite& mesh);
+void write_stl(AtomicFile& file, const MeshToWrite& mesh);
+void write_vtp_triangles(AtomicFile& file, const MeshToWrite& mesh);
+void write_geojson(AtomicFile& file, const MeshToWrite& mesh);
 
 // Each reads the triangles of `bytes`, the content of the file `name`. Indices count from 0 and may
 // be too large for the sites. Throws FileError as read_triangles does.

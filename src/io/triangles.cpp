@@ -34,7 +34,7 @@ constexpr std::array<TriangleReader, 5> triangle_readers = {
 
 struct TriangleWriter {
   std::string_view ending;
-  void (*write)(io::AtomicFile&, const io::Mesh&);
+  void (*write)(io::AtomicFile&, const io::MeshToWrite&);
 };
 constexpr std::array<TriangleWriter, 7> triangle_writers = {{{".npy", &io::write_npy},
                                                              {".off", &io::write_off},
@@ -46,8 +46,8 @@ constexpr std::array<TriangleWriter, 7> triangle_writers = {{{".npy", &io::write
 
 }  // namespace
 
-void io::Mesh::write_faces(AtomicFile& file,
-                           const std::function<void(std::string&, Index)>& append) const {
+void io::MeshToWrite::write_faces(AtomicFile& file,
+                                  const std::function<void(std::string&, Index)>& append) const {
   const std::size_t num_faces = triangulation.num_faces();
   write_in_parallel(
       file, execution.threads, num_faces, items_per_piece,

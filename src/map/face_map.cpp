@@ -26,13 +26,13 @@ bool is_determined(const std::array<Point, 3>& ring) {
 }  // namespace
 
 std::vector<LonLatPolygon> FaceMap::polygons(Index face) const {
-  const Ring corners = ring(face);
+  const Corners corners = ring(face);
   if (!is_determined(corners)) return {};
   return lonlat_polygons(corners, tolerances(face));
 }
 
 // The corners on the unit sphere.
-FaceMap::Ring FaceMap::ring(Index face) const {
+FaceMap::Corners FaceMap::ring(Index face) const {
   const auto& [a, b, c] = triangulation_.faces()[face];
   return {direction(sites_[a]), direction(sites_[b]), direction(sites_[c])};
 }

@@ -25,9 +25,9 @@ class FaceMap {
   [[nodiscard]] std::vector<LonLatPolygon> polygons(Index face) const;
 
  private:
-  using Ring = std::array<Point, 3>;
+  using Corners = std::array<Point, 3>;
 
-  [[nodiscard]] Ring ring(Index face) const;
+  [[nodiscard]] Corners ring(Index face) const;
   [[nodiscard]] std::array<double, 3> tolerances(Index face) const;
   [[nodiscard]] double tolerance(Index face) const;
   [[nodiscard]] Point direction(const Point& site) const;

@@ -179,7 +179,7 @@ class Stitching {
 
  private:
   // The chain that follows a chain, and the sides at whose ends the border turns on the way.
-  struct Step {
+  struct NextChain {
     std::size_t chain = 0;
     std::size_t first_side = 0;
     std::size_t last_side = 0;
@@ -190,7 +190,7 @@ class Stitching {
   }
 
   const Trace& trace_;
-  std::vector<Step> next_;
+  std::vector<NextChain> next_;
 };
 
 Loops loops_of(const Trace& trace) {

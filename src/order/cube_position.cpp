@@ -27,7 +27,7 @@ CubePosition exact_cube_position(const Point& p, const Point& center) {
   const std::array<Integer, 3> d = {v.x, v.y, v.z};
   const unsigned axis = longest_axis(d);
   const Integer length = abs(d[axis]);
-  const cube::Face& face = cube::faces[2 * axis + (d[axis] < 0 ? 1 : 0)];
+  const cube::CubeFace& face = cube::faces[2 * axis + (d[axis] < 0 ? 1 : 0)];
   const auto position = [&](unsigned along, int sign) {
     const Integer steps = ((sign * d[along] + length) << (position_bits - 1)) / length;
     return std::min(static_cast<std::uint64_t>(steps), cube::last_position);
@@ -40,7 +40,7 @@ CubeAxes cube_axes(unsigned face) {
     return Point{axis == 0 ? sign : 0, axis == 1 ? sign : 0, axis == 2 ? sign : 0};
   };
   for (unsigned i = 0; i < cube::faces.size(); ++i) {
-    const cube::Face& f = cube::faces[i];
+    const cube::CubeFace& f = cube::faces[i];
     if (f.rank != face) continue;
     return {along(f.u_axis, f.u_sign), along(f.v_axis, f.v_sign),
             along(i / 2, i % 2 == 0 ? 1 : -1)};

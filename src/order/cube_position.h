@@ -18,19 +18,19 @@ namespace cube {
 
 // The faces in the order of the curve, and their axes, chosen so that the curve leaves a face
 // where it enters the next one. Indexed by 2*axis + (1 on the negative side).
-struct Face {
+struct CubeFace {
   unsigned rank;
   unsigned u_axis;
   int u_sign;
   unsigned v_axis;
   int v_sign;
 };
-inline constexpr std::array<Face, 6> faces = {{{2, 1, 1, 2, 1},
-                                               {4, 2, 1, 1, -1},
-                                               {3, 0, -1, 2, 1},
-                                               {0, 0, -1, 2, 1},
-                                               {5, 0, 1, 1, -1},
-                                               {1, 0, 1, 1, 1}}};
+inline constexpr std::array<CubeFace, 6> faces = {{{2, 1, 1, 2, 1},
+                                                   {4, 2, 1, 1, -1},
+                                                   {3, 0, -1, 2, 1},
+                                                   {0, 0, -1, 2, 1},
+                                                   {5, 0, 1, 1, -1},
+                                                   {1, 0, 1, 1, 1}}};
 
 inline constexpr std::uint64_t last_position = (std::uint64_t{1} << position_bits) - 1;
 
@@ -57,7 +57,7 @@ inline CubePosition cube_position(const Point& p, const Point& center) {
   if (!(length > 0 && length <= std::numeric_limits<double>::max())) return {};
   const unsigned z_is_longest = longer < z ? 1 : 0;
   const unsigned axis = 2 * z_is_longest + ((x < y ? 1U : 0U) & (1 - z_is_longest));
-  const cube::Face& face = cube::faces[2 * axis + (std::signbit(d[axis]) ? 1 : 0)];
+  const cube::CubeFace& face = cube::faces[2 * axis + (std::signbit(d[axis]) ? 1 : 0)];
   return {face.rank, cube::position(face.u_sign * (d[face.u_axis] / length)),
           cube::position(face.v_sign * (d[face.v_axis] / length))};
 }

@@ -36,14 +36,14 @@ constexpr unsigned rank_in(unsigned state, unsigned u, unsigned v) {
   return rank_of_quadrant[(state & 2) != 0 ? 3 - quadrant : quadrant];
 }
 
-struct Step {
+struct CurveStep {
   std::uint8_t key;
   std::uint8_t state;
 };
 
 // Four levels at once: indexed by state, four bits of u, four bits of v.
-consteval std::array<Step, 1024> make_steps() {
-  std::array<Step, 1024> steps{};
+consteval std::array<CurveStep, 1024> make_steps() {
+  std::array<CurveStep, 1024> steps{};
   for (unsigned i = 0; i < 1024; ++i) {
     unsigned state = i >> 8;
     unsigned key = 0;
@@ -57,7 +57,7 @@ consteval std::array<Step, 1024> make_steps() {
   return steps;
 }
 
-inline constexpr std::array<Step, 1024> steps = make_steps();
+inline constexpr std::array<CurveStep, 1024> steps = make_steps();
 
 }  // namespace hilbert_table
 
@@ -75,7 +75,7 @@ inline HilbertKey hilbert_key(const CubePosition& p) {
   const auto advance = [&](int bit) {
     const unsigned u = static_cast<unsigned>(p.u >> bit) & 15U;
     const unsigned v = static_cast<unsigned>(p.v >> bit) & 15U;
-    const hilbert_table::Step step = hilbert_table::steps[(state << 8) | (u << 4) | v];
+    const hilbert_table::CurveStep step = hilbert_table::steps[(state << 8) | (u << 4) | v];
     state = step.state;
     key = key << 8 | step.key;
   };

@@ -76,7 +76,7 @@ bool SpatialIndex::skip_end(Position& at) const {
   }
   if (height == depth_) return false;
   for (; height > 0; --height) {
-    const Position::Step& above = at.path_[height];
+    const Position::PathNode& above = at.path_[height];
     at.path_[height - 1] = {nodes_[above.node].values[above.entry], 0};
   }
   return true;

@@ -38,11 +38,11 @@ class SpatialIndex {
   // Where an entry is, or would be; until the next change.
   class Position {
     friend class SpatialIndex;
-    struct Step {
+    struct PathNode {
       Index node = 0;
       unsigned entry = 0;
     };
-    std::array<Step, max_depth> path_;  // by height: the leaf first
+    std::array<PathNode, max_depth> path_;  // by height: the leaf first
   };
 
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -169,7 +169,7 @@ SpatialIndex::Position SpatialIndex::seek(const HilbertKey& key, IsBefore is_bef
 template <class IsWanted>
 Index SpatialIndex::find(Position at, const HilbertKey& key, IsWanted is_wanted) const {
   while (skip_end(at)) {
-    Position::Step& step = at.path_[0];
+    Position::PathNode& step = at.path_[0];
     const Node& leaf = nodes_[step.node];
     if (leaf.key(step.entry) != key) break;
     if (is_wanted(leaf.values[step.entry])) return leaf.values[step.entry];
@@ -184,7 +184,7 @@ void SpatialIndex::erase(const HilbertKey& key, Index value, IsBefore is_before)
   for (;;) {
     [[maybe_unused]] const bool is_entry = skip_end(at);
     assert(is_entry);
-    Position::Step& step = at.path_[0];
+    Position::PathNode& step = at.path_[0];
     if (nodes_[step.node].values[step.entry] == value) break;
     ++step.entry;
   }

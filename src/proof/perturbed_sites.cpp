@@ -32,8 +32,8 @@ struct Source {
 
 }  // namespace
 
-PerturbedSites::PerturbedSites(std::span<const Point> sites, const Places& places, Model model,
-                               const Sphere& sphere)
+PerturbedSites::PerturbedSites(std::span<const Point> sites, const SitesByPlace& places,
+                               Model model, const Sphere& sphere)
     : sites_(sites), places_(places), model_(model), sphere_(sphere) {
   if (model == Model::projected) {
     directions_.reserve(sites.size());

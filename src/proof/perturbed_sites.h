@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "predicates/points.h"
-#include "proof/places.h"
+#include "proof/sites_by_place.h"
 #include "rondel/types.h"
 
 namespace rondel::proof {
@@ -26,7 +26,7 @@ namespace rondel::proof {
 class PerturbedSites {
  public:
   // Sites and places must outlive the object.
-  PerturbedSites(std::span<const Point> sites, const Places& places, Model model,
+  PerturbedSites(std::span<const Point> sites, const SitesByPlace& places, Model model,
                  const Sphere& sphere);
 
   [[nodiscard]] const Point& point(Index place) const { return sites_[places_.speaker[place]]; }
@@ -67,7 +67,7 @@ class PerturbedSites {
   [[nodiscard]] bool is_conflict(Index a, Index b, Index c, Index d) const;
 
   std::span<const Point> sites_;
-  const Places& places_;
+  const SitesByPlace& places_;
   std::vector<predicates::Vector> directions_;  // projected: unit vectors, for the filter
   Model model_;
   Sphere sphere_;

@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "proof/convexity.h"
-#include "proof/hidden_sites.h"
+#include "proof/covered_sites.h"
 #include "proof/perturbed_sites.h"
-#include "proof/places.h"
+#include "proof/sites_by_place.h"
 #include "proof/surface.h"
 
 namespace rondel::proof {
@@ -43,7 +43,7 @@ class Validator {
   std::span<const Point> sites_;
   std::span<const Triple> triangles_;
   const system::Job& options_;
-  Places places_;
+  SitesByPlace places_;
   std::vector<Index> unlisted_;  // lowest indices of the places that are no vertices
   CheckReport report_;
 };
@@ -55,7 +55,7 @@ std::string Validator::find_flaw() {
   report_.num_vertices = surface.num_vertices();
   report_.num_edges = surface.num_edges();
   tell(0.2);
-  places_ = find_places(sites_, options_.model, options_.sphere);
+  places_ = group_by_place(sites_, options_.model, options_.sphere);
   tell(0.4);
   const PerturbedSites perturbed(sites_, places_, options_.model, options_.sphere);
   if (perturbed.dimension() < 2) return find_flaw_below_dimension_2(perturbed);

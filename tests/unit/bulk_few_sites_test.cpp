@@ -42,7 +42,7 @@ bool has_three_in_line(const Places& p) {
 }
 
 // What the picture of few_sites.h says.
-void expect_order(const Places& p, const bulk::FourPoints& found) {
+void expect_order(const Places& p, const bulk::FourSites& found) {
   std::array<std::uint8_t, 4> sorted = found.order;
   std::ranges::sort(sorted);
   ASSERT_EQ(sorted, (std::array<std::uint8_t, 4>{0, 1, 2, 3}));
@@ -68,7 +68,7 @@ TEST(few_sites, order_of_any_four_points) {
     const Places p = {place(code), place(code >> 4), place(code >> 8), place(code >> 12)};
     if (has_three_in_line(p)) continue;
     const unsigned signs = signs_of(p);
-    const bulk::FourPoints found = bulk::few_sites::find_order(signs);
+    const bulk::FourSites found = bulk::few_sites::find_order(signs);
     expect_order(p, found);
     EXPECT_EQ(found.order, bulk::few_sites::orders[signs].order);
     EXPECT_EQ(found.has_inner_point, bulk::few_sites::orders[signs].has_inner_point);

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "proof/places.h"
+#include "proof/sites_by_place.h"
 #include "rondel/predicates.h"
 #include "support/generators.h"
 #include "support/hull_oracle.h"
@@ -17,7 +17,7 @@ namespace {
 
 std::vector<Index> first_of(const std::vector<Point>& sites, Model model,
                             const Sphere& sphere = {}) {
-  return proof::find_places(sites, model, sphere).first;
+  return proof::group_by_place(sites, model, sphere).first;
 }
 
 // By comparing all pairs.
@@ -47,7 +47,7 @@ TEST(check_places, finds_the_same_ray_at_any_length) {
 
 TEST(check_places, names_the_lowest_index_and_the_lexicographically_smallest_speaker) {
   const std::vector<Point> sites = {{0, 0, 1}, {3, 6, 9}, {1, 2, 3}, {2, 4, 6}};
-  const proof::Places places = proof::find_places(sites, Model::projected, {});
+  const proof::SitesByPlace places = proof::group_by_place(sites, Model::projected, {});
   EXPECT_EQ(places.first, (std::vector<Index>{0, 1, 1, 1}));
   EXPECT_EQ(places.speaker[1], 2U);
 }

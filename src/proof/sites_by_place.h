@@ -16,7 +16,7 @@
 namespace rondel::proof {
 
 // The sites grouped by place.
-struct Places {
+struct SitesByPlace {
   // By site: the lowest index in its place.
   std::vector<Index> first;
   // By the lowest index of a place: the site there with the lexicographically smallest
@@ -24,6 +24,6 @@ struct Places {
   std::vector<Index> speaker;
 };
 
-Places find_places(std::span<const Point> sites, Model model, const Sphere& sphere);
+SitesByPlace group_by_place(std::span<const Point> sites, Model model, const Sphere& sphere);
 
 }  // namespace rondel::proof

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "proof/hidden_sites.h"
+#include "proof/covered_sites.h"
 
 #include <algorithm>
 #include <array>

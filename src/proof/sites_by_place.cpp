@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "proof/places.h"
+#include "proof/sites_by_place.h"
 
 #include <algorithm>
 #include <array>
@@ -19,11 +19,11 @@ namespace rondel::proof {
 namespace {
 
 // A site in a cell. Entries with equal keys are in one cell.
-struct Entry {
+struct CellEntry {
   std::uint64_t major;
   std::uint64_t minor;
   Index site;
-  friend auto operator<=>(const Entry&, const Entry&) = default;
+  friend auto operator<=>(const CellEntry&, const CellEntry&) = default;
 };
 
 bool is_lexicographically_less(const Point& a, const Point& b) {
@@ -64,7 +64,7 @@ std::int64_t cell_of(std::int64_t at) { return (at + (1 << (cell_bits - 1))) >> 
 // coordinate that may be the largest in exact arithmetic, at the ratios of
 // the other two to it. A ray's exact place (the first largest coordinate, the exact ratios)
 // depends on the ray alone and lies in one of these cells.
-void enter_ray(std::vector<Entry>& entries, Index site, const std::array<double, 3>& d) {
+void enter_ray(std::vector<CellEntry>& entries, Index site, const std::array<double, 3>& d) {
   const double largest = std::max({std::abs(d[0]), std::abs(d[1]), std::abs(d[2])});
   for (unsigned axis = 0; axis < 3; ++axis) {
     if (position(1.0) - position(std::abs(d[axis]) / largest) > reach) continue;
@@ -82,7 +82,7 @@ void enter_ray(std::vector<Entry>& entries, Index site, const std::array<double,
 }
 
 // A place in the weighted model is a point, known exactly; the key is a hash of it.
-void enter_point(std::vector<Entry>& entries, Index site, const Point& p) {
+void enter_point(std::vector<CellEntry>& entries, Index site, const Point& p) {
   const auto mix = [](std::uint64_t h, double value) {
     h = (h ^ static_cast<std::uint64_t>(position(value))) * 0x9e3779b97f4a7c15U;
     return h ^ (h >> 29);
@@ -95,10 +95,10 @@ void enter_point(std::vector<Entry>& entries, Index site, const Point& p) {
 // lowest index is first. For the rays of a cell on the face of coordinate m,
 // det(a, b, e_j) = +-(a_k b_m - b_k a_m) with a_m b_m > 0: it orders them by the slope
 // a_k/a_m, exactly, and equal slopes in both planes mean equal rays.
-void sort_cell(std::span<Entry> cell, std::span<const Point> sites, Model model,
+void sort_cell(std::span<CellEntry> cell, std::span<const Point> sites, Model model,
                const Sphere& sphere) {
   if (model == Model::weighted) {
-    std::ranges::sort(cell, [&](const Entry& a, const Entry& b) {
+    std::ranges::sort(cell, [&](const CellEntry& a, const CellEntry& b) {
       const Point& p = sites[a.site];
       const Point& q = sites[b.site];
       return p == q ? a.site < b.site : is_lexicographically_less(p, q);
@@ -108,7 +108,7 @@ void sort_cell(std::span<Entry> cell, std::span<const Point> sites, Model model,
   const auto axis = static_cast<unsigned>(cell[0].major & 7U) / 2;
   const std::array<Point, 2> poles{axis_point(sphere.center, (axis + 1) % 3),
                                    axis_point(sphere.center, (axis + 2) % 3)};
-  std::ranges::sort(cell, [&](const Entry& a, const Entry& b) {
+  std::ranges::sort(cell, [&](const CellEntry& a, const CellEntry& b) {
     for (const Point& pole : poles) {
       const Sign s = orientation(sites[a.site], sites[b.site], pole, sphere);
       if (s != Sign::zero) return s == Sign::positive;
@@ -119,12 +119,12 @@ void sort_cell(std::span<Entry> cell, std::span<const Point> sites, Model model,
 
 // In the cell of the exact place all sites of a place meet, so the least index over all cells
 // that a site is in is the lowest of its place.
-void group_cell(Places& places, std::span<Entry> cell, std::span<const Point> sites, Model model,
-                const Sphere& sphere) {
+void group_cell(SitesByPlace& places, std::span<CellEntry> cell, std::span<const Point> sites,
+                Model model, const Sphere& sphere) {
   if (cell.size() < 2) return;
   sort_cell(cell, sites, model, sphere);
   Index lowest = cell[0].site;
-  for (const Entry& entry : cell.subspan(1)) {
+  for (const CellEntry& entry : cell.subspan(1)) {
     if (!is_same_site(sites[lowest], sites[entry.site], model, sphere)) lowest = entry.site;
     places.first[entry.site] = std::min(places.first[entry.site], lowest);
   }
@@ -132,9 +132,9 @@ void group_cell(Places& places, std::span<Entry> cell, std::span<const Point> si
 
 }  // namespace
 
-Places find_places(std::span<const Point> sites, Model model, const Sphere& sphere) {
+SitesByPlace group_by_place(std::span<const Point> sites, Model model, const Sphere& sphere) {
   const auto n = static_cast<Index>(sites.size());
-  std::vector<Entry> entries;
+  std::vector<CellEntry> entries;
   entries.reserve(n + n / 16);
   for (Index i = 0; i < n; ++i) {
     if (model == Model::weighted) {
@@ -145,10 +145,10 @@ Places find_places(std::span<const Point> sites, Model model, const Sphere& sphe
   }
   std::ranges::sort(entries);
 
-  Places places;
+  SitesByPlace places;
   places.first.resize(n);
   std::iota(places.first.begin(), places.first.end(), Index{0});
-  const std::span<Entry> all(entries);
+  const std::span<CellEntry> all(entries);
   for (std::size_t i = 0, j = 0; i < all.size(); i = j) {
     while (j < all.size() && all[j].major == all[i].major && all[j].minor == all[i].minor) ++j;
     group_cell(places, all.subspan(i, j - i), sites, model, sphere);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "dual/great_circle.h"
+#include "dual/great_circle_diagrams.h"
 
 #include <algorithm>
 #include <array>
