@@ -11,6 +11,7 @@
 //     exact            -                                        integers of 128 bits, where they do
 //     filter           -                                        in doubles, from the best of the 4
 //     extended         4 split unit vectors with 64 bits        -
+//     exact            integers of 128 bits, where they do      -
 //     double_double    4 split unit vectors in double-double    4 points in double-double
 //     close            4 points in doubles, from the best       -
 //     exact            a sum of 4 square roots                  balls of more and more words
@@ -21,6 +22,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "predicates/perturbation.h"
 #include "predicates/points.h"
@@ -49,6 +51,12 @@ Decision side_of_circle_above_filter(S& points, Index b, Index c, Index d, Index
   const exact::SplitPoint x = points.split(p);
   Sign sign = side_of_circle_extended(u, v, w, x);
   if (sign != Sign::zero) return {sign, Rung::extended};
+  // Close sites are hardly ever ties.
+  if (are_apart(u, x)) {
+    const std::optional<Sign> exact = side_of_circle_integers_exact(
+        points.point(b), points.point(c), points.point(d), points.point(p), points.center());
+    if (exact) return {*exact, Rung::exact};
+  }
   sign = side_of_circle_double_double(u, v, w, x);
   if (sign != Sign::zero) return {sign, Rung::double_double};
   sign = side_of_circle_close(points.point(b), points.point(c), points.point(d), points.point(p),

@@ -21,6 +21,8 @@
 // of a sum of four square roots in integers.
 #pragma once
 
+#include <optional>
+
 #include "exact/unit_vector.h"
 #include "predicates/rung.h"
 
@@ -62,6 +64,18 @@ Sign side_of_circle_double_double(const exact::SplitPoint& b, const exact::Split
 // directions (side_of_circle_close.cpp).
 Sign side_of_circle_close(const Point& b, const Point& c, const Point& d, const Point& p,
                           const Point& center);
+
+// Whether numbers of 64 bits can tell differences of unit vectors well.
+inline bool are_apart(const exact::SplitPoint& a, const exact::SplitPoint& b) {
+  constexpr double close = 0x1p-32;
+  return std::abs(a.hi.x - b.hi.x) > close || std::abs(a.hi.y - b.hi.y) > close ||
+         std::abs(a.hi.z - b.hi.z) > close;
+}
+
+// For points as given, where integers of the machine can tell: so they can if it is a tie of points
+// none of whose coordinates is much smaller than another.
+std::optional<Sign> side_of_circle_integers_exact(const Point& b, const Point& c, const Point& d,
+                                                  const Point& p, const Point& center);
 
 // For points as given. Never unsure: zero is a tie.
 Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const Point& p,

@@ -8,6 +8,7 @@
 
 #include "exact/exact_sign.h"
 #include "exact/integer.h"
+#include "exact/integer_rays.h"
 #include "predicates/scale.h"
 #include "predicates/side_of_circle.h"
 
@@ -204,6 +205,11 @@ Sign sign_by_integers(const GivenPoints& points, const Point& center) {
 
 }  // namespace
 
+std::optional<Sign> side_of_circle_integers_exact(const Point& b, const Point& c, const Point& d,
+                                                  const Point& p, const Point& center) {
+  return exact::side_of_rays_in_integers({b, c, d, p}, center);
+}
+
 Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const Point& p,
                           const Point& center) {
   const GivenPoints points = {b, c, d, p};
@@ -217,6 +223,7 @@ Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const 
                                  ? exact::first_known_sign<1>(by_edges)
                                  : exact::first_known_sign<4>(by_equal_lengths);
   if (!sign) sign = exact::first_known_sign<2>(by_edges);
+  if (!sign) sign = exact::side_of_rays_in_integers(points, center);
   if (!sign) sign = exact::first_known_sign<6>(by_equal_lengths);
   if (!sign) sign = exact::first_known_sign<4, 8, 16>(by_edges);
   return sign ? *sign : sign_by_integers(points, center);

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(predicates_test
   exact_ball_test.cpp
+  exact_integer_rays_test.cpp
   exact_integer_steps_test.cpp
   predicates_distance_test.cpp
   predicates_oracle_test.cpp

@@ -52,6 +52,8 @@ void expect_circle_rungs(const Four& four, int expected) {
   expect_no_other(predicates::side_of_circle_extended(u, v, w, x), expected);
   expect_no_other(predicates::side_of_circle_double_double(u, v, w, x), expected);
   expect_no_other(predicates::side_of_circle_close(a, b, c, p, {}), expected);
+  const auto integers = predicates::side_of_circle_integers_exact(a, b, c, p, {});
+  EXPECT_EQ(to_int(integers.value_or(static_cast<Sign>(expected))), expected);
   EXPECT_EQ(to_int(predicates::side_of_circle_exact(a, b, c, p, {})), expected);
   expect_no_other(predicates::side_of_circle_filter(exact::to_vector(u.hi), exact::to_vector(v.hi),
                                                     exact::to_vector(w.hi), exact::to_vector(x.hi)),
@@ -62,6 +64,8 @@ void expect_plane_rungs(const Four& four, int expected) {
   const predicates::PlaneSteps steps = predicates::scaled_steps(predicates::with_best_origin(four));
   expect_no_other(predicates::side_of_plane_scaled_filter(steps), expected);
   expect_no_other(predicates::side_of_plane_double_double(steps), expected);
+  const auto integers = predicates::side_of_plane_integers_exact(four);
+  EXPECT_EQ(to_int(integers.value_or(static_cast<Sign>(expected))), expected);
   EXPECT_EQ(to_int(predicates::side_of_plane_exact(four)), expected);
 }
 
