@@ -8,6 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "order/crowds.h"
+
 namespace rondel::kernel {
 namespace {
 
@@ -31,6 +33,16 @@ std::vector<Index> insertion_order(Index n) {
   std::vector<Index> order(n);
   for (Index i = 0; i < n; ++i) order[begin[num_rounds - 1 - round_of(i)]++] = i;
   return order;
+}
+
+std::vector<Index> insertion_order(std::span<const Point> sites, std::span<const Index> order,
+                                   Model model, const Point& center) {
+  auto insertion = insertion_order(static_cast<Index>(order.size()));
+  const auto ranks = order::ranks_with_crowds_in_order(sites, order, model, center);
+  if (!ranks.empty()) {
+    for (Index& i : insertion) i = ranks[i];
+  }
+  return insertion;
 }
 
 }  // namespace rondel::kernel

@@ -5,6 +5,7 @@
 // factor, each along the spatial order.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "rondel/types.h"
@@ -14,5 +15,10 @@ namespace rondel::kernel {
 // The ranks 0 ... n-1 in the order of insertion. A rank is in the last round with probability 7/8,
 // in the one before with 7/64, and so on, by a hash of the rank.
 std::vector<Index> insertion_order(Index n);
+
+// The same of sites in their spatial order, of which crowds (order/crowds.h) come in one of their
+// own.
+std::vector<Index> insertion_order(std::span<const Point> sites, std::span<const Index> order,
+                                   Model model, const Point& center);
 
 }  // namespace rondel::kernel

@@ -110,7 +110,7 @@ Triangulated build_ring(std::span<const Point> sites, std::vector<Index> order,
 
 Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                          std::span<const order::Renamed> renamed, const system::Job& options) {
-  auto insertion = insertion_order(static_cast<Index>(order.size()));
+  auto insertion = insertion_order(sites, order, options.model, options.sphere.center);
   const auto first = find_first(sites, order, insertion, options.sphere.center);
   if (first.size() < 3) return build_ring(sites, std::move(order), renamed, options);
   return models::with_model(options.model, [&]<class T> {

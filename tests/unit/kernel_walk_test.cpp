@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // How far the incremental algorithm walks where doubles cannot tell on which side of an edge a site
-// is: among sites that lie nearly on one great circle. No timing: steps are counted.
+// is: among sites that lie nearly on one great circle, or in a crowd. No timing: steps are counted.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ template <class T>
 Steps steps_of_build(const std::vector<Point>& sites) {
   constexpr Model model = T::hides_sites ? Model::weighted : Model::projected;
   const auto order = order::spatial_order(sites, model, {}, 1).order;
-  const auto insertion = kernel::insertion_order(static_cast<Index>(order.size()));
+  const auto insertion = kernel::insertion_order(sites, order, model, {});
   std::vector<Point> points;
   for (const Index rank : insertion) points.push_back(sites[order[rank]]);
   std::vector<Index> first = kernel::find_span(points, {});
@@ -155,6 +155,17 @@ TEST(kernel_walk, is_short_near_a_great_circle) {
   const std::size_t n = is_shortened() ? 2'000 : 10'000;
   expect_short_walks<models::ProjectedPoints>(n);
   expect_short_walks<models::WeightedPoints>(n);
+}
+
+// Along the ranks alone the walks of the second kind are longer, and grow with the number of sites.
+TEST(kernel_walk, is_short_in_a_crowd) {
+  const std::size_t n = is_shortened() ? 4'000 : 20'000;
+  for (const char* kind : {"cap", "exponents"}) {
+    SCOPED_TRACE(kind);
+    const auto sites = inputs::make(*inputs::find_kind(kind), {.n = n}).sites;
+    const Steps steps = steps_of_build<models::ProjectedPoints>(sites);
+    EXPECT_LT(steps.exact, 40);
+  }
 }
 
 TEST(kernel_walk, leads_to_the_triangulation_of_blocks_near_a_great_circle) {

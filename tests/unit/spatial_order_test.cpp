@@ -5,9 +5,13 @@
 #include "order/spatial_order.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <tuple>
+#include <utility>
 
 #include "gtest/gtest.h"
+#include "order/crowds.h"
 #include "order/word_sort.h"
 #include "predicates/ray_order.h"
 #include "support/generators.h"
@@ -199,6 +203,65 @@ TEST(spatial_word_sort, sorts_words_that_agree_in_any_of_their_bits) {
         order::sort_words(words, result);
         EXPECT_EQ(result, expected) << n << ' ' << shift << ' ' << mask;
       }
+    }
+  }
+}
+
+// By quadrants of a face of the cube, then from the outside to the middle.
+TEST(crowds, come_by_their_distance_from_the_middle_of_a_face) {
+  test::Random random(1);
+  std::vector<Point> sites;
+  for (int i = 0; i < 3000; ++i) {
+    const auto tiny = [&] {
+      return std::ldexp(random.signed_unit(), -60 - random.between(0, 900));
+    };
+    const double length = std::ldexp(1 + random.unit(), random.between(-50, 50));
+    sites.push_back({length * tiny(), length, length * tiny()});
+  }
+  const auto order = order::spatial_order(sites, Model::projected, {}, 1).order;
+  auto ranks = order::ranks_with_crowds_in_order(sites, order, Model::projected, {});
+  const auto site = [&](std::size_t i) { return sites[order[ranks[i]]]; };
+  const auto quadrant = [](const Point& p) { return std::pair(p.x < 0, p.z < 0); };
+  const auto size = [](const Point& p) {
+    return std::max(std::abs(p.x / p.y), std::abs(p.z / p.y));
+  };
+  std::size_t num_quadrants = 1;
+  for (std::size_t i = 1; i < ranks.size(); ++i) {
+    if (quadrant(site(i)) != quadrant(site(i - 1))) {
+      ++num_quadrants;
+    } else {
+      EXPECT_LT(size(site(i - 1)), 2 * size(site(i)));
+    }
+  }
+  EXPECT_EQ(num_quadrants, 4U);
+  std::ranges::sort(ranks);
+  for (Index i = 0; i < sites.size(); ++i) EXPECT_EQ(ranks[i], i);
+}
+
+TEST(crowds, are_none_where_sites_are_told_apart) {
+  test::Random random(2);
+  std::vector<Point> sites;
+  for (int i = 0; i < 2000; ++i) sites.push_back(test::random_direction(random));
+  const auto order = order::spatial_order(sites, Model::projected, {}, 1).order;
+  EXPECT_TRUE(order::ranks_with_crowds_in_order(sites, order, Model::projected, {}).empty());
+}
+
+// Rays so long or so short that nothing can be computed from them are sorted, too.
+TEST(crowds, may_be_of_any_lengths) {
+  constexpr double most = std::numeric_limits<double>::max();
+  constexpr double least = std::numeric_limits<double>::denorm_min();
+  std::vector<Point> sites;
+  for (int i = 0; i < 100; ++i) {
+    sites.push_back({-most, i * 1e200, 0});
+    sites.push_back({-1, i * least, i * 1e-300});
+    sites.push_back({-1e290, i * 1e200, -i * 1e-300});
+  }
+  for (const Point& center : {Point{}, Point{most, 0, 0}, Point{1, 1, 1}}) {
+    for (const Model model : {Model::projected, Model::weighted}) {
+      const auto order = order::spatial_order(sites, model, center, 1).order;
+      auto ranks = order::ranks_with_crowds_in_order(sites, order, model, center);
+      std::ranges::sort(ranks);
+      for (Index i = 0; i < ranks.size(); ++i) ASSERT_EQ(ranks[i], i);
     }
   }
 }
