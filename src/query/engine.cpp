@@ -113,7 +113,7 @@ std::vector<Index> Engine::neighbors(Index v) const {
         });
       },
       graph_);
-  std::ranges::rotate(found, std::ranges::min_element(found));
+  std::rotate(found.begin(), std::ranges::min_element(found), found.end());
   return found;
 }
 

@@ -1,9 +1,9 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""A name means one thing: no two types of the library share one, and no two files of different layers.
+"""No two types of the library share a name, and no two files of different layers.
 
-A type is what `struct`, `class`, `union` or `enum` defines, nested ones included; within one file a name may be used
-again. A file's name is without its ending.
+A type is what `struct`, `class`, `union` or `enum` defines, nested ones included; within one file a
+name may be used again. A file's name is without its ending.
 """
 
 import collections
@@ -16,7 +16,8 @@ import unittest
 ROOT = pathlib.Path(sys.argv.pop(1))
 
 DEFINITION = re.compile(
-    r"^ *(?:class|struct|union|enum(?: class)?)\s+(?:RONDEL_API\s+)?(?:\w+::)*(\w+)(?:\s+final)?\s*(?::(?!:)[^;{]*)?\{",
+    r"^ *(?:class|struct|union|enum(?: class)?)\s+(?:RONDEL_API\s+)?(?:\w+::)*(\w+)(?:\s+final)?"
+    r"\s*(?::(?!:)[^;{]*)?\{",
     re.MULTILINE,
 )
 
@@ -34,6 +35,7 @@ FILES = {
 
 
 def files(root):
+    """All C++ files of the library."""
     for folder in ("include", "src"):
         for path in sorted((root / folder).rglob("*")):
             if path.suffix in {".h", ".cpp"}:
@@ -59,6 +61,7 @@ def layers_of_files(root):
 
 
 def shared(homes):
+    """The names with several homes."""
     return {name: sorted(where) for name, where in homes.items() if len(where) > 1}
 
 
