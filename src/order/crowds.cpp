@@ -46,12 +46,12 @@ class Crowds {
   }
 
  private:
-  struct Entry {
+  struct Crowded {
     unsigned quadrant;
     int size;  // the longer one of u and v is between 2^size and 2^(size+1)
     HilbertKey key;
     Index rank;
-    friend auto operator<=>(const Entry&, const Entry&) = default;
+    friend auto operator<=>(const Crowded&, const Crowded&) = default;
   };
 
   [[nodiscard]] const Point& site(std::size_t rank) const { return sites_[order_[rank]]; }
@@ -65,7 +65,7 @@ class Crowds {
       std::iota(ranks_.begin(), ranks_.end(), Index{0});
     }
     const CubeAxes axes = cube_axes(cube_position(site(begin), center_).face);
-    std::vector<Entry> entries;
+    std::vector<Crowded> entries;
     entries.reserve(end - begin);
     for (std::size_t i = begin; i < end; ++i) {
       entries.push_back(entry_of(static_cast<Index>(i), axes));
@@ -75,7 +75,7 @@ class Crowds {
   }
 
   // By quadrant, then by size, then along a curve among places of this size.
-  [[nodiscard]] Entry entry_of(Index rank, const CubeAxes& axes) const {
+  [[nodiscard]] Crowded entry_of(Index rank, const CubeAxes& axes) const {
     const auto d = exact::to_vector(site(rank)) - exact::to_vector(center_);
     const double out = dot(d, exact::to_vector(axes.out));
     double u = dot(d, exact::to_vector(axes.u));
