@@ -67,6 +67,13 @@ def is_slower(ratio, percent):
     return ratio[0] > 1 + percent / 100
 
 
+def makes_other_inputs(results, before, after):
+    """Whether two programs that were given the same words counted different sites or vertices."""
+    return any(results.has(before, key) and results.has(after, key)
+               and results.all(before, key) != results.all(after, key)
+               for key in ("sites", "vertices"))
+
+
 def takes_seed(program):
     """Older programs make one input, whatever the turn."""
     usage = subprocess.run([program], check=False, capture_output=True, text=True).stderr
@@ -108,14 +115,16 @@ def main(words):
     commands = {(name, side.commit): [side.program, *options]
                 for name, options in cases.items() for side in (before, after)}
     results = run_in_turns(commands, Limits(runs=arguments.runs, budget=float("inf")))
-    rows, slower = [], []
+    rows, slower, others = [], [], []
     for name in cases:
         pair = [(name, side.commit) for side in (before, after)]
         for key in pair:
             if failure := results.failure(key):
                 raise SystemExit(f"{name}, {key[1]}: {failure}")
         ratio = results.ratio(pair[1], pair[0])
-        if is_slower(ratio, arguments.percent):
+        if makes_other_inputs(results, *pair):
+            others.append(name)
+        elif is_slower(ratio, arguments.percent):
             slower.append(name)
         rows.append([name, *(spread(results.ns_each(key)) for key in pair), spread(ratio),
                      *(number(results.median(key, "bytes_per_site")) for key in pair)])
@@ -123,6 +132,8 @@ def main(words):
     print(Table(f"{before.commit} and {after.commit}, {power(arguments.sites)} sites{threads}",
                 ["input", "before: ns a site", "after: ns a site", "after / before",
                  "before: bytes a site", "after"], rows).markdown())
+    if others:
+        print(f"other inputs, whose times do not compare: {'; '.join(others)}")
     if slower:
         print(f"slower by more than {arguments.percent:g} %: {'; '.join(slower)}")
     return 1 if slower else 0

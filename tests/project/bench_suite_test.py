@@ -148,6 +148,15 @@ class Arithmetic(unittest.TestCase):
         self.assertTrue(compare.is_slower((1.06, 0.9, 1.2), 5))
         self.assertFalse(compare.is_slower((1.04, 0.9, 1.2), 5))
 
+    def test_commits_that_make_other_inputs_do_not_compare(self):
+        made = Results()
+        made.of = {"a": [Outcome({"sites": 9, "vertices": 9})],
+                   "b": [Outcome({"sites": 9, "vertices": 5})],
+                   "c": [Outcome({"sites": 9})]}
+        self.assertTrue(compare.makes_other_inputs(made, "a", "b"))
+        self.assertFalse(compare.makes_other_inputs(made, "a", "c"))
+        self.assertFalse(compare.makes_other_inputs(made, "a", "a"))
+
 
 class Tables(unittest.TestCase):
     def test_numbers_have_the_digits_that_matter(self):
