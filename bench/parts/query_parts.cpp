@@ -35,11 +35,13 @@ void query_prepare(benchmark::State& state) {
 }
 
 void query_locate(benchmark::State& state) {
-  measure_queries(state, [](const Locator& locator) { return locator.locate(queries(), 1); });
+  measure_queries(state,
+                  [](const Locator& locator) { return locator.locate(queries(), {.threads = 1}); });
 }
 
 void query_nearest(benchmark::State& state) {
-  measure_queries(state, [](const Locator& locator) { return locator.nearest(queries(), 1); });
+  measure_queries(
+      state, [](const Locator& locator) { return locator.nearest(queries(), {.threads = 1}); });
 }
 
 void query_nearest_one_by_one(benchmark::State& state) {
@@ -52,7 +54,9 @@ void query_nearest_one_by_one(benchmark::State& state) {
 
 void query_8_nearest(benchmark::State& state) {
   constexpr std::size_t k = 8;
-  measure_queries(state, [](const Locator& locator) { return locator.k_nearest(queries(), k, 1); });
+  measure_queries(state, [](const Locator& locator) {
+    return locator.k_nearest(queries(), k, {.threads = 1});
+  });
 }
 
 BENCHMARK(query_prepare)->Arg(small_size)->Arg(large_size);
