@@ -9,6 +9,8 @@
 
 #include "models/with_model.h"
 #include "order/along_the_curve.h"
+#include "order/cube_position.h"
+#include "order/hilbert.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
 #include "topology/linking.h"
@@ -106,7 +108,9 @@ AnyGraph Built::graph() const {
 }
 
 Index Built::near(const Point& p) const {
-  const auto at = std::ranges::upper_bound(keys_, order::place_key(p, model_, center_).high);
+  // Rounded, and of the high key alone: any vertex will do.
+  const std::uint64_t key = order::hilbert_key(order::cube_position(p, center_)).high;
+  const auto at = std::ranges::upper_bound(keys_, key);
   const auto place = static_cast<Index>(at == keys_.begin() ? 0 : at - keys_.begin() - 1);
   return at_key_.empty() ? place : at_key_[place];
 }
