@@ -98,9 +98,13 @@ RONDEL_API void write_triangles(const FileName& file, const SiteTable& table,
                                 const Triangulation& triangulation,
                                 const Execution& execution = {});
 
+/// A tenth of a millimetre on the earth.
+inline constexpr double least_tolerance_deg = 1e-9;
+
 /// Writes the cells. GeoJSON obeys RFC 7946 with one feature a cell: arcs are densified until the
 /// straight line in longitude and latitude is within `tolerance_deg` of the arc
-/// (closer between sites that are close).
+/// (closer between sites that are close). It is positive; less than least_tolerance_deg counts as
+/// that.
 RONDEL_API void write_cells(const FileName& file, const SiteTable& table,
                             const Triangulation& triangulation, const Diagram& diagram,
                             double tolerance_deg = 0.01, const Execution& execution = {});

@@ -26,7 +26,8 @@ struct LonLatPolygons {
 
 /// The polygons of the cells of a diagram, by site. Arcs are densified as write_cells() does. A
 /// cell no wider than rounding has none.
-/// \throws InvalidInput if the diagram cannot be that of the triangulation.
+/// \throws InvalidInput if the diagram cannot be that of the triangulation, or the tolerance is not
+///         positive.
 RONDEL_API LonLatPolygons cell_polygons(const Triangulation& triangulation, const Diagram& diagram,
                                         double tolerance_deg = 0.01,
                                         const Execution& execution = {});

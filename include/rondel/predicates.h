@@ -4,6 +4,8 @@
 /// \file
 /// The exact predicates on which the triangulation rests, for single calls.
 /// All are exact for every finite input, also from 1e-300 to 1e300.
+/// \throws InvalidInput (position of the argument) if a point or the center of the sphere is not
+///         finite, or a point of Model::projected is the center.
 #pragma once
 
 #include "rondel/export.h"
@@ -27,10 +29,10 @@ RONDEL_API Sign side_of_circle(const Point& a, const Point& b, const Point& c, c
                                Model model = Model::projected, const Sphere& sphere = {});
 
 /// The same, with ties broken as the triangulation breaks them: never undecided.
-/// \pre the four points are distinct sites (distinct rays under
-///      Model::projected). When they also lie in one plane with the center,
-///      (a, b, c) is taken to be a face of the hull: not in line with the center,
-///      counterclockwise seen from outside.
+/// The four points are distinct sites (distinct rays under Model::projected). When they also lie in
+/// one plane with the center, (a, b, c) is taken to be a face of the hull: not in line with the
+/// center, counterclockwise seen from outside.
+/// \throws InvalidInput also for a tie of points that are not so.
 RONDEL_API bool is_in_conflict(const Point& a, const Point& b, const Point& c, const Point& p,
                                Model model = Model::projected, const Sphere& sphere = {});
 

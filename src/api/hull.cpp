@@ -42,6 +42,26 @@ int exponent_of(std::span<const Point> points) {
   return largest > 0 ? std::max(std::ilogb(largest) + 2, least) : 0;
 }
 
+HullSize sum_of_faces(const Triangulation& hull) {
+  const auto points = hull.sites().points();
+  const int exponent = exponent_of(points);
+  const double scale = std::ldexp(1.0, -exponent);
+  const auto scaled = [scale](const Point& p) {
+    return Vector{scale * p.x, scale * p.y, scale * p.z};
+  };
+  const Vector center = scaled(hull.sphere().center);
+  const auto at = [&](Index i) { return scaled(points[i]) - center; };
+  Sums sums;
+  for (const auto& [a, b, c] : hull.faces()) sums.add(at(a), at(b), at(c));
+  const auto ring = hull.ring();
+  for (std::size_t i = 2; i < ring.size(); ++i) {
+    sums.add(at(ring[0]), at(ring[i - 1]), at(ring[i]));
+  }
+  const bool is_flat = hull.dimension() < 2;
+  return {is_flat ? 0 : std::ldexp(sums.volume, 3 * exponent),
+          std::ldexp(is_flat ? 2 * sums.area : sums.area, 2 * exponent)};
+}
+
 }  // namespace
 
 Triangulation convex_hull(Sites points, const Execution& execution) {
@@ -62,23 +82,7 @@ Triangulation convex_hull(std::span<const double> xyz, const Execution& executio
 
 HullSize size_of_hull(const Triangulation& hull) {
   const system::ArithmeticScope arithmetic;
-  const auto points = hull.sites().points();
-  const int exponent = exponent_of(points);
-  const double scale = std::ldexp(1.0, -exponent);
-  const auto scaled = [scale](const Point& p) {
-    return Vector{scale * p.x, scale * p.y, scale * p.z};
-  };
-  const Vector center = scaled(hull.sphere().center);
-  const auto at = [&](Index i) { return scaled(points[i]) - center; };
-  Sums sums;
-  for (const auto& [a, b, c] : hull.faces()) sums.add(at(a), at(b), at(c));
-  const auto ring = hull.ring();
-  for (std::size_t i = 2; i < ring.size(); ++i) {
-    sums.add(at(ring[0]), at(ring[i - 1]), at(ring[i]));
-  }
-  const bool is_flat = hull.dimension() < 2;
-  return {is_flat ? 0 : std::ldexp(sums.volume, 3 * exponent),
-          std::ldexp(is_flat ? 2 * sums.area : sums.area, 2 * exponent)};
+  return system::apart([&] { return sum_of_faces(hull); });
 }
 
 }  // namespace rondel

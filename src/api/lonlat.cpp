@@ -13,9 +13,11 @@ namespace rondel {
 
 Point unit_vector(const LonLat& position) {
   const system::ArithmeticScope arithmetic;
-  const auto lon = exact::sine_cosine_of_degrees(position.lon_deg);
-  const auto lat = exact::sine_cosine_of_degrees(position.lat_deg);
-  return {lat.cosine * lon.cosine + 0.0, lat.cosine * lon.sine + 0.0, lat.sine};
+  return system::apart([&] {
+    const auto lon = exact::sine_cosine_of_degrees(position.lon_deg);
+    const auto lat = exact::sine_cosine_of_degrees(position.lat_deg);
+    return Point{lat.cosine * lon.cosine + 0.0, lat.cosine * lon.sine + 0.0, lat.sine};
+  });
 }
 
 std::vector<Point> unit_vectors(std::span<const LonLat> positions) {

@@ -43,7 +43,7 @@ void require_radii(std::size_t num_centers, std::span<const double> radii_deg) {
 Point polar_point(const Point& center, double radius_deg) {
   const system::ArithmeticScope arithmetic;
   if (!is_radius(radius_deg)) throw InvalidInput(fault(radius_deg), 0);
-  return pole(center, radius_deg);
+  return system::apart([&] { return pole(center, radius_deg); });
 }
 
 Point polar_point(const LonLat& center, double radius_deg) {
@@ -54,9 +54,11 @@ Point polar_point(const LonLat& center, double radius_deg) {
 std::vector<Point> polar_points(std::span<const Point> centers, std::span<const double> radii_deg) {
   const system::ArithmeticScope arithmetic;
   require_radii(centers.size(), radii_deg);
-  std::vector<Point> result(centers.size());
-  std::ranges::transform(centers, radii_deg, result.begin(), pole);
-  return result;
+  return system::apart([&] {
+    std::vector<Point> result(centers.size());
+    std::ranges::transform(centers, radii_deg, result.begin(), pole);
+    return result;
+  });
 }
 
 std::vector<Point> polar_points(std::span<const LonLat> centers,

@@ -26,6 +26,10 @@ void require_diagram(const Triangulation& triangulation, const Diagram& diagram)
 // triangulation.
 void require_sites(const SiteTable& table, const Triangulation& triangulation);
 
+// The tolerance in degrees, but no less than least_tolerance_deg. Throws InvalidInput unless it is
+// positive.
+double checked_tolerance(double tolerance_deg);
+
 // A FeatureCollection with a feature for each cell, in the order of the sites. Its properties are
 // `site`, `area` and the table's columns. A column whose name is taken (by these two or by a column
 // before it) gets underscores at its end until it is not. Numbers stay as they are

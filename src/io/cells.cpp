@@ -4,6 +4,7 @@
 // write_cells: which format.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "io/cell_formats.h"
 #include "io/ending.h"
@@ -20,13 +21,22 @@ void require_sites(const SiteTable& table, const Triangulation& triangulation) {
                      static_cast<std::size_t>(ours - table.sites.begin()));
 }
 
+double checked_tolerance(double tolerance_deg) {
+  if (tolerance_deg > 0) return std::max(tolerance_deg, least_tolerance_deg);
+  throw InvalidInput("the tolerance is not positive", 0);
+}
+
 void require_diagram(const Triangulation& triangulation, const Diagram& diagram) {
   const std::size_t n = triangulation.num_sites();
   const Cells& cells = diagram.cells;
   const bool is_sized = diagram.areas.size() == n && cells.offsets.size() == n + 1 &&
                         cells.offsets.front() == 0 && cells.offsets.back() == cells.rings.size() &&
                         cells.points.size() >= triangulation.num_faces();
+  const auto is_unit = [](const Point& p) {
+    return std::abs(p.x * p.x + p.y * p.y + p.z * p.z - 1) < 1e-6;
+  };
   if (!is_sized || !std::ranges::is_sorted(cells.offsets) ||
+      !std::ranges::all_of(cells.points, is_unit) ||
       std::ranges::any_of(cells.rings, [&](Index i) { return i >= cells.points.size(); })) {
     throw InvalidInput("the diagram is not that of the triangulation", 0);
   }
@@ -56,9 +66,10 @@ void write_cells(const FileName& output, const SiteTable& table, const Triangula
   const system::Call call(execution);
   io::require_sites(table, triangulation);
   io::require_diagram(triangulation, diagram);
+  const double tolerance = io::checked_tolerance(tolerance_deg);
   const auto& writer = io::require_format<CellWriter>(cell_writers, output, "cells are written as");
   io::AtomicFile file(output.path);
-  writer.write(file, {table, triangulation, diagram, tolerance_deg, execution});
+  writer.write(file, {table, triangulation, diagram, tolerance, execution});
   file.commit();
 }
 

@@ -60,7 +60,8 @@ LonLatPolygons cell_polygons(const Triangulation& triangulation, const Diagram& 
                              double tolerance_deg, const Execution& execution) {
   const system::Call call(execution);
   io::require_diagram(triangulation, diagram);
-  const map::CellMap cell_map(triangulation, diagram.cells, tolerance_deg, execution);
+  const map::CellMap cell_map(triangulation, diagram.cells, io::checked_tolerance(tolerance_deg),
+                              execution);
   return collect(execution.threads, triangulation.num_sites(),
                  [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
                    map::CellMap::Pen pen;

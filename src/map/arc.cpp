@@ -61,8 +61,10 @@ bool is_flat(const MapPoint& p, const MapPoint& q, const ArcTolerance& arc) {
 void bisect(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
             std::vector<MapPoint>& out) {
   if (is_flat(p, q, tolerance)) return;
+  const Point chord = sum(p.point, q.point);
+  if (chord == Point{}) return;  // opposite points, which are the ends of no arc of a diagram
   MapPoint middle;
-  middle.point = normalized(sum(p.point, q.point));
+  middle.point = normalized(chord);
   if (middle.point == p.point || middle.point == q.point) return;
   // Ends on the antimeridian have the sign of the side on which the arc lies.
   const double side = std::abs(p.position.lon_deg) > std::abs(q.position.lon_deg)

@@ -28,7 +28,8 @@ static_assert(FLT_EVAL_METHOD == 0, "every operation rounds to a double");
 
 // While it lives, its thread computes as the proofs suppose; then as before. Every public function
 // that computes has one, and so has every piece of a parallel loop, which may run on any thread.
-// What changes something is out of line, so that the compiler moves no computation past it.
+// What changes something is out of line, and a function that computes itself does so by
+// apart(), so that the compiler moves no computation past it.
 class RONDEL_API ArithmeticScope {
  public:
 #if defined(__x86_64__) && defined(__GNUC__)
@@ -70,5 +71,12 @@ class RONDEL_API ArithmeticScope {
 #endif
   void restore() noexcept;
 };
+
+// Calls `work` where no compiler inlines it: an operation whose result is only needed later may else be
+// done after the end of the scope, as the operation does not say that it depends on a mode.
+template <class Work>
+[[gnu::noinline]] auto apart(const Work& work) {
+  return work();
+}
 
 }  // namespace rondel::system

@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "hull": [], "nearest": [],
-             "editing": []}
+             "editing": [], "stop": []}
 
 
 def run(command, **options):

@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "cells_planar.h"
 #include "map/cell_map.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/io.h"
 #include "rondel/polygons.h"
 #include "support/generators.h"
 
@@ -82,6 +84,17 @@ TEST(cells, arrays_are_empty_without_sites) {
   const Triangulation none = delaunay(std::vector<Point>{});
   expect_arrays(cell_polygons(none, diagram(none)));
   expect_arrays(face_polygons(none));
+}
+
+TEST(cells, arrays_want_a_tolerance) {
+  const Triangulation t =
+      delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}});
+  const Diagram dual = diagram(t);
+  for (const double wrong : {0.0, -1.0, std::nan("")}) {
+    EXPECT_THROW(cell_polygons(t, dual, wrong), InvalidInput);
+  }
+  const LonLatPolygons finest = cell_polygons(t, dual, least_tolerance_deg);
+  EXPECT_EQ(cell_polygons(t, dual, 1e-300).positions, finest.positions);
 }
 
 TEST(cells, arrays_want_the_diagram_of_the_triangulation) {
