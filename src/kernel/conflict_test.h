@@ -19,12 +19,12 @@ class ConflictTest {
   [[nodiscard]] const T& sites() const { return sites_; }
 
   // Whether p is in conflict with a face of the hull, ties being broken.
-  [[nodiscard]] bool is_in_conflict(const std::array<Index, 3>& face, Index p) {
+  [[nodiscard, gnu::always_inline]] bool is_in_conflict(const std::array<Index, 3>& face, Index p) {
     return answer(predicates::conflict(sites_, face[0], face[1], face[2], p));
   }
   // Whether p is in conflict with each of two faces.
-  [[nodiscard]] std::array<bool, 2> are_in_conflict(const std::array<Index, 3>& f,
-                                                    const std::array<Index, 3>& g, Index p) {
+  [[nodiscard, gnu::always_inline]] std::array<bool, 2> are_in_conflict(
+      const std::array<Index, 3>& f, const std::array<Index, 3>& g, Index p) {
     const auto [of_f, of_g] = predicates::conflicts(sites_, f, g, p);
     return {answer(of_f), answer(of_g)};
   }

@@ -83,7 +83,7 @@ class MutableHull {
     // Once the center is strictly inside, insertions leave it there.
     if (kinds_.all_solid()) {
       topology::star(mesh_, p, region_.horizon(), region_.faces());
-      start_.solid = region_.faces().back();
+      start_.solid = region_.faces().front();
       return region_.faces();
     }
     for (const Index f : region_.faces()) forget(f);

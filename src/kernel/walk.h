@@ -56,7 +56,6 @@ class FaceKinds {
     kinds_[f] = FaceKind::solid;
     --num_ghosts_;
   }
-  void release() { kinds_ = {}; }
 
  private:
   std::vector<FaceKind> kinds_;
@@ -98,7 +97,7 @@ class Walk {
     Index beyond = no_index;  // the face across the contour, when the walk ended there
   };
 
-  [[nodiscard]] bool is_in_conflict(Index f, Index p) const {
+  [[nodiscard, gnu::always_inline]] bool is_in_conflict(Index f, Index p) const {
     return test_.is_in_conflict(mesh_[f].vertex, p);
   }
 

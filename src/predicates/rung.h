@@ -29,7 +29,7 @@ struct Decision {
   Rung rung = Rung::filter;
 };
 
-inline void count(Tally& tally, Rung rung) {
+[[gnu::always_inline]] inline void count(Tally& tally, Rung rung) {
   switch (rung) {
     case Rung::filter:
       ++tally.filter;
