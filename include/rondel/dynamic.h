@@ -31,8 +31,8 @@ struct Snapshot {
 ///    given to a new site. The sites of a constructor have the ids 0 ... n-1.
 /// 3. Hidden sites come back when what hides them goes; duplicates stay when one of them goes.
 /// 4. A call that throws changes nothing. The index of InvalidInput is the position in the array
-///    that was passed, 0 for a single argument. After std::bad_alloc or another failure amid a
-///    change, the triangulation is built anew from its sites when it is next needed, which may take
+///    that was passed, 0 for a single argument. After std::bad_alloc, Interrupted or another
+///    failure amid a change, the triangulation is built anew from its sites when it is next needed, which may take
 ///    as long as delaunay(), throw std::bad_alloc again, and gives faces new numbers.
 /// 5. Insertion takes O(log n) expected time for sites in random places, removal O(d) expected for
 ///    a vertex with d neighbors. Exceptions: the sites that a change hides, or that come back, are

@@ -89,9 +89,9 @@ RONDEL_API bool can_write_triangles(const FileName& file);
 RONDEL_API bool can_write_cells(const FileName& file);
 RONDEL_API bool can_write_sites(const FileName& file);
 
-/// Writes the triangles; throws InvalidInput, as write_cells() does, if the sites of the table are not
-/// those of the triangulation. .npy has input indices (m, 3) uint32; formats with vertices list every
-/// input site in input order with digits that round-trip.
+/// Writes the triangles; throws InvalidInput, as write_cells() does, if the sites of the table are
+/// not those of the triangulation. .npy has input indices (m, 3) uint32; formats with vertices list
+/// every input site in input order with digits that round-trip.
 /// .stl repeats the corners as 32-bit floats, the only numbers that it has. GeoJSON has the solid
 /// faces: seen from the center, ghost faces are flat or reversed.
 RONDEL_API void write_triangles(const FileName& file, const SiteTable& table,

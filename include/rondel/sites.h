@@ -18,16 +18,23 @@ namespace rondel {
 /// Points that are kept and never change. Copies are cheap, and share them.
 ///
 /// 1. Sites(std::move(points)) takes a vector over, without a copy of its points.
-/// 2. Sites(points) copies them, 24 bytes each. \throws InvalidInput if they are more than max_sites.
-/// 3. Sites::view(points) refers to points of somebody else, who must neither change nor free them as
-///    long as anything that was made of these sites is in use: triangulations, locators, their copies.
-///    Sites::view(points, owner) keeps `owner` as long.
+/// 2. Sites(points) copies them, 24 bytes each. \throws InvalidInput if they are more than
+///    max_sites.
+/// 3. Sites::view(points) refers to points of somebody else, who must neither change nor free them
+///    as long as anything that was made of these sites is in use: triangulations, locators, their
+///    copies. Sites::view(points, owner) keeps `owner` as long.
+/// 4. What was moved from has no points.
 class RONDEL_API Sites {
  public:
   Sites() = default;
   Sites(std::vector<Point>&& points);
   Sites(const std::vector<Point>& points);
   Sites(std::span<const Point> points);
+  Sites(const Sites& other) = default;
+  Sites& operator=(const Sites& other) = default;
+  Sites(Sites&& other) noexcept;
+  Sites& operator=(Sites&& other) noexcept;
+  ~Sites() = default;
   static Sites view(std::span<const Point> points, std::shared_ptr<const void> owner = nullptr);
 
   [[nodiscard]] std::span<const Point> points() const noexcept { return points_; }

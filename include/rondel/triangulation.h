@@ -82,17 +82,18 @@ struct TriangulationParts {
 /// 4. Canonical order: a face starts with the corner that comes first in the
 ///    spatial order, and faces are listed by that corner, then counterclockwise.
 /// 5. Every site is a vertex, a duplicate or hidden, and only one of these.
-/// 6. It is immutable and keeps its sites. Copies are cheap, as they share everything; several threads
-///    may use one.
+/// 6. It is immutable and keeps its sites. Copies are cheap, as they share everything; several
+///    threads may use one. What was moved from is the triangulation of no sites.
 class RONDEL_API Triangulation {
  public:
   /// Without sites.
   Triangulation() = default;
 
   /// Of arrays that come from elsewhere, a file say. Expected time O(n).
-  /// \throws InvalidInput (position in the array that the message names) as delaunay() does, and if the
-  ///         arrays do not obey 1, 2 and 5: indices in range, a closed surface around every vertex, each
-  ///         edge in two faces. Whether the faces are Delaunay is for check() to say.
+  /// \throws InvalidInput (position in the array that the message names) as delaunay() does, and if
+  ///         the arrays do not obey 1, 2 and 5: indices in range, a closed surface around every
+  ///         vertex, each edge in two faces, duplicates in one place. Whether the faces are Delaunay
+  ///         is for check() to say.
   static Triangulation from_arrays(Sites sites, const TriangulationParts& parts,
                                    const Options& options = {});
 

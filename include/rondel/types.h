@@ -70,8 +70,8 @@ using Progress = std::function<void(std::string_view stage, double fraction)>;
 struct Execution {
   unsigned threads = 0;  ///< at most, 0: one for each core; more than 1024 count as 1024
   Progress progress{};
-  /// Once it is true, the call throws Interrupted (error.h) soon, at the next piece of a parallel loop
-  /// on any of its threads, and nothing is left of its work. Short work goes on to its end.
+  /// Once it is true, the call throws Interrupted (error.h) soon, at the next piece of a parallel
+  /// loop on any of its threads, and nothing is left of its work. Short work goes on to its end.
   const std::atomic<bool>* stop = nullptr;
 };
 

@@ -15,7 +15,8 @@ namespace rondel::api {
 
 // Throws InvalidInput if a site of the projected model is not valid; weighted ones are. `inner`, if
 // its user knows one, is a point inside the hull of the sites; it saves looking for one.
-Triangulation build(Sites sites, const system::Job& job, const hidden::InnerPoint* inner = nullptr);
+Triangulation build(Sites all_sites, const system::Job& options,
+                    const hidden::InnerPoint* inner = nullptr);
 
 // The same numbers as points. Throws InvalidInput if their number is not a multiple of 3.
 std::span<const Point> as_points(std::span<const double> xyz);

@@ -32,8 +32,8 @@ bool is_build_faster(std::size_t num_changes, double builds_of_change, std::size
 
 }  // namespace
 
-DynamicTriangulation::Impl::Impl(Options wanted)
-    : options(std::move(wanted)),
+DynamicTriangulation::Impl::Impl(const Options& wanted)
+    : options(wanted),
       editor(std::in_place_index<0>, Model::projected, options.sphere.center) {
   if (options.model == Model::weighted) {
     editor.emplace<1>(Model::weighted, options.sphere.center);
@@ -107,7 +107,7 @@ Sites DynamicTriangulation::Impl::sites_of(std::span<const Index> ids) const {
   std::vector<Point> sites;
   sites.reserve(ids.size());
   for (const Index id : ids) sites.push_back(places().point(id));
-  return Sites(std::move(sites));
+  return {std::move(sites)};
 }
 
 const Snapshot& DynamicTriangulation::Impl::flat_snapshot() const {

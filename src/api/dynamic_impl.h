@@ -21,7 +21,7 @@
 namespace rondel {
 
 struct DynamicTriangulation::Impl {
-  explicit Impl(Options wanted);
+  explicit Impl(const Options& wanted);
 
   template <class Function>
   decltype(auto) visit(Function&& function) {

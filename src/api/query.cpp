@@ -166,10 +166,11 @@ SiteLists Locator::Impl::within(std::span<const Point> queries, const Limit& lim
   return result;
 }
 
-Locator::Locator(const Triangulation& triangulation) {
-  const system::ArithmeticScope arithmetic;
-  impl_ = std::make_unique<const Impl>(triangulation);
-}
+Locator::Locator(const Triangulation& triangulation)
+    : impl_([&] {
+        const system::ArithmeticScope arithmetic;
+        return std::make_unique<const Impl>(triangulation);
+      }()) {}
 Locator::Locator(const DynamicTriangulation& triangulation) {
   const system::ArithmeticScope arithmetic;
   const DynamicTriangulation::Impl& changing = triangulation.impl_->current();

@@ -23,6 +23,15 @@ Sites::Sites(std::span<const Point> points) {
   *this = Sites(std::vector<Point>(points.begin(), points.end()));
 }
 
+Sites::Sites(Sites&& other) noexcept
+    : points_(std::exchange(other.points_, {})), owner_(std::move(other.owner_)) {}
+
+Sites& Sites::operator=(Sites&& other) noexcept {
+  points_ = std::exchange(other.points_, {});
+  owner_ = std::exchange(other.owner_, nullptr);
+  return *this;
+}
+
 Sites Sites::view(std::span<const Point> points, std::shared_ptr<const void> owner) {
   Sites sites;
   sites.points_ = points;

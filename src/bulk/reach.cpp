@@ -4,9 +4,13 @@
 #include "bulk/reach.h"
 
 namespace rondel::bulk {
+namespace {
+
+using Edge = PlaneGraph::Edge;
+
+}  // namespace
 
 std::vector<Index> remove_unreached(PlaneGraph& graph, PlaneGraph::Edge start, Index num_vertices) {
-  using Edge = PlaneGraph::Edge;
   std::vector<bool> is_reached(num_vertices, false);
   std::vector<Edge> stack = {start};
   is_reached[graph.origin(start)] = true;

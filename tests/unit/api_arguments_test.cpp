@@ -99,7 +99,7 @@ TEST(from_arrays, refuses_one_wrong_index) {
       const Index before = index;
       for (const Index wrong : {no_index, before + 1000000}) {
         index = wrong;
-        EXPECT_THROW(arrays.of(sites, in.options), InvalidInput);
+        EXPECT_THROW(static_cast<void>(arrays.of(sites, in.options)), InvalidInput);
       }
       index = before;
     });
@@ -110,7 +110,7 @@ TEST(from_arrays, refuses_one_wrong_index) {
           index = (before + 1) %
                   static_cast<Index>(rows == &arrays.faces ? sites.size() : made.faces.size());
           if (made.faces.size() > 2) {
-            EXPECT_THROW(arrays.of(sites, in.options), InvalidInput);
+            EXPECT_THROW(static_cast<void>(arrays.of(sites, in.options)), InvalidInput);
           }
           index = before;
         }
@@ -201,6 +201,10 @@ TEST(sites, are_copied_or_viewed) {
   EXPECT_EQ(owned.points().data(), theirs);
   points[1] = {0, 2, 0};
   EXPECT_EQ(copied[1], (Point{0, 1, 0}));
+  Sites from = owned;
+  const Sites to = std::move(from);
+  EXPECT_EQ(to.points().data(), theirs);
+  EXPECT_EQ(from.size(), 0U);  // NOLINT(bugprone-use-after-move): that is the promise
   EXPECT_EQ(seen[1], (Point{0, 2, 0}));
 }
 
