@@ -33,8 +33,7 @@ bool is_build_faster(std::size_t num_changes, double builds_of_change, std::size
 }  // namespace
 
 DynamicTriangulation::Impl::Impl(const Options& wanted)
-    : options(wanted),
-      editor(std::in_place_index<0>, Model::projected, options.sphere.center) {
+    : options(wanted), editor(std::in_place_index<0>, Model::projected, options.sphere.center) {
   if (options.model == Model::weighted) {
     editor.emplace<1>(Model::weighted, options.sphere.center);
   }
