@@ -62,8 +62,8 @@ class RONDEL_API Locator {
   /// Keeps the sites of the triangulation. O(n).
   explicit Locator(const Triangulation& triangulation);
 
-  /// O(1) in dimension 2. Keeps a reference, and is of no use any more after the next change, even
-  /// one that failed. Sites have their ids, faces numbers for DynamicTriangulation::face().
+  /// O(1) in dimension 2. Keeps a reference. After the next change, even one that failed, all
+  /// questions throw InvalidInput. Sites have their ids, faces numbers for DynamicTriangulation::face().
   explicit Locator(const DynamicTriangulation& triangulation);
   explicit Locator(DynamicTriangulation&& triangulation) = delete;
   ~Locator();

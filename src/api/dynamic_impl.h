@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <span>
@@ -70,6 +71,7 @@ struct DynamicTriangulation::Impl {
   decltype(auto) change(const Change& change) {
     current();
     flat.reset();
+    ++num_changes;
     try {
       return visit(change);
     } catch (...) {
@@ -94,6 +96,7 @@ struct DynamicTriangulation::Impl {
   std::atomic<bool> is_in_pieces = false;
   mutable std::mutex mutex;
   mutable std::optional<Snapshot> flat;
+  std::uint64_t num_changes = 0;  // those that failed, too
 };
 
 }  // namespace rondel

@@ -51,12 +51,14 @@ class Locator::Impl {
   explicit Impl(const Triangulation& triangulation)
       : Impl(triangulation, {}, triangulation.sites().points()) {}
 
-  // The sites are called `ids` outside, and these are their points.
+  // The sites are called `ids` outside, and these are their points, of one that may change.
   Impl(const Triangulation& triangulation, std::span<const Index> ids,
-       std::span<const Point> points_by_id)
+       std::span<const Point> points_by_id, const DynamicTriangulation::Impl* asked = nullptr)
       : model_(triangulation.model()),
         sphere_(triangulation.sphere()),
         points_(points_by_id),
+        asked_(asked),
+        num_changes_(asked == nullptr ? 0 : asked->num_changes),
         built_(std::in_place, triangulation, ids),
         engine_(built_->graph()) {}
 
@@ -65,15 +67,19 @@ class Locator::Impl {
       : model_(changing.options.model),
         sphere_(changing.options.sphere),
         points_(editor.places().points()),
+        asked_(&changing),
+        num_changes_(changing.num_changes),
         changing_(&changing),
         engine_(editor.graph()) {}
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  void validate(std::span<const Point> queries) const {
-    api::validate_queries(queries, sphere_.center);
+  void validate(std::span<const Point> queries, bool are_rays = true) const {
+    require_current();
+    api::validate_queries(queries, sphere_.center, are_rays);
   }
   void validate_site(Index site) const {
+    require_current();
     if (changing_ ? changing_->is_alive(site) : built_->has_site(site)) return;
     throw InvalidInput("there is no site " + std::to_string(site), site);
   }
@@ -118,9 +124,16 @@ class Locator::Impl {
                                  unsigned threads) const;
 
  private:
+  void require_current() const {
+    if (asked_ == nullptr || asked_->num_changes == num_changes_) return;
+    throw InvalidInput("the triangulation has changed since the locator was made", 0);
+  }
+
   Model model_;
   Sphere sphere_;
   std::span<const Point> points_;
+  const DynamicTriangulation::Impl* asked_ = nullptr;  // what may change
+  std::uint64_t num_changes_ = 0;                      // of it, when this was made
   // One of these two, and what is asked of it.
   std::optional<const query::Built> built_;
   const DynamicTriangulation::Impl* changing_ = nullptr;
@@ -176,7 +189,8 @@ Locator::Locator(const DynamicTriangulation& triangulation) {
   const DynamicTriangulation::Impl& changing = triangulation.impl_->current();
   if (!changing.has_hull()) {
     const Snapshot& now = changing.flat_snapshot();
-    impl_ = std::make_unique<const Impl>(now.triangulation, now.ids, changing.places().points());
+    impl_ = std::make_unique<const Impl>(now.triangulation, now.ids, changing.places().points(),
+                                         &changing);
     return;
   }
   impl_ = changing.visit(
@@ -299,7 +313,7 @@ std::vector<Index> Locator::neighbors(Index site) const {
 
 std::vector<Index> Locator::conflict_region(const Point& query) const {
   const system::ArithmeticScope arithmetic;
-  api::validate_queries({&query, 1}, impl_->sphere().center, impl_->model() == Model::projected);
+  impl_->validate({&query, 1}, impl_->model() == Model::projected);
   if (impl_->is_empty()) return {};
   Cursor cursor = impl_->cursor_at(query);
   return impl_->engine().conflict_region(query, cursor);

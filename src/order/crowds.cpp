@@ -84,7 +84,8 @@ class Crowds {
     u = std::abs(u);
     v = std::abs(v);
     const double longer = std::max(u, v);
-    if (!(longer > 0 && out <= std::numeric_limits<double>::max())) return {quadrant, 0, {}, rank};
+    const bool is_seen = out > 0 && out <= std::numeric_limits<double>::max();  // as rounded
+    if (!(longer > 0 && is_seen)) return {quadrant, 0, {}, rank};
     const int exponent_of_out = std::ilogb(out);
     int exponent = std::ilogb(longer);
     const double out_to_one = std::scalbn(out, -exponent_of_out);

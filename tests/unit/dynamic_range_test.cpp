@@ -169,14 +169,19 @@ TEST(dynamic_range, is_a_build_when_that_is_less_work) {
   EXPECT_TRUE(has_canonical_faces(empty));
 }
 
-TEST(dynamic_range, leaves_a_locator_right) {
+TEST(dynamic_range, ends_the_use_of_a_locator) {
   const std::vector<Point> sites = sites_of("uniform", 200, 1);
   const std::vector<Point> others = sites_of("uniform", 200, 2);
   DynamicTriangulation changing(sites);
   const Locator locator(changing);
   EXPECT_EQ(locator.nearest(sites[17]), 17U);
   changing.move(changing.ids(), others);
-  for (Index id = 0; id < others.size(); ++id) EXPECT_EQ(locator.nearest(others[id]), id);
+  EXPECT_THROW(static_cast<void>(locator.nearest(others[0])), InvalidInput);
+  EXPECT_THROW(static_cast<void>(locator.nearest(others)), InvalidInput);
+  EXPECT_THROW(static_cast<void>(locator.neighbors(0)), InvalidInput);
+  EXPECT_THROW(static_cast<void>(locator.conflict_region(others[0])), InvalidInput);
+  const Locator next(changing);
+  for (Index id = 0; id < others.size(); ++id) EXPECT_EQ(next.nearest(others[id]), id);
 }
 
 }  // namespace
