@@ -9,9 +9,11 @@
 #include <bit>
 #include <cstddef>
 #include <cstring>
+#include <iterator>
 #include <string_view>
 
 #include "io/atomic_file.h"
+#include "rondel/triangulation.h"
 
 namespace rondel::io {
 
@@ -26,6 +28,17 @@ T load(const char* bytes, std::endian order = std::endian::little) {
   if (order != std::endian::native) std::reverse(copy.begin(), copy.end());
   return std::bit_cast<T>(copy);
 }
+
+// The bytes of an array of numbers, or of structures of numbers without gaps.
+template <typename Values>
+std::string_view bytes_of(const Values& values) {
+  return {reinterpret_cast<const char*>(std::data(values)),
+          std::size(values) * sizeof(*std::data(values))};
+}
+static_assert(sizeof(Point) == 3 * sizeof(double));
+static_assert(sizeof(LonLat) == 2 * sizeof(double));
+static_assert(sizeof(Triple) == 3 * sizeof(Index));
+static_assert(sizeof(Hidden) == 2 * sizeof(Index));
 
 // Writes value(0), ..., value(count - 1) as numbers of type T.
 template <typename T, typename Value>

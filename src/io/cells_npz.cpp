@@ -3,29 +3,12 @@
 #include <array>
 #include <span>
 
+#include "io/binary.h"
 #include "io/cell_formats.h"
 #include "io/npy_header.h"
 #include "io/zip_file.h"
 
 namespace rondel::io {
-namespace {
-
-template <typename T>
-std::string_view bytes_of(std::span<const T> values) {
-  return {reinterpret_cast<const char*>(values.data()), values.size_bytes()};
-}
-
-template <typename T>
-std::string_view bytes_of(const std::vector<T>& values) {
-  return bytes_of(std::span<const T>(values));
-}
-
-// Each is a row of its array, numbers without gaps.
-static_assert(sizeof(Point) == 3 * sizeof(double));
-static_assert(sizeof(Triple) == 3 * sizeof(Index));
-static_assert(sizeof(Hidden) == 2 * sizeof(Index));
-
-}  // namespace
 
 void write_cells_npz(AtomicFile& file, const CellsToWrite& to_write) {
   const auto& [cells, areas] = to_write.diagram;

@@ -77,14 +77,12 @@ void read_delimited(std::string_view bytes, char usual_delimiter, const ReadJob&
                     SiteTable& table) {
   const char delimiter = options.delimiter != '\0' ? options.delimiter : usual_delimiter;
   CsvRecords records({}, delimiter);
-  try {
+  at_line_of(records, [&] {
     const std::string_view text = without_bom(bytes);
     records = CsvRecords(text, delimiter);
     if (!records.next()) throw FileError(table.name + ": the file is empty");
     read_rows(records, text, options, table);
-  } catch (const BadValue& bad) {
-    throw FileError(table.name + ":" + std::to_string(records.line()) + ": " + bad.what());
-  }
+  });
 }
 
 }  // namespace

@@ -14,7 +14,6 @@
 #include "io/number.h"
 #include "io/site_collector.h"
 #include "io/site_formats.h"
-#include "rondel/error.h"
 
 namespace rondel::io {
 namespace {
@@ -157,16 +156,8 @@ void GeoJsonReader::read() {
 
 void GeoJsonReader::on_item(const std::string& list, const JsonTree& item) {
   const bool is_feature = list == "features";
-  try {
-    if (is_feature) {
-      add_feature(item);
-    } else {
-      add_geometry(item, {});
-    }
-  } catch (const BadValue& bad) {
-    throw BadValue((is_feature ? "feature " : "geometry ") + std::to_string(num_items_) + ": " +
-                   bad.what());
-  }
+  at_item(is_feature ? "feature" : "geometry", num_items_,
+          [&] { is_feature ? add_feature(item) : add_geometry(item, {}); });
   ++num_items_;
   item_line_ = 0;
 }
@@ -244,11 +235,7 @@ double GeoJsonReader::radius_in(const JsonTree& properties) const {
 
 void read_geojson(std::string_view bytes, const ReadJob& options, SiteTable& table) {
   GeoJsonReader reader(bytes, options, table);
-  try {
-    reader.read();
-  } catch (const BadValue& bad) {
-    throw FileError(table.name + ":" + std::to_string(reader.line()) + ": " + bad.what());
-  }
+  at_line_of(reader, [&] { reader.read(); });
 }
 
 }  // namespace rondel::io

@@ -2,25 +2,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/mesh_text.h"
 
-#include <string>
-
 #include "io/number.h"
 #include "io/parallel_write.h"
 
 namespace rondel::io {
 
-void write_vertex_lines(AtomicFile& file, const MeshToWrite& mesh, std::string_view prefix) {
-  const std::span<const Point> sites = mesh.table.sites;
-  write_in_parallel(file, mesh.execution.threads, sites.size(), items_per_piece,
+void append_row(std::string& text, std::initializer_list<double> values, char delimiter) {
+  for (const double value : values) {
+    append_number(text, value);
+    text += delimiter;
+  }
+  text.back() = '\n';
+}
+
+void write_site_lines(AtomicFile& file, std::span<const Point> sites, unsigned threads,
+                      std::string_view prefix, char delimiter) {
+  write_in_parallel(file, threads, sites.size(), items_per_piece,
                     [&](std::string& text, std::size_t begin, std::size_t end) {
                       for (const Point& site : sites.subspan(begin, end - begin)) {
                         text += prefix;
-                        append_number(text, site.x);
-                        text += ' ';
-                        append_number(text, site.y);
-                        text += ' ';
-                        append_number(text, site.z);
-                        text += '\n';
+                        append_row(text, {site.x, site.y, site.z}, delimiter);
                       }
                     });
 }

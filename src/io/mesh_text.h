@@ -1,17 +1,24 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Meshes as lines of text, for .off and .obj.
+// Sites and faces as lines of text, for .csv .tsv .xyz .off and .obj.
 #pragma once
 
+#include <initializer_list>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "io/triangle_formats.h"
 
 namespace rondel::io {
 
-// A line "<prefix>x y z" for every site.
-void write_vertex_lines(AtomicFile& file, const MeshToWrite& mesh, std::string_view prefix);
+// Appends "1.5 2 3\n", where the delimiter is a blank.
+void append_row(std::string& text, std::initializer_list<double> values, char delimiter);
+
+// A line "<prefix>x y z" for every site, where the delimiter is a blank.
+void write_site_lines(AtomicFile& file, std::span<const Point> sites, unsigned threads,
+                      std::string_view prefix, char delimiter);
 
 // A line "<prefix>a b c" for every face; the first site has the number `base`.
 void write_face_lines(AtomicFile& file, const MeshToWrite& mesh, std::string_view prefix,

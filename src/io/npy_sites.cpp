@@ -11,7 +11,6 @@
 #include "io/number.h"
 #include "io/site_collector.h"
 #include "io/site_formats.h"
-#include "rondel/error.h"
 
 namespace rondel::io {
 namespace {
@@ -39,15 +38,13 @@ void read_rows(const NpyTable& array, const ReadJob& options, SiteTable& table) 
     return exact_double(array.at<Number>(row, column));
   };
   for (std::size_t i = 0; i < array.num_rows(); ++i) {
-    try {
+    at_item("row", i, [&] {
       if (is_lonlat) {
         collector.add_position(number(i, 0), number(i, 1), 0);
       } else {
         collector.add_point({number(i, 0), number(i, 1), number(i, 2)}, 0);
       }
-    } catch (const BadValue& bad) {
-      throw FileError(table.where(i) + ": " + bad.what());
-    }
+    });
     collector.report_progress(i, array.num_rows());
   }
 }
@@ -73,24 +70,15 @@ NpyTable checked_table(std::string_view bytes, std::uint64_t file_size) {
 
 }  // namespace
 
-void check_npy_sites(std::string_view head, std::uint64_t file_size, const SiteTable& table) {
-  if (file_size <= head.size()) return;
-  try {
-    checked_table(head, file_size);
-  } catch (const BadValue& bad) {
-    throw FileError(table.name + ": " + bad.what());
-  }
+void check_npy_sites(std::string_view head, std::uint64_t file_size) {
+  if (file_size > head.size()) checked_table(head, file_size);
 }
 
 void read_npy_sites(std::string_view bytes, const ReadJob& options, SiteTable& table) {
   table.first_line = 0;
-  try {
-    const NpyTable array = checked_table(bytes, bytes.size());
-    const auto type = std::ranges::find(number_types, array.type()) - number_types.begin();
-    readers[static_cast<std::size_t>(type)](array, options, table);
-  } catch (const BadValue& bad) {
-    throw FileError(table.name + ": " + bad.what());
-  }
+  const NpyTable array = checked_table(bytes, bytes.size());
+  const auto type = std::ranges::find(number_types, array.type()) - number_types.begin();
+  readers[static_cast<std::size_t>(type)](array, options, table);
 }
 
 void write_npy_sites(AtomicFile& file, const SitesToWrite& to_write) {
@@ -99,17 +87,11 @@ void write_npy_sites(AtomicFile& file, const SitesToWrite& to_write) {
   const std::uint64_t n = sites.size();
   if (!positions.empty() && to_write.radii_deg.empty()) {
     file.write(make_npy_header("<f8", std::array<std::uint64_t, 2>{n, 2}));
-    write_values<double>(file, 2 * positions.size(), [&](std::size_t i) {
-      const LonLat& position = positions[i / 2];
-      return i % 2 == 0 ? position.lon_deg : position.lat_deg;
-    });
+    file.write(bytes_of(positions));
     return;
   }
   file.write(make_npy_header("<f8", std::array<std::uint64_t, 2>{n, 3}));
-  write_values<double>(file, 3 * sites.size(), [&](std::size_t i) {
-    const Point& site = sites[i / 3];
-    return i % 3 == 0 ? site.x : i % 3 == 1 ? site.y : site.z;
-  });
+  file.write(bytes_of(sites));
 }
 
 }  // namespace rondel::io

@@ -8,19 +8,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 
+#include "io/bad_value.h"
 #include "rondel/types.h"
 
 namespace rondel::io {
-
-// A value is wrong. It says what; the reader, which knows the place, adds where.
-class BadValue : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 // The finite number in `field`, blanks around it and a leading plus allowed. `what` names it in
 // the message: `longitude "12,5" is not a number`.

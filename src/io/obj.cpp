@@ -6,7 +6,6 @@
 #include "io/number.h"
 #include "io/text_lines.h"
 #include "io/triangle_formats.h"
-#include "rondel/error.h"
 
 namespace rondel::io {
 namespace {
@@ -37,17 +36,13 @@ std::vector<Triple> read_lines(TextLines& lines) {
 
 }  // namespace
 
-std::vector<Triple> read_obj(std::string_view bytes, const std::string& name) {
+std::vector<Triple> read_obj(std::string_view bytes) {
   TextLines lines(bytes);
-  try {
-    return read_lines(lines);
-  } catch (const BadValue& bad) {
-    throw FileError(name + ":" + std::to_string(lines.number()) + ": " + bad.what());
-  }
+  return at_line_of(lines, [&] { return read_lines(lines); });
 }
 
 void write_obj(AtomicFile& file, const MeshToWrite& mesh) {
-  write_vertex_lines(file, mesh, "v ");
+  write_site_lines(file, mesh.table.sites, mesh.execution.threads, "v ", ' ');
   write_face_lines(file, mesh, "f ", 1);
 }
 

@@ -8,7 +8,6 @@
 #include "io/number.h"
 #include "io/text_lines.h"
 #include "io/triangle_formats.h"
-#include "rondel/error.h"
 
 namespace rondel::io {
 namespace {
@@ -58,13 +57,9 @@ std::vector<Triple> read_lines(TextLines& lines, std::string_view bytes) {
 
 }  // namespace
 
-std::vector<Triple> read_off(std::string_view bytes, const std::string& name) {
+std::vector<Triple> read_off(std::string_view bytes) {
   TextLines lines(bytes);
-  try {
-    return read_lines(lines, bytes);
-  } catch (const BadValue& bad) {
-    throw FileError(name + ":" + std::to_string(lines.number()) + ": " + bad.what());
-  }
+  return at_line_of(lines, [&] { return read_lines(lines, bytes); });
 }
 
 void write_off(AtomicFile& file, const MeshToWrite& mesh) {
@@ -72,7 +67,7 @@ void write_off(AtomicFile& file, const MeshToWrite& mesh) {
   const std::size_t num_faces = mesh.triangulation.num_faces();
   file.write("OFF\n" + std::to_string(mesh.table.sites.size()) + " " + std::to_string(num_faces) +
              " " + std::to_string(3 * num_faces / 2) + "\n");
-  write_vertex_lines(file, mesh, "");
+  write_site_lines(file, mesh.table.sites, mesh.execution.threads, "", ' ');
   write_face_lines(file, mesh, "3 ", 0);
 }
 

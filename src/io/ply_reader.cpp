@@ -9,7 +9,6 @@
 #include "io/ply_header.h"
 #include "io/text_lines.h"
 #include "io/triangle_formats.h"
-#include "rondel/error.h"
 
 namespace rondel::io {
 namespace {
@@ -99,8 +98,7 @@ Triple read_corners(PlyNumbers& numbers, const PlyProperty& property) {
 }
 
 // Goes through the elements up to the faces.
-std::vector<Triple> read_body(std::string_view bytes, const PlyHeader& header,
-                              const std::string& name) {
+std::vector<Triple> read_body(std::string_view bytes, const PlyHeader& header) {
   PlyNumbers numbers(bytes.substr(header.data_offset), header.encoding);
   for (const PlyElement& element : header.elements) {
     const bool is_face = element.name == "face";
@@ -108,7 +106,7 @@ std::vector<Triple> read_body(std::string_view bytes, const PlyHeader& header,
     if (element.properties.empty()) continue;
     std::vector<Triple> triangles;
     for (std::uint64_t i = 0; i < element.count; ++i) {
-      try {
+      at_item(element.name, i, [&] {
         for (const PlyProperty& property : element.properties) {
           if (is_face && has_corners(property)) {
             triangles.push_back(read_corners(numbers, property));
@@ -116,9 +114,7 @@ std::vector<Triple> read_body(std::string_view bytes, const PlyHeader& header,
             skip(numbers, property);
           }
         }
-      } catch (const BadValue& bad) {
-        throw FileError(name + ": " + element.name + " " + std::to_string(i) + ": " + bad.what());
-      }
+      });
     }
     if (is_face) return triangles;
   }
@@ -127,12 +123,8 @@ std::vector<Triple> read_body(std::string_view bytes, const PlyHeader& header,
 
 }  // namespace
 
-std::vector<Triple> read_ply(std::string_view bytes, const std::string& name) {
-  try {
-    return read_body(bytes, parse_ply_header(bytes), name);
-  } catch (const BadValue& bad) {
-    throw FileError(name + ": " + bad.what());
-  }
+std::vector<Triple> read_ply(std::string_view bytes) {
+  return read_body(bytes, parse_ply_header(bytes));
 }
 
 }  // namespace rondel::io

@@ -17,8 +17,7 @@ void write_ply(AtomicFile& file, const MeshToWrite& mesh) {
              "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
              std::to_string(mesh.triangulation.num_faces()) +
              "\nproperty list uchar int vertex_indices\nend_header\n");
-  static_assert(sizeof(Point) == 3 * sizeof(double));
-  file.write({reinterpret_cast<const char*>(sites.data()), sites.size_bytes()});
+  file.write(bytes_of(sites));
   // A signed index is what most readers expect; it fits, as sites are fewer than 2^30.
   static_assert(max_sites < (std::size_t{1} << 30U));
   mesh.write_faces(file, [&](std::string& bytes, Index face) {

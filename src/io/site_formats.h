@@ -16,16 +16,16 @@ namespace rondel::io {
 struct ReadJob : ReadOptions, Execution {};
 
 // Each reads `bytes`, the content of the file `table.name`, into `table`.
-// Throws FileError as read_sites does.
+// Throws BadValue, or FileError as read_sites does.
 void read_csv(std::string_view bytes, const ReadJob& options, SiteTable& table);
 void read_tsv(std::string_view bytes, const ReadJob& options, SiteTable& table);
 void read_xyz(std::string_view bytes, const ReadJob& options, SiteTable& table);
 void read_npy_sites(std::string_view bytes, const ReadJob& options, SiteTable& table);
 void read_geojson(std::string_view bytes, const ReadJob& options, SiteTable& table);
 
-// Throws FileError if the head of a file of `file_size` bytes, or of a size not known (0), claims
+// Throws BadValue if the head of a file of `file_size` bytes, or of a size not known (0), claims
 // what read_npy_sites would refuse.
-void check_npy_sites(std::string_view head, std::uint64_t file_size, const SiteTable& table);
+void check_npy_sites(std::string_view head, std::uint64_t file_size);
 
 // What write_sites got. Positions and radii may be empty.
 struct SitesToWrite {

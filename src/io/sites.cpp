@@ -5,6 +5,7 @@
 #include <array>
 
 #include "io/atomic_file.h"
+#include "io/bad_value.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
 #include "io/site_formats.h"
@@ -20,7 +21,7 @@ struct SiteReader {
   void (*read)(std::string_view, const io::ReadJob&, SiteTable&);
   bool has_columns = false;
   // What can be refused by the head of a file and its size.
-  void (*check)(std::string_view, std::uint64_t, const SiteTable&) = nullptr;
+  void (*check)(std::string_view, std::uint64_t) = nullptr;
 };
 constexpr std::array<SiteReader, 6> site_readers = {
     {{".csv", &io::read_csv, true},
@@ -76,8 +77,10 @@ SiteTable read_sites(const FileName& file, const ReadOptions& options, const Exe
              : io::require_format<SiteReader>(site_readers, file, "sites are read from");
   require_columns(reader, options, table);
   if (bytes.head().empty()) throw FileError(table.name + ": the file is empty");
-  if (reader.check != nullptr) reader.check(bytes.head(), bytes.claimed_size(), table);
-  reader.read(bytes.text(), {options, execution}, table);
+  io::in_file(table.name, [&] {
+    if (reader.check != nullptr) reader.check(bytes.head(), bytes.claimed_size());
+    reader.read(bytes.text(), {options, execution}, table);
+  });
   return table;
 }
 

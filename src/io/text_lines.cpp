@@ -10,7 +10,7 @@ bool TextLines::next() {
   constexpr std::string_view blanks = " \t\r\v\f";
   words_.clear();
   while (words_.empty() && position_ < text_.size()) {
-    ++number_;
+    ++line_;
     const std::size_t end = std::min(text_.find('\n', position_), text_.size());
     std::string_view line = text_.substr(position_, end - position_);
     position_ = end == text_.size() ? end : end + 1;

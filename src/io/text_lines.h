@@ -23,7 +23,7 @@ class TextLines {
 
   [[nodiscard]] const std::vector<std::string_view>& words() const noexcept { return words_; }
   // The number of the current line, from 1 on.
-  [[nodiscard]] std::uint64_t number() const noexcept { return number_; }
+  [[nodiscard]] std::uint64_t line() const noexcept { return line_; }
   // How many bytes are done, of how many.
   [[nodiscard]] std::size_t position() const noexcept { return position_; }
   [[nodiscard]] std::size_t size() const noexcept { return text_.size(); }
@@ -31,7 +31,7 @@ class TextLines {
  private:
   std::string_view text_;
   std::size_t position_ = 0;
-  std::uint64_t number_ = 0;
+  std::uint64_t line_ = 0;
   std::vector<std::string_view> words_;
 };
 

@@ -4,28 +4,15 @@
 // Sites as text: .csv, .tsv and .xyz.
 #include <string>
 
-#include "io/number.h"
+#include "io/mesh_text.h"
 #include "io/parallel_write.h"
 #include "io/site_formats.h"
 
 namespace rondel::io {
 namespace {
 
-void append_row(std::string& line, std::initializer_list<double> values, char delimiter) {
-  for (const double value : values) {
-    append_number(line, value);
-    line += delimiter;
-  }
-  line.back() = '\n';
-}
-
 void write_points(AtomicFile& file, const SitesToWrite& to_write, char delimiter) {
-  write_in_parallel(file, to_write.execution.threads, to_write.sites.size(), items_per_piece,
-                    [&](std::string& text, std::size_t begin, std::size_t end) {
-                      for (const Point& site : to_write.sites.subspan(begin, end - begin)) {
-                        append_row(text, {site.x, site.y, site.z}, delimiter);
-                      }
-                    });
+  write_site_lines(file, to_write.sites, to_write.execution.threads, "", delimiter);
 }
 
 void write_delimited(AtomicFile& file, const SitesToWrite& to_write, char delimiter) {

@@ -34,16 +34,16 @@ void write_stl(AtomicFile& file, const MeshToWrite& mesh);
 void write_vtp_triangles(AtomicFile& file, const MeshToWrite& mesh);
 void write_geojson(AtomicFile& file, const MeshToWrite& mesh);
 
-// Each reads the triangles of `bytes`, the content of the file `name`. Indices count from 0 and may
-// be too large for the sites. Throws FileError as read_triangles does.
-std::vector<Triple> read_npy(std::string_view bytes, const std::string& name);
-std::vector<Triple> read_off(std::string_view bytes, const std::string& name);
-std::vector<Triple> read_ply(std::string_view bytes, const std::string& name);
-std::vector<Triple> read_obj(std::string_view bytes, const std::string& name);
-std::vector<Triple> read_vtp(std::string_view bytes, const std::string& name);
+// Each reads the triangles of `bytes`, the content of a file. Indices count from 0 and may be too
+// large for the sites. Throws BadValue.
+std::vector<Triple> read_npy(std::string_view bytes);
+std::vector<Triple> read_off(std::string_view bytes);
+std::vector<Triple> read_ply(std::string_view bytes);
+std::vector<Triple> read_obj(std::string_view bytes);
+std::vector<Triple> read_vtp(std::string_view bytes);
 
-// Throws FileError if the head of a file of `file_size` bytes, or of a size not known (0), claims
+// Throws BadValue if the head of a file of `file_size` bytes, or of a size not known (0), claims
 // what read_npy would refuse.
-void check_npy(std::string_view head, std::uint64_t file_size, const std::string& name);
+void check_npy(std::string_view head, std::uint64_t file_size);
 
 }  // namespace rondel::io

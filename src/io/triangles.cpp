@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/atomic_file.h"
+#include "io/bad_value.h"
 #include "io/cell_formats.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
@@ -21,9 +22,9 @@ namespace {
 
 struct TriangleReader {
   std::string_view ending;
-  std::vector<Triple> (*read)(std::string_view, const std::string&);
+  std::vector<Triple> (*read)(std::string_view);
   // What can be refused by the head of a file and its size.
-  void (*check)(std::string_view, std::uint64_t, const std::string&) = nullptr;
+  void (*check)(std::string_view, std::uint64_t) = nullptr;
 };
 constexpr std::array<TriangleReader, 5> triangle_readers = {
     {{".npy", &io::read_npy, &io::check_npy},
@@ -66,8 +67,10 @@ std::vector<Triple> read_triangles(const FileName& file) {
   const TriangleReader& reader =
       io::require_format<TriangleReader>(triangle_readers, file, "triangles are read from");
   if (bytes.head().empty()) throw FileError(bytes.name() + ": the file is empty");
-  if (reader.check != nullptr) reader.check(bytes.head(), bytes.claimed_size(), bytes.name());
-  return reader.read(bytes.text(), bytes.name());
+  return io::in_file(bytes.name(), [&] {
+    if (reader.check != nullptr) reader.check(bytes.head(), bytes.claimed_size());
+    return reader.read(bytes.text());
+  });
 }
 
 bool can_write_triangles(const FileName& file) {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/vtp_file.h"
 
-#include "io/binary.h"
-
 namespace rondel::io {
 namespace {
 

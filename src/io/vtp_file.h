@@ -8,20 +8,36 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "io/atomic_file.h"
+#include "io/binary.h"
 
 namespace rondel::io {
 
 struct VtpArray {
   std::string name;
-  std::string type;  // Float64, Int64, UInt32, UInt8
+  std::string type;  // Float64, Int64, UInt8
   int components = 1;
   std::uint64_t num_bytes = 0;
   std::function<void(AtomicFile&)> write;  // writes exactly that many bytes
 };
+
+// `count` numbers of 8 bytes or of one, of which value(i) is number i.
+template <typename T, typename Value>
+VtpArray vtp_array(const char* name, std::size_t count, Value value) {
+  constexpr bool is_real = std::is_floating_point_v<T>;
+  return {name, is_real ? "Float64" : (sizeof(T) == 1 ? "UInt8" : "Int64"), 1, count * sizeof(T),
+          [count, value](AtomicFile& file) { write_values<T>(file, count, value); }};
+}
+
+// The coordinates of points, which live until the array is written.
+inline VtpArray vtp_points(std::span<const Point> points) {
+  return {"Points", "Float64", 3, points.size_bytes(),
+          [points](AtomicFile& file) { file.write(bytes_of(points)); }};
+}
 
 struct VtpMesh {
   std::size_t num_points = 0;

@@ -11,7 +11,6 @@
 #include "io/binary.h"
 #include "io/number.h"
 #include "io/triangle_formats.h"
-#include "rondel/error.h"
 
 namespace rondel::io {
 namespace {
@@ -120,7 +119,9 @@ std::vector<Triple> triangles_of(const Integers& connectivity, const Integers& o
   return triangles;
 }
 
-std::vector<Triple> read_document(std::string_view bytes) {
+}  // namespace
+
+std::vector<Triple> read_vtp(std::string_view bytes) {
   Tags tags(bytes);
   const auto file_tag = tags.next("VTKFile");
   if (!file_tag || attribute(*file_tag, "type") != "PolyData") throw BadValue("not a .vtp file");
@@ -148,16 +149,6 @@ std::vector<Triple> read_document(std::string_view bytes) {
     throw BadValue("more than one piece");
   }
   return triangles_of(*connectivity, *offsets);
-}
-
-}  // namespace
-
-std::vector<Triple> read_vtp(std::string_view bytes, const std::string& name) {
-  try {
-    return read_document(bytes);
-  } catch (const BadValue& bad) {
-    throw FileError(name + ": " + bad.what());
-  }
 }
 
 }  // namespace rondel::io

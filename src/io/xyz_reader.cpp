@@ -6,7 +6,6 @@
 #include "io/site_collector.h"
 #include "io/site_formats.h"
 #include "io/text_lines.h"
-#include "rondel/error.h"
 
 // Three numbers a line with blanks between; '#' starts a comment.
 namespace rondel::io {
@@ -22,7 +21,7 @@ void read_lines(TextLines& lines, const ReadJob& options, SiteTable& table) {
     }
     collector.add_point(
         {parse_number(words[0], "x"), parse_number(words[1], "y"), parse_number(words[2], "z")},
-        lines.number());
+        lines.line());
     collector.report_progress(lines.position(), lines.size());
   }
 }
@@ -31,11 +30,7 @@ void read_lines(TextLines& lines, const ReadJob& options, SiteTable& table) {
 
 void read_xyz(std::string_view bytes, const ReadJob& options, SiteTable& table) {
   TextLines lines(bytes);
-  try {
-    read_lines(lines, options, table);
-  } catch (const BadValue& bad) {
-    throw FileError(table.name + ":" + std::to_string(lines.number()) + ": " + bad.what());
-  }
+  at_line_of(lines, [&] { read_lines(lines, options, table); });
 }
 
 }  // namespace rondel::io

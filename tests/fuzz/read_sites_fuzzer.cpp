@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fuzz/fuzz_input.h"
+#include "io/bad_value.h"
 #include "io/site_formats.h"
 #include "rondel/error.h"
 
@@ -17,7 +18,7 @@ void test(std::string_view bytes, const ReadOptions& options) {
   SiteTable table;
   table.name = "name";
   try {
-    io::RONDEL_FUZZED_READER(bytes, {options, {}}, table);
+    io::in_file(table.name, [&] { io::RONDEL_FUZZED_READER(bytes, {options, {}}, table); });
   } catch (const FileError& error) {
     const std::string what = error.what();
     require(what.starts_with("name:"), "a message starts with the file: " + what);

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "fuzz/fuzz_input.h"
+#include "io/bad_value.h"
 #include "io/triangle_formats.h"
 #include "rondel/error.h"
 
@@ -14,7 +15,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;  // read_triangles() refuses it for all formats
   const std::string_view bytes(reinterpret_cast<const char*>(data), size);
   try {
-    static_cast<void>(io::RONDEL_FUZZED_READER(bytes, "name"));
+    io::in_file("name", [&] { return io::RONDEL_FUZZED_READER(bytes); });
   } catch (const FileError& error) {
     const std::string what = error.what();
     fuzz::require(what.starts_with("name:"), "a message starts with the file: " + what);
