@@ -14,12 +14,18 @@
 namespace rondel::inputs {
 namespace {
 
+// So many points, one drawn after the other.
+template <class Draw>
+Input drawn(std::size_t n, const Draw& draw) {
+  Input input;
+  input.sites.resize(n);
+  for (Point& site : input.sites) site = draw();
+  return input;
+}
+
 Input uniform(const Recipe& recipe) {
   Random random(recipe.seed);
-  Input input;
-  input.sites.resize(recipe.n);
-  for (Point& site : input.sites) site = random.direction();
-  return input;
+  return drawn(recipe.n, [&] { return random.direction(); });
 }
 
 // Equal steps in z; the longitude advances by the golden section of a turn. The turns are counted
@@ -145,23 +151,17 @@ Input cluster(const Recipe& recipe) {
   Random random(recipe.seed);
   std::vector<Cap> caps(1 + recipe.n / 1000);
   for (Cap& cap : caps) cap = make_cap(random, recipe.angle_deg);
-  Input input;
-  input.sites.resize(recipe.n);
-  for (Point& site : input.sites) {
+  return drawn(recipe.n, [&] {
     const Cap& cap = caps[random.below(caps.size())];
     const double t = random.unit();
-    site = in_cap(random, cap, t * t);
-  }
-  return input;
+    return in_cap(random, cap, t * t);
+  });
 }
 
 Input patch(const Recipe& recipe) {
   Random random(recipe.seed);
   const Cap cap = make_cap(random, recipe.angle_deg);
-  Input input;
-  input.sites.resize(recipe.n);
-  for (Point& site : input.sites) site = in_cap(random, cap, random.unit());
-  return input;
+  return drawn(recipe.n, [&] { return in_cap(random, cap, random.unit()); });
 }
 
 Input patch_and_globe(const Recipe& recipe) {
@@ -190,18 +190,12 @@ Input great_circle(const Recipe& recipe) { return on_parallel(recipe, 0); }
 
 Input ball(const Recipe& recipe) {
   Random random(recipe.seed);
-  Input input;
-  input.sites.resize(recipe.n);
-  for (Point& site : input.sites) site = random.in_ball();
-  return input;
+  return drawn(recipe.n, [&] { return random.in_ball(); });
 }
 
 Input cube(const Recipe& recipe) {
   Random random(recipe.seed);
-  Input input;
-  input.sites.resize(recipe.n);
-  for (Point& site : input.sites) site = random.in_cube();
-  return input;
+  return drawn(recipe.n, [&] { return random.in_cube(); });
 }
 
 // Of twelve uniform numbers: the tails are cut.
@@ -213,14 +207,11 @@ double normal(Random& random) {
 
 Input gaussian(const Recipe& recipe) {
   Random random(recipe.seed);
-  Input input;
-  input.sites.resize(recipe.n);
-  for (Point& site : input.sites) {
+  return drawn(recipe.n, [&] {
     const double x = normal(random);
     const double y = normal(random);
-    site = {x, y, normal(random)};
-  }
-  return input;
+    return Point{x, y, normal(random)};
+  });
 }
 
 Input mixed_weights(const Recipe& recipe) {

@@ -18,6 +18,7 @@
 #include "models/projected_points.h"
 #include "models/weighted_points.h"
 #include "rondel/dynamic.h"
+#include "system/on_failure.h"
 
 namespace rondel {
 
@@ -72,12 +73,8 @@ struct DynamicTriangulation::Impl {
     current();
     flat.reset();
     ++num_changes;
-    try {
-      return visit(change);
-    } catch (...) {
-      is_in_pieces = true;
-      throw;
-    }
+    const system::OnFailure undo([this] { is_in_pieces = true; });
+    return visit(change);
   }
 
   // The sites with these ids.

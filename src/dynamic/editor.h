@@ -13,6 +13,7 @@
 #pragma once
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -24,8 +25,10 @@
 #include "kernel/brio.h"
 #include "kernel/great_circle.h"
 #include "models/sphere_traits.h"
+#include "order/along_the_curve.h"
 #include "query/graph.h"
 #include "system/job.h"
+#include "system/on_failure.h"
 
 namespace rondel::dynamic {
 
@@ -57,53 +60,37 @@ class Editor {
   // `hint` is a site close to p, or no_index: the place to start is looked up.
   Index insert(const Point& p, Index hint) {
     const Index site = places_.add_site();
-    try {
-      sites_.rebind(places_.points(), places_.speakers());
-      arrive(site, p, hint);
-      renumber_if_due();
-    } catch (...) {
-      places_.roll_back({&site, 1}, false);
-      throw;
-    }
+    const system::OnFailure undo([&] { places_.roll_back({&site, 1}, false); });
+    sites_.rebind(places_.points(), places_.speakers());
+    arrive(site, p, hint);
+    renumber_if_due();
     return site;
   }
 
   // Ids in the order of `points`, although they are inserted in rounds along the spatial order.
   std::vector<Index> insert(std::span<const Point> points, const Execution& execution) {
-    const auto size = static_cast<Index>(points.size());
-    std::vector<std::pair<order::HilbertKey, Index>> order(size);
+    std::vector<Index> order(points.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    order::sort_along_the_curve(order, [&](Index i) { return places_.key(points[i]); });
     std::vector<Index> ids;
-    ids.reserve(size);
-    try {
-      for (Index i = 0; i < size; ++i) {
-        order[i] = {places_.key(points[i]), i};
-        ids.push_back(places_.add_site());
-      }
-      sites_.rebind(places_.points(), places_.speakers());
-      std::ranges::sort(order);
-      std::size_t num_done = 0;
-      for (const Index rank : kernel::insertion_order(size)) {
-        const Index i = order[rank].second;
-        arrive(ids[i], points[i], no_index);
-        renumber_if_due();
-        report(execution, ++num_done, size);
-      }
-    } catch (...) {
-      places_.roll_back(ids, false);
-      throw;
+    ids.reserve(points.size());
+    const system::OnFailure undo([&] { places_.roll_back(ids, false); });
+    while (ids.size() < points.size()) ids.push_back(places_.add_site());
+    sites_.rebind(places_.points(), places_.speakers());
+    std::size_t num_done = 0;
+    for (const Index rank : kernel::insertion_order(static_cast<Index>(points.size()))) {
+      arrive(ids[order[rank]], points[order[rank]], no_index);
+      renumber_if_due();
+      report(execution, ++num_done, points.size());
     }
     return ids;
   }
 
   void remove(Index site) {
-    try {
-      depart(site);
-      places_.free_site(site);
-      renumber_if_due();
-    } catch (...) {
-      places_.roll_back({&site, 1}, true);
-      throw;
-    }
+    const system::OnFailure undo([&] { places_.roll_back({&site, 1}, true); });
+    depart(site);
+    places_.free_site(site);
+    renumber_if_due();
   }
 
   // Backwards in the order in which a range is inserted: what is close leaves together, and what
@@ -115,81 +102,61 @@ class Editor {
     std::ranges::sort(order);
     std::vector<Index> ranks = kernel::insertion_order(static_cast<Index>(sites.size()));
     std::ranges::reverse(ranks);
-    try {
-      std::size_t num_done = 0;
-      for (const Index rank : ranks) {
-        depart(order[rank].second);
-        renumber_if_due();
-        report(execution, ++num_done, sites.size());
-      }
-      for (const Index site : sites) places_.free_site(site);
-    } catch (...) {
-      places_.roll_back(sites, true);
-      throw;
+    const system::OnFailure undo([&] { places_.roll_back(sites, true); });
+    std::size_t num_done = 0;
+    for (const Index rank : ranks) {
+      depart(order[rank].second);
+      renumber_if_due();
+      report(execution, ++num_done, sites.size());
     }
+    for (const Index site : sites) places_.free_site(site);
   }
 
   // One after the other; a site may appear again.
   void move(std::span<const Index> sites, std::span<const Point> to, const Execution& execution) {
     std::vector<Point> from;
     from.reserve(sites.size());
-    try {
-      for (std::size_t i = 0; i < sites.size(); ++i) {
-        from.push_back(places_.point(sites[i]));
-        depart(sites[i]);
-        arrive(sites[i], to[i], no_index);
-        renumber_if_due();
-        report(execution, i + 1, sites.size());
-      }
-    } catch (...) {
-      restore(sites, from);
-      throw;
+    const system::OnFailure undo([&] { restore(sites, from); });
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      from.push_back(places_.point(sites[i]));
+      depart(sites[i]);
+      arrive(sites[i], to[i], no_index);
+      renumber_if_due();
+      report(execution, i + 1, sites.size());
     }
   }
 
-  // The same three changes of ranges, where `build` takes the result of a build of all sites that
+  // Changes of ranges, where `build` takes the result of a build of all sites that
   // are then there, by assign().
   template <class Build>
   std::vector<Index> insert(std::span<const Point> points, const Build& build) {
     std::vector<Index> ids;
     ids.reserve(points.size());
-    try {
-      for (const Point& p : points) {
-        ids.push_back(places_.add_site());
-        places_.expect(ids.back());
-        places_.set_point(ids.back(), p);
-      }
-      build();
-    } catch (...) {
-      places_.roll_back(ids, false);
-      throw;
+    const system::OnFailure undo([&] { places_.roll_back(ids, false); });
+    for (const Point& p : points) {
+      ids.push_back(places_.add_site());
+      places_.expect(ids.back());
+      places_.set_point(ids.back(), p);
     }
+    build();
     return ids;
   }
   template <class Build>
   void remove(std::span<const Index> sites, const Build& build) {
-    try {
-      for (const Index site : sites) places_.drop(site);
-      build();
-    } catch (...) {
-      places_.roll_back(sites, true);
-      throw;
-    }
+    const system::OnFailure undo([&] { places_.roll_back(sites, true); });
+    for (const Index site : sites) places_.drop(site);
+    build();
   }
   template <class Build>
   void move(std::span<const Index> sites, std::span<const Point> to, const Build& build) {
     std::vector<Point> from;
     from.reserve(sites.size());
-    try {
-      for (std::size_t i = 0; i < sites.size(); ++i) {
-        from.push_back(places_.point(sites[i]));
-        places_.set_point(sites[i], to[i]);
-      }
-      build();
-    } catch (...) {
-      restore(sites, from);
-      throw;
+    const system::OnFailure undo([&] { restore(sites, from); });
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      from.push_back(places_.point(sites[i]));
+      places_.set_point(sites[i], to[i]);
     }
+    build();
   }
 
   // Takes the result of a build, instead of inserting each. At first assign_points(); then
@@ -221,7 +188,7 @@ class Editor {
   void refresh(Index place) { sites_.set(place, places_.points(), places_.speakers()); }
 
   // After a failed move: the first sites have left these points.
-  void restore(std::span<const Index> sites, std::span<const Point> from) {
+  void restore(std::span<const Index> sites, std::span<const Point> from) noexcept {
     for (std::size_t i = from.size(); i-- > 0;) places_.set_point(sites[i], from[i]);
     places_.roll_back(sites, true);
   }

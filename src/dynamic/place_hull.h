@@ -22,8 +22,7 @@
 #include "kernel/brio.h"
 #include "kernel/mutable_hull.h"
 #include "models/sphere_traits.h"
-#include "order/cube_position.h"
-#include "order/hilbert.h"
+#include "order/along_the_curve.h"
 #include "system/prefetch.h"
 #include "topology/mesh.h"
 
@@ -201,14 +200,9 @@ class PlaceHull {
   [[nodiscard]] std::vector<Index> in_spatial_order(std::vector<Index> places) const {
     constexpr std::size_t few = 8;
     if (places.size() <= few) return places;
-    std::vector<std::pair<order::HilbertKey, Index>> order;
-    order.reserve(places.size());
-    for (const Index p : places) {
-      const auto position = order::cube_position(hull_.sites().point(p), hull_.sites().center());
-      order.emplace_back(order::hilbert_key(position), p);
-    }
-    std::ranges::sort(order);
-    std::ranges::transform(order, places.begin(), [](const auto& entry) { return entry.second; });
+    order::sort_along_the_curve(places, [this](Index p) {
+      return order::place_key(hull_.sites().point(p), T::model, hull_.sites().center());
+    });
     return places;
   }
 

@@ -146,22 +146,14 @@ class FaceFinder {
     for (std::size_t i = 0; i < data.keys.size();) {
       std::size_t end = i + 1;
       while (end < data.keys.size() && data.keys[end] == data.keys[i]) ++end;
-      if (end - i > many_close) sort_close(std::span(data.indices).subspan(i, end - i));
+      if (end - i > many_close) {
+        order::sort_along_the_curve(std::span(data.indices).subspan(i, end - i), [this](Index k) {
+          return order::place_key(in_frame(k), Model::weighted, {});
+        });
+      }
       i = end;
     }
     return std::move(data.indices);
-  }
-
-  // Sites whose high keys agree.
-  void sort_close(std::span<Index> indices) const {
-    std::vector<std::pair<std::uint64_t, Index>> entries;
-    entries.reserve(indices.size());
-    for (const Index k : indices) {
-      entries.emplace_back(order::place_key(in_frame(k), Model::weighted, {}).low, k);
-    }
-    std::ranges::sort(entries);
-    std::ranges::transform(entries, indices.begin(),
-                           [](const auto& entry) { return entry.second; });
   }
 
   [[nodiscard]] Point in_frame(Index k) const {

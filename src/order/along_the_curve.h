@@ -6,6 +6,7 @@
 // which knows duplicates and ties, is spatial_order.h.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -36,6 +37,16 @@ KeyedIndices along_the_curve(std::vector<Index> indices, Model model, const Poin
       });
   radix_sort(sorted, high_key_bits);
   return sorted;
+}
+
+// Sorts a few indices by the whole key(i), and by themselves where points share a place.
+template <class KeyOf>
+void sort_along_the_curve(std::span<Index> indices, const KeyOf& key) {
+  std::vector<std::pair<HilbertKey, Index>> entries;
+  entries.reserve(indices.size());
+  for (const Index i : indices) entries.emplace_back(key(i), i);
+  std::ranges::sort(entries);
+  std::ranges::transform(entries, indices.begin(), [](const auto& entry) { return entry.second; });
 }
 
 }  // namespace rondel::order

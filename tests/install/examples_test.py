@@ -10,22 +10,13 @@ The expected texts are in tests/install/expected, one for each example.
 import difflib
 import pathlib
 import shutil
-import subprocess
 import sys
 import tempfile
 
+from commands import run
+
 ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "hull": [], "nearest": [],
              "editing": [], "stop": []}
-
-
-def run(command, **options):
-    """The standard output of a command; the test ends when it fails."""
-    done = subprocess.run(
-        [str(word) for word in command], capture_output=True, text=True, check=False, **options
-    )
-    if done.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
-    return done.stdout
 
 
 def build_examples(cmake, build, source, compiler, work):
