@@ -2,7 +2,14 @@
 # SPDX-License-Identifier: Apache-2.0
 include(CMakePackageConfigHelpers)
 
-install(TARGETS rondel rondel_io EXPORT rondelTargets
+set(RONDEL_TARGETS rondel rondel_io)
+set(RONDEL_PACKAGES rondel rondel-io)
+if(RONDEL_BUILD_C)
+  list(APPEND RONDEL_TARGETS rondel_c)
+  list(APPEND RONDEL_PACKAGES rondel-c)
+  install(FILES bindings/c/include/rondel.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
+install(TARGETS ${RONDEL_TARGETS} EXPORT rondelTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/rondel ${PROJECT_BINARY_DIR}/include/rondel
@@ -29,7 +36,7 @@ if(RONDEL_LIBRARY_TYPE STREQUAL SHARED_LIBRARY)
   set(RONDEL_LINK_RONDEL "")
   set(RONDEL_LINK_IO "")
 endif()
-foreach(name rondel rondel-io)
+foreach(name ${RONDEL_PACKAGES})
   configure_file(cmake/${name}.pc.in ${PROJECT_BINARY_DIR}/${name}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endforeach()

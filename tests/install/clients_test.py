@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Clients of the installed package that do not use CMake, of a plugin, and of the shared libraries.
 
-    clients_test.py pkg_config|plugin|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARY IO_LIBRARY
+    clients_test.py pkg_config|c|plugin|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARY IO_LIBRARY
 
-Each compiles client.cpp and compares what it prints.
+Each compiles client.cpp, that in C examples/c_interface.c, and compares what it prints.
 """
 
 import os
@@ -33,13 +33,13 @@ class Client:
         """A source of this test."""
         return self.source / "tests/install" / name
 
-    def package_flags(self):
-        """What pkg-config says of the installed package."""
+    def package_flags(self, package="rondel-io"):
+        """What pkg-config says of an installed package."""
         run([self.cmake, "--install", self.build, "--prefix", self.work / "prefix"])
         folders = {path.parent for path in (self.work / "prefix").rglob("rondel*.pc")}
         environment = {**os.environ, "PKG_CONFIG_PATH": ":".join(map(str, folders))}
         return shlex.split(
-            run(["pkg-config", "--cflags", "--libs", "rondel-io"], env=environment)
+            run(["pkg-config", "--cflags", "--libs", package], env=environment)
         )
 
     def expect(self, printed, times=1):
@@ -50,6 +50,15 @@ class Client:
     def pkg_config(self):
         """A program that knows the package by pkg-config alone."""
         run([*self.compile, self.file("client.cpp"), "-o", self.work / "client", *self.package_flags()])
+        self.expect(run([self.work / "client"]))
+
+    def c(self):
+        """A C program that knows the package by pkg-config alone."""
+        flags = self.package_flags("rondel-c")
+        folders = [flag[2:] for flag in flags if flag.startswith("-L")]
+        run(["cc", "-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Werror", self.source / "examples/c_interface.c",
+             "-o", self.work / "client", *flags, *(f"-Wl,-rpath,{folder}" for folder in folders)])
+        self.expected = self.file("expected/c_interface.txt").read_text(encoding="utf-8")
         self.expect(run([self.work / "client"]))
 
     def plugin(self):

@@ -16,7 +16,7 @@ import tempfile
 from commands import run
 
 ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "hull": [], "nearest": [],
-             "editing": [], "stop": []}
+             "editing": [], "stop": [], "c_interface": []}
 
 
 def build_examples(cmake, build, source, compiler, work):
@@ -41,7 +41,7 @@ def difference(source, name, printed):
 def main():
     cmake, build, source, compiler = sys.argv[1:]
     source = pathlib.Path(source)
-    programs = {path.stem for path in (source / "examples").glob("*.cpp")}
+    programs = {path.stem for path in (source / "examples").glob("*.c*")}
     if programs != set(ARGUMENTS):
         sys.exit(f"the examples are {sorted(programs)}, the test knows {sorted(ARGUMENTS)}")
     with tempfile.TemporaryDirectory() as folder:

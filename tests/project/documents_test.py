@@ -12,7 +12,8 @@ import sys
 import unittest
 
 ROOT = pathlib.Path(sys.argv.pop(1))
-PARTS_OF = {"cpp": sorted(ROOT.glob("examples/*.cpp")), "cmake": [ROOT / "examples/CMakeLists.txt"]}
+PARTS_OF = {"cpp": sorted(ROOT.glob("examples/*.cpp")), "c": sorted(ROOT.glob("examples/*.c")),
+            "cmake": [ROOT / "examples/CMakeLists.txt"]}
 
 
 def read(path):

@@ -1,0 +1,299 @@
+/* SPDX-FileCopyrightText: The Rondel authors
+ * SPDX-License-Identifier: Apache-2.0 */
+
+/**
+ * \file
+ * The C interface of Rondel: what C++ programs get from rondel/rondel.h, for C and for every language that can call C.
+ *
+ * 1. Functions that can fail return a status, 0 for success. After another status rondel_error_message() and
+ *    rondel_error_index() say more, what was to be written is unspecified, and a handle that was to be made is NULL.
+ *    A change of a rondel_dynamic that fails changes nothing.
+ * 2. Handles are made by a function whose last argument is where to put them, and freed by the rondel_..._free() of
+ *    their type, which takes NULL, too. Handles share what they need of each other and may be freed in any order.
+ *    Functions that return no status take handles that are not NULL.
+ * 3. Arrays that are passed are copied. Arrays that are returned belong to their handle, are never changed, and end
+ *    with it. An array of no elements may be NULL, given or returned.
+ * 4. Points are three doubles, x y z, so that n points are 3n doubles. Indices are 32 bits, RONDEL_NO_INDEX is none.
+ *    Angles are radians unless their name ends in _deg. The numbering, the order and the meaning of all results are
+ *    those of the C++ headers that are named below: the same bytes on every machine, for every number of threads.
+ * 5. Handles that are const may be used by several threads at once.
+ * 6. This interface grows by new functions only: what is declared here stays as it is while RONDEL_C_ABI is 1. The
+ *    structs tell their size, so that they can grow at their ends: initialize them by their macros or functions.
+ */
+#ifndef RONDEL_C_H
+#define RONDEL_C_H
+/* NOLINTBEGIN(modernize-*,readability-identifier-naming): this is C */
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(_WIN32) && defined(RONDEL_C_BUILD)
+#define RONDEL_C_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define RONDEL_C_API __declspec(dllimport)
+#else
+#define RONDEL_C_API __attribute__((visibility("default")))
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define RONDEL_C_ABI 1
+#define RONDEL_NO_INDEX UINT32_MAX
+
+/* ---- Versions and errors ---- */
+
+/** "0.1.0": of the library that runs, which may be newer than this header. */
+RONDEL_C_API const char* rondel_version_string(void);
+
+typedef int32_t rondel_status;
+enum {
+  RONDEL_OK = 0,
+  RONDEL_INVALID_INPUT =
+      1, /**< an argument breaks its contract; rondel_error_index() says which element */
+  RONDEL_INTERRUPTED = 2, /**< a stop was requested, or a progress function returned non-zero */
+  RONDEL_OUT_OF_MEMORY = 3,
+  RONDEL_FAILED = 4 /**< anything else, such as threads that the system refuses */
+};
+
+/** One line about the last call of this thread that failed; "" before. Valid until this thread calls again. */
+RONDEL_C_API const char* rondel_error_message(void);
+/** The first offending position of the array that the message names; 0 where there is none. */
+RONDEL_C_API size_t rondel_error_index(void);
+
+/* ---- What and how ---- */
+
+enum {
+  RONDEL_PROJECTED = 0, /**< a site is its exact projection on the sphere: Delaunay, Voronoi */
+  RONDEL_WEIGHTED = 1   /**< a site is the circle whose pole it is: regular triangulation */
+};
+
+/** rondel/types.h: Options. NULL stands for the default: RONDEL_PROJECTED on the unit sphere around the origin. */
+typedef struct rondel_options {
+  size_t size; /**< sizeof(rondel_options) */
+  int32_t model;
+  double center[3];
+  double squared_radius;
+} rondel_options;
+
+RONDEL_C_API void rondel_options_init(rondel_options* options);
+
+/** A request to stop, made by any thread. */
+typedef struct rondel_stop rondel_stop;
+RONDEL_C_API rondel_status rondel_stop_create(rondel_stop** stop);
+/** Work that was given this stop ends soon, with RONDEL_INTERRUPTED. May be called from a signal handler. */
+RONDEL_C_API void rondel_stop_request(rondel_stop* stop);
+RONDEL_C_API void rondel_stop_free(rondel_stop* stop);
+
+/** Called now and then by one thread at a time, any of those that work, with the fraction of a stage that is done.
+ *  Anything but 0 ends the work with RONDEL_INTERRUPTED. */
+typedef int32_t (*rondel_progress)(void* context, const char* stage, double fraction);
+
+/** rondel/types.h: Execution. NULL stands for the default: a thread for each core, no progress, no stop. No result
+ *  depends on it. */
+typedef struct rondel_execution {
+  size_t size;      /**< sizeof(rondel_execution) */
+  uint32_t threads; /**< at most; 0: one for each core */
+  rondel_progress progress;
+  void* context; /**< for `progress` */
+  const rondel_stop* stop;
+} rondel_execution;
+
+RONDEL_C_API void rondel_execution_init(rondel_execution* execution);
+
+/* ---- Sites (rondel/delaunay.h) ---- */
+
+/** The unit vectors, shape (n, 3), of n positions: longitude and latitude in degrees, shape (n, 2). */
+RONDEL_C_API rondel_status rondel_unit_vectors(const double* lonlat_deg, size_t n, double* points);
+
+/** The weighted sites, shape (n, 3), of n circles: centers as above, angular radii in [0, 90) degrees. */
+RONDEL_C_API rondel_status rondel_polar_points(const double* lonlat_deg, const double* radii_deg,
+                                               size_t n, double* points);
+
+/* ---- Triangulations (rondel/delaunay.h, triangulation.h, hull.h, check.h) ---- */
+
+typedef struct rondel_triangulation rondel_triangulation;
+
+/** The Delaunay or regular triangulation of n points.
+ *  RONDEL_INVALID_INPUT: a coordinate is not finite, a projected site is the center, the sphere is not valid. */
+RONDEL_C_API rondel_status rondel_delaunay(const double* points, size_t n,
+                                           const rondel_options* options,
+                                           const rondel_execution* execution,
+                                           rondel_triangulation** triangulation);
+
+/** The convex hull of n points in space. */
+RONDEL_C_API rondel_status rondel_convex_hull(const double* points, size_t n,
+                                              const rondel_execution* execution,
+                                              rondel_triangulation** hull);
+
+RONDEL_C_API void rondel_triangulation_free(rondel_triangulation* triangulation);
+
+/** -1 without sites; 0: one vertex; 1: all on one great circle, in rondel_ring(); 2: a closed surface of faces. */
+RONDEL_C_API int32_t rondel_dimension(const rondel_triangulation* triangulation);
+/** RONDEL_PROJECTED or RONDEL_WEIGHTED. */
+RONDEL_C_API int32_t rondel_model(const rondel_triangulation* triangulation);
+/** Of a hull: the center that was chosen. */
+RONDEL_C_API void rondel_center(const rondel_triangulation* triangulation, double center[3]);
+/** "ring", "incremental", "sphere", "blocks", or "given" for a snapshot. */
+RONDEL_C_API const char* rondel_builder(const rondel_triangulation* triangulation);
+
+RONDEL_C_API size_t rondel_num_sites(const rondel_triangulation* triangulation);
+RONDEL_C_API size_t rondel_num_vertices(const rondel_triangulation* triangulation);
+RONDEL_C_API size_t rondel_num_faces(const rondel_triangulation* triangulation);
+RONDEL_C_API size_t rondel_num_ghost_faces(const rondel_triangulation* triangulation);
+RONDEL_C_API size_t rondel_num_ring(const rondel_triangulation* triangulation);
+RONDEL_C_API size_t rondel_num_duplicates(const rondel_triangulation* triangulation);
+RONDEL_C_API size_t rondel_num_hidden(const rondel_triangulation* triangulation);
+
+/** The sites, shape (num_sites, 3). */
+RONDEL_C_API const double* rondel_points(const rondel_triangulation* triangulation);
+/** Corners of the faces, counterclockwise seen from outside, shape (num_faces, 3). */
+RONDEL_C_API const uint32_t* rondel_faces(const rondel_triangulation* triangulation);
+/** The face across the edge opposite to each corner, shape (num_faces, 3). */
+RONDEL_C_API const uint32_t* rondel_neighbors(const rondel_triangulation* triangulation);
+/** The faces that the center does not see from inside, increasing, shape (num_ghost_faces,). */
+RONDEL_C_API const uint32_t* rondel_ghost_faces(const rondel_triangulation* triangulation);
+/** Below dimension 2: the vertices in their order around the great circle, shape (num_ring,). */
+RONDEL_C_API const uint32_t* rondel_ring(const rondel_triangulation* triangulation);
+/** Pairs of a site and the lowest one in the same place, increasing, shape (num_duplicates, 2). */
+RONDEL_C_API const uint32_t* rondel_duplicates(const rondel_triangulation* triangulation);
+/** Pairs of a site that is no vertex and a face below which it lies, increasing, shape (num_hidden, 2). */
+RONDEL_C_API const uint32_t* rondel_hidden(const rondel_triangulation* triangulation);
+
+/** Proves or refutes that m triangles, shape (m, 3), are the faces of the triangulation of n points. RONDEL_OK, and
+ *  whether they are; if not, rondel_error_message() says what is wrong. */
+RONDEL_C_API rondel_status rondel_check(const double* points, size_t n, const uint32_t* triangles,
+                                        size_t m, const rondel_options* options,
+                                        const rondel_execution* execution, int32_t* is_valid);
+
+/** Of a triangulation that rondel_convex_hull() made. */
+RONDEL_C_API rondel_status rondel_size_of_hull(const rondel_triangulation* hull, double* volume,
+                                               double* area);
+
+/* ---- Duals (rondel/diagram.h) ---- */
+
+/** Circumcenters or power centers, unit vectors, shape (num_faces, 3). */
+RONDEL_C_API rondel_status rondel_circumcenters(const rondel_triangulation* triangulation,
+                                                const rondel_execution* execution, double* centers);
+/** Areas of the cells in steradians, shape (num_sites,). */
+RONDEL_C_API rondel_status rondel_areas(const rondel_triangulation* triangulation,
+                                        const rondel_execution* execution, double* areas);
+/** Directions of the cells' centers of mass, unit vectors, shape (num_sites, 3). */
+RONDEL_C_API rondel_status rondel_centroids(const rondel_triangulation* triangulation,
+                                            const rondel_execution* execution, double* centroids);
+/** Edges, lower index first, in lexicographic order: writes at most `capacity` of them, shape (capacity, 2), and how
+ *  many there are. */
+RONDEL_C_API rondel_status rondel_edges(const rondel_triangulation* triangulation, uint32_t* edges,
+                                        size_t capacity, size_t* num_edges);
+
+/** The cells of all sites and their areas. */
+typedef struct rondel_diagram rondel_diagram;
+RONDEL_C_API rondel_status rondel_diagram_create(const rondel_triangulation* triangulation,
+                                                 const rondel_execution* execution,
+                                                 rondel_diagram** diagram);
+RONDEL_C_API void rondel_diagram_free(rondel_diagram* diagram);
+/** The ring of site i is rings[offsets[i]] ... rings[offsets[i + 1] - 1]; shape (num_sites + 1,). */
+RONDEL_C_API const uint64_t* rondel_cell_offsets(const rondel_diagram* diagram);
+/** Positions in rondel_cell_points(), counterclockwise seen from outside. */
+RONDEL_C_API const uint32_t* rondel_cell_rings(const rondel_diagram* diagram);
+/** Unit vectors, shape (num_cell_points, 3); first the circumcenters of all faces. */
+RONDEL_C_API const double* rondel_cell_points(const rondel_diagram* diagram);
+RONDEL_C_API size_t rondel_num_cell_points(const rondel_diagram* diagram);
+/** Steradians, shape (num_sites,). */
+RONDEL_C_API const double* rondel_cell_areas(const rondel_diagram* diagram);
+
+/** Lists of indices in compressed rows. */
+typedef struct rondel_lists rondel_lists;
+RONDEL_C_API void rondel_lists_free(rondel_lists* lists);
+RONDEL_C_API size_t rondel_num_lists(const rondel_lists* lists);
+/** List i is items[offsets[i]] ... items[offsets[i + 1] - 1]; shape (num_lists + 1,). */
+RONDEL_C_API const uint64_t* rondel_list_offsets(const rondel_lists* lists);
+RONDEL_C_API const uint32_t* rondel_list_items(const rondel_lists* lists);
+
+/** The facets with their cocircular sites, as lists of corners. */
+RONDEL_C_API rondel_status rondel_merge_cocircular(const rondel_triangulation* triangulation,
+                                                   const rondel_execution* execution,
+                                                   rondel_lists** facets);
+
+/* ---- Questions (rondel/query.h) ---- */
+
+typedef struct rondel_dynamic rondel_dynamic;
+typedef struct rondel_locator rondel_locator;
+
+RONDEL_C_API rondel_status rondel_locator_create(const rondel_triangulation* triangulation,
+                                                 rondel_locator** locator);
+/** After the next change of `dynamic` its answers are RONDEL_INVALID_INPUT. Sites are ids. */
+RONDEL_C_API rondel_status rondel_locator_create_dynamic(const rondel_dynamic* dynamic,
+                                                         rondel_locator** locator);
+RONDEL_C_API void rondel_locator_free(rondel_locator* locator);
+
+/** The nearest vertex of each of n points, shape (n,); of several the lowest. */
+RONDEL_C_API rondel_status rondel_nearest(const rondel_locator* locator, const double* points,
+                                          size_t n, const rondel_execution* execution,
+                                          uint32_t* sites);
+/** The k nearest vertices of each of n points in order of distance, shape (n, k), filled up with RONDEL_NO_INDEX. */
+RONDEL_C_API rondel_status rondel_k_nearest(const rondel_locator* locator, const double* points,
+                                            size_t n, size_t k, const rondel_execution* execution,
+                                            uint32_t* sites);
+/** The vertices within an angle in radians of each of n points, as lists in increasing order. */
+RONDEL_C_API rondel_status rondel_within(const rondel_locator* locator, const double* points,
+                                         size_t n, double angle, const rondel_execution* execution,
+                                         rondel_lists** sites);
+
+enum { RONDEL_VERTEX = 0, RONDEL_EDGE = 1, RONDEL_FACE = 2, RONDEL_OUTSIDE = 3 };
+/** What the rays through n points meet: `where` of shape (n,); a face that has it, shape (n,); its sites: one, two or
+ *  three, then RONDEL_NO_INDEX, shape (n, 3). */
+RONDEL_C_API rondel_status rondel_locate(const rondel_locator* locator, const double* points,
+                                         size_t n, const rondel_execution* execution,
+                                         int32_t* where, uint32_t* faces, uint32_t* sites);
+/** The distance in radians between one point and a site. */
+RONDEL_C_API rondel_status rondel_distance(const rondel_locator* locator, const double point[3],
+                                           uint32_t site, double* distance);
+
+/* ---- Changes (rondel/dynamic.h) ---- */
+
+/** With n sites, whose ids are 0 ... n-1. */
+RONDEL_C_API rondel_status rondel_dynamic_create(const double* points, size_t n,
+                                                 const rondel_options* options,
+                                                 const rondel_execution* execution,
+                                                 rondel_dynamic** dynamic);
+RONDEL_C_API void rondel_dynamic_free(rondel_dynamic* dynamic);
+
+/** Adds n sites and writes their ids, shape (n,). */
+RONDEL_C_API rondel_status rondel_insert(rondel_dynamic* dynamic, const double* points, size_t n,
+                                         const rondel_execution* execution, uint32_t* ids);
+RONDEL_C_API rondel_status rondel_remove(rondel_dynamic* dynamic, const uint32_t* ids, size_t n,
+                                         const rondel_execution* execution);
+/** Moves site ids[i] to point i. */
+RONDEL_C_API rondel_status rondel_move(rondel_dynamic* dynamic, const uint32_t* ids,
+                                       const double* points, size_t n,
+                                       const rondel_execution* execution);
+
+RONDEL_C_API size_t rondel_dynamic_num_sites(const rondel_dynamic* dynamic);
+/** The ids in use, increasing, shape (dynamic_num_sites,). */
+RONDEL_C_API rondel_status rondel_dynamic_ids(const rondel_dynamic* dynamic, uint32_t* ids);
+/** The vertices adjacent to a vertex, counterclockwise from the lowest: one list. */
+RONDEL_C_API rondel_status rondel_dynamic_neighbors(const rondel_dynamic* dynamic, uint32_t id,
+                                                    rondel_lists** ids);
+/** The triangulation as it is now; its site i is the i-th of rondel_dynamic_ids(). */
+RONDEL_C_API rondel_status rondel_dynamic_snapshot(const rondel_dynamic* dynamic,
+                                                   rondel_triangulation** snapshot);
+
+/* ---- Predicates (rondel/predicates.h), exact ---- */
+
+/** Writes -1, 0 or 1: the sign of det(a - o, b - o, c - o), o the center of the sphere. */
+RONDEL_C_API rondel_status rondel_orientation(const double a[3], const double b[3],
+                                              const double c[3], const rondel_options* options,
+                                              int32_t* sign);
+/** Writes 1 if p is in conflict with the face a, b, c: outside its plane; 0 if all four are in one. */
+RONDEL_C_API rondel_status rondel_side_of_circle(const double a[3], const double b[3],
+                                                 const double c[3], const double p[3],
+                                                 const rondel_options* options, int32_t* sign);
+
+#ifdef __cplusplus
+}
+#endif
+
+/* NOLINTEND(modernize-*,readability-identifier-naming) */
+#endif /* RONDEL_C_H */
