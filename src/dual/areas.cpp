@@ -17,6 +17,7 @@
 
 #include "dual/local_ring.h"
 #include "dual/parts.h"
+#include "exact/argument.h"
 
 namespace rondel::dual {
 namespace {
@@ -41,7 +42,7 @@ double area_of(const LocalRing& ring) {
     }
     last = &p;
   }
-  const double half = std::atan2(im, re);
+  const double half = exact::argument(im, re);
   // Rounding may move a vanishing area below 0 and a hemisphere above pi.
   if (half >= 0) return 2 * half;
   return half > -std::numbers::pi / 2 ? 0 : 2 * half + 4 * std::numbers::pi;

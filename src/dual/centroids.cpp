@@ -13,6 +13,7 @@
 #include "dual/great_circle_diagrams.h"
 #include "dual/local_ring.h"
 #include "dual/parts.h"
+#include "exact/argument.h"
 #include "rondel/diagram.h"
 #include "system/job.h"
 
@@ -35,7 +36,7 @@ Vec offset_from_origin(const Vec& q, const RingPoint& p) {
 double arc_excess(double sine, double cosine) {
   constexpr double series_limit = 0x1p-6;
   if (sine > series_limit || cosine < 0) {
-    return sine == 0 ? 0 : std::atan2(sine, cosine) / sine - 1;
+    return sine == 0 ? 0 : exact::argument(sine, cosine) / sine - 1;
   }
   // asin(s)/s - 1; the first omitted term is below 2^-6^10 / 28.
   const double x = sine * sine;

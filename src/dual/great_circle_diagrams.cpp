@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "dual/face_normal.h"
+#include "exact/argument.h"
 
 namespace rondel::dual {
 namespace {
@@ -80,7 +81,7 @@ Cells lunes(const SplitSites& sites, std::span<const Index> ring, std::size_t nu
 double half_angle(const SplitSites& sites, const Vec& axis, Index a, Index b) {
   const Vec d = sites.difference(a, b);
   const Vec s = to_vector(sites[a].hi) + to_vector(sites[b].hi);
-  const double half = std::atan2(std::sqrt(dot(d, d)), std::sqrt(dot(s, s)));
+  const double half = exact::argument(std::sqrt(dot(d, d)), std::sqrt(dot(s, s)));
   const Vec e = sites.direction(a, b);
   return det(axis, to_vector(sites[a].hi), e) < 0 ? pi - half : half;
 }
@@ -93,10 +94,10 @@ double exterior_angle(const SplitSites& sites, const Vec& axis, Index a, Index b
   if (std::min(dot(e.hi, e.hi), dot(f.hi, f.hi)) < underflow_square) {
     const Vec from = sites.direction(a, b);
     const Vec to = sites.direction(b, c);
-    return std::abs(std::atan2(dot(axis, cross(from, to)), dot(from, to)));
+    return std::abs(exact::argument(dot(axis, cross(from, to)), dot(from, to)));
   }
   const double turn = dot(axis, split_cross(e, f).rounded());
-  return std::abs(std::atan2(turn, dot(e.hi, f.hi)));
+  return std::abs(exact::argument(turn, dot(e.hi, f.hi)));
 }
 
 double lune_angle(const SplitSites& sites, const Vec& axis, Index a, Index b, Index c) {

@@ -11,4 +11,5 @@ rondel_add_test(dual_test
   dual_circumcenters_test.cpp
   dual_face_batch_test.cpp
   dual_facets_test.cpp
+  exact_argument_test.cpp
   LIBS rondel_dual_support)

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// With q the larger and p the smaller of |x| and |y|, and c = k/8 the eighth next to p/q,
+//
+//     atan(p/q) = atan(c) + atan(u),   u = (p - c q) / (q + c p),   |u| <= 1/16,
+//
+// and the octant tells what is added to or taken from atan(p/q).
+
+#include "exact/argument.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "exact/eft.h"
+
+namespace rondel::exact {
+namespace {
+
+// atan(k/8) as a sum of two doubles; a test would notice if one were off.
+constexpr std::array<DoubleDouble, 9> arctangents = {{
+    {0, 0},
+    {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
+    {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
+    {0x1.6f61941e4def1p-2, -0x1.c63aae6f6e918p-56},
+    {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
+    {0x1.1e00babdefeb4p-1, -0x1.928df287a668fp-58},
+    {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
+    {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
+    {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55},
+}};
+
+// u - atan(u), by its series up to u^13; what follows is below 2^-59 u.
+double excess_over_arctangent(double u) {
+  const double s = u * u;
+  return u * s *
+         (1.0 / 3 -
+          s * (1.0 / 5 - s * (1.0 / 7 - s * (1.0 / 9 - s * (1.0 / 11 - s * (1.0 / 13))))));
+}
+
+// Of numbers so large that a sum could overflow, or so small that a product could lose digits, the
+// argument is that of others.
+double scale_for(double largest) {
+  if (largest > 0x1p1000) return 0x1p-100;
+  return largest < 0x1p-900 ? 0x1p120 : 1;
+}
+
+}  // namespace
+
+double argument(double y, double x) {
+  const double scale = scale_for(std::max(std::abs(x), std::abs(y)));
+  const double width = scale * std::abs(x);
+  const double height = scale * std::abs(y);
+  const bool is_steep = height > width;
+  const double p = is_steep ? width : height;
+  const double q = is_steep ? height : width;
+  if (q == 0) return y;
+
+  const double ratio = p / q;
+  const int k = static_cast<int>(8 * ratio + 0.5);
+  const double c = 0.125 * k;
+  const double u = k == 0 ? ratio : (p - c * q) / (q + c * p);
+  const DoubleDouble& base = arctangents[static_cast<std::size_t>(k)];
+  const double rest = base.lo + (u - excess_over_arctangent(u));  // atan(p/q) less base.hi
+
+  // turn +- atan(p/q), where turn is 0, pi/2 or pi.
+  const bool is_left = x < 0;
+  const DoubleDouble quarter = {2 * arctangents[8].hi, 2 * arctangents[8].lo};
+  const double quarters = is_steep ? 1 : (is_left ? 2 : 0);
+  const double sign = is_steep == is_left ? 1 : -1;
+  const DoubleDouble head = two_sum(quarters * quarter.hi, sign * base.hi);
+  const double result = head.hi + (head.lo + (quarters * quarter.lo + sign * rest));
+  return std::copysign(result, y);
+}
+
+}  // namespace rondel::exact
