@@ -2,8 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 include(CMakePackageConfigHelpers)
 
-set(RONDEL_TARGETS rondel rondel_io)
-set(RONDEL_PACKAGES rondel rondel-io)
+set(RONDEL_TARGETS rondel)
+set(RONDEL_PACKAGES rondel)
+set(RONDEL_HEADERS_LEFT_OUT PATTERN io.h EXCLUDE PATTERN polygons.h EXCLUDE)
+if(RONDEL_BUILD_IO)
+  list(APPEND RONDEL_TARGETS rondel_io)
+  list(APPEND RONDEL_PACKAGES rondel-io)
+  set(RONDEL_HEADERS_LEFT_OUT "")
+endif()
+if(TARGET rondel_wasm_exceptions)
+  list(APPEND RONDEL_TARGETS rondel_wasm_exceptions)
+endif()
 if(RONDEL_BUILD_C)
   list(APPEND RONDEL_TARGETS rondel_c)
   list(APPEND RONDEL_PACKAGES rondel-c)
@@ -13,7 +22,7 @@ install(TARGETS ${RONDEL_TARGETS} EXPORT rondelTargets
         ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
         LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(DIRECTORY include/rondel ${PROJECT_BINARY_DIR}/include/rondel
-        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+        DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h" ${RONDEL_HEADERS_LEFT_OUT})
 install(EXPORT rondelTargets NAMESPACE rondel::
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondel)
 configure_package_config_file(cmake/rondelConfig.cmake.in ${PROJECT_BINARY_DIR}/rondelConfig.cmake
@@ -26,7 +35,10 @@ install(FILES ${PROJECT_BINARY_DIR}/rondelConfig.cmake ${PROJECT_BINARY_DIR}/ron
 # For pkg-config: what a static library needs is linked with it, what a shared one needs it finds itself.
 file(RELATIVE_PATH RONDEL_PREFIX_FROM_PKGCONFIG
      ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
-set(RONDEL_LINK_RONDEL "-pthread")
+set(RONDEL_LINK_RONDEL "")
+if(RONDEL_PARALLEL)
+  string(APPEND RONDEL_LINK_RONDEL "-pthread")
+endif()
 if(RONDEL_HAS_TBB)
   string(APPEND RONDEL_LINK_RONDEL " -ltbb")
 endif()

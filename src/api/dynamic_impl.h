@@ -18,6 +18,7 @@
 #include "models/projected_points.h"
 #include "models/weighted_points.h"
 #include "rondel/dynamic.h"
+#include "system/mutex.h"
 #include "system/on_failure.h"
 
 namespace rondel {
@@ -42,8 +43,8 @@ struct DynamicTriangulation::Impl {
   // are const may be called meanwhile.
   template <class Read>
   auto read_places(const Read& read) const {
-    std::unique_lock guard(mutex, std::defer_lock);
-    if (is_in_pieces) guard.lock();
+    if (!is_in_pieces) return read(places());
+    const std::lock_guard guard(mutex);
     return read(places());
   }
 
@@ -91,7 +92,7 @@ struct DynamicTriangulation::Impl {
   std::variant<dynamic::Editor<models::ProjectedPoints>, dynamic::Editor<models::WeightedPoints>>
       editor;
   std::atomic<bool> is_in_pieces = false;
-  mutable std::mutex mutex;
+  mutable system::Mutex mutex;
   mutable std::optional<Snapshot> flat;
   std::uint64_t num_changes = 0;  // those that failed, too
 };

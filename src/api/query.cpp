@@ -19,6 +19,7 @@
 #include "query/engine.h"
 #include "rondel/error.h"
 #include "system/job.h"
+#include "system/mutex.h"
 
 namespace rondel {
 namespace {
@@ -144,7 +145,7 @@ class Locator::Impl {
 SiteLists Locator::Impl::within(std::span<const Point> queries, const Limit& limit,
                                 unsigned threads) const {
   std::vector<RangeLists> ranges;
-  std::mutex mutex;
+  system::Mutex mutex;
   for_each_range(queries, threads, [&](std::span<const Index> range, Cursor& cursor) {
     RangeLists lists;
     lists.queries.assign(range.begin(), range.end());

@@ -19,6 +19,7 @@
 #include "exact/eft.h"
 #include "models/with_model.h"
 #include "system/huge_pages.h"
+#include "system/mutex.h"
 #include "system/parallel.h"
 #include "system/stage_progress.h"
 
@@ -147,7 +148,7 @@ class SphereTriangulation {
   SquareCoordinates coordinates_;
   Vector* directions_ = nullptr;  // not with weights
   PlaneGraph graph_;
-  std::mutex mutex_;  // of what follows
+  system::Mutex mutex_;  // of what follows
   Tally tally_;
   // The rest counts as one lune more.
   system::StageProgress progress_{input_.options.progress, "triangulate", num_lunes + 1};

@@ -15,6 +15,7 @@
 #include "bulk/stitch.h"
 #include "models/with_model.h"
 #include "predicates/rung.h"
+#include "system/mutex.h"
 #include "system/parallel.h"
 #include "system/stage_progress.h"
 
@@ -68,7 +69,7 @@ class Work {
  private:
   system::StageProgress progress_;
   std::size_t most_sites_ = 0;  // of a block
-  std::mutex mutex_;
+  system::Mutex mutex_;
   std::vector<std::unique_ptr<Workspace<T>>> free_;
 };
 

@@ -77,7 +77,7 @@ std::string find_uncovered(const Surface& surface, const PerturbedSites& sites, 
   while (contains(surface.face(face), pole)) ++face;
   for (const Index site : in_spatial_order(sites, candidates)) {
     Index above = no_index;
-    for (std::size_t steps = 0; above == no_index; ++steps) {
+    for ([[maybe_unused]] std::size_t steps = 0; above == no_index; ++steps) {
       assert(steps <= surface.num_faces());
       const Index h = edge_towards(surface, sites, pole, face, site);
       if (h == no_index) {

@@ -17,6 +17,11 @@ namespace rondel::system {
 namespace {
 
 constexpr std::size_t page = std::size_t{2} << 20;
+#if defined(__wasm__)
+constexpr bool has_huge_pages = false;
+#else
+constexpr bool has_huge_pages = true;
+#endif
 
 }  // namespace
 
@@ -38,7 +43,8 @@ namespace rondel::detail {
 // memory begins stands before it.
 void* allocate_large(std::size_t bytes) {
   constexpr std::size_t cache_line = 64;
-  const std::size_t alignment = bytes < system::page ? cache_line : system::page;
+  const std::size_t alignment =
+      !system::has_huge_pages || bytes < system::page ? cache_line : system::page;
   void* const begin = ::operator new(bytes + alignment + sizeof(void*));
   void* memory = static_cast<void**>(begin) + 1;
   std::size_t room = bytes + alignment;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <new>
 #include <type_traits>
 #include <vector>
 
@@ -29,6 +30,7 @@ using LargeArray = std::unique_ptr<T[], FreeLarge>;
 template <class T>
 LargeArray<T> make_large_array(std::size_t size) {
   static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
+  if (size > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_alloc();
   return LargeArray<T>(static_cast<T*>(detail::allocate_large(size * sizeof(T))));
 }
 
