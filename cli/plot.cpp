@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel plot: figures of the triangulation and its dual on the globe.
+// rondel plot: figures of the triangulation and its dual on the globe, and pages to turn it.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,9 @@
 #include "command.h"
 #include "globe.h"
 #include "plot_draw.h"
+#include "plot_page.h"
 #include "rondel/diagram.h"
+#include "rondel/globe.h"
 #include "validate.h"
 
 namespace rondel::cli {
@@ -32,8 +34,10 @@ struct PlotOptions {
   std::optional<Show> show;  // none: the cells if they are filled, otherwise the triangulation
   Fill fill = Fill::none;
   bool show_circles = false;
+  std::string values;        // --values: a column; empty: none
   std::vector<double> view;  // LON LAT, or empty
   double up_deg = 0;
+  std::string only_pictures;  // an option that was given and that pages do not have; empty: none
 };
 
 std::optional<FigureFormat> figure_format(const std::string& name) {
@@ -128,15 +132,70 @@ void warn_of_size(const PlotOptions& options, const Figure& figure, FigureFormat
             << " arcs and will be large; a .png is small\n";
 }
 
-ExitStatus run_plot(const PlotOptions& options) {
-  const auto format = figure_format(options.common.format());
-  require_output(options.common, format.has_value(), ".png .svg .pdf");
+GlobeLines lines_of(const PlotOptions& options) {
+  const bool is_filled = options.fill == Fill::area || !options.values.empty();
+  switch (options.show.value_or(is_filled ? Show::voronoi : Show::delaunay)) {
+    case Show::voronoi:
+      return GlobeLines::voronoi;
+    case Show::both:
+      return GlobeLines::both;
+    default:
+      return GlobeLines::delaunay;
+  }
+}
+
+GlobeOptions globe_options(const PlotOptions& options) {
+  GlobeOptions globe;
+  globe.title = title_of(options.common.input);
+  globe.lines = lines_of(options);
+  globe.fill = options.fill == Fill::area ? GlobeFill::area
+               : !options.values.empty()  ? GlobeFill::values
+                                          : GlobeFill::none;
+  globe.show_sites = options.style.show_sites;
+  globe.show_circles = options.show_circles;
+  globe.graticule_deg = options.style.graticule_deg;
+  if (!options.view.empty()) globe.view = LonLat{options.view[0], options.view[1]};
+  globe.up_deg = options.up_deg;
+  globe.value_name = options.values;
+  return globe;
+}
+
+ExitStatus run_page(const PlotOptions& options) {
+  if (!options.only_pictures.empty())
+    throw UsageError(options.only_pictures + ": a page has no such option");
+  CommonOptions common = options.common;
+  common.read.keep_columns = true;
+  Job job(common);
+  const SiteTable table = job.read();
+  GlobeOptions globe = globe_options(options);
+  std::vector<double> values;
+  if (!options.values.empty()) values = column_values(table, options.values);
+  globe.values = values;
+  const Triangulation triangulation = job.triangulate(table);
+  Diagram both;
+  job.time(Stage::dual, [&] { both = diagram(triangulation, job.execution()); });
+  job.time(Stage::write,
+           [&] { write_globe(common.output, table, triangulation, both, globe, job.execution()); });
+  job.report(triangulation, "the page");
+  return done;
+}
+
+void require_view(const PlotOptions& options) {
   if (!options.view.empty() && std::abs(options.view[1]) > 90) {
     throw UsageError("--view: the latitude is outside [-90, 90]");
   }
   if (options.show_circles && options.common.build.model != Model::weighted) {
     throw UsageError("--circles: sites are circles with --radius or --model weighted");
   }
+}
+
+ExitStatus run_plot(const PlotOptions& options) {
+  const bool is_page = options.common.format() == "html";
+  const auto format = figure_format(options.common.format());
+  require_output(options.common, is_page || format.has_value(), ".png .svg .pdf .html");
+  require_view(options);
+  if (is_page) return run_page(options);
+  if (!options.values.empty()) throw UsageError("--values: only a page (.html) shows values");
   Job job(options.common);
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
@@ -176,11 +235,15 @@ void add_choice(CLI::App& parser, const std::string& name, Target& target,
 void add_content_options(CLI::App& parser, PlotOptions& options) {
   add_choice<Show>(parser, "--show", options.show,
                    {{"delaunay", Show::delaunay}, {"voronoi", Show::voronoi}, {"both", Show::both}},
-                   "delaunay (default), voronoi (default with --fill) or both");
+                   "delaunay (default), voronoi (default with --fill or --values) or both");
   add_choice<Fill>(parser, "--fill", options.fill, {{"none", Fill::none}, {"area", Fill::area}},
                    "area: color the cells by area, dark for small ones; none (default)");
   add_choice<bool>(parser, "--back", options.style.show_back, {{"none", false}, {"faint", true}},
                    "What is behind the globe: faint, or none (default)");
+  parser
+      .add_option("--values", options.values,
+                  "Page: a column of numbers, shown as the colors of the cells with a color bar")
+      ->type_name("COL");
   parser.add_flag("--circles", options.show_circles,
                   "Draw the circles for which weighted sites stand, hidden ones paler");
   const auto show_sites = [&options](bool show) {
@@ -231,7 +294,9 @@ Command add_plot_command(CLI::App& tool) {
   CLI::App* parser =
       tool.add_subcommand("plot", "Draw the triangulation or the cells on the globe");
   add_input_options(*parser, options->common);
-  add_output_option(*parser, options->common, "Where to write the figure: .png .svg .pdf")
+  add_output_option(*parser, options->common,
+                    "Where to write the figure, .png .svg .pdf, or a page with a globe to\nturn, "
+                    "zoom and point at, .html")
       ->required();
   add_content_options(*parser, *options);
   add_view_options(*parser, *options);
@@ -241,11 +306,21 @@ Command add_plot_command(CLI::App& tool) {
       "The globe is seen from far away (orthographic projection). Edges are arcs of great\n"
       "circles; edges of ghost faces, which the center of the sphere does not see, are left\n"
       "out. The same input gives the same bytes.\n\n"
+      "A page (.html) is one file for any browser, without a server or a network. It carries\n"
+      "all columns of INPUT, which are shown for the site that is picked and can be searched.\n"
+      "What is shown can be switched there; the options say how it begins.\n\n"
       "Examples:\n"
       "  rondel plot stations.csv -o stations.png --view -60 35\n"
       "  rondel plot stations.csv -o cells.svg --show voronoi --fill area\n"
-      "  rondel plot circles.csv --radius radius --circles --show voronoi -o power.pdf");
-  return {parser, [options] { return run_plot(*options); }};
+      "  rondel plot circles.csv --radius radius --circles --show voronoi -o power.pdf\n"
+      "  rondel plot stations.csv -o globe.html\n"
+      "  rondel plot cities.csv --values population -o cities.html");
+  return {parser, [options, parser] {
+            for (const char* name : {"--back", "--size", "--line-width"}) {
+              if (parser->count(name) > 0) options->only_pictures = name;
+            }
+            return run_plot(*options);
+          }};
 }
 
 }  // namespace rondel::cli

@@ -66,6 +66,14 @@ class Documents(unittest.TestCase):
         rows = data.count(b"\n") - 1
         self.assertIn(f"{rows:,} weather stations", read("data/README.md"))
 
+    def test_the_provenance_of_the_coasts_is_theirs(self):
+        data = (ROOT / "data/coast.txt").read_bytes()
+        text = read("data/README.md")
+        self.assertIn(hashlib.sha256(data).hexdigest(), text)
+        curves = [line.split() for line in data.decode().splitlines()]
+        steps = sum(len(numbers) // 2 - 1 for numbers in curves)
+        self.assertIn(f"{len(curves)} closed curves of {steps:,} steps", text)
+
     def test_the_layers_of_the_architecture_are_those_of_the_sources(self):
         named = re.findall(r"^\| `src/(\w+)/`", read("ARCHITECTURE.md"), re.M)
         self.assertEqual(named, read("src/LAYERS").split())

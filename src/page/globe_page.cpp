@@ -1,0 +1,225 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// globe_page and write_globe: the texts of page_text.h around the arrays of page_arrays.h.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "io/cell_formats.h"
+#include "page/packed.h"
+#include "page/page_arrays.h"
+#include "page/page_text.h"
+#include "rondel/error.h"
+#include "rondel/globe.h"
+#include "rondel/version.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+// Where the globe is looked at from at first, and how many times nearer than all of it.
+struct FirstView {
+  LonLat middle;
+  double closeness = 1;
+};
+
+// If the sites are on one side of the globe, their middle, so near that they fill the picture. Otherwise a
+// little from the north at the meridian of Greenwich.
+FirstView view_of_sites(const std::vector<Point>& directions) {
+  Point sum{};
+  for (const Point& p : directions) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+  const double length = std::hypot(sum.x, sum.y, sum.z);
+  if (length <= 0.5 * static_cast<double>(directions.size()) || directions.empty())
+    return {{0, 20}, 1};
+  const Point middle{sum.x / length, sum.y / length, sum.z / length};
+  double farthest = 0;
+  for (const Point& p : directions) {
+    farthest = std::max(farthest, std::hypot(p.x - middle.x, p.y - middle.y, p.z - middle.z));
+  }
+  constexpr double smallest = 1e-11;  // a tenth of a millimetre on the earth
+  return {{std::atan2(middle.y, middle.x) / degree,
+           std::atan2(middle.z, std::hypot(middle.x, middle.y)) / degree},
+          farthest > 0 ? std::max(1.0, 0.9 / std::max(farthest, smallest)) : 1.0};
+}
+
+const char* name_of(GlobeLines lines) {
+  return lines == GlobeLines::delaunay  ? "delaunay"
+         : lines == GlobeLines::voronoi ? "voronoi"
+                                        : "both";
+}
+
+const char* name_of(GlobeFill fill) {
+  return fill == GlobeFill::none ? "none" : fill == GlobeFill::area ? "area" : "values";
+}
+
+void require_options(const GlobeOptions& options, std::size_t num_sites) {
+  if (!options.values.empty() && options.values.size() != num_sites) {
+    throw InvalidInput("there is not one value of each site", options.values.size());
+  }
+  const LonLat view = options.view.value_or(LonLat{});
+  const double all = view.lon_deg + view.lat_deg + options.up_deg + options.graticule_deg;
+  if (!std::isfinite(all) || options.graticule_deg < 0) {
+    throw InvalidInput("an option of the globe is not finite, or negative", 0);
+  }
+}
+
+// A column whose text does not fit the sites, which a caller may bring, would be read beyond its end.
+void require_columns(const SiteTable& table) {
+  for (const Column& column : table.columns) {
+    const bool fits = column.ends.size() == table.sites.size() &&
+                      std::ranges::is_sorted(column.ends) &&
+                      (column.ends.empty() ? 0 : column.ends.back()) == column.text.size();
+    if (!fits) throw InvalidInput("a column does not have one cell for each site", 0);
+  }
+}
+
+// As JSON in ASCII, in which nothing ends the script that holds it. Text that is not UTF-8 is mended.
+std::string script_json(const nlohmann::ordered_json& value) {
+  std::string text;
+  for (const char c : value.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)) {
+    if (c == '<') {
+      text += "\\u003c";
+    } else {
+      text += c;
+    }
+  }
+  return text;
+}
+
+std::string html_text(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
+    }
+  }
+  return result;
+}
+
+nlohmann::ordered_json about_page(const SiteTable& table, const Triangulation& triangulation,
+                                  const GlobeOptions& options, const FirstView& view,
+                                  const std::vector<page::PageArray>& arrays) {
+  nlohmann::ordered_json about = {
+      {"sites", triangulation.num_sites()},
+      {"vertices", triangulation.num_vertices()},
+      {"faces", triangulation.num_faces()},
+      {"ghosts", triangulation.num_ghost_faces()},
+      {"duplicates", triangulation.duplicates().size()},
+      {"hidden", triangulation.hidden().size()},
+      {"dimension", triangulation.dimension()},
+      {"model", triangulation.model() == Model::weighted ? "weighted" : "projected"},
+      {"show", name_of(options.lines)},
+      {"fill", name_of(options.fill)},
+      {"showSites", options.show_sites},
+      {"circles", options.show_circles},
+      {"coast", options.show_coast},
+      {"graticule", options.graticule_deg},
+      {"view", {view.middle.lon_deg, view.middle.lat_deg}},
+      {"closeness", view.closeness},
+      {"up", options.up_deg},
+      {"valueName", options.value_name},
+      {"columns", nlohmann::ordered_json::array()},
+      {"arrays", nlohmann::ordered_json::array()}};
+  for (const Column& column : table.columns) {
+    about["columns"].push_back({{"name", column.name}, {"isNumeric", column.is_numeric}});
+  }
+  for (const page::PageArray& array : arrays) {
+    about["arrays"].push_back(
+        {{"name", array.name}, {"kind", array.kind}, {"length", array.length}});
+  }
+  return about;
+}
+
+// An element of the page for each array, whose texts are freed one by one.
+std::string data_elements(std::vector<page::PageArray> arrays, const Execution& execution) {
+  std::string text;
+  for (std::size_t i = 0; i < arrays.size(); ++i) {
+    system::announce(execution, "page",
+                     static_cast<double>(i) / static_cast<double>(arrays.size()));
+    page::PageArray& array = arrays[i];
+    const std::size_t width = array.kind == "f64" ? 8 : array.kind == "u32" ? 4 : 1;
+    const std::string planes = page::in_planes(std::exchange(array.bytes, {}), width);
+    text += "<script type=\"application/octet-stream\" id=\"data-" + array.name + "\">";
+    text += page::base64(page::zlib_stream(planes, execution.threads));
+    text += "</script>\n";
+  }
+  return text;
+}
+
+// The template with each @NAME@ replaced; what is put in is not searched again.
+std::string filled_in(std::string_view frame,
+                      const std::vector<std::pair<std::string_view, std::string_view>>& places) {
+  std::string page;
+  std::size_t at = 0;
+  for (std::size_t next = frame.find('@'); next != std::string_view::npos;
+       next = frame.find('@', next)) {
+    const auto place = std::ranges::find_if(
+        places, [&](const auto& entry) { return frame.substr(next).starts_with(entry.first); });
+    if (place == places.end()) {
+      ++next;
+      continue;
+    }
+    page += frame.substr(at, next - at);
+    page += place->second;
+    at = next += place->first.size();
+  }
+  page += frame.substr(at);
+  return page;
+}
+
+}  // namespace
+
+std::string globe_page(const SiteTable& table, const Triangulation& triangulation,
+                       const Diagram& diagram, const GlobeOptions& options,
+                       const Execution& execution) {
+  const system::Call call(execution);
+  io::require_sites(table, triangulation);
+  io::require_diagram(triangulation, diagram);
+  require_columns(table);
+  require_options(options, triangulation.num_sites());
+  const std::vector<Point> directions = page::site_directions(triangulation);
+  const FirstView view = options.view ? FirstView{*options.view} : view_of_sites(directions);
+  std::vector<page::PageArray> arrays =
+      page::page_arrays(table, triangulation, diagram, options, directions);
+  std::ranges::move(page::column_arrays(table), std::back_inserter(arrays));
+  const std::string_view coast = page::coast_text();
+  arrays.push_back({"coast", "u8", std::string(coast), coast.size()});
+  const std::string about = script_json(about_page(table, triangulation, options, view, arrays));
+  const std::string data = data_elements(std::move(arrays), execution);
+  const std::string title = html_text(options.title);
+  return filled_in(page::frame_text(), {{"@TITLE@", title},
+                                        {"@STYLE@", page::style_text()},
+                                        {"@ABOUT@", about},
+                                        {"@DATA@", data},
+                                        {"@SCRIPT@", page::script_text()},
+                                        {"@VERSION@", version}});
+}
+
+void write_globe(const std::string& path, const SiteTable& table,
+                 const Triangulation& triangulation, const Diagram& diagram,
+                 const GlobeOptions& options, const Execution& execution) {
+  write_file(path, globe_page(table, triangulation, diagram, options, execution));
+}
+
+}  // namespace rondel

@@ -1,0 +1,169 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "page/page_arrays.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <utility>
+
+namespace rondel::page {
+namespace {
+
+static_assert(std::endian::native == std::endian::little);
+static_assert(sizeof(Point) == 3 * sizeof(double));
+static_assert(sizeof(Triple) == 3 * sizeof(Index));
+static_assert(sizeof(Duplicate) == 2 * sizeof(Index) && sizeof(Hidden) == 2 * sizeof(Index));
+
+template <class Row>
+PageArray page_array(std::string name, const char* kind, std::size_t width,
+                     std::span<const Row> rows) {
+  const std::string_view bytes(reinterpret_cast<const char*>(rows.data()), rows.size_bytes());
+  return {std::move(name), kind, std::string(bytes), bytes.size() / width};
+}
+
+template <class Row>
+PageArray doubles(std::string name, const std::vector<Row>& rows) {
+  return page_array(std::move(name), "f64", sizeof(double), std::span<const Row>(rows));
+}
+
+template <class Row>
+PageArray indices(std::string name, std::span<const Row> rows) {
+  return page_array(std::move(name), "u32", sizeof(Index), rows);
+}
+
+// A direction has no length, and differences of huge coordinates are finite when they are halved.
+Point direction(const Point& site, const Point& center) {
+  const Point half{site.x / 2 - center.x / 2, site.y / 2 - center.y / 2, site.z / 2 - center.z / 2};
+  const double largest = std::max({std::abs(half.x), std::abs(half.y), std::abs(half.z)});
+  if (largest == 0) return {};
+  const Point p{half.x / largest, half.y / largest, half.z / largest};
+  const double length = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+  return {p.x / length, p.y / length, p.z / length};
+}
+
+double length_in_radii(const Point& site, const Sphere& sphere) {
+  const Point& c = sphere.center;
+  const double half = std::hypot(site.x / 2 - c.x / 2, site.y / 2 - c.y / 2, site.z / 2 - c.z / 2);
+  return half / std::sqrt(sphere.squared_radius) * 2;
+}
+
+// The tangent is accurate for small circles too.
+double radius_of_circle(double length) {
+  return length > 1 ? std::atan(std::sqrt(length - 1) * std::sqrt(length + 1)) : 0;
+}
+
+std::vector<double> radii(const SiteTable& table, const Triangulation& triangulation,
+                          const std::vector<double>& lengths) {
+  constexpr double degree = 3.14159265358979323846 / 180;
+  std::vector<double> result(lengths.size());
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result[i] =
+        table.radii_deg.empty() ? radius_of_circle(lengths[i]) : degree * table.radii_deg[i];
+  }
+  for (const Duplicate& duplicate : triangulation.duplicates()) result[duplicate.site] = 0;
+  return result;
+}
+
+// What the page computes, operation by operation (viewer/src/surface.js, plainCenter).
+Point plain_center(const Point& a, const Point& b, const Point& c) {
+  const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
+  const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
+  const double x = uy * vz - uz * vy;
+  const double y = uz * vx - ux * vz;
+  const double z = ux * vy - uy * vx;
+  const double length = std::sqrt(x * x + y * y + z * z);
+  if (!(length > 0 && length < HUGE_VAL)) return {};
+  return {x / length, y / length, z / length};
+}
+
+double different_bits(double a, double b) {
+  return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b));
+}
+
+std::vector<Point> stored_points(const Triangulation& triangulation, std::vector<Point> points,
+                                 const std::vector<Point>& directions,
+                                 const std::vector<double>& lengths) {
+  const auto site = [&](Index i) {
+    const double length = lengths.empty() ? 1 : lengths[i];
+    const Point& p = directions[i];
+    return Point{p.x * length, p.y * length, p.z * length};
+  };
+  for (std::size_t f = 0; f < triangulation.num_faces(); ++f) {
+    const auto& [a, b, c] = triangulation.faces()[f];
+    const Point plain = plain_center(site(a), site(b), site(c));
+    Point& p = points[f];
+    p = {different_bits(p.x, plain.x), different_bits(p.y, plain.y), different_bits(p.z, plain.z)};
+  }
+  return points;
+}
+
+// Rings are the faces around each site, which the page finds by itself, unless there are further points.
+bool has_own_rings(const Triangulation& triangulation, const Cells& cells) {
+  return triangulation.dimension() < 2 || cells.points.size() != triangulation.num_faces();
+}
+
+}  // namespace
+
+std::vector<Point> site_directions(const Triangulation& triangulation) {
+  const std::span<const Point> sites = triangulation.sites().points();
+  std::vector<Point> directions(sites.size());
+  std::ranges::transform(sites, directions.begin(), [&](const Point& site) {
+    return direction(site, triangulation.sphere().center);
+  });
+  return directions;
+}
+
+std::vector<PageArray> page_arrays(const SiteTable& table, const Triangulation& triangulation,
+                                   const Diagram& diagram, const GlobeOptions& options,
+                                   const std::vector<Point>& directions) {
+  std::vector<PageArray> arrays;
+  std::vector<double> lengths;
+  arrays.push_back(doubles("directions", directions));
+  if (triangulation.model() == Model::weighted) {
+    for (const Point& p : triangulation.sites().points()) {
+      lengths.push_back(length_in_radii(p, triangulation.sphere()));
+    }
+    arrays.push_back(doubles("lengths", lengths));
+    arrays.push_back(doubles("radii", radii(table, triangulation, lengths)));
+  }
+  arrays.push_back(indices("faces", triangulation.faces()));
+  arrays.push_back(indices("ghosts", triangulation.ghost_faces()));
+  arrays.push_back(indices("duplicates", triangulation.duplicates()));
+  arrays.push_back(indices("hidden", triangulation.hidden()));
+  arrays.push_back(indices("ring", triangulation.ring()));
+  const Cells& cells = diagram.cells;
+  arrays.push_back(
+      doubles("points", stored_points(triangulation, cells.points, directions, lengths)));
+  if (has_own_rings(triangulation, cells)) {
+    const std::vector<Index> offsets(cells.offsets.begin(), cells.offsets.end());
+    arrays.push_back(indices("ringOffsets", std::span<const Index>(offsets)));
+    arrays.push_back(indices("ringPoints", std::span<const Index>(cells.rings)));
+  }
+  arrays.push_back(doubles("areas", diagram.areas));
+  if (!options.values.empty()) {
+    arrays.push_back(page_array("values", "f64", sizeof(double), options.values));
+  }
+  return arrays;
+}
+
+std::vector<PageArray> column_arrays(const SiteTable& table) {
+  std::vector<PageArray> arrays;
+  for (const Column& column : table.columns) {
+    const std::string name = "column" + std::to_string(arrays.size() / 2);
+    std::vector<Index> lengths;
+    std::uint64_t begin = 0;
+    for (const std::uint64_t end : column.ends) {
+      lengths.push_back(static_cast<Index>(end - begin));
+      begin = end;
+    }
+    arrays.push_back({name, "u8", column.text, column.text.size()});
+    arrays.push_back(indices(name + "Lengths", std::span<const Index>(lengths)));
+  }
+  return arrays;
+}
+
+}  // namespace rondel::page

@@ -1,0 +1,9 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(ZLIB REQUIRED)
+
+rondel_add_test(page_test
+  page_globe_test.cpp
+  page_packed_test.cpp
+  LIBS rondel_globe nlohmann_json::nlohmann_json ZLIB::ZLIB)

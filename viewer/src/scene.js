@@ -1,0 +1,321 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// One frame: which chunks are in view, how much of each is drawn, and in which order.
+//
+// A chunk in view is drawn in one of three ways:
+//   full    its lines and cells, from buffers that are made when they are first wanted;
+//   close   the same, cut in doubles at the screen, where the chunk is far wider than that;
+//   coarse  its sites as points, where they are so close that lines would cover everything, or where the frame
+//           would have too many vertices.
+
+import { edgesOf, bordersOf, circle, graticule } from "./arcs.js";
+import { coastChords } from "./backdrop.js";
+import { isInView, spacing } from "./chunks.js";
+import { Close, mark, outline } from "./close.js";
+import { costs, makers, Segments } from "./shapes.js";
+import { lonLatOf } from "./vectors.js";
+
+const mostVertices = 2_000_000;
+const mostFull = 1_200_000;
+const mostCoarse = 700_000;
+const leastSpacing = 3;  // pixels between sites whose lines are drawn, unless all are few
+const fewVertices = 300_000;
+const farthestClose = 200;  // a chunk so many times wider than the screen is drawn close
+const mostKept = 8_000_000;  // vertices in buffers
+const patience = 24;  // milliseconds a frame may spend on new buffers
+
+export class Scene {
+  constructor(canvas, camera, surface, chunks, layers, radii, coast) {
+    Object.assign(this, { canvas, camera, surface, chunks, layers, radii, coast });
+    this.chosen = [];  // rings of places to outline, and places to mark
+    this.pointed = [];
+    this.isSettled = false;
+    this.keepSites();
+    this.keepBackdrop();
+  }
+
+  // The prefix of a chunk's points is a fair sample of it: they are stored by steps that leave no part out.
+  keepSites() {
+    const data = new Float32Array(4 * this.surface.order.length);
+    for (const { begin, end, center } of this.chunks) {
+      const count = end - begin;
+      let step = Math.max(1, Math.round(count * 0.6180339887));
+      while (greatestDivisor(step, count) > 1) ++step;
+      for (let i = 0, at = 0; i < count; ++i, at = (at + step) % count) {
+        const site = this.surface.order[begin + at];
+        for (let k = 0; k < 3; ++k) data[4 * (begin + i) + k] = this.surface.directions[3 * site + k] - center[k];
+        data[4 * (begin + i) + 3] = this.layers.levelOf(site);
+      }
+    }
+    this.sitesBuffer = this.canvas.refill(this.sitesBuffer ?? this.canvas.gl.createBuffer(), data);
+  }
+
+  keepBackdrop() {
+    const coast = new Segments([0, 0, 0]);
+    coastChords(this.coast, coast.chord);
+    this.coastLines = { buffer: this.canvas.keep(coast.data), count: coast.count };
+    const net = new Segments([0, 0, 0]);
+    graticule(this.layers.graticuleStep, [0, 0], 180, net.chord);
+    this.netLines = { buffer: this.canvas.keep(net.data), count: net.count };
+  }
+
+  // After a change of the values: colors are part of the buffers.
+  recolor() {
+    for (const chunk of this.chunks) this.drop(chunk, ["cells"]);
+    this.keepSites();
+  }
+
+  drop(chunk, names) {
+    for (const name of names) {
+      const part = chunk.parts?.[name];
+      if (part === undefined) continue;
+      for (const buffer of part.buffers) this.canvas.gl.deleteBuffer(buffer);
+      delete chunk.parts[name];
+    }
+  }
+
+  get wanted() {
+    const names = [];
+    if (this.layers.isFilled) names.push("cells");
+    if (this.layers.borders) names.push("borders");
+    if (this.layers.edges) names.push("edges");
+    if (this.layers.circles && this.radii !== null) names.push("circles");
+    return names;
+  }
+
+  // [{chunk, way, spacing}] of all chunks in view.
+  plan() {
+    const views = [];
+    for (const chunk of this.chunks) {
+      if (isInView(chunk, this.camera)) views.push({ chunk, way: "coarse", spacing: spacing(chunk, this.camera) });
+    }
+    for (const view of views) view.cost = this.costOf(view.chunk);
+    const total = views.reduce((sum, view) => sum + view.cost, 0);
+    const least = total <= fewVertices ? 0 : leastSpacing;
+    const screen = Math.hypot(this.camera.width, this.camera.height);
+    let left = mostFull;
+    for (const view of [...views].sort((a, b) => b.spacing - a.spacing)) {
+      if (view.spacing < least || view.cost > left) continue;
+      left -= view.cost;
+      const isFar = this.camera.zoom > 2000 && view.chunk.chord * this.camera.zoom > farthestClose * screen;
+      view.way = isFar ? "close" : "full";
+    }
+    return views;
+  }
+
+  // The vertices of a chunk that is drawn full: those of its buffers, or about so many.
+  costOf(chunk) {
+    const count = chunk.end - chunk.begin;
+    const part = (name) => chunk.parts?.[name]?.numVertices ?? costs[name] * count;
+    return this.wanted.reduce((sum, name) => sum + part(name), count);
+  }
+
+  // The buffers of a chunk; null where there is no time left in this frame.
+  part(chunk, name) {
+    chunk.parts ??= {};
+    if (chunk.parts[name] === undefined) {
+      if (performance.now() > this.deadline) return null;
+      const context = { surface: this.surface, radii: this.radii, levelOf: (site) => this.layers.levelOf(site) };
+      const shape = makers[name](chunk, context);
+      const { gl } = this.canvas;
+      chunk.parts[name] = shape instanceof Segments
+        ? { buffers: [this.canvas.keep(shape.data)], count: shape.count, numVertices: 4 * shape.count }
+        : { buffers: [this.canvas.keep(shape.corners.used), this.canvas.keep(shape.indices.used, gl.ELEMENT_ARRAY_BUFFER)],
+          count: shape.indices.length, numVertices: shape.indices.length };
+    }
+    return chunk.parts[name];
+  }
+
+  // Buffers of chunks that are not drawn, where all of them hold too much.
+  forget(views) {
+    const kept = (chunk) => Object.values(chunk.parts ?? {}).reduce((sum, part) => sum + part.numVertices, 0);
+    let total = this.chunks.reduce((sum, chunk) => sum + kept(chunk), 0);
+    if (total < mostKept) return;
+    const inUse = new Set(views.filter((view) => view.way === "full").map((view) => view.chunk));
+    for (const chunk of this.chunks) {
+      if (total < mostKept) return;
+      if (inUse.has(chunk)) continue;
+      total -= kept(chunk);
+      this.drop(chunk, Object.keys(chunk.parts ?? {}));
+    }
+  }
+
+  draw(theme, scale) {
+    const { canvas, camera, layers } = this;
+    this.deadline = performance.now() + patience;
+    const views = this.plan();
+    this.make(views);
+    const ways = { full: [], close: [], coarse: [] };
+    for (const view of views) ways[view.way].push(view);
+    const close = this.cut(ways.close);
+
+    canvas.begin(camera, scale);
+    canvas.drawGlobe(theme, layers.coast ? 1 : 0);
+    if (layers.isFilled) {
+      this.drawCells(ways.full, close.cells, theme);
+      this.drawCoarse(ways.coarse, theme);
+    }
+    this.drawBackdrop(theme);
+    for (const name of this.wanted.filter((wanted) => wanted !== "cells")) {
+      const border = layers.isFilled ? theme.borderOnFill : theme.border;
+      const paint = { edges: theme.edge, borders: border, circles: theme.circle }[name];
+      this.drawLines(name, ways.full, close[name], paint, layers.isFilled ? 0.8 : 1);
+    }
+    if (!layers.isFilled) this.drawCoarse(ways.coarse, theme);
+    if (layers.sites) this.drawSites(ways.full, close.sites, theme);
+    this.drawChosen(theme);
+    this.forget(views);
+    this.statistics = {
+      vertices: canvas.numVertices, mostVertices, chunks: views.length,
+      full: ways.full.length, close: ways.close.length, coarse: ways.coarse.length,
+    };
+  }
+
+  // Makes the buffers that this frame wants, as many as its time allows. Chunks without all of theirs are drawn as
+  // points until then.
+  make(views) {
+    this.isSettled = true;
+    for (const view of views) {
+      if (view.way === "full" && this.wanted.some((name) => this.part(view.chunk, name) === null)) {
+        view.way = "coarse";
+        this.isSettled = false;
+      }
+    }
+  }
+
+  // What is drawn close: one `Close` for each layer.
+  cut(views) {
+    const parts = { cells: null, borders: null, edges: null, circles: null, sites: null };
+    for (const name of Object.keys(parts)) parts[name] = new Close(this.camera);
+    const wanted = new Set(this.wanted);
+    const { surface, radii, layers } = this;
+    for (const { chunk } of views) {
+      for (let j = chunk.begin; j < chunk.end; ++j) {
+        const site = surface.order[j];
+        if (wanted.has("edges")) edgesOf(surface, site, parts.edges.arc);
+        if (wanted.has("borders")) bordersOf(surface, site, parts.borders.arc);
+        if (wanted.has("circles")) circle(surface.direction(site), radii[site], parts.circles.arc);
+        if (wanted.has("cells")) {
+          const ring = surface.ring(site);
+          if (ring.length > 0) parts.cells.cell(ring, layers.levelOf(site));
+        }
+        parts.sites.site(surface.direction(site), layers.levelOf(site));
+      }
+    }
+    return parts;
+  }
+
+  drawLines(name, views, close, paint, share) {
+    for (const { chunk, spacing: pixels } of views) {
+      const { buffers, count } = chunk.parts[name];
+      this.canvas.drawLines(buffers[0], count, chunk.center, paint, share * lineWidth(pixels));
+    }
+    this.drawCut(close, paint, share * widestLine);
+  }
+
+  drawCut(close, paint, width) {
+    const { canvas } = this;
+    canvas.refill(canvas.loose.lines, new Float32Array(close.segments));
+    canvas.drawLines(canvas.loose.lines, close.segments.length / 6, null, paint, width);
+  }
+
+  drawCells(views, close, theme) {
+    const { canvas } = this;
+    for (const { chunk } of views) {
+      const { buffers, count } = chunk.parts.cells;
+      canvas.drawCells(buffers[0], buffers[1], count, chunk.center, theme);
+    }
+    canvas.refill(canvas.loose.corners, new Float32Array(close.corners));
+    canvas.refill(canvas.loose.indices, new Uint32Array(close.indices), canvas.gl.ELEMENT_ARRAY_BUFFER);
+    canvas.drawCells(canvas.loose.corners, canvas.loose.indices, close.indices.length, null, theme);
+  }
+
+  // Points as wide as their cells, or as fine as dots where cells have no color.
+  drawCoarse(views, theme) {
+    const total = views.reduce((sum, { chunk }) => sum + chunk.end - chunk.begin, 0);
+    const share = Math.min(1, mostCoarse / Math.max(1, total));
+    for (const { chunk, spacing: pixels } of views) {
+      const count = Math.ceil(share * (chunk.end - chunk.begin));
+      const apart = pixels / Math.sqrt(share);
+      const { isFilled } = this.layers;
+      const size = isFilled ? Math.max(1.5, 1.5 * apart) : Math.min(2, Math.max(0.8, 0.4 * apart));
+      const look = { size, ink: Math.min(1, Math.max(0.12, 0.3 * apart)), isFilled };
+      this.canvas.drawSites(this.sitesBuffer, chunk.begin, count, chunk.center, theme, look);
+    }
+  }
+
+  drawSites(views, close, theme) {
+    const { canvas } = this;
+    for (const { chunk, spacing: pixels } of views) {
+      canvas.drawSites(this.sitesBuffer, chunk.begin, chunk.end - chunk.begin, chunk.center, theme, dot(pixels));
+    }
+    canvas.refill(canvas.loose.sites, new Float32Array(close.sites));
+    canvas.drawSites(canvas.loose.sites, 0, close.sites.length / 4, null, theme, dot(Infinity));
+  }
+
+  // Coasts and the net of meridians and parallels, which is finer where the zoom is larger.
+  drawBackdrop(theme) {
+    const { canvas, camera, layers } = this;
+    const isClose = camera.zoom > 20_000;
+    if (layers.graticule) {
+      const step = this.netStep();
+      if (step === layers.graticuleStep && !isClose) {
+        canvas.drawLines(this.netLines.buffer, this.netLines.count, [0, 0, 0], theme.graticule, 1);
+      } else {
+        const net = new Close(camera);
+        graticule(step, lonLatOf(camera.forward), camera.reach * 60, net.arc);
+        this.drawCut(net, theme.graticule, 1);
+      }
+    }
+    if (layers.coast && isClose) {
+      const coast = new Close(camera);
+      coastChords(this.coast, coast.arc);
+      this.drawCut(coast, theme.coast, 1);
+    } else if (layers.coast) {
+      canvas.drawLines(this.coastLines.buffer, this.coastLines.count, [0, 0, 0], theme.coast, 1);
+    }
+  }
+
+  // Degrees between meridians: at least 100 pixels, beyond the first step 10, 5, 2, 1, 0.5 ...
+  netStep() {
+    const { zoom } = this.camera;
+    let step = this.layers.graticuleStep;
+    for (const next of netSteps) {
+      if (next < step && (next * Math.PI / 180) * zoom >= 160) step = next;
+    }
+    return step;
+  }
+
+  drawChosen(theme) {
+    for (const [things, paint, width] of [[this.pointed, theme.pointed, 2], [this.chosen, theme.chosen, 3]]) {
+      const close = new Close(this.camera);
+      for (const thing of things) {
+        if (thing.ring) outline(close, thing.ring);
+        if (thing.place) mark(close, thing.place, thing.pixels);
+      }
+      this.drawCut(close, paint, width);
+    }
+  }
+}
+
+const netSteps = [];
+for (let power = 1; power > -9; --power) {
+  for (const digit of [5, 2, 1]) netSteps.push(digit * 10 ** power);
+}
+
+// Lines and dots get smaller where sites get close, so that dense places do not turn into ink.
+const widestLine = 1.5;
+const widestDot = 3.6;
+
+function lineWidth(pixels) {
+  return Math.min(widestLine, Math.max(0.3, pixels / 12));
+}
+
+function dot(pixels) {
+  return { size: Math.min(widestDot, Math.max(0.7, pixels / 5)), ink: 1, isFilled: false };
+}
+
+function greatestDivisor(a, b) {
+  return b === 0 ? a : greatestDivisor(b, a % b);
+}
