@@ -18,15 +18,13 @@ struct CellsToWrite {
   const Execution& execution;
 };
 
-// RONDEL_API marks what rondel::globe uses; it is promised to nobody else.
-
 // What a caller brings may be any arrays. Throws InvalidInput where a reader of the diagram would leave
 // an array.
-RONDEL_API void require_diagram(const Triangulation& triangulation, const Diagram& diagram);
+void require_diagram(const Triangulation& triangulation, const Diagram& diagram);
 
 // Throws InvalidInput (the first other site) if the sites of the table are not those of the
 // triangulation.
-RONDEL_API void require_sites(const SiteTable& table, const Triangulation& triangulation);
+void require_sites(const SiteTable& table, const Triangulation& triangulation);
 
 // The tolerance in degrees, but no less than least_tolerance_deg. Throws InvalidInput unless it is
 // positive.

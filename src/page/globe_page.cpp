@@ -4,6 +4,7 @@
 // globe_page and write_globe: the texts of page_text.h around the arrays of page_arrays.h.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <string>
@@ -11,11 +12,10 @@
 #include <utility>
 #include <vector>
 
-#include "io/cell_formats.h"
 #include "page/packed.h"
 #include "page/page_arrays.h"
+#include "page/page_input.h"
 #include "page/page_text.h"
-#include "rondel/error.h"
 #include "rondel/globe.h"
 #include "rondel/version.h"
 #include "system/job.h"
@@ -58,27 +58,6 @@ const char* name_of(GlobeLines lines) {
 
 const char* name_of(GlobeFill fill) {
   return fill == GlobeFill::none ? "none" : fill == GlobeFill::area ? "area" : "values";
-}
-
-void require_options(const GlobeOptions& options, std::size_t num_sites) {
-  if (!options.values.empty() && options.values.size() != num_sites) {
-    throw InvalidInput("there is not one value of each site", options.values.size());
-  }
-  const LonLat view = options.view.value_or(LonLat{});
-  const double all = view.lon_deg + view.lat_deg + options.up_deg + options.graticule_deg;
-  if (!std::isfinite(all) || options.graticule_deg < 0) {
-    throw InvalidInput("an option of the globe is not finite, or negative", 0);
-  }
-}
-
-// A column whose text does not fit the sites, which a caller may bring, would be read beyond its end.
-void require_columns(const SiteTable& table) {
-  for (const Column& column : table.columns) {
-    const bool fits = column.ends.size() == table.sites.size() &&
-                      std::ranges::is_sorted(column.ends) &&
-                      (column.ends.empty() ? 0 : column.ends.back()) == column.text.size();
-    if (!fits) throw InvalidInput("a column does not have one cell for each site", 0);
-  }
 }
 
 // As JSON in ASCII, in which nothing ends the script that holds it. Text that is not UTF-8 is mended.
@@ -194,10 +173,7 @@ std::string globe_page(const SiteTable& table, const Triangulation& triangulatio
                        const Diagram& diagram, const GlobeOptions& options,
                        const Execution& execution) {
   const system::Call call(execution);
-  io::require_sites(table, triangulation);
-  io::require_diagram(triangulation, diagram);
-  require_columns(table);
-  require_options(options, triangulation.num_sites());
+  page::require_input(table, triangulation, diagram, options);
   const std::vector<Point> directions = page::site_directions(triangulation);
   const FirstView view = options.view ? FirstView{*options.view} : view_of_sites(directions);
   std::vector<page::PageArray> arrays =

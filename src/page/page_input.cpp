@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "page/page_input.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "rondel/error.h"
+
+namespace rondel::page {
+namespace {
+
+// Whether `ends` are those of parts that make up [0, size).
+bool are_parts(const std::vector<std::uint64_t>& ends, std::size_t count, std::size_t size) {
+  return ends.size() == count && std::ranges::is_sorted(ends) &&
+         (count == 0 ? 0 : ends.back()) == size;
+}
+
+bool has_shape_of(const Triangulation& triangulation, const Diagram& diagram) {
+  const Cells& cells = diagram.cells;
+  const std::size_t n = triangulation.num_sites();
+  return diagram.areas.size() == n && are_parts(cells.offsets, n + 1, cells.rings.size()) &&
+         cells.offsets.front() == 0 && cells.points.size() >= triangulation.num_faces() &&
+         std::ranges::all_of(cells.rings, [&](Index i) { return i < cells.points.size(); });
+}
+
+}  // namespace
+
+void require_input(const SiteTable& table, const Triangulation& triangulation,
+                   const Diagram& diagram, const GlobeOptions& options) {
+  const std::size_t n = triangulation.num_sites();
+  if (!std::ranges::equal(table.sites, triangulation.sites().points())) {
+    throw InvalidInput("the sites of the table are not those of the triangulation", 0);
+  }
+  if (!table.radii_deg.empty() && table.radii_deg.size() != n) {
+    throw InvalidInput("there is not one radius for each site", table.radii_deg.size());
+  }
+  if (!has_shape_of(triangulation, diagram)) {
+    throw InvalidInput("the diagram is not that of the triangulation", 0);
+  }
+  for (const Column& column : table.columns) {
+    if (!are_parts(column.ends, n, column.text.size())) {
+      throw InvalidInput("a column does not have one cell for each site", 0);
+    }
+  }
+  if (!options.values.empty() && options.values.size() != n) {
+    throw InvalidInput("there is not one value for each site", options.values.size());
+  }
+  const LonLat view = options.view.value_or(LonLat{});
+  const double all = view.lon_deg + view.lat_deg + options.up_deg + options.graticule_deg;
+  if (!std::isfinite(all) || options.graticule_deg < 0) {
+    throw InvalidInput("an option of the globe is not finite, or negative", 0);
+  }
+}
+
+}  // namespace rondel::page
