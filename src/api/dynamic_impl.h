@@ -19,7 +19,6 @@
 #include "models/weighted_points.h"
 #include "rondel/dynamic.h"
 #include "system/mutex.h"
-#include "system/on_failure.h"
 
 namespace rondel {
 
@@ -74,8 +73,12 @@ struct DynamicTriangulation::Impl {
     current();
     flat.reset();
     ++num_changes;
-    const system::OnFailure undo([this] { is_in_pieces = true; });
-    return visit(change);
+    try {
+      return visit(change);
+    } catch (...) {
+      is_in_pieces = true;
+      throw;
+    }
   }
 
   // The sites with these ids.

@@ -60,10 +60,11 @@ class Editor {
   // `hint` is a site close to p, or no_index: the place to start is looked up.
   Index insert(const Point& p, Index hint) {
     const Index site = places_.add_site();
-    const system::OnFailure undo([&] { places_.roll_back({&site, 1}, false); });
+    system::OnFailure undo([&] { places_.roll_back({&site, 1}, false); });
     sites_.rebind(places_.points(), places_.speakers());
     arrive(site, p, hint);
     renumber_if_due();
+    undo.succeed();
     return site;
   }
 
@@ -74,7 +75,7 @@ class Editor {
     order::sort_along_the_curve(order, [&](Index i) { return places_.key(points[i]); });
     std::vector<Index> ids;
     ids.reserve(points.size());
-    const system::OnFailure undo([&] { places_.roll_back(ids, false); });
+    system::OnFailure undo([&] { places_.roll_back(ids, false); });
     while (ids.size() < points.size()) ids.push_back(places_.add_site());
     sites_.rebind(places_.points(), places_.speakers());
     std::size_t num_done = 0;
@@ -83,14 +84,16 @@ class Editor {
       renumber_if_due();
       report(execution, ++num_done, points.size());
     }
+    undo.succeed();
     return ids;
   }
 
   void remove(Index site) {
-    const system::OnFailure undo([&] { places_.roll_back({&site, 1}, true); });
+    system::OnFailure undo([&] { places_.roll_back({&site, 1}, true); });
     depart(site);
     places_.free_site(site);
     renumber_if_due();
+    undo.succeed();
   }
 
   // Backwards in the order in which a range is inserted: what is close leaves together, and what
@@ -102,7 +105,7 @@ class Editor {
     std::ranges::sort(order);
     std::vector<Index> ranks = kernel::insertion_order(static_cast<Index>(sites.size()));
     std::ranges::reverse(ranks);
-    const system::OnFailure undo([&] { places_.roll_back(sites, true); });
+    system::OnFailure undo([&] { places_.roll_back(sites, true); });
     std::size_t num_done = 0;
     for (const Index rank : ranks) {
       depart(order[rank].second);
@@ -110,13 +113,14 @@ class Editor {
       report(execution, ++num_done, sites.size());
     }
     for (const Index site : sites) places_.free_site(site);
+    undo.succeed();
   }
 
   // One after the other; a site may appear again.
   void move(std::span<const Index> sites, std::span<const Point> to, const Execution& execution) {
     std::vector<Point> from;
     from.reserve(sites.size());
-    const system::OnFailure undo([&] { restore(sites, from); });
+    system::OnFailure undo([&] { restore(sites, from); });
     for (std::size_t i = 0; i < sites.size(); ++i) {
       from.push_back(places_.point(sites[i]));
       depart(sites[i]);
@@ -124,6 +128,7 @@ class Editor {
       renumber_if_due();
       report(execution, i + 1, sites.size());
     }
+    undo.succeed();
   }
 
   // Changes of ranges, where `build` takes the result of a build of all sites that
@@ -132,31 +137,34 @@ class Editor {
   std::vector<Index> insert(std::span<const Point> points, const Build& build) {
     std::vector<Index> ids;
     ids.reserve(points.size());
-    const system::OnFailure undo([&] { places_.roll_back(ids, false); });
+    system::OnFailure undo([&] { places_.roll_back(ids, false); });
     for (const Point& p : points) {
       ids.push_back(places_.add_site());
       places_.expect(ids.back());
       places_.set_point(ids.back(), p);
     }
     build();
+    undo.succeed();
     return ids;
   }
   template <class Build>
   void remove(std::span<const Index> sites, const Build& build) {
-    const system::OnFailure undo([&] { places_.roll_back(sites, true); });
+    system::OnFailure undo([&] { places_.roll_back(sites, true); });
     for (const Index site : sites) places_.drop(site);
     build();
+    undo.succeed();
   }
   template <class Build>
   void move(std::span<const Index> sites, std::span<const Point> to, const Build& build) {
     std::vector<Point> from;
     from.reserve(sites.size());
-    const system::OnFailure undo([&] { restore(sites, from); });
+    system::OnFailure undo([&] { restore(sites, from); });
     for (std::size_t i = 0; i < sites.size(); ++i) {
       from.push_back(places_.point(sites[i]));
       places_.set_point(sites[i], to[i]);
     }
     build();
+    undo.succeed();
   }
 
   // Takes the result of a build, instead of inserting each. At first assign_points(); then

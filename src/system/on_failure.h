@@ -4,12 +4,12 @@
 // What is done when a scope is left by an exception, said where the scope begins.
 #pragma once
 
-#include <exception>
 #include <utility>
 
 namespace rondel::system {
 
-// Calls undo(), which must not throw, if an exception ends its life.
+// Calls undo(), which must not throw, when it goes, unless succeed() was called. (To ask whether
+// there is an exception would cost a change of one site a fortieth of its time.)
 template <class Undo>
 class OnFailure {
  public:
@@ -17,12 +17,13 @@ class OnFailure {
   OnFailure(const OnFailure&) = delete;
   OnFailure& operator=(const OnFailure&) = delete;
   ~OnFailure() {
-    if (std::uncaught_exceptions() > before_) undo_();
+    if (!has_succeeded_) undo_();
   }
+  void succeed() { has_succeeded_ = true; }
 
  private:
   Undo undo_;
-  int before_ = std::uncaught_exceptions();
+  bool has_succeeded_ = false;
 };
 
 }  // namespace rondel::system
