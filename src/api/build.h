@@ -18,7 +18,7 @@ namespace rondel::api {
 Triangulation build(Sites all_sites, const system::Job& options,
                     const hidden::InnerPoint* inner = nullptr);
 
-// The same numbers as points. Throws InvalidInput if their number is not a multiple of 3.
+// The numbers x, y, z, x, y, z ... as points, where they lie. Throws InvalidInput if their number is not a multiple of 3.
 std::span<const Point> as_points(std::span<const double> xyz);
 
 }  // namespace rondel::api

@@ -51,7 +51,7 @@ struct DynamicTriangulation::Impl {
     return read_places([id](const auto& places) { return places.is_alive(id); });
   }
 
-  // They throw InvalidInput.
+  // Each throws InvalidInput, which names the position in the argument.
   void require_site(Index id, std::size_t position) const;
   void require_distinct_sites(std::span<const Index> ids) const;
   void require_room(std::size_t more) const;

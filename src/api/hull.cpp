@@ -17,16 +17,14 @@
 namespace rondel {
 namespace {
 
-using Vector = exact::Vector3<double>;
-
 // Sums over faces of which the origin is below or in the plane, so that no volume is negative
 // but by rounding.
 struct Sums {
   double area = 0;
   double volume = 0;
 
-  void add(const Vector& a, const Vector& b, const Vector& c) {
-    const Vector n = cross(b - a, c - a);
+  void add(const Point& a, const Point& b, const Point& c) {
+    const Point n = cross(b - a, c - a);
     area += std::hypot(n.x, n.y, n.z) / 2;
     volume += std::max(dot(a, n), 0.0) / 6;
   }
@@ -35,9 +33,7 @@ struct Sums {
 // An exponent e such that no coordinate times 2^-e is larger than 1/2.
 int exponent_of(std::span<const Point> points) {
   double largest = 0;
-  for (const Point& p : points) {
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
+  for (const Point& p : points) largest = std::max(largest, largest_coordinate(p));
   constexpr int least = -1000;  // 2^1000 is finite
   return largest > 0 ? std::max(std::ilogb(largest) + 2, least) : 0;
 }
@@ -46,11 +42,8 @@ HullSize sum_of_faces(const Triangulation& hull) {
   const auto points = hull.sites().points();
   const int exponent = exponent_of(points);
   const double scale = std::ldexp(1.0, -exponent);
-  const auto scaled = [scale](const Point& p) {
-    return Vector{scale * p.x, scale * p.y, scale * p.z};
-  };
-  const Vector center = scaled(hull.sphere().center);
-  const auto at = [&](Index i) { return scaled(points[i]) - center; };
+  const Point center = scale * hull.sphere().center;
+  const auto at = [&](Index i) { return scale * points[i] - center; };
   Sums sums;
   for (const auto& [a, b, c] : hull.faces()) sums.add(at(a), at(b), at(c));
   const auto ring = hull.ring();

@@ -108,6 +108,29 @@ class Locator::Impl {
     return cursor;
   }
 
+  // ask(query, cursor), or `none` where there is no vertex.
+  template <class Answer, class Ask>
+  [[nodiscard]] Answer answer(const Point& query, Answer none, const Ask& ask,
+                              bool is_ray = true) const {
+    const system::ArithmeticScope arithmetic;
+    validate({&query, 1}, is_ray);
+    if (is_empty()) return none;
+    Cursor cursor = cursor_at(query);
+    return ask(query, cursor);
+  }
+  template <class Answer, class Ask>
+  [[nodiscard]] std::vector<Answer> answers(std::span<const Point> queries,
+                                            const Execution& execution, const Answer& none,
+                                            const Ask& ask) const {
+    const system::Call call(execution);
+    validate(queries);
+    std::vector<Answer> result(queries.size(), none);
+    if (is_empty()) return result;
+    for_each_query(queries, execution.threads,
+                   [&](Index i, Cursor& cursor) { result[i] = ask(queries[i], cursor); });
+    return result;
+  }
+
   template <class Work>
   void for_each_range(std::span<const Point> queries, unsigned threads, const Work& work) const {
     query::for_each_range(
@@ -202,53 +225,37 @@ Locator::Locator(Locator&& other) noexcept = default;
 Locator& Locator::operator=(Locator&& other) noexcept = default;
 
 Location Locator::locate(const Point& query) const {
-  const system::ArithmeticScope arithmetic;
-  impl_->validate({&query, 1});
-  if (impl_->is_empty()) return {};
-  Cursor cursor = impl_->cursor_at(query);
-  return impl_->engine().locate(query, cursor);
+  return impl_->answer(query, Location(), [this](const Point& p, Cursor& cursor) {
+    return impl_->engine().locate(p, cursor);
+  });
 }
 
 std::vector<Location> Locator::locate(std::span<const Point> queries,
                                       const Execution& execution) const {
-  const system::Call call(execution);
-  impl_->validate(queries);
-  std::vector<Location> result(queries.size());
-  if (impl_->is_empty()) return result;
-  impl_->for_each_query(queries, execution.threads, [&](Index i, Cursor& cursor) {
-    result[i] = impl_->engine().locate(queries[i], cursor);
+  return impl_->answers(queries, execution, Location(), [this](const Point& p, Cursor& cursor) {
+    return impl_->engine().locate(p, cursor);
   });
-  return result;
 }
 
 Index Locator::nearest(const Point& query) const {
-  const system::ArithmeticScope arithmetic;
-  impl_->validate({&query, 1});
-  if (impl_->is_empty()) return no_index;
-  Cursor cursor = impl_->cursor_at(query);
-  return impl_->engine().nearest(query, cursor);
+  return impl_->answer(query, no_index, [this](const Point& p, Cursor& cursor) {
+    return impl_->engine().nearest(p, cursor);
+  });
 }
 
 std::vector<Index> Locator::nearest(std::span<const Point> queries,
                                     const Execution& execution) const {
-  const system::Call call(execution);
-  impl_->validate(queries);
-  std::vector<Index> result(queries.size(), no_index);
-  if (impl_->is_empty()) return result;
-  impl_->for_each_query(queries, execution.threads, [&](Index i, Cursor& cursor) {
-    result[i] = impl_->engine().nearest(queries[i], cursor);
+  return impl_->answers(queries, execution, no_index, [this](const Point& p, Cursor& cursor) {
+    return impl_->engine().nearest(p, cursor);
   });
-  return result;
 }
 
 std::vector<Index> Locator::k_nearest(const Point& query, std::size_t k) const {
-  const system::ArithmeticScope arithmetic;
-  impl_->validate({&query, 1});
-  std::vector<Index> found;
-  if (impl_->is_empty()) return found;
-  Cursor cursor = impl_->cursor_at(query);
-  impl_->engine().k_nearest(query, k, cursor, found);
-  return found;
+  return impl_->answer(query, std::vector<Index>(), [&](const Point& p, Cursor& cursor) {
+    std::vector<Index> found;
+    impl_->engine().k_nearest(p, k, cursor, found);
+    return found;
+  });
 }
 
 std::vector<Index> Locator::k_nearest(std::span<const Point> queries, std::size_t k,
@@ -313,11 +320,10 @@ std::vector<Index> Locator::neighbors(Index site) const {
 }
 
 std::vector<Index> Locator::conflict_region(const Point& query) const {
-  const system::ArithmeticScope arithmetic;
-  impl_->validate({&query, 1}, impl_->model() == Model::projected);
-  if (impl_->is_empty()) return {};
-  Cursor cursor = impl_->cursor_at(query);
-  return impl_->engine().conflict_region(query, cursor);
+  return impl_->answer(
+      query, std::vector<Index>(),
+      [this](const Point& p, Cursor& cursor) { return impl_->engine().conflict_region(p, cursor); },
+      impl_->model() == Model::projected);
 }
 
 }  // namespace rondel

@@ -24,6 +24,22 @@ std::string coordinates(const Point& p) {
   return "(" + text(p.x) + ", " + text(p.y) + ", " + text(p.z) + ")";
 }
 
+// Names the first of the points that is not finite or, where points are rays, the center.
+void validate_each(const char* word, std::span<const Point> points, const Point& center,
+                   bool are_rays, const char* what_center_lacks) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto refuse = [&](const std::string& flaw) {
+      throw InvalidInput(std::string(word) + " " + std::to_string(i) + ": " +
+                             coordinates(points[i]) + " is " + flaw,
+                         i);
+    };
+    if (!is_finite(points[i])) refuse("not finite");
+    if (are_rays && points[i] == center) {
+      refuse(std::string("the center of the sphere and has no ") + what_center_lacks);
+    }
+  }
+}
+
 }  // namespace
 
 std::string text(double value) {
@@ -73,31 +89,12 @@ bool are_valid(std::span<const Point> sites, const Options& options) {
 void validate(std::span<const Point> sites, const Options& options) {
   validate(options, sites.size());
   if (are_valid(sites, options)) return;
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    if (!is_finite(sites[i])) {
-      throw InvalidInput(
-          "site " + std::to_string(i) + ": " + coordinates(sites[i]) + " is not finite", i);
-    }
-    if (options.model == Model::projected && sites[i] == options.sphere.center) {
-      throw InvalidInput("site " + std::to_string(i) + ": " + coordinates(sites[i]) +
-                             " is the center of the sphere and has no projection",
-                         i);
-    }
-  }
+  validate_each("site", sites, options.sphere.center, options.model == Model::projected,
+                "projection");
 }
 
 void validate_queries(std::span<const Point> queries, const Point& center, bool are_rays) {
-  for (std::size_t i = 0; i < queries.size(); ++i) {
-    if (!is_finite(queries[i])) {
-      throw InvalidInput(
-          "query " + std::to_string(i) + ": " + coordinates(queries[i]) + " is not finite", i);
-    }
-    if (are_rays && queries[i] == center) {
-      throw InvalidInput("query " + std::to_string(i) + ": " + coordinates(queries[i]) +
-                             " is the center of the sphere and has no direction",
-                         i);
-    }
-  }
+  validate_each("query", queries, center, are_rays, "direction");
 }
 
 }  // namespace rondel::api

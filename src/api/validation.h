@@ -22,7 +22,7 @@ void validate(const Options& options, std::size_t num_sites);
 // for each, as nothing branches.
 bool are_valid(std::span<const Point> sites, const Options& options);
 
-// Throws InvalidInput because of any of these, and names the first site that is not valid.
+// Throws InvalidInput because of the options, of too many sites, or of the first that is not valid.
 void validate(std::span<const Point> sites, const Options& options);
 
 // Throws InvalidInput if a query point is not finite or, where it stands for a ray, the center.

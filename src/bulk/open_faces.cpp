@@ -14,8 +14,6 @@ namespace {
 using Edge = PlaneGraph::Edge;
 using predicates::Vector;
 
-Vector operator*(double s, const Vector& v) { return {s * v.x, s * v.y, s * v.z}; }
-
 }  // namespace
 
 Cone make_cone(const Square& square, double hand) {

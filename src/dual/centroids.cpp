@@ -23,7 +23,6 @@ namespace {
 using dual::LocalRing;
 using dual::RingPoint;
 using dual::Vec;
-using dual::operator*;  // NOLINT(misc-unused-using-decls): s * v
 
 // n - q. With r = q x n, the part across q is r x q and the part along q is
 // q.n - 1 = -|r|^2 / (1 + q.n).
@@ -54,8 +53,8 @@ Point centroid_of(const LocalRing& ring) {
     const Vec step = d - last;
     const Vec flat = cross(last, d);
     const Vec pole = cross(q, step) + flat;
-    const double chord = std::sqrt(dot(step, step));
-    const double sine = std::sqrt(dot(pole, pole));
+    const double chord = norm(step);
+    const double sine = norm(pole);
     moment = moment + flat + arc_excess(sine, 1 - 0.5 * chord * chord) * pole;
     sum = sum + q + d;
     perimeter += chord;
@@ -65,7 +64,7 @@ Point centroid_of(const LocalRing& ring) {
   // cells have no area at all: weighted sites on a flat part of the hull.
   const double noise = 8 * perimeter * (ring.error + 0x1p-52 * perimeter);
   const bool is_thin = dot(moment, moment) <= noise * noise;
-  return exact::to_point(dual::normalized(is_thin ? sum : moment));
+  return exact::to_point(normalized(is_thin ? sum : moment));
 }
 
 }  // namespace

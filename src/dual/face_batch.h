@@ -28,7 +28,7 @@ inline bool is_careful(const Kites& kites) { return kites[0] != kites[0]; }
 inline constexpr double near_cosine = 0.501;
 
 // points[k] = the circumcenter of face begin + k, at most 4u from the exact unit normal. Where
-// `kites` is not null, theirs are written, too (the model is projected then). Returns whether one
+// `kites` is not null, those of the faces are written, too (the model is projected then). Returns whether one
 // of them is careful.
 bool unit_normals(const SplitSites& sites, std::size_t begin, std::span<Point> points,
                   Kites* kites);

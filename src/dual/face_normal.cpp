@@ -41,8 +41,7 @@ double split_dot(const SplitNormal& n, const Offset& d) {
 Point unit_normal(const SplitSites& sites, Index a, Index b, Index c) {
   const RoundedNormal n = rounded_normal(sites, a, b, c);
   if (!n.is_accurate) return exact_normal(sites, a, b, c).normal;
-  const double length = std::sqrt(n.squared);
-  return {n.normal.x / length, n.normal.y / length, n.normal.z / length};
+  return to_point(n.normal / std::sqrt(n.squared));
 }
 
 bool is_degenerate(const SplitSites& sites, Index a, Index b, Index c) {

@@ -81,7 +81,7 @@ Cells lunes(const SplitSites& sites, std::span<const Index> ring, std::size_t nu
 double half_angle(const SplitSites& sites, const Vec& axis, Index a, Index b) {
   const Vec d = sites.difference(a, b);
   const Vec s = to_vector(sites[a].hi) + to_vector(sites[b].hi);
-  const double half = exact::argument(std::sqrt(dot(d, d)), std::sqrt(dot(s, s)));
+  const double half = exact::argument(norm(d), norm(s));
   const Vec e = sites.direction(a, b);
   return det(axis, to_vector(sites[a].hi), e) < 0 ? pi - half : half;
 }

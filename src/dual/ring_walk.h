@@ -28,7 +28,7 @@ inline Index third_corner(const Triple& face, Index v, Index w) {
   return face[0] ^ face[1] ^ face[2] ^ v ^ w;
 }
 
-// The same edge as halfedge (f, i), as a corner of the face g across it.
+// The corner of the face g across halfedge (f, i) that is opposite to this edge, too.
 inline Index mirror_corner(const Triple& face, Index i, const Triple& across) {
   return next_corner(corner_of(across, face[next_corner(i)]));
 }

@@ -23,9 +23,7 @@ namespace {
 // The power of two that brings the largest coordinate to [1/2, 1).
 int scale_exponent(std::span<const Point> sites) {
   double largest = 0;
-  for (const Point& p : sites) {
-    largest = std::max({largest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  }
+  for (const Point& p : sites) largest = std::max(largest, largest_coordinate(p));
   int exponent = 0;
   std::frexp(largest, &exponent);
   return -exponent;
@@ -36,17 +34,6 @@ exact::SplitPoint scaled_place(const Point& p, int shift) {
 }
 
 }  // namespace
-
-Vec normalized(const Vec& v) {
-  const double square = dot(v, v);
-  if (square < 0x1p-900) {
-    const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (size == 0) return v;
-    return normalized({v.x / size, v.y / size, v.z / size});
-  }
-  const double length = std::sqrt(square);
-  return {v.x / length, v.y / length, v.z / length};
-}
 
 SplitSites::SplitSites(const Triangulation& triangulation, unsigned threads)
     : sites_(triangulation.sites().points()),

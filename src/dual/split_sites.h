@@ -30,10 +30,6 @@ inline constexpr std::size_t parallel_grain = 4096;
 using Vec = exact::Vector3<double>;
 using exact::to_vector;
 
-inline Vec operator*(double s, const Vec& v) { return {s * v.x, s * v.y, s * v.z}; }
-// Zero stays zero. Precondition: no coordinate above 2^500.
-Vec normalized(const Vec& v);
-
 // b - a as the unevaluated sum hi + lo. |lo| <= 2^-51 in the projected model and
 // |lo| <= u|hi| in the weighted one.
 struct Offset {

@@ -42,7 +42,7 @@ class Editor {
 
   [[nodiscard]] const Places& places() const { return places_; }
   [[nodiscard]] const T& sites() const { return sites_; }
-  // None below dimension 2. Its vertices are places.
+  // The hull of the places, whose vertices are their numbers; none below dimension 2.
   [[nodiscard]] const std::optional<PlaceHull<T>>& hull() const { return hull_; }
 
   // For queries, as long as nothing changes. Precondition: there is a hull.
@@ -189,8 +189,7 @@ class Editor {
   static void report(const Execution& execution, std::size_t num_done, std::size_t num_changes) {
     if (num_done % 1024 != 0) return;
     system::obey_stop();
-    system::announce(execution, "change",
-                     static_cast<double>(num_done) / static_cast<double>(num_changes));
+    system::announce(execution, "change", num_done, num_changes);
   }
 
   void refresh(Index place) { sites_.set(place, places_.points(), places_.speakers()); }

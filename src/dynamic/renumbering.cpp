@@ -24,11 +24,10 @@ RenumberedMesh renumber(const topology::Mesh& mesh, const Renumbering& places) {
   // are numbered, the next one.
   std::vector<Index> begin(places.old_place.size() + 1, 0);
   std::vector<Index> least(mesh.num_slots(), no_index);
-  for (Index f = 0; f < mesh.num_slots(); ++f) {
-    if (!mesh.is_alive(f)) continue;
+  mesh.for_each_face([&](Index f) {
     least[f] = least_vertex(f);
     ++begin[least[f] + std::size_t{1}];
-  }
+  });
   for (std::size_t v = 1; v < begin.size(); ++v) begin[v] += begin[v - 1];
   std::vector<Index> old_face(mesh.num_faces());
   std::vector<Index> new_face = std::move(least);

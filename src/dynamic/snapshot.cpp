@@ -11,16 +11,6 @@
 #include "topology/linking.h"
 
 namespace rondel::dynamic {
-namespace {
-
-void rename_vertices(topology::Mesh& mesh, std::span<const Index> names) {
-  for (Index f = 0; f < mesh.num_slots(); ++f) {
-    if (!mesh.is_alive(f)) continue;
-    for (Index& v : mesh[f].vertex) v = names[v];
-  }
-}
-
-}  // namespace
 
 std::vector<Index> live_sites(const Places& places) {
   std::vector<Index> ids;
@@ -49,7 +39,9 @@ TriangulationArrays make_arrays(const Places& places, std::span<const Index> ids
   std::ranges::sort(arrays.hidden, {}, &Hidden::site);
 
   topology::Mesh copy = mesh;
-  rename_vertices(copy, rank_of_place);
+  copy.for_each_face([&](Index f) {
+    for (Index& v : copy[f].vertex) v = rank_of_place[v];
+  });
   kernel::write_canonical(copy, names, std::move(rank_of_place), arrays);
   arrays.num_sites = sites.size();
   arrays.dimension = 2;

@@ -101,10 +101,7 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
           if (cell_map.has_cell(site)) append_feature(text, site, pen);
         }
       },
-      [&](std::size_t done) {
-        system::announce(cells.execution, "write",
-                         static_cast<double>(done) / static_cast<double>(n));
-      });
+      [&](std::size_t done) { system::announce(cells.execution, "write", done, n); });
   file.write("\n]");
   file.write(hidden_member(cells.triangulation));
   file.write("}\n");

@@ -32,7 +32,7 @@ const Format* find_format(std::span<const Format> formats, const FileName& file)
 [[noreturn]] void throw_unknown_ending(const FileName& file, std::string_view what,
                                        std::span<const std::string_view> known);
 
-// The same as find_format, which must not fail.
+// The row of find_format(); where there is none, throw_unknown_ending() lists the endings of all.
 template <typename Format>
 const Format& require_format(std::span<const Format> formats, const FileName& file,
                              std::string_view what) {

@@ -43,7 +43,7 @@ bool is_json_number(std::string_view text);
 // Text from a file for a message: on one line, at most `longest` bytes, UTF-8 and
 // without control characters.
 std::string one_line(std::string_view text, std::size_t longest);
-// The same in quotes.
+// one_line() of a value of at most 60 bytes, in quotes.
 std::string in_quotes(std::string_view value);
 
 // The position in degrees of a longitude and latitude, given in degrees or radians. Throws BadValue

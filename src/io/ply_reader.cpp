@@ -45,7 +45,7 @@ class PlyNumbers {
     return take<double>();
   }
 
-  // The same for a number that must be an integer.
+  // The next number, which must be an integer.
   std::int64_t next_integer(PlyType type) {
     const double value = next(type);
     if (!(std::abs(value) < 0x1p62) || value != std::floor(value)) {

@@ -61,7 +61,7 @@ void SiteCollector::note_line(std::uint64_t line) {
 void SiteCollector::report_progress(std::size_t done, std::size_t total) const {
   constexpr std::size_t interval = 65536;
   if (size() % interval != 0) return;
-  system::announce(options_, "read", static_cast<double>(done) / static_cast<double>(total));
+  system::announce(options_, "read", done, total);
 }
 
 }  // namespace rondel::io

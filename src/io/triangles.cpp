@@ -55,10 +55,7 @@ void io::MeshToWrite::write_faces(AtomicFile& file,
       [&](std::string& text, std::size_t begin, std::size_t end) {
         for (std::size_t face = begin; face < end; ++face) append(text, static_cast<Index>(face));
       },
-      [&](std::size_t done) {
-        system::announce(execution, "write",
-                         static_cast<double>(done) / static_cast<double>(num_faces));
-      });
+      [&](std::size_t done) { system::announce(execution, "write", done, num_faces); });
 }
 
 std::vector<Triple> read_triangles(const FileName& file) {

@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+
+// What a file may hold as text: it goes into JSON and messages.
 #pragma once
 
 #include <string_view>

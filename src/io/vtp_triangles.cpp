@@ -17,8 +17,7 @@ void write_vtp_triangles(AtomicFile& file, const MeshToWrite& mesh) {
   vtp.connectivity = vtp_array<std::int64_t>("connectivity", 3 * m, [&](std::size_t i) {
     constexpr std::size_t corners_between_reports = 196608;
     if (i % corners_between_reports == 0) {
-      system::announce(mesh.execution, "write",
-                       static_cast<double>(i) / static_cast<double>(3 * m));
+      system::announce(mesh.execution, "write", i, 3 * m);
     }
     return faces[i / 3][i % 3];
   });

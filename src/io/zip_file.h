@@ -13,7 +13,7 @@
 
 namespace rondel::io {
 
-// The same members give the same bytes: the date is always the first of 1980. Members and archives
+// Equal members give equal bytes: the date is always the first of 1980. Members and archives
 // of 4 GiB and more use the zip64 fields.
 class ZipWriter {
  public:

@@ -16,8 +16,8 @@ namespace rondel::kernel {
 // in the one before with 7/64, and so on, by a hash of the rank.
 std::vector<Index> insertion_order(Index n);
 
-// The same of sites in their spatial order, of which crowds (order/crowds.h) come in one of their
-// own.
+// The order of insertion of sites whose spatial order is `order`, in which the sites of a crowd
+// (order/crowds.h) keep an order of their own.
 std::vector<Index> insertion_order(std::span<const Point> sites, std::span<const Index> order,
                                    Model model, const Point& center);
 

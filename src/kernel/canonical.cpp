@@ -168,9 +168,9 @@ void write_canonical(Mesh& mesh, const std::vector<Index>& names, std::vector<In
 
 void report_ghosts(const topology::Mesh& mesh, const FaceKinds& kinds, std::vector<Index>& ghosts) {
   if (kinds.all_solid()) return;
-  for (Index f = 0; f < mesh.num_slots(); ++f) {
-    if (mesh.is_alive(f) && kinds[f] != FaceKind::solid) ghosts.push_back(mesh[f].vertex[0]);
-  }
+  mesh.for_each_face([&](Index f) {
+    if (kinds[f] != FaceKind::solid) ghosts.push_back(mesh[f].vertex[0]);
+  });
   std::ranges::sort(ghosts);
 }
 

@@ -49,9 +49,7 @@ class MutableHull {
   }
   // The finished mesh of a build.
   MutableHull(T& sites, topology::Mesh mesh) : test_(sites), mesh_(std::move(mesh)) {
-    for (Index f = 0; f < mesh_.num_slots(); ++f) {
-      if (mesh_.is_alive(f)) adopt(f);
-    }
+    mesh_.for_each_face([this](Index f) { adopt(f); });
   }
 
   [[nodiscard]] const T& sites() const { return test_.sites(); }

@@ -42,10 +42,9 @@ std::vector<Hidden> find_hidden(const topology::Mesh& mesh, Index num_ranks) {
   // V vertices have 2V-4 faces.
   if (T::hides_sites && mesh.num_faces() / 2 + 2 < num_ranks) {
     std::vector<bool> is_vertex(num_ranks, false);
-    for (Index f = 0; f < mesh.num_slots(); ++f) {
-      if (!mesh.is_alive(f)) continue;
+    mesh.for_each_face([&](Index f) {
       for (const Index v : mesh[f].vertex) is_vertex[v] = true;
-    }
+    });
     for (Index p = 0; p < num_ranks; ++p) {
       if (!is_vertex[p]) hidden.push_back({p, no_index});
     }
@@ -64,10 +63,7 @@ Triangulated build(std::span<const Point> sites, std::vector<Index> order,
   for (std::size_t i = 0; i < insertion.size(); ++i) {
     const Index p = insertion[i];
     if (p != first[0] && p != first[1] && p != first[2]) hull.insert(p);
-    if (options.progress && i % stride == 0) {
-      options.progress("triangulate",
-                       static_cast<double>(i) / static_cast<double>(insertion.size()));
-    }
+    if (i % stride == 0) system::announce(options, "triangulate", i, insertion.size());
   }
   order::rename(order, renamed);
   Triangulated result;

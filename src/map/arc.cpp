@@ -9,8 +9,6 @@
 namespace rondel::map {
 namespace {
 
-double squared_norm(const Point& p) { return dot(p, p); }
-
 Point point_at(const LonLat& position) {
   const double lon = position.lon_deg / degrees_per_radian;
   const double lat = position.lat_deg / degrees_per_radian;
@@ -27,7 +25,7 @@ bool is_surely_flat(const MapPoint& p, const MapPoint& q, double tolerance) {
 }
 
 double angle(const Point& p, const Point& q) {
-  return 2 * std::asin(std::min(1.0, norm(difference(p, q)) / 2));
+  return 2 * std::asin(std::min(1.0, norm(p - q) / 2));
 }
 
 // The tolerance where the arc comes closest to the center: by the triangle inequality on the sphere
@@ -45,7 +43,7 @@ double tolerance_along(const Point& p, const Point& q, const ArcTolerance& arc) 
 // of the three.
 bool is_flat(const MapPoint& p, const MapPoint& q, const ArcTolerance& arc) {
   if (is_surely_flat(p, q, arc.least)) return true;
-  const Point chord = difference(q.point, p.point);
+  const Point chord = q.point - p.point;
   const double tolerance = tolerance_along(p.point, q.point, arc);
   if (norm(chord) <= tolerance) return true;
   const Point normal = cross(p.point, chord);
@@ -53,7 +51,7 @@ bool is_flat(const MapPoint& p, const MapPoint& q, const ArcTolerance& arc) {
   const auto is_near = [&](double t) {
     const LonLat place{std::lerp(p.position.lon_deg, q.position.lon_deg, t),
                        std::lerp(p.position.lat_deg, q.position.lat_deg, t)};
-    return std::abs(dot(normal, difference(point_at(place), p.point))) <= limit;
+    return std::abs(dot(normal, point_at(place) - p.point)) <= limit;
   };
   return is_near(0.5) && is_near(0.25) && is_near(0.75);
 }
@@ -61,7 +59,7 @@ bool is_flat(const MapPoint& p, const MapPoint& q, const ArcTolerance& arc) {
 void bisect(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
             std::vector<MapPoint>& out) {
   if (is_flat(p, q, tolerance)) return;
-  const Point chord = sum(p.point, q.point);
+  const Point chord = p.point + q.point;
   if (chord == Point{}) return;  // opposite points, which are the ends of no arc of a diagram
   MapPoint middle;
   middle.point = normalized(chord);
@@ -78,22 +76,6 @@ void bisect(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
 
 }  // namespace
 
-Point sum(const Point& p, const Point& q) { return {p.x + q.x, p.y + q.y, p.z + q.z}; }
-Point difference(const Point& p, const Point& q) { return {p.x - q.x, p.y - q.y, p.z - q.z}; }
-
-Point cross(const Point& p, const Point& q) {
-  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
-}
-
-double dot(const Point& p, const Point& q) { return p.x * q.x + p.y * q.y + p.z * q.z; }
-double norm(const Point& p) { return std::sqrt(squared_norm(p)); }
-double distance(const Point& p, const Point& q) { return norm(difference(p, q)); }
-
-Point normalized(const Point& p) {
-  const double length = norm(p);
-  return {p.x / length, p.y / length, p.z / length};
-}
-
 Point snapped(const Point& p) {
   if (std::hypot(p.x, p.y) <= merge_distance) return {0, 0, p.z > 0 ? 1.0 : -1.0};
   if (p.x < 0 && std::abs(p.y) <= merge_distance) return {p.x, 0, p.z};
@@ -109,12 +91,11 @@ LonLat lonlat_of(const Point& p, bool east) {
 }
 
 std::optional<Point> foot_on_arc(const Point& v, const Point& p, const Point& q) {
-  const Point normal = normalized(cross(p, difference(q, p)));
-  const double height = dot(normal, difference(v, p));
-  const Point foot =
-      normalized({v.x - height * normal.x, v.y - height * normal.y, v.z - height * normal.z});
-  const bool is_inside = dot(normal, cross(p, difference(foot, p))) > 0 &&
-                         dot(normal, cross(foot, difference(q, foot))) > 0;
+  const Point normal = normalized(cross(p, q - p));
+  const double height = dot(normal, v - p);
+  const Point foot = normalized(v - height * normal);
+  const bool is_inside =
+      dot(normal, cross(p, foot - p)) > 0 && dot(normal, cross(foot, q - foot)) > 0;
   return is_inside ? std::optional(foot) : std::nullopt;
 }
 

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "exact/vector.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
@@ -29,13 +30,12 @@ Point snapped(const Point& p);
 // longitudes; it gets the one on the side of `east`: 180 if true, else -180.
 LonLat lonlat_of(const Point& p, bool east);
 
-Point sum(const Point& p, const Point& q);
-Point difference(const Point& p, const Point& q);
-Point cross(const Point& p, const Point& q);
-double dot(const Point& p, const Point& q);
-double norm(const Point& p);
-double distance(const Point& p, const Point& q);
-Point normalized(const Point& p);
+// The unit vector from the center to a site of any size; zero for the center itself.
+inline Point direction(const Point& site, const Point& center) {
+  return normalized(scaled(site - center));
+}
+
+inline double distance(const Point& p, const Point& q) { return norm(p - q); }
 
 // The point between p and q on their arc that is nearest to v; none if that is an end.
 std::optional<Point> foot_on_arc(const Point& v, const Point& p, const Point& q);

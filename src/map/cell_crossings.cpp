@@ -50,8 +50,7 @@ std::vector<std::size_t> CellMap::find_crossing_lines(const Execution& execution
   const std::size_t num_sites = sites_.size();
   std::vector<std::vector<std::size_t>> found(system::num_pieces(num_sites, grain));
   for (std::size_t first = 0; first < num_sites; first += stretch) {
-    system::announce(execution, "outline",
-                     static_cast<double>(first) / static_cast<double>(num_sites));
+    system::announce(execution, "outline", first, num_sites);
     const std::size_t size = std::min(stretch, num_sites - first);
     system::parallel_for(execution.threads, size, grain, [&](std::size_t begin, std::size_t end) {
       Pen pen;
@@ -149,7 +148,7 @@ bool CellMap::bisect(std::span<const LinePair> pairs, double shortest) {
       const Point& to = line_end(line);
       // A line to a pole is a meridian, as its arc.
       if (distance(from, to) <= shortest || is_pole(from) || is_pole(to)) continue;
-      const Point middle = snapped(normalized(sum(from, to)));
+      const Point middle = snapped(normalized(from + to));
       if (middle == from || middle == to || is_pole(middle)) continue;
       drawn[edge_of(line)].kept.push_back(middle);
       has_changed = true;

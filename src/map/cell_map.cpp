@@ -7,13 +7,6 @@
 #include <numeric>
 
 namespace rondel::map {
-namespace {
-
-double largest_coordinate(const Point& p) {
-  return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-}
-
-}  // namespace
 
 CellMap::CellMap(const Triangulation& triangulation, const Cells& cells, double tolerance_deg,
                  const Execution& execution)
@@ -72,23 +65,18 @@ void CellMap::merge_close_points() {
   for (Index& point : representatives_) point = representative(point);
 }
 
-// Scaled first, so that the largest and smallest doubles are normalized too.
 Point CellMap::direction(std::size_t site) const {
-  const Point p = difference(sites_[site], triangulation_.sphere().center);
-  const double scale = largest_coordinate(p);
-  return scale > 0 ? normalized({p.x / scale, p.y / scale, p.z / scale}) : p;
+  return map::direction(sites_[site], triangulation_.sphere().center);
 }
 
 ArcTolerance CellMap::tolerance_between(const Point& own_direction, std::size_t other) const {
   const Point other_direction = direction(other);
   const double most = std::max(tolerance_, merge_distance);
   const double least = distance(own_direction, other_direction) / 8;
-  const Point middle = sum(own_direction, other_direction);
+  const Point middle = own_direction + other_direction;
   const double length = norm(middle);
   if (length == 0) return {most, most, {}};  // antipodal
-  return {std::clamp(least, merge_distance, most),
-          most,
-          {middle.x / length, middle.y / length, middle.z / length}};
+  return {std::clamp(least, merge_distance, most), most, middle / length};
 }
 
 // In dimension 1 one least tolerance, that of the closest sites, serves all arcs.

@@ -17,7 +17,7 @@ constexpr double least_tolerance_deg = 1e-5;
 // opposite corners, but they may be opposite when they are rounded.
 bool is_determined(const std::array<Point, 3>& ring) {
   const auto are_opposite = [](const Point& p, const Point& q) {
-    return norm(sum(p, q)) <= merge_distance;
+    return norm(p + q) <= merge_distance;
   };
   return !are_opposite(ring[0], ring[1]) && !are_opposite(ring[1], ring[2]) &&
          !are_opposite(ring[2], ring[0]);
@@ -34,7 +34,8 @@ std::vector<LonLatPolygon> FaceMap::polygons(Index face) const {
 // The corners on the unit sphere.
 FaceMap::Corners FaceMap::ring(Index face) const {
   const auto& [a, b, c] = triangulation_.faces()[face];
-  return {direction(sites_[a]), direction(sites_[b]), direction(sites_[c])};
+  const Point& center = triangulation_.sphere().center;
+  return {direction(sites_[a], center), direction(sites_[b], center), direction(sites_[c], center)};
 }
 
 // The tolerances of the edges 01, 12 and 20.
@@ -50,18 +51,12 @@ std::array<double, 3> FaceMap::tolerances(Index face) const {
 
 double FaceMap::tolerance(Index face) const {
   const auto [a, b, c] = ring(face);
-  const Point ab = difference(b, a);
-  const Point bc = difference(c, b);
-  const double longest = std::max({norm(ab), norm(bc), norm(difference(a, c))});
+  const Point ab = b - a;
+  const Point bc = c - b;
+  const double longest = std::max({norm(ab), norm(bc), norm(a - c)});
   if (longest == 0) return least_tolerance_deg;  // one place after rounding
   const double height_deg = norm(cross(ab, bc)) / longest * degrees_per_radian;
   return std::clamp(height_deg / 10, least_tolerance_deg, largest_tolerance_deg);
-}
-
-Point FaceMap::direction(const Point& site) const {
-  const Point p = difference(site, triangulation_.sphere().center);
-  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  return normalized({p.x / largest, p.y / largest, p.z / largest});
 }
 
 }  // namespace rondel::map

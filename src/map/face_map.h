@@ -30,7 +30,6 @@ class FaceMap {
   [[nodiscard]] Corners ring(Index face) const;
   [[nodiscard]] std::array<double, 3> tolerances(Index face) const;
   [[nodiscard]] double tolerance(Index face) const;
-  [[nodiscard]] Point direction(const Point& site) const;
 
   std::span<const Point> sites_;
   const Triangulation& triangulation_;

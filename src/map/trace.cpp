@@ -17,7 +17,7 @@ const Point* pole_on_arc(const Point& p, const Point& q) {
   static constexpr Point north{0, 0, 1};
   static constexpr Point south{0, 0, -1};
   if (p.x * q.x + p.y * q.y >= 0) return nullptr;  // the arc does not turn by 90 degrees around it
-  const Point normal = cross(p, difference(q, p));
+  const Point normal = cross(p, q - p);
   if (std::abs(p.x * q.y - p.y * q.x) > merge_distance * norm(normal)) return nullptr;
   const double height = p.z * std::hypot(q.x, q.y) + q.z * std::hypot(p.x, p.y);
   return height > 0 ? &north : &south;
@@ -26,7 +26,7 @@ const Point* pole_on_arc(const Point& p, const Point& q) {
 // The point where an arc from the west to the east crosses the plane of the antimeridian.
 Point crossing(const Point& west, const Point& east) {
   if (east.y == 0) return east;
-  return normalized({west.x * east.y - east.x * west.y, 0, west.z * east.y - east.z * west.y});
+  return normalized(Point{west.x * east.y - east.x * west.y, 0, west.z * east.y - east.z * west.y});
 }
 
 MapPoint map_point(const Point& p) { return {p, lonlat_of(p, is_east(p))}; }

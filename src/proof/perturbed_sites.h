@@ -52,7 +52,7 @@ class PerturbedSites {
   // 2. The same as rondel::is_in_conflict() where that is defined.
   [[nodiscard]] bool is_above(Index a, Index b, Index c, Index d) const;
 
-  // The same before the perturbation.
+  // On which side of the plane of a, b, c the place d is before the perturbation: positive above.
   [[nodiscard]] Sign side(Index a, Index b, Index c, Index d) const;
 
   // Whether a, b, c lie on one line with the center.

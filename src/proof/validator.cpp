@@ -36,9 +36,7 @@ class Validator {
   [[nodiscard]] std::string find_wrong_pair() const;
   [[nodiscard]] Index find_pole() const;
 
-  void tell(double fraction) const {
-    if (options_.progress) options_.progress("check", fraction);
-  }
+  void tell(double fraction) const { system::announce(options_, "check", fraction); }
 
   std::span<const Point> sites_;
   std::span<const Triple> triangles_;

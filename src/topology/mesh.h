@@ -49,6 +49,14 @@ class Mesh {
   }
   [[nodiscard]] bool is_alive(Index f) const { return faces_[f].vertex[0] != no_index; }
 
+  // visit(f) for the faces that are alive, in the order of their numbers.
+  template <class Visit>
+  void for_each_face(const Visit& visit) const {
+    for (Index f = 0; f < num_slots(); ++f) {
+      if (is_alive(f)) visit(f);
+    }
+  }
+
   [[nodiscard]] const Face& operator[](Index f) const { return faces_[f]; }
   [[nodiscard]] Face& operator[](Index f) { return faces_[f]; }
 

@@ -38,11 +38,10 @@ double fan_area(const std::vector<Point>& ring) {
   double area = 0;
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
     const Point& a = ring[0];
-    const Point u = map::difference(ring[i], a);
-    const Point v = map::difference(ring[i + 1], a);
-    const double divisor =
-        1 + map::dot(a, ring[i]) + map::dot(ring[i], ring[i + 1]) + map::dot(ring[i + 1], a);
-    area += 2 * std::atan2(map::dot(a, map::cross(u, v)), divisor);
+    const Point u = ring[i] - a;
+    const Point v = ring[i + 1] - a;
+    const double divisor = 1 + dot(a, ring[i]) + dot(ring[i], ring[i + 1]) + dot(ring[i + 1], a);
+    area += 2 * std::atan2(dot(a, cross(u, v)), divisor);
   }
   return area;
 }
@@ -170,8 +169,8 @@ TEST(lonlat_polygon, touches_the_antimeridian_without_a_cut) {
 std::vector<Point> ring_around(const Point& center, double radius, int count,
                                std::mt19937_64& random) {
   const Point helper = std::abs(center.z) < 0.5 ? Point{0, 0, 1} : Point{1, 0, 0};
-  const Point u = map::normalized(map::cross(helper, center));
-  const Point v = map::cross(center, u);
+  const Point u = normalized(cross(helper, center));
+  const Point v = cross(center, u);
   std::vector<Point> ring;
   for (int i = 0; i < count; ++i) {
     const double jitter = std::uniform_real_distribution<double>(0, 0.8)(random);
@@ -180,7 +179,7 @@ std::vector<Point> ring_around(const Point& center, double radius, int count,
     const double b = std::sin(radius) * std::sin(angle);
     const double c = std::cos(radius);
     ring.push_back(
-        map::normalized({a * u.x + b * v.x + c * center.x, a * u.y + b * v.y + c * center.y,
+        normalized(Point{a * u.x + b * v.x + c * center.x, a * u.y + b * v.y + c * center.y,
                          a * u.z + b * v.z + c * center.z}));
   }
   return ring;
@@ -214,11 +213,11 @@ TEST(lonlat_polygon, neighbors_share_their_positions) {
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int trial = 0; trial < 500; ++trial) {
     const auto point = [&] {
-      return map::normalized({unit(random) - 1.2, unit(random), unit(random)});
+      return normalized(Point{unit(random) - 1.2, unit(random), unit(random)});
     };
     std::array<Point, 4> p{point(), point(), point(), point()};
     const auto orientation = [](const Point& a, const Point& b, const Point& c) {
-      return map::dot(a, map::cross(map::difference(b, a), map::difference(c, a)));
+      return dot(a, cross(b - a, c - a));
     };
     if (orientation(p[0], p[1], p[2]) < 0) std::swap(p[0], p[1]);
     if (orientation(p[1], p[0], p[3]) <= 0) continue;
@@ -231,11 +230,11 @@ TEST(lonlat_polygon, neighbors_share_their_positions) {
     };
     const auto left = positions({p[0], p[1], p[2]});
     const auto right = positions({p[1], p[0], p[3]});
-    const Point normal = map::normalized(map::cross(p[0], p[1]));
+    const Point normal = normalized(cross(p[0], p[1]));
     for (const auto& [lon, lat] : left) {
       const Point q = at(lon, lat);
-      const bool is_inside = map::dot(q, map::sum(p[0], p[1])) > 1 + map::dot(p[0], p[1]) - 1e-12;
-      if (std::abs(map::dot(q, normal)) > 1e-14 || !is_inside) continue;
+      const bool is_inside = dot(q, p[0] + p[1]) > 1 + dot(p[0], p[1]) - 1e-12;
+      if (std::abs(dot(q, normal)) > 1e-14 || !is_inside) continue;
       EXPECT_TRUE(right.contains({lon, lat})) << trial << ": " << lon << ' ' << lat;
     }
   }
