@@ -9,6 +9,8 @@
 # file://. Imports, the word `export` and comments of whole lines are left out, so every name at the top of a
 # module is unique among all modules.
 
+cmake_minimum_required(VERSION 3.25)
+
 # `;` and `[` mean something in lists, so that texts are only ever single, quoted arguments.
 function(read_script path result)
   file(READ "${path}" text)
@@ -18,6 +20,15 @@ function(read_script path result)
   if(text MATCHES "\n(import|export) ")
     message(FATAL_ERROR "${path}: an import or export is not as this script expects it")
   endif()
+  string(REGEX MATCHALL "\n(async )?(function|class|const|let) [A-Za-z]+" found "${text}")
+  foreach(definition IN LISTS found)
+    string(REGEX REPLACE ".* " "" name "${definition}")
+    if(name IN_LIST names)
+      message(FATAL_ERROR "${path}: another module has the name ${name}, too")
+    endif()
+    list(APPEND names ${name})
+  endforeach()
+  set(names "${names}" PARENT_SCOPE)
   string(REGEX REPLACE "\n[ ]+" "\n" text "${text}")
   string(REGEX REPLACE "\n\n+" "\n" text "${text}")
   set(${result} "${text}" PARENT_SCOPE)
@@ -38,6 +49,7 @@ function(append_literal name text)
 endfunction()
 
 set(script "(() => {\n\"use strict\";")
+set(names "")
 foreach(module IN LISTS MODULES)
   read_script("${VIEWER}/src/${module}" text)
   string(APPEND script "${text}")

@@ -108,7 +108,9 @@ export class Camera {
   // Brings the place `grabbed` under a pixel. Away from the poles the direction that points up stays.
   drag(grabbed, x, y) {
     const bearing = this.bearing;
-    for (let step = 0; step < 3; ++step) {
+    for (let step = 0; step < 8; ++step) {
+      const { x: atX, y: atY } = this.pixelOf(grabbed);
+      if (step > 0 && Math.hypot(atX - x, atY - y) < 1e-3) return;
       this.carry(grabbed, this.placeAt(x, y, true));
       const change = ((bearing - this.bearing + 540) % 360) - 180;
       if (Math.abs(this.forward[2]) < 0.98) this.roll(change);

@@ -248,10 +248,10 @@ export class Scene {
   drawSites(views, close, theme) {
     const { canvas } = this;
     for (const { chunk, spacing: pixels } of views) {
-      canvas.drawSites(this.sitesBuffer, chunk.begin, chunk.end - chunk.begin, chunk.center, theme, dot(pixels));
+      canvas.drawSites(this.sitesBuffer, chunk.begin, chunk.end - chunk.begin, chunk.center, theme, dotLook(pixels));
     }
     canvas.refill(canvas.loose.sites, new Float32Array(close.sites));
-    canvas.drawSites(canvas.loose.sites, 0, close.sites.length / 4, null, theme, dot(Infinity));
+    canvas.drawSites(canvas.loose.sites, 0, close.sites.length / 4, null, theme, dotLook(Infinity));
   }
 
   // Coasts and the net of meridians and parallels, which is finer where the zoom is larger.
@@ -312,7 +312,7 @@ function lineWidth(pixels) {
   return Math.min(widestLine, Math.max(0.3, pixels / 12));
 }
 
-function dot(pixels) {
+function dotLook(pixels) {
   return { size: Math.min(widestDot, Math.max(0.7, pixels / 5)), ink: 1, isFilled: false };
 }
 
