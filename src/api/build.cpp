@@ -17,6 +17,7 @@
 #include "order/duplicates.h"
 #include "order/spatial_order.h"
 #include "rondel/error.h"
+#include "system/gather.h"
 #include "system/parallel.h"
 #include "system/view_as.h"
 
@@ -101,13 +102,6 @@ void add_inner_sites(std::span<const Point> sites, std::span<const Index> rest,
                              &Duplicate::site);
 }
 
-std::vector<Point> select(std::span<const Point> sites, std::span<const Index> indices) {
-  std::vector<Point> points;
-  points.reserve(indices.size());
-  for (const Index i : indices) points.push_back(sites[i]);
-  return points;
-}
-
 }  // namespace
 
 Triangulation build(Sites all_sites, const system::Job& options, const hidden::InnerPoint* inner) {
@@ -117,7 +111,7 @@ Triangulation build(Sites all_sites, const system::Job& options, const hidden::I
   const auto start = Clock::now();
   system::announce(options, "order", 0);
   const auto rest = find_rest(sites, options, inner);
-  const auto rest_points = select(sites, rest);
+  const auto rest_points = system::gather(sites, rest);
   const std::span<const Point> inserted = rest.empty() ? sites : rest_points;
   // Of as much memory as the faces, which will be written over the sites.
   LargeVector<Triple> copies(inserted.size() < bulk::least_copied_sites ? 0 : 2 * inserted.size());

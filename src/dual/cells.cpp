@@ -130,8 +130,7 @@ Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& 
   Cells result;
   dual::FaceKites kites;
   const bool with_kites = sites.is_projected();
-  result.points = with_kites ? dual::circumcenters(triangulation, sites, kites)
-                             : dual::circumcenters(triangulation, sites);
+  result.points = dual::circumcenters(triangulation, sites, with_kites ? &kites : nullptr);
   std::vector<ArcPoint> arc_points;
   if (!with_kites || kites.has_careful) {
     arc_points = dual::add_arc_points(triangulation, sites, result.points);

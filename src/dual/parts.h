@@ -34,16 +34,14 @@
 
 namespace rondel::dual {
 
-std::vector<Point> circumcenters(const Triangulation& triangulation, const SplitSites& sites);
-
 // The kites of all faces, in the projected model.
 struct FaceKites {
   system::LargeArray<Kites> of;
   bool has_careful = false;
 };
-// Their circumcenters, too.
+// The circumcenters of all faces; `kites`, unless it is null, receives those of all faces.
 std::vector<Point> circumcenters(const Triangulation& triangulation, const SplitSites& sites,
-                                 FaceKites& kites);
+                                 FaceKites* kites = nullptr);
 
 // `areas`, unless it is null, receives those of all cells.
 Cells cells(const Triangulation& triangulation, const SplitSites& sites,

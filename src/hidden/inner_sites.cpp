@@ -44,7 +44,7 @@ double inradius(const std::array<Vector, 4>& corners) {
     const Vector& c = corners[(i + 3) % 4];
     const Vector normal = cross(b - a, c - a);
     const double volume = std::abs(det(a, b, c)) - rounding * size_of(a) * size_of(b) * size_of(c);
-    const double area = std::sqrt(dot(normal, normal)) + rounding * size_of(b - a) * size_of(c - a);
+    const double area = norm(normal) + rounding * size_of(b - a) * size_of(c - a);
     least = std::min(least, area > 0 ? volume / area : 0);
   }
   return least;
@@ -112,7 +112,7 @@ class Gauge {
     double size = size_of(x);
     for (std::size_t i = 0; i < 3; ++i) {
       const double k = std::max(coefficients[i], 0.0);
-      left = left - Vector{k * corner[i].x, k * corner[i].y, k * corner[i].z};
+      left = left - k * corner[i];
       sum += k;
       size += k * size_of(corner[i]);
     }

@@ -47,10 +47,7 @@ void require_diagram(const Triangulation& triangulation, const Diagram& diagram)
 namespace rondel {
 namespace {
 
-struct CellWriter {
-  std::string_view ending;
-  void (*write)(io::AtomicFile&, const io::CellsToWrite&);
-};
+using CellWriter = io::Writer<io::CellsToWrite>;
 constexpr std::array<CellWriter, 3> cell_writers = {{{".geojson", &io::write_cells_geojson},
                                                      {".vtp", &io::write_cells_vtp},
                                                      {".npz", &io::write_cells_npz}}};
@@ -67,10 +64,8 @@ void write_cells(const FileName& output, const SiteTable& table, const Triangula
   io::require_sites(table, triangulation);
   io::require_diagram(triangulation, diagram);
   const double tolerance = io::checked_tolerance(tolerance_deg);
-  const auto& writer = io::require_format<CellWriter>(cell_writers, output, "cells are written as");
-  io::AtomicFile file(output.path);
-  writer.write(file, {table, triangulation, diagram, tolerance, execution});
-  file.commit();
+  io::write_whole<io::CellsToWrite>(cell_writers, output, "cells are written as",
+                                    {table, triangulation, diagram, tolerance, execution});
 }
 
 }  // namespace rondel

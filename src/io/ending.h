@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/atomic_file.h"
 #include "rondel/io.h"
 
 namespace rondel::io {
@@ -40,6 +41,23 @@ const Format& require_format(std::span<const Format> formats, const FileName& fi
   std::vector<std::string_view> known;
   for (const Format& format : formats) known.push_back(format.ending);
   throw_unknown_ending(file, what, known);
+}
+
+// A row of a table of formats: how what a job says is written.
+template <typename Job>
+struct Writer {
+  std::string_view ending;
+  void (*write)(AtomicFile&, const Job&);
+};
+
+// Writes the whole file, in the format that require_format() finds, or nothing.
+template <typename Job>
+void write_whole(std::span<const Writer<Job>> writers, const FileName& output,
+                 std::string_view what, const Job& job) {
+  const Writer<Job>& writer = require_format(writers, output, what);
+  AtomicFile file(output.path);
+  writer.write(file, job);
+  file.commit();
 }
 
 }  // namespace rondel::io

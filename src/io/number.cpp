@@ -15,6 +15,8 @@
 namespace rondel::io {
 namespace {
 
+constexpr double degrees_per_radian = 180 / std::numbers::pi;
+
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 // Skips one or more digits; false if there are none.
@@ -40,7 +42,7 @@ bool has_decimal_comma(std::string_view digits) {
   const std::size_t comma = digits.find(',');
   if (comma == std::string_view::npos || comma + 1 == digits.size()) return false;
   return is_json_number(digits.substr(0, comma)) &&
-         std::ranges::all_of(digits.substr(comma + 1), [](char c) { return c >= '0' && c <= '9'; });
+         std::ranges::all_of(digits.substr(comma + 1), is_digit);
 }
 
 }  // namespace
@@ -139,7 +141,6 @@ LonLat checked_position(double lon, double lat, bool is_radians) {
   }
   // Half of pi as a double times this is exactly 90. A latitude that a computation left at most
   // four ulp beyond the pole is the pole.
-  constexpr double degrees_per_radian = 180 / std::numbers::pi;
   constexpr double limit = std::numbers::pi / 2 + 4 * std::numeric_limits<double>::epsilon();
   if (std::abs(lat) > limit) {
     throw BadValue("latitude " + text_of(lat) + " is outside [-pi/2, pi/2]");
@@ -152,7 +153,6 @@ LonLat checked_position(double lon, double lat, bool is_radians) {
 }
 
 double checked_radius(double radius, bool is_radians) {
-  constexpr double degrees_per_radian = 180 / std::numbers::pi;
   const double degrees = is_radians ? radius * degrees_per_radian : radius;
   if (degrees >= 0 && degrees < 90) return degrees;
   throw BadValue("radius " + text_of(radius) + " is not in [0, " + (is_radians ? "pi/2)" : "90)"));

@@ -31,10 +31,7 @@ constexpr std::array<SiteReader, 6> site_readers = {
      {".npy", &io::read_npy_sites, false, &io::check_npy_sites},
      {".geojson", &io::read_geojson}}};
 
-struct SiteWriter {
-  std::string_view ending;
-  void (*write)(io::AtomicFile&, const io::SitesToWrite&);
-};
+using SiteWriter = io::Writer<io::SitesToWrite>;
 constexpr std::array<SiteWriter, 5> site_writers = {{{".csv", &io::write_csv},
                                                      {".tsv", &io::write_tsv},
                                                      {".xyz", &io::write_xyz},
@@ -92,11 +89,8 @@ void write_sites(const FileName& output, std::span<const Point> sites,
                  std::span<const LonLat> positions, std::span<const double> radii_deg,
                  const Execution& execution) {
   const system::Call call(execution);
-  const SiteWriter& writer =
-      io::require_format<SiteWriter>(site_writers, output, "sites are written as");
-  io::AtomicFile file(output.path);
-  writer.write(file, {sites, positions, radii_deg, execution});
-  file.commit();
+  io::write_whole<io::SitesToWrite>(site_writers, output, "sites are written as",
+                                    {sites, positions, radii_deg, execution});
 }
 
 void write_file(const std::string& path, std::string_view bytes) {

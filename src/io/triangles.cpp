@@ -33,10 +33,7 @@ constexpr std::array<TriangleReader, 5> triangle_readers = {
      {".obj", &io::read_obj},
      {".vtp", &io::read_vtp}}};
 
-struct TriangleWriter {
-  std::string_view ending;
-  void (*write)(io::AtomicFile&, const io::MeshToWrite&);
-};
+using TriangleWriter = io::Writer<io::MeshToWrite>;
 constexpr std::array<TriangleWriter, 7> triangle_writers = {{{".npy", &io::write_npy},
                                                              {".off", &io::write_off},
                                                              {".ply", &io::write_ply},
@@ -78,11 +75,8 @@ void write_triangles(const FileName& output, const SiteTable& table,
                      const Triangulation& triangulation, const Execution& execution) {
   const system::Call call(execution);
   io::require_sites(table, triangulation);
-  const TriangleWriter& writer =
-      io::require_format<TriangleWriter>(triangle_writers, output, "triangles are written as");
-  io::AtomicFile file(output.path);
-  writer.write(file, {table, triangulation, execution});
-  file.commit();
+  io::write_whole<io::MeshToWrite>(triangle_writers, output, "triangles are written as",
+                                   {table, triangulation, execution});
 }
 
 }  // namespace rondel

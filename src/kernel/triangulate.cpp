@@ -13,6 +13,7 @@
 #include "kernel/great_circle.h"
 #include "kernel/mutable_hull.h"
 #include "models/with_model.h"
+#include "system/gather.h"
 
 namespace rondel::kernel {
 namespace {
@@ -82,9 +83,7 @@ Triangulated build(std::span<const Point> sites, std::vector<Index> order,
 Triangulated build_ring(std::span<const Point> sites, std::vector<Index> order,
                         std::span<const order::Renamed> renamed, const system::Job& options) {
   Triangulated result;
-  std::vector<Point> points;
-  points.reserve(order.size());
-  for (const Index i : order) points.push_back(sites[i]);
+  const std::vector<Point> points = system::gather(sites, order);
   const auto span = find_span(points, options.sphere.center);
   result.arrays.ring = ring_of_great_circle(points, span, options.model, options.sphere.center);
   order::rename(order, renamed);

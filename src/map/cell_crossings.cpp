@@ -154,9 +154,8 @@ bool CellMap::bisect(std::span<const LinePair> pairs, double shortest) {
       has_changed = true;
     }
   }
-  if (!has_changed) return false;
-  for (auto& [edge, inner] : drawn) keep(edge, inner);
-  return true;
+  if (has_changed) keep(drawn);
+  return has_changed;
 }
 
 // Gives each of two lines that cross the points opposite the ends of the other; false if all lines
@@ -171,9 +170,8 @@ bool CellMap::align(std::span<const LinePair> pairs) {
       has_changed |= align(line, edge_of(other), line_end(other), drawn);
     }
   }
-  if (!has_changed) return false;
-  for (auto& [edge, inner] : drawn) keep(edge, inner);
-  return true;
+  if (has_changed) keep(drawn);
+  return has_changed;
 }
 
 const Point& CellMap::line_end(std::size_t line) const {
@@ -218,18 +216,17 @@ bool CellMap::merge_vertices(const Edge& edge, const Point& p, const Edge& other
   return true;
 }
 
-void CellMap::keep(const Edge& edge, Inner& inner) {
-  std::sort(inner.kept.begin(), inner.kept.end(), is_before);
-  std::sort(inner.dropped.begin(), inner.dropped.end(), is_before);
-  std::vector<Point>& points = inner_points_[edge];
-  points.clear();
-  std::set_difference(inner.kept.begin(), inner.kept.end(), inner.dropped.begin(),
-                      inner.dropped.end(), std::back_inserter(points), is_before);
-  points.erase(std::unique(points.begin(), points.end()), points.end());
-  const Point low = snapped(cells_.points[edge.first]);
-  const auto key = [&](const Point& p) { return distance(low, p); };
-  std::sort(points.begin(), points.end(),
-            [&](const Point& p, const Point& q) { return key(p) < key(q); });
+void CellMap::keep(std::map<Edge, Inner>& drawn) {
+  for (auto& [edge, inner] : drawn) {
+    std::ranges::sort(inner.kept, is_before);
+    std::ranges::sort(inner.dropped, is_before);
+    std::vector<Point>& points = inner_points_[edge];
+    points.clear();
+    std::ranges::set_difference(inner.kept, inner.dropped, std::back_inserter(points), is_before);
+    points.erase(std::unique(points.begin(), points.end()), points.end());
+    const Point low = snapped(cells_.points[edge.first]);
+    std::ranges::sort(points, {}, [&](const Point& p) { return distance(low, p); });
+  }
 }
 
 // Shrinks a very short arc at a tip, where that moves the boundary much less than the sites are

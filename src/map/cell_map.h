@@ -73,7 +73,7 @@ class CellMap {
   bool align(std::span<const LinePair> pairs);
   bool align(std::size_t line, const Edge& other, const Point& p, std::map<Edge, Inner>& drawn);
   bool merge_vertices(const Edge& edge, const Point& p, const Edge& other, const Point& q);
-  void keep(const Edge& edge, Inner& inner);
+  void keep(std::map<Edge, Inner>& drawn);
   [[nodiscard]] const Edge& edge_of(std::size_t line) const;
   [[nodiscard]] const Point& line_end(std::size_t line) const;
   [[nodiscard]] bool is_end(const Edge& edge, const Point& p) const;

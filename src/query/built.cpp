@@ -13,6 +13,7 @@
 #include "order/hilbert.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
+#include "system/gather.h"
 #include "topology/linking.h"
 
 namespace rondel::query {
@@ -100,9 +101,8 @@ AnyGraph Built::graph() const {
           return SurfaceGraph<T>{model,  mesh_,       kinds_,     corner_of_,
                                  names_, solid_face_, entry_face_};
         }
-        std::vector<Point> ring;
-        for (const Index i : speakers_) ring.push_back(sites_[i]);
-        return RingGraph<T>{model, names_, RingLocation(std::move(ring), center_)};
+        return RingGraph<T>{model, names_,
+                            RingLocation(system::gather(sites_.points(), speakers_), center_)};
       },
       points_);
 }

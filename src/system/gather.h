@@ -4,6 +4,7 @@
 // Arrays in a new order.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -14,12 +15,11 @@
 
 namespace rondel::system {
 
-// values[order[0]], values[order[1]] ..., with room for more.
-template <class T>
-std::vector<T> gather(const std::vector<T>& values, std::span<const Index> order,
-                      std::size_t room) {
-  std::vector<T> result;
-  system::reserve_large(result, room);
+// values[order[0]], values[order[1]] ..., with room for so many in all.
+template <class Values>
+auto gather(const Values& values, std::span<const Index> order, std::size_t room = 0) {
+  std::vector<typename Values::value_type> result;
+  system::reserve_large(result, std::max(room, order.size()));
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i + prefetch_distance < order.size()) prefetch(&values[order[i + prefetch_distance]]);
     result.push_back(values[order[i]]);
