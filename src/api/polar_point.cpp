@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <string>
 
-#include "api/validation.h"
 #include "exact/degrees.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
+#include "system/shortest_text.h"
 
 namespace rondel {
 namespace {
@@ -17,7 +17,7 @@ namespace {
 bool is_radius(double radius_deg) { return radius_deg >= 0 && radius_deg < 90; }
 
 std::string fault(double radius_deg) {
-  return "radius " + api::text(radius_deg) + " is not in [0, 90)";
+  return "radius " + system::shortest_text(radius_deg) + " is not in [0, 90)";
 }
 
 // The cosine is positive: the double next to 90 degrees is 1.4e-14 degrees away.

@@ -20,6 +20,7 @@
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/mutex.h"
+#include "system/shortest_text.h"
 
 namespace rondel {
 namespace {
@@ -29,7 +30,7 @@ using query::Limit;
 
 void check_angle(double angle) {
   if (angle >= 0) return;
-  throw InvalidInput("the angle " + api::text(angle) + " is negative or not a number", 0);
+  throw InvalidInput("the angle " + system::shortest_text(angle) + " is negative or not a number", 0);
 }
 
 // No limit from 180 degrees on.

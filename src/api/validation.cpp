@@ -3,25 +3,26 @@
 
 #include "api/validation.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
 
 #include "rondel/error.h"
+#include "system/shortest_text.h"
 #include "system/wide_vectors.h"
 
 namespace rondel::api {
 namespace {
+
+using system::shortest_text;
 
 bool is_finite(const Point& p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }
 
 std::string coordinates(const Point& p) {
-  return "(" + text(p.x) + ", " + text(p.y) + ", " + text(p.z) + ")";
+  return "(" + shortest_text(p.x) + ", " + shortest_text(p.y) + ", " + shortest_text(p.z) + ")";
 }
 
 // Names the first of the points that is not finite or, where points are rays, the center.
@@ -42,12 +43,6 @@ void validate_each(const char* word, std::span<const Point> points, const Point&
 
 }  // namespace
 
-std::string text(double value) {
-  std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
-  return {buffer.data(), end};
-}
-
 void validate(const Options& options, std::size_t num_sites) {
   const Sphere& sphere = options.sphere;
   if (!is_finite(sphere.center)) {
@@ -55,8 +50,9 @@ void validate(const Options& options, std::size_t num_sites) {
                        0);
   }
   if (!(sphere.squared_radius > 0) || !std::isfinite(sphere.squared_radius)) {
-    throw InvalidInput(
-        "the squared radius " + text(sphere.squared_radius) + " of the sphere is not positive", 0);
+    throw InvalidInput("the squared radius " + shortest_text(sphere.squared_radius) +
+                           " of the sphere is not positive",
+                       0);
   }
   if (num_sites > max_sites) {
     throw InvalidInput(std::to_string(num_sites) + " sites are more than the " +

@@ -6,14 +6,10 @@
 
 #include <cstddef>
 #include <span>
-#include <string>
 
 #include "rondel/types.h"
 
 namespace rondel::api {
-
-// The shortest digits that give back the value.
-std::string text(double value);
 
 // Throws InvalidInput as rondel/delaunay.h promises, because of the options or of so many sites.
 void validate(const Options& options, std::size_t num_sites);

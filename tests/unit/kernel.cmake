@@ -9,4 +9,5 @@ rondel_add_test(kernel_test
   spatial_index_test.cpp
   spatial_order_test.cpp
   system_parallel_test.cpp
+  system_shortest_text_test.cpp
   LIBS rondel_test_support)
