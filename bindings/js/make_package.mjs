@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Fills the folder of the npm package, all but its types: make_package.mjs SOURCE FOLDER
+
+import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+
+const [source, folder] = process.argv.slice(2);
+const javascript = join(source, "bindings", "js");
+const banner = "// SPDX-FileCopyrightText: The Rondel authors\n// SPDX-License-Identifier: Apache-2.0\n";
+
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(folder, { recursive: true });
+cpSync(join(javascript, "src"), join(folder, "src"), { recursive: true });
+cpSync(join(javascript, "tsconfig.json"), join(folder, "tsconfig.json"));
+cpSync(join(source, "LICENSE"), join(folder, "LICENSE"));
+cpSync(join(javascript, "README.md"), join(folder, "README.md"));
+
+// The version is in one place, and what only development needs is nobody else's.
+const { devDependencies, ...description } = JSON.parse(readFileSync(join(javascript, "package.json"), "utf8"));
+description.version = readFileSync(join(source, "VERSION"), "utf8").trim();
+writeFileSync(join(folder, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
+
+// The module twice: as a file, and as text that is there at once, without a request.
+const module = readFileSync(join(source, "build", "wasm", "bin", "rondel.wasm"));
+writeFileSync(join(folder, "rondel.wasm"), module);
+writeFileSync(
+  join(folder, "src", "module.js"),
+  `${banner}\n/** rondel.wasm in base64. */\nexport const encodedModule =\n  "${module.toString("base64")}";\n`,
+);
+
+// What the module holds besides Rondel, with the licences that ask to be shipped.
+const musl = readFileSync("/usr/share/doc/wasi-libc/copyright", "utf8");
+writeFileSync(
+  join(folder, "THIRD_PARTY.md"),
+  `# What rondel.wasm holds besides Rondel\n
+- libc++, libc++abi, libunwind and compiler-rt of LLVM 19: Apache-2.0 WITH LLVM-exception.
+- Boost.Multiprecision, under the Boost Software License 1.0, which asks nothing of object code.
+- wasi-libc, with musl and dlmalloc:\n\n\`\`\`\n${musl.trim()}\n\`\`\`\n`,
+);

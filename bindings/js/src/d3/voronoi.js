@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// geoVoronoi() of d3-geo-voronoi 2.1.
+
+import { geoDelaunay } from "./delaunay.js";
+import { centroid, distance } from "./sphere.js";
+
+/** @typedef {import("./sphere.js").LonLat} LonLat */
+
+/** @param {any} datum @param {0 | 1} i */
+function coordinate(datum, i) {
+  if (typeof datum === "object" && "type" in datum) return centroid(datum)[i];
+  return i in datum ? datum[i] : undefined;
+}
+
+/** @param {any[]} features */
+const collection = (features) => ({ type: "FeatureCollection", features });
+
+/** @param {any} geometry @param {object} properties */
+const feature = (geometry, properties) => ({ type: "Feature", geometry, properties });
+
+/** @param {any[]} ring */
+const closed = (ring) => [...ring, ring[0]];
+
+/**
+ * The Voronoi diagram of data: points [longitude, latitude], GeoJSON objects, which stand for their centroids, or what
+ * x() and y() read. Data without finite coordinates are left out. All methods may be called with new data.
+ * @param {any} [data] an array or a FeatureCollection
+ * @returns {any} a function of data that returns itself, with the methods of d3-geo-voronoi
+ */
+export function geoVoronoi(data) {
+  /** @type {any} */
+  const v = (/** @type {any} */ newData) => {
+    v.delaunay = null;
+    v._data = newData?.type === "FeatureCollection" ? newData.features : newData;
+    if (v._data !== null && typeof v._data === "object") {
+      const all = Array.from(v._data, (d) => ({ d, point: [v._vx(d), v._vy(d)] }));
+      const found = all.filter(({ point }) => Number.isFinite(point[0] + point[1]));
+      v.points = found.map(({ point }) => point);
+      v.valid = found.map(({ d }) => d);
+      v.delaunay = geoDelaunay(v.points);
+    }
+    return v;
+  };
+  v._vx = (/** @type {any} */ d) => coordinate(d, 0);
+  v._vy = (/** @type {any} */ d) => coordinate(d, 1);
+  addAccessors(v);
+  addDiagram(v);
+  addQuestions(v);
+  return data ? v(data) : v;
+}
+
+/** @param {any} v */
+function addAccessors(v) {
+  v.x = (/** @type {any} */ f) => (f ? ((v._vx = f), v) : v._vx);
+  v.y = (/** @type {any} */ f) => (f ? ((v._vy = f), v) : v._vy);
+}
+
+// Adds a method that takes new data if it is given any, and is false without data.
+/** @param {any} v @param {string} name @param {() => any} make */
+function addMethod(v, name, make) {
+  v[name] = (/** @type {any} */ data) => {
+    if (data !== undefined) v(data);
+    return v.delaunay ? make() : false;
+  };
+}
+
+/** @param {any} v */
+function addDiagram(v) {
+  addMethod(v, "polygons", () => {
+    const { centers, neighbors, polygons } = v.delaunay;
+    /** @param {any} _point @param {number} i */
+    const sphereOrNothing = (_point, i) => cell(i === 0 ? { type: "Sphere" } : null, i);
+    /** @param {any} geometry @param {number} i */
+    const cell = (geometry, i) =>
+      feature(geometry, { site: v.valid[i], sitecoordinates: v.points[i], neighbours: neighbors[i] });
+    if (polygons.length === 0) return collection(v.points.map(sphereOrNothing));
+    return collection(
+      polygons.map((/** @type {number[] | undefined} */ polygon, /** @type {number} */ i) => {
+        if (!polygon) return cell(null, i);
+        return cell({ type: "Polygon", coordinates: [closed(polygon.map((c) => centers[c]))] }, i);
+      }),
+    );
+  });
+  addMethod(v, "cellMesh", () => {
+    const { centers, mesh } = v.delaunay;
+    const coordinates = mesh.map((/** @type {[number, number]} */ [p, q]) => [centers[p], centers[q]]);
+    return { type: "MultiLineString", coordinates };
+  });
+  addMethod(v, "triangles", () => {
+    const { centers, triangles, isGhost } = v.delaunay;
+    const features = [];
+    for (let t = 0; t < triangles.length; ++t) {
+      if (isGhost[t]) continue;
+      const ring = triangles[t].map((/** @type {number} */ i) => v.points[i]);
+      features.push(feature({ type: "Polygon", coordinates: [closed(ring)] }, { circumcenter: centers[t] }));
+    }
+    return collection(features);
+  });
+}
+
+/** @param {any} v */
+function addQuestions(v) {
+  /** @param {[number, number]} edge */
+  const ends = ([a, b]) => [v.points[a], v.points[b]];
+  addMethod(v, "links", () => {
+    const { edges, urquhart } = v.delaunay;
+    const lengths = edges.map((/** @type {[number, number]} */ [a, b]) => distance(v.points[a], v.points[b]));
+    const isInUrquhart = urquhart(lengths);
+    return collection(
+      edges.map((/** @type {[number, number]} */ edge, /** @type {number} */ i) =>
+        feature(
+          { type: "LineString", coordinates: ends(edge) },
+          { source: v.valid[edge[0]], target: v.valid[edge[1]], length: lengths[i], urquhart: isInUrquhart[i] },
+        ),
+      ),
+    );
+  });
+  addMethod(v, "mesh", () => ({ type: "MultiLineString", coordinates: v.delaunay.edges.map(ends) }));
+  addMethod(v, "hull", () => {
+    const { hull } = v.delaunay;
+    if (hull.length === 0) return null;
+    return { type: "Polygon", coordinates: [closed(hull.map((/** @type {number} */ i) => v.points[i]))] };
+  });
+  // The radius is in radians, whatever the README of d3-geo-voronoi says, and what is farther is undefined.
+  v.find = (/** @type {number} */ lon, /** @type {number} */ lat, /** @type {number} */ radius) => {
+    v._found = v.delaunay.find(lon, lat, v._found);
+    if (!radius || distance([lon, lat], v.points[v._found]) < radius) return v._found;
+    return undefined;
+  };
+}

@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A triangulation whose sites come, go and move.
+
+import { indices, numbers, placeOptions } from "./arguments.js";
+import { engine, Handle } from "./engine.js";
+import { RondelError } from "./errors.js";
+import { dispose, Located, VoronoiDiagram } from "./triangulation.js";
+
+/** @typedef {import("./arguments.js").Numbers} Numbers */
+/** @typedef {import("./arguments.js").Indices} Indices */
+/** @typedef {import("./arguments.js").Options} Options */
+
+/**
+ * At any time the triangulation is the one that delaunay() makes of the sites that are there. Each site has an id that
+ * keeps its meaning until the site is removed; then the id may be given to a new site. A call that throws changes
+ * nothing. The questions of Located answer with ids; the faces of locate() mean nothing after the next change.
+ */
+export class DynamicTriangulation extends Located {
+  #handle;
+
+  /**
+   * @param {Numbers} [xyz] sites, of shape (n, 3), whose ids are 0 ... n-1
+   * @param {Options} [options]
+   */
+  constructor(xyz = new Float64Array(), options = {}) {
+    const owner = engine();
+    super(owner);
+    const sites = numbers(xyz, 3, "sites");
+    const place = owner.scoped((scope) =>
+      scope.made("rondel_dynamic_create", scope.copy(sites), sites.length / 3, placeOptions(owner, scope, options), 0),
+    );
+    this.#handle = new Handle(owner, "rondel_dynamic_free", place);
+  }
+
+  /** @protected @override */
+  makeLocator() {
+    const place = this.engine.scoped((scope) => scope.made("rondel_locator_create_dynamic", this.#handle.place));
+    return new Handle(this.engine, "rondel_locator_free", place);
+  }
+
+  /** @type {number} */
+  get numSites() {
+    return this.engine.functions.rondel_dynamic_num_sites(this.#handle.place);
+  }
+
+  /** The ids in use, increasing. */
+  get ids() {
+    return this.engine.scoped((scope) => {
+      const n = this.numSites;
+      const place = scope.room(n);
+      this.engine.call("rondel_dynamic_ids", this.#handle.place, place);
+      return this.engine.indices(place, n);
+    });
+  }
+
+  /**
+   * Adds sites.
+   * @param {Numbers} xyz of shape (n, 3)
+   * @returns {Uint32Array} their ids, of shape (n,)
+   * @throws {RondelError} with the first point that is not finite or, projected, the center
+   */
+  insert(xyz) {
+    const sites = numbers(xyz, 3, "sites");
+    this.freeLocator();
+    return this.engine.scoped((scope) => {
+      const n = sites.length / 3;
+      const ids = scope.room(n);
+      this.engine.call("rondel_insert", this.#handle.place, scope.copy(sites), n, 0, ids);
+      return this.engine.indices(ids, n);
+    });
+  }
+
+  /**
+   * Removes sites.
+   * @param {Indices} ids
+   * @throws {RondelError} with the first position of an id that does not exist or appears twice
+   */
+  remove(ids) {
+    const wanted = indices(ids);
+    this.freeLocator();
+    this.engine.scoped((scope) =>
+      this.engine.call("rondel_remove", this.#handle.place, scope.copy(wanted), wanted.length, 0),
+    );
+  }
+
+  /**
+   * Moves site ids[i] to point i, one after the other.
+   * @param {Indices} ids
+   * @param {Numbers} xyz of shape (n, 3)
+   * @throws {RondelError} as remove() and insert() do, and if the lengths differ; an id may appear again
+   */
+  move(ids, xyz) {
+    const wanted = indices(ids);
+    const points = numbers(xyz, 3, "points");
+    if (points.length !== 3 * wanted.length) {
+      throw new RondelError(`there are ${points.length / 3} points for ${wanted.length} sites to move`, 0);
+    }
+    this.freeLocator();
+    this.engine.scoped((scope) =>
+      this.engine.call("rondel_move", this.#handle.place, scope.copy(wanted), scope.copy(points), wanted.length, 0),
+    );
+  }
+
+  /**
+   * The vertices adjacent to a vertex, counterclockwise from the lowest.
+   * @param {number} id
+   * @returns {Uint32Array} ids
+   */
+  neighbors(id) {
+    const [site] = indices([id]);
+    return this.engine.scoped((scope) => {
+      const { functions } = this.engine;
+      const lists = scope.made("rondel_dynamic_neighbors", this.#handle.place, site);
+      const [, n] = this.engine.offsets(functions.rondel_list_offsets(lists), 2);
+      const result = this.engine.indices(functions.rondel_list_items(lists), n);
+      functions.rondel_lists_free(lists);
+      return result;
+    });
+  }
+
+  /** The diagram as it is now; its site i is the i-th of `ids`. @returns {VoronoiDiagram} */
+  snapshot() {
+    const place = this.engine.scoped((scope) => scope.made("rondel_dynamic_snapshot", this.#handle.place));
+    return new VoronoiDiagram(this.engine, place);
+  }
+
+  /** Gives its memory back. */
+  free() {
+    this.freeLocator();
+    this.#handle.free();
+  }
+
+  [dispose]() {
+    this.free();
+  }
+}

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What runs in the worker: it answers messages {id, object, method, args} by {id, value} or {id, error}. Objects stay
+// here and have numbers.
+
+import { DynamicTriangulation } from "../dynamic.js";
+import { delaunay, voronoi } from "../triangulation.js";
+
+const properties = ["dimension", "numSites", "numVertices", "numFaces"];
+const arrays = ["triangles", "neighbors", "ghostFaces", "ring", "duplicates", "hidden"];
+const dualArrays = ["centers", "cells", "areas"];
+
+/** @type {Map<number, any>} */
+const objects = new Map();
+let lastObject = 0;
+
+/** @param {any} object */
+function keep(object) {
+  objects.set(++lastObject, object);
+  return lastObject;
+}
+
+/** @param {any} triangulation @param {string[]} names */
+function described(triangulation, names) {
+  const object = keep(triangulation);
+  return Object.fromEntries([["object", object], ...names.map((name) => [name, triangulation[name]])]);
+}
+
+const makers = {
+  /** @param {any[]} args */
+  delaunay: (...args) => described(delaunay(.../** @type {[any]} */ (args)), [...properties, ...arrays]),
+  /** @param {any[]} args */
+  voronoi: (...args) => described(voronoi(.../** @type {[any]} */ (args)), [...properties, ...arrays, ...dualArrays]),
+  /** @param {any[]} args */
+  dynamic: (...args) => ({ object: keep(new DynamicTriangulation(...args)) }),
+};
+
+/** @param {{object: number, method: string, args: any[]}} message */
+function answer({ object, method, args }) {
+  if (object === 0) return /** @type {any} */ (makers)[method](...args);
+  const target = objects.get(object);
+  if (method === "free") objects.delete(object);
+  if (method === "snapshot") return described(target.snapshot(), [...properties, ...arrays, ...dualArrays]);
+  if (method === "ids") return target.ids;
+  return target[method](...args);
+}
+
+/**
+ * The buffers of all arrays in a value.
+ * @param {any} value
+ * @returns {ArrayBuffer[]}
+ */
+function buffersOf(value) {
+  if (ArrayBuffer.isView(value)) return [/** @type {ArrayBuffer} */ (value.buffer)];
+  if (value === null || typeof value !== "object") return [];
+  return Object.values(value).flatMap(buffersOf);
+}
+
+/** @param {any} message @param {(reply: any, transfer: ArrayBuffer[]) => void} post */
+export function serve(message, post) {
+  try {
+    const value = answer(message);
+    post({ id: message.id, value }, [...new Set(buffersOf(value))]);
+  } catch (error) {
+    const { name, message: text, index } = /** @type {any} */ (error);
+    post({ id: message.id, error: { name, text, index } }, []);
+  }
+}

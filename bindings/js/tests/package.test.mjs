@@ -1,0 +1,51 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the package holds, how large it is, and how it is loaded.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync, statSync } from "node:fs";
+import { createRequire } from "node:module";
+import { dirname, join } from "node:path";
+import { test } from "node:test";
+import { brotliCompressSync, constants } from "node:zlib";
+
+const folder = dirname(createRequire(import.meta.url).resolve("rondel/package.json"));
+const description = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
+
+test("the module is at most 220 KB, compressed by brotli", () => {
+  const module = readFileSync(join(folder, "rondel.wasm"));
+  const options = { params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: module.length } };
+  const size = brotliCompressSync(module, options).length;
+  assert.ok(size <= 220_000, `${size}`);
+});
+
+test("the package needs no other, and has a licence, types and a version", () => {
+  assert.equal(description.dependencies, undefined);
+  assert.equal(description.devDependencies, undefined);
+  assert.equal(description.version, readFileSync(join(process.env.RONDEL_SOURCE_DIR, "VERSION"), "utf8").trim());
+  for (const file of ["LICENSE", "THIRD_PARTY.md", "README.md", "rondel.wasm", "src/module.js"]) {
+    assert.ok(statSync(join(folder, file)).size > 100, file);
+  }
+  for (const { types, default: code } of Object.values(description.exports).filter((e) => e.types)) {
+    assert.ok(readFileSync(join(folder, types), "utf8").includes("export"));
+    assert.ok(statSync(join(folder, code)).isFile());
+  }
+});
+
+test("the types say what the functions take", () => {
+  const tsc = join(folder, "..", "typescript", "bin", "tsc");
+  const check = (name) => {
+    const flags = ["--noEmit", "--strict", "--module", "nodenext", "--target", "es2022", "--lib", "es2022,dom", "--typeRoots", "/nonexistent"];
+    execFileSync(process.execPath, [tsc, ...flags, new URL(name, import.meta.url).pathname]);
+  };
+  check("types_good.ts");
+  assert.throws(() => check("types_bad.ts"), (error) => [...String(error.stdout).matchAll(/error TS/g)].length === 4);
+});
+
+test("a page that cannot wait loads it without blocking", async () => {
+  const { init, delaunay } = await import("rondel");
+  await Promise.all([init(), init()]);
+  assert.equal(delaunay([1, 0, 0]).numSites, 1);
+});

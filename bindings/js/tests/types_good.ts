@@ -1,0 +1,15 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+import { delaunay, DynamicTriangulation, RondelError, voronoi, type VoronoiDiagram } from "rondel";
+import { geoDelaunay, geoVoronoi } from "rondel/d3";
+import { startWorker } from "rondel/worker";
+
+const diagram: VoronoiDiagram = voronoi.lonLat([0, 0, 90, 0], { radii: [1, 2] });
+const areas: Float64Array = diagram.areas;
+const triangles: Uint32Array = delaunay(new Float64Array(9), { model: "weighted", center: [0, 0, 0] }).triangles;
+const ids: Uint32Array = new DynamicTriangulation().insert([0, 0, 1]);
+const polygons: (number[] | undefined)[] = geoDelaunay([[0, 0]]).polygons;
+const index: number = new RondelError("no", 3).index;
+const remote: Promise<Uint32Array> = startWorker().then((w) => w.delaunay([])).then((t) => t.nearest([0, 0, 1]));
+export { areas, geoVoronoi, ids, index, polygons, remote, triangles };
