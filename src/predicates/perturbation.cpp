@@ -9,21 +9,19 @@
 #include <cassert>
 #include <tuple>
 
-#include "exact/integer.h"
 #include "predicates/orientation.h"
 #include "predicates/turn.h"
 
 namespace rondel::predicates {
 namespace {
 
-using exact::IntegerVector;
+using Triple = std::array<std::size_t, 3>;
 
 // The roles of the four points. Raising one of them changes the determinant in the direction of a
 // triple of the others: +(b,c,d) for p, -(p,c,d) for b, +(p,b,d) for c, -(p,b,c) for d. Lowering
 // changes it the other way.
 constexpr std::size_t role_p = 0;
-constexpr std::array<std::array<std::size_t, 3>, 4> triple_of = {
-    {{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
+constexpr std::array<Triple, 4> triple_of = {{{1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}}};
 constexpr std::array<Sign, 4> factor_of = {Sign::positive, Sign::negative, Sign::positive,
                                            Sign::negative};
 
@@ -58,96 +56,66 @@ Order lowering_order(const Four& points) {
   return order;
 }
 
-// The first coefficient that is not zero, for sites that are raised.
-template <class SignOfTriple>
-Sign first_sign(const Order& order, SignOfTriple sign_of_triple) {
+// What follows finds the first coefficient that is not zero, for sites that are raised.
+
+// The four lie in one plane. If three of them that are not in a line are in a plane with the center,
+// it is that plane, and all coefficients are zero. Three points of the unit sphere are in no line.
+Sign raise_from_center(const Four& points, const Order& order, Model model, const Point& center) {
   for (const std::size_t role : order) {
-    const Sign sign = sign_of_triple(triple_of[role]);
+    const Triple& t = triple_of[role];
+    const Sign sign = orientation(points[t[0]], points[t[1]], points[t[2]], center).sign;
     if (sign != Sign::zero) return factor_of[role] * sign;
+    if (model == Model::projected || !are_collinear(points[t[0]], points[t[1]], points[t[2]]))
+      break;
   }
   return Sign::zero;
 }
 
-Sign raise_from_center(const Four& points, const Order& order, const Point& center) {
-  return first_sign(order, [&](const std::array<std::size_t, 3>& t) {
-    return orientation(points[t[0]], points[t[1]], points[t[2]], center).sign;
-  });
-}
+// The rest concerns four sites in one plane W with the center, seen along an axis that is not
+// parallel to W. The sign of a triple seen from g is its orientation within W, up to one common
+// sign.
 
-// What follows concerns four sites in one plane W with the center. The sign of a triple seen from g
-// is its orientation within W, up to one common sign.
-
-// Orientation in W of three distinct rays, seen along an axis that is not parallel to W: that of
-// their circular order. Two of the three consecutive pairs turn the same way; a pair of antipodes
-// turns neither way.
-Sign circular_order(const Point& x, const Point& y, const Point& z, const Point& center,
-                    unsigned axis) {
-  const int turns = static_cast<int>(turn(center, x, y, axis)) +
-                    static_cast<int>(turn(center, y, z, axis)) +
-                    static_cast<int>(turn(center, z, x, axis));
+// Of three distinct rays it is that of their circular order. Two of the three consecutive pairs turn
+// the same way; a pair of antipodes turns neither way.
+Sign orientation_of_rays(const Four& points, const Triple& t, const Point& center, unsigned axis) {
+  int turns = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    turns += static_cast<int>(turn(center, points[t[k]], points[t[(k + 1) % 3]], axis));
+  }
   return static_cast<Sign>((turns > 0) - (turns < 0));
 }
 
-// A vector of W's normal direction whose sense is the orientation of the corners in W. Collinear
-// corners take the sense that raising them from the center gives: moving
-// x to x(1+e) changes (y-x) x (z-x) by e x x (y-z). Zero if they are in line with the center.
-IntegerVector oriented_normal(const std::array<IntegerVector, 4>& v, const Order& order,
-                              const std::array<std::size_t, 3>& triple) {
-  const IntegerVector& x = v[triple[0]];
-  IntegerVector normal = cross(v[triple[1]] - x, v[triple[2]] - x);
-  if (!is_zero(normal)) return normal;
-  for (const std::size_t role : order) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (triple[k] != role) continue;
-      IntegerVector raised = cross(v[role], v[triple[(k + 1) % 3]] - v[triple[(k + 2) % 3]]);
-      if (!is_zero(raised)) return raised;
-    }
-  }
-  return normal;
+// Points in a line take the sense that raising them from the center gives, first the one that moves
+// most: moving x to x(1+e) changes (y-x) x (z-x) by e x x (y-z), and this is e z x y for points in a
+// line. Zero if they are in line with the center.
+Sign orientation_of_points(const Four& points, const Order& order, const Triple& t,
+                           const Point& center, unsigned axis) {
+  const Sign sign = turn(points[t[0]], points[t[1]], points[t[2]], axis);
+  if (sign != Sign::zero) return sign;
+  const auto first = std::ranges::find_first_of(order, t);
+  const auto k = static_cast<std::size_t>(std::ranges::find(t, *first) - t.begin());
+  return turn(center, points[t[(k + 2) % 3]], points[t[(k + 1) % 3]], axis);
 }
 
 // Raising from g: the face (b, c, d) is positive seen from g, because g is inside the hull.
-template <class OrientationInPlane>
-Sign raise_from_inside(const Order& order, OrientationInPlane orientation_in_plane) {
-  const Sign face = orientation_in_plane(triple_of[role_p]);
-  return face * first_sign(order, orientation_in_plane);
-}
-
-Sign raise_rays_from_inside(const Four& points, const Order& order, const Point& center) {
+Sign raise_from_inside(const Four& points, const Order& order, Model model, const Point& center) {
   const auto is_parallel = [&](unsigned axis) {
     return turn(center, points[1], points[2], axis) == Sign::zero &&
-           turn(center, points[2], points[3], axis) == Sign::zero;
+           turn(center, points[2], points[3], axis) == Sign::zero &&
+           turn(center, points[3], points[1], axis) == Sign::zero;
   };
   unsigned axis = 0;
   while (axis < 2 && is_parallel(axis)) ++axis;
-  return raise_from_inside(order, [&](const std::array<std::size_t, 3>& t) {
-    return circular_order(points[t[0]], points[t[1]], points[t[2]], center, axis);
-  });
-}
-
-Sign raise_points_from_inside(const Four& points, const Order& order, const Point& center) {
-  const auto d = exact::scaled_differences({points[0], points[1], points[2], points[3]}, center);
-  const std::array<IntegerVector, 4> v = {d[0], d[1], d[2], d[3]};
-  const IntegerVector normal = oriented_normal(v, order, triple_of[role_p]);
-  return raise_from_inside(order, [&](const std::array<std::size_t, 3>& t) {
-    return exact::sign_of(dot(oriented_normal(v, order, t), normal));
-  });
-}
-
-bool is_in_conflict_projected(const Four& points, const Point& center) {
-  const Order order = lowering_order(points);
-  Sign raised = raise_from_center(points, order, center);
-  if (raised == Sign::zero) raised = raise_rays_from_inside(points, order, center);
-  assert(raised != Sign::zero);
-  return raised == Sign::negative;
-}
-
-bool is_in_conflict_weighted(const Four& points, const Point& center) {
-  const Order order = sorted_roles(points, is_lexicographically_less);
-  Sign raised = raise_from_center(points, order, center);
-  if (raised == Sign::zero) raised = raise_points_from_inside(points, order, center);
-  assert(raised != Sign::zero);
-  return raised == Sign::positive;
+  const auto orientation_in_plane = [&](const Triple& t) {
+    return model == Model::projected ? orientation_of_rays(points, t, center, axis)
+                                     : orientation_of_points(points, order, t, center, axis);
+  };
+  const Sign face = orientation_in_plane(triple_of[role_p]);
+  for (const std::size_t role : order) {
+    const Sign sign = orientation_in_plane(triple_of[role]);
+    if (sign != Sign::zero) return face * factor_of[role] * sign;
+  }
+  return Sign::zero;
 }
 
 }  // namespace
@@ -175,8 +143,12 @@ bool is_lowered_more(const Point& a, const Point& b) {
 bool is_in_conflict_perturbed(const Point& b, const Point& c, const Point& d, const Point& p,
                               Model model, const Point& center) {
   const Four points = {p, b, c, d};
-  return model == Model::projected ? is_in_conflict_projected(points, center)
-                                   : is_in_conflict_weighted(points, center);
+  const Order order = model == Model::projected ? lowering_order(points)
+                                                : sorted_roles(points, is_lexicographically_less);
+  Sign raised = raise_from_center(points, order, model, center);
+  if (raised == Sign::zero) raised = raise_from_inside(points, order, model, center);
+  assert(raised != Sign::zero);
+  return raised == (model == Model::projected ? Sign::negative : Sign::positive);
 }
 
 }  // namespace rondel::predicates

@@ -29,6 +29,11 @@ Sign filter(const Pair& o, const Pair& p, const Pair& q) {
   return unless_unsure(left - right, size > 0x1p-900 && std::abs(left - right) > bound * size);
 }
 
+// Whether both products have a factor 0, as those of points on a coordinate plane have.
+bool is_zero_at_sight(const Pair& o, const Pair& p, const Pair& q) {
+  return (p[0] == o[0] || q[1] == o[1]) && (p[1] == o[1] || q[0] == o[0]);
+}
+
 }  // namespace
 
 Sign turn(const Point& o, const Point& a, const Point& b, unsigned axis) {
@@ -36,6 +41,7 @@ Sign turn(const Point& o, const Point& a, const Point& b, unsigned axis) {
   const Pair p = seen_along(a, axis);
   const Pair q = seen_along(b, axis);
   if (const Sign sign = filter(origin, p, q); sign != Sign::zero) return sign;
+  if (is_zero_at_sight(origin, p, q)) return Sign::zero;
   return exact::sign_of_cubic([&](const auto& step) {
     const auto n = cross(step(o, a), step(o, b));
     return axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
