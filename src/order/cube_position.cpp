@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 
 #include "exact/integer.h"
 
@@ -19,9 +21,28 @@ unsigned longest_axis(const std::array<exact::Integer, 3>& d) {
   return axis;
 }
 
+// floor((along/length + 1) 2^51), where the quotient of two doubles rounds to that: it does not round
+// across a multiple of 2^-51, but may round to one from below. The remainder tells. It is exact, or
+// at least of the right sign, for a length above 2^-800.
+std::uint64_t position_of_doubles(double along, double length) {
+  const double quotient = along / length;
+  const double steps = quotient * 0x1p51;
+  double whole = std::floor(steps);
+  if (whole == steps && std::fma(-quotient, length, along) < 0) --whole;
+  const auto position = static_cast<std::int64_t>(whole) + (std::int64_t{1} << (position_bits - 1));
+  return std::min(static_cast<std::uint64_t>(position), cube::last_position);
+}
+
 }  // namespace
 
 CubePosition exact_cube_position(const Point& p, const Point& center) {
+  if (center == Point{}) {
+    const cube::Ray ray = cube::ray_of({p.x, p.y, p.z});
+    if (ray.length > 0x1p-800) {
+      return {ray.face->rank, position_of_doubles(ray.u, ray.length),
+              position_of_doubles(ray.v, ray.length)};
+    }
+  }
   using exact::Integer;
   const auto v = exact::scaled_rays({p}, center).front();
   const std::array<Integer, 3> d = {v.x, v.y, v.z};

@@ -42,24 +42,35 @@ inline std::uint64_t position(double ratio) {
   return static_cast<std::uint64_t>(static_cast<std::int64_t>(position < last ? position : last));
 }
 
-}  // namespace cube
+// A vector in the axes of the face through which it leaves the cube: (u, v, length).
+struct Ray {
+  const CubeFace* face;
+  double u;
+  double v;
+  double length;
+};
 
-// From differences rounded to doubles. Depends on the ray alone when the center is (0, 0, 0):
-// the quotients of two coordinates are rounded correctly, so points on one ray agree. The face of
-// sites in no order is anyone's guess: nothing here branches on it.
-inline CubePosition cube_position(const Point& p, const Point& center) {
-  const std::array<double, 3> d = {p.x - center.x, p.y - center.y, p.z - center.z};
+// The face of sites in no order is anyone's guess: nothing here branches on it.
+inline Ray ray_of(const std::array<double, 3>& d) {
   const double x = std::abs(d[0]);
   const double y = std::abs(d[1]);
   const double z = std::abs(d[2]);
   const double longer = x < y ? y : x;
   const double length = longer < z ? z : longer;
-  if (!(length > 0 && length <= std::numeric_limits<double>::max())) return {};
   const unsigned z_is_longest = longer < z ? 1 : 0;
   const unsigned axis = 2 * z_is_longest + ((x < y ? 1U : 0U) & (1 - z_is_longest));
-  const cube::CubeFace& face = cube::faces[2 * axis + (std::signbit(d[axis]) ? 1 : 0)];
-  return {face.rank, cube::position(face.u_sign * (d[face.u_axis] / length)),
-          cube::position(face.v_sign * (d[face.v_axis] / length))};
+  const CubeFace& face = faces[2 * axis + (std::signbit(d[axis]) ? 1 : 0)];
+  return {&face, face.u_sign * d[face.u_axis], face.v_sign * d[face.v_axis], length};
+}
+
+}  // namespace cube
+
+// From differences rounded to doubles. Depends on the ray alone when the center is (0, 0, 0):
+// the quotients of two coordinates are rounded correctly, so points on one ray agree.
+inline CubePosition cube_position(const Point& p, const Point& center) {
+  const cube::Ray ray = cube::ray_of({p.x - center.x, p.y - center.y, p.z - center.z});
+  if (!(ray.length > 0 && ray.length <= std::numeric_limits<double>::max())) return {};
+  return {ray.face->rank, cube::position(ray.u / ray.length), cube::position(ray.v / ray.length)};
 }
 
 // From exact differences: depends on the exact ray alone for every center.

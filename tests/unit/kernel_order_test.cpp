@@ -100,6 +100,27 @@ TEST(spatial_cube, exact_positions_agree_with_rounded_ones_but_for_the_last_bits
   }
 }
 
+// With a center the positions are found in integers.
+TEST(spatial_cube, exact_positions_of_rays_from_zero_are_those_of_integers) {
+  test::Random random(7);
+  for (int i = 0; i < 5000; ++i) {
+    const auto whole = [&random] {
+      return std::trunc(std::ldexp(random.signed_unit(), random.between(0, 51)));
+    };
+    const Point ray = {whole(), whole(), whole()};
+    if (ray == Point{}) continue;
+    const Point center = {whole(), whole(), 1};
+    const CubePosition exact = order::exact_cube_position(ray + center, center);
+    const CubePosition of_doubles = order::exact_cube_position(ray, {});
+    ASSERT_EQ(of_doubles.face, exact.face);
+    ASSERT_EQ(of_doubles.u, exact.u);
+    ASSERT_EQ(of_doubles.v, exact.v);
+  }
+  const CubePosition middle = order::exact_cube_position({1, -1e-300, 5e-324}, {});
+  EXPECT_EQ(std::max(middle.u, middle.v), std::uint64_t{1} << 51U);
+  EXPECT_EQ(std::min(middle.u, middle.v), (std::uint64_t{1} << 51U) - 1);
+}
+
 TEST(spatial_radix_sort, sorts_spread_and_crowded_keys) {
   test::Random random(6);
   for (const int crowding : {0, 20, 40, 57}) {
