@@ -105,20 +105,11 @@ class Ball {
     if (a.is_zero_midpoint() || b.is_zero_midpoint()) return r;
     r.is_negative_ = a.is_negative_ != b.is_negative_;
     r.exponent_ = a.exponent_ + b.exponent_ + num_bits;
-    bool is_cut = false;
-    if constexpr (N == 1) {
-      const TwoWords product = multiply_and_add(a.digits_[0], b.digits_[0], 0, 0);
-      const auto zeros = static_cast<unsigned>(product.high >> (word_bits - 1) == 0);
-      r.digits_[0] = product.high << zeros | (zeros & product.low >> (word_bits - 1));
-      r.exponent_ -= static_cast<int>(zeros);
-      is_cut = product.low << zeros != 0;
-    } else {
-      Words<2 * N> product{};
-      multiply(a.digits_, b.digits_, product);
-      const unsigned zeros = product[2 * N - 1] >> (word_bits - 1) == 0 ? 1 : 0;
-      is_cut = take_highest_words(product, zeros, r.digits_);
-      r.exponent_ -= static_cast<int>(zeros);
-    }
+    Words<2 * N> product{};
+    multiply(a.digits_, b.digits_, product);
+    const unsigned zeros = product[2 * N - 1] >> (word_bits - 1) == 0 ? 1 : 0;
+    const bool is_cut = take_highest_words(product, zeros, r.digits_);
+    r.exponent_ -= static_cast<int>(zeros);
     if (is_cut) r.radius_ = sum_of(r.radius_, r.exponent_);
     return r;
   }
@@ -198,7 +189,7 @@ class Ball {
 //
 // For any y and e = 1 - a y^2 it is y / sqrt(1 - e) = y (1 + e/2 + 3/8 e^2) + d, where |e| <= 1/2
 // makes |d| <= |y| |e|^3. So the last step is proven whatever came before, and a step makes three
-// times as many bits right: the first y has 50. With N = 1 a step without the last term does.
+// times as many bits right: the first y has 50.
 template <std::size_t N>
 std::optional<Ball<N>> inverse_square_root(const Ball<N>& a) {
   if (a.sign() != Sign::positive) return std::nullopt;
@@ -210,7 +201,6 @@ std::optional<Ball<N>> inverse_square_root(const Ball<N>& a) {
     if (e.size() > -8) return std::nullopt;
     const Magnitude squared = product_of(e.size(), e.size());
     const Ball<N> half = e.times_power_of_two(-1);
-    if constexpr (N == 1) return (y + y * half).wider_by(product_of(y.size(), squared));
     const Ball<N> next = y + y * (half + Ball<N>(0.375) * (e * e));
     if (3 * right_bits >= 64 * N || squared == nothing) {
       return next.wider_by(product_of(y.size(), product_of(squared, e.size())));

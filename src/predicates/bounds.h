@@ -44,6 +44,15 @@ inline constexpr double circle_double_double_bound = 0x1p-95;
 // relative to |q-p|: 21u, and terms of higher order.
 inline constexpr double close_step_bound = 24 * unit_roundoff;
 
+// What one product of a formula of Wides (wide.h) is off by, relative to its size. Rays from a center
+// are off by u in each coordinate.
+// det(a-o, b-o, c-o): 3u + 2u for products + 3u for sums.
+inline constexpr double orientation_wide_bound = 10 * unit_roundoff;
+// The determinant of side_of_circle_wide.cpp: 4u of each of its two first columns; of the last one
+// 9.5u for h (4u for y^2 + z^2, 4.5u for |r| + x, u for their quotient), u for x, 2u; 2u for
+// products, 3u for sums: 25.5u, and terms of higher order.
+inline constexpr double circle_wide_bound = 32 * unit_roundoff;
+
 // |b-p|^2 - |a-p|^2 of stored directions, relative to H = max(|a-p|, |b-p|) <= 2:
 // 2 (4 eta + 10u) + 2u = 58.8u, and 2.9u for terms of higher order.
 inline constexpr double angle_bound = 64 * unit_roundoff;

@@ -12,6 +12,7 @@
 //     filter           -                                        in doubles, from the best of the 4
 //     extended         4 split unit vectors with 64 bits        -
 //     exact            integers of 128 bits, where they do      -
+//     filter           4 points in doubles with exponents       -
 //     double_double    4 split unit vectors in double-double    4 points in double-double
 //     close            4 points in doubles, from the best       -
 //     exact            a sum of 4 square roots                  balls of more and more words
@@ -27,6 +28,7 @@
 #include "predicates/perturbation.h"
 #include "predicates/points.h"
 #include "predicates/rung.h"
+#include "predicates/scale.h"
 #include "predicates/side_of_circle.h"
 #include "predicates/side_of_plane.h"
 
@@ -51,20 +53,21 @@ Decision side_of_circle_above_filter(S& points, Index b, Index c, Index d, Index
   const exact::SplitPoint x = points.split(p);
   Sign sign = side_of_circle_extended(u, v, w, x);
   if (sign != Sign::zero) return {sign, Rung::extended};
+  const Quad given = {points.point(b), points.point(c), points.point(d), points.point(p)};
   // Close sites are hardly ever ties.
   if (are_apart(u, x)) {
-    const std::optional<Sign> exact = side_of_circle_integers_exact(
-        points.point(b), points.point(c), points.point(d), points.point(p), points.center());
+    const auto exact = side_of_circle_integers_exact(given, points.center());
     if (exact) return {*exact, Rung::exact};
+  }
+  if (have_different_exponents(given, points.center())) {
+    sign = side_of_circle_wide_filter(given, points.center());
+    if (sign != Sign::zero) return {sign, Rung::filter};
   }
   sign = side_of_circle_double_double(u, v, w, x);
   if (sign != Sign::zero) return {sign, Rung::double_double};
-  sign = side_of_circle_close(points.point(b), points.point(c), points.point(d), points.point(p),
-                              points.center());
+  sign = side_of_circle_close(given, points.center());
   if (sign != Sign::zero) return {sign, Rung::close};
-  return {side_of_circle_exact(points.point(b), points.point(c), points.point(d), points.point(p),
-                               points.center()),
-          Rung::exact};
+  return {side_of_circle_exact(given, points.center()), Rung::exact};
 }
 
 template <PointSource S>

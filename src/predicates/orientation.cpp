@@ -9,7 +9,7 @@
 
 #include "exact/exact_sign.h"
 #include "exact/integer_steps.h"
-#include "predicates/scale.h"
+#include "predicates/wide.h"
 
 namespace rondel::predicates {
 namespace {
@@ -69,6 +69,13 @@ Sign filter_of_scaled(const Point& a, const Point& b, const Point& c, const Poin
       value, is_beyond(value, orientation_bound, dot(ray, ray), dot(from, from), dot(to, to)));
 }
 
+// For coordinates of different magnitudes.
+Sign wide_filter(const Point& a, const Point& b, const Point& c, const Point& center) {
+  const Vector o = to_vector(center);
+  return det(to_wide(to_vector(a) - o), to_wide(to_vector(b) - o), to_wide(to_vector(c) - o))
+      .sign_if_beyond(orientation_wide_bound);
+}
+
 }  // namespace
 
 Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center) {
@@ -76,17 +83,16 @@ Decision orientation(const Point& a, const Point& b, const Point& c, const Point
   if (const auto sign = exact::sign_of_volume_in_integers(center, a, b, c)) {
     return {*sign, Rung::exact};
   }
+  if (have_different_exponents<3>({a, b, c}, center)) {
+    if (const Sign sign = wide_filter(a, b, c, center); sign != Sign::zero)
+      return {sign, Rung::filter};
+  }
   if (const Sign sign = filter_of_scaled(a, b, c, center); sign != Sign::zero) {
     return {sign, Rung::filter};
   }
   const auto formula = [&](const auto& step) {
     return det(step(center, a), step(center, b), step(center, c));
   };
-  if (have_different_exponents<3>({a, b, c}, center)) {
-    const auto sign =
-        exact::first_known_sign<1>([&](const auto& step) { return formula(step).sign(); });
-    if (sign) return {*sign, Rung::exact};
-  }
   return {exact::sign_of_cubic(formula), Rung::exact};
 }
 

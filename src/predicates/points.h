@@ -25,6 +25,7 @@
 namespace rondel::predicates {
 
 using Vector = exact::Vector3<double>;
+using Quad = std::array<Point, 4>;  // b, c, d, p
 
 template <class S>
 concept PointSource = requires(S& points, Index a) {

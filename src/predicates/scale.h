@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "predicates/rung.h"
 
@@ -45,22 +46,18 @@ inline double factor_to_one(const Vector& v) {
   return std::abs(exponent) <= most_exponent ? power_of_two(-exponent) : 0;
 }
 
-// Whether some coordinate, but 0, is so small against another that a tie is unlikely, and that
-// differences of products hardly cancel.
+// Whether some ray has a coordinate, other than 0, so small against another that a tie is unlikely,
+// and that differences of products hardly cancel.
 template <std::size_t N>
 bool have_different_exponents(const std::array<Point, N>& points, const Point& center) {
-  constexpr int many = 100;
-  int lowest = 1024;
-  int highest = -1023;
-  for (const Point& p : points) {
+  constexpr double little = 0x1p-100;
+  const auto size = [](double x) {
+    return x == 0 ? std::numeric_limits<double>::infinity() : std::abs(x);
+  };
+  return std::ranges::any_of(points, [&](const Point& p) {
     const Vector v = to_vector(p) - to_vector(center);
-    for (const double coordinate : {v.x, v.y, v.z}) {
-      if (coordinate == 0) continue;
-      lowest = std::min(lowest, exponent_of(coordinate));
-      highest = std::max(highest, exponent_of(coordinate));
-    }
-  }
-  return highest - lowest > many;
+    return std::min({size(v.x), size(v.y), size(v.z)}) < little * longest_coordinate(v);
+  });
 }
 
 // The bound of the errors is relative to the lengths of the three differences from one of four
@@ -73,9 +70,10 @@ bool have_different_exponents(const std::array<Point, N>& points, const Point& c
 //            . . . . . : c
 using OrderOfFour = std::array<std::size_t, 4>;
 
+inline constexpr std::array<OrderOfFour, 4> even_orders_of_four = {
+    {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {2, 1, 3, 0}}};
+
 inline OrderOfFour order_for_best_origin(const std::array<Vector, 4>& points) {
-  constexpr std::array<OrderOfFour, 4> choices = {
-      {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {2, 1, 3, 0}}};
   std::array<int, 4> sums{};
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t j = 0; j < i; ++j) {
@@ -84,7 +82,8 @@ inline OrderOfFour order_for_best_origin(const std::array<Vector, 4>& points) {
       sums[j] += exponent;
     }
   }
-  return *std::ranges::min_element(choices, {}, [&](const OrderOfFour& o) { return sums[o[3]]; });
+  return *std::ranges::min_element(even_orders_of_four, {},
+                                   [&](const OrderOfFour& o) { return sums[o[3]]; });
 }
 
 }  // namespace rondel::predicates

@@ -17,7 +17,8 @@
 // while the sites are not close, then the right side in doubles, whose error is of order u H^3
 // against a value of order H^4 at any distance H. Extended: the right side with 64 bits, from split
 // unit vectors. Double-double: the left side. Close: the right side in doubles from differences of
-// the points as given, whose error is of order u H^4. Exact: balls of more and more words; the sign
+// the points as given, whose error is of order u H^4. Wide filter: rays with coordinates of all
+// magnitudes. Exact: balls of more and more words; the sign
 // of a sum of four square roots in integers.
 #pragma once
 
@@ -63,8 +64,11 @@ Sign side_of_circle_double_double(const exact::SplitPoint& b, const exact::Split
 
 // For points as given, however close: in doubles, from differences of the points and not of their
 // directions (side_of_circle_close.cpp).
-Sign side_of_circle_close(const Point& b, const Point& c, const Point& d, const Point& p,
-                          const Point& center);
+Sign side_of_circle_close(const Quad& q, const Point& center);
+
+// For points as given, with coordinates of different magnitudes: in doubles with exponents of their own
+// (side_of_circle_wide.cpp).
+Sign side_of_circle_wide_filter(const Quad& q, const Point& center);
 
 // Whether numbers of 64 bits can tell differences of unit vectors well.
 inline bool are_apart(const exact::SplitPoint& a, const exact::SplitPoint& b) {
@@ -75,11 +79,9 @@ inline bool are_apart(const exact::SplitPoint& a, const exact::SplitPoint& b) {
 
 // For points as given, where integers of the machine can tell: so they can if it is a tie of points
 // none of whose coordinates is much smaller than another.
-std::optional<Sign> side_of_circle_integers_exact(const Point& b, const Point& c, const Point& d,
-                                                  const Point& p, const Point& center);
+std::optional<Sign> side_of_circle_integers_exact(const Quad& q, const Point& center);
 
 // For points as given. Never unsure: zero is a tie.
-Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const Point& p,
-                          const Point& center);
+Sign side_of_circle_exact(const Quad& q, const Point& center);
 
 }  // namespace rondel::predicates

@@ -78,9 +78,8 @@ std::optional<Step> step_between(const Vector& difference, const Ray& p, const R
 
 }  // namespace
 
-Sign side_of_circle_close(const Point& b, const Point& c, const Point& d, const Point& p,
-                          const Point& center) {
-  GivenPoints points = {to_vector(b), to_vector(c), to_vector(d), to_vector(p)};
+Sign side_of_circle_close(const Quad& q, const Point& center) {
+  GivenPoints points = {to_vector(q[0]), to_vector(q[1]), to_vector(q[2]), to_vector(q[3])};
   const std::optional<FourRays> rays = comparable_rays(points, center);
   if (!rays) return Sign::zero;
   const auto order = order_for_best_origin(points);

@@ -9,7 +9,6 @@
 #include "exact/exact_sign.h"
 #include "exact/integer.h"
 #include "exact/integer_rays.h"
-#include "predicates/scale.h"
 #include "predicates/side_of_circle.h"
 
 namespace rondel::predicates {
@@ -19,13 +18,11 @@ using exact::Ball;
 using exact::BallStep;
 using exact::BallVector;
 
-using GivenPoints = std::array<Point, 4>;  // b, c, d, p
-
 template <std::size_t N>
 using FourBalls = std::array<BallVector<N>, 4>;
 
 template <std::size_t N>
-FourBalls<N> rays_to(const GivenPoints& points, const Point& center, const BallStep<N>& step) {
+FourBalls<N> rays_to(const Quad& points, const Point& center, const BallStep<N>& step) {
   return {step(center, points[0]), step(center, points[1]), step(center, points[2]),
           step(center, points[3])};
 }
@@ -194,7 +191,7 @@ std::optional<Sign> sign_by_edges(const FourBalls<N>& rays) {
   return *factor * *sign;
 }
 
-Sign sign_by_integers(const GivenPoints& points, const Point& center) {
+Sign sign_by_integers(const Quad& points, const Point& center) {
   const auto v = exact::scaled_rays({points[0], points[1], points[2], points[3]}, center);
   const std::array<exact::Integer, 4> coefficients = {
       -det(v[0], v[1], v[2]), det(v[3], v[1], v[2]), -det(v[3], v[0], v[2]), det(v[3], v[0], v[1])};
@@ -205,23 +202,18 @@ Sign sign_by_integers(const GivenPoints& points, const Point& center) {
 
 }  // namespace
 
-std::optional<Sign> side_of_circle_integers_exact(const Point& b, const Point& c, const Point& d,
-                                                  const Point& p, const Point& center) {
-  return exact::side_of_rays_in_integers({b, c, d, p}, center);
+std::optional<Sign> side_of_circle_integers_exact(const Quad& q, const Point& center) {
+  return exact::side_of_rays_in_integers(q, center);
 }
 
-Sign side_of_circle_exact(const Point& b, const Point& c, const Point& d, const Point& p,
-                          const Point& center) {
-  const GivenPoints points = {b, c, d, p};
+Sign side_of_circle_exact(const Quad& points, const Point& center) {
   const auto by_edges = [&](const auto& step) {
     return sign_by_edges(rays_to(points, center, step));
   };
   const auto by_equal_lengths = [&](const auto& step) {
     return sign_by_equal_lengths(rays_to(points, center, step));
   };
-  std::optional<Sign> sign = have_different_exponents(points, center)
-                                 ? exact::first_known_sign<1>(by_edges)
-                                 : exact::first_known_sign<4>(by_equal_lengths);
+  std::optional<Sign> sign = exact::first_known_sign<4>(by_equal_lengths);
   if (!sign) sign = exact::first_known_sign<2>(by_edges);
   if (!sign) sign = exact::side_of_rays_in_integers(points, center);
   if (!sign) sign = exact::first_known_sign<6>(by_equal_lengths);

@@ -33,8 +33,6 @@ namespace rondel::predicates {
   return unless_unsure(value, is_beyond(value, plane_bound, dot(pb, pb), dot(pc, pc), dot(pd, pd)));
 }
 
-using Quad = std::array<Point, 4>;  // b, c, d, p
-
 // Where integers of the machine can tell, as among sites of a mesh: ties, too.
 std::optional<Sign> side_of_plane_integers_exact(const Quad& q);
 

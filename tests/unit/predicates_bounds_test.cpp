@@ -10,11 +10,13 @@
 #include <cmath>
 #include <functional>
 #include <iostream>
+#include <vector>
 
 #include "predicates/compare_distance.h"
 #include "predicates/orientation.h"
 #include "predicates/side_of_circle.h"
 #include "predicates/side_of_plane.h"
+#include "predicates/wide.h"
 #include "predicates/within_angle.h"
 #include "support/adversarial.h"
 #include "support/generators.h"
@@ -182,6 +184,58 @@ double direction_orientation_ratio(const FourStored& s) {
   return std::abs(to_double(value - exact_value)) / (predicates::direction_orientation_bound * h);
 }
 
+double wide_orientation_ratio(const FourStored& s) {
+  std::array<Vector, 3> rays{};
+  const Vector center = to_vector(0.3 * s[3].site);
+  for (std::size_t i = 0; i < 3; ++i) rays[i] = to_vector(s[i].site) - center;
+  const auto value =
+      det(predicates::to_wide(rays[0]), predicates::to_wide(rays[1]), predicates::to_wide(rays[2]));
+  const auto exact_ray = [&](std::size_t i) {
+    return minus(big(to_vector(s[i].site)), big(center));
+  };
+  const Big exact_value = det_of(exact_ray(0), exact_ray(1), exact_ray(2));
+  return std::abs(to_double(big(value.in(0)) - exact_value)) /
+         (predicates::orientation_wide_bound * std::ldexp(value.size, value.exponent));
+}
+
+struct ExactRay {
+  BigVector v;
+  Big height;
+
+  ExactRay(const Vector& p, const Vector& center) : v(minus(big(p), big(center))) {
+    height = Big(sqrt(dot_of(v, v)) - v.x, precision);
+  }
+};
+
+// The first column of four rays along the axis of x.
+double wide_circle_ratio(const FourStored& s) {
+  const Vector center = {0.3, 0.1, -0.2};
+  const auto moved = [&](std::size_t i) {
+    const Point& p = s[i].site;
+    return Vector{2 + p.x * p.x, p.y, p.z};
+  };
+  std::array<predicates::WideRay::Row, 4> rows;
+  std::vector<ExactRay> exact;
+  for (std::size_t i = 0; i < 4; ++i) {
+    rows[i] = predicates::WideRay(moved(i) - center).row(0, false);
+    exact.emplace_back(moved(i), center);
+  }
+  const auto& o = rows[3];
+  const ExactRay& e = exact[3];
+  std::array<predicates::WideVector, 3> m;
+  std::array<BigVector, 3> b;
+  for (std::size_t i = 0; i < 3; ++i) {
+    m[i] = predicates::less_origin(rows[i], o);
+    const ExactRay& q = exact[i];
+    b[i] = {e.v.x * q.v.y - q.v.x * e.v.y, e.v.x * q.v.z - q.v.x * e.v.z,
+            e.v.x * q.height - q.v.x * e.height};
+  }
+  const auto value = det(m[0], m[1], m[2]);
+  const Big exact_value = det_of(b[0], b[1], b[2]);
+  return std::abs(to_double(big(value.in(0)) - exact_value)) /
+         (predicates::circle_wide_bound * std::ldexp(value.size, value.exponent));
+}
+
 Big squared_chord(const Stored& s, const Stored& t) {
   const BigVector d = minus(unit(s.site), unit(t.site));
   return dot_of(d, d);
@@ -295,6 +349,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Filter{"plane_of_mixed_weights", plane_of_mixed_weights_ratio, 0.1},
                     Filter{"orientation", orientation_ratio, 0.1},
                     Filter{"direction_orientation", direction_orientation_ratio, 0.1},
+                    Filter{"wide_orientation", wide_orientation_ratio, 0.1},
+                    Filter{"wide_circle", wide_circle_ratio, 0.03},
                     Filter{"angle", angle_ratio, 0.1},
                     Filter{"within_angle", within_angle_ratio, 0.1},
                     Filter{"power", power_ratio, 0.1},

@@ -45,16 +45,16 @@ void expect_no_other(Sign sign, int expected) {
 
 // The rungs one by one, whether the ladder comes to them or not.
 void expect_circle_rungs(const Four& four, int expected) {
-  const auto& [a, b, c, p] = four;
   const predicates::FourPoints<Model::projected> points{four};
   const std::array split = {points.split(0), points.split(1), points.split(2), points.split(3)};
   const auto& [u, v, w, x] = split;
   expect_no_other(predicates::side_of_circle_extended(u, v, w, x), expected);
   expect_no_other(predicates::side_of_circle_double_double(u, v, w, x), expected);
-  expect_no_other(predicates::side_of_circle_close(a, b, c, p, {}), expected);
-  const auto integers = predicates::side_of_circle_integers_exact(a, b, c, p, {});
+  expect_no_other(predicates::side_of_circle_wide_filter(four, {}), expected);
+  expect_no_other(predicates::side_of_circle_close(four, {}), expected);
+  const auto integers = predicates::side_of_circle_integers_exact(four, {});
   EXPECT_EQ(to_int(integers.value_or(static_cast<Sign>(expected))), expected);
-  EXPECT_EQ(to_int(predicates::side_of_circle_exact(a, b, c, p, {})), expected);
+  EXPECT_EQ(to_int(predicates::side_of_circle_exact(four, {})), expected);
   expect_no_other(predicates::side_of_circle_filter(exact::to_vector(u.hi), exact::to_vector(v.hi),
                                                     exact::to_vector(w.hi), exact::to_vector(x.hi)),
                   expected);
@@ -185,9 +185,8 @@ TEST(rungs, doubles_decide_between_sites_at_any_distance) {
     const std::size_t num_sets = 2000;
     for (std::size_t i = 0; i < num_sets; ++i) {
       const Four four = kind.make(random);
-      const auto& [a, b, c, p] = four;
       const int expected = Oracle(four, Model::projected, {}).side_of_circle(0, 1, 2, 3);
-      const Sign close = predicates::side_of_circle_close(a, b, c, p, {});
+      const Sign close = predicates::side_of_circle_close(four, {});
       if (close == Sign::zero)
         ++exact;
       else
@@ -195,6 +194,38 @@ TEST(rungs, doubles_decide_between_sites_at_any_distance) {
     }
     EXPECT_LT(exact, num_sets / 20) << kind.name;
   }
+}
+
+// Coordinates of all magnitudes, of sites that are near one axis as neighbors are, or near several.
+TEST(rungs, doubles_decide_between_coordinates_of_all_magnitudes) {
+  Random random(42);
+  const auto magnitude = [&random](int lowest, int highest) {
+    return std::ldexp((random.coin() ? 1 : -1) * (1 + random.unit()),
+                      random.between(lowest, highest));
+  };
+  std::size_t exact = 0;
+  const std::size_t num_sets = scaled(2000);
+  for (std::size_t i = 0; i < num_sets; ++i) {
+    const std::size_t axis = random.below(3);
+    const double side = random.coin() ? 1 : -1;
+    Four four;
+    for (Point& p : four) {
+      const std::size_t other = i % 4 == 0 && random.below(4) == 0 ? random.below(3) : axis;
+      std::array<double, 3> d = {magnitude(-1074, 0), magnitude(-1074, 0), magnitude(-1074, 0)};
+      d[other] = side * std::abs(magnitude(1, 1000));
+      p = {d[0], d[1], d[2]};
+    }
+    const int expected = Oracle(four, Model::projected, {}).side_of_circle(0, 1, 2, 3);
+    const Sign sign = predicates::side_of_circle_wide_filter(four, {});
+    expect_no_other(sign, expected);
+    const Decision decision = decide(four, Model::projected);
+    ASSERT_EQ(to_int(decision.sign), expected);
+    if (decision.rung == Rung::exact) ++exact;
+    const Decision orientation = predicates::orientation(four[0], four[1], four[2], {});
+    ASSERT_EQ(to_int(orientation.sign), Oracle(four, Model::projected, {}).orientation(0, 1, 2));
+    EXPECT_EQ(orientation.rung, Rung::filter);
+  }
+  EXPECT_LE(exact, num_sets / 50);
 }
 
 // Three sites in line with the center but for one coordinate, at all magnitudes.
@@ -238,14 +269,14 @@ TEST(rungs, numbers_of_64_bits_do_not_err_and_decide_ties_of_rounded_sites) {
     const Sign sign = predicates::side_of_circle_extended(split(0), split(1), split(2), split(3));
     if (sign == Sign::zero) continue;
     ++decided;
-    EXPECT_EQ(sign, predicates::side_of_circle_exact(four[0], four[1], four[2], four[3], {}));
+    EXPECT_EQ(sign, predicates::side_of_circle_exact(four, {}));
   }
   std::cout << decided << " of " << num_sets << " decided\n";
   EXPECT_TRUE(decided > num_sets / 2 || !exact::has_extended_precision());
 }
 
 TEST(rungs, exact_decides_what_lies_below_twice_double_precision) {
-  constexpr double tiny = 1e-40;
+  constexpr double tiny = 0x1p-98;
   const Four four = {{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, tiny}}};
   const Decision projected = decide(four, Model::projected);
   EXPECT_EQ(projected.rung, Rung::exact);
@@ -285,7 +316,7 @@ TEST(rungs, each_decides_what_is_left_to_it) {
     const predicates::FourPoints<Model::projected> points{four};
     const Decision decision = predicates::conflict(points, 0, 1, 2, 3);
     EXPECT_NE(decision.sign, Sign::zero);
-    const Sign exact = predicates::side_of_circle_exact(four[0], four[1], four[2], four[3], {});
+    const Sign exact = predicates::side_of_circle_exact(four, {});
     EXPECT_EQ(decision.rung == Rung::perturbed, exact == Sign::zero);
     if (exact != Sign::zero) {
       EXPECT_EQ(decision.sign, exact);
@@ -303,7 +334,7 @@ TEST(rungs, each_decides_what_is_left_to_it) {
     const Point& p = four[0];
     predicates::count(tally, rung_of({{p, {-p.x, p.y, p.z}, {-p.x, -p.y, p.z}, {p.x, -p.y, p.z}}}));
   }
-  predicates::count(tally, rung_of({{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 1e-40}}}));
+  predicates::count(tally, rung_of({{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0x1p-98}}}));
   EXPECT_GT(tally.filter, 190U);
   EXPECT_TRUE(tally.extended > 100 || !exact::has_extended_precision());
   EXPECT_GT(tally.double_double, 100U);
