@@ -89,7 +89,8 @@ TEST_P(predicate_rungs, never_give_a_wrong_sign) {
         continue;
       }
       expect_circle_rungs(four, expected);
-      // Directions that are not the nearest doubles, but within the contract's error.
+      // Directions that are not the nearest doubles, but within the contract's
+      // error.
       const Sign coarse = predicates::side_of_circle_filter(
           exact::to_vector(normalized(a)), exact::to_vector(normalized(b)),
           exact::to_vector(normalized(c)), exact::to_vector(normalized(p)));
@@ -120,7 +121,8 @@ double filter_share(Model model, double distance) {
   return static_cast<double>(decided) / static_cast<double>(count);
 }
 
-// The projected filter must not fade with density, as the paper's filters did (section 5).
+// The projected filter must not fade with density, as the paper's filters did
+// (section 5).
 TEST(rungs, filter_decides_at_any_distance) {
   EXPECT_GT(filter_share(Model::projected, 1), 0.999);
   EXPECT_GT(filter_share(Model::projected, 1e-3), 0.999);
@@ -131,7 +133,8 @@ TEST(rungs, filter_decides_at_any_distance) {
   EXPECT_GT(filter_share(Model::weighted, 1e-3), 0.999);
 }
 
-// Nor with the length of faces: sites on curves have two corners close to p and one far away.
+// Nor with the length of faces: sites on curves have two corners close to p and
+// one far away.
 TEST(rungs, filter_decides_for_long_faces) {
   Random random(39);
   for (std::size_t i = 0; i < 2000; ++i) {
@@ -145,7 +148,8 @@ TEST(rungs, filter_decides_for_long_faces) {
   }
 }
 
-// Three close sites and one whose weight is far larger, in each of the four roles.
+// Three close sites and one whose weight is far larger, in each of the four
+// roles.
 TEST(rungs, filter_decides_between_weights_of_all_magnitudes) {
   Random random(36);
   for (const double length : {1e1, 1e4, 1e8, 1e15, 1e30}) {
@@ -171,16 +175,19 @@ TEST(rungs, filter_is_unsure_where_squares_underflow) {
                                              exact::to_vector(d), {0, 0, 0}),
             Sign::zero);
   const Decision decision = decide({{b, c, d, {0, 0, 0}}}, Model::weighted);
-  EXPECT_EQ(decision.rung, Rung::filter);  // of differences that are all scaled to 1
+  EXPECT_EQ(decision.rung,
+            Rung::filter);  // of differences that are all scaled to 1
   EXPECT_EQ(decision.sign, Sign::negative);
 }
 
-// Sites as close as doubles can be, for which directions are no longer told apart. What is left to
-// the exact rung are ties up to rounding.
+// Sites as close as doubles can be, for which directions are no longer told
+// apart. What is left to the exact rung are ties up to rounding.
 TEST(rungs, doubles_decide_between_sites_at_any_distance) {
   Random random(40);
   for (const FourGenerator& kind : four_generators()) {
-    if (kind.name != "cap_of_any_size" && kind.name != "ulps_of_one_site") continue;
+    if (kind.name != "cap_of_any_size" && kind.name != "ulps_of_one_site" &&
+        kind.name != "two_pairs")
+      continue;
     std::size_t exact = 0;
     const std::size_t num_sets = 2000;
     for (std::size_t i = 0; i < num_sets; ++i) {
@@ -196,7 +203,36 @@ TEST(rungs, doubles_decide_between_sites_at_any_distance) {
   }
 }
 
-// Coordinates of all magnitudes, of sites that are near one axis as neighbors are, or near several.
+// Faces between two clusters: a step from one pair to the other says nothing of
+// the pairs.
+TEST(rungs, doubles_decide_between_two_pairs_that_are_far_apart) {
+  Random random(43);
+  std::size_t exact = 0;
+  const std::size_t num_sets = 500;
+  for (std::size_t i = 0; i < num_sets; ++i) {
+    const double distance = random_distance(random, 1e-6);
+    const Point pole = random_direction(random);
+    Four four;
+    for (std::size_t k = 0; k < 4; k += 2) {
+      const Point near = random_near(random, pole, distance);
+      four[k] = near;
+      four[k + 1] = near;
+      for (int moves = 0; moves < 6; ++moves) {
+        four[k + moves % 2] = moved_by_one_ulp(random, four[k + moves % 2]);
+      }
+    }
+    std::swap(four[1], four[1 + i % 3]);
+    const auto& [a, b, c, p] = four;
+    if (a == b || a == c || a == p || b == c || b == p || c == p) continue;
+    const Decision decision = decide(four, Model::projected);
+    ASSERT_EQ(to_int(decision.sign), Oracle(four, Model::projected, {}).side_of_circle(0, 1, 2, 3));
+    if (decision.rung == Rung::exact) ++exact;
+  }
+  EXPECT_LT(exact, num_sets / 20);
+}
+
+// Coordinates of all magnitudes, of sites that are near one axis as neighbors
+// are, or near several.
 TEST(rungs, doubles_decide_between_coordinates_of_all_magnitudes) {
   Random random(42);
   const auto magnitude = [&random](int lowest, int highest) {
@@ -228,7 +264,8 @@ TEST(rungs, doubles_decide_between_coordinates_of_all_magnitudes) {
   EXPECT_LE(exact, num_sets / 50);
 }
 
-// Three sites in line with the center but for one coordinate, at all magnitudes.
+// Three sites in line with the center but for one coordinate, at all
+// magnitudes.
 TEST(rungs, orientation_needs_no_long_numbers_at_any_scale) {
   Random random(41);
   for (std::size_t i = 0; i < 2000; ++i) {
@@ -257,7 +294,8 @@ TEST(rungs, above_the_filter_decide_near_ties) {
   EXPECT_EQ(decided, unsure);
 }
 
-// Sites on one circle but for the roundings of their coordinates, as those of grids.
+// Sites on one circle but for the roundings of their coordinates, as those of
+// grids.
 TEST(rungs, numbers_of_64_bits_do_not_err_and_decide_ties_of_rounded_sites) {
   Random random(35);
   std::size_t decided = 0;
@@ -284,7 +322,8 @@ TEST(rungs, exact_decides_what_lies_below_twice_double_precision) {
   EXPECT_NE(projected.sign, Sign::zero);
 }
 
-// Four sites, none of equal length, whose roots fall into two classes: sqrt(2) and 1.
+// Four sites, none of equal length, whose roots fall into two classes: sqrt(2)
+// and 1.
 TEST(rungs, exact_sees_ties_among_unequal_roots) {
   const Four four = {{{3, 3, 0}, {-1, 1, 0}, {0, 0, 2}, {0, 0, -5}}};
   const Decision decision = decide(four, Model::projected);
@@ -309,7 +348,8 @@ TEST(rungs, structured_input_is_decided_exactly) {
   }
 }
 
-// Every rung of the ladder decides somewhere, and says so; the exact sign never has another one.
+// Every rung of the ladder decides somewhere, and says so; the exact sign never
+// has another one.
 TEST(rungs, each_decides_what_is_left_to_it) {
   Random random(37);
   const auto rung_of = [](const Four& four) {
