@@ -37,7 +37,7 @@ std::uint64_t position_of_doubles(double along, double length) {
 
 CubePosition exact_cube_position(const Point& p, const Point& center) {
   if (center == Point{}) {
-    const cube::Ray ray = cube::ray_of({p.x, p.y, p.z});
+    const cube::CubeRay ray = cube::ray_of({p.x, p.y, p.z});
     if (ray.length > 0x1p-800) {
       return {ray.face->rank, position_of_doubles(ray.u, ray.length),
               position_of_doubles(ray.v, ray.length)};

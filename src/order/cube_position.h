@@ -43,7 +43,7 @@ inline std::uint64_t position(double ratio) {
 }
 
 // A vector in the axes of the face through which it leaves the cube: (u, v, length).
-struct Ray {
+struct CubeRay {
   const CubeFace* face;
   double u;
   double v;
@@ -51,7 +51,7 @@ struct Ray {
 };
 
 // The face of sites in no order is anyone's guess: nothing here branches on it.
-inline Ray ray_of(const std::array<double, 3>& d) {
+inline CubeRay ray_of(const std::array<double, 3>& d) {
   const double x = std::abs(d[0]);
   const double y = std::abs(d[1]);
   const double z = std::abs(d[2]);
@@ -68,7 +68,7 @@ inline Ray ray_of(const std::array<double, 3>& d) {
 // From differences rounded to doubles. Depends on the ray alone when the center is (0, 0, 0):
 // the quotients of two coordinates are rounded correctly, so points on one ray agree.
 inline CubePosition cube_position(const Point& p, const Point& center) {
-  const cube::Ray ray = cube::ray_of({p.x - center.x, p.y - center.y, p.z - center.z});
+  const cube::CubeRay ray = cube::ray_of({p.x - center.x, p.y - center.y, p.z - center.z});
   if (!(ray.length > 0 && ray.length <= std::numeric_limits<double>::max())) return {};
   return {ray.face->rank, cube::position(ray.u / ray.length), cube::position(ray.v / ray.length)};
 }

@@ -73,7 +73,7 @@ std::optional<Step> step_between(const Vector& difference, const Ray& p, const R
 }
 
 // A row of the determinant: E_x, E_y and E times a vector that is no longer than `breadth`.
-struct Row {
+struct StepRow {
   Step step;
   Vector sum;
   double breadth;
@@ -84,7 +84,7 @@ using Coordinates = std::array<double, 3>;
 Coordinates coordinates(const Vector& v) { return {v.x, v.y, v.z}; }
 
 // Of rows whose relative errors add up to `error`, seen from p.
-Sign sign_of_rows(const std::array<Row, 3>& rows, const Vector& p, double error) {
+Sign sign_of_rows(const std::array<StepRow, 3>& rows, const Vector& p, double error) {
   const Coordinates along = coordinates(p);
   const auto longer = [&](std::size_t i, std::size_t j) {
     return std::abs(along[i]) < std::abs(along[j]) ? j : i;
@@ -96,7 +96,7 @@ Sign sign_of_rows(const std::array<Row, 3>& rows, const Vector& p, double error)
   double breadths = 0;
   double lengths = 1;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Row& row = rows[i];
+    const StepRow& row = rows[i];
     const Coordinates next = coordinates(rows[(i + 1) % 3].step.along);
     const Coordinates after = coordinates(rows[(i + 2) % 3].step.along);
     value += dot(row.step.along, row.sum) * (next[x] * after[y] - next[y] * after[x]);
@@ -121,7 +121,7 @@ Sign side_of_circle_close(const Quad& q, const Point& center) {
   const auto step = [&](std::size_t i, std::size_t j) {
     return step_between(difference(i, j), (*rays)[order[i]], (*rays)[order[j]]);
   };
-  std::array<Row, 3> rows{};
+  std::array<StepRow, 3> rows{};
   double error = 0;
   int highest = -1023;
   for (std::size_t i = 0; i < 3; ++i) {

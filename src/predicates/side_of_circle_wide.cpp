@@ -47,8 +47,6 @@ Sign side_of_circle_wide_filter(const Quad& q, const Point& center) {
   const Vector o = to_vector(center);
   const std::array<WideRay, 4> rays = {WideRay(to_vector(q[0]) - o), WideRay(to_vector(q[1]) - o),
                                        WideRay(to_vector(q[2]) - o), WideRay(to_vector(q[3]) - o)};
-  if (std::ranges::any_of(rays, [](const WideRay& r) { return r.longest > 1023; }))
-    return Sign::zero;
   const OrderOfFour order = order_for_nearest_to_axis(rays);
   const WideRay& origin = rays[order[3]];
   const bool is_reflected = origin.is_backward;

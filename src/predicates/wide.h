@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "predicates/scale.h"
 
@@ -28,13 +29,19 @@ struct Wide {
 
   Wide() = default;
   Wide(double v, double s, int e) : value(v), size(s), exponent(e) {}
+  // What overflowed is infinite, or no number, with an infinite size: no sign is sure of it.
   explicit Wide(double v) {
     if (v == 0) return;
-    constexpr int subnormal = -1023;
-    constexpr int shift = 64;
-    const bool is_subnormal = exponent_of(v) == subnormal;
-    if (is_subnormal) v *= power_of_two(shift);
-    exponent = exponent_of(v) - (is_subnormal ? shift : 0);
+    exponent = exponent_of(v);
+    if (exponent == 1024) {
+      value = size = std::numeric_limits<double>::infinity();
+      return;
+    }
+    if (exponent == -1023) {
+      constexpr int shift = 64;
+      v *= power_of_two(shift);
+      exponent = exponent_of(v) - shift;
+    }
     constexpr std::uint64_t exponent_bits = std::uint64_t{0x7ff} << 52U;
     constexpr auto one = std::bit_cast<std::uint64_t>(1.0);
     value = std::bit_cast<double>((std::bit_cast<std::uint64_t>(v) & ~exponent_bits) | one);
@@ -68,6 +75,14 @@ using WideVector = exact::Vector3<Wide>;
 
 inline WideVector to_wide(const Vector& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
 
+// A row of the determinant in side_of_circle_wide.cpp.
+struct WideRow {
+  Wide x;
+  Wide y;
+  Wide z;
+  Wide h;
+};
+
 // A ray, and the axis that is its longest coordinate's.
 struct WideRay {
   std::array<Wide, 3> along;
@@ -87,11 +102,7 @@ struct WideRay {
     distance = std::max(along[(axis + 1) % 3].exponent, along[(axis + 2) % 3].exponent) - longest;
   }
 
-  // Its row of the determinant in side_of_circle_wide.cpp, seen along an axis.
-  struct Row {
-    Wide x, y, z, h;
-  };
-  [[nodiscard]] Row row(std::size_t axis_of_x, bool is_reflected) const {
+  [[nodiscard]] WideRow row(std::size_t axis_of_x, bool is_reflected) const {
     const Wide x = is_reflected ? -along[axis_of_x] : along[axis_of_x];
     const Wide& y = along[(axis_of_x + 1) % 3];
     const Wide& z = along[(axis_of_x + 2) % 3];
@@ -105,7 +116,7 @@ struct WideRay {
 };
 
 // The row of a ray less what makes its first entry 0, which is left out.
-inline WideVector less_origin(const WideRay::Row& q, const WideRay::Row& o) {
+inline WideVector less_origin(const WideRow& q, const WideRow& o) {
   return {o.x * q.y - q.x * o.y, o.x * q.z - q.x * o.z, o.x * q.h - q.x * o.h};
 }
 

@@ -214,7 +214,7 @@ double wide_circle_ratio(const FourStored& s) {
     const Point& p = s[i].site;
     return Vector{2 + p.x * p.x, p.y, p.z};
   };
-  std::array<predicates::WideRay::Row, 4> rows;
+  std::array<predicates::WideRow, 4> rows;
   std::vector<ExactRay> exact;
   for (std::size_t i = 0; i < 4; ++i) {
     rows[i] = predicates::WideRay(moved(i) - center).row(0, false);

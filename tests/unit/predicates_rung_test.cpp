@@ -264,6 +264,29 @@ TEST(rungs, doubles_decide_between_coordinates_of_all_magnitudes) {
   EXPECT_LE(exact, num_sets / 50);
 }
 
+// Differences from a center that overflow.
+TEST(rungs, doubles_are_unsure_of_infinite_rays) {
+  constexpr double most = std::numeric_limits<double>::max();
+  constexpr std::array sizes = {0.0, 5e-324, 0x1p-1022, 1.0, 0x1p1000, most / 2, most};
+  const Sphere sphere = {{most, 0, -1}};
+  Random random(44);
+  const auto coordinate = [&] {
+    return (random.coin() ? 1 : -1) * sizes[random.below(sizes.size())];
+  };
+  for (std::size_t i = 0; i < 2000; ++i) {
+    Four four;
+    for (Point& p : four) {
+      do p = {coordinate(), coordinate(), coordinate()};
+      while (p == sphere.center);
+    }
+    const Oracle oracle(four, Model::projected, sphere);
+    const Decision decision = predicates::orientation(four[0], four[1], four[2], sphere.center);
+    ASSERT_EQ(to_int(decision.sign), oracle.orientation(0, 1, 2));
+    expect_no_other(predicates::side_of_circle_wide_filter(four, sphere.center),
+                    oracle.side_of_circle(0, 1, 2, 3));
+  }
+}
+
 // Three sites in line with the center but for one coordinate, at all
 // magnitudes.
 TEST(rungs, orientation_needs_no_long_numbers_at_any_scale) {
