@@ -28,7 +28,6 @@
 #include "predicates/perturbation.h"
 #include "predicates/points.h"
 #include "predicates/rung.h"
-#include "predicates/scale.h"
 #include "predicates/side_of_circle.h"
 #include "predicates/side_of_plane.h"
 
@@ -47,25 +46,26 @@ template <PointSource S>
 
 template <RaySource S>
 Decision side_of_circle_above_filter(S& points, Index b, Index c, Index d, Index p) {
-  const bool is_b_apart = are_apart(points.direction(b), points.direction(p));
-  if (is_b_apart || are_apart(points.direction(c), points.direction(p)) ||
-      are_apart(points.direction(d), points.direction(p))) {
-    const Sign sign =
-        side_of_circle_extended(points.split(b), points.split(c), points.split(d), points.split(p));
+  const exact::SplitPoint u = points.split(b);
+  const exact::SplitPoint v = points.split(c);
+  const exact::SplitPoint w = points.split(d);
+  const exact::SplitPoint x = points.split(p);
+  Sign sign = Sign::zero;
+  if (are_apart(u, x) || are_apart(v, x) || are_apart(w, x)) {
+    sign = side_of_circle_extended(u, v, w, x);
     if (sign != Sign::zero) return {sign, Rung::extended};
   }
   const Quad given = {points.point(b), points.point(c), points.point(d), points.point(p)};
   // Close sites are hardly ever ties.
-  if (is_b_apart) {
+  if (are_apart(u, x)) {
     const auto exact = side_of_circle_integers_exact(given, points.center());
     if (exact) return {*exact, Rung::exact};
   }
-  if (have_different_exponents(given, points.center())) {
-    const Sign sign = side_of_circle_wide_filter(given, points.center());
+  if (is_nearly_flat(u) || is_nearly_flat(v) || is_nearly_flat(w) || is_nearly_flat(x)) {
+    sign = side_of_circle_wide_filter(given, points.center());
     if (sign != Sign::zero) return {sign, Rung::filter};
   }
-  Sign sign = side_of_circle_double_double(points.split(b), points.split(c), points.split(d),
-                                           points.split(p));
+  sign = side_of_circle_double_double(u, v, w, x);
   if (sign != Sign::zero) return {sign, Rung::double_double};
   sign = side_of_circle_close(given, points.center());
   if (sign != Sign::zero) return {sign, Rung::close};

@@ -336,12 +336,17 @@ TEST(rungs, numbers_of_64_bits_do_not_err_and_decide_ties_of_rounded_sites) {
   EXPECT_TRUE(decided > num_sets / 2 || !exact::has_extended_precision());
 }
 
+// Three sites an ulp apart in a line, and one that is not: their circle is nearly a great circle.
+constexpr Four three_in_a_line = {{{0.625, 0.5, 0.75},
+                                   {0.625 + 0x1p-53, 0.5, 0.75 + 0x1p-52},
+                                   {0.625 + 0x1p-52, 0.5, 0.75 + 0x1p-51},
+                                   {-0.3, 0.4, 0.8}}};
+
 TEST(rungs, exact_decides_what_lies_below_twice_double_precision) {
-  constexpr double tiny = 0x1p-98;
-  const Four four = {{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, tiny}}};
-  const Decision projected = decide(four, Model::projected);
+  const Decision projected = decide(three_in_a_line, Model::projected);
   EXPECT_EQ(projected.rung, Rung::exact);
-  EXPECT_EQ(to_int(projected.sign), Oracle(four, Model::projected, {}).side_of_circle(0, 1, 2, 3));
+  EXPECT_EQ(to_int(projected.sign),
+            Oracle(three_in_a_line, Model::projected, {}).side_of_circle(0, 1, 2, 3));
   EXPECT_NE(projected.sign, Sign::zero);
 }
 
@@ -397,7 +402,7 @@ TEST(rungs, each_decides_what_is_left_to_it) {
     const Point& p = four[0];
     predicates::count(tally, rung_of({{p, {-p.x, p.y, p.z}, {-p.x, -p.y, p.z}, {p.x, -p.y, p.z}}}));
   }
-  predicates::count(tally, rung_of({{{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0x1p-98}}}));
+  predicates::count(tally, rung_of(three_in_a_line));
   EXPECT_GT(tally.filter, 190U);
   EXPECT_TRUE(tally.extended > 100 || !exact::has_extended_precision());
   EXPECT_GT(tally.double_double, 100U);
