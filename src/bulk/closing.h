@@ -21,8 +21,8 @@
 #include <cmath>
 #include <optional>
 
+#include "bulk/given_sites.h"
 #include "bulk/merge.h"
-#include "bulk/sphere_step.h"
 
 namespace rondel::bulk {
 
@@ -32,7 +32,7 @@ class Closing {
   using Edge = PlaneGraph::Edge;
   using Vector = predicates::Vector;
 
-  Closing(SphereSites<T>& sites, PlaneGraph& graph) : sites_(sites), graph_(graph) {}
+  Closing(GivenSites<T>& sites, PlaneGraph& graph) : sites_(sites), graph_(graph) {}
 
   // The parts lie on the side to which `normal` points and on the other one of a plane through the
   // center, which is inside the hull of all. Returns an edge of the result, or no_index if this
@@ -52,7 +52,7 @@ class Closing {
   }
 
  private:
-  using Step = SphereStep<T>;
+  using Step = MergeStep<GivenSites<T>>;
 
   // Two vertices, each by an edge that leaves it.
   struct Bridge {
@@ -188,8 +188,8 @@ class Closing {
     while (!graph_.is_full()) {
       const Step step(sites_, {}, l, r);
       if constexpr (T::hides_sites) {
-        remove_covered_left(graph_, base, step, bridge);
-        remove_covered_right(graph_, base ^ 1, step, bridge ^ 1);
+        remove_covered<true>(graph_, base, step, bridge);
+        remove_covered<false>(graph_, base ^ 1, step, bridge ^ 1);
         remove_on_line(step, base);
       }
       const Edge left = first_stable<true>(step, base, bridge);
@@ -261,7 +261,7 @@ class Closing {
     return e;
   }
 
-  SphereSites<T>& sites_;
+  GivenSites<T>& sites_;
   PlaneGraph& graph_;
 };
 

@@ -17,8 +17,7 @@
 
 #include "bulk/few_sites.h"
 #include "bulk/merge.h"
-#include "bulk/merge_step.h"
-#include "bulk/plane_graph.h"
+#include "bulk/square_sites.h"
 #include "order/hilbert.h"
 #include "predicates/ray_order.h"
 
@@ -174,7 +173,7 @@ class Divide {
   }
 
   Part solve_three(Index a, const SquareLimits& limits) {
-    const MergeStep<T> step(sites_, limits, a, a + 1);
+    const MergeStep<SquareSites<T>> step(sites_, limits, a, a + 1);
     const Sign turn = step.orientation(step.face(a + 2));
     if (turn == Sign::zero) return solve_chain(a);
     const auto is_turned = static_cast<Index>(turn == Sign::negative);
@@ -183,9 +182,9 @@ class Divide {
 
   // Returns whether no three are on one great circle.
   bool solve_four(Index a, const SquareLimits& limits, Part& part) {
-    const MergeStep<T> ab(sites_, limits, a, a + 1);
-    const MergeStep<T> ac(sites_, limits, a, a + 2);
-    const MergeStep<T> bc(sites_, limits, a + 1, a + 2);
+    const MergeStep<SquareSites<T>> ab(sites_, limits, a, a + 1);
+    const MergeStep<SquareSites<T>> ac(sites_, limits, a, a + 2);
+    const MergeStep<SquareSites<T>> bc(sites_, limits, a + 1, a + 2);
     const std::array turns = {ab.orientation(ab.face(a + 2)), ab.orientation(ab.face(a + 3)),
                               ac.orientation(ac.face(a + 3)), bc.orientation(bc.face(a + 3))};
     unsigned signs = 0;
@@ -200,7 +199,7 @@ class Divide {
     std::array<Index, 4> p{};
     for (std::size_t i = 0; i < 4; ++i) p[i] = a + four.order[i];
     const auto is_last_in_conflict = [&] {
-      const MergeStep<T> step(sites_, limits, p[0], p[1]);
+      const MergeStep<SquareSites<T>> step(sites_, limits, p[0], p[1]);
       return step.is_in_conflict(step.face(p[2]), p[3]);
     };
     if (!four.has_inner_point) {
@@ -232,7 +231,7 @@ class Divide {
   std::span<const Misplaced> misplaced_;
   std::uint64_t misplaced_bits_ = 0;
   PlaneGraph& graph_;
-  Merge<MergeStep<T>> sewing_;
+  Merge<SquareSites<T>> sewing_;
 };
 
 }  // namespace rondel::bulk

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "bulk/open_faces.h"
 #include "system/prefetch.h"
 
 namespace rondel::bulk {

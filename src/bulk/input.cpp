@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "exact/vector.h"
+
 namespace rondel::bulk {
 namespace {
 
@@ -14,9 +16,9 @@ namespace {
 void find_sizes(Input& input) {
   double least = std::numeric_limits<double>::infinity();
   double most = 0;
-  const predicates::Vector center = exact::to_vector(input.options.sphere.center);
+  const auto center = exact::to_vector(input.center());
   for (const Point& p : input.sites) {
-    const predicates::Vector ray = exact::to_vector(p) - center;
+    const auto ray = exact::to_vector(p) - center;
     const double size2 = dot(ray, ray);
     least = std::min(least, size2);
     most = std::max(most, size2);

@@ -10,6 +10,10 @@
 //     |      l-r      |     those in front of which another one lies, and adds the edge that
 //      '----'   '----'      closes the lower face: (l, r') or (x, r).
 //
+// in    two parts of a graph, each by an edge of its outer boundary, and the sites to ask
+// out   one part, or that this does not work
+// index local sites and halfedges of the graph
+//
 // docs/theory/blocks.md shows that this holds for weighted sites as well: the cells of the power
 // diagrams of L and R meet in one chain, and what lies behind it is never met again.
 #pragma once
@@ -18,6 +22,7 @@
 #include <tuple>
 
 #include "bulk/collinear.h"
+#include "bulk/merge_step.h"
 #include "bulk/plane_graph.h"
 
 namespace rondel::bulk {
@@ -36,48 +41,33 @@ inline Part next_on_boundary(const PlaneGraph& graph, const Part& p) {
 
 // An edge that leaves l into the face below `base` leads to a site that this face hides. It lies
 // between `base` and the lower side q of that face, but comes after `base` in its ring. Deletes
-// such edges, but for `kept`. Returns whether there were any.
-template <class Step>
-bool remove_covered_left(PlaneGraph& graph, PlaneGraph::Edge base, const Step& step,
-                         PlaneGraph::Edge kept = no_index) {
+// such edges, but for `kept`. Returns whether there were any. At r, where the other halfedge of the
+// base is `base`, all is mirrored.
+template <bool is_left, class Sites>
+bool remove_covered(PlaneGraph& graph, PlaneGraph::Edge base, const MergeStep<Sites>& step,
+                    PlaneGraph::Edge kept = no_index) {
   for (bool has_removed = false;; has_removed = true) {
-    const PlaneGraph::Edge e = graph.next(base);
-    const PlaneGraph::Edge q = graph.previous(base);
+    const PlaneGraph::Edge e = graph.following<is_left>(base);
+    const PlaneGraph::Edge q = graph.following<!is_left>(base);
     if (e == base || e == q || e == kept ||
         step.orientation(step.face(graph.target(e))) != Sign::negative) {
       return has_removed;
     }
-    const Step side = step.from_to(step.l(), graph.target(q));
+    const MergeStep<Sites> side =
+        is_left ? step.from_to(step.l(), graph.target(q)) : step.from_to(graph.target(q), step.r());
     if (side.orientation(side.face(graph.target(e))) != Sign::positive) return has_removed;
     graph.remove(e);
   }
 }
 
-// The same at r, where the other halfedge of `base` leaves.
-template <class Step>
-bool remove_covered_right(PlaneGraph& graph, PlaneGraph::Edge base, const Step& step,
-                          PlaneGraph::Edge kept = no_index) {
-  for (bool has_removed = false;; has_removed = true) {
-    const PlaneGraph::Edge e = graph.previous(base);
-    const PlaneGraph::Edge q = graph.next(base);
-    if (e == base || e == q || e == kept ||
-        step.orientation(step.face(graph.target(e))) != Sign::negative) {
-      return has_removed;
-    }
-    const Step side = step.from_to(graph.target(q), step.r());
-    if (side.orientation(side.face(graph.target(e))) != Sign::positive) return has_removed;
-    graph.remove(e);
-  }
-}
-
-// `Step` asks the questions of one step, see merge_step.h and sphere_step.h.
-template <class Step>
+// `Sites` are SquareSites or GivenSites.
+template <class Sites>
 class Merge {
  public:
   using Edge = PlaneGraph::Edge;
+  using Step = MergeStep<Sites>;
   using ApexFace = typename Step::ApexFace;
-  using Limits = typename Step::Limits;
-  using Sites = typename Step::Sites;
+  using Limits = typename Sites::Limits;
 
   Merge(Sites& sites, PlaneGraph& graph) : sites_(sites), graph_(graph) {}
 
@@ -89,7 +79,7 @@ class Merge {
   }
 
   // Two parts that a great circle separates.
-  Part merge(Part l, Part r, const Limits& limits) {
+  Part merge(Part l, Part r, Limits limits) {
     if (has_failed_) return {};
     if (l.vertex == no_index) return r;
     if (r.vertex == no_index) return l;
@@ -112,7 +102,7 @@ class Merge {
       const Between between =
           is_between(sites_.point(x), sites_.point(m), sites_.point(y), sites_.center());
       if (between == Between::no) continue;
-      if (between == Between::below && Step::hides_sites) has_failed_ = true;
+      if (between == Between::below && Sites::hides_sites) has_failed_ = true;
       return m;
     }
     has_failed_ = true;
@@ -157,64 +147,60 @@ class Merge {
   }
 
   // Moves l and r to the ends of the lower common tangent.
-  void find_tangent(Part& l, Part& r, const Limits& limits) {
+  void find_tangent(Part& l, Part& r, Limits limits) {
     while (!has_failed_ && move_down(Step(sites_, limits, l.vertex, r.vertex), l, r)) {
     }
   }
 
   [[nodiscard, gnu::always_inline]] bool is_above(const Step& step, const ApexFace& face) {
     const Sign side = step.orientation(face);
-    if (Step::hides_sites && side == Sign::zero && face.apex != step.l() && face.apex != step.r())
+    if (Sites::hides_sites && side == Sign::zero && face.apex != step.l() && face.apex != step.r())
       std::ignore = middle_of(step.l(), step.r(), face.apex);
     return side == Sign::positive;
+  }
+
+  // Finds the neighbor of l (or of r) above the base that makes a face with it in front of which no
+  // other neighbor lies, and deletes the edges before the one to it. `edge` comes as the first one
+  // beyond the base. Returns whether there is such a neighbor.
+  template <bool is_left>
+  [[gnu::always_inline]] bool find_candidate(const Step& step, Edge base, Edge& edge,
+                                             ApexFace& face, const PlaneGraph::Links* rings,
+                                             const Index* targets) {
+    face = step.face(targets[edge]);
+    bool has_found = is_above(step, face);
+    if (Sites::hides_sites && !has_found && remove_covered<is_left>(graph_, base, step)) {
+      edge = graph_.following<is_left>(base);
+      face = step.face(targets[edge]);
+      has_found = is_above(step, face);
+    }
+    if (!has_found) return false;
+    for (;;) {
+      const Edge next = is_left ? rings[edge].next : rings[edge].previous;
+      const Index y = targets[next];
+      if (!step.is_in_conflict(face, y)) return true;
+      graph_.remove(edge);
+      edge = next;
+      face = step.face(y);
+    }
   }
 
   // Sews the parts together above the edge `base` from the left one to the right one. Where the
   // next step begins is known from this one: to read it from links just written would take longer
   // than all else.
-  void sew(Edge base, const Limits& limits) {
+  void sew(Edge base, Limits limits) {
     const PlaneGraph::Links* const rings = graph_.rings();
     const Index* const targets = graph_.targets();
     Index l = graph_.origin(base);
     Index r = graph_.target(base);
-    Edge left = rings[base].next;
-    Edge right = rings[base ^ 1].previous;
+    Edge left = graph_.next(base);
+    Edge right = graph_.previous(base ^ 1);
     while (!graph_.is_full()) {
       const Step step(sites_, limits, l, r);
-      ApexFace left_face = step.face(targets[left]);
-      bool has_left = is_above(step, left_face);
-      if (Step::hides_sites && !has_left && remove_covered_left(graph_, base, step)) {
-        left = rings[base].next;
-        left_face = step.face(targets[left]);
-        has_left = is_above(step, left_face);
-      }
-      if (has_left) {
-        for (;;) {
-          const Edge next = rings[left].next;
-          const Index y = targets[next];
-          if (!step.is_in_conflict(left_face, y)) break;
-          graph_.remove(left);
-          left = next;
-          left_face = step.face(y);
-        }
-      }
-      ApexFace right_face = step.face(targets[right]);
-      bool has_right = is_above(step, right_face);
-      if (Step::hides_sites && !has_right && remove_covered_right(graph_, base ^ 1, step)) {
-        right = rings[base ^ 1].previous;
-        right_face = step.face(targets[right]);
-        has_right = is_above(step, right_face);
-      }
-      if (has_right) {
-        for (;;) {
-          const Edge next = rings[right].previous;
-          const Index y = targets[next];
-          if (!step.is_in_conflict(right_face, y)) break;
-          graph_.remove(right);
-          right = next;
-          right_face = step.face(y);
-        }
-      }
+      ApexFace left_face;
+      ApexFace right_face;
+      const bool has_left = find_candidate<true>(step, base, left, left_face, rings, targets);
+      const bool has_right =
+          find_candidate<false>(step, base ^ 1, right, right_face, rings, targets);
       if (!has_left && !has_right) return;
       if (!has_left || (has_right && step.is_in_conflict(left_face, right_face.apex))) {
         const Edge across = rings[right ^ 1].previous;

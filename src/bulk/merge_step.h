@@ -7,91 +7,81 @@
 //       / \        so the orientation costs nothing beyond what the conflict test needs.
 //      l-->r       A conflict test costs one dot product once the normal is known.
 //
+// in    two sites, in coordinates that keep sides: of a square (SquareSites) or of space (GivenSites)
+// out   exact signs: filters here, the rest is asked of the sites
+// index local sites
+//
 // All that the filters decide is inlined by force: one call left over, and the compiler keeps the
 // vectors in memory.
 #pragma once
 
-#include <cmath>
-
-#include "bulk/square_sites.h"
+#include "rondel/types.h"
 
 namespace rondel::bulk {
 
-template <models::SphereModel T>
+template <class Sites>
 class MergeStep {
  public:
-  using Sites = SquareSites<T>;
-  using Limits = SquareLimits;
-  static constexpr bool hides_sites = T::hides_sites;
+  using Vector = typename Sites::Vector;
+  using Limits = typename Sites::Limits;
 
   struct ApexFace {
     Index apex;
-    SquareVector normal;
+    Vector normal;
+    double squared;  // length of the side from l to the apex
   };
 
-  MergeStep(SquareSites<T>& sites, const SquareLimits& limits, Index l, Index r)
+  [[gnu::always_inline]] MergeStep(Sites& sites, Limits limits, Index l, Index r)
       : sites_(sites),
-        points_(sites.points()),
-        orientation_limit_(limits.orientation),
-        conflict_limit_(limits.conflict),
+        limits_(limits),
         l_(l),
-        r_(r) {
-    const SquarePoint& origin = points_[l];
-    origin_ = {origin.u, origin.v, origin.w};
-    edge_ = from_l(r);
-  }
+        r_(r),
+        origin_(sites.coordinates(l)),
+        edge_(sites.coordinates(r) - origin_),
+        squared_(Sites::squared(edge_)) {}
 
   [[nodiscard]] Index l() const { return l_; }
   [[nodiscard]] Index r() const { return r_; }
 
   // The step of another edge.
-  [[nodiscard]] MergeStep from_to(Index l, Index r) const {
-    return {sites_, {orientation_limit_, conflict_limit_}, l, r};
-  }
+  [[nodiscard]] MergeStep from_to(Index l, Index r) const { return {sites_, limits_, l, r}; }
 
   [[nodiscard, gnu::always_inline]] ApexFace face(Index x) const {
-    return {x, cross(edge_, from_l(x))};
+    const Vector side = sites_.coordinates(x) - origin_;
+    return {x, cross(edge_, side), Sites::squared(side)};
   }
 
   // Positive if the apex lies to the left of the edge, seen from outside; zero if it is l or r.
   [[nodiscard, gnu::always_inline]] Sign orientation(const ApexFace& face) const {
-    if (face.normal.w > orientation_limit_) return Sign::positive;
-    if (face.normal.w < -orientation_limit_) return Sign::negative;
-    // Overflow leaves infinities and what is not a number: unsure, too.
+    const Sign sign =
+        Sites::certain_orientation(limits_, origin_, face.normal, squared_, face.squared);
+    if (sign != Sign::zero) return sign;
     return is_end(face.apex) ? Sign::zero : sites_.orientation(l_, r_, face.apex);
   }
 
   // Not if y is l or r.
   [[nodiscard, gnu::always_inline]] bool is_in_conflict(const ApexFace& face, Index y) const {
-    const double value = dot(face.normal, from_l(y));
-    if (value > conflict_limit_) {
+    const Vector to_y = sites_.coordinates(y) - origin_;
+    const Sign sign = Sites::certain_side(limits_, dot(face.normal, to_y), squared_, face.squared,
+                                          Sites::squared(to_y));
+    if (sign != Sign::zero) {
       sites_.count_filtered();
-      return false;
+      return sign == Sign::positive;
     }
-    if (value < -conflict_limit_) {
-      sites_.count_filtered();
-      return true;
-    }
-    return !is_end(y) && sites_.is_in_conflict(l_, r_, face.apex, y, value);
+    return !is_end(y) && sites_.is_in_conflict(l_, r_, face.apex, y);
   }
 
  private:
-  // Of the ends no value is beyond the limits, which are never exceeded where zero is right.
+  // Of the ends no filter is sure, as zero is right.
   [[nodiscard]] bool is_end(Index x) const { return x == l_ || x == r_; }
 
-  [[nodiscard, gnu::always_inline]] SquareVector from_l(Index x) const {
-    const SquarePoint& p = points_[x];
-    return {p.u - origin_.u, p.v - origin_.v, p.w - origin_.w};
-  }
-
-  SquareSites<T>& sites_;
-  const SquarePoint* points_;
-  double orientation_limit_;
-  double conflict_limit_;
+  Sites& sites_;
+  Limits limits_;
   Index l_;
   Index r_;
-  SquareVector origin_;
-  SquareVector edge_;
+  Vector origin_;
+  Vector edge_;
+  double squared_;
 };
 
 }  // namespace rondel::bulk

@@ -11,10 +11,7 @@
 namespace rondel::bulk {
 namespace {
 
-using Edge = PlaneGraph::Edge;
 using predicates::Vector;
-
-}  // namespace
 
 Cone make_cone(const Square& square, double hand) {
   const auto ratio = [](std::uint64_t position) {
@@ -31,16 +28,18 @@ Cone make_cone(const Square& square, double hand) {
           plane(0, -hand, hand * ratio(square.corner.v + size))};
 }
 
+}  // namespace
+
+Certificate::Certificate(const Square& square, double hand, bool has_weights)
+    : Certificate(make_cone(square, hand), has_weights) {}
+
 // The plane of the face cuts the ball in a circle with center a + x, where x is in the plane and
 // 2 x.B = |B|^2 + w_b - w_a, 2 x.C = |C|^2 + w_c - w_a, w = 1 - |p|^2. The cap, less than half of
 // the sphere, lies in the ball around this center with the radius of the circle.
 // docs/theory/blocks.md derives `slack`, the error of x.
-bool OpenFaces::is_final(Index i, Index j, Index k) const {
+bool Certificate::is_final(const Vector& a, const Vector& b, const Vector& c) const {
   constexpr double unit = predicates::unit_roundoff;
   constexpr double margin = 0x1p-43;
-  const Vector a = ray_(i);
-  const Vector b = ray_(j);
-  const Vector c = ray_(k);
   const Vector to_b = b - a;
   const Vector to_c = c - a;
   const Vector normal = cross(to_b, to_c);
@@ -66,29 +65,6 @@ bool OpenFaces::is_final(Index i, Index j, Index k) const {
       std::sqrt(std::max((size + slack) * (size + slack) + wa, 0.0)) + slack + margin;
   return std::ranges::all_of(cone_,
                              [&](const Vector& inward) { return dot(inward, middle) > least; });
-}
-
-const std::vector<Edge>& OpenFaces::find(Edge boundary) {
-  open_.clear();
-  graph_.clear_faces();
-  Edge e = boundary;
-  do {
-    graph_.set_face(e ^ 1, open_face);
-    open_.push_back(e ^ 1);
-    e = graph_.next(e ^ 1);
-  } while (e != boundary);
-  for (std::size_t i = 0; i < open_.size(); ++i) {
-    const Edge f = open_[i] ^ 1;
-    if (graph_.face(f) == open_face) continue;
-    const Edge g = graph_.face_next(f);
-    const Edge h = graph_.face_next(g);
-    if (is_final(graph_.origin(f), graph_.origin(g), graph_.origin(h))) continue;
-    for (const Edge side : {f, g, h}) {
-      graph_.set_face(side, open_face);
-      open_.push_back(side);
-    }
-  }
-  return open_;
 }
 
 }  // namespace rondel::bulk

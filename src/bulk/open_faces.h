@@ -3,6 +3,10 @@
 
 // The certificate of a block: which faces of its triangulation are faces of the whole one.
 //
+// in    the graph of a block, its square, and its sites as seen from the center
+// out   the open faces, named in the graph: those that are not known to be final
+// index local sites and halfedges of the graph
+//
 // A face is final if no other site can be in conflict with it. All sites within the square are in
 // the block, and all sites lie within the distance R of the center; so it is final if the cap that
 // its plane cuts off the ball of radius R lies in the cone of the square. The others are open. A
@@ -11,46 +15,59 @@
 #pragma once
 
 #include <array>
-#include <functional>
-#include <utility>
 #include <vector>
 
 #include "bulk/plane_graph.h"
 #include "bulk/squares.h"
-#include "predicates/rung.h"
+#include "predicates/points.h"
 
 namespace rondel::bulk {
-
-// The name of an open face in the graph, and of one that has no name yet.
-inline constexpr Index open_face = no_index - 1;
-inline constexpr Index unnamed_face = no_index;
 
 // The cone: inward normals of unit length of the planes that bound it.
 using Cone = std::array<predicates::Vector, 4>;
 
-// The cone of a square, in the axes of SquareSites::ray.
-Cone make_cone(const Square& square, double hand);
-
-class OpenFaces {
+class Certificate {
  public:
-  // `ray` gives a site as seen from the center: within 11 units of a unit vector, or, with weights,
-  // within 7 units of a vector of at most unit length.
-  using Ray = std::function<predicates::Vector(Index)>;
-  OpenFaces(PlaneGraph& graph, Ray ray, const Cone& cone, bool has_weights)
-      : graph_(graph), ray_(std::move(ray)), cone_(cone), has_weights_(has_weights) {}
+  Certificate(const Cone& cone, bool has_weights) : cone_(cone), has_weights_(has_weights) {}
+  // For the cone of a square, in the axes of SquareSites::ray, whose hand this is.
+  Certificate(const Square& square, double hand, bool has_weights);
 
-  // Names the open faces in the graph, the outer one included; `boundary` is an edge with the outer
-  // face on its right. Returns the halfedges with an open face on the left.
-  const std::vector<PlaneGraph::Edge>& find(PlaneGraph::Edge boundary);
+  // Whether a face is final. Its sites are given as seen from the center: within 11 units of a unit
+  // vector, or, with weights, within 7 units of a vector of at most unit length.
+  [[nodiscard]] bool is_final(const predicates::Vector& a, const predicates::Vector& b,
+                              const predicates::Vector& c) const;
 
  private:
-  [[nodiscard]] bool is_final(Index i, Index j, Index k) const;
-
-  PlaneGraph& graph_;
-  Ray ray_;
-  const Cone& cone_;
+  Cone cone_;
   bool has_weights_;
-  std::vector<PlaneGraph::Edge> open_;
 };
+
+// Names the open faces in the graph, the outer one included, and clears all other names; `boundary`
+// is an edge with the outer face on its right. is_final(i, j, k) judges the face of these sites.
+// Lists the halfedges with an open face on the left.
+template <class IsFinal>
+void find_open_faces(PlaneGraph& graph, PlaneGraph::Edge boundary,
+                     std::vector<PlaneGraph::Edge>& open, IsFinal is_final) {
+  using Edge = PlaneGraph::Edge;
+  open.clear();
+  graph.clear_faces();
+  const auto add = [&](Edge e) {
+    graph.set_face(e, open_face);
+    open.push_back(e);
+  };
+  Edge e = boundary;
+  do {
+    add(e ^ 1);
+    e = graph.next(e ^ 1);
+  } while (e != boundary);
+  for (std::size_t i = 0; i < open.size(); ++i) {
+    const Edge f = open[i] ^ 1;
+    if (graph.face(f) == open_face) continue;
+    const Edge g = graph.face_next(f);
+    const Edge h = graph.face_next(g);
+    if (is_final(graph.origin(f), graph.origin(g), graph.origin(h))) continue;
+    for (const Edge side : {f, g, h}) add(side);
+  }
+}
 
 }  // namespace rondel::bulk

@@ -16,14 +16,15 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <span>
 #include <utility>
 #include <vector>
 
 #include "rondel/types.h"
-#include "system/huge_pages.h"
 
 namespace rondel::bulk {
+
+// The name of a face that is not final (open_faces.h).
+inline constexpr Index open_face = no_index - 1;
 
 class PlaneGraph {
  public:
@@ -35,48 +36,24 @@ class PlaneGraph {
     Edge previous;
   };
 
-  // Not copied: the arrays lie in the memory that it owns.
+  static constexpr std::size_t halfedge_bytes = sizeof(Links) + 2 * sizeof(Index);
+
   PlaneGraph() = default;
-  PlaneGraph(PlaneGraph&&) = default;
-  PlaneGraph& operator=(PlaneGraph&&) = default;
-
-  // Forgets all edges.
-  void clear(std::size_t num_vertices) {
-    reserve(size_of(num_vertices));
-    begin(0, num_vertices);
+  // A graph without edges, in memory of the caller for `size` halfedges, which several graphs may
+  // share: this one has 6 * num_vertices + 2, from `first` on. Deleted pairs are used again, and a
+  // plane graph has less than three edges a vertex; one pair more is always ready (new_pair()).
+  PlaneGraph(std::byte* memory, std::size_t size, std::size_t first, std::size_t num_vertices)
+      : rings_(reinterpret_cast<Links*>(memory)),
+        targets_(reinterpret_cast<Index*>(rings_ + size)),
+        faces_(targets_ + size),
+        begin_(first),
+        full_(first + 6 * num_vertices),
+        limit_(first),
+        free_(first) {
+    rings_[first].next = static_cast<Edge>(first + 2);
   }
 
-  // The same for a graph that is made in parts, which may be drawn by several threads at a time:
-  // part i has so many vertices. Parts use the memory given, of size_of_parts() bytes, and this
-  // graph, too, when it has taken over all parts, in their order.
-  static std::size_t size_of_parts(std::span<const Index> num_vertices) {
-    std::size_t size = 0;
-    for (const Index n : num_vertices) size += size_of(n);
-    return size * halfedge_bytes;
-  }
-  std::vector<PlaneGraph> clear_parts(std::span<const Index> num_vertices, std::byte* memory) {
-    place(memory, size_of_parts(num_vertices) / halfedge_bytes);
-    std::size_t first = 0;
-    std::vector<PlaneGraph> parts;
-    for (const Index n : num_vertices) {
-      PlaneGraph& part = parts.emplace_back();
-      part.rings_ = rings_;
-      part.targets_ = targets_;
-      part.faces_ = faces_;
-      part.begin(first, n);
-      first += size_of(n);
-    }
-    return parts;
-  }
-
-  // Takes over the edges of a part of this graph: the first one.
-  void take(const PlaneGraph& part) {
-    begin_ = part.begin_;
-    full_ = part.full_;
-    limit_ = part.limit_;
-    free_ = part.free_;
-  }
-  // The same of the part that follows in memory. Parts can do this with each other, too.
+  // Takes over the edges of the graph that follows in the same memory.
   void append(const PlaneGraph& next) {
     // Pairs that were never used become deleted ones.
     for (std::size_t e = limit_; e < next.begin_; e += 2) {
@@ -96,6 +73,11 @@ class PlaneGraph {
 
   [[nodiscard]] Edge next(Edge e) const { return rings_[e].next; }
   [[nodiscard]] Edge previous(Edge e) const { return rings_[e].previous; }
+  // Either of them.
+  template <bool is_next>
+  [[nodiscard]] Edge following(Edge e) const {
+    return is_next ? rings_[e].next : rings_[e].previous;
+  }
   [[nodiscard]] Index target(Edge e) const { return targets_[e]; }
   [[nodiscard]] Index origin(Edge e) const { return targets_[e ^ 1]; }
   [[nodiscard]] Edge face_next(Edge e) const { return rings_[e ^ 1].previous; }
@@ -185,33 +167,6 @@ class PlaneGraph {
   }
 
  private:
-  static constexpr std::size_t halfedge_bytes = sizeof(Links) + 2 * sizeof(Index);
-  // Deleted pairs are used again, and a plane graph has less than three edges a vertex. One pair is
-  // always ready (new_pair()).
-  static std::size_t size_of(std::size_t num_vertices) { return 6 * num_vertices + 2; }
-
-  void reserve(std::size_t size) {
-    if (size <= capacity_) return;
-    memory_ = {};
-    memory_ = system::make_large_array<std::byte>(size * halfedge_bytes);
-    capacity_ = size;
-    place(memory_.get(), size);
-  }
-
-  void place(std::byte* memory, std::size_t size) {
-    rings_ = reinterpret_cast<Links*>(memory);
-    targets_ = reinterpret_cast<Index*>(rings_ + size);
-    faces_ = targets_ + size;
-  }
-
-  void begin(std::size_t first, std::size_t num_vertices) {
-    begin_ = first;
-    full_ = first + 6 * num_vertices;
-    limit_ = first;
-    free_ = first;
-    rings_[first].next = static_cast<Edge>(first + 2);
-  }
-
   // The list of deleted pairs runs on with those never used, which saves a branch that would depend
   // on the input: the first of these is always ready.
   [[gnu::always_inline]] Edge new_pair() {
@@ -227,8 +182,6 @@ class PlaneGraph {
     rings_[links.next].previous = links.previous;
   }
 
-  system::LargeArray<std::byte> memory_;  // of the arrays, if it is its own
-  std::size_t capacity_ = 0;              // halfedges for which it has room
   Links* rings_ = nullptr;
   Index* targets_ = nullptr;
   Index* faces_ = nullptr;
@@ -238,5 +191,8 @@ class PlaneGraph {
   std::size_t limit_ = 0;
   std::size_t free_ = 0;  // at most limit_
 };
+
+// Lists the vertices without a path to this edge, and deletes their edges.
+std::vector<Index> remove_unreached(PlaneGraph& graph, PlaneGraph::Edge start, Index num_vertices);
 
 }  // namespace rondel::bulk

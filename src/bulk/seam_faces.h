@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "bulk/faces.h"
+#include "bulk/emit.h"
 #include "topology/triangulation_arrays.h"
 
 namespace rondel::bulk {

@@ -3,6 +3,10 @@
 
 // A triangulation of the whole sphere by divide and conquer, of sites that surround the center.
 //
+// in    the sites in spatial order
+// out   the arrays of the result
+// index ranks; inside, local sites by parts of the sphere
+//
 // Great circles divide the sphere into halves, lunes and the faces of the cube or parts of them:
 //
 //      +---------+         The planes x = y and x = -y make four lunes. Each consists of one of the

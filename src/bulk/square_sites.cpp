@@ -7,19 +7,17 @@
 #include <cmath>
 #include <limits>
 
-#include "bulk/tangent_step.h"
 #include "order/cube_position.h"
 #include "predicates/bounds.h"
 #include "predicates/conflict.h"
-#include "predicates/orientation.h"
 #include "system/prefetch.h"
 #include "system/wide_vectors.h"
 
 namespace rondel::bulk {
 namespace {
 
-using predicates::Decision;
 using predicates::unit_roundoff;
+using predicates::Vector;
 
 // u and v are off by at most 3 units: a difference in each coordinate, and the quotient. In units:
 // 2 * 2 * 3 sqrt(2) for the ends of two vectors, relative to the distance, and 5 * 2.83, the
@@ -40,11 +38,7 @@ double find_weighted_bound(double w_error, double most_w_distance) {
   return 1.2 * (6 * eta + 8.8 * unit_roundoff * distance);
 }
 
-// The error of volume() of steps from a site: for places, times w; for heights and roundings.
-constexpr double tangent_cube_bound = 1.5 * 68 * unit_roundoff;
-constexpr double tangent_bound = 256 * unit_roundoff;
-
-double squared_in_plane(const SquareVector& a) { return a.u * a.u + a.v * a.v; }
+double squared_in_plane(const Vector& a) { return a.x * a.x + a.y * a.y; }
 
 // The surface w = sqrt(1 + u^2 + v^2) and its tangent plane above the middle of a square.
 class Tangent {
@@ -76,6 +70,24 @@ class Tangent {
   double w_;
 };
 
+// A step d = (u, v) on the surface w(x) = sqrt(1 + |x|^2) from a place x to a place y. The height is
+// the one over the tangent plane at x times w(x), which is the same for all steps from x:
+//
+//     w(x) w(y) - w(x)^2 - x.d = (|d|^2 w(x) - x.d (2 x.d + |d|^2) / (w(x) + w(y))) / (w(x) + w(y))
+struct TangentStep {
+  TangentStep(const SquarePoint& x, const SquarePoint& y)
+      : u(y.u - x.u), v(y.v - x.v), squared(u * u + v * v) {
+    const double along = x.u * u + x.v * v;
+    const double factor = 1 / (x.size + y.size);  // w is the size in the projected model
+    height = (squared * x.size - along * (2 * along + squared) * factor) * factor;
+  }
+
+  double u;
+  double v;
+  double squared;
+  double height;
+};
+
 // Where a difference overflows, or z is 0, the position is wrong: the last or the middle one.
 RONDEL_ALWAYS_INLINE inline std::uint64_t position_of(double ratio) {
   constexpr double last = 0x1p52 - 1;
@@ -100,26 +112,24 @@ constexpr std::uint64_t most_ties = 16;
 }  // namespace
 
 template <models::SphereModel T>
-void SquareSites<T>::assign(std::span<const Point> sites, std::span<const Index> order, Index first,
-                            Index num_sites, const Point& center, const Extent& extent,
-                            SquareCoordinates& coordinates, const system::SiteCopies& copies) {
-  points_ = coordinates.points();
-  positions_ = coordinates.positions();
-  sites_ = sites;
-  order_ = order;
-  copies_ = copies;
+void SquareSites<T>::assign(const Input& input, const GivenSites<T>& given, Index first,
+                            Index num_sites, const SquareCoordinates& coordinates) {
+  points_ = coordinates.points;
+  positions_ = coordinates.positions;
+  given_ = &given;
+  sites_ = input.sites;
+  order_ = input.order;
+  copies_ = input.copies;
   first_ = first;
   num_sites_ = num_sites;
   next_ = first;
-  center_ = center;
-  extent_ = extent;
+  extent_ = input.extent;
   bits_ = -1;
   num_unsure_ = 0;
   num_ties_ = 0;
   num_over_tangent_ = 0;
   tally_ = {};
-  all_.assign({}, {}, center);
-  accurate_.assign(sites, order.subspan(first, num_sites), center);
+  all_.assign({}, {}, center());
 }
 
 template <models::SphereModel T>
@@ -157,8 +167,7 @@ void SquareSites<T>::read_sites(std::size_t first, std::size_t end, std::span<Po
 template <models::SphereModel T>
 void SquareSites<T>::enter(const Square& square, Index num_sites) {
   if (bits_ != square.bits) find_bounds(square.bits);
-  const unsigned cube_face = square.corner.face;
-  const order::CubeAxes axes = order::cube_axes(cube_face);
+  const order::CubeAxes axes = order::cube_axes(square.corner.face);
   const auto u_axis = exact::to_vector(axes.u);
   const auto v_axis = exact::to_vector(axes.v);
   const auto out = exact::to_vector(axes.out);
@@ -166,7 +175,7 @@ void SquareSites<T>::enter(const Square& square, Index num_sites) {
   hand_ = hand;
   const double most_size = extent_.most_size;
   const Tangent tangent(square, hand);
-  const auto origin = exact::to_vector(center_);
+  const auto origin = exact::to_vector(center());
   const std::size_t end = std::size_t{next_} + num_sites;
   doubtful_.clear();
   std::array<Point, batch> some;
@@ -196,11 +205,10 @@ void SquareSites<T>::enter(const Square& square, Index num_sites) {
     }
   }
   next_ += num_sites;
-  accurate_.enter(points_ + first_, cube_face);
 }
 
-// With weights w is sqrt(1 + u^2 + v^2) s/|p|, and the change of the root is at most that of (u,
-// v).
+// With weights w is sqrt(1 + u^2 + v^2) s/|p|, and the change of the root is at most that of
+// (u, v).
 template <models::SphereModel T>
 SquareLimits SquareSites<T>::limits(double length) const {
   double distance = 1.42 * length;
@@ -213,85 +221,65 @@ SquareLimits SquareSites<T>::limits(double length) const {
 }
 
 template <models::SphereModel T>
-template <std::size_t N, class Decide>
-Decision SquareSites<T>::ask_ladder(const std::array<Index, N>& indices, Decide decide) {
-  std::array<Index, N> names{};
-  if (num_unsure_ <= num_sites_ / many) ++num_unsure_;
-  if (num_unsure_ > num_sites_ / many) {
-    if (all_.size() == 0) all_.assign(sites_, order_.subspan(first_, num_sites_), center_);
-    for (std::size_t i = 0; i < N; ++i) names[i] = indices[i] - first_;
-    return decide(all_, names);
-  }
-  predicates::FourPoints<T::model> few{{}, center_};
-  for (Index i = 0; i < N; ++i) {
-    few.points[i] = point(indices[i]);
-    names[i] = i;
-  }
-  return decide(few, names);
-}
-
-template <models::SphereModel T>
-Sign SquareSites<T>::orientation(Index a, Index b, Index c) {
-  const SquareVector ab = points_[b] - points_[a];
-  const SquareVector ac = points_[c] - points_[a];
-  const double value = cross(ab, ac).w;
+Sign SquareSites<T>::orientation(Index a, Index b, Index c) const {
+  const Vector ab = coordinates(b) - coordinates(a);
+  const Vector ac = coordinates(c) - coordinates(a);
   const double bound =
       orientation_bound * std::sqrt(std::max(squared_in_plane(ab), squared_in_plane(ac)));
-  if (std::abs(value) > std::max(bound, least_bound)) return exact::sign_of(value);
-  if (!is_weighted) {
-    const Sign sign = accurate_.orientation(a - first_, b - first_, c - first_);
-    if (sign != Sign::zero) return sign;
-  }
-  const auto ladder = [](auto& points, const std::array<Index, 3>& i) {
-    return predicates::orientation(points, i[0], i[1], i[2]);
-  };
-  return ask_ladder(std::array{a, b, c}, ladder).sign;
+  const Sign sign = beyond(cross(ab, ac).z, std::max(bound, least_bound));
+  if (sign != Sign::zero) return sign;
+  return predicates::orientation_above_filter(point(a), point(b), point(c), center()).sign;
 }
 
+// The value is the volume of three steps, positive if the third one leads above the plane of the
+// others, seen from the side from which they are in counterclockwise order.
 template <models::SphereModel T>
 Sign SquareSites<T>::side_over_tangent(Index a, Index b, Index c, Index p) const {
-  const SquarePoint& x = points_[a];
-  const auto step_to = [&](Index i) {
-    const SquarePoint& y = points_[i];
-    return tangent_step({x.u, x.v, x.size}, y.u - x.u, y.v - x.v, y.size);
-  };
-  const auto ab = step_to(b);
-  const auto ac = step_to(c);
-  const auto ap = step_to(p);
-  const double value = volume(ab, ac, ap);
-  const double squared = max_squared(ab, ac, ap);
-  const double bound =
-      (tangent_cube_bound * std::sqrt(squared) + tangent_bound * squared) * squared;
-  return std::abs(value) > std::max(bound, least_bound) ? exact::sign_of(value) : Sign::zero;
+  // The error: for places, times w; for heights and roundings.
+  constexpr double cube_bound = 1.5 * 68 * unit_roundoff;
+  constexpr double bound_of_rest = 256 * unit_roundoff;
+  const TangentStep x(points_[a], points_[b]);
+  const TangentStep y(points_[a], points_[c]);
+  const TangentStep z(points_[a], points_[p]);
+  const double value = x.height * (y.u * z.v - y.v * z.u) + y.height * (z.u * x.v - z.v * x.u) +
+                       z.height * (x.u * y.v - x.v * y.u);
+  const double squared = std::max(std::max(x.squared, y.squared), z.squared);
+  const double bound = (cube_bound * std::sqrt(squared) + bound_of_rest * squared) * squared;
+  return beyond(value, std::max(bound, least_bound));
 }
 
 template <models::SphereModel T>
-bool SquareSites<T>::is_in_conflict(Index a, Index b, Index c, Index p, double value) {
+Sign SquareSites<T>::filtered_side(Index a, Index b, Index c, Index p) {
   if constexpr (is_weighted) {
-    const auto squared = [&](Index i) {
-      const SquareVector x = points_[i] - points_[a];
-      return dot(x, x);
-    };
-    const double distance = std::sqrt(std::max({squared(b), squared(c), squared(p)}));
-    if (std::abs(value) > std::max(conflict_limit(distance), least_bound)) {
-      count_filtered();
-      return value < 0;
-    }
-  } else {
-    if (num_ties_ <= most_ties * (num_over_tangent_ + 1)) {
-      const Sign side = side_over_tangent(a, b, c, p);
-      if (side != Sign::zero) {
-        count_filtered();
-        ++num_over_tangent_;
-        return side == Sign::negative;
-      }
-      ++num_ties_;
-    }
+    const Vector ab = coordinates(b) - coordinates(a);
+    const Vector ac = coordinates(c) - coordinates(a);
+    const Vector ap = coordinates(p) - coordinates(a);
+    const double distance = std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(ap, ap)}));
+    return -beyond(dot(cross(ab, ac), ap), std::max(conflict_limit(distance), least_bound));
   }
-  const auto ladder = [](auto& points, const std::array<Index, 4>& i) {
-    return predicates::conflict_above_filter(points, i[0], i[1], i[2], i[3]);
-  };
-  const Decision decision = ask_ladder(std::array{a, b, c, p}, ladder);
+  if (num_ties_ > most_ties * (num_over_tangent_ + 1)) return Sign::zero;
+  const Sign side = side_over_tangent(a, b, c, p);
+  ++(side == Sign::zero ? num_ties_ : num_over_tangent_);
+  return -side;
+}
+
+// The ladder asks the sites as they are given few questions, and for many the model of all sites,
+// which remembers.
+template <models::SphereModel T>
+bool SquareSites<T>::is_in_conflict(Index a, Index b, Index c, Index p) {
+  const Sign sign = filtered_side(a, b, c, p);
+  if (sign != Sign::zero) {
+    count_filtered();
+    return sign == Sign::positive;
+  }
+  predicates::Decision decision;
+  if (num_unsure_ <= num_sites_ / many && ++num_unsure_ <= num_sites_ / many) {
+    decision = predicates::conflict_above_filter(*given_, a, b, c, p);
+  } else {
+    if (all_.size() == 0) all_.assign(sites_, order_.subspan(first_, num_sites_), center());
+    decision =
+        predicates::conflict_above_filter(all_, a - first_, b - first_, c - first_, p - first_);
+  }
   count(tally_, decision.rung);
   return decision.sign == Sign::positive;
 }

@@ -9,8 +9,6 @@
 namespace rondel::bulk {
 namespace {
 
-using Position = std::function<order::CubePosition(Index)>;
-
 // The first rank in begin ... end-1 for which this is so; it is so for all that follow.
 template <class Predicate>
 Index find_first(Index begin, Index end, Predicate predicate) {
@@ -49,13 +47,13 @@ bool is_small(const Block& block, std::size_t max_sites) {
   return block.end - block.begin <= max_sites || block.square.bits == 0;
 }
 
-std::array<Block, 4> quarters(const Block& block, const Position& position) {
+std::array<Block, 4> quarters(const Block& block, const Input& input) {
   std::array<Block, 4> result{};
   Index begin = block.begin;
   for (unsigned rank = 0; rank < 4; ++rank) {
     const Square square = quadrant(block.square, rank);
     const Index end = rank == 3 ? block.end : find_first(begin, block.end, [&](Index i) {
-      return !has(square, position(i));
+      return !has(square, input.position(i));
     });
     result[rank] = {begin, end, square};
     begin = end;
@@ -63,46 +61,47 @@ std::array<Block, 4> quarters(const Block& block, const Position& position) {
   return result;
 }
 
-void split(const Block& block, std::size_t max_sites, const Position& position,
+void split(const Block& block, std::size_t max_sites, const Input& input,
            std::vector<Block>& blocks) {
   if (block.begin == block.end) return;
   if (is_small(block, max_sites)) {
     blocks.push_back(block);
     return;
   }
-  for (const Block& quarter : quarters(block, position)) {
-    split(quarter, max_sites, position, blocks);
+  for (const Block& quarter : quarters(block, input)) {
+    split(quarter, max_sites, input, blocks);
   }
 }
 
 }  // namespace
 
-std::array<Block, 6> cube_faces(Index num_ranks, const Position& position) {
+std::array<Block, 6> cube_faces(const Input& input) {
+  const auto num_ranks = static_cast<Index>(input.order.size());
   std::array<Block, 6> result{};
   Index begin = 0;
   for (unsigned face = 0; face < 6; ++face) {
     const Index end =
-        find_first(begin, num_ranks, [&](Index i) { return position(i).face > face; });
+        find_first(begin, num_ranks, [&](Index i) { return input.position(i).face > face; });
     result[face] = {begin, end, {{face, 0, 0}, order::position_bits, 0}};
     begin = end;
   }
   return result;
 }
 
-std::vector<Block> make_blocks(Index num_ranks, std::size_t max_sites, const Position& position) {
+std::vector<Block> make_blocks(const Input& input, std::size_t max_sites) {
   std::vector<Block> blocks;
-  for (const Block& face : cube_faces(num_ranks, position)) {
-    split(face, max_sites, position, blocks);
+  for (const Block& face : cube_faces(input)) {
+    split(face, max_sites, input, blocks);
   }
   return blocks;
 }
 
-Block block_around(Index rank, Index num_ranks, std::size_t max_sites, const Position& position) {
+Block block_around(Index rank, const Input& input, std::size_t max_sites) {
   const auto has_rank = [rank](const Block& b) { return b.begin <= rank && rank < b.end; };
-  const auto faces = cube_faces(num_ranks, position);
+  const auto faces = cube_faces(input);
   Block block = *std::ranges::find_if(faces, has_rank);
   while (!is_small(block, max_sites)) {
-    const auto parts = quarters(block, position);
+    const auto parts = quarters(block, input);
     block = *std::ranges::find_if(parts, has_rank);
   }
   return block;

@@ -2,14 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The squares of the Hilbert curve, and blocks of sites in them.
+//
+// in    the sites of a build in their order
+// out   the blocks that squares cut this order into
+// index ranks; in a piece, local sites
 #pragma once
 
 #include <array>
-#include <functional>
 #include <vector>
 
+#include "bulk/input.h"
 #include "order/hilbert.h"
-#include "rondel/types.h"
 
 namespace rondel::bulk {
 
@@ -28,16 +31,13 @@ struct Block {
 };
 
 // The sites on each face of the cube, empty blocks included.
-std::array<Block, 6> cube_faces(Index num_ranks,
-                                const std::function<order::CubePosition(Index)>& position);
+std::array<Block, 6> cube_faces(const Input& input);
 
-// Splits the ranks 0 ... num_ranks-1 into blocks of at most `max_sites`, in their order, as far as
-// positions can tell sites apart. `position` gives the position of a rank.
-std::vector<Block> make_blocks(Index num_ranks, std::size_t max_sites,
-                               const std::function<order::CubePosition(Index)>& position);
+// Splits all ranks into blocks of at most `max_sites`, in their order, as far as positions can tell
+// sites apart.
+std::vector<Block> make_blocks(const Input& input, std::size_t max_sites);
 
 // The block of at most so many sites to which a rank belongs.
-Block block_around(Index rank, Index num_ranks, std::size_t max_sites,
-                   const std::function<order::CubePosition(Index)>& position);
+Block block_around(Index rank, const Input& input, std::size_t max_sites);
 
 }  // namespace rondel::bulk

@@ -12,7 +12,7 @@
 
 #include <span>
 
-#include "bulk/faces.h"
+#include "bulk/emit.h"
 #include "topology/triangulation_arrays.h"
 
 namespace rondel::bulk {

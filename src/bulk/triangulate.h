@@ -1,19 +1,25 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The bulk build: from sites in spatial order to the arrays of the result. Few sites that surround
-// the center are triangulated at once (sphere.h), many by certified blocks:
+// From sites in spatial order to the arrays of the result, by whichever builder is the fastest. The
+// triangulation is unique, so the choice changes nothing else. The first one that suits builds:
 //
-// 1. Blocks: the sites of a square of the Hilbert curve, triangulated by divide and conquer.
-// 2. Certificate: the faces of a block that no site outside can be in conflict with are final.
-// 3. Seam: the sites of all other faces, some sqrt(n) of n, are triangulated in the same way.
-// 4. Stitch: the final faces and those of the seam in the region between them are the result.
+//     builder       sites                              and
+//     sphere        128 to 65,536, in all octants      weights are close, or seams are short
+//     blocks        8,192 or more                      seams are short
+//     incremental   any
 //
-// Since the triangulation is unique, neither the blocks nor the threads can change the result.
+// Weights are close where few sites can be hidden, as far as their distances from the center tell.
+// Seams are short if blocks leave little to them (blocks.h); fewer than 8,192 sites have none. Where
+// the whole sphere or blocks do not work, as they say, the next one builds. Of a seam, sites up to an
+// eighth of all, if those are more, may be triangulated over the whole sphere.
+//
+// in    the sites and their order, of which copies may be at hand
+// out   the arrays of the result
+// index ranks; the result speaks of names
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,19 +32,14 @@ namespace rondel::bulk {
 // everywhere in memory takes longer.
 inline constexpr std::size_t least_copied_sites = std::size_t{3} << 18;
 
+// With more the mesh of a whole sphere would not fit into the second cache, more or less.
+inline constexpr std::size_t most_sphere_sites = std::size_t{1} << 16;
+
 // As kernel::triangulate. `copies` is empty, or system::SiteCopies of the sites by rank lie in
 // its memory, which becomes that of the faces.
 kernel::Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                                  std::span<const order::Renamed> renamed,
-                                 const system::Job& options, LargeVector<Triple> copies = {});
-
-// The same with blocks of at most so many sites, or nothing if the sites do not suit this: when the
-// seam has no hull, because all its sites lie on one great circle.
-std::optional<kernel::Triangulated> triangulate_by_blocks(std::span<const Point> sites,
-                                                          std::span<const Index> order,
-                                                          std::span<const order::Renamed> renamed,
-                                                          const system::Job& options,
-                                                          std::size_t max_block_sites,
-                                                          LargeVector<Triple> copies = {});
+                                 const system::Job& options, LargeVector<Triple> copies = {},
+                                 std::size_t max_sphere_sites = most_sphere_sites);
 
 }  // namespace rondel::bulk

@@ -198,9 +198,13 @@ RONDEL_ALWAYS_INLINE inline void set_keys(const Positions& positions, std::size_
 
 }  // namespace
 
+CubePosition place_position(const Point& p, Model model, const Point& center) {
+  return is_rounding_harmless(model, center) ? cube_position(p, center)
+                                             : exact_cube_position(p, center);
+}
+
 HilbertKey place_key(const Point& p, Model model, const Point& center) {
-  return hilbert_key(is_rounding_harmless(model, center) ? cube_position(p, center)
-                                                         : exact_cube_position(p, center));
+  return hilbert_key(place_position(p, model, center));
 }
 
 namespace {

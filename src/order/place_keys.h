@@ -7,12 +7,16 @@
 #include <cstdint>
 #include <span>
 
+#include "order/cube_position.h"
 #include "order/hilbert.h"
 #include "rondel/types.h"
 
 namespace rondel::order {
 
 inline constexpr int high_key_bits = 3 + 2 * high_levels;
+
+// The position of a site on the cube by which it has its place in the spatial order.
+CubePosition place_position(const Point& p, Model model, const Point& center);
 
 // The key of a site's place: all sites in one place have it.
 HilbertKey place_key(const Point& p, Model model, const Point& center);

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "rondel/types.h"
 
@@ -21,6 +22,16 @@ struct Renamed {
 // Turns `order`, the site whose coordinates count for each rank, into the name of each rank.
 inline void rename(std::span<Index> order, std::span<const Renamed> renamed) {
   for (const auto& [rank, name] : renamed) order[rank] = name;
+}
+
+// The name of each rank: `order` itself where nothing is renamed, or what is put into `space`.
+inline std::span<const Index> names_of(std::span<const Index> order,
+                                       std::span<const Renamed> renamed,
+                                       std::vector<Index>& space) {
+  if (renamed.empty()) return order;
+  space.assign(order.begin(), order.end());
+  rename(space, renamed);
+  return space;
 }
 
 }  // namespace rondel::order

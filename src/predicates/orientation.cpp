@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "exact/exact_sign.h"
+#include "exact/extended.h"
 #include "exact/integer_steps.h"
 #include "predicates/wide.h"
 
@@ -78,8 +79,29 @@ Sign wide_filter(const Point& a, const Point& b, const Point& c, const Point& ce
 
 }  // namespace
 
-Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center) {
-  if (const Sign sign = filter(a, b, c, center); sign != Sign::zero) return {sign, Rung::filter};
+// No product of six differences of doubles leaves the range of long double.
+Sign orientation_extended(const Point& a, const Point& b, const Point& c, const Point& center) {
+  constexpr long double bound = orientation_bound / unit_roundoff * exact::extended_unit_roundoff;
+  if (!exact::has_extended_precision()) return Sign::zero;
+  using Step = exact::Vector3<long double>;
+  const auto step = [](const Point& from, const Point& to) -> Step {
+    return {static_cast<long double>(to.x) - from.x, static_cast<long double>(to.y) - from.y,
+            static_cast<long double>(to.z) - from.z};
+  };
+  const Step ray = step(center, a);
+  const Step ab = step(a, b);
+  const Step ac = step(a, c);
+  const long double value = det(ray, ab, ac);
+  if (!(value * value > bound * bound * dot(ray, ray) * dot(ab, ab) * dot(ac, ac)))
+    return Sign::zero;
+  return value > 0 ? Sign::positive : Sign::negative;
+}
+
+Decision orientation_above_filter(const Point& a, const Point& b, const Point& c,
+                                  const Point& center) {
+  if (const Sign sign = orientation_extended(a, b, c, center); sign != Sign::zero) {
+    return {sign, Rung::extended};
+  }
   if (const auto sign = exact::sign_of_volume_in_integers(center, a, b, c)) {
     return {*sign, Rung::exact};
   }
@@ -94,6 +116,11 @@ Decision orientation(const Point& a, const Point& b, const Point& c, const Point
     return det(step(center, a), step(center, b), step(center, c));
   };
   return {exact::sign_of_cubic(formula), Rung::exact};
+}
+
+Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center) {
+  if (const Sign sign = filter(a, b, c, center); sign != Sign::zero) return {sign, Rung::filter};
+  return orientation_above_filter(a, b, c, center);
 }
 
 }  // namespace rondel::predicates

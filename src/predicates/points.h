@@ -9,7 +9,7 @@
 //     source                          keeps
 //     models::ProjectedPoints         directions, and the low words of split unit vectors once asked
 //     models::WeightedPoints          the points
-//     bulk::SphereSites               references to sites and to directions
+//     bulk::GivenSites                references to sites and to directions
 //     query::Target                   a reference to a model, and the query point
 //     proof::PerturbedSites           directions
 //     predicates::FourPoints          the points, for one question

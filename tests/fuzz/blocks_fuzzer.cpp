@@ -10,8 +10,8 @@
 #include <cmath>
 #include <limits>
 
+#include "bulk/blocks.h"
 #include "bulk/sphere.h"
-#include "bulk/triangulate.h"
 #include "fuzz/fuzz_input.h"
 #include "support/divided_faces.h"
 
@@ -146,8 +146,10 @@ void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsig
   if (order.order.empty()) return;
   const auto expected = kernel::triangulate(set.sites, order.order, order.renamed, options).arrays;
   options.threads = threads;
-  const auto built = bulk::triangulate_by_blocks(set.sites, order.order, order.renamed, options,
-                                                 block_sites, std::move(copies));
+  const auto input =
+      bulk::make_input(set.sites, order.order, options, system::SiteCopies(std::span(copies)));
+  const auto built =
+      bulk::triangulate_by_blocks(input, order.renamed, block_sites, std::move(copies));
   require(built.has_value() || expected.dimension < 2, "blocks fit");
   if (built) require_same(built->arrays, expected);
   if (!bulk::surround_center(set.sites, set.sphere.center)) return;

@@ -24,7 +24,6 @@ DEFINITION = re.compile(
 # Types that have one name because they are one idea, and why they are several types.
 TYPES = {
     "Impl": "what a public class holds",
-    "ApexFace": "part of the concept of merge.h, which two classes have",
 }
 # Files that have one name because they are about one thing.
 FILES = {

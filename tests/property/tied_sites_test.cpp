@@ -7,7 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "bulk/triangulate.h"
+#include "bulk/blocks.h"
 #include "order/spatial_order.h"
 #include "property/renamed.h"
 #include "rondel/dynamic.h"
@@ -149,8 +149,9 @@ TEST(tied_sites, blocks_of_any_size_change_nothing) {
                                               {input.options, {.threads = 1}})
                               .arrays;
     const auto size = *rc::gen::inRange<std::size_t>(33, 150).as("sites of a block");
-    const auto built = bulk::triangulate_by_blocks(input.sites, order.order, order.renamed,
-                                                   {input.options, {.threads = 1}}, size);
+    const system::Job job = {input.options, {.threads = 1}};
+    const auto built = bulk::triangulate_by_blocks(bulk::make_input(input.sites, order.order, job),
+                                                   order.renamed, size);
     const bool is_built = built.has_value() || expected.dimension < 2;
     RC_ASSERT(is_built);
     if (!built) return;

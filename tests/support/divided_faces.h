@@ -10,8 +10,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "bulk/divide.h"
-#include "bulk/square_sites.h"
+#include "bulk/piece.h"
 #include "kernel/triangulate.h"
 #include "order/cube_position.h"
 #include "order/spatial_order.h"
@@ -81,14 +80,19 @@ Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
   const Point& center = set.sphere.center;
   const auto order = order::spatial_order(set.sites, model, center, 1);
   if (order.order.size() < 2) return Divided::too_few;
-  bulk::SquareSites<T> sites;
   const auto first = order::exact_cube_position(set.sites[order.order[0]], center);
   const bulk::Square whole_face = {{first.face, 0, 0}, order::position_bits, 0};
   const auto num_sites = static_cast<Index>(order.order.size());
-  bulk::SquareCoordinates coordinates;
-  coordinates.reserve(num_sites);
-  sites.assign(set.sites, order.order, 0, num_sites, center, is_weighted ? extent : bulk::Extent{},
-               coordinates);
+  const bulk::Input input = {set.sites,
+                             order.order,
+                             {{.model = model, .sphere = set.sphere}, {.threads = 1}},
+                             {},
+                             is_weighted ? extent : bulk::Extent{}};
+  bulk::PieceMemory memory;
+  memory.reserve(num_sites);
+  const bulk::GivenSites<T> given(input);
+  bulk::SquareSites<T> sites;
+  sites.assign(input, given, 0, num_sites, memory.coordinates());
   sites.enter(whole_face, num_sites);
   for (Index i = 0; i < num_sites; ++i) {
     const auto exact = order::exact_cube_position(sites.point(i), center);
@@ -98,8 +102,7 @@ Divided divide_and_compare(const SiteSet& set, const bulk::Extent& extent) {
       return Divided::misplaced;
     }
   }
-  bulk::PlaneGraph graph;
-  graph.clear(num_sites);
+  bulk::PlaneGraph graph = memory.graph(0, 0, num_sites);
   bulk::Divide<T> divide(sites, {}, graph);
   const auto all = divide.run(0, num_sites, 0, order::position_bits - 1);
   if (divide.has_failed()) return Divided::left_to_seam;

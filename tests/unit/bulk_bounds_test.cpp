@@ -11,7 +11,7 @@
 #include <iostream>
 
 #include "bulk/open_faces.h"
-#include "bulk/square_sites.h"
+#include "bulk/piece.h"
 #include "exact/extended.h"
 #include "order/cube_position.h"
 #include "support/adversarial.h"
@@ -62,17 +62,19 @@ class Cell {
     const bulk::Square cell = {
         {first.face, first.u >> bits << bits, first.v >> bits << bits}, bits, 0};
     const auto num_sites = static_cast<Index>(points_.size());
-    coordinates_.reserve(num_sites);
-    sites_.assign(points_, order_, 0, num_sites, center, has_weights ? weights : bulk::Extent{},
-                  coordinates_);
+    memory_.reserve(num_sites);
+    const bulk::Input input = {points_,
+                               order_,
+                               {{.model = T::model, .sphere = {center}}, {}},
+                               {},
+                               has_weights ? weights : bulk::Extent{}};
+    given_ = bulk::GivenSites<T>(input);
+    sites_.assign(input, given_, 0, num_sites, memory_.coordinates());
     sites_.enter(cell, num_sites);
-    accurate_.assign(points_, order_, center);
-    accurate_.enter(sites_.points(), first.face);
   }
 
   [[nodiscard]] const bulk::SquareSites<T>& sites() const { return sites_; }
   [[nodiscard]] Sign orientation(Index a, Index b, Index c) { return sites_.orientation(a, b, c); }
-  [[nodiscard]] bulk::AccuratePlaces& accurate() { return accurate_; }
 
   // In the axes of SquareSites::ray: of unit length, or relative to the largest one.
   [[nodiscard]] BigVector ray(Index i) const {
@@ -99,9 +101,9 @@ class Cell {
   Point center_;
   order::CubeAxes axes_;
   bool has_weights_ = false;
-  bulk::SquareCoordinates coordinates_;
+  bulk::PieceMemory memory_;
+  bulk::GivenSites<T> given_;
   bulk::SquareSites<T> sites_;
-  bulk::AccuratePlaces accurate_;
 };
 
 // Up to `distance` apart, on the face around (0, 0, 1), with a center or without.
@@ -135,10 +137,12 @@ Largest largest_errors(bool has_weights) {
     const Point center = random.coin() ? Point{} : random.signed_unit() * random_direction(random);
     const Cell<T> cell(close_sites(random, 4, distance, has_weights, center), center, has_weights,
                        static_cast<unsigned>(random.below(30)));
-    const bulk::SquarePoint* p = cell.sites().points();
-    const auto ab = p[1] - p[0];
-    const auto ac = p[2] - p[0];
-    const auto ad = p[3] - p[0];
+    const auto step_to = [&](Index k) {
+      return cell.sites().coordinates(k) - cell.sites().coordinates(0);
+    };
+    const Vector ab = step_to(1);
+    const Vector ac = step_to(2);
+    const Vector ad = step_to(3);
     const auto normal = cross(ab, ac);
     const BigVector a = cell.point(0);
     const BigVector exact_normal = cross_of(minus(cell.point(1), a), minus(cell.point(2), a));
@@ -146,11 +150,11 @@ Largest largest_errors(bool has_weights) {
     // What limits() says for a length of 1, undone: the bound relative to distances.
     const double unit_distance = has_weights ? 2.01 * ratio + 1.74 * (ratio - 1) : 1.42;
     const double orientation_bound = cell.sites().limits(1).orientation / unit_distance;
-    const auto in_plane = [](const bulk::SquareVector& x) { return x.u * x.u + x.v * x.v; };
+    const auto in_plane = [](const Vector& v) { return v.x * v.x + v.y * v.y; };
     const double plane = std::sqrt(std::max({in_plane(ab), in_plane(ac), in_plane(ad)}));
     const double space = std::sqrt(std::max({dot(ab, ab), dot(ac, ac), dot(ad, ad)}));
     const double conflict_bound = cell.sites().conflict_limit(has_weights ? space : plane);
-    const double orientation_error = Big(abs(big(normal.w) - exact_normal[2])).get_d();
+    const double orientation_error = Big(abs(big(normal.z) - exact_normal[2])).get_d();
     const double conflict_error = Big(abs(big(dot(normal, ad)) - exact_value)).get_d();
     largest.orientation =
         std::max(largest.orientation, orientation_error / (orientation_bound * plane));
@@ -193,7 +197,7 @@ std::vector<Point> almost_tied(Random& random, double distance, bool on_great_ci
   return sites;
 }
 
-TEST(bulk_bounds, accurate_places_do_not_err_and_decide_ties) {
+TEST(bulk_bounds, numbers_of_64_bits_do_not_err_and_decide_ties) {
   Random random(33);
   std::size_t num_decided = 0;
   const std::size_t num_sets = scaled(20000);
@@ -211,7 +215,8 @@ TEST(bulk_bounds, accurate_places_do_not_err_and_decide_ties) {
     const BigVector normal = cross_of(ab, ac);
     const int turn = sgn(normal[2]);
     const int side = sgn(dot_of(normal, minus(cell.point(3), a)));
-    const auto found_turn = static_cast<int>(cell.accurate().orientation(0, 1, 2));
+    const auto found_turn =
+        static_cast<int>(predicates::orientation_extended(points[0], points[1], points[2], center));
     EXPECT_TRUE(found_turn == 0 || found_turn == turn);
     const auto filtered_side = static_cast<int>(cell.sites().side_over_tangent(0, 1, 2, 3));
     EXPECT_TRUE(filtered_side == 0 || filtered_side == side);
@@ -280,17 +285,20 @@ void expect_true_certificates(bool has_weights) {
                            sine * axis.z / length + cosine * side.z};
     const bulk::Cone cone = {inward, inward, inward, inward};
 
-    bulk::PlaneGraph graph;
-    graph.clear(3);
+    bulk::PieceMemory memory;
+    memory.reserve(3);
+    bulk::PlaneGraph graph = memory.graph(0, 0, 3);
     const auto e = graph.add(0, b);
     const auto f = graph.add(b, c);
     const auto g = graph.add(c, 0);
     graph.insert_after(g ^ 1, e);
     graph.insert_after(e ^ 1, f);
     graph.insert_after(f ^ 1, g);
-    bulk::OpenFaces open(
-        graph, [&](Index k) { return cell.sites().ray(k); }, cone, has_weights);
-    open.find(e);
+    const bulk::Certificate certificate(cone, has_weights);
+    std::vector<bulk::PlaneGraph::Edge> open;
+    bulk::find_open_faces(graph, e, open, [&](Index i0, Index i1, Index i2) {
+      return certificate.is_final(cell.sites().ray(i0), cell.sites().ray(i1), cell.sites().ray(i2));
+    });
     if (graph.face(e) == bulk::open_face) continue;
     ++num_final;
     const BigVector exact_inward = {big(inward.x), big(inward.y), big(inward.z)};

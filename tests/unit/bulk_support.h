@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "bulk/blocks.h"
 #include "bulk/sphere.h"
 #include "bulk/triangulate.h"
 #include "order/spatial_order.h"
@@ -37,28 +38,30 @@ class BulkCase {
   // Returns whether there was no need to fall back. What is returned is compared bit by bit.
   bool run(std::size_t max_block_sites, unsigned threads = 1) {
     options_.threads = threads;
-    return compare(bulk::triangulate_by_blocks(sites_, order_.order, order_.renamed, options_,
-                                               max_block_sites));
+    return compare(bulk::triangulate_by_blocks(input(), order_.renamed, max_block_sites));
   }
 
   // The same with copies of the sites.
   bool run_with_copies(std::size_t max_block_sites, unsigned threads = 1) {
     options_.threads = threads;
     LargeVector<Triple> copies(2 * sites_.size());
-    order::spatial_order(sites_, options_.model, options_.sphere.center, threads, {},
-                         system::SiteCopies(std::span(copies)));
-    return compare(bulk::triangulate_by_blocks(sites_, order_.order, order_.renamed, options_,
-                                               max_block_sites, std::move(copies)));
+    const system::SiteCopies site_copies{std::span(copies)};
+    order::spatial_order(sites_, options_.model, options_.sphere.center, threads, {}, site_copies);
+    return compare(bulk::triangulate_by_blocks(input(site_copies), order_.renamed, max_block_sites,
+                                               std::move(copies)));
   }
 
   // The same for the whole sphere at once, which the sites must surround.
   bool run_whole(unsigned threads = 1) {
     options_.threads = threads;
-    const bulk::Input input = bulk::make_input(sites_, order_.order, options_);
-    return compare(bulk::triangulate_sphere(input, order_.renamed));
+    return compare(bulk::triangulate_sphere(input(), order_.renamed));
   }
 
  private:
+  [[nodiscard]] bulk::Input input(const system::SiteCopies& copies = {}) const {
+    return bulk::make_input(sites_, order_.order, options_, copies);
+  }
+
   bool compare(const std::optional<kernel::Triangulated>& result) {
     if (!result) return false;
     const TriangulationArrays& arrays = result->arrays;

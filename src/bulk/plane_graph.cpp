@@ -1,16 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "bulk/reach.h"
+#include "bulk/plane_graph.h"
 
 namespace rondel::bulk {
-namespace {
-
-using Edge = PlaneGraph::Edge;
-
-}  // namespace
 
 std::vector<Index> remove_unreached(PlaneGraph& graph, PlaneGraph::Edge start, Index num_vertices) {
+  using Edge = PlaneGraph::Edge;
   std::vector<bool> is_reached(num_vertices, false);
   std::vector<Edge> stack = {start};
   is_reached[graph.origin(start)] = true;

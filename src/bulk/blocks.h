@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The build by certified blocks, in parallel:
+//
+// 1. Blocks: the sites of a square of the Hilbert curve, triangulated by divide and conquer.
+// 2. Certificate: the faces of a block that no site outside can be in conflict with are final.
+// 3. Seam: the sites of all other faces, some sqrt(n) of n, are triangulated by themselves.
+// 4. Stitch: the final faces and those of the seam in the region between them are the result.
+//
+// in    the sites in spatial order
+// out   the arrays of the result
+// index ranks; each block has local sites, and the seam has seam sites of its own
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+#include "bulk/input.h"
+#include "kernel/triangulate.h"
+#include "system/large_vector.h"
+
+namespace rondel::bulk {
+
+// The mesh of a block lies in the second cache, and its seam is a small part of it. A fixed number,
+// so that the work does not depend on the threads.
+inline constexpr std::size_t most_block_sites = 3 << 14;
+
+// Whether blocks would leave little to the seam, judged by some small ones. They do not where sites
+// lie on curves, or are hidden: then all is seam, and blocks are a detour.
+bool has_short_seams(const Input& input);
+
+// As kernel::triangulate, with blocks of at most so many sites; or nothing if the seam has no hull,
+// because all its sites lie on one great circle. The faces come into the memory of `copies`, which
+// may be that of the copies in `input`: blocks read their sites before they write their faces.
+std::optional<kernel::Triangulated> triangulate_by_blocks(const Input& input,
+                                                          std::span<const order::Renamed> renamed,
+                                                          std::size_t max_block_sites,
+                                                          LargeVector<Triple> copies = {});
+
+}  // namespace rondel::bulk

@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Sites as they are given: what the ladders of predicates/ read, and the coordinates of merges
+// between squares, which meet few of the sites.
+//
+// in    the sites of a piece and, in the projected model, perhaps their directions
+// out   exact signs, and how often each rung decided a conflict test
+// index local sites
+#pragma once
+
+#include "bulk/input.h"
+#include "models/sphere_traits.h"
+#include "predicates/bounds.h"
+#include "predicates/orientation.h"
+
+namespace rondel::bulk {
+
+// A source of points (predicates/points.h) that remembers nothing of them.
+template <models::SphereModel T>
+class GivenSites {
+ public:
+  static constexpr Model model = T::model;
+  static constexpr bool hides_sites = T::hides_sites;
+
+  using Vector = predicates::Vector;
+  struct Limits {};  // of filters: these need none
+
+  GivenSites() = default;
+  // Directions are needed in the projected model, but for rungs above the filter.
+  explicit GivenSites(const Input& input, const Vector* directions = nullptr)
+      : sites_(input.sites),
+        order_(input.order),
+        center_(input.center()),
+        directions_(directions) {}
+
+  [[nodiscard]] Index size() const { return static_cast<Index>(order_.size()); }
+  [[nodiscard]] const Point& point(Index i) const { return sites_[order_[i]]; }
+  [[nodiscard]] const Point& center() const { return center_; }
+  [[nodiscard]] const Vector& direction(Index i) const { return directions_[i]; }
+  [[nodiscard]] exact::SplitPoint split(Index i) const {
+    return exact::unit_vector(point(i), center_);
+  }
+
+  // As in SphereTraits.
+  [[nodiscard]] Vector coordinates(Index i) const {
+    if constexpr (model == Model::projected) return direction(i);
+    return exact::to_vector(point(i));
+  }
+  [[nodiscard]] Vector from_center(Index i) const {
+    if constexpr (model == Model::projected) return direction(i);
+    return coordinates(i) - exact::to_vector(center_);
+  }
+
+  // The filters of one step of a merge, see merge_step.h; zero if they are not certain. `normal` is
+  // that of the face (l, r, x), `value` its product with the step from l to y, and r2, x2 and y2 are
+  // the squared lengths of the steps from l to r, x and y.
+  [[nodiscard]] static double squared(const Vector& a) { return dot(a, a); }
+  [[nodiscard]] static Sign certain_orientation(Limits /*limits*/, const Vector& l,
+                                                const Vector& normal, double r2, double x2) {
+    if constexpr (model == Model::weighted) return Sign::zero;
+    constexpr double bound = predicates::direction_orientation_bound;
+    const double value = dot(l, normal);
+    return predicates::unless_unsure(value, value * value > bound * bound * std::max(r2, x2));
+  }
+  [[nodiscard]] static Sign certain_side(Limits /*limits*/, double value, double r2, double x2,
+                                         double y2) {
+    const bool is_sure =
+        model == Model::weighted
+            ? predicates::is_beyond(value, predicates::plane_bound, r2, x2, y2)
+            : predicates::is_beyond_longest(value, predicates::circle_plane_bound, r2, x2, y2);
+    return predicates::unless_unsure(value, is_sure);
+  }
+
+  // Exact.
+  [[nodiscard]] Sign orientation(Index a, Index b, Index c) const {
+    return predicates::orientation(*this, a, b, c).sign;
+  }
+  [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p) {
+    const predicates::Decision decision = predicates::conflict(*this, a, b, c, p);
+    count(tally_, decision.rung);
+    return decision.sign == Sign::positive;
+  }
+
+  // Of all conflict tests, given that this is called for those that a filter of the caller decided.
+  void count_filtered() { ++tally_.filter; }
+  [[nodiscard]] const Tally& tally() const { return tally_; }
+
+ private:
+  std::span<const Point> sites_;
+  std::span<const Index> order_;
+  Point center_;
+  const Vector* directions_ = nullptr;
+  Tally tally_{};
+};
+
+}  // namespace rondel::bulk
