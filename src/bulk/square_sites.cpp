@@ -38,8 +38,6 @@ double find_weighted_bound(double w_error, double most_w_distance) {
   return 1.2 * (6 * eta + 8.8 * unit_roundoff * distance);
 }
 
-double squared_in_plane(const Vector& a) { return a.x * a.x + a.y * a.y; }
-
 // The surface w = sqrt(1 + u^2 + v^2) and its tangent plane above the middle of a square.
 class Tangent {
  public:
@@ -222,13 +220,7 @@ SquareLimits SquareSites<T>::limits(double length) const {
 
 template <models::SphereModel T>
 Sign SquareSites<T>::orientation(Index a, Index b, Index c) const {
-  const Vector ab = coordinates(b) - coordinates(a);
-  const Vector ac = coordinates(c) - coordinates(a);
-  const double bound =
-      orientation_bound * std::sqrt(std::max(squared_in_plane(ab), squared_in_plane(ac)));
-  const Sign sign = beyond(cross(ab, ac).z, std::max(bound, least_bound));
-  if (sign != Sign::zero) return sign;
-  return predicates::orientation_above_filter(point(a), point(b), point(c), center()).sign;
+  return predicates::orientation(point(a), point(b), point(c), center()).sign;
 }
 
 // The value is the volume of three steps, positive if the third one leads above the plane of the

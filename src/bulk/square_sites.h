@@ -135,8 +135,8 @@ class SquareSites {
     return -beyond(value, limits.conflict);
   }
 
-  // What the limits leave open: filters for the very sites, then the ladders of
-  // predicates/orientation.h and predicates/conflict.h, above their filters.
+  // What the limits leave open: the ladder of predicates/orientation.h; filters for the very sites,
+  // then the ladder of predicates/conflict.h above its filter.
   [[nodiscard]] Sign orientation(Index a, Index b, Index c) const;
   [[nodiscard]] bool is_in_conflict(Index a, Index b, Index c, Index p);
 

@@ -97,8 +97,8 @@ Sign orientation_extended(const Point& a, const Point& b, const Point& c, const 
   return value > 0 ? Sign::positive : Sign::negative;
 }
 
-Decision orientation_above_filter(const Point& a, const Point& b, const Point& c,
-                                  const Point& center) {
+Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center) {
+  if (const Sign sign = filter(a, b, c, center); sign != Sign::zero) return {sign, Rung::filter};
   if (const Sign sign = orientation_extended(a, b, c, center); sign != Sign::zero) {
     return {sign, Rung::extended};
   }
@@ -116,11 +116,6 @@ Decision orientation_above_filter(const Point& a, const Point& b, const Point& c
     return det(step(center, a), step(center, b), step(center, c));
   };
   return {exact::sign_of_cubic(formula), Rung::exact};
-}
-
-Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center) {
-  if (const Sign sign = filter(a, b, c, center); sign != Sign::zero) return {sign, Rung::filter};
-  return orientation_above_filter(a, b, c, center);
 }
 
 }  // namespace rondel::predicates

@@ -39,12 +39,8 @@ inline Sign orientation_filter(const Vector& a, const Vector& b, const Vector& c
 // The filter for points as given, with numbers of 64 bits where the machine has them.
 Sign orientation_extended(const Point& a, const Point& b, const Point& c, const Point& center);
 
-// What a filter in doubles has left open: the filter with 64 bits, integers where they can tell, the
-// filter with vectors of length about 1, balls of more and more words.
-Decision orientation_above_filter(const Point& a, const Point& b, const Point& c,
-                                  const Point& center);
-
-// The ladder, for points as given.
+// The ladder, for points as given: a filter in doubles, the same with 64 bits, integers where they
+// can tell, the filter with vectors of length about 1, balls of more and more words.
 Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center);
 
 // The ladder, for points that may have directions: then these have a filter before.
