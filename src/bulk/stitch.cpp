@@ -11,6 +11,7 @@
 #include "bulk/seam_faces.h"
 #include "system/large_vector.h"
 #include "system/parallel.h"
+#include "topology/canonical_order.h"
 #include "topology/mesh.h"
 
 namespace rondel::bulk {
@@ -83,8 +84,7 @@ class Numbering {
     section_.copied.push_back({final_of_[face], seam_.corners(face), seam_.neighbors(face)});
   }
 
-  // Those of seam site s, from block and seam. The faces that a site owns start with the one with
-  // the smallest second corner.
+  // The faces that seam site s owns, those of its block and those of the seam.
   void append_owned(Index s) {
     const SeamSite& site = seam_.sites()[s];
     const auto of_seam = seam_.owned_by(s);
@@ -95,8 +95,7 @@ class Numbering {
     } else {
       walk_around(site.rank, of_seam[0]);
     }
-    const auto second = [this](Index f) { return seam_.corners(f)[1]; };
-    std::rotate(faces_.begin(), std::ranges::min_element(faces_, {}, second), faces_.end());
+    topology::start_with_first(faces_, [this](Index f) { return seam_.corners(f)[1]; });
     for (const Index f : faces_) {
       final_of_[f] = next_++;
       if (f < seam_.names_begin()) copy(f);

@@ -11,6 +11,7 @@
 
 #include "system/huge_pages.h"
 #include "system/prefetch.h"
+#include "topology/canonical_order.h"
 
 namespace rondel::kernel {
 namespace {
@@ -22,12 +23,7 @@ using topology::halfedge;
 using topology::Mesh;
 using topology::next_corner;
 
-// Without branches: nothing predicts the answer.
-unsigned first_corner(const topology::Face& face) {
-  const auto& v = face.vertex;
-  const auto i = static_cast<unsigned>(v[1] < v[0]);
-  return v[2] < std::min(v[0], v[1]) ? 2 : i;
-}
+unsigned first_corner(const topology::Face& face) { return topology::first_corner(face.vertex); }
 
 Index owner(const topology::Face& face) {
   return std::min({face.vertex[0], face.vertex[1], face.vertex[2]});
@@ -58,8 +54,8 @@ class OwnedFaces {
       const auto second = [this](Halfedge h) {
         return mesh_[face_of(h)].vertex[next_corner[edge_of(h)]];
       };
-      std::iter_swap(faces.begin(), std::ranges::min_element(faces, {}, second));
       walk_around(mesh_, faces);
+      topology::start_with_first(faces, second);
     }
   }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The canonical order of the result: it depends on the surface alone, not on how it was built.
+// Writes a mesh in canonical order (topology/canonical_order.h).
 #pragma once
 
 #include <vector>
@@ -12,10 +12,8 @@
 
 namespace rondel::kernel {
 
-// Writes faces and neighbors: a face belongs to its corner of smallest rank and starts with it. The
-// faces of one owner follow counterclockwise, beginning with the one whose second corner has the
-// smallest rank. Vertices of the mesh are ranks below names.size(); they are written under their
-// names.
+// Writes faces and neighbors. Vertices of the mesh are ranks below names.size(); they are written
+// under their names.
 //
 // Uses up the mesh: afterwards vertex[0] of each face is its place in the order. So the result
 // needs no third array of the size of the mesh beside it. `scratch` lends its memory.

@@ -7,6 +7,7 @@ rondel_add_test(bulk_test
   bulk_divide_test.cpp
   bulk_few_sites_test.cpp
   bulk_nasty_test.cpp
+  bulk_order_test.cpp
   bulk_same_test.cpp
   bulk_scale_test.cpp
   bulk_sphere_test.cpp
