@@ -43,4 +43,5 @@ NB_MODULE(_core, module) {
   rondel::python::add_query(module);
   rondel::python::add_dynamic(module);
   rondel::python::add_files(module);
+  rondel::python::add_globe(module);
 }

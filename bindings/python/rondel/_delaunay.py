@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _core, _geo, _plot
+from . import _core, _geo, _globe, _plot
 from ._arrays import (
     as_center,
     as_floats,
@@ -305,6 +305,8 @@ class SphericalDelaunay(Mesh, Queries):
     to_xarray = _geo.triangles_to_xarray
     lonlat_triangles = _plot.lonlat_triangles
     plot = _plot.plot_triangles
+    save_html = _globe.save_html
+    view = _globe.view
 
 
 def delaunay(

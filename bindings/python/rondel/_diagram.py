@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from . import _core, _geo, _plot
+from . import _core, _geo, _globe, _plot
 from ._arrays import ORIGIN, frozen
 from ._dimensions import FlatMesh
 from ._repr import Described
@@ -210,3 +210,5 @@ class Diagram(Described, Generic[Delaunay]):
     to_geopandas = _geo.cells_to_geopandas
     to_xarray = _geo.cells_to_xarray
     plot = _plot.plot_cells
+    save_html = _globe.save_html
+    view = _globe.view

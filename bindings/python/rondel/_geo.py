@@ -133,11 +133,11 @@ def _written(path: Path | io.IOBase | None, write: Callable[[str], None]) -> Any
         name = os.fspath(path)
         if not name.endswith(".geojson"):
             raise ValueError(f"the name of a GeoJSON file ends in .geojson: {name}")
-        _write(name, write)
+        write_named(name, write)
         return None
     with tempfile.TemporaryDirectory() as folder:
         made = pathlib.Path(folder) / "rondel.geojson"
-        _write(str(made), write)
+        write_named(str(made), write)
         if path is None:
             # A function is called for each object, so that Ctrl-C ends the reading.
             return json.loads(made.read_bytes(), object_hook=lambda found: found)
@@ -150,7 +150,7 @@ def _written(path: Path | io.IOBase | None, write: Callable[[str], None]) -> Any
     return None
 
 
-def _write(name: str, write: Callable[[str], None]) -> None:
+def write_named(name: str, write: Callable[[str], None]) -> None:
     """An error of a file has its number, as everywhere in Python, and so its own class."""
     try:
         write(name)

@@ -1,0 +1,171 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Pages of HTML with a globe to turn, zoom and point at, for browsers and notebooks.
+
+The functions are methods of `SphericalDelaunay`, `SphericalVoronoi` and `PowerDiagram`.
+"""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from . import _core
+from ._geo import Path, write_named
+from ._properties import checked_properties, json_cells
+from ._types import ArrayLike, Divided, Triangulated
+
+if TYPE_CHECKING:
+    import IPython.display
+
+Show = Literal["delaunay", "voronoi", "both"]
+
+
+def save_html(
+    self: Triangulated | Divided,
+    path: Path,
+    values: ArrayLike | None = None,
+    *,
+    name: str = "Value",
+    properties: Mapping[str, Any] | None = None,
+    title: str = "Globe",
+    show: Show | None = None,
+    sites: bool = True,
+    circles: bool = False,
+    view: tuple[float, float] | None = None,
+) -> None:
+    """Writes a page with a globe to turn, zoom and point at: one file for any browser.
+
+    It needs neither a server nor a network. A triangulation, its diagram, areas, values and
+    properties are all in it.
+
+    Parameters
+    ----------
+    path : path-like
+    values : array_like, shape (n,), optional
+        A number for each site, shown as the color of its cell, with a color bar; nan for none.
+    name : str, optional
+        What the values are.
+    properties : mapping of str to sequence, optional
+        What is told of each site that is picked, and can be searched: for each name a value for
+        every site.
+    title : str, optional
+        Of the page.
+    show : {'delaunay', 'voronoi', 'both'}, optional
+        The lines that the page shows at first; by default the cells of diagrams and where there are
+        values, otherwise the triangles.
+    sites, circles : bool, optional
+        Whether the page shows the sites, and the circles of weighted sites, at first.
+    view : (float, float), optional
+        Longitude and latitude in the middle, in degrees; by default the sites are in view.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be written; then nothing is left of it.
+    ValueError
+        If there is not one value for each site.
+
+    Examples
+    --------
+    >>> import pathlib, rondel, tempfile
+    >>> tri = rondel.delaunay_lonlat([2.35, -74.01, 139.69, 151.21], [48.86, 40.71, 35.69, -33.87])
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     page = pathlib.Path(folder, "cities.html")
+    ...     tri.save_html(page, properties={"city": ["Paris", "New York", "Tokyo", "Sydney"]})
+    ...     page.read_text()[:15]
+    '<!doctype html>'
+
+    """
+    text = _page(self, values, name, properties, title, show, sites, circles, view)
+    write_named(os.fspath(path), lambda file: _core.write_file(file, text))
+
+
+def view(
+    self: Triangulated | Divided,
+    values: ArrayLike | None = None,
+    *,
+    name: str = "Value",
+    properties: Mapping[str, Any] | None = None,
+    title: str = "Globe",
+    show: Show | None = None,
+    sites: bool = True,
+    circles: bool = False,
+    view: tuple[float, float] | None = None,
+    height: int = 600,
+) -> IPython.display.HTML:
+    """The globe of `save_html` in a frame of a notebook.
+
+    Parameters
+    ----------
+    values, name, properties, title, show, sites, circles, view
+        As of `save_html`.
+    height : int, optional
+        Of the frame, in pixels.
+
+    Returns
+    -------
+    IPython.display.HTML
+
+    Raises
+    ------
+    ImportError
+        If IPython is not installed.
+
+    """
+    from IPython.display import HTML
+
+    text = _page(self, values, name, properties, title, show, sites, circles, view)
+    style = f"width: 100%; height: {int(height)}px; border: 0"
+    frame = f'<iframe srcdoc="{html.escape(text.decode())}" title="{html.escape(title)}" style="{style}">'
+    return HTML(f"<div>{frame}</iframe></div>")
+
+
+def _page(
+    self: Any,
+    values: ArrayLike | None,
+    name: str,
+    properties: Mapping[str, Any] | None,
+    title: str,
+    show: Show | None,
+    sites: bool,
+    circles: bool,
+    view: tuple[float, float] | None,
+) -> bytes:
+    """The page, in UTF-8."""
+    is_diagram = hasattr(self, "delaunay")
+    triangulation = (self.delaunay if is_diagram else self)._triangulation
+    diagram = self._diagram if is_diagram else _core.diagram(triangulation)
+    numbers = None if values is None else np.ascontiguousarray(values, np.float64)
+    if numbers is not None and numbers.shape != (len(self.points),):
+        raise ValueError(f"values have shape {numbers.shape}, not ({len(self.points)},)")
+    if show is None:
+        show = "voronoi" if is_diagram or numbers is not None else "delaunay"
+    if show not in ("delaunay", "voronoi", "both"):
+        raise ValueError(f"show must be 'delaunay', 'voronoi' or 'both', not {show!r}")
+    given = checked_properties(properties, (), len(self.points))
+    columns = [(key, [_text(cell) for cell in json_cells(cells)]) for key, cells in given.items()]
+    place = None if view is None else (float(view[0]), float(view[1]))
+    return _core.globe_page(
+        triangulation,
+        self.points,
+        diagram,
+        columns,
+        numbers,
+        str(name),
+        str(title),
+        show,
+        bool(sites),
+        bool(circles),
+        place,
+    )
+
+
+def _text(cell: str) -> str:
+    """What JSON says, for people."""
+    return json.loads(cell) if cell.startswith('"') else cell
