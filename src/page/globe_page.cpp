@@ -65,7 +65,7 @@ std::string script_json(const nlohmann::ordered_json& value) {
   std::string text;
   for (const char c : value.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)) {
     if (c == '<') {
-      text += "\\u003c";
+      text += R"(\u003c)";
     } else {
       text += c;
     }
@@ -139,7 +139,7 @@ std::string data_elements(std::vector<page::PageArray> arrays, const Execution& 
     page::PageArray& array = arrays[i];
     const std::size_t width = array.kind == "f64" ? 8 : array.kind == "u32" ? 4 : 1;
     const std::string planes = page::in_planes(std::exchange(array.bytes, {}), width);
-    text += "<script type=\"application/octet-stream\" id=\"data-" + array.name + "\">";
+    text += R"(<script type="application/octet-stream" id="data-)" + array.name + R"(">)";
     text += page::base64(page::zlib_stream(planes, execution.threads));
     text += "</script>\n";
   }

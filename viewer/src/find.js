@@ -115,8 +115,13 @@ export class Finder {
   // On an edge or a vertex several faces hold q.
   firstOf(face, q) {
     const { surface } = this;
-    const touching = surface.corners(face).flatMap((v) =>
-      Array.from(surface.starFaces.subarray(surface.starOffsets[v], surface.starOffsets[v + 1])));
-    return Math.min(...touching.filter((f) => holds(surface, f, q)));
+    let first = face;
+    for (const v of surface.corners(face)) {
+      for (let j = surface.starOffsets[v]; j < surface.starOffsets[v + 1]; ++j) {
+        const other = surface.starFaces[j];
+        if (other < first && holds(surface, other, q)) first = other;
+      }
+    }
+    return first;
   }
 }

@@ -1,27 +1,15 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// One frame: which chunks are in view, how much of each is drawn, and in which order.
-//
-// A chunk in view is drawn in one of three ways:
-//   full    its lines and cells, from buffers that are made when they are first wanted;
-//   close   the same, cut in doubles at the screen, where the chunk is far wider than that;
-//   coarse  its sites as points, where they are so close that lines would cover everything, or where the frame
-//           would have too many vertices.
+// One frame: the parts of the picture, in the order in which they cover each other, and the buffers behind them.
 
 import { edgesOf, bordersOf, circle, graticule } from "./arcs.js";
 import { coastChords } from "./backdrop.js";
-import { isInView, spacing } from "./chunks.js";
 import { Close, mark, outline } from "./close.js";
-import { costs, makers, Segments } from "./shapes.js";
+import { costOf, mostCoarse, mostFull, mostVertices, planViews } from "./plan.js";
+import { makers, Segments } from "./shapes.js";
 import { lonLatOf } from "./vectors.js";
 
-const mostVertices = 2_000_000;
-const mostFull = 1_200_000;
-const mostCoarse = 700_000;
-const leastSpacing = 3;  // pixels between sites whose lines are drawn, unless all are few
-const fewVertices = 300_000;
-const farthestClose = 200;  // a chunk so many times wider than the screen is drawn close
 const mostKept = 8_000_000;  // vertices in buffers
 const patience = 24;  // milliseconds a frame may spend on new buffers
 
@@ -84,33 +72,6 @@ export class Scene {
     return names;
   }
 
-  // [{chunk, way, spacing}] of all chunks in view.
-  plan() {
-    const views = [];
-    for (const chunk of this.chunks) {
-      if (isInView(chunk, this.camera)) views.push({ chunk, way: "coarse", spacing: spacing(chunk, this.camera) });
-    }
-    for (const view of views) view.cost = this.costOf(view.chunk);
-    const total = views.reduce((sum, view) => sum + view.cost, 0);
-    const least = total <= fewVertices ? 0 : leastSpacing;
-    const screen = Math.hypot(this.camera.width, this.camera.height);
-    let left = mostFull;
-    for (const view of [...views].sort((a, b) => b.spacing - a.spacing)) {
-      if (view.spacing < least || view.cost > left) continue;
-      left -= view.cost;
-      const isFar = this.camera.zoom > 2000 && view.chunk.chord * this.camera.zoom > farthestClose * screen;
-      view.way = isFar ? "close" : "full";
-    }
-    return views;
-  }
-
-  // The vertices of a chunk that is drawn full: those of its buffers, or about so many.
-  costOf(chunk) {
-    const count = chunk.end - chunk.begin;
-    const part = (name) => chunk.parts?.[name]?.numVertices ?? costs[name] * count;
-    return this.wanted.reduce((sum, name) => sum + part(name), count);
-  }
-
   // The buffers of a chunk; null where there is no time left in this frame.
   part(chunk, name) {
     chunk.parts ??= {};
@@ -144,7 +105,7 @@ export class Scene {
   draw(theme, scale) {
     const { canvas, camera, layers } = this;
     this.deadline = performance.now() + patience;
-    const views = this.plan();
+    const views = planViews(this.chunks, camera, this.wanted);
     this.make(views);
     const ways = { full: [], close: [], coarse: [] };
     for (const view of views) ways[view.way].push(view);
@@ -173,14 +134,19 @@ export class Scene {
   }
 
   // Makes the buffers that this frame wants, as many as its time allows. Chunks without all of theirs are drawn as
-  // points until then.
+  // points until then, and those that turn out to be larger than was planned for stay points.
   make(views) {
     this.isSettled = true;
+    let left = mostFull;
     for (const view of views) {
-      if (view.way === "full" && this.wanted.some((name) => this.part(view.chunk, name) === null)) {
+      if (view.way !== "full") continue;
+      if (this.wanted.some((name) => this.part(view.chunk, name) === null)) {
         view.way = "coarse";
         this.isSettled = false;
+        continue;
       }
+      left -= costOf(view.chunk, this.wanted);
+      if (left < 0) view.way = "coarse";
     }
   }
 

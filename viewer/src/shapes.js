@@ -74,8 +74,8 @@ export class Fans {
     const middle = middleOf(ring);
     const rim = [];
     ring.forEach((p, i) => inChords(p, ring[(i + 1) % ring.length], (from) => rim.push(from)));
-    const widest = Math.max(...rim.map((p) => Math.acos(Math.max(-1, Math.min(1, dot(p, middle))))));
-    const rings = Math.max(1, Math.ceil(widest / 0.06));
+    const least = rim.reduce((cosine, p) => Math.min(cosine, dot(p, middle)), 1);
+    const rings = Math.max(1, Math.ceil(Math.acos(Math.max(-1, least)) / 0.06));
     const hub = this.add(middle, level);
     let inner = null;
     for (let k = 1; k <= rings; ++k) {

@@ -122,8 +122,9 @@ def view(
 
     text = _page(self, values, name, properties, title, show, sites, circles, view)
     style = f"width: 100%; height: {int(height)}px; border: 0"
-    frame = f'<iframe srcdoc="{html.escape(text.decode())}" title="{html.escape(title)}" style="{style}">'
-    return HTML(f"<div>{frame}</iframe></div>")
+    srcdoc, label = html.escape(text.decode()), html.escape(title)
+    frame = f'<iframe srcdoc="{srcdoc}" title="{label}" style="{style}"></iframe>'
+    return HTML(f"<div>{frame}</div>")
 
 
 def _page(
