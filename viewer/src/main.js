@@ -9,7 +9,7 @@ import { Camera } from "./camera.js";
 import { Canvas } from "./canvas.js";
 import { Card } from "./card.js";
 import { makeChunks } from "./chunks.js";
-import { themes } from "./colors.js";
+import { themeOf } from "./colors.js";
 import { Column, readPage } from "./decode.js";
 import { Finder } from "./find.js";
 import { Layers } from "./layers.js";
@@ -37,7 +37,7 @@ class Globe {
     const coast = readCoast(arrays.coast);
     this.canvas.setLand(drawLand(coast));
     this.scene = new Scene(this.canvas, this.camera, this.surface, chunks, this.layers, this.radii, coast);
-    this.theme = themes.light;
+    this.theme = "light";
     this.connect();
   }
 
@@ -85,7 +85,7 @@ class Globe {
   }
 
   drawNow() {
-    this.scene.draw(this.theme, this.scale);
+    this.scene.draw(themeOf(this.theme, this.layers.isFilled), this.scale);
     this.panel.follow(this.camera);
   }
 
@@ -95,7 +95,7 @@ class Globe {
   }
 
   setTheme(name) {
-    this.theme = themes[name];
+    this.theme = name;
     this.redraw();
   }
 

@@ -107,7 +107,7 @@ export class Panel {
       content.hidden = !isOpen;
       button.setAttribute("aria-expanded", String(isOpen));
     };
-    apply(!matchMedia("(max-width: 640px)").matches);
+    apply(!matchMedia("(max-width: 640px), (max-height: 560px)").matches);
     button.addEventListener("click", () => apply(content.hidden));
   }
 

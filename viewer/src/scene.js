@@ -119,8 +119,7 @@ export class Scene {
     }
     this.drawBackdrop(theme);
     for (const name of this.wanted.filter((wanted) => wanted !== "cells")) {
-      const border = layers.isFilled ? theme.borderOnFill : theme.border;
-      const paint = { edges: theme.edge, borders: border, circles: theme.circle }[name];
+      const paint = { edges: theme.edge, borders: theme.border, circles: theme.circle }[name];
       this.drawLines(name, ways.full, close[name], paint, layers.isFilled ? 0.8 : 1);
     }
     if (!layers.isFilled) this.drawCoarse(ways.coarse, theme);
