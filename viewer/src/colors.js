@@ -12,7 +12,7 @@ export function color(hex, alpha = 1) {
 // On colored cells, which are the same in both themes.
 const onFill = {
   border: color("#0f1f38", 0.5), coast: color("#33405a", 0.75), graticule: color("#0f1f38", 0.18),
-  site: color("#0b1526"), hidden: color("#0b1526", 0.3),
+  site: color("#0b1526"), hidden: color("#0b1526", 0.3), chosen: color("#e8590c"), pointed: color("#e8590c", 0.55),
 };
 
 const plainThemes = {
