@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Numbers as bytes.
+// Numbers as the bytes of files, which are the same on every machine: the lowest byte first, unless a
+// reader is told otherwise.
 #pragma once
 
 #include <algorithm>
@@ -10,15 +11,15 @@
 #include <cstddef>
 #include <cstring>
 #include <iterator>
+#include <span>
+#include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "io/atomic_file.h"
 #include "rondel/triangulation.h"
 
 namespace rondel::io {
-
-// The writers copy memory and declare it little-endian.
-static_assert(std::endian::native == std::endian::little);
 
 // The number stored at `bytes`, which need not be aligned.
 template <typename T>
@@ -29,16 +30,72 @@ T load(const char* bytes, std::endian order = std::endian::little) {
   return std::bit_cast<T>(copy);
 }
 
-// The bytes of an array of numbers, or of structures of numbers without gaps.
-template <typename Values>
-std::string_view bytes_of(const Values& values) {
-  return {reinterpret_cast<const char*>(std::data(values)),
-          std::size(values) * sizeof(*std::data(values))};
+// Stores the number at `bytes`, which need not be aligned; returns where it ends.
+template <typename T>
+char* store(T number, char* bytes, std::endian order = std::endian::little) {
+  auto copy = std::bit_cast<std::array<char, sizeof(T)>>(number);
+  if (order != std::endian::native) std::reverse(copy.begin(), copy.end());
+  return std::copy(copy.begin(), copy.end(), bytes);
 }
+
+// The numbers that an element of an array consists of.
+template <typename Element>
+struct NumbersOf {
+  static_assert(std::is_arithmetic_v<Element>);
+  using Number = Element;
+};
+template <>
+struct NumbersOf<Point> {
+  using Number = double;
+};
+template <>
+struct NumbersOf<LonLat> {
+  using Number = double;
+};
+template <>
+struct NumbersOf<Triple> {
+  using Number = Index;
+};
+template <>
+struct NumbersOf<Hidden> {
+  using Number = Index;
+};
 static_assert(sizeof(Point) == 3 * sizeof(double));
 static_assert(sizeof(LonLat) == 2 * sizeof(double));
 static_assert(sizeof(Triple) == 3 * sizeof(Index));
 static_assert(sizeof(Hidden) == 2 * sizeof(Index));
+
+// The bytes of an array of numbers, or of structures of numbers without gaps: the array's own, where
+// the machine stores numbers in the same order, otherwise those of a copy that lives as long as this.
+class NumberBytes {
+ public:
+  template <typename Values>
+  explicit NumberBytes(const Values& values, std::endian order = std::endian::little)
+      : bytes_(reinterpret_cast<const char*>(std::data(values)),
+               std::size(values) * sizeof(*std::data(values))) {
+    using Element = std::remove_cvref_t<decltype(*std::data(values))>;
+    if (order != std::endian::native) reverse(sizeof(typename NumbersOf<Element>::Number));
+  }
+  NumberBytes(const NumberBytes&) = delete;
+  NumberBytes& operator=(const NumberBytes&) = delete;
+
+  // NOLINTNEXTLINE(google-explicit-constructor): it is what it says
+  operator std::string_view() const { return bytes_; }
+
+ private:
+  void reverse(std::size_t size) {
+    copy_ = bytes_;
+    for (auto number = copy_.begin(); number != copy_.end();) {
+      const auto end = number + static_cast<std::ptrdiff_t>(size);
+      std::reverse(number, end);
+      number = end;
+    }
+    bytes_ = copy_;
+  }
+
+  std::string copy_;
+  std::string_view bytes_;
+};
 
 // Writes value(0), ..., value(count - 1) as numbers of type T.
 template <typename T, typename Value>
@@ -47,7 +104,7 @@ void write_values(AtomicFile& file, std::size_t count, Value value) {
   for (std::size_t start = 0; start < count; start += block.size()) {
     const std::size_t size = std::min(block.size(), count - start);
     for (std::size_t i = 0; i < size; ++i) block[i] = static_cast<T>(value(start + i));
-    file.write({reinterpret_cast<const char*>(block.data()), size * sizeof(T)});
+    file.write(NumberBytes(std::span(block.data(), size)));
   }
 }
 

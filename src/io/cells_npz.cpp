@@ -18,15 +18,16 @@ void write_cells_npz(AtomicFile& file, const CellsToWrite& to_write) {
     zip.add(name, make_npy_header(dtype, shape), bytes);
   };
   add("offsets.npy", "<u8", std::array<std::uint64_t, 1>{cells.offsets.size()},
-      bytes_of(cells.offsets));
-  add("rings.npy", "<u4", std::array<std::uint64_t, 1>{cells.rings.size()}, bytes_of(cells.rings));
+      NumberBytes(cells.offsets));
+  add("rings.npy", "<u4", std::array<std::uint64_t, 1>{cells.rings.size()},
+      NumberBytes(cells.rings));
   add("points.npy", "<f8", std::array<std::uint64_t, 2>{cells.points.size(), 3},
-      bytes_of(cells.points));
-  add("areas.npy", "<f8", std::array<std::uint64_t, 1>{areas.size()}, bytes_of(areas));
+      NumberBytes(cells.points));
+  add("areas.npy", "<f8", std::array<std::uint64_t, 1>{areas.size()}, NumberBytes(areas));
   const std::span<const Triple> faces = to_write.triangulation.faces();
   const std::span<const Hidden> hidden = to_write.triangulation.hidden();
-  add("faces.npy", "<u4", std::array<std::uint64_t, 2>{faces.size(), 3}, bytes_of(faces));
-  add("hidden.npy", "<u4", std::array<std::uint64_t, 2>{hidden.size(), 2}, bytes_of(hidden));
+  add("faces.npy", "<u4", std::array<std::uint64_t, 2>{faces.size(), 3}, NumberBytes(faces));
+  add("hidden.npy", "<u4", std::array<std::uint64_t, 2>{hidden.size(), 2}, NumberBytes(hidden));
   zip.finish();
 }
 

@@ -10,7 +10,7 @@ void write_indices(const std::string& path, std::span<const Index> values,
                    std::span<const std::uint64_t> shape) {
   io::AtomicFile file(path);
   file.write(io::make_npy_header("<u4", shape));
-  file.write(io::bytes_of(values));
+  file.write(io::NumberBytes(values));
   file.commit();
 }
 

@@ -87,11 +87,11 @@ void write_npy_sites(AtomicFile& file, const SitesToWrite& to_write) {
   const std::uint64_t n = sites.size();
   if (!positions.empty() && to_write.radii_deg.empty()) {
     file.write(make_npy_header("<f8", std::array<std::uint64_t, 2>{n, 2}));
-    file.write(bytes_of(positions));
+    file.write(NumberBytes(positions));
     return;
   }
   file.write(make_npy_header("<f8", std::array<std::uint64_t, 2>{n, 3}));
-  file.write(bytes_of(sites));
+  file.write(NumberBytes(sites));
 }
 
 }  // namespace rondel::io

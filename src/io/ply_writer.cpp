@@ -3,7 +3,6 @@
 
 // Stanford's .ply, binary little-endian with coordinates in double precision.
 #include <array>
-#include <cstring>
 
 #include "io/binary.h"
 #include "io/triangle_formats.h"
@@ -17,12 +16,13 @@ void write_ply(AtomicFile& file, const MeshToWrite& mesh) {
              "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
              std::to_string(mesh.triangulation.num_faces()) +
              "\nproperty list uchar int vertex_indices\nend_header\n");
-  file.write(bytes_of(sites));
+  file.write(NumberBytes(sites));
   // A signed index is what most readers expect; it fits, as sites are fewer than 2^30.
   static_assert(max_sites < (std::size_t{1} << 30U));
   mesh.write_faces(file, [&](std::string& bytes, Index face) {
     std::array<char, 1 + sizeof(Triple)> record = {3};
-    std::memcpy(record.data() + 1, mesh.triangulation.faces()[face].data(), sizeof(Triple));
+    char* end = record.data() + 1;
+    for (const Index corner : mesh.triangulation.faces()[face]) end = store(corner, end);
     bytes.append(record.data(), record.size());
   });
 }

@@ -44,13 +44,12 @@ void write_stl(AtomicFile& file, const MeshToWrite& mesh) {
   write_values<std::uint32_t>(file, 1, [=](std::size_t) { return num_faces; });
   mesh.write_faces(file, [&](std::string& bytes, Index face) {
     const auto& [a, b, c] = mesh.triangulation.faces()[face];
-    std::array<float, 12> numbers = {};
-    std::size_t size = 0;
+    std::array<char, 12 * sizeof(float) + 2> record = {};  // the last two: no attributes
+    char* end = record.data();
     for (const Point& p : {normal(sites[a], sites[b], sites[c]), sites[a], sites[b], sites[c]}) {
-      for (const double value : {p.x, p.y, p.z}) numbers[size++] = static_cast<float>(value);
+      for (const double value : {p.x, p.y, p.z}) end = store(static_cast<float>(value), end);
     }
-    bytes.append(reinterpret_cast<const char*>(numbers.data()), sizeof(numbers));
-    bytes.append(2, '\0');  // no attributes
+    bytes.append(record.data(), record.size());
   });
 }
 

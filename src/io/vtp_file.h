@@ -36,7 +36,7 @@ VtpArray vtp_array(const char* name, std::size_t count, Value value) {
 // The coordinates of points, which live until the array is written.
 inline VtpArray vtp_points(std::span<const Point> points) {
   return {"Points", "Float64", 3, points.size_bytes(),
-          [points](AtomicFile& file) { file.write(bytes_of(points)); }};
+          [points](AtomicFile& file) { file.write(NumberBytes(points)); }};
 }
 
 struct VtpMesh {

@@ -4,6 +4,7 @@ find_package(nlohmann_json 3.11 REQUIRED)
 
 rondel_add_test(io_test
   io_atomic_file_test.cpp
+  io_binary_test.cpp
   io_circles_test.cpp
   io_mutation_test.cpp
   io_number_test.cpp

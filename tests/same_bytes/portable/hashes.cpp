@@ -19,18 +19,32 @@
 namespace rondel::test {
 namespace {
 
-// FNV-1a (Fowler, Noll, Vo), on words of four bytes.
+// The number of a result that is stored there: an integer, or the bits of a double.
+template <class Number>
+Number number_at(const char* bytes) {
+  Number number = 0;
+  std::memcpy(&number, bytes, sizeof number);
+  return number;
+}
+
+// FNV-1a (Fowler, Noll, Vo), on words of four bytes; of a number of eight bytes the lower word first.
 class Hash {
  public:
   template <class T>
   void add(std::span<const T> values) {
-    static_assert(sizeof(T) % sizeof(std::uint32_t) == 0);
     add_word(values.size());
     const auto* bytes = reinterpret_cast<const char*>(values.data());
-    for (std::size_t i = 0; i < values.size_bytes(); i += sizeof(std::uint32_t)) {
-      std::uint32_t word = 0;
-      std::memcpy(&word, bytes + i, sizeof word);
-      add_word(word);
+    if constexpr (alignof(T) == alignof(std::uint32_t)) {
+      for (std::size_t i = 0; i < values.size_bytes(); i += sizeof(std::uint32_t)) {
+        add_word(number_at<std::uint32_t>(bytes + i));
+      }
+    } else {
+      static_assert(alignof(T) == alignof(std::uint64_t));
+      for (std::size_t i = 0; i < values.size_bytes(); i += sizeof(std::uint64_t)) {
+        const auto number = number_at<std::uint64_t>(bytes + i);
+        add_word(number & 0xffff'ffffU);
+        add_word(number >> 32U);
+      }
     }
   }
   template <class T>
