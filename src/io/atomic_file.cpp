@@ -2,149 +2,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/atomic_file.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <array>
 #include <atomic>
 #include <cerrno>
-#include <climits>
-#include <cstring>
-#include <filesystem>
 #include <system_error>
 
 #include "rondel/error.h"
-#include "rondel/io.h"
+#include "system/descriptor.h"
 
 namespace rondel::io {
 namespace {
 
 constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
-// The names of temporary files for signal handlers, which may touch neither the heap nor a lock. A
-// slot goes free -> claimed -> in_use -> free; handlers read slots in use, which do not change.
-class Temporaries {
- public:
-  // A file that finds no free slot is not removed by a signal.
-  static constexpr std::size_t num_slots = 8;
-
-  // Returns the number of the slot, for forget().
-  std::size_t remember(const std::string& name) noexcept {
-    if (name.size() >= PATH_MAX) return num_slots;
-    for (std::size_t i = 0; i < num_slots; ++i) {
-      State expected = State::free;
-      if (!states_[i].compare_exchange_strong(expected, State::claimed)) continue;
-      std::memcpy(names_[i].data(), name.c_str(), name.size() + 1);
-      states_[i].store(State::in_use);
-      return i;
-    }
-    return num_slots;
-  }
-
-  void forget(std::size_t slot) noexcept {
-    if (slot < num_slots) states_[slot].store(State::free);
-  }
-
-  void remove_all() const noexcept {
-    for (std::size_t i = 0; i < num_slots; ++i) {
-      if (states_[i].load() == State::in_use) ::unlink(names_[i].data());
-    }
-  }
-
- private:
-  enum class State : int { free, claimed, in_use };
-  static_assert(std::atomic<State>::is_always_lock_free);
-
-  std::array<std::atomic<State>, num_slots> states_ = {};
-  std::array<std::array<char, PATH_MAX>, num_slots> names_ = {};
-};
-
-Temporaries temporaries;
-
-// Short and independent of the target's name, which may be as long as a name can be.
-std::string temporary_name(const std::string& directory) {
-  static std::atomic<unsigned> counter{0};
-  return directory + ".rondel-" + std::to_string(::getpid()) + "-" +
-         std::to_string(counter.fetch_add(1)) + ".tmp";
-}
-
-// Where the file of that name is, or would be made: the last symbolic link may lead to nothing.
-std::string resolve_links(const std::string& path) {
-  constexpr int most_links = 40;  // as many as Linux follows
-  std::filesystem::path target = path;
-  std::error_code error;
-  for (int i = 0; i < most_links && std::filesystem::is_symlink(target, error); ++i) {
-    target = target.parent_path() / std::filesystem::read_symlink(target, error);
-    if (error) return path;
-  }
-  return target;
-}
-
 }  // namespace
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path), slot_(Temporaries::num_slots) {
+AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   buffer_.reserve(buffer_size);
   if (path == "-") {
     path_ = "<stdout>";
-    descriptor_ = STDOUT_FILENO;
-    return;
+    descriptor_ = system::standard_output;
+    system::keep_bytes(descriptor_);
+  } else {
+    open();
   }
-  struct stat status {};
-  const bool exists = ::stat(path.c_str(), &status) == 0;
-  if (!exists && errno != ENOENT) fail(errno);
-  if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
-  if (exists && ::access(path.c_str(), W_OK) != 0) fail(errno);
-  if (exists && !S_ISREG(status.st_mode)) {
-    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor_ < 0) fail(errno);
-    return;
-  }
-  target_ = resolve_links(path);
-  directory_ = target_.substr(0, target_.rfind('/') + 1);
-  create(exists ? 0600 : 0666);
-  if (exists) take_permissions(status);
 }
 
 AtomicFile::~AtomicFile() { discard(); }
-
-void AtomicFile::create(mode_t mode) {
-  // Without a name, so that not even a killed process leaves a file; some file systems cannot.
-  if (::access("/proc/self/fd", X_OK) == 0) {
-    descriptor_ = ::open(directory_.empty() ? "." : directory_.c_str(),
-                         O_WRONLY | O_TMPFILE | O_CLOEXEC, mode);
-    is_nameless_ = descriptor_ >= 0;
-  }
-  if (is_nameless_) return;
-  make_temporary([&](const char* name) {
-    descriptor_ = ::open(name, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
-    return descriptor_ >= 0;
-  });
-}
-
-// The file was made for its owner alone, so that it has at no moment more rights than it may have.
-// Where a file system knows no permissions, nothing is lost if it refuses them.
-void AtomicFile::take_permissions(const struct stat& replaced) {
-  constexpr auto same_owner = static_cast<uid_t>(-1);
-  mode_t mode = replaced.st_mode & 0777U;
-  if (::fchown(descriptor_, replaced.st_uid, replaced.st_gid) != 0 &&
-      ::fchown(descriptor_, same_owner, replaced.st_gid) != 0) {
-    mode &= 0707U | (mode & 07U) << 3U;  // this process has another group
-  }
-  static_cast<void>(::fchmod(descriptor_, mode));
-}
-
-void AtomicFile::make_temporary(const std::function<bool(const char*)>& make) {
-  for (;;) {
-    temporary_ = temporary_name(directory_);
-    slot_ = temporaries.remember(temporary_);
-    if (make(temporary_.c_str())) return;
-    const int error = errno;
-    temporaries.forget(slot_);
-    temporary_.clear();
-    if (error != EEXIST) fail(error);
-  }
-}
 
 void AtomicFile::write(std::string_view bytes) {
   if (buffer_.size() + bytes.size() > buffer_size) flush();
@@ -162,28 +45,29 @@ void AtomicFile::flush() {
 
 void AtomicFile::drain(std::string_view bytes) {
   while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
-    if (count >= 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(count));
-    } else if (errno != EINTR) {
-      fail(errno);
-    }
+    const std::ptrdiff_t count = system::write(descriptor_, bytes);
+    if (count < 0) fail(errno);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
   }
 }
 
 void AtomicFile::commit() {
   flush();
-  if (is_nameless_) {
-    const std::string link = "/proc/self/fd/" + std::to_string(descriptor_);
-    make_temporary([&](const char* name) {
-      return ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name, AT_SYMLINK_FOLLOW) == 0;
-    });
-  }
-  if (close() != 0) fail(errno);
-  if (temporary_.empty()) return;
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
-  temporaries.forget(slot_);
-  temporary_.clear();
+  rename();
+}
+
+// Short and independent of the target's name, which may be as long as a name can be.
+std::string AtomicFile::temporary_name() const {
+  static std::atomic<unsigned> counter{0};
+  return directory_ + ".rondel-" + std::to_string(system::process_number()) + "-" +
+         std::to_string(counter.fetch_add(1)) + ".tmp";
+}
+
+// Standard output stays open for others.
+int AtomicFile::close() noexcept {
+  const int descriptor = descriptor_;
+  descriptor_ = -1;
+  return descriptor < 0 || descriptor == system::standard_output ? 0 : system::close(descriptor);
 }
 
 void AtomicFile::fail(int error) {
@@ -191,25 +75,4 @@ void AtomicFile::fail(int error) {
   throw FileError(path_ + ": " + std::generic_category().message(error));
 }
 
-// Standard output stays open for others.
-int AtomicFile::close() noexcept {
-  const int descriptor = descriptor_;
-  descriptor_ = -1;
-  return descriptor < 0 || descriptor == STDOUT_FILENO ? 0 : ::close(descriptor);
-}
-
-void AtomicFile::discard() noexcept {
-  close();
-  if (temporary_.empty()) return;
-  ::unlink(temporary_.c_str());
-  temporaries.forget(slot_);
-  temporary_.clear();
-}
-
 }  // namespace rondel::io
-
-namespace rondel {
-
-void remove_temporaries() noexcept { io::temporaries.remove_all(); }
-
-}  // namespace rondel

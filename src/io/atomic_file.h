@@ -5,14 +5,10 @@
 // one, in the same directory and renamed at the end.
 #pragma once
 
-#include <sys/types.h>
-
 #include <cstddef>
 #include <functional>
 #include <string>
 #include <string_view>
-
-struct stat;
 
 namespace rondel::io {
 
@@ -29,6 +25,10 @@ namespace rondel::io {
 //    its permissions, owner and group as far as this process may give them, and never more than
 //    those permissions; where the group cannot be kept, its rights are those of others. A file that
 //    this process may not write is refused.
+//
+// On Windows paths are UTF-8, a symbolic link is replaced itself, a temporary file is deleted by the
+// system if its process ends before the renaming, and the permissions of every file are those that
+// its directory gives to new files.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
@@ -43,15 +43,25 @@ class AtomicFile {
   void commit();
 
  private:
-  void create(mode_t mode);
-  void take_permissions(const struct stat& replaced);
-  // Calls `make` with temporary names until one is new.
-  void make_temporary(const std::function<bool(const char*)>& make);
   void flush();
   void drain(std::string_view bytes);
+  [[nodiscard]] std::string temporary_name() const;
   [[noreturn]] void fail(int error);
+
   int close() noexcept;
+
+  // What depends on the system, in a file for each.
+  //
+  // Opens what is written directly, or makes the file that will replace it.
+  void open();
+  // Closes the file and gives it its name.
+  void rename();
+  // Ends the life of a file that has not been renamed, if there is one.
   void discard() noexcept;
+  // Makes the file that will be `target_`.
+  void create(unsigned permissions);
+  // Calls `make` with temporary names until one is new.
+  void make_temporary(const std::function<bool(const std::string&)>& make);
 
   std::string path_;
   std::string target_;  // path_ with symbolic links resolved
@@ -59,7 +69,7 @@ class AtomicFile {
   std::string temporary_;  // empty when the target is written directly or has no name yet
   bool is_nameless_ = false;
   std::string buffer_;
-  std::size_t slot_;  // in the registry of temporaries
+  std::size_t slot_ = 0;  // of `temporary_` in the registry, where it has a name
   int descriptor_ = -1;
 };
 

@@ -2,16 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/file_bytes.h"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <system_error>
 #include <utility>
 
 #include "rondel/error.h"
+#include "system/descriptor.h"
 
 namespace rondel::io {
 namespace {
@@ -30,12 +27,10 @@ constexpr std::pair<std::string_view, const char*> compressed[] = {{"\x1F\x8B", 
 
 FileBytes::FileBytes(const std::string& path)
     : name_(path == "-" ? "<stdin>" : path),
-      descriptor_(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+      descriptor_(path == "-" ? system::standard_input : system::open_to_read(path)) {
   if (descriptor_.value < 0) fail(errno);
-  struct stat status {};
-  if (::fstat(descriptor_.value, &status) != 0) fail(errno);
-  if (S_ISDIR(status.st_mode)) fail(EISDIR);
-  if (S_ISREG(status.st_mode)) claimed_size_ = static_cast<std::uint64_t>(status.st_size);
+  if (path == "-") system::keep_bytes(descriptor_.value);
+  claimed_size_ = system::size_of(descriptor_.value);
   bytes_ = system::make_large_array<char>(head_size);
   read_up_to(head_size);
   for (const auto& [magic, format] : compressed) {
@@ -45,7 +40,7 @@ FileBytes::FileBytes(const std::string& path)
 }
 
 FileBytes::Descriptor::~Descriptor() {
-  if (value > STDIN_FILENO) ::close(value);
+  if (value > system::standard_input) system::close(value);
 }
 
 // The file may be longer than it claims: those of /proc say that they are empty.
@@ -64,9 +59,10 @@ std::string_view FileBytes::text() {
 // Precondition: `bytes_` has room for so many.
 void FileBytes::read_up_to(std::size_t size) {
   while (num_read_ < size && !is_at_end_) {
-    const ssize_t count = ::read(descriptor_.value, bytes_.get() + num_read_, size - num_read_);
-    if (count < 0 && errno != EINTR) fail(errno);
-    if (count > 0) num_read_ += static_cast<std::size_t>(count);
+    const std::ptrdiff_t count =
+        system::read(descriptor_.value, bytes_.get() + num_read_, size - num_read_);
+    if (count < 0) fail(errno);
+    num_read_ += static_cast<std::size_t>(count);
     is_at_end_ = count == 0;
   }
 }

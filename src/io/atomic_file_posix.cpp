@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Atomic files of POSIX, without a name where the system has these (Linux).
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "io/atomic_file.h"
+#include "rondel/error.h"
+#include "rondel/io.h"
+
+namespace rondel::io {
+namespace {
+
+// The names of temporary files for signal handlers, which may touch neither the heap nor a lock. A
+// slot goes free -> claimed -> in_use -> free; handlers read slots in use, which do not change.
+class Temporaries {
+ public:
+  // A file that finds no free slot is not removed by a signal.
+  static constexpr std::size_t num_slots = 8;
+
+  // Returns the number of the slot, for forget().
+  std::size_t remember(const std::string& name) noexcept {
+    if (name.size() >= PATH_MAX) return num_slots;
+    for (std::size_t i = 0; i < num_slots; ++i) {
+      State expected = State::free;
+      if (!states_[i].compare_exchange_strong(expected, State::claimed)) continue;
+      std::memcpy(names_[i].data(), name.c_str(), name.size() + 1);
+      states_[i].store(State::in_use);
+      return i;
+    }
+    return num_slots;
+  }
+
+  void forget(std::size_t slot) noexcept {
+    if (slot < num_slots) states_[slot].store(State::free);
+  }
+
+  void remove_all() const noexcept {
+    for (std::size_t i = 0; i < num_slots; ++i) {
+      if (states_[i].load() == State::in_use) ::unlink(names_[i].data());
+    }
+  }
+
+ private:
+  enum class State : int { free, claimed, in_use };
+  static_assert(std::atomic<State>::is_always_lock_free);
+
+  std::array<std::atomic<State>, num_slots> states_ = {};
+  std::array<std::array<char, PATH_MAX>, num_slots> names_ = {};
+};
+
+Temporaries temporaries;
+
+// Where the file of that name is, or would be made: the last symbolic link may lead to nothing.
+std::string resolve_links(const std::string& path) {
+  constexpr int most_links = 40;  // as many as Linux follows
+  std::filesystem::path target = path;
+  std::error_code error;
+  for (int i = 0; i < most_links && std::filesystem::is_symlink(target, error); ++i) {
+    target = target.parent_path() / std::filesystem::read_symlink(target, error);
+    if (error) return path;
+  }
+  return target;
+}
+
+// The file was made for its owner alone, so that it has at no moment more rights than it may have.
+// Where a file system knows no permissions, nothing is lost if it refuses them.
+void take_permissions(int descriptor, const struct stat& replaced) {
+  constexpr auto same_owner = static_cast<uid_t>(-1);
+  mode_t mode = replaced.st_mode & 0777U;
+  if (::fchown(descriptor, replaced.st_uid, replaced.st_gid) != 0 &&
+      ::fchown(descriptor, same_owner, replaced.st_gid) != 0) {
+    mode &= 0707U | (mode & 07U) << 3U;  // this process has another group
+  }
+  static_cast<void>(::fchmod(descriptor, mode));
+}
+
+}  // namespace
+
+void AtomicFile::open() {
+  struct stat status {};
+  const bool exists = ::stat(path_.c_str(), &status) == 0;
+  if (!exists && errno != ENOENT) fail(errno);
+  if (exists && S_ISDIR(status.st_mode)) fail(EISDIR);
+  if (exists && ::access(path_.c_str(), W_OK) != 0) fail(errno);
+  if (exists && !S_ISREG(status.st_mode)) {
+    descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor_ < 0) fail(errno);
+    return;
+  }
+  target_ = resolve_links(path_);
+  directory_ = target_.substr(0, target_.rfind('/') + 1);
+  create(exists ? 0600 : 0666);
+  if (exists) take_permissions(descriptor_, status);
+}
+
+void AtomicFile::create(unsigned permissions) {
+  const auto mode = static_cast<mode_t>(permissions);
+#if defined(O_TMPFILE)
+  // Without a name, so that not even a killed process leaves a file; some file systems cannot.
+  if (::access("/proc/self/fd", X_OK) == 0) {
+    descriptor_ = ::open(directory_.empty() ? "." : directory_.c_str(),
+                         O_WRONLY | O_TMPFILE | O_CLOEXEC, mode);
+    is_nameless_ = descriptor_ >= 0;
+  }
+  if (is_nameless_) return;
+#endif
+  make_temporary([&](const std::string& name) {
+    descriptor_ = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    return descriptor_ >= 0;
+  });
+}
+
+void AtomicFile::make_temporary(const std::function<bool(const std::string&)>& make) {
+  for (;;) {
+    temporary_ = temporary_name();
+    slot_ = temporaries.remember(temporary_);
+    if (make(temporary_)) return;
+    const int error = errno;
+    temporaries.forget(slot_);
+    temporary_.clear();
+    if (error != EEXIST) fail(error);
+  }
+}
+
+void AtomicFile::rename() {
+  if (is_nameless_) {
+    const std::string link = "/proc/self/fd/" + std::to_string(descriptor_);
+    make_temporary([&](const std::string& name) {
+      return ::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, name.c_str(), AT_SYMLINK_FOLLOW) == 0;
+    });
+  }
+  if (close() != 0) fail(errno);
+  if (temporary_.empty()) return;
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(errno);
+  temporaries.forget(slot_);
+  temporary_.clear();
+}
+
+void AtomicFile::discard() noexcept {
+  close();
+  if (temporary_.empty()) return;
+  ::unlink(temporary_.c_str());
+  temporaries.forget(slot_);
+  temporary_.clear();
+}
+
+}  // namespace rondel::io
+
+namespace rondel {
+
+void remove_temporaries() noexcept { io::temporaries.remove_all(); }
+
+}  // namespace rondel
