@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "process.h"
 #include "report.h"
 #include "run.h"
 

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "process.h"
 #include "report.h"
 #include "rondel/delaunay.h"
 #include "run.h"

@@ -4,13 +4,8 @@
 // The command line tool: finds the command, runs it, and turns every failure into one
 // line on stderr and an exit status.
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
-#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -21,41 +16,11 @@
 
 #include "command.h"
 #include "help.h"
-#include "rondel/io.h"
+#include "process.h"
 #include "rondel/version.h"
 
 namespace rondel::cli {
 namespace {
-
-// Where a standard stream is closed, a file that is opened later would take its number and
-// receive its text. So it is opened the wrong way round: its use fails, as it should.
-void guard_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (fcntl(stream, F_GETFD) != -1) continue;
-    const int mode = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
-    if (open("/dev/null", mode) == -1) std::_Exit(failed);
-  }
-}
-
-extern "C" void rondel_remove_temporaries_and_end(int signal) {
-  remove_temporaries();
-  std::raise(signal);  // its default action has been restored (SA_RESETHAND)
-}
-
-// What ends the process leaves no temporary file; a reader that goes away (SIGPIPE) ends it
-// silently, as it does other tools. A limit on the size of files is an error, no signal.
-void handle_signals() {
-  struct sigaction action {};
-  action.sa_handler = &rondel_remove_temporaries_and_end;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigemptyset(&action.sa_mask);
-  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGTERM}) {
-    struct sigaction before {};
-    sigaction(signal, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
-  }
-  std::signal(SIGXFSZ, SIG_IGN);
-}
 
 int fail(ExitStatus status, std::string message) {
   std::ranges::replace(message, '\n', ' ');
@@ -64,9 +29,15 @@ int fail(ExitStatus status, std::string message) {
 }
 
 std::vector<Command> add_commands(CLI::App& tool) {
-  return {add_delaunay_command(tool), add_voronoi_command(tool), add_hull_command(tool),
-          add_check_command(tool),    add_plot_command(tool),    add_generate_command(tool),
-          add_info_command(tool),     add_locate_command(tool),  add_nearest_command(tool)};
+  return {
+    add_delaunay_command(tool), add_voronoi_command(tool), add_hull_command(tool),
+        add_check_command(tool),
+#if defined(RONDEL_HAS_PLOT)
+        add_plot_command(tool),
+#endif
+        add_generate_command(tool), add_info_command(tool), add_locate_command(tool),
+        add_nearest_command(tool)
+  };
 }
 
 const Command* selected(const std::vector<Command>& commands) {
@@ -150,7 +121,7 @@ int run_and_report(int argc, const char* const* argv) {
 }  // namespace rondel::cli
 
 int main(int argc, char** argv) {
-  rondel::cli::guard_standard_streams();
-  rondel::cli::handle_signals();
-  return rondel::cli::run_and_report(argc, argv);
+  rondel::cli::prepare_process();
+  const std::vector<const char*> arguments = rondel::cli::arguments_of_process(argc, argv);
+  return rondel::cli::run_and_report(static_cast<int>(arguments.size()), arguments.data());
 }

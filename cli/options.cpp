@@ -123,7 +123,7 @@ CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const 
 }
 
 std::string CommonOptions::format() const {
-  std::string format = std::filesystem::path(output).extension();
+  std::string format = std::filesystem::path(output).extension().string();
   if (!output_format.empty()) format = output_format;
   if (format.starts_with('.')) format.erase(0, 1);
   std::ranges::transform(format, format.begin(),

@@ -3,13 +3,13 @@
 
 #include "progress_line.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <mutex>
 #include <string>
+
+#include "process.h"
 
 namespace rondel::cli {
 
@@ -43,7 +43,7 @@ struct ProgressLine::Screen {
 };
 
 ProgressLine::ProgressLine(bool is_quiet) {
-  if (is_quiet || isatty(STDERR_FILENO) == 0) return;
+  if (is_quiet || !has_terminal()) return;
   screen_ = std::make_shared<Screen>();
   callback_ = [screen = screen_](std::string_view stage, double fraction) {
     screen->show(stage, fraction);

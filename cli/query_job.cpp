@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "process.h"
 #include "report.h"
 
 namespace rondel::cli {

@@ -3,10 +3,10 @@
 
 #include "report.h"
 
-#include <sys/resource.h>
-
 #include <cstdio>
 #include <nlohmann/json.hpp>
+
+#include "process.h"
 
 namespace rondel::cli {
 namespace {
@@ -48,13 +48,6 @@ const char* name_of(Model model) { return model == Model::projected ? "projected
 
 std::string count(std::size_t number, const std::string& one, const std::string& many) {
   return std::to_string(number) + ' ' + (number == 1 ? one : many);
-}
-
-std::uint64_t peak_memory_bytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  constexpr std::uint64_t unit = 1024;  // Linux counts ru_maxrss in KiB
-  return static_cast<std::uint64_t>(usage.ru_maxrss) * unit;
 }
 
 namespace {

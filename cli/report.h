@@ -19,9 +19,6 @@ const char* name_of(Model model);
 /// "1 site", "2 sites".
 std::string count(std::size_t number, const std::string& one, const std::string& many);
 
-/// The largest resident size of this process so far.
-std::uint64_t peak_memory_bytes();
-
 /// The JSON object of a triangulation, with a newline. Its keys are a contract. `unlocated` counts
 /// the features of the input that have no geometry.
 std::string json_report(const Triangulation& triangulation, const Seconds& seconds,

@@ -61,7 +61,7 @@ function(rondel_harden target)
   target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS
     $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:_FORTIFY_SOURCE=2>)
   get_target_property(type ${target} TYPE)
-  if(type STREQUAL EXECUTABLE)
+  if(type STREQUAL EXECUTABLE AND NOT WIN32)
     target_link_options(${target} PRIVATE -pie -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
   endif()
 endfunction()

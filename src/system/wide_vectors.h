@@ -6,7 +6,8 @@
 // multiply-adds are off everywhere.
 #pragma once
 
-#if defined(__GNUC__) && defined(__x86_64__) && !defined(RONDEL_NARROW_VECTORS)
+// GCC for Windows stores vectors of 256 bits on a stack that is aligned to 128 bits only.
+#if defined(__GNUC__) && defined(__x86_64__) && !defined(_WIN32) && !defined(RONDEL_NARROW_VECTORS)
 #define RONDEL_WIDE_VECTORS
 #define RONDEL_ALWAYS_INLINE __attribute__((always_inline))
 #else

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-if(NOT RONDEL_BUILD_TOOL)
+if(NOT RONDEL_BUILD_TOOL OR NOT RONDEL_BUILD_PLOT)
   return()
 endif()
 rondel_add_test(unit_plot

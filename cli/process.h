@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// What the tool asks of the system that runs it: process_posix.cpp, process_windows.cpp.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace rondel::cli {
+
+/// To be called first. From then on standard streams are files that cannot be mistaken for others,
+/// which carry the same bytes on every system, and what ends the process leaves no temporary file.
+void prepare_process();
+
+/// The arguments of main(); in UTF-8 on Windows.
+std::vector<const char*> arguments_of_process(int argc, const char* const* argv);
+
+/// Whether standard error is a terminal that obeys the sequence that clears a line.
+bool has_terminal();
+
+/// The largest resident size of this process so far.
+std::uint64_t peak_memory_bytes();
+
+}  // namespace rondel::cli

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+
+#include "command.h"
+#include "process.h"
+#include "rondel/io.h"
+
+namespace rondel::cli {
+namespace {
+
+// Where a standard stream is closed, a file that is opened later would take its number and
+// receive its text. So it is opened the wrong way round: its use fails, as it should.
+void guard_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (fcntl(stream, F_GETFD) != -1) continue;
+    const int mode = stream == STDIN_FILENO ? O_WRONLY : O_RDONLY;
+    if (open("/dev/null", mode) == -1) std::_Exit(failed);
+  }
+}
+
+extern "C" void rondel_remove_temporaries_and_end(int signal) {
+  remove_temporaries();
+  std::raise(signal);  // its default action has been restored (SA_RESETHAND)
+}
+
+// What ends the process leaves no temporary file; a reader that goes away (SIGPIPE) ends it
+// silently, as it does other tools. A limit on the size of files is an error, no signal.
+void handle_signals() {
+  struct sigaction action {};
+  action.sa_handler = &rondel_remove_temporaries_and_end;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigemptyset(&action.sa_mask);
+  for (const int signal : {SIGHUP, SIGINT, SIGPIPE, SIGTERM}) {
+    struct sigaction before {};
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+}  // namespace
+
+void prepare_process() {
+  guard_standard_streams();
+  handle_signals();
+}
+
+std::vector<const char*> arguments_of_process(int argc, const char* const* argv) {
+  return {argv, argv + argc};
+}
+
+bool has_terminal() { return isatty(STDERR_FILENO) != 0; }
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  constexpr std::uint64_t unit = 1024;  // Linux counts ru_maxrss in KiB
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * unit;
+}
+
+}  // namespace rondel::cli
