@@ -57,13 +57,17 @@ struct NumbersOf<Triple> {
   using Number = Index;
 };
 template <>
+struct NumbersOf<Duplicate> {
+  using Number = Index;
+};
+template <>
 struct NumbersOf<Hidden> {
   using Number = Index;
 };
 static_assert(sizeof(Point) == 3 * sizeof(double));
 static_assert(sizeof(LonLat) == 2 * sizeof(double));
 static_assert(sizeof(Triple) == 3 * sizeof(Index));
-static_assert(sizeof(Hidden) == 2 * sizeof(Index));
+static_assert(sizeof(Duplicate) == 2 * sizeof(Index) && sizeof(Hidden) == 2 * sizeof(Index));
 
 // The bytes of an array of numbers, or of structures of numbers without gaps: the array's own, where
 // the machine stores numbers in the same order, otherwise those of a copy that lives as long as this.

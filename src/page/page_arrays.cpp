@@ -10,19 +10,18 @@
 #include <string_view>
 #include <utility>
 
+#include "io/binary.h"
+
 namespace rondel::page {
 namespace {
-
-static_assert(std::endian::native == std::endian::little);
-static_assert(sizeof(Point) == 3 * sizeof(double));
-static_assert(sizeof(Triple) == 3 * sizeof(Index));
-static_assert(sizeof(Duplicate) == 2 * sizeof(Index) && sizeof(Hidden) == 2 * sizeof(Index));
 
 template <class Row>
 PageArray page_array(std::string name, const char* kind, std::size_t width,
                      std::span<const Row> rows) {
-  const std::string_view bytes(reinterpret_cast<const char*>(rows.data()), rows.size_bytes());
-  return {std::move(name), kind, std::string(bytes), bytes.size() / width};
+  const io::NumberBytes numbers(rows);
+  std::string bytes(static_cast<std::string_view>(numbers));
+  const std::size_t length = bytes.size() / width;
+  return {std::move(name), kind, std::move(bytes), length};
 }
 
 template <class Row>

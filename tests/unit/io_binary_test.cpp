@@ -62,6 +62,7 @@ void expect_numbers(const std::vector<Element>& elements, const std::vector<Numb
 TEST(binary, structures_are_written_number_by_number) {
   expect_numbers<Point>({{1, 2.5, -3}, {4, 5, 0x1p-1074}}, {1, 2.5, -3, 4, 5, 0x1p-1074});
   expect_numbers<LonLat>({{7.25, -45}}, {7.25, -45});
+  expect_numbers<Duplicate>({{3, 1U << 28U}}, {3, 1U << 28U});
   expect_numbers<Hidden>({{17, 1U << 29U}}, {17, 1U << 29U});
   expect_numbers<std::uint64_t>({1, 1ULL << 40U}, {1, 1ULL << 40U});
   expect_numbers<std::uint8_t>({1, 255}, {1, 255});
