@@ -52,16 +52,16 @@ function(rondel_compile_alone target)
 endfunction()
 
 # For what reads files of strangers. A sanitizer checks more, and cannot look through _FORTIFY_SOURCE,
-# which needs an optimizing build.
+# which needs an optimizing build. What MinGW checks with needs a library that its users would have to link.
 function(rondel_harden target)
-  if(RONDEL_SANITIZE)
+  if(RONDEL_SANITIZE OR WIN32)
     return()
   endif()
   target_compile_options(${target} PRIVATE -fstack-protector-strong)
   target_compile_definitions(${target} PRIVATE _GLIBCXX_ASSERTIONS
     $<$<CONFIG:Release,RelWithDebInfo,MinSizeRel>:_FORTIFY_SOURCE=2>)
   get_target_property(type ${target} TYPE)
-  if(type STREQUAL EXECUTABLE AND NOT WIN32)
+  if(type STREQUAL EXECUTABLE)
     target_link_options(${target} PRIVATE -pie -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack)
   endif()
 endfunction()
