@@ -206,19 +206,19 @@ std::optional<Sign> side_of_circle_integers_exact(const Quad& q, const Point& ce
   return exact::side_of_rays_in_integers(q, center);
 }
 
-Sign side_of_circle_exact(const Quad& points, const Point& center) {
+Sign side_of_circle_exact(const Quad& q, const Point& center) {
   const auto by_edges = [&](const auto& step) {
-    return sign_by_edges(rays_to(points, center, step));
+    return sign_by_edges(rays_to(q, center, step));
   };
   const auto by_equal_lengths = [&](const auto& step) {
-    return sign_by_equal_lengths(rays_to(points, center, step));
+    return sign_by_equal_lengths(rays_to(q, center, step));
   };
   std::optional<Sign> sign = exact::first_known_sign<4>(by_equal_lengths);
   if (!sign) sign = exact::first_known_sign<2>(by_edges);
-  if (!sign) sign = exact::side_of_rays_in_integers(points, center);
+  if (!sign) sign = exact::side_of_rays_in_integers(q, center);
   if (!sign) sign = exact::first_known_sign<6>(by_equal_lengths);
   if (!sign) sign = exact::first_known_sign<4, 8, 16>(by_edges);
-  return sign ? *sign : sign_by_integers(points, center);
+  return sign ? *sign : sign_by_integers(q, center);
 }
 
 }  // namespace rondel::predicates
