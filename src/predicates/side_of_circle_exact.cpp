@@ -207,9 +207,7 @@ std::optional<Sign> side_of_circle_integers_exact(const Quad& q, const Point& ce
 }
 
 Sign side_of_circle_exact(const Quad& q, const Point& center) {
-  const auto by_edges = [&](const auto& step) {
-    return sign_by_edges(rays_to(q, center, step));
-  };
+  const auto by_edges = [&](const auto& step) { return sign_by_edges(rays_to(q, center, step)); };
   const auto by_equal_lengths = [&](const auto& step) {
     return sign_by_equal_lengths(rays_to(q, center, step));
   };
