@@ -15,6 +15,13 @@
 // To find a bridge, look along a line that is parallel to the plane of the great circle: an edge of
 // the outline is one of the hull, and two edges of the outline cross the plane. Doubles guess the
 // bridge, and exact predicates prove it.
+//
+// in    two parts of a graph, each by an edge of its boundary, and the sites to ask
+// out   an edge of the triangulation of the sphere, or that this does not work
+// index local sites and halfedges of the graph
+//
+// It does not work where the guess is refuted, where a part lies on one great circle, and where a
+// weighted site lies on the great circle through the bridge, below it (docs/theory/blocks.md).
 #pragma once
 
 #include <array>
@@ -34,14 +41,13 @@ class Closing {
 
   Closing(GivenSites<T>& sites, PlaneGraph& graph) : sites_(sites), graph_(graph) {}
 
-  // The parts lie on the side to which `normal` points and on the other one of a plane through the
-  // center, which is inside the hull of all. Returns an edge of the result, or no_index if this
-  // does not work; then the graph is worth nothing.
+  // The parts have edges, and lie on the side to which `normal` points and on the other one of a
+  // plane through the center, which is inside the hull of all. Returns an edge of the result, or
+  // no_index if this does not work; then the graph is worth nothing.
   Edge run(const Part& left, const Part& right, const Vector& normal, const Vector& along) {
-    if (left.edge == no_index || right.edge == no_index) return no_index;
     Bridge bridge = {left.edge, right.edge};
-    if (!look_along(cross(normal, along), normal, bridge) || !is_edge_of_hull(bridge))
-      return no_index;
+    look_along(cross(normal, along), normal, bridge);
+    if (!is_edge_of_hull(bridge)) return no_index;
     const Index l = graph_.origin(bridge.left);
     const Index r = graph_.origin(bridge.right);
     const auto after_left = clear_way(bridge.left, r);
@@ -84,8 +90,8 @@ class Closing {
   }
 
   // Two convex polygons in the plane, the outlines of the parts seen along a line: moves the
-  // bridge to their common tangent, on the side of `side`.
-  bool look_along(const Vector& side, const Vector& normal, Bridge& bridge) const {
+  // bridge to their common tangent, on the side of `side`, or somewhere if roundings mislead it.
+  void look_along(const Vector& side, const Vector& normal, Bridge& bridge) const {
     constexpr int enough = 1000;
     for (int i = 0; i < enough; ++i) {
       const Vector step = sites_.from_center(graph_.origin(bridge.left)) -
@@ -96,9 +102,8 @@ class Closing {
                          out * side.z + over * normal.z};
       const bool has_left_moved = move_up(bridge.left, up);
       const bool has_right_moved = move_up(bridge.right, up);
-      if (!has_left_moved && !has_right_moved) return true;
+      if (!has_left_moved && !has_right_moved) return;
     }
-    return false;
   }
 
   // All that the hull of the sites and the center has at either end of the bridge, but for the
@@ -133,8 +138,8 @@ class Closing {
   }
 
   // Deletes all edges that an edge from the origin of `from` to a vertex of the other part would
-  // cross, seen from the center. Returns the edge after which it comes in its ring, or nothing if
-  // it would meet a vertex.
+  // cross, seen from the center. Returns the edge after which it comes in its ring; or nothing if
+  // it would meet a vertex, or if the origin is in the middle of a part on one great circle.
   std::optional<Edge> clear_way(Edge from, Index to) {
     const Index v = graph_.origin(from);
     std::optional<Edge> outer;
@@ -180,7 +185,8 @@ class Closing {
   }
 
   // As Merge::sew, from the bridge to itself. The center is inside the hull, so no face of it is
-  // in a plane with the center, and there is a next face until the ring is closed.
+  // in a plane with the center, and there is a next face until the ring is closed. Returns whether
+  // it is, which only an error in what came before can make false.
   bool sew_around(Edge bridge) {
     Edge base = bridge;
     Index l = graph_.origin(base);
@@ -194,7 +200,6 @@ class Closing {
       }
       const Edge left = first_stable<true>(step, base, bridge);
       const Edge right = first_stable<false>(step, base ^ 1, bridge ^ 1);
-      if (left == no_index && right == no_index) return false;
       const Index a = left == no_index ? no_index : graph_.target(left);
       const Index b = right == no_index ? no_index : graph_.target(right);
       // The bridge leads to a candidate of one side, and is what the other side comes to; but the

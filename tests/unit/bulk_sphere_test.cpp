@@ -6,6 +6,7 @@
 
 #include "bulk/sphere.h"
 #include "bulk_support.h"
+#include "rondel/delaunay.h"
 
 namespace rondel::test {
 namespace {
@@ -171,6 +172,56 @@ TEST(bulk_sphere_general, bridge_that_is_none) {
                {5.826367577510716, 14.80637756746362, 1.6806618284003758}};
   BulkCase sites(set, Model::projected);
   sites.run_whole();  // gives nothing, or what is right
+}
+
+// What follows, the other way, is right.
+void expect_left_to_others(std::vector<Point> sites, Model model) {
+  SiteSet set;
+  set.sites = std::move(sites);
+  ASSERT_TRUE(bulk::surround_center(set.sites, {}));
+  BulkCase whole(set, model);
+  EXPECT_FALSE(whole.run_whole());
+  const Triangulation built = delaunay(set.sites, {.model = model});
+  EXPECT_TRUE(std::ranges::equal(built.faces(), whole.expected().faces));
+}
+
+// The half of the positive x and y axis lies on the plane x = y, and the bridge ends in its middle.
+TEST(bulk_sphere_general, half_on_one_great_circle) {
+  const std::vector<Point> others = {{-9, 1, -1}, {-9, 1, 1}, {1, -9, -1}, {1, -9, 1}};
+  std::vector<Point> sites = {{1, 1, -6}, {-6, 5, -2}, {2, -3, -3}, {-2, -1, -3}, {1, 1, 2},
+                              {-2, 1, 5}, {3, -6, 5},  {-2, -1, 1}, {3, 3, 9},    {2, 2, -8}};
+  sites.insert(sites.end(), others.begin(), others.end());
+  expect_left_to_others(sites, Model::projected);
+  sites = {{1, 1, -3}, {-6, -3, -3}, {1, 1, 1}, {-5, 3, 4}, {-2, -1, 6}, {3, 3, -6}};
+  sites.insert(sites.end(), others.begin(), others.end());
+  expect_left_to_others(sites, Model::weighted);
+}
+
+// The last site lies on the great circle of the bridge and below it, next to one of its ends.
+TEST(bulk_sphere_general, hidden_site_along_the_bridge) {
+  expect_left_to_others({{72, -32, 40},
+                         {48, -16, -56},
+                         {32, -48, -40},
+                         {16, 32, 72},
+                         {-24, -32, -40},
+                         {-40, 40, 32},
+                         {56, 56, -72},
+                         {-16, 40, -72},
+                         {-72, -24, 40},
+                         {-8, 48, 16},
+                         {32, 8, -72},
+                         {6, -5.5, -7.25}},
+                        Model::weighted);
+}
+
+// One of the last two lies so, and is met behind an edge that the bridge crosses.
+TEST(bulk_sphere_general, hidden_site_on_the_way_of_the_bridge) {
+  expect_left_to_others(
+      {{-72, -16, 8}, {-72, -32, 24}, {72, 72, 16},  {48, 64, -40},    {-32, -40, 72},
+       {-24, 72, 64}, {40, -16, 32},  {8, -72, -56}, {72, 72, -16},    {-64, -32, -56},
+       {72, 32, 64},  {24, 24, -40},  {-8, -32, 48}, {-24, -56, 72},   {48, -64, 16},
+       {0, 0, 24},    {-40, 8, -64},  {-72, -8, 16}, {4.5, -9.5, -13}, {8, 5.5, -9.75}},
+      Model::weighted);
 }
 
 TEST(bulk_sphere_general, differences_from_the_center_that_overflow) {
