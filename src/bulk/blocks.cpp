@@ -59,7 +59,7 @@ class BlockBuilder {
     std::vector<Index> sites = piece_.hidden();
     for (const Edge e : open_) sites.push_back(piece_.graph().origin(e));
     std::ranges::sort(sites);
-    return sites.size() - std::ranges::unique(sites).size();
+    return static_cast<std::size_t>(std::unique(sites.begin(), sites.end()) - sites.begin());
   }
 
  private:

@@ -48,25 +48,24 @@ class Certificate {
 template <class IsFinal>
 void find_open_faces(PlaneGraph& graph, PlaneGraph::Edge boundary,
                      std::vector<PlaneGraph::Edge>& open, IsFinal is_final) {
-  using Edge = PlaneGraph::Edge;
   open.clear();
   graph.clear_faces();
-  const auto add = [&](Edge e) {
+  const auto add = [&](PlaneGraph::Edge e) {
     graph.set_face(e, open_face);
     open.push_back(e);
   };
-  Edge e = boundary;
+  PlaneGraph::Edge e = boundary;
   do {
     add(e ^ 1);
     e = graph.next(e ^ 1);
   } while (e != boundary);
   for (std::size_t i = 0; i < open.size(); ++i) {
-    const Edge f = open[i] ^ 1;
+    const PlaneGraph::Edge f = open[i] ^ 1;
     if (graph.face(f) == open_face) continue;
-    const Edge g = graph.face_next(f);
-    const Edge h = graph.face_next(g);
+    const PlaneGraph::Edge g = graph.face_next(f);
+    const PlaneGraph::Edge h = graph.face_next(g);
     if (is_final(graph.origin(f), graph.origin(g), graph.origin(h))) continue;
-    for (const Edge side : {f, g, h}) add(side);
+    for (const PlaneGraph::Edge side : {f, g, h}) add(side);
   }
 }
 

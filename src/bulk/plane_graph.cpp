@@ -6,14 +6,13 @@
 namespace rondel::bulk {
 
 std::vector<Index> remove_unreached(PlaneGraph& graph, PlaneGraph::Edge start, Index num_vertices) {
-  using Edge = PlaneGraph::Edge;
   std::vector<bool> is_reached(num_vertices, false);
-  std::vector<Edge> stack = {start};
+  std::vector<PlaneGraph::Edge> stack = {start};
   is_reached[graph.origin(start)] = true;
   while (!stack.empty()) {
-    const Edge first = stack.back();
+    const PlaneGraph::Edge first = stack.back();
     stack.pop_back();
-    Edge e = first;
+    PlaneGraph::Edge e = first;
     do {
       if (!is_reached[graph.target(e)]) {
         is_reached[graph.target(e)] = true;
@@ -26,7 +25,7 @@ std::vector<Index> remove_unreached(PlaneGraph& graph, PlaneGraph::Edge start, I
   for (Index i = 0; i < num_vertices; ++i) {
     if (!is_reached[i]) unreached.push_back(i);
   }
-  for (Edge e = 0; e < graph.edge_limit(); e += 2) {
+  for (PlaneGraph::Edge e = 0; e < graph.edge_limit(); e += 2) {
     if (graph.is_alive(e) && !is_reached[graph.origin(e)]) graph.remove(e);
   }
   return unreached;

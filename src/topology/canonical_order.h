@@ -31,7 +31,7 @@ inline unsigned first_corner(const std::array<Index, 3>& ranks) {
 // must. second(face) is the rank of the second corner of a face.
 template <class Faces, class Second>
 void start_with_first(Faces&& faces, Second second) {
-  std::ranges::rotate(faces, std::ranges::min_element(faces, {}, second));
+  std::rotate(faces.begin(), std::ranges::min_element(faces, {}, second), faces.end());
 }
 
 }  // namespace rondel::topology
