@@ -20,7 +20,7 @@
 // out   an edge of the triangulation of the sphere, or that this does not work
 // index local sites and halfedges of the graph
 //
-// It does not work where the guess is refuted, where a part lies on one great circle, and where a
+// The closing does not work where the guess is refuted, where a part lies on one great circle, and where a
 // weighted site lies on the great circle through the bridge, below it (docs/theory/blocks.md).
 #pragma once
 

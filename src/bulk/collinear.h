@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Three sites on one great circle, within a hemisphere.
+//
+// in    three points and the center of the sphere
+// out   whether one lies between the others
+// index none
 #pragma once
 
 #include "rondel/types.h"

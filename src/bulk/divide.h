@@ -8,6 +8,10 @@
 //
 // The curve splits a square by a great circle into two parts, each an interval of the spatial
 // order, and merge.h makes one of two.
+//
+// in    the sites of a square, with positions that say on which side of a split they lie
+// out   one part of a graph, or that this does not work
+// index local sites and halfedges of the graph
 #pragma once
 
 #include <algorithm>

@@ -8,6 +8,10 @@
 //      |   / |         around a quadrilateral with         /|\        or with 3 inside
 //      | /   |         the diagonal 0-2,                  / 3 \       the triangle 0, 1, 2.
 //      0-----1                                           0-----1
+//
+// in    three or four sites, counterclockwise as in these pictures
+// out   their edges in a graph
+// index local sites
 #pragma once
 
 #include <array>

@@ -92,7 +92,8 @@ class Piece {
     return !merge.has_failed();
   }
 
-  // The same with a piece that fills the other side of a great circle, see Closing::run.
+  // Merges this piece and the next one in memory, which fills the other side of a great circle, to a
+  // sphere, see Closing::run. Returns false if this does not work.
   bool close(const Piece& next, const predicates::Vector& normal, const predicates::Vector& along) {
     append(next);
     part_.edge = Closing<T>(given_, graph_).run(part_, next.part_, normal, along);

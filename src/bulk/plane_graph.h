@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The data structure of divide and conquer: a graph drawn without crossings, without coordinates.
-// It also holds what a triangulation cannot: single edges, chains, an outer face.
+// A graph also holds what a triangulation cannot: single edges, chains, an outer face.
 //
 //            c         Halfedges come in pairs e, e^1. Those that leave one vertex form a ring:
 //           / \        next(e) is the one counterclockwise after e, previous(e) the one before.
@@ -11,6 +11,10 @@
 //        a---e---b
 //
 // (Guibas and Stolfi, ACM Trans. Graph. 4, 1985, without the dual graph.)
+//
+// in    vertices by number, edges one by one
+// out   rings of edges around vertices and faces
+// index local sites are the vertices; an edge is a halfedge; a name of a face is what the user says
 #pragma once
 
 #include <algorithm>
@@ -133,7 +137,7 @@ class PlaneGraph {
   Edge add(Index a, Index b, Edge f, Edge g) {
     return add(a, b, {rings_[f].next, f}, {rings_[g].next, g});
   }
-  // The same with the edges next to it in both rings.
+  // A new pair from a to b, given the edges next to it in both rings.
   [[gnu::always_inline]] Edge add(Index a, Index b, const Links& at_a, const Links& at_b) {
     const Edge e = new_pair();
     rings_[e] = at_a;

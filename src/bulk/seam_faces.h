@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The faces that fill the seam, and the surface that they and the final faces of the blocks form.
+//
+// in    what blocks leave to the seam, and the triangulation of the seam sites
+// out   which of its faces belong to the result, linked to the final faces of the blocks
+// index seam sites; a face is named as blocks name theirs, and faces of the seam follow
 #pragma once
 
 #include <span>
@@ -25,7 +29,7 @@ class SeamFaces {
   [[nodiscard]] std::size_t num_all() const { return seam_.faces.size(); }
   // The faces that seam site s owns, counterclockwise.
   [[nodiscard]] std::span<const Index> owned_by(Index s) const { return owned_by(s, s + 1); }
-  // Those of seam sites begin ... end-1.
+  // The faces that seam sites begin ... end-1 own.
   [[nodiscard]] std::span<const Index> owned_by(Index begin, Index end) const {
     return std::span(owned_).subspan(owned_begin_[begin], owned_begin_[end] - owned_begin_[begin]);
   }

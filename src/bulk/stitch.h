@@ -8,6 +8,10 @@
 //    '------' |seam    triangulation of the seam sites as well. A search from the edges of the
 //     \final \|        region finds them among its faces, and so which ones to leave out.
 //      '-----'
+//
+// in    the faces that blocks wrote, and the triangulation of the seam sites
+// out   the arrays of the result, in place of the faces of the blocks
+// index preliminary and final names of faces; ranks, seam sites, names of sites
 #pragma once
 
 #include <span>
