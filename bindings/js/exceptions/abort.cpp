@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // How the C++ runtime ends a program that broke its contract: by a trap, which JavaScript sees as a
-// WebAssembly.RuntimeError. The runtime's own versions print a message first, for which they bring
-// printf along, a tenth of the module; there is nobody to read it.
+// WebAssembly.RuntimeError. The runtime's own versions print a message first; there is nobody to read it.
 
 #include <cstdint>
 #include <version>

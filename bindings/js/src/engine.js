@@ -106,7 +106,9 @@ export class Engine {
   /** A copy of n 64-bit numbers, each below 2^32 as all that lies in this memory. @param {number} place @param {number} n */
   offsets(place, n) {
     const words = new Uint32Array(this.memory.buffer, place >>> 0, 2 * n);
-    return Uint32Array.from({ length: n }, (_, i) => words[2 * i]);
+    const result = new Uint32Array(n);
+    for (let i = 0; i < n; ++i) result[i] = words[2 * i];
+    return result;
   }
 
   /** @param {number} place of a text that ends with a zero */

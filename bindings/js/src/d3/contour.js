@@ -8,6 +8,7 @@
 // on the right, so that the ring surrounds it clockwise. The surface is closed, and so is every ring.
 
 import { geoDelaunay } from "./delaunay.js";
+import { following } from "./planar.js";
 import { interpolate } from "./sphere.js";
 import { niceTicks } from "./ticks.js";
 
@@ -15,9 +16,6 @@ import { niceTicks } from "./ticks.js";
 /** @typedef {{triangles: ArrayLike<number>, halfedges: ArrayLike<number>}} Surface */
 
 const defaultTicks = 10;
-
-/** @param {number} h the halfedge of the same triangle that follows */
-const next = (h) => (h % 3 === 2 ? h - 2 : h + 1);
 
 /**
  * The rings of a threshold.
@@ -28,7 +26,7 @@ const next = (h) => (h % 3 === 2 ? h - 2 : h + 1);
  */
 function ringsOf({ triangles, halfedges }, values, threshold, pointBetween) {
   /** @param {number} h */
-  const rises = (h) => values[triangles[h]] < threshold && values[triangles[next(h)]] >= threshold;
+  const rises = (h) => values[triangles[h]] < threshold && values[triangles[following(h)]] >= threshold;
   const isVisited = new Uint8Array(triangles?.length ?? 0);
   const rings = [];
   for (let first = 0; first < isVisited.length; ++first) {
@@ -37,10 +35,10 @@ function ringsOf({ triangles, halfedges }, values, threshold, pointBetween) {
     let h = first;
     do {
       isVisited[h] = 1;
-      const [i, j] = [triangles[h], triangles[next(h)]];
+      const [i, j] = [triangles[h], triangles[following(h)]];
       ring.push(pointBetween(i, j, (threshold - values[i]) / (values[j] - values[i])));
-      const isThirdHigh = values[triangles[next(next(h))]] >= threshold;
-      h = halfedges[isThirdHigh ? next(next(h)) : next(h)];
+      const isThirdHigh = values[triangles[following(following(h))]] >= threshold;
+      h = halfedges[isThirdHigh ? following(following(h)) : following(h)];
     } while (h !== first);
     ring.push(ring[0]);
     rings.push(ring);

@@ -4,11 +4,11 @@
 // geoDelaunay() of d3-geo-voronoi 2.1, with properties that are made when they are first read.
 
 import { noIndex, unitVectors, voronoi } from "../triangulation.js";
-import { planarView } from "./planar.js";
-import { cross, dot, toLonLat, withinPoles } from "./sphere.js";
+import { hullOf } from "./hull.js";
+import { following, planarView } from "./planar.js";
+import { toLonLat, withinPoles } from "./sphere.js";
 
 /** @typedef {import("./sphere.js").LonLat} LonLat */
-/** @typedef {import("./sphere.js").Vector} Vector */
 /** @typedef {[number, number]} Pair */
 
 /**
@@ -37,51 +37,6 @@ function finitePositions(points) {
   return positions;
 }
 
-/** @param {number} h the halfedge, or corner, of the same face that follows */
-const following = (h) => (h % 3 === 2 ? h - 2 : h + 1);
-
-// Of sites on one side of a hull, say those on a meridian, rounding moves some inside, by less than this, in radians.
-const flat = 1e-14;
-
-/** Which of its edges a face is as flat as, as the corner opposite to the longest; none if it is not flat.
- * @param {import("../triangulation.js").VoronoiDiagram} diagram
- * @param {number} face */
-function flatCorner({ triangles, points }, face) {
-  /** @type {Vector[]} */
-  const p = [0, 1, 2].map((i) => {
-    const at = 3 * triangles[3 * face + i];
-    return [points[at], points[at + 1], points[at + 2]];
-  });
-  /** @param {Vector} a @param {Vector} b @returns {Vector} */
-  const minus = (a, b) => [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-  const lengths = [0, 1, 2].map((i) => Math.hypot(...minus(p[(i + 1) % 3], p[(i + 2) % 3])));
-  const longest = lengths.indexOf(Math.max(...lengths));
-  const volume = dot(p[0], cross(minus(p[1], p[0]), minus(p[2], p[0])));
-  return volume <= flat * lengths[longest] ? 3 * face + longest : -1;
-}
-
-/**
- * The ghost faces, and from them on inwards the faces that are flat.
- * @param {import("../triangulation.js").VoronoiDiagram} diagram
- * @param {Uint8Array} isGhost
- */
-function outsideOfHull(diagram, isGhost) {
-  const { neighbors } = diagram;
-  const isOutside = isGhost.slice();
-  const waiting = Array.from(diagram.ghostFaces);
-  for (let face = waiting.pop(); face !== undefined; face = waiting.pop()) {
-    for (let h = 3 * face; h < 3 * face + 3; ++h) {
-      const across = neighbors[h];
-      if (isOutside[across]) continue;
-      const corner = flatCorner(diagram, across);
-      if (corner < 0 || neighbors[corner] !== face) continue;
-      isOutside[across] = 1;
-      waiting.push(across);
-    }
-  }
-  return isOutside;
-}
-
 class LazyDelaunay {
   /** @param {any[]} points */
   constructor(points) {
@@ -90,7 +45,12 @@ class LazyDelaunay {
     this.positions = finitePositions(points);
     const { positions } = this;
     const lonLat = new Float64Array(2 * positions.length);
-    positions.forEach((p, i) => lonLat.set(withinPoles(+points[p][0], +points[p][1]), 2 * i));
+    for (let i = 0; i < positions.length; ++i) {
+      const p = points[positions[i]];
+      const [lon, lat] = Math.abs(p[1]) <= 90 ? p : withinPoles(+p[0], +p[1]);
+      lonLat[2 * i] = lon;
+      lonLat[2 * i + 1] = lat;
+    }
     this.diagram = voronoi.lonLat(lonLat);
     this.isWhole = positions.length === points.length;
   }
@@ -221,26 +181,8 @@ class LazyDelaunay {
     return result;
   }
 
-  /** The edges between what is outside of the hull and what is not, one after the other. */
   hull() {
-    const { neighbors } = this.diagram;
-    const isOutside = outsideOfHull(this.diagram, this.isGhost());
-    const corners = this.corners();
-    const next = new Map();
-    for (let h = 0; h < corners.length; ++h) {
-      if (!isOutside[Math.floor(h / 3)] || isOutside[neighbors[h]]) continue;
-      next.set(corners[following(h)], corners[following(following(h))]);
-    }
-    /** @type {number[]} */
-    const result = [];
-    if (next.size === 0) return result;
-    const first = [...next.keys()].reduce((a, b) => Math.min(a, b));
-    let corner = first;
-    do {
-      result.push(corner);
-      corner = next.get(corner);
-    } while (corner !== first && result.length < next.size);
-    return result;
+    return hullOf(this.diagram, this.isGhost()).map((site) => this.positions[site]);
   }
 
   /** @param {Pair[]} edges @param {[number, number, number][]} triangles */

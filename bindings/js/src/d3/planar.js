@@ -9,6 +9,9 @@ import { cross, dot, toLonLat, toVector } from "./sphere.js";
 /** @typedef {import("./sphere.js").LonLat} LonLat */
 /** @typedef {import("./sphere.js").Vector} Vector */
 
+/** @param {number} h the halfedge, or corner, of the same face that follows */
+export const following = (h) => (h % 3 === 2 ? h - 2 : h + 1);
+
 /**
  * The stereographic projection that sends a place to infinity, with its invert().
  * @param {LonLat} pole

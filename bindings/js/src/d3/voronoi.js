@@ -35,10 +35,14 @@ export function geoVoronoi(data) {
     v.delaunay = null;
     v._data = newData?.type === "FeatureCollection" ? newData.features : newData;
     if (v._data !== null && typeof v._data === "object") {
-      const all = Array.from(v._data, (d) => ({ d, point: [v._vx(d), v._vy(d)] }));
-      const found = all.filter(({ point }) => Number.isFinite(point[0] + point[1]));
-      v.points = found.map(({ point }) => point);
-      v.valid = found.map(({ d }) => d);
+      v.points = [];
+      v.valid = [];
+      for (const d of v._data) {
+        const [x, y] = [v._vx(d), v._vy(d)];
+        if (!Number.isFinite(x + y)) continue;
+        v.points.push([x, y]);
+        v.valid.push(d);
+      }
       v.delaunay = geoDelaunay(v.points);
     }
     return v;
@@ -66,22 +70,44 @@ function addMethod(v, name, make) {
   };
 }
 
+/** The properties of a cell. Its neighbors, which d3 does not document, are found when they are read. */
+class CellProperties {
+  #delaunay;
+  #position;
+
+  /** @param {any} site @param {LonLat} sitecoordinates @param {import("./delaunay.js").GeoDelaunay} delaunay @param {number} position */
+  constructor(site, sitecoordinates, delaunay, position) {
+    this.site = site;
+    this.sitecoordinates = sitecoordinates;
+    this.#delaunay = delaunay;
+    this.#position = position;
+  }
+
+  get neighbours() {
+    return this.#delaunay.neighbors[this.#position];
+  }
+}
+
+/** @param {number[] | undefined} polygon @param {LonLat[]} centers */
+function polygonOf(polygon, centers) {
+  if (!polygon) return null;
+  const ring = new Array(polygon.length + 1);
+  for (let i = 0; i < polygon.length; ++i) ring[i] = centers[polygon[i]];
+  ring[polygon.length] = ring[0];
+  return { type: "Polygon", coordinates: [ring] };
+}
+
 /** @param {any} v */
 function addDiagram(v) {
   addMethod(v, "polygons", () => {
-    const { centers, neighbors, polygons } = v.delaunay;
-    /** @param {any} _point @param {number} i */
-    const sphereOrNothing = (_point, i) => cell(i === 0 ? { type: "Sphere" } : null, i);
-    /** @param {any} geometry @param {number} i */
-    const cell = (geometry, i) =>
-      feature(geometry, { site: v.valid[i], sitecoordinates: v.points[i], neighbours: neighbors[i] });
-    if (polygons.length === 0) return collection(v.points.map(sphereOrNothing));
-    return collection(
-      polygons.map((/** @type {number[] | undefined} */ polygon, /** @type {number} */ i) => {
-        if (!polygon) return cell(null, i);
-        return cell({ type: "Polygon", coordinates: [closed(polygon.map((c) => centers[c]))] }, i);
-      }),
-    );
+    const { delaunay, points, valid } = v;
+    const { centers, polygons } = delaunay;
+    const features = [];
+    for (let i = 0; i < points.length; ++i) {
+      const geometry = polygons.length > 0 ? polygonOf(polygons[i], centers) : i === 0 ? { type: "Sphere" } : null;
+      features.push(feature(geometry, new CellProperties(valid[i], points[i], delaunay, i)));
+    }
+    return collection(features);
   });
   addMethod(v, "cellMesh", () => {
     const { centers, mesh } = v.delaunay;
