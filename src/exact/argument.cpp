@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "exact/eft.h"
 
@@ -58,10 +59,10 @@ double argument(double y, double x) {
   if (q == 0) return y;
 
   const double ratio = p / q;
-  const int k = static_cast<int>(8 * ratio + 0.5);
-  const double c = 0.125 * k;
+  const std::size_t k = static_cast<std::size_t>(16 * ratio + 1) / 2;  // 8 ratio, rounded
+  const double c = 0.125 * static_cast<double>(k);
   const double u = k == 0 ? ratio : (p - c * q) / (q + c * p);
-  const DoubleDouble& base = arctangents[static_cast<std::size_t>(k)];
+  const DoubleDouble& base = arctangents[k];
   const double rest = base.lo + (u - excess_over_arctangent(u));  // atan(p/q) less base.hi
 
   // turn +- atan(p/q), where turn is 0, pi/2 or pi.
