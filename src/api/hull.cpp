@@ -10,6 +10,7 @@
 
 #include "api/build.h"
 #include "api/validation.h"
+#include "exact/length.h"
 #include "exact/vector.h"
 #include "hidden/inner_point.h"
 #include "system/job.h"
@@ -25,7 +26,7 @@ struct Sums {
 
   void add(const Point& a, const Point& b, const Point& c) {
     const Point n = cross(b - a, c - a);
-    area += std::hypot(n.x, n.y, n.z) / 2;
+    area += exact::length_of(n) / 2;
     volume += std::max(dot(a, n), 0.0) / 6;
   }
 };

@@ -5,12 +5,14 @@
 // between them, and between processors with and without fused multiply-adds.
 #pragma once
 
+#include "rondel/export.h"
+
 namespace rondel::exact {
 
 // The argument of x + iy, from -pi to pi, for finite x and y.
 // 1. Within 1.5 ulp of the exact value, as long as that is no subnormal number.
 // 2. Odd in y. With y = 0 it is y if x is not negative (0 of either sign is not), else pi with y's sign.
 // Uses only operations that IEEE 754 rounds correctly.
-double argument(double y, double x);
+RONDEL_API double argument(double y, double x);
 
 }  // namespace rondel::exact

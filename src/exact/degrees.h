@@ -4,6 +4,8 @@
 // Sine and cosine of degrees, the same bits on every platform.
 #pragma once
 
+#include "rondel/export.h"
+
 namespace rondel::exact {
 
 struct SineCosine {
@@ -15,6 +17,6 @@ struct SineCosine {
 // 2. Multiples of 90 degrees give exactly -1, 0 or 1; zeros are positive.
 // 3. Odd (sine) and even (cosine) in the angle; unchanged when the angle grows by 360 degrees.
 // Uses only operations that IEEE 754 rounds correctly, and an exact remainder.
-SineCosine sine_cosine_of_degrees(double degrees);
+RONDEL_API SineCosine sine_cosine_of_degrees(double degrees);
 
 }  // namespace rondel::exact

@@ -19,7 +19,7 @@ namespace {
 // The unit normal; zero, which readers then compute themselves, where rounding leaves none.
 Point normal(const Point& a, const Point& b, const Point& c) {
   const Point n = scaled(cross(scaled(b - a), scaled(c - a)));
-  const double length = std::hypot(n.x, n.y, n.z);
+  const double length = norm(n);
   return length > 0 ? n / length : n;
 }
 

@@ -6,13 +6,16 @@
 #include <cmath>
 #include <tuple>
 
+#include "exact/argument.h"
+#include "exact/degrees.h"
+
 namespace rondel::map {
 namespace {
 
 Point point_at(const LonLat& position) {
-  const double lon = position.lon_deg / degrees_per_radian;
-  const double lat = position.lat_deg / degrees_per_radian;
-  return {std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
+  const exact::SineCosine lon = exact::sine_cosine_of_degrees(position.lon_deg);
+  const exact::SineCosine lat = exact::sine_cosine_of_degrees(position.lat_deg);
+  return {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
 }
 
 // A straight line with the rates u, v of longitude and latitude (radians, over its whole length)
@@ -25,7 +28,8 @@ bool is_surely_flat(const MapPoint& p, const MapPoint& q, double tolerance) {
 }
 
 double angle(const Point& p, const Point& q) {
-  return 2 * std::asin(std::min(1.0, norm(p - q) / 2));
+  const double sine = std::min(1.0, norm(p - q) / 2);
+  return 2 * exact::argument(sine, std::sqrt(1 - sine * sine));
 }
 
 // The tolerance where the arc comes closest to the center: by the triangle inequality on the sphere
@@ -77,15 +81,15 @@ void bisect(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
 }  // namespace
 
 Point snapped(const Point& p) {
-  if (std::hypot(p.x, p.y) <= merge_distance) return {0, 0, p.z > 0 ? 1.0 : -1.0};
+  if (distance_from_axis(p) <= merge_distance) return {0, 0, p.z > 0 ? 1.0 : -1.0};
   if (p.x < 0 && std::abs(p.y) <= merge_distance) return {p.x, 0, p.z};
   return p;
 }
 
 LonLat lonlat_of(const Point& p, bool east) {
-  double lon = std::atan2(p.y, p.x) * degrees_per_radian;
+  double lon = exact::argument(p.y, p.x) * degrees_per_radian;
   if (p.y == 0) lon = p.x > 0 ? 0 : (east ? 180 : -180);
-  const double lat = std::atan2(p.z, std::sqrt(p.x * p.x + p.y * p.y)) * degrees_per_radian;
+  const double lat = exact::argument(p.z, distance_from_axis(p)) * degrees_per_radian;
   // Adding zero turns -0 into 0.
   return {std::clamp(lon, -180.0, 180.0) + 0.0, std::clamp(lat, -90.0, 90.0) + 0.0};
 }

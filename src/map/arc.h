@@ -4,6 +4,7 @@
 // Arcs of great circles in the plane of longitude and latitude.
 #pragma once
 
+#include <cmath>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -25,6 +26,8 @@ inline bool is_pole(const Point& p) { return p.x == 0 && p.y == 0; }
 
 // The point itself, or the pole or point of the antimeridian within merge_distance.
 Point snapped(const Point& p);
+
+inline double distance_from_axis(const Point& p) { return std::sqrt(p.x * p.x + p.y * p.y); }
 
 // Longitude and latitude of a unit vector that is not a pole. A point on the antimeridian has two
 // longitudes; it gets the one on the side of `east`: 180 if true, else -180.

@@ -19,7 +19,7 @@ const Point* pole_on_arc(const Point& p, const Point& q) {
   if (p.x * q.x + p.y * q.y >= 0) return nullptr;  // the arc does not turn by 90 degrees around it
   const Point normal = cross(p, q - p);
   if (std::abs(p.x * q.y - p.y * q.x) > merge_distance * norm(normal)) return nullptr;
-  const double height = p.z * std::hypot(q.x, q.y) + q.z * std::hypot(p.x, p.y);
+  const double height = p.z * distance_from_axis(q) + q.z * distance_from_axis(p);
   return height > 0 ? &north : &south;
 }
 

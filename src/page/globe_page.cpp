@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "exact/argument.h"
+#include "exact/length.h"
 #include "page/packed.h"
 #include "page/page_arrays.h"
 #include "page/page_input.h"
@@ -36,18 +38,19 @@ struct FirstView {
 FirstView view_of_sites(const std::vector<Point>& directions) {
   Point sum{};
   for (const Point& p : directions) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
-  const double length = std::hypot(sum.x, sum.y, sum.z);
+  const double length = exact::length_of(sum);
   if (length <= 0.5 * static_cast<double>(directions.size()) || directions.empty())
     return {{0, 20}, 1};
   const Point middle{sum.x / length, sum.y / length, sum.z / length};
   double farthest = 0;
   for (const Point& p : directions) {
-    farthest = std::max(farthest, std::hypot(p.x - middle.x, p.y - middle.y, p.z - middle.z));
+    farthest = std::max(farthest, exact::length_of(p - middle));
   }
   constexpr double smallest = 1e-11;  // a tenth of a millimetre on the earth
-  return {{std::atan2(middle.y, middle.x) / degree,
-           std::atan2(middle.z, std::hypot(middle.x, middle.y)) / degree},
-          farthest > 0 ? std::max(1.0, 0.9 / std::max(farthest, smallest)) : 1.0};
+  const double height = std::sqrt(middle.x * middle.x + middle.y * middle.y);
+  return {
+      {exact::argument(middle.y, middle.x) / degree, exact::argument(middle.z, height) / degree},
+      farthest > 0 ? std::max(1.0, 0.9 / std::max(farthest, smallest)) : 1.0};
 }
 
 const char* name_of(GlobeLines lines) {

@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "exact/argument.h"
+#include "exact/length.h"
 #include "io/binary.h"
 
 namespace rondel::page {
@@ -46,13 +48,13 @@ Point direction(const Point& site, const Point& center) {
 
 double length_in_radii(const Point& site, const Sphere& sphere) {
   const Point& c = sphere.center;
-  const double half = std::hypot(site.x / 2 - c.x / 2, site.y / 2 - c.y / 2, site.z / 2 - c.z / 2);
+  const double half = exact::length_of(site / 2 - c / 2);
   return half / std::sqrt(sphere.squared_radius) * 2;
 }
 
 // The tangent is accurate for small circles too.
 double radius_of_circle(double length) {
-  return length > 1 ? std::atan(std::sqrt(length - 1) * std::sqrt(length + 1)) : 0;
+  return length > 1 ? exact::argument(std::sqrt(length - 1) * std::sqrt(length + 1), 1) : 0;
 }
 
 std::vector<double> radii(const SiteTable& table, const Triangulation& triangulation,

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "exact/argument.h"
 #include "predicates/squared_chord.h"
 
 namespace rondel::query {
@@ -22,7 +23,9 @@ SplitPoint antipode(const SplitPoint& u) {
 }
 
 // The angle whose versine, 1 - cos, is given.
-double angle_of_versine(double versine) { return 2 * std::asin(std::sqrt(versine / 2)); }
+double angle_of_versine(double versine) {
+  return 2 * exact::argument(std::sqrt(versine / 2), std::sqrt(1 - versine / 2));
+}
 
 struct Ratio {
   double value;   // r = |site - o| / R
@@ -49,6 +52,13 @@ std::optional<Ratio> length_ratio(const Point& site, const Sphere& sphere) {
                (square - DoubleDouble{squared_radius, 0}).hi / squared_radius};
 }
 
+// The versine of the angle between two rays.
+double versine_between(const Point& p, const Point& q, const Point& center) {
+  return predicates::squared_chord(exact::unit_vector(p, center), exact::unit_vector(q, center))
+             .hi /
+         2;
+}
+
 }  // namespace
 
 double angle_between(const Point& p, const Point& q, const Point& center) {
@@ -63,11 +73,10 @@ double angle_between(const Point& p, const Point& q, const Point& center) {
 // is (1-v) r, and 1 - (1-v) r = (1-r) + v r, where 1 - r = -(r^2-1) / (1+r).
 double laguerre_distance(const Point& p, const Point& site, const Sphere& sphere) {
   if (site == sphere.center) return pi / 2;
-  const double angle = angle_between(p, site, sphere.center);
+  const double versine_of_rays = versine_between(p, site, sphere.center);
   const auto ratio = length_ratio(site, sphere);
-  if (!ratio) return angle < pi / 2 ? 0 : pi;
-  const double half = std::sin(angle / 2);
-  const double versine = 2 * half * half * ratio->value - ratio->excess / (1 + ratio->value);
+  if (!ratio) return versine_of_rays < 1 ? 0 : pi;
+  const double versine = versine_of_rays * ratio->value - ratio->excess / (1 + ratio->value);
   return angle_of_versine(std::clamp(versine, 0.0, 2.0));
 }
 
