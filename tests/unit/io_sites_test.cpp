@@ -70,7 +70,9 @@ void expect_rows(const std::string& path, std::string_view dtype,
   for (const auto& [x, y, z] : rows) {
     expected.push_back({static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)});
     for (const Number value : {x, y, z}) {
-      file.write(reinterpret_cast<const char*>(&value), sizeof value);
+      std::array<char, sizeof value> bytes{};
+      io::store(value, bytes.data());
+      file.write(bytes.data(), bytes.size());
     }
   }
   file.close();

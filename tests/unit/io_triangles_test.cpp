@@ -3,11 +3,11 @@
 
 // Triangles: round trips through every format, and what is said of bad files.
 #include <cmath>
-#include <cstring>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
 
+#include "io/binary.h"
 #include "io_support.h"
 #include "rondel/delaunay.h"
 
@@ -78,7 +78,11 @@ TEST(write_triangles, vertices_round_trip) {
     const std::string bytes = read_all(directory.file(name));
     std::vector<Point> sites(c.table.sites.size());
     const std::size_t start = bytes.find(end_of_head) + end_of_head.size();
-    std::memcpy(sites.data(), bytes.data() + start, sites.size() * sizeof(Point));
+    for (std::size_t i = 0; i < sites.size(); ++i) {
+      const char* const numbers = bytes.data() + start + i * sizeof(Point);
+      sites[i] = {io::load<double>(numbers), io::load<double>(numbers + 8),
+                  io::load<double>(numbers + 16)};
+    }
     return sites;
   };
   EXPECT_EQ(sites_behind("a.ply", "end_header\n"), c.table.sites);
@@ -110,13 +114,6 @@ TEST(write_triangles, text_formats_look_as_they_should) {
   EXPECT_TRUE(read_all(directory.file("a.obj")).starts_with("v 1 0 0\nv 0 1 0\n"));
 }
 
-template <typename T>
-T number_at(const std::string& bytes, std::size_t position) {
-  T value{};
-  std::memcpy(&value, bytes.data() + position, sizeof value);
-  return value;
-}
-
 TEST(write_triangles, stl_has_unit_normals_that_point_outwards) {
   const TemporaryDirectory directory;
   const Case c = random_case(200);
@@ -125,10 +122,10 @@ TEST(write_triangles, stl_has_unit_normals_that_point_outwards) {
   const std::size_t m = c.triangulation.num_faces();
   ASSERT_EQ(bytes.size(), 84 + 50 * m);
   EXPECT_FALSE(bytes.starts_with("solid"));  // that would be the text form
-  EXPECT_EQ(number_at<std::uint32_t>(bytes, 80), m);
+  EXPECT_EQ(io::load<std::uint32_t>(bytes.data() + 80), m);
   for (std::size_t i = 0; i < m; ++i) {
     const auto f = [&](std::size_t k) {
-      return static_cast<double>(number_at<float>(bytes, 84 + 50 * i + 4 * k));
+      return static_cast<double>(io::load<float>(bytes.data() + 84 + 50 * i + 4 * k));
     };
     EXPECT_NEAR(std::hypot(f(0), f(1), f(2)), 1, 1e-6);
     EXPECT_GT(f(0) * f(3) + f(1) * f(4) + f(2) * f(5), 0);
