@@ -75,8 +75,8 @@ class Client:
         run([*self.compile, self.file("client.cpp"), "-o", self.work / "client",
              f"-I{self.source}/include", f"-I{self.build}/include", *reversed(self.libraries), *paths])
         self.expect(run([self.work / "client"]))
-        # `system` shows what rondel::io uses of it.
-        layers = set((self.source / "src/LAYERS").read_text(encoding="utf-8").split()) - {"system"}
+        # These show what rondel::io uses of them.
+        layers = set((self.source / "src/LAYERS").read_text(encoding="utf-8").split()) - {"system", "exact"}
         private = re.compile(rf"\brondel::({'|'.join(sorted(layers))})::")
         for library, known in zip(self.libraries, ("rondel::delaunay(", "rondel::read_sites("), strict=True):
             names = run(["nm", "--dynamic", "--defined-only", "--demangle", library])

@@ -259,7 +259,7 @@ TEST(rungs, doubles_decide_between_coordinates_of_all_magnitudes) {
     if (decision.rung == Rung::exact) ++exact;
     const Decision orientation = predicates::orientation(four[0], four[1], four[2], {});
     ASSERT_EQ(to_int(orientation.sign), Oracle(four, Model::projected, {}).orientation(0, 1, 2));
-    EXPECT_EQ(orientation.rung, Rung::filter);
+    EXPECT_NE(orientation.rung, Rung::exact);
   }
   EXPECT_LE(exact, num_sets / 50);
 }
