@@ -217,7 +217,7 @@ TEST(rungs, doubles_decide_between_two_pairs_that_are_far_apart) {
       const Point near = random_near(random, pole, distance);
       four[k] = near;
       four[k + 1] = near;
-      for (int moves = 0; moves < 6; ++moves) {
+      for (std::size_t moves = 0; moves < 6; ++moves) {
         four[k + moves % 2] = moved_by_one_ulp(random, four[k + moves % 2]);
       }
     }
