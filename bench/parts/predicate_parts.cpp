@@ -88,7 +88,7 @@ void circle_double_double(benchmark::State& state, const std::string& kind) {
 void circle_exact(benchmark::State& state, const std::string& kind) {
   measure_rung(state, calls_of(kind), as_given,
                [](const auto& a, const auto& b, const auto& c, const auto& p) {
-                 return predicates::side_of_circle_exact(a, b, c, p, {});
+                 return predicates::side_of_circle_exact({a, b, c, p}, {});
                });
 }
 

@@ -30,7 +30,8 @@ using query::Limit;
 
 void check_angle(double angle) {
   if (angle >= 0) return;
-  throw InvalidInput("the angle " + system::shortest_text(angle) + " is negative or not a number", 0);
+  throw InvalidInput("the angle " + system::shortest_text(angle) + " is negative or not a number",
+                     0);
 }
 
 // No limit from 180 degrees on.

@@ -11,11 +11,11 @@
 #include <limits>
 #include <random>
 
-#include "support/page_reader.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/globe.h"
 #include "rondel/sites.h"
+#include "support/page_reader.h"
 
 namespace rondel::test {
 namespace {
