@@ -63,7 +63,7 @@ struct Options {
 /// "triangulate", ...) and the fraction of it that is done, from 0 to 1.
 /// 1. One thread at a time calls it, any of those that work; the fractions never decrease.
 /// 2. No lock of the library is held meanwhile: it may call the library.
-/// 3. It may throw: then the work ends, and nothing is left of it.
+/// 3. It may throw: then it is called no more, the work ends, and nothing is left of it.
 using Progress = std::function<void(std::string_view stage, double fraction)>;
 
 /// How long work is done, on which its result never depends.

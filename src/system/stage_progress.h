@@ -22,24 +22,20 @@ class StageProgress {
   StageProgress(const Progress& progress, std::string_view stage, std::size_t num_steps)
       : progress_(progress), stage_(stage), num_steps_(num_steps) {}
 
-  // One step more is done. Throws what the function throws.
+  // One step more is done. Throws what the function throws, which is not called again: the flag stays.
   void step() {
     if (!progress_) return;
     ++num_done_;
     while (num_told_ != num_done_ && !is_telling_.exchange(true)) {
-      const Release release{is_telling_};
       const std::size_t done = num_done_;
-      if (num_told_.exchange(done) == done) continue;
-      progress_(stage_, static_cast<double>(done) / static_cast<double>(num_steps_));
+      if (num_told_.exchange(done) != done) {
+        progress_(stage_, static_cast<double>(done) / static_cast<double>(num_steps_));
+      }
+      is_telling_ = false;
     }
   }
 
  private:
-  struct Release {
-    std::atomic<bool>& flag;
-    ~Release() { flag = false; }
-  };
-
   const Progress& progress_;
   std::string_view stage_;
   std::size_t num_steps_;

@@ -87,7 +87,7 @@ RONDEL_C_API void rondel_stop_request(rondel_stop* stop);
 RONDEL_C_API void rondel_stop_free(rondel_stop* stop);
 
 /** Called now and then by one thread at a time, any of those that work, with the fraction of a stage that is done.
- *  Anything but 0 ends the work with RONDEL_INTERRUPTED. */
+ *  Anything but 0 ends the work with RONDEL_INTERRUPTED, without further calls. */
 typedef int32_t (*rondel_progress)(void* context, const char* stage, double fraction);
 
 /** rondel/types.h: Execution. NULL stands for the default: a thread for each core, no progress, no stop. No result
