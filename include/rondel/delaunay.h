@@ -30,7 +30,8 @@ RONDEL_API std::vector<Point> unit_vectors(std::span<const LonLat> positions);
 /// circle's plane, for the center q and the angular radius r. `center` is taken as it is,
 /// so it is a unit vector on the unit sphere and has length R on a sphere of radius R.
 /// 1. Radius 0 gives `center` itself, bit for bit.
-/// 2. The same bits on every platform; each coordinate within 2 ulp of its exact value.
+/// 2. The same bits on every platform; each coordinate within 2 ulp of its exact value. A longitude
+///    and latitude stand for their unit_vector().
 /// 3. The result is on or outside the sphere. A point inside stands for an imaginary circle: it
 ///    has no angular radius, and is given by its coordinates.
 /// \throws InvalidInput if the radius is not in [0, 90).

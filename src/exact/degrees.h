@@ -13,7 +13,7 @@ struct SineCosine {
   double cosine;
 };
 
-// 1. Within 1 ulp of the exact values (1.5 ulp for sines of angles below 1e-300).
+// 1. Within 1 ulp of the exact values (2 ulp for sines of angles below 1e-300, whose products lose digits).
 // 2. Multiples of 90 degrees give exactly -1, 0 or 1; zeros are positive.
 // 3. Odd (sine) and even (cosine) in the angle; unchanged when the angle grows by 360 degrees.
 // Uses only operations that IEEE 754 rounds correctly, and an exact remainder.

@@ -53,7 +53,8 @@ class PlaneView {
     if (a != b) return a < b;
     const double origin = coordinates(center_)[u()];
     if (a == origin) return coordinates(points_[i])[v()] < coordinates(points_[j])[v()];
-    return predicates::is_lexicographically_less(points_[i], points_[j]) == (a < origin);
+    return a < origin ? predicates::is_lexicographically_less(points_[i], points_[j])
+                      : predicates::is_lexicographically_less(points_[j], points_[i]);
   }
 
  private:

@@ -40,7 +40,8 @@ inline Sign orientation_filter(const Vector& a, const Vector& b, const Vector& c
 Sign orientation_extended(const Point& a, const Point& b, const Point& c, const Point& center);
 
 // The ladder, for points as given: a filter in doubles, the same with 64 bits, integers where they
-// can tell, the filter with vectors of length about 1, balls of more and more words.
+// can tell, doubles with their own exponents where magnitudes differ, the filter with vectors of length
+// about 1, balls of more and more words.
 Decision orientation(const Point& a, const Point& b, const Point& c, const Point& center);
 
 // The ladder, for points that may have directions: then these have a filter before.

@@ -35,10 +35,10 @@ struct Ray {
 using FourRays = std::array<Ray, 4>;  // b, c, d, p
 using GivenPoints = std::array<Vector, 4>;
 
-// Rays of lengths between 1 and 4, and the points that they lead to, all from
-// the center: multiplied by one power of two where lengths agree that far, by
-// one for each ray where the center is 0. Empty for lengths far out of the
-// range of doubles.
+// Rays whose longest coordinates are between 1 and 4, and the points that they
+// lead to, all from the center: multiplied by one power of two where lengths
+// agree that far, by one for each ray where the center is 0. Empty where
+// neither holds, and for lengths far out of the range of doubles.
 std::optional<FourRays> comparable_rays(GivenPoints& points, const Point& center) {
   const Vector origin = to_vector(center);
   FourRays rays{};

@@ -48,7 +48,7 @@ struct Wide {
     size = std::abs(value);
   }
 
-  // In units of 2^unit. What is far below them is off by 2^-999.
+  // In units of 2^unit. What is far below them is off by less than 2^-990.
   [[nodiscard]] double in(int unit) const {
     return value * power_of_two(std::max(exponent - unit, -most_exponent));
   }
@@ -62,7 +62,7 @@ struct Wide {
   }
   friend Wide operator-(const Wide& a) { return {-a.value, a.size, a.exponent}; }
   friend Wide operator-(const Wide& a, const Wide& b) { return a + -b; }
-  // A term far below the other one is off by 2^-999 of that.
+  // A term far below the other one is off by less than 2^-960 of that.
   friend Wide operator+(const Wide& a, const Wide& b) {
     const int highest = std::max(a.exponent, b.exponent);
     const double of_a = power_of_two(std::max(a.exponent - highest, -most_exponent));

@@ -36,7 +36,7 @@ double error_of_argument(double y, double x) {
 }
 
 // The table holds arctangents as two doubles each: without the second the error is 1.66.
-TEST(argument, is_within_1_5_ulp_in_all_octants) {
+TEST(argument, is_mostly_within_1_5_ulp_in_all_octants) {
   Random random(1);
   double worst = 0;
   for (int i = 0; i < 100'000; ++i) {
@@ -48,6 +48,20 @@ TEST(argument, is_within_1_5_ulp_in_all_octants) {
   EXPECT_LE(worst, 1.5);
 }
 
+// Where the table's first entry takes over, so that its ulps are larger than those of the result.
+TEST(argument, is_within_2_5_ulp_around_a_sixteenth) {
+  Random random(3);
+  double worst = 0;
+  for (int i = 0; i < 100'000; ++i) {
+    const double x = 1 + std::abs(random.signed_unit());
+    worst = std::max(worst, error_of_argument(x * (0.0625 + 1e-4 * random.signed_unit()), x));
+  }
+  worst = std::max(worst, error_of_argument(0x1.01fa76af6234p-4, 0x1.01b032e8567e7p+0));
+  EXPECT_LE(worst, 2.5);
+  EXPECT_GT(worst, 2.39);
+  EXPECT_LE(error_of_argument(0x1.361070b89f443p-4, 0x1.24e929a5f5e2ap+0), 1.75);
+}
+
 TEST(argument, is_precise_for_all_magnitudes) {
   Random random(2);
   for (int i = 0; i < 20'000; ++i) {
@@ -56,13 +70,13 @@ TEST(argument, is_precise_for_all_magnitudes) {
     const double x =
         y * std::ldexp(random.signed_unit(), static_cast<int>(3 * random.signed_unit()));
     if (std::abs(x) > 0) {
-      EXPECT_LE(error_of_argument(y, x), 1.5) << y << ' ' << x;
+      EXPECT_LE(error_of_argument(y, x), 2.5) << y << ' ' << x;
     }
   }
   for (const double y : {huge, 0x1p-1074, 3 * 0x1p-1074, 1.0}) {
     for (const double x : {huge, -huge, 0x1p-1074, -5 * 0x1p-1074, -1.0}) {
       if (y / x != 0 || x < 0) {
-        EXPECT_LE(error_of_argument(y, x), 1.5) << y << ' ' << x;
+        EXPECT_LE(error_of_argument(y, x), 2.5) << y << ' ' << x;
       }
     }
   }
