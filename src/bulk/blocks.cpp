@@ -70,6 +70,7 @@ class BlockBuilder {
   bool triangulate(const Input& input, const Block& block) {
     const Index num_sites = block.end - block.begin;
     const Input of_block = input.piece(block.begin, block.end);
+    memory_.reserve(num_sites);  // sites of one position are one block, however many are wanted
     piece_.assign(of_block, 0, num_sites, memory_);
     const Block all = {0, num_sites, block.square};
     if (num_sites < least_sites || !piece_.solve({&all, 1}) || !piece_.find_hidden()) return false;

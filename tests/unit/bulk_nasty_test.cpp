@@ -155,6 +155,22 @@ TEST(bulk_nasty, clusters_of_any_density) {
   }
 }
 
+// No square is so small that it has no more sites than a trial wants.
+TEST(bulk_nasty, trial_of_a_crowd_at_one_position) {
+  Random random(18);
+  SiteSet set;
+  while (set.sites.size() < 40'000) {
+    const double size = std::ldexp(1.0, random.between(-900, -100));
+    set.sites.push_back({size * random.signed_unit(), size * random.signed_unit(), 1});
+  }
+  for (const Model model : {Model::projected, Model::weighted}) {
+    system::Job options;
+    options.model = model;
+    const auto order = order::spatial_order(set.sites, model, {}, 1);
+    EXPECT_FALSE(bulk::has_short_seams(bulk::make_input(set.sites, order.order, options, {})));
+  }
+}
+
 TEST(bulk_nasty, one_block_and_one_cell) {
   Random random(15);
   for (const double radius : {0.3, 1e-3, 1e-6, 1e-10}) {
