@@ -164,6 +164,20 @@ class Pixels(PageTest):
         change = next(x for x in range(400, 800) if sum(row[x]) > 400)
         self.assertLessEqual(abs(change - (400 + radius * math.sqrt(0.5))), 1.5)
 
+    def test_a_lost_context_comes_back(self):
+        page = self.page(self.generated("uniform", 300), "--fill", "area", "--show", "both")
+        row = "pixels(0, 300, 800)"
+        before = read(page, row)
+        lose = "window.loss = rondelGlobe.canvas.gl.getExtension('WEBGL_lose_context')"
+        page.run(f"{lose}; loss.loseContext(); rondelGlobe.redraw()")
+        page.wait("rondelGlobe.canvas.gl.isContextLost()")
+        page.wait_until_drawn()
+        page.run("loss.restoreContext()")
+        page.wait("!rondelGlobe.canvas.gl.isContextLost()")
+        page.wait_until_drawn()
+        self.assertGreater(len({tuple(color) for color in before}), 20)
+        self.assertEqual(read(page, row), before)
+
     def test_does_not_shake_at_any_zoom(self):
         """The border of two sites a metre apart is where it is, while the globe is turned under it."""
         half = 0.5 / 6371008.8

@@ -3,8 +3,8 @@
 
 // The lines of one site's share of the picture, given one after the other to `arc(from, to)`.
 //
-// An edge belongs to its site of lower index, a border between two cells to the cell in whose ring it runs
-// from the lower position to the higher one: so each is drawn once.
+// An edge belongs to its site of lower index, a border between two cells to the cell in whose ring it runs from the
+// lower point to the higher one: so each is drawn once, by the same site while its surroundings stay as they are.
 
 import { alongArc, angleBetween, cross, directionOf, perpendicular, plus, times, triple } from "./vectors.js";
 
@@ -81,8 +81,16 @@ export function bordersOf(surface, site, arc) {
   for (let j = begin; j < end; ++j) {
     const p = surface.ringPoints[j];
     const q = surface.ringPoints[j + 1 < end ? j + 1 : begin];
-    if (p < q) arc(triple(surface.points, p), triple(surface.points, q));
+    if (isLower(surface.points, p, q)) arc(triple(surface.points, p), triple(surface.points, q));
   }
+}
+
+// In the order of x, then y, then z.
+function isLower(points, p, q) {
+  for (let k = 0; k < 3; ++k) {
+    if (points[3 * p + k] !== points[3 * q + k]) return points[3 * p + k] < points[3 * q + k];
+  }
+  return false;
 }
 
 // The circle of radius `radius` around the unit vector `axis`.

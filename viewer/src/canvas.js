@@ -9,11 +9,22 @@ import { linkPrograms } from "./programs.js";
 const identity = [1, 0, 0, 0, 1, 0, 0, 0, 1];
 
 export class Canvas {
-  constructor(element) {
+  // `restored` is called when the context came back after it was lost, with nothing in it.
+  constructor(element, restored) {
     this.element = element;
     const gl = element.getContext("webgl2", { antialias: true, alpha: false, powerPreference: "high-performance" });
     if (gl === null) throw new Error("This page needs WebGL 2, which this browser or its graphics driver does not offer.");
     this.gl = gl;
+    this.prepare();
+    element.addEventListener("webglcontextlost", (event) => event.preventDefault());  // or it does not come back
+    element.addEventListener("webglcontextrestored", () => {
+      this.prepare();
+      restored();
+    });
+  }
+
+  prepare() {
+    const { gl } = this;
     this.programs = linkPrograms(gl);
     this.loose = { lines: gl.createBuffer(), corners: gl.createBuffer(), indices: gl.createBuffer(), sites: gl.createBuffer() };
     this.colors = this.texture(gl.CLAMP_TO_EDGE);

@@ -45,7 +45,8 @@ function typicalArea(surface, begin, end) {
   return count > 0 ? Math.exp(sum / count) : 1;
 }
 
-function makeChunk(surface, radii, begin, end) {
+// The sites order[begin] ... order[end - 1].
+export function makeChunk(surface, radii, begin, end) {
   const chunk = { begin, end, center: middle(surface, begin, end), chord: 0, vertex: none };
   chunk.typicalArea = typicalArea(surface, begin, end);
   let widest = 0;

@@ -1,15 +1,19 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Mouse, pen, fingers, wheel and keys. One pointer turns the globe, two zoom and turn it; what is grabbed stays
-// under the finger. A globe let go turns on and slows down, unless motion is to be reduced.
+// Mouse, pen, fingers, wheel and keys. One pointer turns the globe, or moves what the globe says that it holds; two
+// zoom and turn it; what is grabbed stays under the finger. A globe let go turns on and slows down, unless motion is
+// to be reduced.
 
 const clickDistance = 5;  // pixels that a click may move
+const doubleTime = 400;  // milliseconds between two clicks that are one double click
+const doubleDistance = { mouse: 8, other: 30 };
 const slowing = 0.0045;  // of the speed, each millisecond
 const keyStep = 60;  // pixels
 
 export class Pointers {
-  // `globe` has: camera, redraw(), click(x, y), point(x, y), home(), northUp(), help().
+  // `globe` has: camera, redraw(), click(x, y), doubleClick(x, y, isBack), point(at), grab(at, kind), drag(at), drop(),
+  // home(), northUp(), help(), and may have `actions`, functions by key that go before those here.
   constructor(element, globe) {
     this.element = element;
     this.globe = globe;
@@ -23,7 +27,6 @@ export class Pointers {
     listen("pointercancel", this.up);
     listen("pointerleave", () => globe.point(null));
     listen("wheel", this.wheel);
-    listen("dblclick", this.doubleClick);
     listen("keydown", this.key);
   }
 
@@ -46,6 +49,8 @@ export class Pointers {
       this.held.set(event.pointerId, { ...at, startX: at.x, startY: at.y, time: event.timeStamp });
     }
     this.isClick = this.held.size === 1;
+    if (this.isMoving) this.letGo();
+    if (this.isClick) this.isMoving = this.globe.grab(at, event.pointerType);
     this.grab();
   }
 
@@ -75,7 +80,9 @@ export class Pointers {
     if (this.isClick) return;
     const { camera } = this.globe;
     const fingers = [...this.held.values()];
-    if (fingers.length === 1) {
+    if (this.isMoving) {
+      this.globe.drag(at);
+    } else if (fingers.length === 1) {
       camera.drag(this.grabbed, at.x, at.y);
       this.speed = velocity;
     } else {
@@ -89,14 +96,29 @@ export class Pointers {
   up(event) {
     if (!this.held.delete(event.pointerId)) return;
     const at = this.position(event);
+    if (this.isMoving) this.letGo();
     if (this.held.size > 0) {
       this.speed = null;
       this.grab();
     } else if (this.isClick && event.type === "pointerup") {
-      this.globe.click(at.x, at.y);
+      this.click(at, event);
     } else if (this.speed !== null && event.timeStamp - this.speed.time < 60 && !this.isReduced.matches) {
       this.globe.glide(this.speed);
     }
+  }
+
+  letGo() {
+    this.isMoving = false;
+    this.globe.drop();
+  }
+
+  click(at, event) {
+    const last = this.lastClick;
+    const distance = doubleDistance[event.pointerType] ?? doubleDistance.other;
+    const isDouble = last && event.timeStamp - last.time < doubleTime && Math.hypot(at.x - last.x, at.y - last.y) < distance;
+    this.lastClick = isDouble ? null : { ...at, time: event.timeStamp };
+    if (isDouble) this.globe.doubleClick(at.x, at.y, event.shiftKey);
+    else this.globe.click(at.x, at.y);
   }
 
   wheel(event) {
@@ -106,13 +128,6 @@ export class Pointers {
     const factor = Math.exp(-Math.max(-200, Math.min(200, event.deltaY * lines)) * (event.ctrlKey ? 0.01 : 0.0022));
     const { x, y } = this.position(event);
     this.globe.camera.zoomAt(factor, x, y);
-    this.globe.redraw();
-  }
-
-  doubleClick(event) {
-    event.preventDefault();
-    const { x, y } = this.position(event);
-    this.globe.camera.zoomAt(event.shiftKey ? 0.5 : 2, x, y);
     this.globe.redraw();
   }
 
@@ -136,7 +151,7 @@ export class Pointers {
       Escape: () => globe.choose(null),
       "?": () => globe.help(),
     };
-    const action = actions[event.key];
+    const action = globe.actions?.[event.key] ?? actions[event.key];
     if (action === undefined) return;
     event.preventDefault();
     globe.stop();

@@ -16,7 +16,8 @@ const patience = 24;  // milliseconds a frame may spend on new buffers
 export class Scene {
   constructor(canvas, camera, surface, chunks, layers, radii, coast) {
     Object.assign(this, { canvas, camera, surface, chunks, layers, radii, coast });
-    this.chosen = [];  // rings of places to outline, and places to mark
+    this.circlesOf = radii && ((site, arc) => circle(this.surface.direction(site), this.radii[site], arc));
+    this.chosen = [];  // rings of places to outline, places to mark, circles
     this.pointed = [];
     this.isSettled = false;
     this.keepSites();
@@ -37,6 +38,14 @@ export class Scene {
       }
     }
     this.sitesBuffer = this.canvas.refill(this.sitesBuffer ?? this.canvas.gl.createBuffer(), data);
+  }
+
+  // Makes again what was in a context that was lost.
+  restore() {
+    for (const chunk of this.chunks) delete chunk.parts;
+    this.sitesBuffer = undefined;
+    this.keepSites();
+    this.keepBackdrop();
   }
 
   keepBackdrop() {
@@ -68,16 +77,26 @@ export class Scene {
     if (this.layers.isFilled) names.push("cells");
     if (this.layers.borders) names.push("borders");
     if (this.layers.edges) names.push("edges");
-    if (this.layers.circles && this.radii !== null) names.push("circles");
+    if (this.layers.circles && this.circlesOf !== null) names.push("circles");
     return names;
   }
 
-  // The buffers of a chunk; null where there is no time left in this frame.
+  // Other sites in other chunks: those that bring their buffers along keep them.
+  update(surface, chunks, radii) {
+    const kept = new Set(chunks.map((chunk) => chunk.parts));
+    for (const chunk of this.chunks) {
+      if (!kept.has(chunk.parts)) this.drop(chunk, Object.keys(chunk.parts ?? {}));
+    }
+    Object.assign(this, { surface, chunks, radii });
+    this.keepSites();
+  }
+
+  // The buffers of a chunk; null where there is no time left in this frame, unless the chunk is urgent.
   part(chunk, name) {
     chunk.parts ??= {};
     if (chunk.parts[name] === undefined) {
-      if (performance.now() > this.deadline) return null;
-      const context = { surface: this.surface, radii: this.radii, levelOf: (site) => this.layers.levelOf(site) };
+      if (performance.now() > this.deadline && !chunk.isUrgent) return null;
+      const context = { surface: this.surface, circlesOf: this.circlesOf, levelOf: (site) => this.layers.levelOf(site) };
       const shape = makers[name](chunk, context);
       const { gl } = this.canvas;
       chunk.parts[name] = shape instanceof Segments
@@ -154,13 +173,13 @@ export class Scene {
     const parts = { cells: null, borders: null, edges: null, circles: null, sites: null };
     for (const name of Object.keys(parts)) parts[name] = new Close(this.camera);
     const wanted = new Set(this.wanted);
-    const { surface, radii, layers } = this;
+    const { surface, layers } = this;
     for (const { chunk } of views) {
       for (let j = chunk.begin; j < chunk.end; ++j) {
         const site = surface.order[j];
         if (wanted.has("edges")) edgesOf(surface, site, parts.edges.arc);
         if (wanted.has("borders")) bordersOf(surface, site, parts.borders.arc);
-        if (wanted.has("circles")) circle(surface.direction(site), radii[site], parts.circles.arc);
+        if (wanted.has("circles")) this.circlesOf(site, parts.circles.arc);
         if (wanted.has("cells")) {
           const ring = surface.ring(site);
           if (ring.length > 0) parts.cells.cell(ring, layers.levelOf(site));
@@ -258,6 +277,7 @@ export class Scene {
       for (const thing of things) {
         if (thing.ring) outline(close, thing.ring);
         if (thing.place) mark(close, thing.place, thing.pixels);
+        if (thing.circle) circle(thing.circle.axis, thing.circle.radius, close.arc);
       }
       this.drawCut(close, paint, width);
     }

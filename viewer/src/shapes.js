@@ -3,7 +3,7 @@
 
 // What the graphics processor draws of a chunk: 32-bit offsets from the middle of its cap.
 
-import { bordersOf, circle, edgesOf, inChords } from "./arcs.js";
+import { bordersOf, edgesOf, inChords } from "./arcs.js";
 import { cross, dot, lengthOf, minus, plus, times, unit } from "./vectors.js";
 
 // Numbers that grow.
@@ -107,12 +107,9 @@ export const makers = {
     for (let j = chunk.begin; j < chunk.end; ++j) bordersOf(surface, surface.order[j], segments.arc);
     return segments;
   },
-  circles(chunk, { surface, radii }) {
+  circles(chunk, { surface, circlesOf }) {
     const segments = new Segments(chunk.center);
-    for (let j = chunk.begin; j < chunk.end; ++j) {
-      const site = surface.order[j];
-      circle(surface.direction(site), radii[site], segments.arc);
-    }
+    for (let j = chunk.begin; j < chunk.end; ++j) circlesOf(surface.order[j], segments.arc);
     return segments;
   },
   cells(chunk, { surface, levelOf }) {

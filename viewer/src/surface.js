@@ -3,7 +3,8 @@
 
 // The triangulation and its cells as the screen needs them, made from the faces alone.
 //
-// 1. Star of a vertex: its faces, counterclockwise, starFaces[starOffsets[v]] ... ; empty for other sites.
+// 1. Star of a vertex: its faces, counterclockwise, starFaces[starOffsets[v]] ... ; empty for other sites. The corner
+//    after v in each, its neighbors: starSites.
 // 2. neighbors[3 f + i] is the face across the edge of face f that is opposite to corner i.
 // 3. Ring of a cell: positions in `points`, counterclockwise. Position f is the circumcenter of face f.
 // 4. `order` has all vertices and hidden sites, those that are close in space close to each other: faces
@@ -47,7 +48,8 @@ function offsetsOf(counts) {
   return offsets;
 }
 
-// Faces around each vertex, and neighbors: the face after f around v starts with the edge at which f ends.
+// Faces around each vertex with the corner that follows it in each, and neighbors: the face after f around v starts
+// with the edge at which f ends.
 function linkStars(numSites, faces) {
   const counts = new Uint32Array(numSites);
   for (const v of faces) ++counts[v];
@@ -57,6 +59,7 @@ function linkStars(numSites, faces) {
   for (let h = 0; h < faces.length; ++h) unsorted[ends[faces[h]]++] = h;
 
   const starFaces = new Uint32Array(faces.length);
+  const starSites = new Uint32Array(faces.length);
   const neighbors = new Uint32Array(faces.length);
   const leavingTo = new Uint32Array(numSites);  // halfedge index of v in the face whose next corner it is
   const corner = (h, step) => h - (h % 3) + (((h % 3) + step) % 3);
@@ -66,12 +69,13 @@ function linkStars(numSites, faces) {
     for (let j = begin; j < end; ++j) leavingTo[faces[corner(unsorted[j], 1)]] = unsorted[j];
     for (let j = begin, h = unsorted[begin]; j < end; ++j) {
       starFaces[j] = Math.floor(h / 3);
+      starSites[j] = faces[corner(h, 1)];
       const next = leavingTo[faces[corner(h, 2)]];
       neighbors[corner(h, 1)] = Math.floor(next / 3);
       h = next;
     }
   }
-  return { starOffsets, starFaces, neighbors };
+  return { starOffsets, starFaces, starSites, neighbors };
 }
 
 function spatialOrder(surface, ring, hidden) {
@@ -108,7 +112,7 @@ export class Surface {
     this.areas = arrays.areas;
     this.ringOfVertices = arrays.ring ?? new Uint32Array(0);
     Object.assign(this, linkStars(this.numSites, this.faces));
-    this.points = restoredPoints(this.directions, this.faces, this.lengths, arrays.points);
+    this.points = arrays.exactPoints ?? restoredPoints(this.directions, this.faces, this.lengths, arrays.points);
     this.ringOffsets = arrays.ringOffsets ?? this.starOffsets;
     this.ringPoints = arrays.ringPoints ?? this.starFaces;
     this.isGhost = new Uint8Array(this.numFaces);
@@ -148,12 +152,7 @@ export class Surface {
   // The vertices that share an edge with a site, counterclockwise.
   neighborsOf(site) {
     if (this.dimension < 2) return this.neighborsOnRing(site);
-    const result = [];
-    for (let j = this.starOffsets[site]; j < this.starOffsets[site + 1]; ++j) {
-      const corners = this.corners(this.starFaces[j]);
-      result.push(corners[(corners.indexOf(site) + 1) % 3]);
-    }
-    return result;
+    return Array.from(this.starSites.subarray(this.starOffsets[site], this.starOffsets[site + 1]));
   }
 
   neighborsOnRing(site) {

@@ -166,11 +166,13 @@ export function engine() {
 /**
  * Compiles the module without blocking, for pages whose browser refuses to compile large modules at once on its main
  * thread, or that do not want to wait. Everywhere else the first call of any function does that by itself.
+ * @param {BufferSource | WebAssembly.Module} [source] the module, of this version, where it comes from elsewhere than
+ *   from this package's text
  * @returns {Promise<void>}
  */
-export async function init() {
+export async function init(source = decode(encodedModule)) {
   if (shared) return;
-  const module = await WebAssembly.compile(decode(encodedModule));
+  const module = source instanceof WebAssembly.Module ? source : await WebAssembly.compile(source);
   shared ??= new Engine(module);
 }
 

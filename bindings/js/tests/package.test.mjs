@@ -49,3 +49,20 @@ test("a page that cannot wait loads it without blocking", async () => {
   await Promise.all([init(), init()]);
   assert.equal(delaunay([1, 0, 0]).numSites, 1);
 });
+
+test("the module may come from elsewhere", () => {
+  const run = (source) => {
+    const lines = [
+      'import { readFileSync } from "node:fs";',
+      'import { init, delaunay } from "rondel";',
+      `await init(${source});`,
+      "process.stdout.write(String(delaunay([1, 0, 0]).numSites));",
+    ];
+    const options = { cwd: new URL(".", import.meta.url), stdio: "pipe" };
+    return String(execFileSync(process.execPath, ["--input-type=module", "--eval", lines.join("\n")], options));
+  };
+  const bytes = `readFileSync(${JSON.stringify(join(folder, "rondel.wasm"))})`;
+  assert.equal(run(bytes), "1");
+  assert.equal(run(`new WebAssembly.Module(${bytes})`), "1");
+  assert.throws(() => run("new Uint8Array(8)"), /CompileError/);
+});
