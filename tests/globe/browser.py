@@ -189,9 +189,21 @@ class Page:
         for kind in ("mousePressed", "mouseReleased"):
             self.mouse(kind, x, y, button="left", clickCount=1)
 
-    def touch(self, kind, *points):
+    def touch(self, kind, *points, **more):
         fingers = [{"x": x, "y": y, "id": i} for i, (x, y) in enumerate(points)]
-        self.call("Input.dispatchTouchEvent", type=kind, touchPoints=fingers)
+        self.call("Input.dispatchTouchEvent", type=kind, touchPoints=fingers, **more)
+
+    def double_click(self, x, y):
+        """Two clicks that the page sees a tenth of a second apart, however slow the machine is."""
+        now = time.time()
+        for i, kind in enumerate(("mousePressed", "mouseReleased") * 2):
+            self.mouse(kind, x, y, button="left", clickCount=1, timestamp=now + i / 20)
+
+    def double_tap(self, x, y):
+        now = time.time()
+        for i in (0, 2):
+            self.touch("touchStart", (x, y), timestamp=now + i / 20)
+            self.touch("touchEnd", timestamp=now + (i + 1) / 20)
 
     def picture(self, path=None):
         """What is on the screen, as the bytes of a PNG."""

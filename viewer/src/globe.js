@@ -47,6 +47,10 @@ export class Globe {
     this.search = new Search(field, list, { numSites: surface.numSites, columns, choose });
   }
 
+  get hasCircles() {
+    return this.radii !== null;
+  }
+
   makeLayers(about, arrays) {
     return new Layers(about, arrays, this.surface);
   }

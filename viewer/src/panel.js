@@ -34,7 +34,7 @@ export class Panel {
     this.byId = (id) => page.getElementById(id);
     this.byId("summary").textContent = summary(about);
     for (const name of toggles) this.bindToggle(name);
-    this.byId("show-circles").closest("label").hidden = globe.radii === null;
+    this.byId("show-circles").closest("label").hidden = !globe.hasCircles;
     this.bindFill();
     this.bindTheme();
     this.bindHelp();

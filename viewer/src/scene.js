@@ -17,8 +17,9 @@ export class Scene {
   constructor(canvas, camera, surface, chunks, layers, radii, coast) {
     Object.assign(this, { canvas, camera, surface, chunks, layers, radii, coast });
     this.circlesOf = radii && ((site, arc) => circle(this.surface.direction(site), this.radii[site], arc));
-    this.chosen = [];  // rings of places to outline, places to mark, circles
+    this.chosen = [];  // rings of places to outline, and places to mark
     this.pointed = [];
+    this.circled = [];  // circles: {axis, radius}
     this.isSettled = false;
     this.keepSites();
     this.keepBackdrop();
@@ -277,10 +278,12 @@ export class Scene {
       for (const thing of things) {
         if (thing.ring) outline(close, thing.ring);
         if (thing.place) mark(close, thing.place, thing.pixels);
-        if (thing.circle) circle(thing.circle.axis, thing.circle.radius, close.arc);
       }
       this.drawCut(close, paint, width);
     }
+    const close = new Close(this.camera);
+    for (const { axis, radius } of this.circled) circle(axis, radius, close.arc);
+    this.drawCut(close, theme.circle, widestLine);
   }
 }
 

@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Where sites come from and go to: presets, tables that are opened or dropped on the page, tables that are saved.
+
+import { presets, presetTable } from "./presets.js";
+import { readTable, writeTable } from "./table.js";
+
+export class Files {
+  // `play` has: points, begin(table), start(table), warn(message).
+  constructor(page, play) {
+    this.page = page;
+    this.play = play;
+    this.seed = 1;
+    this.bindPresets();
+    const byId = (id) => page.getElementById(id);
+    byId("open").addEventListener("click", () => byId("file").click());
+    byId("file").addEventListener("change", () => {
+      this.open(byId("file").files[0]);
+      byId("file").value = "";
+    });
+    byId("save-table").addEventListener("click", () => this.save());
+    this.bindDrop();
+  }
+
+  bindPresets() {
+    const [preset, number] = ["preset", "number"].map((id) => this.page.getElementById(id));
+    for (const [key, { name }] of Object.entries(presets)) preset.add(new Option(name, key));
+    const start = () => {
+      number.disabled = !presets[preset.value].count;
+      this.play.start(presetTable(preset.value, Number(number.value), this.seed));
+    };
+    this.first = () => this.play.begin(presetTable(preset.value, Number(number.value), this.seed));
+    preset.addEventListener("change", start);
+    number.addEventListener("change", start);
+    this.page.getElementById("again").addEventListener("click", () => {
+      ++this.seed;
+      start();
+    });
+  }
+
+  bindDrop() {
+    const { page } = this;
+    const show = (isOver) => { page.body.dataset.dropping = String(isOver); };
+    page.addEventListener("dragover", (event) => {
+      event.preventDefault();
+      show(true);
+    });
+    page.addEventListener("dragleave", (event) => {
+      if (event.relatedTarget === null) show(false);
+    });
+    page.addEventListener("drop", (event) => {
+      event.preventDefault();
+      show(false);
+      if (event.dataTransfer.files.length > 0) this.open(event.dataTransfer.files[0]);
+    });
+  }
+
+  async open(file) {
+    if (!file) return;
+    try {
+      this.play.start(readTable(await file.text()));
+    } catch (error) {
+      this.play.warn(`${file.name}: ${error.message}`);
+    }
+  }
+
+  save() {
+    const link = this.page.createElement("a");
+    link.href = URL.createObjectURL(new Blob([writeTable(this.play.points)], { type: "text/csv" }));
+    link.download = "sites.csv";
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+  }
+}
