@@ -109,7 +109,7 @@ class Browser:
                 self.events.append(message)
 
     def open(self, path, width=800, height=600, dark=False, touch=False):
-        """A page of its own that shows a file."""
+        """A page of its own that shows a file, or what a server has at an address."""
         return Page(self, path, width, height, dark, touch)
 
 
@@ -127,7 +127,7 @@ class Page:
         self.set_dark(dark)
         if touch:
             self.call("Emulation.setTouchEmulationEnabled", enabled=True, maxTouchPoints=5)
-        self.call("Page.navigate", url=f"file://{os.path.abspath(path)}")
+        self.call("Page.navigate", url=path if "://" in str(path) else f"file://{os.path.abspath(path)}")
 
     def call(self, method, **parameters):
         return self.browser.call(method, session=self.session, **parameters)

@@ -78,13 +78,8 @@ async function spawn() {
       stop: async () => worker.terminate(),
     };
   }
-  const threads = await import("node:worker_threads");
-  const worker = new threads.Worker(new URL("./node.js", import.meta.url));
-  return {
-    post: (/** @type {any} */ message) => worker.postMessage(message),
-    listen: (/** @type {(data: any) => void} */ handle) => void worker.on("message", handle),
-    stop: async () => void (await worker.terminate()),
-  };
+  const { spawnThread } = await import("./threads.js"); // package.json keeps it out of bundles for browsers
+  return spawnThread();
 }
 
 /** @param {{name: string, text: string, index: number}} error */
