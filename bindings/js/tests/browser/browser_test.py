@@ -8,6 +8,7 @@ FOLDER is where the package and what its tests need are installed (build/js), it
 bindings/js/tests; TEST a class of this file.
 """
 
+import base64
 import contextlib
 import json
 import pathlib
@@ -66,7 +67,8 @@ class PackageTest(unittest.TestCase):
 
 
 def run(*command):
-    done = subprocess.run([*map(str, command)], text=True, capture_output=True, check=False)
+    """What a command prints."""
+    done = subprocess.run([*map(str, command)], cwd=TESTS, text=True, capture_output=True, check=False)
     if done.returncode != 0:
         raise AssertionError(done.stdout + done.stderr)
     return done.stdout
@@ -115,6 +117,31 @@ class Bundle(PackageTest):
         page = self.page("modules.html")
         compiled = "rondelTest.compileAtOnce({})"
         self.assertEqual(page.run(compiled.format(8 << 20)), "compiled")
+
+class Globes(PackageTest):
+    """Packages that call d3-geo-voronoi, bundled with it and with the drop-in in its place."""
+
+    def test_pictures_are_those_with_d3(self):
+        pages = {}
+        for name, options in {"d3": [], "rondel": ["--alias:d3-geo-voronoi=rondel/d3"]}.items():
+            bundle("--format=iife", f"--entry-names=globes_{name}", *options, TESTS / "globes.mjs")
+            pages[name] = self.page(f"globes_{name}.html")
+        self.assertGreater(pages["d3"].run("globesTest.trianglesOnEquator()"), 0)
+        self.assertEqual(pages["rondel"].run("globesTest.trianglesOnEquator()"), 0)
+        for package in ("conicPolygons", "threeGlobe", "globeGl"):
+            pictures = [page.run(f"globesTest.{package}()") for page in pages.values()]
+            for view in pictures[0]:
+                with self.subTest(f"{package}, {view}"):
+                    self.compare_pictures(*(base64.b64decode(picture[view]) for picture in pictures))
+
+    def compare_pictures(self, *pictures):
+        """At most one pixel of a thousand differs by more than 8 of 255; polygons cover a twentieth or more."""
+        a, b = (list(zip(*[iter(picture)] * 4)) for picture in pictures)
+        self.assertEqual([len(a), len(b)], [300 * 300] * 2)
+        different = sum(max(abs(x - y) for x, y in zip(*pair)) > 8 for pair in zip(a, b))
+        self.assertLessEqual(different, len(a) // 1000)
+        self.assertGreater(sum(max(rgb) - min(rgb) > 40 for *rgb, _ in a), len(a) // 20)
+
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[4:]])
