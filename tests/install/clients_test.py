@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """Clients of the installed package that do not use CMake, of a plugin, and of the shared libraries.
 
-    clients_test.py pkg_config|c|plugin|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARY IO_LIBRARY
+    clients_test.py pkg_config|c|globe|plugin|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARY IO_LIBRARY
 
-Each compiles client.cpp, that in C examples/c_interface.c, and compares what it prints.
+Each compiles client.cpp, that in C examples/c_interface.c, that of a globe globe/globe.cpp, and compares what it prints.
 """
 
 import os
@@ -60,6 +60,17 @@ class Client:
              "-o", self.work / "client", *flags, *(f"-Wl,-rpath,{folder}" for folder in folders)])
         self.expected = self.file("expected/c_interface.txt").read_text(encoding="utf-8")
         self.expect(run([self.work / "client"]))
+
+    def globe(self):
+        """A program that makes a page, by pkg-config and by CMake."""
+        self.expected = "a page, an error\n"
+        flags = self.package_flags("rondel-globe")
+        run([*self.compile, self.file("globe/globe.cpp"), "-o", self.work / "client", *flags])
+        self.expect(run([self.work / "client"]))
+        run([self.cmake, "-S", self.file("globe"), "-B", self.work / "build", f"-DCMAKE_PREFIX_PATH={self.work}/prefix",
+             f"-DCMAKE_CXX_COMPILER={self.compile[0]}", "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF"])
+        run([self.cmake, "--build", self.work / "build"])
+        self.expect(run([self.work / "build/globe"]))
 
     def plugin(self):
         """The static libraries within a plugin, which is loaded and unloaded."""
