@@ -61,10 +61,16 @@ class MutableHull {
   // Of all conflict tests.
   [[nodiscard]] const Tally& tally() const { return test_.tally(); }
 
-  // Of a build, where nobody asks what hides a site.
+  // Of a build, where nobody asks what hides a site, and where the next one is close: its walks
+  // start from the faces above and below this one.
   void insert(Index p) {
-    const Index conflict = locate(p, start_).conflict;
-    if (conflict != no_index) insert(p, conflict, [](const auto& /*region*/) {});
+    const auto found = locate(p, start_);
+    if (found.conflict != no_index) {
+      insert(p, found.conflict, [](const auto& /*region*/) {});
+      return;
+    }
+    start_.solid = found.solid;
+    if (found.entry != no_index) start_.entry = found.entry;
   }
 
   [[nodiscard]] typename Walk<T>::Found locate(Index p, const Start& start) {

@@ -78,7 +78,7 @@ class Walk {
 
   // `solid` is a solid face near p, `entry` an entry face (no_index when there is none).
   [[nodiscard]] Found locate(Index p, Index solid, Index entry) const {
-    const Index guess = walk_by_guess(p, solid);
+    const Index guess = walk_by_guess<FaceKind::solid>(p, solid);
     if (is_in_conflict(guess, p)) return {guess};
     const End far_side = walk(p, guess, FaceKind::solid);
     if (is_in_conflict(far_side.face, p)) return {far_side.face};
@@ -86,7 +86,7 @@ class Walk {
     if (!T::hides_sites || kinds_.all_solid() || entry == no_index) {
       return {no_index, far_side.face};
     }
-    const End entry_side = walk(p, entry, FaceKind::entry);
+    const End entry_side = walk(p, walk_by_guess<FaceKind::entry>(p, entry), FaceKind::entry);
     if (is_in_conflict(entry_side.face, p)) return {entry_side.face};
     return {no_index, far_side.face, entry_side.beyond == no_index ? entry_side.face : no_index};
   }
@@ -101,9 +101,10 @@ class Walk {
     return test_.is_in_conflict(mesh_[f].vertex, p);
   }
 
-  // A visibility walk in doubles, which crosses an edge only where p is beyond it for certain. So
-  // its steps are some of the exact walk's, and it ends. It may end too early: then the exact walk
-  // goes on.
+  // A visibility walk in doubles among the faces of one kind, which crosses an edge only where p is
+  // beyond it for certain. So its steps are some of the exact walk's, and it ends. It may end too
+  // early: then the exact walk goes on.
+  template <FaceKind kind>
   [[nodiscard]] Index walk_by_guess(Index p, Index f) const {
     using predicates::Vector;
     const Vector origin = sites_.coordinates(p);
@@ -122,12 +123,13 @@ class Walk {
         const Vector& a = to[topology::next_corner[i]];
         const Vector& b = to[topology::previous_corner[i]];
         const double value = dot(ray, cross(a, b));
-        if (value < 0 && is_certain(value, ray, a, b)) break;
+        const bool is_outwards = kind == FaceKind::solid ? value < 0 : value > 0;
+        if (is_outwards && is_certain(value, ray, a, b)) break;
       }
       if (i == 3) return f;
       const topology::Halfedge h = face.opposite[i];
       const Index next = topology::face_of(h);
-      if (!kinds_.all_solid() && kinds_[next] != FaceKind::solid) return f;
+      if (!kinds_.all_solid() && kinds_[next] != kind) return f;
       f = next;
       entered = topology::edge_of(h);
     }
@@ -140,23 +142,27 @@ class Walk {
                           : predicates::is_direction_orientation_certain(value, a, b);
   }
 
-  // The exact walk among the faces of one kind. It ends: each step increases u.n/h, where u is the
-  // direction of p, n the normal of the face and h > 0 its distance from the
-  // center (decreases it on the entry side).
+  // The exact walk among the faces of one kind, where p is not beyond the edge that was just
+  // crossed. It ends: each step increases u.n/h, where u is the direction of p, n the normal of the
+  // face and h > 0 its distance from the center (decreases it on the entry side).
   [[nodiscard]] End walk(Index p, Index f, FaceKind kind) const {
     const Sign outwards = kind == FaceKind::solid ? Sign::negative : Sign::positive;
+    unsigned entered = 3;
     for (;;) {
       const topology::Face& face = mesh_[f];
-      Index next = no_index;
-      for (unsigned i = 0; i < 3 && next == no_index; ++i) {
+      unsigned i = 0;
+      for (; i < 3; ++i) {
+        if (i == entered) continue;
         const unsigned a = topology::next_corner[i];
         const Index b = face.vertex[topology::next_corner[a]];
-        const Sign side = predicates::orientation(sites_, face.vertex[a], b, p).sign;
-        if (side == outwards) next = topology::face_of(face.opposite[i]);
+        if (predicates::orientation(sites_, face.vertex[a], b, p).sign == outwards) break;
       }
-      if (next == no_index) return {f};
+      if (i == 3) return {f};
+      const topology::Halfedge h = face.opposite[i];
+      const Index next = topology::face_of(h);
       if (kinds_[next] != kind) return {f, next};
       f = next;
+      entered = topology::edge_of(h);
     }
   }
 
