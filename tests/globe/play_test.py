@@ -34,6 +34,7 @@ class PlayTest(PageTest):
         return page
 
     def choose(self, page, name, value):
+        self.assertTrue(page.run(f"[...document.getElementById('{name}').options].some((o) => o.value === {json.dumps(str(value))})"))
         page.run(
             f"document.getElementById('{name}').value = {json.dumps(str(value))};"
             f"document.getElementById('{name}').dispatchEvent(new Event('change'))"
@@ -186,6 +187,23 @@ class Edits(PlayTest):
                         self.settle(page)
                 self.compare(page)
 
+    def test_circles_grow_and_shrink(self):
+        page = self.play("circles", 50)
+        page.run("rondelGlobe.goTo(rondelGlobe.finder.nearest(rondelGlobe.camera.forward))")
+        self.settle(page)
+        site = page.run("rondelGlobe.picked.site")
+        before = page.run(f"rondelGlobe.radii[{site}]")
+        area = page.run(f"rondelGlobe.surface.areas[{site}]")
+        page.run("document.getElementById('globe').focus()")
+        page.key("]", "]")
+        page.wait(f"rondelGlobe.radii[{site}] > 1.05 * {before}")
+        self.assertAlmostEqual(page.run(f"rondelGlobe.radii[{site}]") / before, 1.1, places=9)
+        self.assertGreater(page.run(f"rondelGlobe.surface.areas[{site}]"), area)
+        self.compare(page)
+        page.key("[", "[")
+        page.wait(f"rondelGlobe.radii[{site}] < 1.05 * {before}")
+        self.compare(page)
+
     def test_sites_relax(self):
         page = self.play("random", 200)
         before = self.sites(page)
@@ -220,12 +238,12 @@ class Drawing(PlayTest):
         return page.run(self.COUNTS)
 
     def test_buffers_after_changes_are_those_of_the_sites(self):
-        page = self.play("random", 1000)
+        page = self.play("random", 2000)
         page.run("document.getElementById('show-circles').click()")
         self.choose(page, "fill", "neighbors")
         self.everything(page)
         source = random.Random(3)
-        for i in range(20):
+        for i in range(12):
             there = [key for key, row in enumerate(self.sites(page)) if row is not None]
             key = source.choice(there)
             place = [source.uniform(-1, 1) for _ in range(3)]
@@ -416,6 +434,12 @@ class Files(PlayTest):
         self.read(page, "lon,lat,radius\n" + "\n".join(f"{i * 37 % 360},{i * 13 % 170 - 85},{5 + i % 20}" for i in range(80)))
         self.assertEqual(page.run("rondelGlobe.about.model"), "weighted")
         self.compare(page)
+
+    def test_the_address_says_what_to_begin_with(self):
+        page = self.play()
+        page.run("location.hash = '#preset=spiral&number=50'; location.reload()")
+        page.wait("document.readyState === 'complete' && window.rondelGlobe?.about.sites === 50")
+        self.assertEqual(page.run("document.getElementById('preset').value"), "spiral")
 
     def test_mistakes_are_told(self):
         page = self.play("spiral", 12)

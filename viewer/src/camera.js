@@ -15,6 +15,7 @@ export class Camera {
     this.width = 1;
     this.height = 1;
     this.zoom = 1;
+    this.share = 0.44;  // of the picture's smaller side: the radius of the whole globe
     this.lookAt(0, 20, 0);
   }
 
@@ -48,7 +49,7 @@ export class Camera {
 
   // The whole globe with a margin.
   get fittingZoom() {
-    return 0.44 * Math.min(this.width, this.height);
+    return this.share * Math.min(this.width, this.height);
   }
 
   setZoom(zoom) {

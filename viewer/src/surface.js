@@ -8,7 +8,7 @@
 // 2. neighbors[3 f + i] is the face across the edge of face f that is opposite to corner i.
 // 3. Ring of a cell: positions in `points`, counterclockwise. Position f is the circumcenter of face f.
 // 4. `order` has all vertices and hidden sites, those that are close in space close to each other: faces
-//    come in the spatial order of their first corners.
+//    come in the spatial order of their first corners. Who keeps the sites in an order of its own may set it.
 
 import { triple, dot, minus, cross } from "./vectors.js";
 
@@ -101,6 +101,8 @@ function spatialOrder(surface, ring, hidden) {
 }
 
 export class Surface {
+  #order = null;
+
   constructor(about, arrays) {
     this.dimension = about.dimension;
     this.isWeighted = about.model === "weighted";
@@ -125,7 +127,16 @@ export class Surface {
     for (let i = 0; i < duplicates.length; i += 2) this.representative.set(duplicates[i], duplicates[i + 1]);
     this.faceAbove = new Map();
     for (let i = 0; i < hidden.length; i += 2) this.faceAbove.set(hidden[i], hidden[i + 1]);
-    this.order = spatialOrder(this, this.ringOfVertices, hidden);
+    this.hiddenSites = hidden;
+  }
+
+  get order() {
+    this.#order ??= spatialOrder(this, this.ringOfVertices, this.hiddenSites);
+    return this.#order;
+  }
+
+  set order(sites) {
+    this.#order = sites;
   }
 
   isHidden(site) {

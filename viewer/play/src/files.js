@@ -30,13 +30,26 @@ export class Files {
       number.disabled = !presets[preset.value].count;
       this.play.start(presetTable(preset.value, Number(number.value), this.seed));
     };
-    this.first = () => this.play.begin(presetTable(preset.value, Number(number.value), this.seed));
+    this.readAddress(preset, number);
+    this.first = () => {
+      number.disabled = !presets[preset.value].count;
+      this.play.begin(presetTable(preset.value, Number(number.value), this.seed));
+    };
     preset.addEventListener("change", start);
     number.addEventListener("change", start);
     this.page.getElementById("again").addEventListener("click", () => {
       ++this.seed;
       start();
     });
+  }
+
+  // An address that ends in #preset=metre or #preset=random&number=2000 says what to begin with.
+  readAddress(preset, number) {
+    const wanted = new URLSearchParams(this.page.location.hash.slice(1));
+    const has = (select, value) => [...select.options].some((option) => option.value === value);
+    for (const select of [preset, number]) {
+      if (has(select, wanted.get(select.id))) select.value = wanted.get(select.id);
+    }
   }
 
   bindDrop() {

@@ -42,14 +42,21 @@ function numbersOfNeighbors({ starOffsets, numSites, ringOfVertices }) {
   return numbers.map((number) => (number > 0 ? number : NaN));
 }
 
-// The empty circle of a face, as the angle between its center and its corners.
-function faceRadius({ points, directions, faces }, face) {
-  const [p, v] = [3 * face, 3 * faces[3 * face]];
-  const [x, y, z] = [points[p] - directions[v], points[p + 1] - directions[v + 1], points[p + 2] - directions[v + 2]];
-  return 2 * Math.asin(Math.min(1, Math.sqrt(x * x + y * y + z * z) / 2));
+// The empty circle of a face: how far its corners are from its center, through the sphere.
+function faceChord({ points, directions, faces }, face) {
+  const p = 3 * face;
+  const v = 3 * faces[p];
+  const x = points[p] - directions[v], y = points[p + 1] - directions[v + 1], z = points[p + 2] - directions[v + 2];
+  return Math.sqrt(x * x + y * y + z * z);
 }
 
-// For each site a radius: of its own circle, or so much that its faces' circles are within it.
+// The circle's radius as an angle.
+function faceRadius(surface, face) {
+  return 2 * Math.asin(Math.min(1, faceChord(surface, face) / 2));
+}
+
+// For each site a radius: of its own circle, or so much that its faces' circles are within it, for which an angle is at
+// most half pi times its chord.
 function radiiOf(surface) {
   const radii = new Float64Array(surface.numSites);
   if (surface.lengths !== null) {
@@ -57,8 +64,11 @@ function radiiOf(surface) {
     return radii;
   }
   for (let face = 0; face < surface.numFaces; ++face) {
-    const radius = 2 * faceRadius(surface, face);
-    for (let h = 3 * face; h < 3 * face + 3; ++h) radii[surface.faces[h]] = Math.max(radii[surface.faces[h]], radius);
+    const radius = Math.PI * faceChord(surface, face);
+    for (let h = 3 * face; h < 3 * face + 3; ++h) {
+      const site = surface.faces[h];
+      if (radius > radii[site]) radii[site] = radius;
+    }
   }
   return radii;
 }
@@ -84,6 +94,8 @@ const settings = {
 export class LiveGlobe extends Globe {
   constructor(page, state, coast) {
     super(page, { ...settings, ...state.about }, { ...state.arrays, coast });
+    this.camera.share = 0.41;  // room for the tools below the globe
+    this.home();
     this.scene.circlesOf = (site, arc) => circlesOf(this.surface, this.radii, site, arc);
     this.surface.isPlain = state.about.isPlain;
     this.radii = radiiOf(this.surface);

@@ -10,6 +10,8 @@ import { Files } from "./files.js";
 import { History } from "./history.js";
 import { LiveGlobe } from "./live.js";
 
+const smallestRadius = 0.005;  // radians, of circles that keys make
+const largestRadius = 1.4;
 const reach = { mouse: 12, other: 26 };  // pixels from a site at which it is grabbed
 
 export class Play extends LiveGlobe {
@@ -29,6 +31,8 @@ export class Play extends LiveGlobe {
       Backspace: () => this.removeChosen(),
       Enter: () => this.holdByKeys(),
       " ": () => this.holdByKeys(),
+      "]": () => this.resizeChosen(1.1),
+      "[": () => this.resizeChosen(1 / 1.1),
       Escape: () => this.escape(),
     };
     this.bindControls();
@@ -265,6 +269,17 @@ export class Play extends LiveGlobe {
     this.release();
     const site = this.picked?.site ?? none;
     if (site !== none && this.points[site]) this.remove(site);
+  }
+
+  // A circle becomes larger or smaller, by a factor.
+  resizeChosen(factor) {
+    const site = this.picked?.site ?? none;
+    if (this.about.model !== "weighted" || site === none || !this.points[site]) return;
+    const from = this.points[site];
+    const radius = Math.min(largestRadius, Math.max(smallestRadius, factor * Math.acos(Math.min(1, 1 / lengthOf(from)))));
+    const to = times(from, 1 / lengthOf(from) / Math.cos(radius));
+    this.set("move", site, to);
+    this.remember(() => this.set("move", site, from), () => this.set("move", site, to));
   }
 
   click(x, y) {
