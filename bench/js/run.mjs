@@ -19,7 +19,8 @@ const [rondel, d3, { engine }] = await Promise.all([
   load("d3-geo-voronoi/src/index.js"),
   load("rondel/src/engine.js"),
 ]);
-const { build, VoronoiDiagram } = await load("rondel/src/triangulation.js");
+const { build } = await load("rondel/src/build.js");
+const { VoronoiDiagram } = await load("rondel/src/triangulation.js");
 
 /** The sites of native_bench.cpp. @param {number} n */
 function uniformSites(n) {

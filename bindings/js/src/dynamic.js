@@ -4,9 +4,10 @@
 // A triangulation whose sites come, go and move.
 
 import { indices, numbers, placeOptions } from "./arguments.js";
-import { engine, Handle } from "./engine.js";
+import { dispose, engine, Handle } from "./engine.js";
 import { RondelError } from "./errors.js";
-import { dispose, Located, VoronoiDiagram } from "./triangulation.js";
+import { Located } from "./located.js";
+import { VoronoiDiagram } from "./triangulation.js";
 
 /** @typedef {import("./arguments.js").Numbers} Numbers */
 /** @typedef {import("./arguments.js").Indices} Indices */

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+/// <reference lib="esnext.disposable" preserve="true" />
+
 // The module rondel.wasm: how it is loaded, its memory, and how its functions are called. They are those of
 // bindings/c/include/rondel.h.
 
@@ -187,6 +189,9 @@ export function separateEngine(limits) {
 // What is not freed by hand is freed some time after the garbage collector found it.
 /** @type {FinalizationRegistry<{owner: Engine, name: string, place: number}>} */
 const forgotten = new FinalizationRegistry(({ owner, name, place }) => owner.functions[name](place));
+
+/** The method that `using` calls, also where the language does not know it yet. @type {typeof Symbol.dispose} */
+export const dispose = Symbol.dispose ?? Symbol.for("Symbol.dispose");
 
 /** A thing in the memory of the module. */
 export class Handle {

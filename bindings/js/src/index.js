@@ -10,6 +10,8 @@
 
 export { RondelError } from "./errors.js";
 export { init } from "./engine.js";
-export { delaunay, voronoi, noIndex, polarPoints, Triangulation, unitVectors, VoronoiDiagram } from "./triangulation.js";
+export { noIndex } from "./located.js";
+export { Triangulation, VoronoiDiagram } from "./triangulation.js";
+export { delaunay, polarPoints, unitVectors, voronoi } from "./build.js";
 export { DynamicTriangulation } from "./dynamic.js";
 export { geoContour, geoDelaunay, geoVoronoi } from "./d3/index.js";

@@ -7,7 +7,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { delaunay, DynamicTriangulation, RondelError, unitVectors, voronoi } from "rondel";
 import { engine, separateEngine } from "../node_modules/rondel/src/engine.js";
-import { build, VoronoiDiagram } from "../node_modules/rondel/src/triangulation.js";
+import { build } from "../node_modules/rondel/src/build.js";
+import { VoronoiDiagram } from "../node_modules/rondel/src/triangulation.js";
 import { randomSites } from "./support.mjs";
 
 const bytes = () => engine().memory.buffer.byteLength;

@@ -12,4 +12,9 @@ const ids: Uint32Array = new DynamicTriangulation().insert([0, 0, 1]);
 const polygons: (number[] | undefined)[] = geoDelaunay([[0, 0]]).polygons;
 const index: number = new RondelError("no", 3).index;
 const remote: Promise<Uint32Array> = startWorker().then((w) => w.delaunay([])).then((t) => t.nearest([0, 0, 1]));
+{
+  using freed = delaunay([0, 0, 1]);
+  using sites = new DynamicTriangulation(freed.points);
+  using snapshot: VoronoiDiagram = sites.snapshot();
+}
 export { areas, geoVoronoi, ids, index, polygons, remote, triangles };

@@ -3,7 +3,8 @@
 
 // geoDelaunay() of d3-geo-voronoi 2.1, with properties that are made when they are first read.
 
-import { noIndex, unitVectors, voronoi } from "../triangulation.js";
+import { unitVectors, voronoi } from "../build.js";
+import { noIndex } from "../located.js";
 import { hullOf } from "./hull.js";
 import { following, planarView } from "./planar.js";
 import { toLonLat, withinPoles } from "./sphere.js";

@@ -19,8 +19,8 @@ import { RondelError } from "../errors.js";
 /** @typedef {import("../arguments.js").Indices} Indices */
 /** @typedef {import("../arguments.js").Options} Options */
 /** @typedef {import("../triangulation.js").Cells} Cells */
-/** @typedef {import("../triangulation.js").SiteLists} SiteLists */
-/** @typedef {import("../triangulation.js").Locations} Locations */
+/** @typedef {import("../located.js").SiteLists} SiteLists */
+/** @typedef {import("../located.js").Locations} Locations */
 
 /**
  * @typedef {object} RemoteQuestions see Located

@@ -5,7 +5,7 @@
 // here and have numbers.
 
 import { DynamicTriangulation } from "../dynamic.js";
-import { delaunay, voronoi } from "../triangulation.js";
+import { delaunay, voronoi } from "../build.js";
 
 const properties = ["dimension", "numSites", "numVertices", "numFaces"];
 const arrays = ["triangles", "neighbors", "ghostFaces", "ring", "duplicates", "hidden"];

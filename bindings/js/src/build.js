@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What makes triangulations, and sites of longitudes and latitudes.
+
+import { numbers, placeOptions } from "./arguments.js";
+import { engine } from "./engine.js";
+import { Triangulation, VoronoiDiagram } from "./triangulation.js";
+
+/** @typedef {import("./arguments.js").Numbers} Numbers */
+/** @typedef {import("./arguments.js").Options} Options */
+/** @typedef {import("./engine.js").Engine} Engine */
+
+/**
+ * @template {Triangulation} T
+ * @param {new (owner: Engine, place: number) => T} Type
+ * @param {Engine} owner
+ * @param {Float64Array} sites
+ * @param {Options} options
+ */
+export function build(Type, owner, sites, options) {
+  const place = owner.scoped((scope) =>
+    scope.made("rondel_delaunay", scope.copy(sites), sites.length / 3, placeOptions(owner, scope, options), 0),
+  );
+  return new Type(owner, place);
+}
+
+/**
+ * The unit vectors of longitudes and latitudes, the same bits on every machine; multiples of 90 degrees are exact.
+ * @param {Numbers} lonLat degrees, of shape (n, 2)
+ * @returns {Float64Array} of shape (n, 3)
+ * @throws {import("./errors.js").RondelError} for the first angle that is not finite, or latitude outside [-90, 90]
+ */
+export function unitVectors(lonLat) {
+  const owner = engine();
+  const angles = numbers(lonLat, 2, "longitudes and latitudes");
+  const n = angles.length / 2;
+  return owner.scoped((scope) => {
+    const place = scope.room(3 * n, 8);
+    owner.call("rondel_unit_vectors", scope.copy(angles), n, place);
+    return owner.doubles(place, 3 * n);
+  });
+}
+
+/**
+ * The weighted sites of circles on the unit sphere: the poles of their planes.
+ * @param {Numbers} lonLat centers, degrees, of shape (n, 2)
+ * @param {Numbers} radii angular, degrees in [0, 90), of shape (n,)
+ * @returns {Float64Array} of shape (n, 3)
+ */
+export function polarPoints(lonLat, radii) {
+  const owner = engine();
+  const angles = numbers(lonLat, 2, "longitudes and latitudes");
+  const n = angles.length / 2;
+  const sizes = numbers(radii, 1, "radii");
+  if (sizes.length !== n) throw new RangeError(`there are ${sizes.length} radii for ${n} centers`);
+  return owner.scoped((scope) => {
+    const place = scope.room(3 * n, 8);
+    owner.call("rondel_polar_points", scope.copy(angles), scope.copy(sizes), n, place);
+    return owner.doubles(place, 3 * n);
+  });
+}
+
+/**
+ * With `radii`, degrees in [0, 90), the sites are circles, in the weighted model.
+ * @typedef {Options & {radii?: Numbers}} LonLatOptions
+ */
+
+/**
+ * The function that makes a Type of sites, with its lonLat().
+ * @template {Triangulation} T
+ * @param {new (owner: Engine, place: number) => T} Type
+ */
+export function maker(Type) {
+  /** @param {Numbers} xyz @param {Options} [options] @returns {T} */
+  const make = (xyz, options = {}) => build(Type, engine(), numbers(xyz, 3, "sites"), options);
+  /** @param {Numbers} lonLat @param {LonLatOptions} [options] @returns {T} */
+  const lonLat = (lonLat, { radii, ...options } = {}) => {
+    if (radii === undefined) return make(unitVectors(lonLat), options);
+    return make(polarPoints(lonLat, radii), { ...options, model: "weighted" });
+  };
+  return Object.assign(make, { lonLat });
+}
+
+/**
+ * The triangulation of sites x0, y0, z0, x1, ...: unique and exact for every finite input.
+ * `delaunay.lonLat(array, options)` takes longitudes and latitudes in degrees.
+ * @throws {import("./errors.js").RondelError} if a coordinate is not finite or a projected site is the center
+ * @throws {RangeError} where memory runs out
+ */
+export const delaunay = maker(Triangulation);
+
+/** As delaunay(), with `cells`, `areas` and `centers` of the Voronoi or power diagram. */
+export const voronoi = maker(VoronoiDiagram);

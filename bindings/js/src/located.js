@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Questions about places.
+
+import { count, numbers } from "./arguments.js";
+
+/** @typedef {import("./arguments.js").Numbers} Numbers */
+/** @typedef {import("./engine.js").Engine} Engine */
+/** @typedef {import("./engine.js").Handle} Handle */
+
+/** Stands for "none" in arrays of indices. */
+export const noIndex = 0xffffffff;
+
+/**
+ * Lists of sites in compressed rows: list i is sites[offsets[i]] ... sites[offsets[i + 1] - 1].
+ * @typedef {{offsets: Uint32Array, sites: Uint32Array}} SiteLists
+ */
+
+/**
+ * What the rays from the center through n points meet: `where` has 0 for a vertex, 1 for an edge, 2 for a face, 3 for
+ * none (outside); `faces` a face that has it, of shape (n,); `sites` its one, two or three sites, of shape (n, 3),
+ * filled up with noIndex.
+ * @typedef {{where: Int32Array, faces: Uint32Array, sites: Uint32Array}} Locations
+ */
+
+/** Questions about places, which triangulations and dynamic ones answer. All answers are exact, ties included. */
+export class Located {
+  /** @type {Handle | undefined} */
+  #locator;
+
+  /** @param {Engine} owner */
+  constructor(owner) {
+    /** @protected @type {Engine} */
+    this.engine = owner;
+  }
+
+  /** Makes a locator. @protected @returns {Handle} */
+  makeLocator() {
+    throw new Error("of a derived class");
+  }
+
+  /** @protected */
+  freeLocator() {
+    this.#locator?.free();
+    this.#locator = undefined;
+  }
+
+  /**
+   * @template T
+   * @param {Numbers} points
+   * @param {(place: number, n: number, locator: number, scope: any) => T} work
+   * @returns {T}
+   */
+  #ask(points, work) {
+    const xyz = numbers(points, 3, "points");
+    this.#locator ??= this.makeLocator();
+    const { place } = this.#locator;
+    return this.engine.scoped((scope) => work(scope.copy(xyz), xyz.length / 3, place, scope));
+  }
+
+  /**
+   * The nearest site to each point; of several the lowest index, without sites noIndex.
+   * @param {Numbers} points of shape (n, 3), which stand for their directions from the center
+   * @returns {Uint32Array} of shape (n,)
+   * @throws {import("./errors.js").RondelError} with the first point that is not finite or the center, as all questions do
+   */
+  nearest(points) {
+    return this.#ask(points, (place, n, locator, scope) => {
+      const sites = scope.room(n);
+      this.engine.call("rondel_nearest", locator, place, n, 0, sites);
+      return this.engine.indices(sites, n);
+    });
+  }
+
+  /**
+   * The k nearest sites to each point in order of distance, filled up with noIndex.
+   * @param {Numbers} points of shape (n, 3)
+   * @param {number} k
+   * @returns {Uint32Array} of shape (n, k)
+   */
+  kNearest(points, k) {
+    count(k, "k");
+    return this.#ask(points, (place, n, locator, scope) => {
+      if (n * k >= 2 ** 30) throw new RangeError("Rondel: out of memory");
+      const sites = scope.room(n * k);
+      this.engine.call("rondel_k_nearest", locator, place, n, k, 0, sites);
+      return this.engine.indices(sites, n * k);
+    });
+  }
+
+  /**
+   * The sites at a distance of at most `angle` from each point, in increasing order.
+   * @param {Numbers} points of shape (n, 3)
+   * @param {number} angle radians
+   * @returns {SiteLists}
+   */
+  within(points, angle) {
+    return this.#ask(points, (place, n, locator, scope) => {
+      const lists = scope.made("rondel_within", locator, place, n, angle, 0);
+      try {
+        const offsets = this.engine.offsets(this.engine.functions.rondel_list_offsets(lists), n + 1);
+        return { offsets, sites: this.engine.indices(this.engine.functions.rondel_list_items(lists), offsets[n]) };
+      } finally {
+        this.engine.functions.rondel_lists_free(lists);
+      }
+    });
+  }
+
+  /**
+   * The vertex, edge or face that each point lies on.
+   * @param {Numbers} points of shape (n, 3)
+   * @returns {Locations}
+   */
+  locate(points) {
+    return this.#ask(points, (place, n, locator, scope) => {
+      const [where, faces, sites] = [scope.room(n), scope.room(n), scope.room(3 * n)];
+      this.engine.call("rondel_locate", locator, place, n, 0, where, faces, sites);
+      return {
+        where: new Int32Array(this.engine.indices(where, n).buffer),
+        faces: this.engine.indices(faces, n),
+        sites: this.engine.indices(sites, 3 * n),
+      };
+    });
+  }
+
+  /**
+   * The distance between a point and a site in radians; weighted, the Laguerre distance.
+   * @param {Numbers} point x, y, z
+   * @param {number} site
+   * @returns {number}
+   */
+  distance(point, site) {
+    count(site, "site");
+    return this.#ask(point, (place, n, locator, scope) => {
+      if (n !== 1) throw new TypeError("distance: one point is wanted");
+      const result = scope.room(1, 8);
+      this.engine.call("rondel_distance", locator, place, site, result);
+      return this.engine.doubles(result, 1)[0];
+    });
+  }
+}
