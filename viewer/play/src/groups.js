@@ -7,6 +7,8 @@
 import { makeChunk, makeChunks } from "../../src/chunks.js";
 
 const mostGrowth = 2;  // of a chunk, before all are made again
+const least = 300;  // sites of a chunk that may grow so far
+const few = 5000;  // sites whose buffers are made at once, so that nothing flickers
 
 function isListed(surface, site) {
   return surface.starOffsets[site] < surface.starOffsets[site + 1] || surface.isHidden(site);
@@ -34,7 +36,7 @@ function hasSamePlace(before, after, site) {
 }
 
 export class Groups {
-  // `radiiOf(surface, site)`: how far what is drawn of a site reaches beyond its faces and cell.
+  // `radii`: how far what is drawn of each site reaches beyond its faces and cell.
   constructor(surface, radii) {
     this.renew(surface, radii);
   }
@@ -42,6 +44,7 @@ export class Groups {
   renew(surface, radii) {
     this.surface = surface;
     this.chunks = makeChunks(surface, radii);
+    for (const chunk of this.chunks) chunk.isUrgent = surface.order.length <= few;
     this.members = this.chunks.map(({ begin, end }) => surface.order.slice(begin, end));
     this.largest = this.members.map((list) => mostGrowth * list.length);
     this.home = new Int32Array(surface.numSites).fill(-1);
@@ -58,7 +61,7 @@ export class Groups {
     }
     const changed = this.changedSites(before, surface);
     const touched = this.regroup(surface, changed);
-    if (this.members.some((list, group) => list.length > this.largest[group] && list.length > 300)) {
+    if (this.members.some((list, group) => list.length > this.largest[group] && list.length > least)) {
       this.renew(surface, radii);
       return null;
     }

@@ -137,6 +137,7 @@ export class Play extends LiveGlobe {
 
   remember(undo, redo) {
     this.history.add({ undo, redo });
+    this.panel.byId("hint").hidden = true;
     this.showHistory();
   }
 
