@@ -208,6 +208,7 @@ class Edits(PlayTest):
 
     def test_sites_relax(self):
         page = self.play("random", 200)
+        self.choose(page, "fill", "area")
         before = self.sites(page)
         spread = "Math.max(...rondelGlobe.surface.areas) / Math.min(...rondelGlobe.surface.areas)"
         uneven = page.run(spread)
@@ -215,6 +216,9 @@ class Edits(PlayTest):
         page.wait(f"{spread} < {uneven / 4}")
         page.run("document.getElementById('relax').click()")
         self.compare(page)
+        low, high = page.run("rondelGlobe.layers.range")
+        self.assertEqual(page.run("Math.min(...rondelGlobe.surface.areas)"), low)
+        self.assertEqual(page.run("Math.max(...rondelGlobe.surface.areas)"), high)
         page.run("document.getElementById('undo').click()")
         self.settle(page)
         self.assertEqual(self.sites(page), before)

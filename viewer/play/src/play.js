@@ -88,7 +88,7 @@ export class Play extends LiveGlobe {
       this.relaxed.after = this.points;
       requestAnimationFrame(() => this.isRelaxing && this.remote.ask("relax"));
     }
-    if (this.remote.isIdle && this.held === null && !this.isRelaxing) this.rest();
+    if (this.remote.isIdle && this.held === null) this.rest();
   }
 
   // Whether the screen shows all that was done.
