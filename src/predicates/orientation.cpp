@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "exact/exact_sign.h"
 #include "exact/extended.h"
@@ -70,10 +72,24 @@ Sign filter_of_scaled(const Point& a, const Point& b, const Point& c, const Poin
       value, is_beyond(value, orientation_bound, dot(ray, ray), dot(from, from), dot(to, to)));
 }
 
+// Whether some ray has a coordinate, other than 0, so small against another that a tie is unlikely,
+// and that differences of products hardly cancel.
+bool have_different_exponents(const std::array<Point, 3>& points, const Point& center) {
+  constexpr double little = 0x1p-100;
+  const auto size = [](double x) {
+    return x == 0 ? std::numeric_limits<double>::infinity() : std::abs(x);
+  };
+  return std::ranges::any_of(points, [&](const Point& p) {
+    const Vector v = to_vector(p) - to_vector(center);
+    return std::min({size(v.x), size(v.y), size(v.z)}) < little * longest_coordinate(v);
+  });
+}
+
 // For coordinates of different magnitudes.
 Sign wide_filter(const Point& a, const Point& b, const Point& c, const Point& center) {
   const Vector o = to_vector(center);
-  return det(to_wide(to_vector(a) - o), to_wide(to_vector(b) - o), to_wide(to_vector(c) - o))
+  return det_of_rows(to_scaled(to_vector(a) - o), to_scaled(to_vector(b) - o),
+                     to_scaled(to_vector(c) - o))
       .sign_if_beyond(orientation_wide_bound);
 }
 
@@ -102,12 +118,12 @@ Decision orientation(const Point& a, const Point& b, const Point& c, const Point
   if (const Sign sign = orientation_extended(a, b, c, center); sign != Sign::zero) {
     return {sign, Rung::extended};
   }
-  if (const auto sign = exact::sign_of_volume_in_integers(center, a, b, c)) {
-    return {*sign, Rung::exact};
-  }
-  if (have_different_exponents<3>({a, b, c}, center)) {
+  if (have_different_exponents({a, b, c}, center)) {
     if (const Sign sign = wide_filter(a, b, c, center); sign != Sign::zero)
       return {sign, Rung::filter};
+  }
+  if (const auto sign = exact::sign_of_volume_in_integers(center, a, b, c)) {
+    return {*sign, Rung::exact};
   }
   if (const Sign sign = filter_of_scaled(a, b, c, center); sign != Sign::zero) {
     return {sign, Rung::filter};

@@ -51,11 +51,10 @@ Sign side_of_circle_wide_filter(const Quad& q, const Point& center) {
   const WideRay& origin = rays[order[3]];
   const bool is_reflected = origin.is_backward;
   const auto of_origin = origin.row(origin.axis, is_reflected);
-  std::array<WideVector, 3> rows;
-  for (std::size_t i = 0; i < 3; ++i) {
-    rows[i] = less_origin(rays[order[i]].row(origin.axis, is_reflected), of_origin);
-  }
-  const Sign sign = det(rows[0], rows[1], rows[2]).sign_if_beyond(circle_wide_bound);
+  const auto row = [&](std::size_t i) {
+    return less_origin(rays[order[i]].row(origin.axis, is_reflected), of_origin);
+  };
+  const Sign sign = det_of_rows(row(0), row(1), row(2)).sign_if_beyond(circle_wide_bound);
   return is_reflected ? -sign : sign;
 }
 

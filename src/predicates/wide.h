@@ -7,6 +7,7 @@
 // A Wide knows the size of its value: what the same formula would give if all its terms were positive.
 // As no operation loses more than u of the sizes it adds or multiplies, a value is off by at most
 // k u size, where k counts the roundings that one product of the formula goes through (bounds.h).
+// What has no difference in it is its size, and a Scaled.
 #pragma once
 
 #include <algorithm>
@@ -21,20 +22,18 @@
 
 namespace rondel::predicates {
 
-// value * 2^exponent. The size is 0, or at least 1/8 and below 2^30 in formulas of degree 6.
-struct Wide {
+// value * 2^exponent. The value is 0, or at least 1/8 and below 2^6.
+struct Scaled {
   double value = 0;
-  double size = 0;
   int exponent = -(1 << 20);  // below that of any product
 
-  Wide() = default;
-  Wide(double v, double s, int e) : value(v), size(s), exponent(e) {}
-  // What overflowed is infinite, or no number, with an infinite size: no sign is sure of it.
-  explicit Wide(double v) {
+  Scaled(double v, int e) : value(v), exponent(e) {}
+  // What overflowed is infinite, or no number: no sign is sure of it.
+  explicit Scaled(double v) {
     if (v == 0) return;
     exponent = exponent_of(v);
     if (exponent == 1024) {
-      value = size = std::numeric_limits<double>::infinity();
+      value = std::numeric_limits<double>::infinity();
       return;
     }
     if (exponent == -1023) {
@@ -45,53 +44,99 @@ struct Wide {
     constexpr std::uint64_t exponent_bits = std::uint64_t{0x7ff} << 52U;
     constexpr auto one = std::bit_cast<std::uint64_t>(1.0);
     value = std::bit_cast<double>((std::bit_cast<std::uint64_t>(v) & ~exponent_bits) | one);
-    size = std::abs(value);
   }
 
+  [[nodiscard]] double size() const { return std::abs(value); }
   // In units of 2^unit. What is far below them is off by less than 2^-990.
   [[nodiscard]] double in(int unit) const {
     return value * power_of_two(std::max(exponent - unit, -most_exponent));
   }
-  // Whether the sign of the value is that of the exact one.
-  [[nodiscard]] Sign sign_if_beyond(double bound) const {
-    return unless_unsure(value, std::abs(value) > bound * size);
-  }
 
-  friend Wide operator*(const Wide& a, const Wide& b) {
-    return {a.value * b.value, a.size * b.size, a.exponent + b.exponent};
+  friend Scaled operator*(const Scaled& a, const Scaled& b) {
+    return {a.value * b.value, a.exponent + b.exponent};
   }
-  friend Wide operator-(const Wide& a) { return {-a.value, a.size, a.exponent}; }
-  friend Wide operator-(const Wide& a, const Wide& b) { return a + -b; }
-  // A term far below the other one is off by less than 2^-960 of that.
-  friend Wide operator+(const Wide& a, const Wide& b) {
-    const int highest = std::max(a.exponent, b.exponent);
-    const double of_a = power_of_two(std::max(a.exponent - highest, -most_exponent));
-    const double of_b = power_of_two(std::max(b.exponent - highest, -most_exponent));
-    return {of_a * a.value + of_b * b.value, of_a * a.size + of_b * b.size, highest};
-  }
+  friend Scaled operator-(const Scaled& a) { return {-a.value, a.exponent}; }
 };
 
+// The size is 0, or at least 1/8 and below 2^30 in formulas of degree 6.
+class Wide {
+ public:
+  Wide(double v, double s, int e) : value(v), exponent(e), size_(s) {}
+
+  [[nodiscard]] double size() const { return size_; }
+  // Whether the sign of the value is that of the exact one.
+  [[nodiscard]] Sign sign_if_beyond(double bound) const {
+    return unless_unsure(value, std::abs(value) > bound * size_);
+  }
+  // A term far below the other one is off by less than 2^-960 of that.
+  static Wide difference(const Scaled& a, const Scaled& b) {
+    const int highest = std::max(a.exponent, b.exponent);
+    const double of_a = a.in(highest);
+    const double of_b = b.in(highest);
+    return {of_a - of_b, std::abs(of_a) + std::abs(of_b), highest};
+  }
+
+  double value;
+  int exponent;
+
+ private:
+  double size_;
+};
+
+// The determinant of three rows in units of its largest product: two roundings in each of the six,
+// three in their sum. Products far below the largest one are off by 2^-999 of that.
+template <class Number>
+Wide det_of_rows(const exact::Vector3<Number>& a, const exact::Vector3<Number>& b,
+                 const exact::Vector3<Number>& c) {
+  const auto exponent = [](const Number& x, const Number& y, const Number& z) {
+    return x.exponent + y.exponent + z.exponent;
+  };
+  const std::array<int, 6> exponents = {exponent(a.x, b.y, c.z), exponent(a.y, b.z, c.x),
+                                        exponent(a.z, b.x, c.y), exponent(a.x, b.z, c.y),
+                                        exponent(a.y, b.x, c.z), exponent(a.z, b.y, c.x)};
+  const int highest = std::max(
+      {exponents[0], exponents[1], exponents[2], exponents[3], exponents[4], exponents[5]});
+  std::array<double, 6> values{};
+  std::array<double, 6> sizes{};
+  const auto multiply = [&](std::size_t i, const Number& x, const Number& y, const Number& z) {
+    const double unit = power_of_two(std::max(exponents[i] - highest, -most_exponent));
+    values[i] = unit * (x.value * y.value * z.value);
+    sizes[i] = unit * (x.size() * y.size() * z.size());
+  };
+  multiply(0, a.x, b.y, c.z);
+  multiply(1, a.y, b.z, c.x);
+  multiply(2, a.z, b.x, c.y);
+  multiply(3, a.x, b.z, c.y);
+  multiply(4, a.y, b.x, c.z);
+  multiply(5, a.z, b.y, c.x);
+  const double value =
+      ((values[0] - values[3]) + (values[1] - values[4])) + (values[2] - values[5]);
+  const double size = ((sizes[0] + sizes[3]) + (sizes[1] + sizes[4])) + (sizes[2] + sizes[5]);
+  return {value, size, highest};
+}
+
+using ScaledVector = exact::Vector3<Scaled>;
 using WideVector = exact::Vector3<Wide>;
 
-inline WideVector to_wide(const Vector& v) { return {Wide(v.x), Wide(v.y), Wide(v.z)}; }
+inline ScaledVector to_scaled(const Vector& v) { return {Scaled(v.x), Scaled(v.y), Scaled(v.z)}; }
 
 // A row of the determinant in side_of_circle_wide.cpp.
 struct WideRow {
-  Wide x;
-  Wide y;
-  Wide z;
-  Wide h;
+  Scaled x;
+  Scaled y;
+  Scaled z;
+  Scaled h;
 };
 
 // A ray, and the axis that is its longest coordinate's.
 struct WideRay {
-  std::array<Wide, 3> along;
+  std::array<Scaled, 3> along;
   std::size_t axis = 0;
   bool is_backward = false;  // on the axis
   int longest = 0;           // exponent of the coordinate on the axis
   int distance = 0;          // exponent of the longer one of the others, counted from that
 
-  explicit WideRay(const Vector& v) : along{Wide(v.x), Wide(v.y), Wide(v.z)} {
+  explicit WideRay(const Vector& v) : along{Scaled(v.x), Scaled(v.y), Scaled(v.z)} {
     const auto longer = [&v](std::size_t i, std::size_t j) {
       const std::array<double, 3> size = {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
       return size[i] < size[j] ? j : i;
@@ -103,21 +148,23 @@ struct WideRay {
   }
 
   [[nodiscard]] WideRow row(std::size_t axis_of_x, bool is_reflected) const {
-    const Wide x = is_reflected ? -along[axis_of_x] : along[axis_of_x];
-    const Wide& y = along[(axis_of_x + 1) % 3];
-    const Wide& z = along[(axis_of_x + 2) % 3];
-    const Wide squared = y * y + z * z;
+    const Scaled x = is_reflected ? -along[axis_of_x] : along[axis_of_x];
+    const Scaled& y = along[(axis_of_x + 1) % 3];
+    const Scaled& z = along[(axis_of_x + 2) % 3];
+    const int longer = 2 * std::max(y.exponent, z.exponent);
+    const Scaled squared = {(y * y).in(longer) + (z * z).in(longer), longer};
     const double forward = x.in(longest);
     const double length = std::sqrt(forward * forward + squared.in(2 * longest));
     const double sum = length + std::abs(forward);
-    if (forward <= 0) return {x, y, z, {sum, sum, longest}};
-    return {x, y, z, {squared.value / sum, squared.size / sum, squared.exponent - longest}};
+    if (forward <= 0) return {x, y, z, {sum, longest}};
+    return {x, y, z, {squared.value / sum, longer - longest}};
   }
 };
 
 // The row of a ray less what makes its first entry 0, which is left out.
 inline WideVector less_origin(const WideRow& q, const WideRow& o) {
-  return {o.x * q.y - q.x * o.y, o.x * q.z - q.x * o.z, o.x * q.h - q.x * o.h};
+  return {Wide::difference(o.x * q.y, q.x * o.y), Wide::difference(o.x * q.z, q.x * o.z),
+          Wide::difference(o.x * q.h, q.x * o.h)};
 }
 
 }  // namespace rondel::predicates

@@ -189,13 +189,14 @@ double wide_orientation_ratio(const FourStored& s) {
   const Vector center = to_vector(0.3 * s[3].site);
   for (std::size_t i = 0; i < 3; ++i) rays[i] = to_vector(s[i].site) - center;
   const auto value =
-      det(predicates::to_wide(rays[0]), predicates::to_wide(rays[1]), predicates::to_wide(rays[2]));
+      predicates::det_of_rows(predicates::to_scaled(rays[0]), predicates::to_scaled(rays[1]),
+                              predicates::to_scaled(rays[2]));
   const auto exact_ray = [&](std::size_t i) {
     return minus(big(to_vector(s[i].site)), big(center));
   };
   const Big exact_value = det_of(exact_ray(0), exact_ray(1), exact_ray(2));
-  return std::abs(to_double(big(value.in(0)) - exact_value)) /
-         (predicates::orientation_wide_bound * std::ldexp(value.size, value.exponent));
+  return std::abs(to_double(big(std::ldexp(value.value, value.exponent)) - exact_value)) /
+         (predicates::orientation_wide_bound * std::ldexp(value.size(), value.exponent));
 }
 
 struct ExactRay {
@@ -214,26 +215,25 @@ double wide_circle_ratio(const FourStored& s) {
     const Point& p = s[i].site;
     return Vector{2 + p.x * p.x, p.y, p.z};
   };
-  std::array<predicates::WideRow, 4> rows;
+  std::vector<predicates::WideRow> rows;
   std::vector<ExactRay> exact;
   for (std::size_t i = 0; i < 4; ++i) {
-    rows[i] = predicates::WideRay(moved(i) - center).row(0, false);
+    rows.push_back(predicates::WideRay(moved(i) - center).row(0, false));
     exact.emplace_back(moved(i), center);
   }
   const auto& o = rows[3];
   const ExactRay& e = exact[3];
-  std::array<predicates::WideVector, 3> m;
+  const auto row = [&](std::size_t i) { return predicates::less_origin(rows[i], o); };
   std::array<BigVector, 3> b;
   for (std::size_t i = 0; i < 3; ++i) {
-    m[i] = predicates::less_origin(rows[i], o);
     const ExactRay& q = exact[i];
     b[i] = {e.v.x * q.v.y - q.v.x * e.v.y, e.v.x * q.v.z - q.v.x * e.v.z,
             e.v.x * q.height - q.v.x * e.height};
   }
-  const auto value = det(m[0], m[1], m[2]);
+  const auto value = predicates::det_of_rows(row(0), row(1), row(2));
   const Big exact_value = det_of(b[0], b[1], b[2]);
-  return std::abs(to_double(big(value.in(0)) - exact_value)) /
-         (predicates::circle_wide_bound * std::ldexp(value.size, value.exponent));
+  return std::abs(to_double(big(std::ldexp(value.value, value.exponent)) - exact_value)) /
+         (predicates::circle_wide_bound * std::ldexp(value.size(), value.exponent));
 }
 
 Big squared_chord(const Stored& s, const Stored& t) {
