@@ -29,7 +29,9 @@ inline exact::DoubleDouble difference_of_products(double a, double b, double c, 
 // Error: the products and their difference are exact, so what is left are the roundings of
 // the low part, below 2^-101 |B||C| where lo comes from hi's rounding and below 2^-101 (|B| +
 // |C|) where it comes from the places' low parts (|lo| <= 2^-51).
-inline SplitNormal split_cross(const Offset& b, const Offset& c) {
+//
+// Inline always, or Clang makes no vector code of the loop over faces (face_batch.cpp).
+[[gnu::always_inline]] inline SplitNormal split_cross(const Offset& b, const Offset& c) {
   const Vec s = c.hi + c.lo;
   const auto low = [&](double bh1, double bl1, double cl2, double s2, double bh2, double bl2,
                        double cl1,
