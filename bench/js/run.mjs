@@ -7,7 +7,8 @@
 //
 // 1. d3-geo-voronoi and Rondel, 2^14 uniform sites in longitude and latitude: Rondel's typed arrays (triangles,
 //    neighbors, cells), and polygons() of the drop-in, against what d3's geoDelaunay() always makes, and its polygons().
-// 2. The module and native_bench, 2^17 sites: build, and diagram without the copies to JavaScript.
+// 2. The module and native_bench, 2^17 sites: build, and diagram without the copies to JavaScript; in turns of several
+//    runs each, and the median of the turns' ratios.
 
 import { execFileSync } from "node:child_process";
 import { cpus } from "node:os";
@@ -75,9 +76,9 @@ function againstD3() {
   );
 }
 
-function inModule() {
+/** Medians of some runs of the module. @param {Float64Array} xyz */
+function inModule(xyz) {
   const owner = engine();
-  const xyz = uniformSites(2 ** 17);
   let triangulation;
   return medians(
     {
@@ -88,8 +89,25 @@ function inModule() {
           triangulation.free();
         }),
     },
-    9,
+    7,
   );
+}
+
+/** @param {string} program native_bench */
+function againstNative(program) {
+  const xyz = uniformSites(2 ** 17);
+  inModule(xyz); // compiled by all of the engine's compilers from now on
+  const turns = Array.from({ length: 9 }, () => ({
+    native: JSON.parse(execFileSync(program, [String(2 ** 17), "7"], { encoding: "utf8" })),
+    wasm: inModule(xyz),
+  }));
+  for (const name of ["build", "diagram"]) {
+    const sorted = (values) => values.sort((x, y) => x - y);
+    const ratios = sorted(turns.map(({ native, wasm }) => wasm[name] / native[name]));
+    const [native, wasm] = ["native", "wasm"].map((kind) => sorted(turns.map((turn) => turn[kind][name]))[4]);
+    const [least, middle, most] = [ratios[0], ratios[4], ratios[8]].map((ratio) => ratio.toFixed(2));
+    console.log(`${name}: native ${native.toFixed(1)}, wasm ${wasm.toFixed(1)}, ratio ${middle} (${least} to ${most})`);
+  }
 }
 
 console.log(`${cpus()[0].model}, Node.js ${process.version}; milliseconds of processor time`);
@@ -97,10 +115,4 @@ const d = againstD3();
 console.table(d);
 console.log(`typed arrays: ${(d["d3 geoDelaunay"] / d["Rondel typed arrays"]).toFixed(1)} times faster than geoDelaunay`);
 console.log(`polygons(): ${(d["d3 polygons"] / d["Rondel drop-in polygons"]).toFixed(1)} times faster`);
-const wasm = inModule();
-console.table(wasm);
-if (process.argv[2]) {
-  const native = JSON.parse(execFileSync(process.argv[2], [String(2 ** 17), "15"], { encoding: "utf8" }));
-  console.table(native);
-  for (const name of ["build", "diagram"]) console.log(`${name}: wasm / native ${(wasm[name] / native[name]).toFixed(2)}`);
-}
+if (process.argv[2]) againstNative(process.argv[2]);
