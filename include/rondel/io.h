@@ -72,7 +72,7 @@ struct SiteTable {
 
   [[nodiscard]] bool is_lonlat() const noexcept { return !positions.empty(); }
   /// "stations.csv:17" or, for formats without lines, "sites.npy: row 16".
-  [[nodiscard]] std::string where(std::size_t site) const;
+  [[nodiscard]] RONDEL_API std::string where(std::size_t site) const;
 };
 
 /// Reads .csv .tsv .xyz .txt .npy .geojson; "-" is standard input, CSV where no format is named. A

@@ -27,6 +27,9 @@ extern "C" int rondel_client() {
   } catch (const rondel::FileError&) {
     ++num_caught;
   }
+  rondel::SiteTable table;
+  table.name = "sites.csv";
+  if (table.where(0) != "sites.csv:1") return 1;
   std::printf("%s: %zu faces, %d errors\n", rondel::version, rondel::delaunay(sites).num_faces(),
               num_caught);
   return 0;
