@@ -133,7 +133,7 @@ class Queries:
         -------
         ndarray of float64
             Radians from 0 to pi, infinite for the site -1. With model 'weighted' the Laguerre
-            distance arccos(cos(angle) |P| / R), 0 inside of the circle.
+            distance ``arccos(cos(angle) |P| / R)``, 0 inside of the circle.
 
         Raises
         ------

@@ -1,0 +1,205 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""The documentation site, read as files and opened in a browser from file://.
+
+    site_test.py SITE CHROMIUM AXE [TEST ...]
+
+SITE is what scripts/site made; AXE is axe.min.js of the npm package axe-core. Addresses outside the site are listed,
+never asked for.
+"""
+
+import html.parser
+import pathlib
+import re
+import sys
+import unittest
+import urllib.parse
+
+sys.dont_write_bytecode = True
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests" / "globe"))
+from browser import Browser  # noqa: E402 (after the line above)
+
+SITE, CHROMIUM, AXE = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
+del sys.argv[1:4]
+
+# A page of each kind.
+KINDS = [
+    "index.html",
+    "install.html",
+    "gallery.html",
+    "theory.html",
+    "search.html",
+    "genindex.html",
+    "docs/guide/python.html",
+    "docs/guide/cli.html",
+    "docs/theory/filters.html",
+    "reference/cpp/triangulation.html",
+    "reference/python.html",
+    "reference/javascript/index/classes/Triangulation.html",
+    "reference/c.html",
+]
+LOADING = {("script", "src"), ("link", "href"), ("img", "src"), ("iframe", "src"), ("source", "src")}
+
+
+class Reader(html.parser.HTMLParser):
+    """The addresses in a page, the names that links may lead to, and what it loads from elsewhere."""
+
+    def __init__(self, path):
+        super().__init__()
+        self.links, self.names, self.loaded = [], set(), []
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attrs):
+        attributes = dict(attrs)
+        self.names.update(attributes[key] for key in ("id", "name") if attributes.get(key))
+        for key in ("href", "src"):
+            target = attributes.get(key)
+            if target is None or (tag == "link" and attributes.get("rel") == "canonical"):
+                continue
+            self.links.append(target)
+            if (tag, key) in LOADING and re.match(r"(https?:)?//", target):
+                self.loaded.append(target)
+
+
+def pages():
+    """The pages that Sphinx made."""
+    return [path for path in sorted(SITE.rglob("*.html")) if not {"_static", "globes"} & set(path.relative_to(SITE).parts)]
+
+
+def name(path):
+    return path.relative_to(SITE).as_posix()
+
+
+class Files(unittest.TestCase):
+    """What holds of the files alone."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.readers = {path: Reader(path) for path in pages()}
+
+    def test_there_is_a_page_of_each_kind(self):
+        for kind in KINDS:
+            self.assertTrue((SITE / kind).exists(), kind)
+
+    def test_every_link_leads_to_a_file_and_every_anchor_to_a_name(self):
+        outside, broken, local = set(), [], 0
+        for path, reader in self.readers.items():
+            for link in reader.links:
+                parts = urllib.parse.urlsplit(link)
+                if parts.scheme in ("http", "https"):
+                    outside.add(link)
+                if parts.scheme or parts.netloc:
+                    continue
+                local += 1
+                target = (path.parent / urllib.parse.unquote(parts.path)).resolve() if parts.path else path
+                anchor = urllib.parse.unquote(parts.fragment)
+                if not target.is_file():
+                    broken.append(f"{name(path)}: {link}")
+                elif anchor and target in self.readers and anchor not in self.readers[target].names:
+                    broken.append(f"{name(path)}: {link} (no such anchor)")
+        print(f"{len(self.readers)} pages, {local} links inside; addresses outside:", *sorted(outside), sep="\n  ")
+        self.assertGreater(local, 1000)
+        self.assertEqual(sorted(set(broken)), [])
+
+    def test_nothing_is_loaded_from_elsewhere(self):
+        for path, reader in self.readers.items():
+            self.assertEqual(reader.loaded, [], name(path))
+
+    def test_every_document_is_a_page(self):
+        for document in [*(ROOT / "docs").rglob("*.md"), *(ROOT / "site").rglob("*.md")]:
+            folder = ROOT if (ROOT / "docs") in document.parents else ROOT / "site"
+            self.assertTrue((SITE / document.relative_to(folder)).with_suffix(".html").exists(), document)
+
+    def test_every_public_name_is_in_the_references(self):
+        headers = "".join((ROOT / f"include/rondel/{h}.h").read_text(encoding="utf-8") for h in ("delaunay", "diagram", "hull"))
+        functions = set(re.findall(r"^RONDEL_API [^;(]*?(\w+)\(", headers, re.M))
+        self.assertGreater(len(functions), 10)
+        cpp = "".join(path.read_text(encoding="utf-8") for path in (SITE / "reference/cpp").glob("*.html"))
+        for function in functions:
+            self.assertTrue(re.search(rf'<h2>{function}<', cpp), function)
+        c_header = (ROOT / "bindings/c/include/rondel.h").read_text(encoding="utf-8")
+        c = (SITE / "reference/c.html").read_text(encoding="utf-8")
+        for function in set(re.findall(r"^RONDEL_C_API [^;(]*?(rondel_\w+)\(", c_header, re.M)):
+            self.assertTrue(f'id="c.{function}"' in c, function)
+        exported = (ROOT / "bindings/python/rondel/__init__.py").read_text(encoding="utf-8").split("__all__")[1]
+        python = (SITE / "reference/python.html").read_text(encoding="utf-8")
+        for word in re.findall(r'"(\w+)"', exported):
+            self.assertTrue(f'id="rondel.{word}"' in python, word)
+
+    def test_every_cell_of_a_notebook_was_run(self):
+        documents = [d for d in (ROOT / "site").rglob("*.md") if "{code-cell}" in d.read_text(encoding="utf-8")]
+        for document in documents:
+            page = (SITE / document.relative_to(ROOT / "site")).with_suffix(".html").read_text(encoding="utf-8")
+            cells = document.read_text(encoding="utf-8").count("{code-cell}")
+            self.assertGreaterEqual(page.count('class="cell docutils container"') + page.count('class="cell '), cells, document)
+            self.assertIn("cell_output", page)
+            self.assertNotIn("Traceback (most recent call last)", page)
+
+
+class InTheBrowser(unittest.TestCase):
+    """What holds of pages that are open."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.browser = Browser(str(CHROMIUM)).__enter__()
+        cls.addClassCleanup(cls.browser.__exit__)
+
+    def open(self, path, **more):
+        page = self.browser.open(str(path), **more)
+        self.addCleanup(page.close)
+        page.wait("document.readyState === 'complete' && location.protocol === 'file:'")
+        return page
+
+    def test_no_page_has_errors_on_the_console(self):
+        for path in pages():
+            with self.subTest(name(path)):
+                page = self.browser.open(str(path))
+                page.wait("document.readyState === 'complete' && location.protocol === 'file:'")
+                self.assertEqual(page.errors(), [])
+                page.close()
+
+    def test_search_finds_a_word(self):
+        for word, wanted in {"perturbation": "perturbation.html", "Laguerre": "circles.html"}.items():
+            page = self.open(f"{SITE / 'search.html'}?q={word}")
+            page.wait("document.querySelectorAll('#search-results li a').length > 0")
+            found = page.run("[...document.querySelectorAll('#search-results li a')].map((a) => a.href).join(' ')")
+            self.assertIn(wanted, found)
+            self.assertEqual(page.errors(), [])
+
+    def test_formulas_are_set(self):
+        page = self.open(SITE / "docs/theory/areas.html")
+        page.wait("document.querySelectorAll('mjx-container svg').length > 0")
+        self.assertEqual(page.run("document.querySelectorAll('[data-mjx-error], mjx-merror').length"), 0)
+
+    def test_the_first_globe_is_drawn(self):
+        page = self.open(SITE / "index.html")
+        page.wait("document.querySelector('iframe').getBoundingClientRect().height > 100")
+        globe = self.open(SITE / "globes/stations.html")
+        globe.wait_until_drawn()
+        self.assertEqual(globe.errors(), [])
+
+    def test_no_page_is_wider_than_a_phone(self):
+        for kind in KINDS:
+            with self.subTest(kind):
+                page = self.open(SITE / kind, width=390, height=800, touch=True)
+                self.assertLessEqual(page.run("document.documentElement.scrollWidth"), 391)
+
+    def test_axe_finds_nothing_serious(self):
+        axe = AXE.read_text(encoding="utf-8")
+        for dark in (False, True):
+            for kind in KINDS:
+                with self.subTest(kind, dark=dark):
+                    page = self.open(SITE / kind, dark=dark)
+                    page.run(f"(() => {{ {axe} }})(), 0")
+                    # Frames are pages of their own, tested in tests/globe.
+                    found = page.run(
+                        "axe.run(document, { iframes: false }).then(({ violations }) => violations"
+                        ".filter(({ impact }) => ['serious', 'critical'].includes(impact))"
+                        ".map(({ id, nodes }) => `${id}: ${nodes.slice(0, 3).map((node) => node.html)}`))"
+                    )
+                    self.assertEqual(found, [])
+
+
+if __name__ == "__main__":
+    unittest.main()
