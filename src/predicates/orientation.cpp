@@ -88,8 +88,8 @@ bool have_different_exponents(const std::array<Point, 3>& points, const Point& c
 // For coordinates of different magnitudes.
 Sign wide_filter(const Point& a, const Point& b, const Point& c, const Point& center) {
   const Vector o = to_vector(center);
-  return det_of_rows(to_scaled(to_vector(a) - o), to_scaled(to_vector(b) - o),
-                     to_scaled(to_vector(c) - o))
+  return det_of_rows(to_floating(to_vector(a) - o), to_floating(to_vector(b) - o),
+                     to_floating(to_vector(c) - o))
       .sign_if_beyond(orientation_wide_bound);
 }
 

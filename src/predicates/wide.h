@@ -7,7 +7,7 @@
 // A Wide knows the size of its value: what the same formula would give if all its terms were positive.
 // As no operation loses more than u of the sizes it adds or multiplies, a value is off by at most
 // k u size, where k counts the roundings that one product of the formula goes through (bounds.h).
-// What has no difference in it is its size, and a Scaled.
+// What has no difference in it is its size, and a Floating.
 #pragma once
 
 #include <algorithm>
@@ -23,13 +23,13 @@
 namespace rondel::predicates {
 
 // value * 2^exponent. The value is 0, or at least 1/8 and below 2^6.
-struct Scaled {
+struct Floating {
   double value = 0;
   int exponent = -(1 << 20);  // below that of any product
 
-  Scaled(double v, int e) : value(v), exponent(e) {}
+  Floating(double v, int e) : value(v), exponent(e) {}
   // What overflowed is infinite, or no number: no sign is sure of it.
-  explicit Scaled(double v) {
+  explicit Floating(double v) {
     if (v == 0) return;
     exponent = exponent_of(v);
     if (exponent == 1024) {
@@ -52,39 +52,34 @@ struct Scaled {
     return value * power_of_two(std::max(exponent - unit, -most_exponent));
   }
 
-  friend Scaled operator*(const Scaled& a, const Scaled& b) {
+  friend Floating operator*(const Floating& a, const Floating& b) {
     return {a.value * b.value, a.exponent + b.exponent};
   }
-  friend Scaled operator-(const Scaled& a) { return {-a.value, a.exponent}; }
+  friend Floating operator-(const Floating& a) { return {-a.value, a.exponent}; }
 };
 
 // The size is 0, or at least 1/8 and below 2^30 in formulas of degree 6.
-class Wide {
- public:
-  Wide(double v, double s, int e) : value(v), exponent(e), size_(s) {}
+struct Wide {
+  double value;
+  double of_terms;  // the size
+  int exponent;
 
-  [[nodiscard]] double size() const { return size_; }
+  [[nodiscard]] double size() const { return of_terms; }
   // Whether the sign of the value is that of the exact one.
   [[nodiscard]] Sign sign_if_beyond(double bound) const {
-    return unless_unsure(value, std::abs(value) > bound * size_);
+    return unless_unsure(value, std::abs(value) > bound * of_terms);
   }
-  // A term far below the other one is off by less than 2^-960 of that.
-  static Wide difference(const Scaled& a, const Scaled& b) {
+  // A term far below the other one is off by less than 2^-990 of that.
+  static Wide difference(const Floating& a, const Floating& b) {
     const int highest = std::max(a.exponent, b.exponent);
     const double of_a = a.in(highest);
     const double of_b = b.in(highest);
     return {of_a - of_b, std::abs(of_a) + std::abs(of_b), highest};
   }
-
-  double value;
-  int exponent;
-
- private:
-  double size_;
 };
 
 // The determinant of three rows in units of its largest product: two roundings in each of the six,
-// three in their sum. Products far below the largest one are off by 2^-999 of that.
+// three in their sum. Products far below the largest one are off by less than 2^-960 of that.
 template <class Number>
 Wide det_of_rows(const exact::Vector3<Number>& a, const exact::Vector3<Number>& b,
                  const exact::Vector3<Number>& c) {
@@ -115,28 +110,30 @@ Wide det_of_rows(const exact::Vector3<Number>& a, const exact::Vector3<Number>& 
   return {value, size, highest};
 }
 
-using ScaledVector = exact::Vector3<Scaled>;
+using FloatingVector = exact::Vector3<Floating>;
 using WideVector = exact::Vector3<Wide>;
 
-inline ScaledVector to_scaled(const Vector& v) { return {Scaled(v.x), Scaled(v.y), Scaled(v.z)}; }
+inline FloatingVector to_floating(const Vector& v) {
+  return {Floating(v.x), Floating(v.y), Floating(v.z)};
+}
 
 // A row of the determinant in side_of_circle_wide.cpp.
 struct WideRow {
-  Scaled x;
-  Scaled y;
-  Scaled z;
-  Scaled h;
+  Floating x;
+  Floating y;
+  Floating z;
+  Floating h;
 };
 
 // A ray, and the axis that is its longest coordinate's.
 struct WideRay {
-  std::array<Scaled, 3> along;
+  std::array<Floating, 3> along;
   std::size_t axis = 0;
   bool is_backward = false;  // on the axis
   int longest = 0;           // exponent of the coordinate on the axis
   int distance = 0;          // exponent of the longer one of the others, counted from that
 
-  explicit WideRay(const Vector& v) : along{Scaled(v.x), Scaled(v.y), Scaled(v.z)} {
+  explicit WideRay(const Vector& v) : along{Floating(v.x), Floating(v.y), Floating(v.z)} {
     const auto longer = [&v](std::size_t i, std::size_t j) {
       const std::array<double, 3> size = {std::abs(v.x), std::abs(v.y), std::abs(v.z)};
       return size[i] < size[j] ? j : i;
@@ -148,11 +145,11 @@ struct WideRay {
   }
 
   [[nodiscard]] WideRow row(std::size_t axis_of_x, bool is_reflected) const {
-    const Scaled x = is_reflected ? -along[axis_of_x] : along[axis_of_x];
-    const Scaled& y = along[(axis_of_x + 1) % 3];
-    const Scaled& z = along[(axis_of_x + 2) % 3];
+    const Floating x = is_reflected ? -along[axis_of_x] : along[axis_of_x];
+    const Floating& y = along[(axis_of_x + 1) % 3];
+    const Floating& z = along[(axis_of_x + 2) % 3];
     const int longer = 2 * std::max(y.exponent, z.exponent);
-    const Scaled squared = {(y * y).in(longer) + (z * z).in(longer), longer};
+    const Floating squared = {(y * y).in(longer) + (z * z).in(longer), longer};
     const double forward = x.in(longest);
     const double length = std::sqrt(forward * forward + squared.in(2 * longest));
     const double sum = length + std::abs(forward);

@@ -189,8 +189,8 @@ double wide_orientation_ratio(const FourStored& s) {
   const Vector center = to_vector(0.3 * s[3].site);
   for (std::size_t i = 0; i < 3; ++i) rays[i] = to_vector(s[i].site) - center;
   const auto value =
-      predicates::det_of_rows(predicates::to_scaled(rays[0]), predicates::to_scaled(rays[1]),
-                              predicates::to_scaled(rays[2]));
+      predicates::det_of_rows(predicates::to_floating(rays[0]), predicates::to_floating(rays[1]),
+                              predicates::to_floating(rays[2]));
   const auto exact_ray = [&](std::size_t i) {
     return minus(big(to_vector(s[i].site)), big(center));
   };
