@@ -28,6 +28,8 @@ KINDS = [
     "index.html",
     "install.html",
     "gallery.html",
+    "sphere.html",
+    "coming-from/scipy.html",
     "theory.html",
     "search.html",
     "genindex.html",
