@@ -121,6 +121,18 @@ def pages_of_examples(repository, folder):
     )
 
 
+def page_of_measurements(repository, folder):
+    """The comparison with peers in the latest full run of bench/RESULTS.md, below what site/measured.md says."""
+    sections = re.split(r"^## ", (repository / "bench/RESULTS.md").read_text(encoding="utf-8"), flags=re.M)
+    runs = []
+    for section in sections:
+        tables = [t for t in re.findall(r"(?:^\|.*\n)+", section, re.M) if re.search(r"^\| STRIPACK, csstrid / Rondel", t, re.M)]
+        runs += [(section.split("\n", 1)[0], table) for table in tables]
+    title, table = runs[-1]
+    page = folder / "measured.md"
+    page.write_text(page.read_text(encoding="utf-8") + f"## {title}\n\n{table}", encoding="utf-8")
+
+
 def main(repository, folder):
     shutil.rmtree(folder, ignore_errors=True)
     skipped = shutil.ignore_patterns("*.py", "*.json", "*.txt", "Doxyfile*", "__pycache__", "node_modules")
@@ -128,6 +140,7 @@ def main(repository, folder):
     copy_documents(repository, folder)
     pages_of_headers(repository, folder)
     pages_of_examples(repository, folder)
+    page_of_measurements(repository, folder)
 
 
 if __name__ == "__main__":
