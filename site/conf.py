@@ -31,8 +31,7 @@ myst_dmath_double_inline = True
 myst_update_mathjax = False
 
 # Cells are run when the site is made, and an error in one is an error of the build.
-nb_execution_mode = "cache"
-nb_execution_cache_path = str(BUILD / "cells")
+nb_execution_mode = "force"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 300
 nb_merge_streams = True
