@@ -1,6 +1,28 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 
+# The headers in RONDEL_PYTHON_HEADERS are of another Python than the one that runs here: of another version, or of
+# another machine. From 3.12 they make a module for the stable ABI.
+macro(rondel_use_python_headers)
+  find_package(Python 3.10 COMPONENTS Interpreter)
+  file(STRINGS ${RONDEL_PYTHON_HEADERS}/patchlevel.h Python_VERSION REGEX "define PY_VERSION ")
+  string(REGEX MATCH "[0-9]+[.][0-9]+" Python_VERSION "${Python_VERSION}")
+  string(REPLACE "." "" rondel_digits ${Python_VERSION})
+  set(SKBUILD_SOABI cpython-${rondel_digits}-${CMAKE_SYSTEM_PROCESSOR}-linux-gnu)
+  set(SKBUILD_SOSABI abi3)
+  set(Python_INCLUDE_DIRS ${RONDEL_PYTHON_HEADERS})
+  set(rondel_kinds Module)
+  if(Python_VERSION VERSION_GREATER_EQUAL 3.12)
+    set(SKBUILD_SABI_VERSION 3.12)
+    list(APPEND rondel_kinds SABIModule)
+    add_compile_options("SHELL:-include cstdio")  # nanobind uses it, and this Python.h has it no more
+  endif()
+  foreach(kind ${rondel_kinds})
+    add_library(Python::${kind} INTERFACE IMPORTED)
+    target_include_directories(Python::${kind} INTERFACE ${RONDEL_PYTHON_HEADERS})
+  endforeach()
+endmacro()
+
 # Finds Python, nanobind and, with RONDEL_BUILD_TESTS, what the tests import. Says in `result` what is missing,
 # or nothing. (A macro: the packages define variables and commands for the caller.)
 macro(rondel_find_python_parts result)
@@ -9,8 +31,12 @@ macro(rondel_find_python_parts result)
     set(${result} "there is no ${Python_EXECUTABLE}")
   else()
     # SKBUILD_SABI_COMPONENT is Development.SABIModule where pip will tag the wheel abi3, otherwise empty.
-    find_package(Python 3.10 COMPONENTS Interpreter Development.Module
-                 OPTIONAL_COMPONENTS ${SKBUILD_SABI_COMPONENT})
+    if(RONDEL_PYTHON_HEADERS)
+      rondel_use_python_headers()
+    else()
+      find_package(Python 3.10 COMPONENTS Interpreter Development.Module
+                   OPTIONAL_COMPONENTS ${SKBUILD_SABI_COMPONENT})
+    endif()
     if(NOT Python_FOUND)
       set(${result} "Python 3.10 or later, with its headers (Debian: python3-dev), was not found")
     endif()
