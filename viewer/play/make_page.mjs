@@ -18,14 +18,19 @@ const shared = ["vectors", "decode", "surface", "find", "chunks", "camera", "col
   "backdrop", "layers", "canvas", "scene", "pointer", "numbers", "card", "search", "panel", "globe"];
 const own = ["groups", "live", "presets", "table", "files", "history", "remote", "play", "start"];
 const pageModules = [...shared.map((name) => ["viewer", "src", `${name}.js`]), ...own.map((name) => ["viewer", "play", "src", `${name}.js`])];
-const library = ["errors", "arguments", "engine", "triangulation", "dynamic"];
+const library = ["errors", "arguments", "engine", "located", "triangulation", "build", "dynamic"];
 const workerModules = [...library.map((name) => ["bindings", "js", "src", `${name}.js`]), ["viewer", "play", "src", "worker.js"]];
 
-// Comments that begin a line go, as does the indentation.
-function script(modules) {
-  const names = new Set();
+// Comments that begin a line go, as does the indentation. `given`: names that no module has.
+function script(modules, given = []) {
+  const names = new Set(given);
   const texts = modules.map((path) => {
-    const text = `\n${read(...path)}`
+    const whole = `\n${read(...path)}`;
+    for (const [, list] of whole.matchAll(/\nimport {([^}]*)}/g)) {
+      const missing = list.split(",").map((name) => name.trim()).find((name) => !names.has(name));
+      if (missing) throw new Error(`${path.join("/")}: no module before it has the name ${missing}`);
+    }
+    const text = whole
       .replace(/\n *\/\*\*[\s\S]*?\*\/(?=\n)/g, "")
       .replace(/\n *\/\/[^\n]*/g, "")
       .replace(/\nimport [^;]*;/g, "")
@@ -53,7 +58,7 @@ const places = {
   "@STYLE@": read("viewer", "style.css") + read("viewer", "play", "style.css"),
   "@DATA@": data("module", readFileSync(join(packageFolder, "rondel.wasm"))) + data("coast", Buffer.from(read("data", "coast.txt"))),
   "@ABOUT@": JSON.stringify({ arrays }),
-  "@WORKER@": script(workerModules).replace('"use strict";', '"use strict";\nconst encodedModule = "";'),
+  "@WORKER@": script(workerModules, ["encodedModule"]).replace('"use strict";', '"use strict";\nconst encodedModule = "";'),
   "@SCRIPT@": script(pageModules),
   "@VERSION@": read("VERSION").trim(),
   "@LICENCES@": readFileSync(join(packageFolder, "THIRD_PARTY.md"), "utf8").replace(/&/g, "&amp;").replace(/</g, "&lt;"),

@@ -7,9 +7,10 @@
 // Sites have keys, which the page gives them and which they keep when they are removed and come back. Arrays in a
 // state are by key; keys without a site have no star and an empty ring.
 
+import { polarPoints, unitVectors } from "../../../bindings/js/src/build.js";
 import { DynamicTriangulation } from "../../../bindings/js/src/dynamic.js";
 import { init } from "../../../bindings/js/src/engine.js";
-import { noIndex, polarPoints, unitVectors } from "../../../bindings/js/src/triangulation.js";
+import { noIndex } from "../../../bindings/js/src/located.js";
 
 let dynamic = null;
 let model = "projected";
