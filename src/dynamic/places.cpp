@@ -160,6 +160,7 @@ void Places::assign(std::span<const Index> place_of_site, std::span<const Index>
   speakers_.assign(speakers.begin(), speakers.end());
   names_ = speakers_;
   const bool lists_free_sites = free_sites_.size() + num_sites_ == place_of_.size();
+  if (!lists_free_sites) free_sites_.clear();  // memory may have run out in the loop below before
   free_places_.clear();
   by_name_.clear();
   by_triple_.clear();

@@ -203,5 +203,51 @@ TEST(allocation_of_constructor, loses_nothing) {
   expect_result_or_bad_alloc([&] { return changing.neighbors(0); });
 }
 
+std::vector<Point> points_of_grid() {
+  std::vector<Point> points;
+  for (const double x : {-1.0, 0.0, 1.0}) {
+    for (const double y : {-1.0, 0.0, 1.0}) {
+      for (const double z : {-1.0, 0.0, 1.0}) {
+        if (Point{x, y, z} != Point{}) points.push_back({x, y, z});
+      }
+    }
+  }
+  return points;
+}
+
+// Memory runs out in a change, and again while the triangulation is built that the next question needs.
+void expect_ids_of_their_own_after_failures(std::size_t first, std::size_t second) {
+  SCOPED_TRACE(std::to_string(first) + ", " + std::to_string(second));
+  DynamicTriangulation changing;
+  for (const Point& p : points_of_grid()) changing.insert(p);
+  const auto failing_at = [&](std::size_t n, const auto& work) {
+    const FailingAllocation failing(n, Shortage::of_one_block);
+    try {
+      work();
+    } catch (const std::bad_alloc&) {  // as it should be
+    }
+  };
+  const auto along_a_line = [](double t) { return Point{0.5, 0.1 * t + 0.02, 0.7}; };
+  std::vector<Point> others;
+  for (int i = 0; i < 5; ++i) others.push_back(along_a_line(i));
+  failing_at(first, [&] { changing.insert(others); });
+  failing_at(second, [&] { static_cast<void>(changing.num_faces()); });
+
+  for (int i = 5; i < 14; ++i) changing.insert(along_a_line(i));
+  const std::vector<Index> ids = changing.ids();
+  ASSERT_EQ(ids.size(), changing.num_sites());
+  const Snapshot now = changing.snapshot();
+  ASSERT_TRUE(
+      std::ranges::equal(now.triangulation.faces(), delaunay(now.triangulation.sites()).faces()));
+}
+
+TEST(allocation_of_changes, that_fail_twice_give_no_id_away_twice) {
+  for (std::size_t first = 1; first < 24; ++first) {
+    for (std::size_t second = 1; second < 160; ++second) {
+      ASSERT_NO_FATAL_FAILURE(expect_ids_of_their_own_after_failures(first, second));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rondel::test
