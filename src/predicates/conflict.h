@@ -46,14 +46,13 @@ template <PointSource S>
 
 template <RaySource S>
 Decision side_of_circle_above_filter(S& points, Index b, Index c, Index d, Index p) {
-  const Vector u = points.direction(b);
-  const Vector v = points.direction(c);
-  const Vector w = points.direction(d);
-  const Vector x = points.direction(p);
+  const exact::SplitPoint u = points.split(b);
+  const exact::SplitPoint v = points.split(c);
+  const exact::SplitPoint w = points.split(d);
+  const exact::SplitPoint x = points.split(p);
   Sign sign = Sign::zero;
   if (are_apart(u, x) || are_apart(v, x) || are_apart(w, x)) {
-    sign =
-        side_of_circle_extended(points.split(b), points.split(c), points.split(d), points.split(p));
+    sign = side_of_circle_extended(u, v, w, x);
     if (sign != Sign::zero) return {sign, Rung::extended};
   }
   const Quad given = {points.point(b), points.point(c), points.point(d), points.point(p)};
@@ -66,8 +65,7 @@ Decision side_of_circle_above_filter(S& points, Index b, Index c, Index d, Index
     sign = side_of_circle_wide_filter(given, points.center());
     if (sign != Sign::zero) return {sign, Rung::filter};
   }
-  sign = side_of_circle_double_double(points.split(b), points.split(c), points.split(d),
-                                      points.split(p));
+  sign = side_of_circle_double_double(u, v, w, x);
   if (sign != Sign::zero) return {sign, Rung::double_double};
   sign = side_of_circle_close(given, points.center());
   if (sign != Sign::zero) return {sign, Rung::close};

@@ -72,15 +72,16 @@ Sign side_of_circle_wide_filter(const Quad& q, const Point& center);
 
 // Whether numbers of 64 bits may tell differences of unit vectors: side_of_circle_extended is unsure
 // of sites that are all closer.
-inline bool are_apart(const Vector& a, const Vector& b) {
+inline bool are_apart(const exact::SplitPoint& a, const exact::SplitPoint& b) {
   constexpr double close = 0x1p-37;
-  return std::abs(a.x - b.x) > close || std::abs(a.y - b.y) > close || std::abs(a.z - b.z) > close;
+  return std::abs(a.hi.x - b.hi.x) > close || std::abs(a.hi.y - b.hi.y) > close ||
+         std::abs(a.hi.z - b.hi.z) > close;
 }
 
 // Whether a coordinate is 0, or so small that products with it may be lost, or that a tie is unlikely.
-inline bool is_nearly_flat(const Vector& a) {
+inline bool is_nearly_flat(const exact::SplitPoint& a) {
   constexpr double tiny = 0x1p-100;
-  return std::min({std::abs(a.x), std::abs(a.y), std::abs(a.z)}) < tiny;
+  return std::min({std::abs(a.hi.x), std::abs(a.hi.y), std::abs(a.hi.z)}) < tiny;
 }
 
 // For points as given, where integers of the machine can tell: so they can if it is a tie of points
