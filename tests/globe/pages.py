@@ -57,6 +57,16 @@ class PageTest(unittest.TestCase):
         page.wait_until_drawn()
         return page
 
+    def check_access(self, page):
+        """axe finds nothing serious in the page as it is now."""
+        page.run(pathlib.Path(self.settings.axe).read_text(encoding="utf-8") + ";0")
+        passed, found = page.run(
+            "axe.run().then(({ passes, violations }) =>"
+            " [passes.length, violations.map((v) => [v.impact, v.id, v.nodes.map((n) => n.html)])])"
+        )
+        self.assertGreater(passed, 15)
+        self.assertEqual([entry for entry in found if entry[0] in ("serious", "critical")], [])
+
     def queries(self, queries, command, sites, *options):
         """The rows that `rondel nearest` or `rondel locate` answers for points."""
         path = self.table("queries.csv", queries)
