@@ -54,8 +54,8 @@ class OwnedFaces {
       const auto second = [this](Halfedge h) {
         return mesh_[face_of(h)].vertex[next_corner[edge_of(h)]];
       };
+      std::iter_swap(faces.begin(), topology::find_first(faces, second));
       walk_around(mesh_, faces);
-      topology::start_with_first(faces, second);
     }
   }
 

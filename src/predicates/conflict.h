@@ -28,6 +28,7 @@
 #include "predicates/perturbation.h"
 #include "predicates/points.h"
 #include "predicates/rung.h"
+#include "predicates/scale.h"
 #include "predicates/side_of_circle.h"
 #include "predicates/side_of_plane.h"
 
@@ -61,7 +62,7 @@ Decision side_of_circle_above_filter(S& points, Index b, Index c, Index d, Index
     const auto exact = side_of_circle_integers_exact(given, points.center());
     if (exact) return {*exact, Rung::exact};
   }
-  if (is_nearly_flat(u) || is_nearly_flat(v) || is_nearly_flat(w) || is_nearly_flat(x)) {
+  if (have_different_exponents(given, points.center())) {
     sign = side_of_circle_wide_filter(given, points.center());
     if (sign != Sign::zero) return {sign, Rung::filter};
   }

@@ -7,11 +7,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 
 #include "exact/exact_sign.h"
 #include "exact/extended.h"
 #include "exact/integer_steps.h"
+#include "predicates/scale.h"
 #include "predicates/wide.h"
 
 namespace rondel::predicates {
@@ -72,19 +72,6 @@ Sign filter_of_scaled(const Point& a, const Point& b, const Point& c, const Poin
       value, is_beyond(value, orientation_bound, dot(ray, ray), dot(from, from), dot(to, to)));
 }
 
-// Whether some ray has a coordinate, other than 0, so small against another that a tie is unlikely,
-// and that differences of products hardly cancel.
-bool have_different_exponents(const std::array<Point, 3>& points, const Point& center) {
-  constexpr double little = 0x1p-100;
-  const auto size = [](double x) {
-    return x == 0 ? std::numeric_limits<double>::infinity() : std::abs(x);
-  };
-  return std::ranges::any_of(points, [&](const Point& p) {
-    const Vector v = to_vector(p) - to_vector(center);
-    return std::min({size(v.x), size(v.y), size(v.z)}) < little * longest_coordinate(v);
-  });
-}
-
 // For coordinates of different magnitudes.
 Sign wide_filter(const Point& a, const Point& b, const Point& c, const Point& center) {
   const Vector o = to_vector(center);
@@ -118,7 +105,7 @@ Decision orientation(const Point& a, const Point& b, const Point& c, const Point
   if (const Sign sign = orientation_extended(a, b, c, center); sign != Sign::zero) {
     return {sign, Rung::extended};
   }
-  if (have_different_exponents({a, b, c}, center)) {
+  if (have_different_exponents(std::array{a, b, c}, center)) {
     if (const Sign sign = wide_filter(a, b, c, center); sign != Sign::zero)
       return {sign, Rung::filter};
   }

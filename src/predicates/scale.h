@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "predicates/rung.h"
 
@@ -43,6 +44,21 @@ inline Vector operator*(double factor, const Vector& v) {
 inline double factor_to_one(const Vector& v) {
   const int exponent = exponent_of(v);
   return std::abs(exponent) <= most_exponent ? power_of_two(-exponent) : 0;
+}
+
+// Whether the ray to some point has a coordinate, other than 0, so small against another one that
+// products with it may be lost, that a tie is unlikely, and that differences of products hardly
+// cancel.
+template <std::size_t n>
+bool have_different_exponents(const std::array<Point, n>& points, const Point& center) {
+  constexpr double little = 0x1p-100;
+  const auto size = [](double x) {
+    return x == 0 ? std::numeric_limits<double>::infinity() : std::abs(x);
+  };
+  return std::ranges::any_of(points, [&](const Point& p) {
+    const Vector v = to_vector(p) - to_vector(center);
+    return std::min({size(v.x), size(v.y), size(v.z)}) < little * longest_coordinate(v);
+  });
 }
 
 // The bound of the errors is relative to the lengths of the three differences from one of four

@@ -78,12 +78,6 @@ inline bool are_apart(const exact::SplitPoint& a, const exact::SplitPoint& b) {
          std::abs(a.hi.z - b.hi.z) > close;
 }
 
-// Whether a coordinate is 0, or so small that products with it may be lost, or that a tie is unlikely.
-inline bool is_nearly_flat(const exact::SplitPoint& a) {
-  constexpr double tiny = 0x1p-100;
-  return std::min({std::abs(a.hi.x), std::abs(a.hi.y), std::abs(a.hi.z)}) < tiny;
-}
-
 // For points as given, where integers of the machine can tell: so they can if it is a tie of points
 // none of whose coordinates is much smaller than another.
 std::optional<Sign> side_of_circle_integers_exact(const Quad& q, const Point& center);

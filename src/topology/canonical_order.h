@@ -27,11 +27,18 @@ inline unsigned first_corner(const std::array<Index, 3>& ranks) {
   return ranks[2] < std::min(ranks[0], ranks[1]) ? 2 : i;
 }
 
-// Turns the faces of one owner, listed counterclockwise from any of them, so that they start as they
-// must. second(face) is the rank of the second corner of a face.
+// Where, among the faces of one owner, the one is that they start with. second(face) is the rank of
+// the second corner of a face.
 template <class Faces, class Second>
-void start_with_first(Faces&& faces, Second second) {
-  std::rotate(faces.begin(), std::ranges::min_element(faces, {}, second), faces.end());
+auto find_first(Faces& faces, Second second) {
+  return std::ranges::min_element(faces, {}, second);
+}
+
+// Turns the faces of one owner, listed counterclockwise from any of them, so that they start as they
+// must.
+template <class Faces, class Second>
+void start_with_first(Faces& faces, Second second) {
+  std::rotate(faces.begin(), find_first(faces, second), faces.end());
 }
 
 }  // namespace rondel::topology
