@@ -55,7 +55,8 @@ class RONDEL_API DynamicTriangulation {
   explicit DynamicTriangulation(std::span<const Point> sites, const Options& options = {},
                                 const Execution& execution = {});
 
-  /// From a triangulation and its sites, which are copied.
+  /// From a triangulation and its sites, which are copied. \throws InvalidInput as a Locator does
+  /// (query.h) if it is made of arrays from elsewhere.
   explicit DynamicTriangulation(const Triangulation& triangulation,
                                 const Execution& execution = {});
 

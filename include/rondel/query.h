@@ -60,6 +60,8 @@ struct SiteLists {
 class RONDEL_API Locator {
  public:
   /// Keeps the sites of the triangulation. O(n).
+  /// \throws InvalidInput if it is made of arrays from elsewhere that are not those of its sites'
+  ///         triangulation; that is proved once, as check() does, and costs more than the rest.
   explicit Locator(const Triangulation& triangulation);
 
   /// O(1) in dimension 2. Keeps a reference. After the next change, even one that failed, all

@@ -93,7 +93,8 @@ class RONDEL_API Triangulation {
   /// \throws InvalidInput (position in the array that the message names) as delaunay() does, and if
   ///         the arrays do not obey 1, 2 and 5: indices in range, a closed surface around every
   ///         vertex, each edge in two faces, duplicates in one place. Whether the faces are Delaunay
-  ///         is for check() to say.
+  ///         is for check() to say; a Locator and a DynamicTriangulation, which walk through them,
+  ///         ask once, when they are made, and throw InvalidInput.
   static Triangulation from_arrays(Sites sites, const TriangulationParts& parts,
                                    const Options& options = {});
 
@@ -126,13 +127,12 @@ class RONDEL_API Triangulation {
 
   [[nodiscard]] const BuildReport& report() const noexcept;
 
-  struct Impl;
   /// For the library itself.
+  struct Impl;
   explicit Triangulation(std::shared_ptr<const Impl> impl) noexcept;
-
- private:
   [[nodiscard]] const Impl& impl() const noexcept;
 
+ private:
   std::shared_ptr<const Impl> impl_;  // none: without sites
 };
 

@@ -140,6 +140,7 @@ DynamicTriangulation::DynamicTriangulation(std::span<const Point> sites, const O
 DynamicTriangulation::DynamicTriangulation(const Triangulation& triangulation,
                                            const Execution& execution) {
   const system::Call call(execution);
+  api::require_delaunay(triangulation, execution);
   const auto sites = triangulation.sites().points();
   impl_ = std::make_unique<Impl>(Options{triangulation.model(), triangulation.sphere()});
   impl_->visit([&](auto& e) { e.assign_points(sites); });

@@ -10,6 +10,7 @@
 // 3. The faces at a corner make one turn around it. So the surface is closed and without pinches.
 // 4. It is connected and has 2V - 4 faces, so that it is a sphere.
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -225,7 +226,10 @@ Triangulation Triangulation::from_arrays(Sites sites, const TriangulationParts& 
   copy(parts.ring, arrays.ring);
   copy(parts.duplicates, arrays.duplicates);
   copy(parts.hidden, arrays.hidden);
-  return api::make_triangulation(std::move(sites), std::move(arrays), options, {});
+  auto impl =
+      std::make_shared<Impl>(std::move(sites), std::move(arrays), options, BuildReport{});
+  impl->is_delaunay = false;
+  return Triangulation(std::move(impl));
 }
 
 }  // namespace rondel

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "api/dynamic_impl.h"
+#include "api/triangulation_impl.h"
 #include "api/validation.h"
 #include "query/batch.h"
 #include "query/built.h"
@@ -208,6 +209,7 @@ SiteLists Locator::Impl::within(std::span<const Point> queries, const Limit& lim
 Locator::Locator(const Triangulation& triangulation)
     : impl_([&] {
         const system::ArithmeticScope arithmetic;
+        api::require_delaunay(triangulation, {});
         return std::make_unique<const Impl>(triangulation);
       }()) {}
 Locator::Locator(const DynamicTriangulation& triangulation) {

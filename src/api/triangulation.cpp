@@ -24,7 +24,7 @@ const char* name_of(Builder builder) noexcept {
 Triangulation api::make_triangulation(Sites sites, TriangulationArrays arrays,
                                       const Options& options, const BuildReport& report) {
   return Triangulation(std::make_shared<const Triangulation::Impl>(
-      Triangulation::Impl{std::move(sites), std::move(arrays), options, report}));
+      std::move(sites), std::move(arrays), options, report));
 }
 
 Triangulation::Triangulation(std::shared_ptr<const Impl> impl) noexcept : impl_(std::move(impl)) {}

@@ -13,7 +13,6 @@
 #include "kernel/walk.h"
 #include "query/graph.h"
 #include "query/target.h"
-#include "rondel/error.h"
 #include "rondel/query.h"
 
 namespace rondel::query {
@@ -50,13 +49,12 @@ Location location_in(const SurfaceGraph<T>& surface, Index f, const std::array<b
   return {Where::vertex, first_solid_face(surface, v), {v, no_index, no_index}};
 }
 
-// `f` is a solid face to start from, and becomes the one where the walk ends. The walk comes to no
-// face twice, unless the sites are not those that were triangulated; then it throws InvalidInput at
-// last.
+// `f` is a solid face to start from, and becomes the one where the walk ends, which comes to no face
+// twice.
 template <models::SphereTraits T>
 Location locate(const SurfaceGraph<T>& surface, const Target<T>& target, Index& f) {
   unsigned entered = 3;
-  for (Index left = surface.mesh.num_slots(); left > 0; --left) {
+  for (;;) {
     const topology::Face& face = surface.mesh[f];
     std::array<bool, 3> is_on{};
     unsigned i = 0;
@@ -75,7 +73,6 @@ Location locate(const SurfaceGraph<T>& surface, const Target<T>& target, Index& 
     f = next;
     entered = topology::edge_of(h);
   }
-  throw InvalidInput("the sites are not those of the triangulation", 0);
 }
 
 // The faces in conflict with the target, in increasing order. `solid` is a solid face near it.

@@ -14,6 +14,7 @@
 #include "fuzz/fuzz_input.h"
 #include "rondel/polygons.h"
 #include "rondel/rondel.h"
+#include "support/other_surfaces.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -25,6 +26,7 @@ class Caller {
   void run() {
     constexpr std::array calls = {
         &Caller::convert,   &Caller::build,         &Caller::build_hull,    &Caller::take_arrays,
+        &Caller::flip_edges,
         &Caller::check_any, &Caller::make_diagrams, &Caller::draw_polygons, &Caller::ask,
         &Caller::ask_many,  &Caller::change,        &Caller::change_many,   &Caller::decide};
     scales_ = next_scales(source_);
@@ -159,6 +161,20 @@ class Caller {
       for (Point& p : sites) p = point();
     }
     t_ = Triangulation::from_arrays(std::move(sites), parts, options());
+  }
+
+  // Of this triangulation, with other diagonals: a surface without a flaw, but not the hull.
+  void flip_edges() {
+    TriangulationParts parts = parts_of(t_);
+    std::vector<Triple> faces(parts.faces.begin(), parts.faces.end());
+    if (faces.empty()) return;
+    for (std::size_t i = source_.below(6); i < 6; ++i) {
+      test::flip_edge(faces, source_.below(faces.size()), source_.below(3));
+    }
+    const std::vector<Triple> neighbors = test::neighbors_of(faces);
+    parts.faces = faces;
+    parts.neighbors = neighbors;
+    t_ = Triangulation::from_arrays(t_.sites(), parts, {t_.model(), t_.sphere()});
   }
 
   void check_any() { static_cast<void>(check(points(), triples(), options(), execution())); }

@@ -5,13 +5,13 @@
 // triangulation is accepted.
 #include <algorithm>
 #include <set>
-#include <tuple>
 #include <utility>
 
 #include "fuzz/fuzz_input.h"
 #include "rondel/check.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "support/other_surfaces.h"
 
 namespace rondel::fuzz {
 namespace {
@@ -22,20 +22,6 @@ std::vector<Triple> normalized(std::vector<Triple> faces) {
   }
   std::ranges::sort(faces);
   return faces;
-}
-
-// Replaces the diagonal of two faces, so that the list stays a closed surface.
-void flip(std::vector<Triple>& faces, std::size_t f, std::size_t i) {
-  const auto [a, b, c] = std::tuple(faces[f][i], faces[f][(i + 1) % 3], faces[f][(i + 2) % 3]);
-  for (std::size_t g = 0; g < faces.size(); ++g) {
-    for (std::size_t j = 0; j < 3 && g != f; ++j) {
-      const Index d = faces[g][j];
-      if (faces[g][(j + 1) % 3] != c || faces[g][(j + 2) % 3] != b || d == a) continue;
-      faces[f] = {a, b, d};
-      faces[g] = {a, d, c};
-      return;
-    }
-  }
 }
 
 void change(std::vector<Triple>& faces, ByteSource& source, std::size_t num_sites) {
@@ -60,7 +46,7 @@ void change(std::vector<Triple>& faces, ByteSource& source, std::size_t num_site
       break;
     }
     default:
-      flip(faces, f, source.below(3));
+      test::flip_edge(faces, f, source.below(3));
   }
 }
 

@@ -16,6 +16,7 @@
 #include "rondel/io.h"
 #include "rondel/rondel.h"
 #include "support/generators.h"
+#include "support/other_surfaces.h"
 
 namespace rondel {
 namespace {
@@ -164,6 +165,104 @@ TEST(from_arrays, refuses_what_is_no_site_and_no_duplicate) {
   EXPECT_THROW(static_cast<void>(made.of(sites)), InvalidInput);
   sites[20] = {std::nan(""), 0, 0};
   EXPECT_THROW(static_cast<void>(made.of(sites)), InvalidInput);
+}
+
+// What walks through the faces takes arrays only if they are those of the triangulation, in whatever
+// order.
+void expect_refused(const Triangulation& t, const std::string& reason) {
+  const auto refuse = [&reason](const auto& make) {
+    try {
+      make();
+      ADD_FAILURE() << "expected: " << reason;
+    } catch (const InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+  };
+  for (int i = 0; i < 2; ++i) {  // asked again, it is no other
+    refuse([&t] { const Locator locator(t); });
+    refuse([&t] { const DynamicTriangulation dynamic(t); });
+  }
+}
+
+TEST(from_arrays, is_proved_before_walks) {
+  for (const Input& in : inputs()) {
+    Arrays arrays(delaunay(in.sites, in.options));
+    const Triangulation taken = arrays.of(in.sites, in.options);
+    DynamicTriangulation dynamic(taken);
+    EXPECT_EQ(dynamic.num_vertices(), taken.num_vertices());
+    const Locator locator(taken);
+    if (taken.num_vertices() > 0) EXPECT_NE(locator.nearest({1, 2, 3}), no_index);
+    if (arrays.faces.size() < 5 || !arrays.ghost_faces.empty() || !arrays.hidden.empty()) continue;
+    std::ranges::reverse(arrays.faces);
+    for (Triple& face : arrays.faces) std::ranges::rotate(face, face.begin() + 1);
+    arrays.neighbors = test::neighbors_of(arrays.faces);
+    const Locator other(arrays.of(in.sites, in.options));
+    EXPECT_EQ(other.nearest({1, 2, 3}), locator.nearest({1, 2, 3}));
+  }
+}
+
+TEST(from_arrays, is_refused_by_walks_after_a_flip) {
+  int num_flips = 0;
+  for (const Input& in : inputs()) {
+    const Arrays made(delaunay(in.sites, in.options));
+    for (std::size_t f = 0; f < std::min<std::size_t>(made.faces.size(), 8); ++f) {
+      Arrays flipped = made;
+      if (!test::flip_edge(flipped.faces, f, f % 3)) continue;
+      flipped.neighbors = test::neighbors_of(flipped.faces);
+      Triangulation taken;
+      try {
+        taken = flipped.of(in.sites, in.options);
+      } catch (const InvalidInput&) {  // two edges with the same ends
+        continue;
+      }
+      ++num_flips;
+      expect_refused(taken, "the arrays are not those of the triangulation of their sites");
+    }
+  }
+  EXPECT_GT(num_flips, 30);
+}
+
+// Closed surfaces among whose faces walks went around for ever.
+TEST(from_arrays, is_refused_where_walks_would_not_end) {
+  const auto refuse = [](const std::vector<Point>& sites, const std::vector<Triple>& faces,
+                         Model model) {
+    const auto neighbors = test::neighbors_of(faces);
+    const TriangulationParts parts = {.dimension = 2, .faces = faces, .neighbors = neighbors};
+    expect_refused(Triangulation::from_arrays(sites, parts, {.model = model}), "edge");
+  };
+  refuse({{-1, -2, -8}, {-2, -8, -3}, {8, 4, 2}, {-3, -5, -7}, {8, 7, 0}, {2, 4, 8}, {-5, 7, 4},
+          {0, -5, 4}, {8, -3, -2}},
+         {{1, 8, 2}, {1, 2, 7}, {3, 5, 6}, {3, 7, 5}, {4, 8, 1}, {7, 3, 1}, {4, 3, 0}, {3, 6, 0},
+          {4, 1, 3}, {0, 6, 4}, {7, 2, 5}, {6, 2, 8}, {6, 8, 4}, {2, 6, 5}},
+         Model::weighted);
+  refuse({{-2, 3, -1}, {-6, -5, 6}, {7, -8, 1}, {6, -2, 7}, {1, 1, -1}, {8, -4, 4}, {-6, -8, -8}},
+         {{2, 0, 4}, {2, 4, 5}, {6, 3, 1}, {2, 3, 6}, {2, 5, 3}, {2, 6, 0}, {6, 1, 0}, {4, 3, 5},
+          {4, 1, 3}, {4, 0, 1}},
+         Model::projected);
+}
+
+TEST(from_arrays, is_refused_by_walks_with_other_lists) {
+  const std::vector<Point> sites = test::generator("hemisphere").make(40, 1).sites;
+  const Arrays made(delaunay(sites));
+  ASSERT_FALSE(made.ghost_faces.empty());
+  Arrays wrong = made;
+  wrong.ghost_faces.pop_back();
+  expect_refused(wrong.of(sites), "is a ghost face");
+  wrong.ghost_faces.clear();
+  for (Index f = 0; f < wrong.faces.size(); ++f) wrong.ghost_faces.push_back(f);
+  expect_refused(wrong.of(sites), "is no ghost");
+
+  const std::vector<Point> ball = test::generator("ball").make(40, 1).sites;
+  const Options weighted = {.model = Model::weighted};
+  wrong = Arrays(delaunay(ball, weighted));
+  ASSERT_FALSE(wrong.hidden.empty());
+  wrong.hidden[0].face = (wrong.hidden[0].face + 20) % wrong.faces.size();
+  expect_refused(wrong.of(ball, weighted), "does not lie below face");
+
+  std::vector<Point> ring = test::generator("great_circle").make(20, 1).sites;
+  wrong = Arrays(delaunay(ring));
+  std::swap(wrong.ring[3], wrong.ring[9]);
+  expect_refused(wrong.of(ring), "the ring is in another order");
 }
 
 // A copy shares everything, and outlives what it was copied from; so does what was moved from.

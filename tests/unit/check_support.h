@@ -4,11 +4,13 @@
 // Small solids for the tests of the validator.
 #pragma once
 
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "proof/validator.h"
 #include "support/hull_oracle.h"
+#include "support/other_surfaces.h"
 
 namespace rondel::test {
 
@@ -47,26 +49,15 @@ inline std::vector<Point> cube_sites() {
 
 inline Triple reversed(const Triple& face) { return {face[0], face[2], face[1]}; }
 
-// Replaces the edge between two faces by the other diagonal of their four corners. Works on any
-// list in which each directed edge is unique.
+// Replaces the edge between two faces by the other diagonal of their four corners.
 inline void flip(std::vector<Triple>& faces, Index from, Index to) {
-  const auto corner_across = [&](Index a, Index b) -> Index& {
-    for (Triple& face : faces) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (face[i] == a && face[(i + 1) % 3] == b) return face[(i + 2) % 3];
-      }
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Triple face = faces[f];
+      if (face[(i + 1) % 3] == from && face[(i + 2) % 3] == to && flip_edge(faces, f, i)) return;
     }
-    return faces.at(faces.size())[0];  // throws: the caller names an edge that is not there
-  };
-  const Index left = corner_across(from, to);
-  const Index right = corner_across(to, from);
-  for (Triple& face : faces) {
-    const bool has_from = face[0] == from || face[1] == from || face[2] == from;
-    const bool has_to = face[0] == to || face[1] == to || face[2] == to;
-    if (!has_from || !has_to) continue;
-    const bool is_left = face[0] == left || face[1] == left || face[2] == left;
-    face = is_left ? Triple{from, right, left} : Triple{to, left, right};
   }
+  throw std::out_of_range("there is no such edge");
 }
 
 }  // namespace rondel::test

@@ -99,24 +99,6 @@ TEST(query_misuse, rejects_angles_sites_and_sizes_that_are_none) {
                  [&] { static_cast<void>(s.locator.k_nearest(queries, huge)); });
 }
 
-// Sites in other places make faces that lie over one another, among which a walk may go around.
-TEST(query_misuse, ends_among_sites_that_were_not_triangulated) {
-  const std::vector<Point> sites = random_points(2000, 5);
-  const Triangulation built = delaunay(sites);
-  const Locator locator(Triangulation::from_arrays(
-      random_points(2000, 6),
-      {.dimension = 2, .faces = built.faces(), .neighbors = built.neighbors()}));
-  int num_refused = 0;
-  for (const Point& p : random_points(300, 7)) {
-    try {
-      static_cast<void>(locator.locate(p));
-    } catch (const InvalidInput&) {
-      ++num_refused;
-    }
-  }
-  EXPECT_GT(num_refused, 0);
-}
-
 TEST(query_small, no_sites_are_an_answer) {
   const Asked s({});
   const Point p = {1, 2, 3};
