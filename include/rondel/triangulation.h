@@ -127,12 +127,13 @@ class RONDEL_API Triangulation {
 
   [[nodiscard]] const BuildReport& report() const noexcept;
 
-  /// For the library itself.
   struct Impl;
+  /// For the library itself.
   explicit Triangulation(std::shared_ptr<const Impl> impl) noexcept;
-  [[nodiscard]] const Impl& impl() const noexcept;
 
  private:
+  [[nodiscard]] const Impl& impl() const noexcept;
+
   std::shared_ptr<const Impl> impl_;  // none: without sites
 };
 

@@ -226,8 +226,7 @@ Triangulation Triangulation::from_arrays(Sites sites, const TriangulationParts& 
   copy(parts.ring, arrays.ring);
   copy(parts.duplicates, arrays.duplicates);
   copy(parts.hidden, arrays.hidden);
-  auto impl =
-      std::make_shared<Impl>(std::move(sites), std::move(arrays), options, BuildReport{});
+  auto impl = std::make_shared<Impl>(std::move(sites), std::move(arrays), options, BuildReport{});
   impl->is_delaunay = false;
   return Triangulation(std::move(impl));
 }

@@ -21,6 +21,8 @@ struct Triangulation::Impl {
         options(its_options),
         report(its_report) {}
 
+  static const Impl& of(const Triangulation& triangulation) { return triangulation.impl(); }
+
   Sites sites;
   TriangulationArrays arrays;
   Options options;

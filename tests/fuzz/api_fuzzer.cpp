@@ -25,10 +25,10 @@ class Caller {
 
   void run() {
     constexpr std::array calls = {
-        &Caller::convert,   &Caller::build,         &Caller::build_hull,    &Caller::take_arrays,
-        &Caller::flip_edges,
-        &Caller::check_any, &Caller::make_diagrams, &Caller::draw_polygons, &Caller::ask,
-        &Caller::ask_many,  &Caller::change,        &Caller::change_many,   &Caller::decide};
+        &Caller::convert,    &Caller::build,     &Caller::build_hull,    &Caller::take_arrays,
+        &Caller::flip_edges, &Caller::check_any, &Caller::make_diagrams, &Caller::draw_polygons,
+        &Caller::ask,        &Caller::ask_many,  &Caller::change,        &Caller::change_many,
+        &Caller::decide};
     scales_ = next_scales(source_);
     for (int i = 0; i < 12 && !source_.is_empty(); ++i) {
       try {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -191,7 +192,7 @@ TEST(from_arrays, is_proved_before_walks) {
     DynamicTriangulation dynamic(taken);
     EXPECT_EQ(dynamic.num_vertices(), taken.num_vertices());
     const Locator locator(taken);
-    if (taken.num_vertices() > 0) EXPECT_NE(locator.nearest({1, 2, 3}), no_index);
+    EXPECT_EQ(locator.nearest({1, 2, 3}) == no_index, taken.num_vertices() == 0);
     if (arrays.faces.size() < 5 || !arrays.ghost_faces.empty() || !arrays.hidden.empty()) continue;
     std::ranges::reverse(arrays.faces);
     for (Triple& face : arrays.faces) std::ranges::rotate(face, face.begin() + 1);
@@ -230,14 +231,41 @@ TEST(from_arrays, is_refused_where_walks_would_not_end) {
     const TriangulationParts parts = {.dimension = 2, .faces = faces, .neighbors = neighbors};
     expect_refused(Triangulation::from_arrays(sites, parts, {.model = model}), "edge");
   };
-  refuse({{-1, -2, -8}, {-2, -8, -3}, {8, 4, 2}, {-3, -5, -7}, {8, 7, 0}, {2, 4, 8}, {-5, 7, 4},
-          {0, -5, 4}, {8, -3, -2}},
-         {{1, 8, 2}, {1, 2, 7}, {3, 5, 6}, {3, 7, 5}, {4, 8, 1}, {7, 3, 1}, {4, 3, 0}, {3, 6, 0},
-          {4, 1, 3}, {0, 6, 4}, {7, 2, 5}, {6, 2, 8}, {6, 8, 4}, {2, 6, 5}},
+  refuse({{-1, -2, -8},
+          {-2, -8, -3},
+          {8, 4, 2},
+          {-3, -5, -7},
+          {8, 7, 0},
+          {2, 4, 8},
+          {-5, 7, 4},
+          {0, -5, 4},
+          {8, -3, -2}},
+         {{1, 8, 2},
+          {1, 2, 7},
+          {3, 5, 6},
+          {3, 7, 5},
+          {4, 8, 1},
+          {7, 3, 1},
+          {4, 3, 0},
+          {3, 6, 0},
+          {4, 1, 3},
+          {0, 6, 4},
+          {7, 2, 5},
+          {6, 2, 8},
+          {6, 8, 4},
+          {2, 6, 5}},
          Model::weighted);
   refuse({{-2, 3, -1}, {-6, -5, 6}, {7, -8, 1}, {6, -2, 7}, {1, 1, -1}, {8, -4, 4}, {-6, -8, -8}},
-         {{2, 0, 4}, {2, 4, 5}, {6, 3, 1}, {2, 3, 6}, {2, 5, 3}, {2, 6, 0}, {6, 1, 0}, {4, 3, 5},
-          {4, 1, 3}, {4, 0, 1}},
+         {{2, 0, 4},
+          {2, 4, 5},
+          {6, 3, 1},
+          {2, 3, 6},
+          {2, 5, 3},
+          {2, 6, 0},
+          {6, 1, 0},
+          {4, 3, 5},
+          {4, 1, 3},
+          {4, 0, 1}},
          Model::projected);
 }
 
@@ -256,7 +284,7 @@ TEST(from_arrays, is_refused_by_walks_with_other_lists) {
   const Options weighted = {.model = Model::weighted};
   wrong = Arrays(delaunay(ball, weighted));
   ASSERT_FALSE(wrong.hidden.empty());
-  wrong.hidden[0].face = (wrong.hidden[0].face + 20) % wrong.faces.size();
+  wrong.hidden[0].face = (wrong.hidden[0].face + 20) % static_cast<Index>(wrong.faces.size());
   expect_refused(wrong.of(ball, weighted), "does not lie below face");
 
   std::vector<Point> ring = test::generator("great_circle").make(20, 1).sites;
