@@ -96,6 +96,20 @@ TEST(areas, are_relatively_right_in_tiny_patches) {
   }
 }
 
+// Sites 1e-28 radians apart or more, as diagram.h promises.
+TEST(areas, are_relatively_right_as_far_as_promised) {
+  for (const double size : {1e-18, 1e-22, 1e-26}) {
+    std::vector<Point> sites = octahedron();
+    const double step = size / 16;
+    for (int i = 0; i < 40; ++i) {
+      sites.push_back({step * ((i * 7) % 17 - 8.5), step * ((i * 11) % 19 - 9.5), 1});
+    }
+    const DualCase c = {"patch", sites, triangulated(sites)};
+    expect_right_areas(c, 1e-13, 0);
+    for (const double area : areas(c.triangulation)) EXPECT_GT(area, 0) << size;
+  }
+}
+
 // Slivers, right angles and circumcenters up to 60 degrees away: where kites are large and cancel.
 TEST(diagram, has_right_areas_around_bad_triangles) {
   for (const double width : {1e-1, 1e-4, 1e-8, 1e-12}) {

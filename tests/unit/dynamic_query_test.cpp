@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <set>
+#include <type_traits>
 
 #include "rondel/dynamic.h"
 #include "rondel/error.h"
@@ -92,6 +93,10 @@ class Comparison {
   Locator direct_;
   Locator copy_;
 };
+
+// A locator keeps a reference to what changes, so that it may be no temporary.
+static_assert(std::is_constructible_v<Locator, const DynamicTriangulation&>);
+static_assert(!std::is_constructible_v<Locator, DynamicTriangulation>);
 
 // The sites of every kind, half of them removed again, and some moved.
 TEST(dynamic_query, answers_as_a_copy_does) {
