@@ -26,10 +26,9 @@ struct Lists {
 };
 using ListsOut = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
 
-// By as many threads as the triangulation was built by.
 template <class Work>
 auto watched_dual(const Triangulation& t, const Work& work) {
-  return watched_quietly(t.num_sites(), t.report().threads,
+  return watched_quietly(t.num_sites(), threads_of(t),
                          [&](const Execution& execution) { return work(t, execution); });
 }
 

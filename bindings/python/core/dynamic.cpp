@@ -27,7 +27,7 @@ class SharedDynamic {
  public:
   explicit SharedDynamic(const Options& options) : triangulation_(options) {}
   explicit SharedDynamic(const Triangulation& triangulation)
-      : triangulation_(triangulation), threads_(triangulation.report().threads) {}
+      : triangulation_(triangulation), threads_(threads_of(triangulation)) {}
 
   template <class Change>
   auto change(const Change& change) {

@@ -54,27 +54,25 @@ void add_files(nb::module_& module) {
       "write_cells",
       [](const std::string& path, const Triangulation& t, const PointsIn& points,
          const Diagram& diagram, const std::vector<ColumnIn>& columns, double tolerance_deg) {
-        run_watched(
-            points.shape(0), t.report().threads, nb::none(), [&](const Execution& execution) {
-              write_cells(path, make_table(points, columns), t, diagram, tolerance_deg, execution);
-            });
+        run_watched(points.shape(0), threads_of(t), nb::none(), [&](const Execution& execution) {
+          write_cells(path, make_table(points, columns), t, diagram, tolerance_deg, execution);
+        });
       },
       nb::arg("path"), nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"),
       nb::arg("columns"), nb::arg("tolerance_deg"));
   module.def(
       "write_triangles",
       [](const std::string& path, const Triangulation& t, const PointsIn& points) {
-        run_watched(points.shape(0), t.report().threads, nb::none(),
-                    [&](const Execution& execution) {
-                      write_triangles(path, make_table(points, {}), t, execution);
-                    });
+        run_watched(points.shape(0), threads_of(t), nb::none(), [&](const Execution& execution) {
+          write_triangles(path, make_table(points, {}), t, execution);
+        });
       },
       nb::arg("path"), nb::arg("triangulation"), nb::arg("points").noconvert());
   module.def(
       "cell_polygons",
       [](const Triangulation& t, const Diagram& diagram, double tolerance_deg) {
         return polygons_out(
-            watched_quietly(t.num_sites(), t.report().threads, [&](const Execution& execution) {
+            watched_quietly(t.num_sites(), threads_of(t), [&](const Execution& execution) {
               return cell_polygons(t, diagram, tolerance_deg, execution);
             }));
       },
@@ -83,7 +81,7 @@ void add_files(nb::module_& module) {
       "face_polygons",
       [](const Triangulation& t) {
         return polygons_out(watched_quietly(
-            t.num_sites(), t.report().threads,
+            t.num_sites(), threads_of(t),
             [&](const Execution& execution) { return face_polygons(t, execution); }));
       },
       nb::arg("triangulation"));

@@ -52,7 +52,7 @@ nb::bytes page_of(const Triangulation& t, const PointsIn& points, const Diagram&
   if (values) options.values = {values->data(), values->shape(0)};
   options.fill = values ? GlobeFill::values : GlobeFill::none;
   const std::string page =
-      watched_quietly(t.num_sites(), t.report().threads, [&](const Execution& execution) {
+      watched_quietly(t.num_sites(), threads_of(t), [&](const Execution& execution) {
         return globe_page(table_of(points, columns), t, diagram, options, execution);
       });
   return nb::bytes(page.data(), page.size());

@@ -9,6 +9,7 @@
 #include <array>
 #include <string>
 
+#include "rondel/triangulation.h"
 #include "rondel/types.h"
 
 namespace rondel::python {
@@ -25,6 +26,12 @@ inline Options make_options(bool is_weighted, const std::array<double, 3>& cente
                             double squared_radius) {
   return {.model = is_weighted ? Model::weighted : Model::projected,
           .sphere = {{center[0], center[1], center[2]}, squared_radius}};
+}
+
+// How many threads work on what a triangulation gives: as many as it was built by. One that nobody
+// built, a snapshot or a copy from a pickle, says nothing of them: one for each core.
+inline unsigned threads_of(const Triangulation& t) {
+  return t.report().builder == Builder::given ? 0 : t.report().threads;
 }
 
 }  // namespace rondel::python

@@ -3,6 +3,8 @@
 """What goes in and comes out: copies, types, errors."""
 
 import gc
+import os
+import pickle
 import subprocess
 import sys
 import weakref
@@ -258,6 +260,44 @@ def test_the_number_of_threads_changes_nothing():
     one, two = (rondel.delaunay(points, threads=t) for t in (1, 2))
     assert np.array_equal(one.simplices, two.simplices)
     assert one.report["threads"] == 1
+
+
+THREADS_OF_AREAS = """
+import os, pickle, sys, threading
+import rondel
+
+def most_more_threads(diagram):
+    count = lambda: len(os.listdir("/proc/self/task"))
+    before, most, has_ended = count(), 0, threading.Event()
+    def look():
+        nonlocal most
+        while not has_ended.is_set():
+            most = max(most, count())
+    looking = threading.Thread(target=look)
+    looking.start()
+    diagram.areas
+    has_ended.set()
+    looking.join()
+    return max(most, count()) - before
+
+built = rondel.SphericalVoronoi(pickle.load(sys.stdin.buffer), threads=1)
+# One looks, and one works.
+assert most_more_threads(built) <= 2
+copied = pickle.loads(pickle.dumps(rondel.SphericalVoronoi(built.points, threads=1)))
+print(most_more_threads(copied))
+"""
+
+
+@pytest.mark.skipif(not os.path.isdir("/proc/self/task"), reason="needs Linux")
+def test_what_was_built_elsewhere_uses_all_cores():
+    points = clouds.uniform(200_000)
+    if rondel.delaunay(points[:10]).report["threads"] == 1:
+        pytest.skip("there is one core, or no threads")
+    ended = subprocess.run(
+        [sys.executable, "-c", THREADS_OF_AREAS], input=pickle.dumps(points), capture_output=True
+    )
+    assert ended.stderr == b""
+    assert int(ended.stdout) > 2
 
 
 def test_what_others_hold_at_the_end_is_not_said_to_be_a_leak():
