@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Files in and out (target rondel::io, Linux only). Every function throws FileError with one line
+/// Files in and out (target rondel::io; POSIX and Windows). Every function throws FileError with one line
 /// that names the file and, where there is one, the line and the value. Output goes to a temporary
 /// file beside the named one and is renamed when it is complete: a failure or a signal leaves what
 /// was there before. A power failure soon after may not: nothing waits for the disk.

@@ -36,7 +36,6 @@ struct JsonTree {  // NOLINT(bugprone-exception-escape): to move nlohmann's valu
   [[nodiscard]] bool is_number() const { return kind == Kind::scalar && scalar.is_number(); }
   [[nodiscard]] bool is_string() const { return kind == Kind::scalar && scalar.is_string(); }
   [[nodiscard]] bool is_array() const { return kind == Kind::array; }
-  [[nodiscard]] bool is_object() const { return kind == Kind::object; }
   [[nodiscard]] double number() const { return scalar.get<double>(); }
   [[nodiscard]] std::string string() const { return scalar.get<std::string>(); }
 

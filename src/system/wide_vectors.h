@@ -8,7 +8,7 @@
 
 // GCC for Windows stores vectors of 256 bits on a stack that is aligned to 128 bits only.
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(_WIN32) && !defined(RONDEL_NARROW_VECTORS)
-#define RONDEL_WIDE_VECTORS
+#define RONDEL_HAS_WIDE_VECTORS
 #define RONDEL_ALWAYS_INLINE __attribute__((always_inline))
 #else
 #define RONDEL_ALWAYS_INLINE
@@ -16,7 +16,7 @@
 
 namespace rondel::system {
 
-#if defined(RONDEL_WIDE_VECTORS)
+#if defined(RONDEL_HAS_WIDE_VECTORS)
 
 namespace wide_vectors {
 
