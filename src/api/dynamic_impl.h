@@ -63,8 +63,8 @@ struct DynamicTriangulation::Impl {
   // Makes all that follows from the sites anew.
   void rebuild(const Execution& execution);
 
-  // This, in pieces no longer: what follows from the sites is made anew if a change has failed.
-  // Several threads may ask.
+  // Returns *this, after what follows from the sites was made anew if a change has failed. Several
+  // threads may ask.
   Impl& current();
 
   // A change that throws leaves the sites as they were.

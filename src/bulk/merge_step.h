@@ -59,7 +59,7 @@ class MergeStep {
     return is_end(face.apex) ? Sign::zero : sites_.orientation(l_, r_, face.apex);
   }
 
-  // Not if y is l or r.
+  // Whether y is in conflict with the face. An end of the edge, l or r, is not.
   [[nodiscard, gnu::always_inline]] bool is_in_conflict(const ApexFace& face, Index y) const {
     const Vector to_y = sites_.coordinates(y) - origin_;
     const Sign sign = Sites::certain_side(limits_, dot(face.normal, to_y), squared_, face.squared,

@@ -40,7 +40,7 @@ class SeamFaces {
   // Whether each edge of the region was met, once.
   [[nodiscard]] bool fits() const { return fits_; }
 
-  // Both kinds of faces, by name. Corners are ranks.
+  // The corners, which are ranks, and the neighbors of a face of either kind, by its name.
   [[nodiscard]] Triple corners(Index face) const {
     if (face < names_begin()) return store_.corners[face];
     const Triple& v = seam_.faces[face - names_begin()];

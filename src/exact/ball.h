@@ -84,7 +84,7 @@ class Ball {
     r.radius_ = product_of(radius_, power);
     return r;
   }
-  // The same midpoint, where the value may be 2^error farther away.
+  // The ball with this midpoint whose radius is larger by 2^error or more.
   [[nodiscard]] Ball wider_by(Magnitude error) const {
     Ball r = *this;
     r.radius_ = sum_of(radius_, error);

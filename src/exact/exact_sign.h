@@ -51,7 +51,7 @@ Sign sign_of_cubic(const Formula& formula) {
   return *sign;
 }
 
-// The same of a formula of degree 6 in steps and other doubles and 2 - t for doubles t in [0, 2],
+// The sign of a formula of degree 6 in steps and other doubles and 2 - t for doubles t in [0, 2],
 // which is an optional Sign: its value has at most 6 * 2101 + 64 bits.
 template <class Formula>
 Sign sign_of_sextic(const Formula& formula) {

@@ -28,7 +28,8 @@ inline bool is_zero(const IntegerVector& v) { return v.x == 0 && v.y == 0 && v.z
 std::vector<IntegerVector> scaled_differences(std::initializer_list<Point> points,
                                               const Point& center);
 
-// The same with a power of two for each point: enough where only its ray counts.
+// The points minus `center`, each multiplied by a power of two of its own, exactly: enough where only
+// its ray counts.
 std::vector<IntegerVector> scaled_rays(std::initializer_list<Point> points, const Point& center);
 
 // The square root rounded down. Precondition: n >= 0.

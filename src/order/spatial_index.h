@@ -116,7 +116,7 @@ class SpatialIndex {
   [[nodiscard]] std::vector<Index> leaves() const;
 
   Index new_node();
-  // Both end with the path at the entry: the one that is new, or the one behind.
+  // `at` becomes the path to the new entry, or to the one behind that which was erased.
   void insert_at(Position& at, unsigned height, const HilbertKey& key, Index value);
   void erase_at(Position& at, unsigned height);
   void split(Position& at, unsigned height);

@@ -20,7 +20,7 @@ inline constexpr double direction_error = 4.6 * unit_roundoff;
 // rounding of the differences 3u, of the determinant 5u times the permanent (at most 2/sqrt(3)).
 inline constexpr double plane_bound = 10 * unit_roundoff;
 
-// The same of stored directions, relative to H^2 where H <= 2: 6 eta + 2 * 8.8u = 45.2u,
+// det(B, C, D) of stored directions, relative to H^2 where H <= 2: 6 eta + 2 * 8.8u = 45.2u,
 // times 1.18 for terms of higher order.
 inline constexpr double circle_plane_bound = 54 * unit_roundoff;
 
@@ -61,7 +61,7 @@ inline constexpr double angle_bound = 64 * unit_roundoff;
 // 2.7u for terms of higher order.
 inline constexpr double within_angle_bound = 36 * unit_roundoff;
 
-// Both in double-double, relative to H, of unit vectors known to 2^-100.
+// The two values above in double-double, relative to H, of unit vectors known to 2^-100.
 inline constexpr double angle_double_double_bound = 0x1p-95;
 
 // (p-o).(a-b) of exact data, relative to the sum of the sizes of its three products: 5u.

@@ -31,7 +31,7 @@ inline Sign compare_angle_filter(double a2, double b2) {
   return unless_unsure(value, value * value > bound * std::max(a2, b2));
 }
 
-// The same from unit vectors within 2^-100 of the exact ones.
+// |u_p-u_b|^2 - |u_p-u_a|^2 from unit vectors within 2^-100 of the exact ones.
 Sign compare_angle_double_double(const exact::SplitPoint& a, const exact::SplitPoint& b,
                                  const exact::SplitPoint& p);
 

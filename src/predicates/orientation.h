@@ -21,7 +21,7 @@ inline bool is_direction_orientation_certain(double value, const Vector& ab, con
   return value * value > bound * longest;
 }
 
-// The same for differences of exact data, the first one from the center.
+// Whether det(from_center, ab, ac) of differences of exact data has the right sign.
 inline bool is_orientation_certain(double value, const Vector& from_center, const Vector& ab,
                                    const Vector& ac) {
   return is_beyond(value, orientation_bound, dot(from_center, from_center), dot(ab, ab),

@@ -41,7 +41,7 @@ template <class S>
 concept RaySource = PointSource<S> && requires(S& points, Index a) {
   // The unit vector of point a, off by at most `direction_error` (bounds.h).
   { points.direction(a) } -> std::convertible_to<Vector>;
-  // The same to 2^-100, as an unevaluated sum.
+  // The unit vector of point a, off by at most 2^-100, as an unevaluated sum.
   { points.split(a) } -> std::same_as<exact::SplitPoint>;
 };
 

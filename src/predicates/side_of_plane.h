@@ -36,7 +36,7 @@ namespace rondel::predicates {
 // Where integers of the machine can tell, as among sites of a mesh: ties, too.
 std::optional<Sign> side_of_plane_integers_exact(const Quad& q);
 
-// The same four in an even permutation, of which the last one, from which the rungs take the
+// The four points in an even permutation, of which the last one, from which the rungs take the
 // differences, is the best for that: so the filter decides when sites of very different weights
 // meet.
 Quad with_best_origin(const Quad& q);

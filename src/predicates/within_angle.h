@@ -38,7 +38,7 @@ inline Sign is_within_angle_filter(const Vector& a, const Vector& p, const Cosin
   return unless_unsure(value, value * value > bound * std::max(d2, cosine.t));
 }
 
-// The same from unit vectors within 2^-100 of the exact ones.
+// What is_within_angle_filter() asks, from unit vectors within 2^-100 of the exact ones.
 Sign is_within_angle_double_double(const exact::SplitPoint& a, const exact::SplitPoint& p,
                                    const Cosine& cosine);
 

@@ -24,7 +24,7 @@ void prefetch(const T* object) {
 #endif
 }
 
-// The same before a write.
+// Asks for the first byte, which will be written.
 template <class T>
 void prefetch_to_write(T* object) {
 #if defined(__GNUC__)

@@ -11,8 +11,8 @@ namespace rondel::system {
 // The shortest text that reads back as this double, as std::to_chars writes it.
 std::string shortest_text(double value);
 
-// The same without std::to_chars, whose tables of powers of ten would be a third of a module of
-// WebAssembly: up to 17 attempts, for machines where size counts.
+// What shortest_text() gives, without std::to_chars, whose tables of powers of ten would be a third of
+// a module of WebAssembly: up to 17 attempts, for machines where size counts.
 std::string shortest_text_without_tables(double value);
 
 }  // namespace rondel::system

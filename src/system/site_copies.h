@@ -14,7 +14,7 @@ namespace rondel::system {
 
 class SiteCopies {
  public:
-  // None.
+  // Without memory: there are no copies.
   SiteCopies() = default;
   // In the memory of these elements, or none if there are none.
   template <class T>
@@ -35,7 +35,7 @@ class SiteCopies {
     std::memmove(memory_.data() + to * bytes_of_site, memory_.data() + from * bytes_of_site,
                  size * bytes_of_site);
   }
-  // Those from this one on.
+  // The copies of sites first, first + 1, ... as copies 0, 1, ...
   [[nodiscard]] SiteCopies from(std::size_t first) const {
     return is_empty() ? *this : SiteCopies(memory_.subspan(first * bytes_of_site));
   }
