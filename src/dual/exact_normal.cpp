@@ -70,15 +70,19 @@ Vec rounded_unit(const IntegerVector& v) {
   return {quotient(w.x), quotient(w.y), quotient(w.z)};
 }
 
-// No two vertices of a triangulation are in the same place. Where two sites are, these are not the
-// sites that were triangulated, and what follows would divide by zero or try ever more digits.
+// No two vertices of a triangulation are in the same place, and none is at the center. Where they are,
+// these are not the sites that were triangulated, and what follows would divide by zero or try ever
+// more digits.
 [[noreturn]] void refuse_same_place() {
   throw InvalidInput(
-      "two vertices are in the same place: the sites are not those of the triangulation", 0);
+      "two vertices are in the same place, or one is at the center: the sites are not those of the "
+      "triangulation",
+      0);
 }
 
+// Zero has no ray.
 void require_different_rays(const IntegerVector& a, const IntegerVector& b) {
-  if (dot(a, b) > 0 && is_zero(cross(a, b))) refuse_same_place();
+  if (dot(a, b) >= 0 && is_zero(cross(a, b))) refuse_same_place();
 }
 
 // |a| b x c + |b| c x a + |c| a x b, the normal of the projections of a, b and c, times some

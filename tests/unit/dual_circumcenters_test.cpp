@@ -138,11 +138,13 @@ TEST(circumcenters, do_not_depend_on_the_number_of_threads) {
   EXPECT_EQ(circumcenters(t, {.threads = 1}), circumcenters(t, {.threads = 4}));
 }
 
-// Arrays of another triangulation with sites in one place: no number of digits tells them apart.
+// Arrays of another triangulation with sites in one place, or at the center, where a caller has put
+// those that are viewed: no number of digits tells them apart.
 TEST(circumcenters, refuse_vertices_in_one_place) {
   for (const Model model : {Model::projected, Model::weighted}) {
     const std::vector<Point> same(6, Point{0.5, 0.25, 0.75});
     EXPECT_THROW(circumcenters(loose_faces(same, model)), InvalidInput);
+    EXPECT_THROW(circumcenters(loose_faces(std::vector<Point>(6), model)), InvalidInput);
     const Triangulation octahedral = delaunay(octahedron(), {.model = model});
     const Triangulation taken = Triangulation::from_arrays(
         same, {.dimension = 2, .faces = octahedral.faces(), .neighbors = octahedral.neighbors()},
