@@ -227,7 +227,7 @@ Triangulation Triangulation::from_arrays(Sites sites, const TriangulationParts& 
   copy(parts.duplicates, arrays.duplicates);
   copy(parts.hidden, arrays.hidden);
   auto impl = std::make_shared<Impl>(std::move(sites), std::move(arrays), options, BuildReport{});
-  impl->is_delaunay = false;
+  impl->proof = &api::prove_delaunay;
   return Triangulation(std::move(impl));
 }
 

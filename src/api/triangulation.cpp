@@ -27,6 +27,14 @@ Triangulation api::make_triangulation(Sites sites, TriangulationArrays arrays,
       std::move(sites), std::move(arrays), options, report));
 }
 
+void api::require_delaunay(const Triangulation& triangulation, const Execution& execution) {
+  const Triangulation::Impl& impl = Triangulation::Impl::of(triangulation);
+  const auto proof = impl.proof.load(std::memory_order_relaxed);
+  if (proof == nullptr) return;
+  proof(triangulation, execution);
+  impl.proof.store(nullptr, std::memory_order_relaxed);
+}
+
 Triangulation::Triangulation(std::shared_ptr<const Impl> impl) noexcept : impl_(std::move(impl)) {}
 
 const Triangulation::Impl& Triangulation::impl() const noexcept {

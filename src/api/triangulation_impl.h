@@ -27,9 +27,10 @@ struct Triangulation::Impl {
   TriangulationArrays arrays;
   Options options;
   BuildReport report;
-  // Whether these are the arrays of the triangulation of these sites: the library made them, or
-  // require_delaunay() has proved it.
-  mutable std::atomic<bool> is_delaunay = true;
+  // Throws if these are not the arrays of the triangulation of these sites. None: the library made
+  // them, or it was asked. A pointer, so that programs that take no arrays have no proof in them.
+  using Proof = void (*)(const Triangulation&, const Execution&);
+  mutable std::atomic<Proof> proof = nullptr;
 };
 
 namespace api {
@@ -38,9 +39,11 @@ namespace api {
 Triangulation make_triangulation(Sites sites, TriangulationArrays arrays, const Options& options,
                                  const BuildReport& report);
 
-// For whoever walks through the faces. Arrays that come from outside are proved to be those of the
-// triangulation of their sites when this is first asked of them; throws InvalidInput if they are not.
+// For whoever walks through the faces. Asks for the proof that is missing, once.
 void require_delaunay(const Triangulation& triangulation, const Execution& execution);
+
+// Throws InvalidInput if the arrays are not those of the triangulation of their sites.
+void prove_delaunay(const Triangulation& triangulation, const Execution& execution);
 
 }  // namespace api
 }  // namespace rondel

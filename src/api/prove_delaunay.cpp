@@ -76,15 +76,12 @@ Flaw find_flaw(const Triangulation& t, const Options& options, const Execution& 
 
 }  // namespace
 
-void require_delaunay(const Triangulation& triangulation, const Execution& execution) {
-  const Triangulation::Impl& impl = Triangulation::Impl::of(triangulation);
-  if (impl.is_delaunay.load(std::memory_order_relaxed)) return;
-  const Flaw flaw = find_flaw(triangulation, impl.options, execution);
-  if (!flaw.reason.empty()) {
-    throw InvalidInput(
-        "the arrays are not those of the triangulation of their sites: " + flaw.reason, flaw.index);
-  }
-  impl.is_delaunay.store(true, std::memory_order_relaxed);
+void prove_delaunay(const Triangulation& triangulation, const Execution& execution) {
+  const Options options = {triangulation.model(), triangulation.sphere()};
+  const Flaw flaw = find_flaw(triangulation, options, execution);
+  if (flaw.reason.empty()) return;
+  throw InvalidInput("the arrays are not those of the triangulation of their sites: " + flaw.reason,
+                     flaw.index);
 }
 
 }  // namespace rondel::api
