@@ -13,6 +13,7 @@ import re
 import shutil
 import sys
 
+import formulas
 import headers
 
 DOCUMENTS = ["docs", "bench/RESULTS.md", "bench/EXPERIMENTS.md", "bench/README.md", "CHANGELOG.md"]
@@ -87,6 +88,8 @@ def copy_documents(repository, folder):
         text = with_links(source.read_text(encoding="utf-8"), pathlib.PurePath(name), repository, names)
         if name in ("docs/guide/README.md", "docs/decisions/README.md", "bench/README.md"):
             text = with_contents(text)
+        if name.startswith("docs/theory/"):
+            text = formulas.with_formulas(text)
         copy.write_text(text, encoding="utf-8")
 
 
