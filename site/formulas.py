@@ -15,6 +15,7 @@ import re
 
 GREEK = {"alpha", "beta", "gamma", "delta", "eta", "pi"}
 # Words that are numbers, and pairs of letters: products, arcs, chords.
+LONGEST = 26  # signs of a formula in one line
 NAMES = {"size", "next", "link"}
 PAIRS = {"AB", "ab", "ac", "hn", "qp", "tx", "tK", "uH"}
 FUNCTIONS = {
@@ -40,6 +41,7 @@ OPERATORS = {
     **{word: rf"\mathbin{{\mathrm{{{word}}}}}" for word in ("op", "xor")},
 }
 SUMS = ("+", "-", "−")
+BREAK = "\x01"  # where a line may end
 BRACKETS = {"(": ")", "[": "]"}
 SMALL = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹₀₁₂₃₄₅₆₇₈₉ᵢⱼₖ", "01234567890123456789ijk")
 LETTERS = {letter: rf"\{name}" for letter, name in zip("αβγδεηλπ", "alpha beta gamma delta varepsilon eta lambda pi".split(), strict=True)}
@@ -125,7 +127,7 @@ class Parser:
             mark = self.at
             try:
                 operator = self.operator()
-                related = operator and operator[0].strip() not in SUMS
+                related = operator and operator[0].strip(BREAK + " ") not in SUMS
                 parts += [*operator, *(self.sign() if related else []), *self.operand()]
             except NoFormula:
                 self.at = mark
@@ -144,7 +146,8 @@ class Parser:
             if token.text in "*-−" and token.spaced != following.spaced:
                 raise NoFormula
             self.at += 1
-            return [f" {OPERATORS[token.text]} "]
+            can_end = self.depth == self.bars == 0 and token.text not in "-−*·×/->→"
+            return [f"{BREAK if can_end else ''} {OPERATORS[token.text]} "]
         if token.kind == "word" and token.text in ("op", "xor"):
             self.at += 1
             return [f" {OPERATORS[token.text]} "]
@@ -341,10 +344,25 @@ def in_text(text):
             continue
         tex = re.sub(r" +", " ", tex).strip()
         tex = re.sub(r"(?<![\w.}^])(\d+(?:\.\d+)?) / (\d+)(?![\d.]| *\^)", r"\\tfrac{\1}{\2}", tex)
-        result += [text[copied : token.start], "$", tex, "$"]
+        result += [text[copied : token.start], in_pieces(tex)]
         copied = tokens[end - 1].end
         at = end
     return "".join(result) + text[copied:]
+
+
+def in_pieces(tex):
+    """A formula between dollars, a long one in several, between which a line may end."""
+
+    def signs(part):
+        part = re.sub(r"\\(operatorname|mathrm|mathbin|sqrt|tfrac)", "", part)
+        return len(re.sub(r"[{}^_ ]", "", re.sub(r"\\[a-z]+", "x", part)))
+
+    pieces = [""]
+    for part in tex.split(BREAK):
+        if pieces[-1] and signs(pieces[-1]) + signs(part) > LONGEST:
+            pieces.append("{}")
+        pieces[-1] += part
+    return " ".join(f"${piece.strip()}$" for piece in pieces)
 
 
 KEPT = re.compile(r"`[^`]*`|!?\[[^\]\n]*\]\([^)\s]*\)|\*\*|(?<!\w)\*(?=\S)|(?<=\S)\*(?!\w)|<[a-z/][^>]*>|\b(?:e\.g\.|i\.e\.)|C\+\+|SIAM J\.|\bet al\.")

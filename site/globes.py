@@ -67,12 +67,22 @@ GLOBES = {
 }
 
 
+def section(name, title, words):
+    """A globe in a page, with a link to it alone."""
+    return (
+        f"\n## {title}\n\n{words}\n\n```{{raw}} html\n<div class=\"globe\"><iframe src=\"globes/{name}.html\" loading=\"lazy\" title=\"Globe: {title}\">"
+        f"</iframe></div>\n<p><a href=\"globes/{name}.html\">In a window of its own</a></p>\n```\n"
+    )
+
+
 def main(tool, folder, gallery):
     folder.mkdir(parents=True, exist_ok=True)
     text = (
         "# Gallery\n\nEach picture is a page that `rondel plot` made: turn it, zoom, point at a site, switch triangles, cells and circles on and off. "
-        "Each is one file that needs no server and no network.\n"
+        "Each is one file that needs no server and no network.\n\n"
+        "The sites of the first one can be dragged, added and removed ([how](docs/guide/globe.md#a-globe-to-play-with)); `scripts/build-js` makes it.\n"
     )
+    text += section("play", "To play with", "Begin with another set of sites at the left, or drop a CSV file on it.")
     for name, (title, words, sites, options) in GLOBES.items():
         made, path = "", sites
         if sites != STATIONS:
@@ -82,10 +92,7 @@ def main(tool, folder, gallery):
         page = str(folder / f"{name}.html")
         subprocess.run([tool, "plot", path, "-o", page, "--quiet", *options.split()], check=True)
         shown = sites if sites == STATIONS else f"{name}.csv"
-        text += (
-            f"\n## {title}\n\n{words}\n\n```{{raw}} html\n<div class=\"globe\"><iframe src=\"globes/{name}.html\" loading=\"lazy\" title=\"Globe: {title}\">"
-            f"</iframe></div>\n```\n\n```sh\n{made}rondel plot {shown} {options} -o {name}.html\n```\n"
-        )
+        text += section(name, title, words) + f"\n```sh\n{made}rondel plot {shown} {options} -o {name}.html\n```\n"
     gallery.write_text(text, encoding="utf-8")
 
 

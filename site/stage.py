@@ -138,8 +138,9 @@ def page_of_measurements(repository, folder):
 
 def main(repository, folder):
     shutil.rmtree(folder, ignore_errors=True)
-    skipped = shutil.ignore_patterns("*.py", "*.json", "*.txt", "Doxyfile*", "__pycache__", "node_modules")
-    shutil.copytree(repository / "site", folder, ignore=skipped)
+    tools = shutil.ignore_patterns("*.py", "*.json", "*.txt", "Doxyfile*", "__pycache__", "node_modules")
+    top = str(repository / "site")
+    shutil.copytree(top, folder, ignore=lambda place, names: tools(place, names) if place == top else [])
     copy_documents(repository, folder)
     pages_of_headers(repository, folder)
     pages_of_examples(repository, folder)

@@ -148,7 +148,20 @@ class Page:
         ]
         self.call("Emulation.setEmulatedMedia", features=features)
 
-    def run(self, script, timeout=90):
+    def frame(self, timeout=90):
+        """The number for `run` of what is in the page's only frame, which may be of another origin."""
+        deadline = time.monotonic() + timeout
+        while time.monotonic() < deadline:
+            top = self.call("Page.getFrameTree")["frameTree"]
+            inside = [child["frame"]["id"] for child in top.get("childFrames", [])]
+            for event in reversed(self.browser.events):
+                context = event["params"].get("context", {})
+                if event.get("sessionId") == self.session and context.get("auxData", {}).get("frameId") in inside:
+                    return context["id"]
+            time.sleep(0.02)
+        raise BrowserError("the page has no frame")
+
+    def run(self, script, timeout=90, frame=None):
         """The value of an expression, or of the promise that it is."""
         answer = self.browser.call(
             "Runtime.evaluate",
@@ -157,23 +170,24 @@ class Page:
             expression=script,
             awaitPromise=True,
             returnByValue=True,
+            **({"contextId": frame} if frame else {}),
         )
         if "exceptionDetails" in answer:
             raise BrowserError(answer["exceptionDetails"].get("exception", {}).get("description", script))
         return answer["result"].get("value")
 
-    def wait(self, condition, timeout=90):
+    def wait(self, condition, timeout=90, frame=None):
         """Waits until an expression is true."""
         deadline = time.monotonic() + timeout
-        while not self.run(condition):
+        while not self.run(condition, frame=frame):
             if time.monotonic() > deadline:
                 raise BrowserError(f"never came true: {condition}")
             time.sleep(0.02)
 
-    def wait_until_drawn(self, timeout=90):
+    def wait_until_drawn(self, timeout=90, frame=None):
         """Waits until the globe is there and nothing is left to draw."""
-        self.wait("['ready', 'failed'].includes(document.documentElement?.dataset.state)", timeout)
-        self.wait("Boolean(window.rondelGlobe && window.rondelGlobe.isDrawn)", timeout)
+        self.wait("['ready', 'failed'].includes(document.documentElement?.dataset.state)", timeout, frame)
+        self.wait("Boolean(window.rondelGlobe && window.rondelGlobe.isDrawn)", timeout, frame)
 
     def key(self, name, text=None):
         parameters = {"key": name}

@@ -29,7 +29,9 @@ KINDS = [
     "install.html",
     "gallery.html",
     "sphere.html",
+    "coming-from/cgal.html",
     "coming-from/scipy.html",
+    "notebook.html",
     "theory.html",
     "search.html",
     "genindex.html",
@@ -129,6 +131,23 @@ class Files(unittest.TestCase):
         for word in re.findall(r'"(\w+)"', exported):
             self.assertTrue(f'id="rondel.{word}"' in python, word)
 
+    def test_every_member_of_a_class_and_of_a_struct_has_an_anchor(self):
+        counted = 0
+        for header in sorted((ROOT / "include/rondel").glob("*.h")):
+            page = SITE / "reference/cpp" / f"{header.stem}.html"
+            if not page.exists():
+                continue
+            names = self.readers[page].names
+            text = re.sub(r"//.*", "", header.read_text(encoding="utf-8"))
+            for name, body in re.findall(r"^(?:class|struct) (?:RONDEL_API )?(\w+)[^;{]*\{\n(.*?)^\};", text, re.M | re.S):
+                public = body.split("private:")[0]
+                functions = re.findall(r"^  (?:\[\[nodiscard\]\] |static )[^;(]*?(\w+)\(", public, re.M)
+                fields = re.findall(r"^  [\w:<>]+(?:<.*>)? (\w+)(?: = [^;]*|\{\})?;", public, re.M)
+                for member in {*functions, *fields} - {"Impl"}:
+                    counted += 1
+                    self.assertIn(f"{name}-{member}".lower().replace("_", "-"), names, header.name)
+        self.assertGreater(counted, 100)
+
     def test_every_cell_of_a_notebook_was_run(self):
         documents = [d for d in (ROOT / "site").rglob("*.md") if "{code-cell}" in d.read_text(encoding="utf-8")]
         for document in documents:
@@ -169,22 +188,54 @@ class InTheBrowser(unittest.TestCase):
             self.assertIn(wanted, found)
             self.assertEqual(page.errors(), [])
 
-    def test_formulas_are_set(self):
-        page = self.open(SITE / "docs/theory/areas.html")
-        page.wait("document.querySelectorAll('mjx-container svg').length > 0")
-        self.assertEqual(page.run("document.querySelectorAll('[data-mjx-error], mjx-merror').length"), 0)
+    def test_search_leads_to_a_member_of_a_class(self):
+        page = self.open(f"{SITE / 'search.html'}?q=conflict_region")
+        page.wait("/Search finished/.test(document.getElementById('search-results').textContent)")
+        found = page.run("[...document.querySelectorAll('#search-results li a')].map((a) => a.href)")
+        anchors = [link for link in found if "cpp/query.html#" in link]
+        self.assertTrue(anchors, found)
+        member = self.open(anchors[0])
+        heading = "document.querySelector(':target').closest('section, span').parentElement.textContent"
+        self.assertIn("conflict_region", member.run(heading))
 
-    def test_the_first_globe_is_drawn(self):
-        page = self.open(SITE / "index.html")
-        page.wait("document.querySelector('iframe').getBoundingClientRect().height > 100")
-        globe = self.open(SITE / "globes/stations.html")
-        globe.wait_until_drawn()
-        self.assertEqual(globe.errors(), [])
+    def test_formulas_are_set(self):
+        for path in sorted((SITE / "docs/theory").glob("*.html")):
+            with self.subTest(name(path)):
+                page = self.open(path)
+                page.wait("document.querySelectorAll('span.math').length === document.querySelectorAll('span.math > mjx-container svg').length")
+                self.assertGreater(page.run("document.querySelectorAll('mjx-container svg').length"), 20)
+                self.assertEqual(page.run("document.querySelectorAll('[data-mjx-error], mjx-merror, [data-mml-node=merror]').length"), 0)
+
+    def globe_in(self, path):
+        """A page, what is in its frame, and where the middle of the globe there is on the screen."""
+        page = self.open(path, width=1280, height=900)
+        page.run("document.querySelector('iframe').scrollIntoView({ block: 'center', behavior: 'instant' })")
+        frame = page.frame()
+        page.wait_until_drawn(frame=frame)
+        self.assertEqual(page.run("document.documentElement.dataset.state", frame=frame), "ready")
+        middle = "(({ x, y, width, height }) => [x + width / 2, y + height / 2])(document.querySelector('iframe').getBoundingClientRect())"
+        return page, frame, page.run(middle)
+
+    def test_the_first_globe_is_the_one_to_play_with(self):
+        page, frame, (x, y) = self.globe_in(SITE / "index.html")
+        sites = "document.getElementById('summary').textContent"
+        self.assertIn("200 sites", page.run(sites, frame=frame))
+        page.double_click(x + 7, y + 5)
+        page.wait(f"/199 sites|201 sites/.test({sites})", frame=frame)
+        self.assertEqual(page.errors(), [])
+
+    def test_the_view_of_a_notebook_is_a_globe_that_answers(self):
+        page, frame, (x, y) = self.globe_in(SITE / "notebook.html")
+        page.click(x, y)
+        page.wait("!document.getElementById('card').hidden", frame=frame)
+        self.assertIn("log10 of the distance in km", page.run("document.getElementById('card').textContent", frame=frame))
+        self.assertEqual(page.errors(), [])
 
     def test_no_page_is_wider_than_a_phone(self):
         for kind in KINDS:
             with self.subTest(kind):
                 page = self.open(SITE / kind, width=390, height=800, touch=True)
+                page.wait("document.querySelectorAll('span.math').length === document.querySelectorAll('span.math > mjx-container svg').length")
                 self.assertLessEqual(page.run("document.documentElement.scrollWidth"), 391)
 
     def test_axe_finds_nothing_serious(self):
