@@ -5,9 +5,9 @@
 #
 #     cmake -DVIEWER=viewer -DCOAST=data/coast.txt -DMODULES="a.js;b.js" -DOUTPUT=page_text.cpp -P EmbedPage.cmake
 #
-# The script is all modules one after the other in one function, lower ones first: browsers load no modules from
-# file://. Imports, the word `export` and comments of whole lines are left out, so every name at the top of a
-# module is unique among all modules.
+# Parts of the template are files of viewer/parts, as the page to play has them, too. The script is all modules one
+# after the other in one function, lower ones first: browsers load no modules from file://. Imports, the word `export`
+# and comments of whole lines are left out, so every name at the top of a module is unique among all modules.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -59,6 +59,11 @@ string(APPEND script "})();")
 set(literals "")
 append_literal(script "${script}")
 file(READ "${VIEWER}/page.html" text)
+foreach(part tools card layers)
+  file(READ "${VIEWER}/parts/${part}.html" content)
+  string(TOUPPER "@${part}@\n" place)
+  string(REPLACE "${place}" "${content}" text "${text}")
+endforeach()
 append_literal(frame "${text}")
 file(READ "${VIEWER}/style.css" text)
 append_literal(style "${text}")

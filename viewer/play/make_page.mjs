@@ -14,8 +14,7 @@ import { deflateSync } from "node:zlib";
 const [source, packageFolder, page] = process.argv.slice(2);
 const read = (...path) => readFileSync(join(source, ...path), "utf8");
 
-const shared = ["vectors", "decode", "surface", "find", "chunks", "camera", "colors", "programs", "arcs", "shapes", "plan", "close",
-  "backdrop", "layers", "canvas", "scene", "pointer", "numbers", "card", "search", "panel", "globe"];
+const shared = read("viewer", "modules.txt").trim().split("\n");
 const own = ["groups", "live", "presets", "table", "files", "history", "remote", "play", "start"];
 const pageModules = [...shared.map((name) => ["viewer", "src", `${name}.js`]), ...own.map((name) => ["viewer", "play", "src", `${name}.js`])];
 const library = ["errors", "arguments", "engine", "located", "triangulation", "build", "dynamic"];
@@ -54,6 +53,8 @@ function data(name, bytes) {
   return `<script type="application/octet-stream" id="data-${name}">${text}</script>\n`;
 }
 
+const parts = Object.fromEntries(["tools", "card", "layers"].map((name) => [`@${name.toUpperCase()}@\n`, read("viewer", "parts", `${name}.html`)]));
+const frame = read("viewer", "play", "page.html").replace(/@[A-Z]+@\n/g, (place) => parts[place] ?? place);
 const places = {
   "@STYLE@": read("viewer", "style.css") + read("viewer", "play", "style.css"),
   "@DATA@": data("module", readFileSync(join(packageFolder, "rondel.wasm"))) + data("coast", Buffer.from(read("data", "coast.txt"))),
@@ -63,4 +64,4 @@ const places = {
   "@VERSION@": read("VERSION").trim(),
   "@LICENCES@": readFileSync(join(packageFolder, "THIRD_PARTY.md"), "utf8").replace(/&/g, "&amp;").replace(/</g, "&lt;"),
 };
-writeFileSync(page, read("viewer", "play", "page.html").replace(/@[A-Z]+@/g, (place) => places[place]));
+writeFileSync(page, frame.replace(/@[A-Z]+@/g, (place) => places[place]));
