@@ -39,7 +39,7 @@ def cpp(source, *libraries):
     if not program.exists():
         includes = [f"-I{ROOT / 'include'}", f"-I{ROOT / 'build/dev/include'}"]
         links = [str(library), *(f"-l{name}" for name in (*libraries, "tbb"))]
-        subprocess.run(["c++", "-std=c++20", "-pthread", *includes, source, *links, "-o", program], check=True)
+        subprocess.run(["c++", "-std=c++20", "-O1", "-pthread", *includes, source, *links, "-o", program], check=True)
     run(str(program))
 
 

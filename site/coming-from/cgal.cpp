@@ -5,6 +5,7 @@
 
 #include <CGAL/Delaunay_triangulation_on_sphere_2.h>
 #include <CGAL/Delaunay_triangulation_on_sphere_traits_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel_with_sqrt.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Projection_on_sphere_traits_3.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
@@ -29,18 +30,27 @@ void add(Triangles& triangles, std::array<unsigned, 3> corners) {
 }
 
 // With CGAL
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Traits = CGAL::Projection_on_sphere_traits_3<Kernel>;
-using Base = CGAL::Triangulation_on_sphere_vertex_base_2<Traits>;
-using Vertex = CGAL::Triangulation_vertex_base_with_info_2<unsigned, Traits, Base>;
-using Face = CGAL::Triangulation_on_sphere_face_base_2<Traits>;
-using Structure = CGAL::Triangulation_data_structure_2<Vertex, Face>;
-using Sphere = CGAL::Delaunay_triangulation_on_sphere_2<Traits, Structure>;
+template <class Kernel>
+struct By {
+  using Traits = CGAL::Projection_on_sphere_traits_3<Kernel>;
+  using Base = CGAL::Triangulation_on_sphere_vertex_base_2<Traits>;
+  using Vertex = CGAL::Triangulation_vertex_base_with_info_2<unsigned, Traits, Base>;
+  using Face = CGAL::Triangulation_on_sphere_face_base_2<Traits>;
+  using Structure = CGAL::Triangulation_data_structure_2<Vertex, Face>;
+  using Sphere = CGAL::Delaunay_triangulation_on_sphere_2<Traits, Structure>;
+  using Point = typename Kernel::Point_3;
+};
+using Inexact = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Exact = CGAL::Exact_predicates_exact_constructions_kernel_with_sqrt;
 
+template <class Kernel>
 Triangles by_cgal(const Points& points) {
-  Sphere dt(Traits(Kernel::Point_3(0, 0, 0), 1));
-  for (unsigned i = 0; i < points.size(); ++i)
-    dt.insert(Kernel::Point_3(points[i].x, points[i].y, points[i].z))->info() = i;
+  using Point = typename By<Kernel>::Point;
+  typename By<Kernel>::Sphere dt(typename By<Kernel>::Traits(Point(0, 0, 0), 1));
+  for (unsigned i = 0; i < points.size(); ++i) {
+    const auto vertex = dt.insert(Point(points[i].x, points[i].y, points[i].z));
+    if (vertex != nullptr) vertex->info() = i;
+  }
   Triangles triangles;
   for (auto face : dt.all_face_handles()) {
     add(triangles, {face->vertex(0)->info(), face->vertex(1)->info(), face->vertex(2)->info()});
@@ -74,27 +84,32 @@ Points random_sites(double angle) {
 
 // How many sites are left with the traits for points on the sphere.
 std::size_t kept_by_cgal(const Points& points) {
-  using OnSphere = CGAL::Delaunay_triangulation_on_sphere_traits_2<Kernel>;
-  CGAL::Delaunay_triangulation_on_sphere_2<OnSphere> dt(OnSphere(Kernel::Point_3(0, 0, 0), 1));
-  for (const auto& p : points) dt.insert(Kernel::Point_3(p.x, p.y, p.z));
+  using Traits = CGAL::Delaunay_triangulation_on_sphere_traits_2<Inexact>;
+  CGAL::Delaunay_triangulation_on_sphere_2<Traits> dt(Traits(Inexact::Point_3(0, 0, 0), 1));
+  for (const auto& p : points) dt.insert(Inexact::Point_3(p.x, p.y, p.z));
   return dt.number_of_vertices();
 }
 
 void compare(const char* where, double angle) {
   const Points points = random_sites(angle);
-  const Triangles theirs = by_cgal(points);
   const Triangles ours = by_rondel(points);
-  std::printf("%s:\n  CGAL %zu triangles, Rondel %zu%s\n", where, theirs.size(), ours.size(),
-              theirs == ours ? ", the same" : "");
-  std::printf("  CGAL's traits for points on the sphere keep %zu of 1000\n", kept_by_cgal(points));
+  const auto print = [&](const char* who, const Triangles& triangles) {
+    const char* note = triangles == ours ? ", the same" : ", others";
+    std::printf("  %s: %zu triangles%s\n", who, triangles.size(), note);
+  };
+  std::printf("%s:\n  Rondel: %zu triangles\n", where, ours.size());
+  print("CGAL, inexact constructions", by_cgal<Inexact>(points));
+  print("CGAL, exact constructions with roots", by_cgal<Exact>(points));
+  std::printf("  CGAL, traits for points on the sphere: %zu of 1000 sites\n", kept_by_cgal(points));
 }
 
 // Sites that come and go, and what both know of a triangulation.
 void change() {
+  using Point = Inexact::Point_3;
   const Points points = random_sites(0.1);
-  Sphere theirs(Traits(Kernel::Point_3(0, 0, 0), 1));
-  std::vector<Sphere::Vertex_handle> vertices;
-  for (const auto& p : points) vertices.push_back(theirs.insert(Kernel::Point_3(p.x, p.y, p.z)));
+  By<Inexact>::Sphere theirs(By<Inexact>::Traits(Point(0, 0, 0), 1));
+  std::vector<By<Inexact>::Sphere::Vertex_handle> vertices;
+  for (const auto& p : points) vertices.push_back(theirs.insert(Point(p.x, p.y, p.z)));
   rondel::DynamicTriangulation ours(points);
   for (unsigned i = 0; i < 500; ++i) {
     theirs.remove(vertices[i]);
