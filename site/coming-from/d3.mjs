@@ -6,14 +6,19 @@ import * as theirs from "d3-geo-voronoi";
 import * as ours from "rondel/d3";
 
 const names = (value) => Object.keys(value).filter((name) => !name.startsWith("_"));
-const same = (what, a, b) => console.log(`${what}:`, JSON.stringify(a) === JSON.stringify(b) ? "the same" : "different");
+const same = (what, a, b) => {
+  const isSame = JSON.stringify(a) === JSON.stringify(b);
+  console.log(`${what}:`, isSame ? "the same" : "different");
+  if (!isSame) process.exitCode = 1;
+};
 
 // 500 places all around, by the golden angle.
 const places = Array.from({ length: 500 }, (_, i) => [(i * 137.508) % 360 - 180, Math.asin((2 * i + 1) / 500 - 1) * 180 / Math.PI]);
 const heights = places.map(([lon, lat], i) => [lon, lat, (i * 37) % 100]);
 
-console.log("names that are missing here:", names(theirs).concat(names(theirs.geoVoronoi(places)), names(theirs.geoDelaunay(places)))
-  .filter((name) => !(name in ours || name in ours.geoVoronoi(places) || name in ours.geoDelaunay(places))).join() || "none");
+const missing = names(theirs).concat(names(theirs.geoVoronoi(places)), names(theirs.geoDelaunay(places)))
+  .filter((name) => !(name in ours || name in ours.geoVoronoi(places) || name in ours.geoDelaunay(places)));
+same("names", missing, []);
 
 const a = theirs.geoVoronoi(places);
 const b = ours.geoVoronoi(places);
@@ -26,7 +31,7 @@ same("hull of all around", a.hull(), b.hull());
 
 const areas = (one) => one.polygons().features.map((cell) => geoArea(cell));
 const [theirAreas, ourAreas] = [areas(a), areas(b)];
-console.log("largest difference of a cell's area:", Math.max(...theirAreas.map((area, i) => Math.abs(area - ourAreas[i]))) < 1e-12 ? "below 1e-12" : "large");
+same("areas to 1e-12", theirAreas.filter((area, i) => Math.abs(area - ourAreas[i]) > 1e-12), []);
 const rings = ({ geoContour }) => geoContour().thresholds([20, 50, 80])(heights).map(({ value, coordinates }) => [value, coordinates.length]);
 same("contours", rings(theirs), rings(ours));
 
