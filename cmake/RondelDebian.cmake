@@ -39,7 +39,8 @@ string(TIMESTAMP now "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file(cmake/debian/changelog.in ${changelog} @ONLY)
 execute_process(COMMAND gzip -9nf ${changelog} COMMAND_ERROR_IS_FATAL ANY)
 
-# rondel_debian_package(COMPONENT NAME SECTION SUMMARY DEPENDS MORE): MORE ends the long description.
+# rondel_debian_package(COMPONENT NAME SECTION SUMMARY DEPENDS MORE [PART...]): MORE ends the long description; the
+# package holds the parts of scripts/third-party.
 macro(rondel_debian_package component name section summary depends more)
   string(TOUPPER ${component} upper)
   list(APPEND CPACK_COMPONENTS_ALL ${component})
@@ -47,17 +48,23 @@ macro(rondel_debian_package component name section summary depends more)
   set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
   set(CPACK_DEBIAN_${upper}_PACKAGE_DEPENDS "${depends}")
   set(CPACK_DEBIAN_${upper}_DESCRIPTION "${summary}\n${about}\n\n${more}")
-  install(FILES cmake/debian/copyright ${changelog}.gz DESTINATION share/doc/${name} COMPONENT ${component}
-          EXCLUDE_FROM_ALL)
+  set(copyright ${PROJECT_BINARY_DIR}/debian/${name}/copyright)
+  configure_file(cmake/debian/copyright ${copyright} COPYONLY)
+  if(${ARGC} GREATER 6)
+    execute_process(COMMAND scripts/third-party "${name} holds" ${ARGN} WORKING_DIRECTORY ${PROJECT_SOURCE_DIR}
+                    OUTPUT_VARIABLE parts COMMAND_ERROR_IS_FATAL ANY)
+    file(APPEND ${copyright} "\n${parts}")
+  endif()
+  install(FILES ${copyright} ${changelog}.gz DESTINATION share/doc/${name} COMPONENT ${component} EXCLUDE_FROM_ALL)
   install(FILES cmake/debian/lintian-overrides/${name} DESTINATION share/lintian/overrides
           COMPONENT ${component} EXCLUDE_FROM_ALL OPTIONAL)
 endmacro()
 
 rondel_debian_package(tool rondel science "Delaunay triangulations and Voronoi diagrams on the sphere"
   "librondel${soversion} ${this}"
-  "This package contains the command line tool.")
+  "This package contains the command line tool." cli11 json)
 rondel_debian_package(runtime librondel${soversion} libs "triangulations on the sphere - shared libraries" ""
-  "This package contains the shared libraries of C++.")
+  "This package contains the shared libraries of C++." fast_float json boost)
 rondel_debian_package(c_runtime librondel-c1 libs "triangulations on the sphere - shared library of C"
   "librondel${soversion} ${this}"
   "This package contains the shared library for C and what calls C.")
@@ -70,7 +77,7 @@ find_package(Python 3.11 COMPONENTS Interpreter REQUIRED)
 math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
 rondel_debian_package(python python3-rondel python "triangulations on the sphere - Python 3"
   "librondel${soversion} ${this}, python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy"
-  "This package contains the module for Python.")
+  "This package contains the module for Python." nanobind robin_map)
 install(DIRECTORY bindings/python/rondel DESTINATION ${RONDEL_PYTHON_DESTINATION} COMPONENT python EXCLUDE_FROM_ALL
         FILES_MATCHING PATTERN "*.py" PATTERN py.typed PATTERN __pycache__ EXCLUDE)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/postinst

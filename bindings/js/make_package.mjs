@@ -3,6 +3,7 @@
 
 // Fills the folder of the npm package, all but its types: make_package.mjs SOURCE FOLDER
 
+import { execFileSync } from "node:child_process";
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
@@ -30,12 +31,6 @@ writeFileSync(
   `${banner}\n/** rondel.wasm in base64. */\nexport const encodedModule =\n  "${module.toString("base64")}";\n`,
 );
 
-// What the module holds besides Rondel, with the licences that ask to be shipped.
-const musl = readFileSync("/usr/share/doc/wasi-libc/copyright", "utf8");
-writeFileSync(
-  join(folder, "THIRD_PARTY.md"),
-  `# What rondel.wasm holds besides Rondel\n
-- libc++, libc++abi, libunwind and compiler-rt of LLVM 19: Apache-2.0 WITH LLVM-exception.
-- Boost.Multiprecision, under the Boost Software License 1.0, which asks nothing of object code.
-- wasi-libc, with musl and dlmalloc:\n\n\`\`\`\n${musl.trim()}\n\`\`\`\n`,
-);
+// What the module holds besides Rondel.
+const parts = execFileSync(join(source, "scripts", "third-party"), ["rondel.wasm holds", "llvm-wasm", "wasi-libc", "boost"]);
+writeFileSync(join(folder, "THIRD_PARTY.md"), parts);
