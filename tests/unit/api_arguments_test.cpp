@@ -195,7 +195,7 @@ TEST(from_arrays, is_proved_before_walks) {
     EXPECT_EQ(locator.nearest({1, 2, 3}) == no_index, taken.num_vertices() == 0);
     if (arrays.faces.size() < 5 || !arrays.ghost_faces.empty() || !arrays.hidden.empty()) continue;
     std::ranges::reverse(arrays.faces);
-    for (Triple& face : arrays.faces) std::ranges::rotate(face, face.begin() + 1);
+    for (Triple& face : arrays.faces) std::rotate(face.begin(), face.begin() + 1, face.end());
     arrays.neighbors = test::neighbors_of(arrays.faces);
     const Locator other(arrays.of(in.sites, in.options));
     EXPECT_EQ(other.nearest({1, 2, 3}), locator.nearest({1, 2, 3}));
