@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "inputs/points.h"
 #include "support/hull_oracle.h"
@@ -16,23 +15,6 @@ namespace {
 using inputs::operator+;
 using inputs::operator-;
 using inputs::operator*;
-
-double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-double length(const Point& a) { return std::sqrt(dot(a, a)); }
-Point cross(const Point& a, const Point& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-bool is_center(const Point& p) { return dot(p, p) == 0; }
-
-// Equal for the sites of one ray, and for no others.
-std::array<int, 3> ray_of(const Point& p) {
-  const auto x = static_cast<int>(p.x);
-  const auto y = static_cast<int>(p.y);
-  const auto z = static_cast<int>(p.z);
-  const int divisor = std::max(1, std::gcd(std::gcd(x, y), z));
-  return {x / divisor, y / divisor, z / divisor};
-}
 
 SeamLine reversed(const SeamLine& line) { return {line.second, line.first}; }
 
@@ -50,86 +32,6 @@ SeamTree::SeamTree(const SeamCase& input, Weakened weakened) : input_(input), we
   points_ = input.sites;
   has_final_.assign(input.sites.size(), 0);
   solve_root(make_cells());
-}
-
-// Whether a site belongs to the side that a normal of multiples of 1/16 points to. Near the line,
-// and on it, chance decides, for each ray.
-bool SeamTree::is_beyond(const Point& normal, const Point& p) const {
-  const double value = dot(normal, p);
-  if (std::abs(value) > std::sin(input_.margin) * length(normal) * length(p)) return value > 0;
-  std::uint64_t seed = input_.seed;
-  for (const int i : ray_of(p)) seed = inputs::Random(seed ^ static_cast<std::uint64_t>(i)).next();
-  const Point key = 16.0 * normal;
-  for (const double i : {key.x, key.y, key.z})
-    seed = inputs::Random(seed ^ static_cast<std::uint64_t>(std::abs(i))).next();
-  const bool chance = inputs::Random(seed).coin();
-  // The same of both normals of a line.
-  const double first = key.x != 0 ? key.x : key.y != 0 ? key.y : key.z;
-  return chance == (first > 0);
-}
-
-// The six faces of the cube, split at random lines; sites at the center are in none.
-SeamCell SeamTree::make_cells() {
-  SeamCell root;
-  root.children.resize(6);
-  for (unsigned i = 0; i < 6; ++i) {
-    const auto along = [&](unsigned axis, double value) {
-      return Point{axis == 0 ? value : 0, axis == 1 ? value : 0, axis == 2 ? value : 0};
-    };
-    for (const unsigned axis : {(i + 1) % 3, (i + 2) % 3}) {
-      for (const double side : {1.0, -1.0}) {
-        const Point inward = along(i % 3, i < 3 ? 1 : -1) + along(axis, side);
-        root.children[i].inward.push_back(1 / length(inward) * inward);
-      }
-    }
-  }
-  for (Index i = 0; i < input_.sites.size(); ++i) {
-    const Point& p = input_.sites[i];
-    if (is_center(p)) {
-      root.sites.push_back({i, p});
-      continue;
-    }
-    const bool xy = is_beyond({1, -1, 0}, p) == is_beyond({1, 1, 0}, p);
-    const unsigned a = xy ? 0 : 1;  // |x| > |y|, or not
-    const Point across = a == 0 ? Point{1, 0, -1} : Point{0, 1, -1};
-    const Point other = a == 0 ? Point{1, 0, 1} : Point{0, 1, 1};
-    const unsigned axis = is_beyond(across, p) == is_beyond(other, p) ? a : 2;
-    const double coordinate = axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-    root.children[coordinate > 0 ? axis : axis + 3].sites.push_back({i, p});
-  }
-  for (unsigned i = 0; i < 6; ++i)
-    split(root.children[i], {-16, -16, 16, 16}, i % 3, i < 3 ? 1 : -1, 0);
-  return root;
-}
-
-// `box` are the least and the largest quotients of a face, in sixteenths.
-void SeamTree::split(SeamCell& cell, std::array<int, 4> box, unsigned axis, double sign,
-                     unsigned depth) {
-  inputs::Random random(input_.seed + 1000 * cell.sites.size() + depth);
-  cell.fails = random.below(12) == 0;
-  if (depth == 5 || cell.sites.size() < 5 || random.below(8) == 0) return;
-  const unsigned k = box[2] - box[0] >= box[3] - box[1] ? 0 : 1;
-  if (box[k + 2] - box[k] < 2) return;
-  const int middle = (box[k] + box[k + 2]) / 2;
-  const unsigned side = (axis + 1 + k) % 3;
-  const auto part = [side, axis](unsigned i, double on_side, double on_axis) {
-    return i == side ? on_side : i == axis ? on_axis : 0;
-  };
-  const double limit = -sign * middle / 16.0;
-  const Point normal = {part(0, 1, limit), part(1, 1, limit), part(2, 1, limit)};
-  cell.children.resize(2);
-  for (const unsigned i : {0U, 1U}) {
-    SeamCell& child = cell.children[i];
-    child.inward = cell.inward;
-    child.inward.push_back((i == 0 ? -1 : 1) / length(normal) * normal);
-    for (const PlacedSite& s : cell.sites) {
-      if (is_beyond(normal, s.point) == (i == 1)) child.sites.push_back(s);
-    }
-    std::array<int, 4> part_box = box;
-    part_box[i == 0 ? k + 2 : k] = middle;
-    split(child, part_box, axis, sign, depth + 1);
-  }
-  cell.sites.clear();
 }
 
 Triangulation SeamTree::triangulate(std::span<const PlacedSite> sites) const {
@@ -247,9 +149,9 @@ SeamTree::Marks SeamTree::find_open(const Surface& surface, const SeamLines& edg
   if (input_.model == Model::weighted) {
     ball = 0;
     if (weakened_ == Weakened::ball) {
-      for (const PlacedSite& s : all) ball = std::max(ball, length(s.point));
+      for (const PlacedSite& s : all) ball = std::max(ball, length_of(s.point));
     } else {
-      for (const Point& p : input_.sites) ball = std::max(ball, length(p));
+      for (const Point& p : input_.sites) ball = std::max(ball, length_of(p));
     }
   }
   Marks open(surface.faces.size(), 0);
@@ -280,15 +182,15 @@ bool SeamTree::is_certain(const Triple& face, const SeamCell& cell, double ball)
   if (weakened_ == Weakened::cap) {
     return std::ranges::all_of(corners, [&](const Point& p) {
       return std::ranges::all_of(cell.inward, [&](const Point& n) {
-        return dot(n, p) > (std::sin(input_.margin) + slack) * length(p);
+        return dot(n, p) > (std::sin(input_.margin) + slack) * length_of(p);
       });
     });
   }
   if (input_.model == Model::projected) {
-    for (Point& p : corners) p = 1 / length(p) * p;
+    for (Point& p : corners) p = 1 / length_of(p) * p;
   }
-  Point normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
-  normal = 1 / length(normal) * normal;
+  Point normal = inputs::cross_product(corners[1] - corners[0], corners[2] - corners[0]);
+  normal = 1 / length_of(normal) * normal;
   const double height = dot(normal, corners[0]) / ball;
   if (height < slack) return false;
   const double margin = weakened_ == Weakened::margin ? 0 : input_.margin;

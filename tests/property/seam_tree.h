@@ -9,9 +9,12 @@
 // out   the triangulation as the tree makes it, and what its cells found that is not as it should be
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <set>
 #include <span>
 #include <string>
@@ -44,6 +47,18 @@ struct PlacedSite {
 
 using SeamLine = std::pair<Index, Index>;                          // from a site to another one
 using SeamLines = std::map<SeamLine, std::pair<Index, unsigned>>;  // face on the left, corner
+
+// Equal for the sites of one ray, and for no others.
+inline std::array<int, 3> ray_of(const Point& p) {
+  const auto x = static_cast<int>(p.x);
+  const auto y = static_cast<int>(p.y);
+  const auto z = static_cast<int>(p.z);
+  const int divisor = std::max(1, std::gcd(std::gcd(x, y), z));
+  return {x / divisor, y / divisor, z / divisor};
+}
+
+inline double dot(const Point& a, const Point& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline double length_of(const Point& a) { return std::sqrt(dot(a, a)); }
 
 // All of its directions are further from its planes than the margin of the tree.
 struct SeamCell {

@@ -40,7 +40,7 @@ std::vector<Index> SeamTree::owned_in_order(Index v, std::span<const Index> face
              });
     });
     // The run that ends where the first one starts comes last.
-    std::ranges::stable_partition(starts, [&](Index f) {
+    std::stable_partition(starts.begin(), starts.end(), [&](Index f) {
       if (f == owned.front()) return true;
       for (auto at = next.find(corner_after(f, 1)); at != next.end();
            at = next.find(corner_after(at->second, 2))) {
