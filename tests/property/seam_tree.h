@@ -93,6 +93,8 @@ class SeamTree {
   [[nodiscard]] const std::string& wrong_cell() const { return wrong_cell_; }
   // How many faces were found to be final in leaves, in cells above, and at the root.
   [[nodiscard]] const std::array<std::size_t, 3>& num_final() const { return num_final_; }
+  // How many of these are final because faces around them are certified, though they are not.
+  [[nodiscard]] std::size_t num_enclosed() const { return num_enclosed_; }
   // How many sites were dropped, or found to be hidden, below the root.
   [[nodiscard]] std::size_t num_dropped() const { return num_dropped_; }
   [[nodiscard]] std::size_t num_hidden_below() const { return num_hidden_below_; }
@@ -119,6 +121,7 @@ class SeamTree {
   [[nodiscard]] Marks find_region(const Surface& surface, const SeamLines& edges) const;
   [[nodiscard]] Marks find_open(const Surface& surface, const SeamLines& edges,
                                 const SeamCell& cell, std::span<const PlacedSite> all) const;
+  [[nodiscard]] double ball_around(std::span<const PlacedSite> all) const;
   [[nodiscard]] bool is_certain(const Triple& face, const SeamCell& cell, double ball) const;
   void keep(const Triple& face, SeamPart& part);
   void hand_up(const Surface& surface, const Marks& region, const Marks& open, SeamPart& part);
@@ -139,6 +142,7 @@ class SeamTree {
   Marks has_final_;  // by name
   std::set<Index> hidden_;
   std::array<std::size_t, 3> num_final_{};
+  std::size_t num_enclosed_ = 0;
   std::size_t num_dropped_ = 0;
   std::size_t num_hidden_below_ = 0;
   std::string wrong_result_;

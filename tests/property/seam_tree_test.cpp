@@ -143,6 +143,7 @@ TEST(seam_tree, may_have_conflicts_far_from_the_outline_in_the_cone_of_a_cell) {
 
 TEST(seam_tree, makes_the_triangulation_of_all_sites) {
   std::array<std::size_t, 3> num_final{};
+  std::size_t num_enclosed = 0;
   std::size_t num_dropped = 0;
   std::size_t num_hidden = 0;
   for (std::uint64_t seed = 0; seed < scaled(num_cases); ++seed) {
@@ -151,12 +152,15 @@ TEST(seam_tree, makes_the_triangulation_of_all_sites) {
     EXPECT_EQ(tree.wrong_result(), "") << seed;
     EXPECT_EQ(tree.wrong_cell(), "") << seed;
     for (std::size_t i = 0; i < 3; ++i) num_final[i] += tree.num_final()[i];
+    num_enclosed += tree.num_enclosed();
     num_dropped += tree.num_dropped();
     num_hidden += tree.num_hidden_below();
   }
   std::cout << "final in leaves " << num_final[0] << ", above " << num_final[1] << ", at the root "
-            << num_final[2] << "; dropped " << num_dropped << ", hidden " << num_hidden << '\n';
+            << num_final[2] << "; enclosed " << num_enclosed << ", dropped " << num_dropped
+            << ", hidden " << num_hidden << '\n';
   for (const std::size_t i : num_final) EXPECT_GT(i, scaled(5 * num_cases));
+  EXPECT_GT(num_enclosed, 0U);
   EXPECT_GT(num_dropped, scaled(5 * num_cases));
   EXPECT_GT(num_hidden, scaled(num_cases));
 }
