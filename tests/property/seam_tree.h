@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // A tree of seams by brute force: the algorithm of "A tree of seams" in docs/theory/blocks.md on few
-// sites with small integer coordinates, by nothing but delaunay() of sets of sites. It can be told
-// to leave out one condition of the lemmas.
+// sites with small integer coordinates, by nothing but delaunay() of sets of sites, too few for
+// blocks. It can be told to leave out one condition of the lemmas.
 //
 // in    sites, and cells that are split at lines which integers decide
 // out   the triangulation as the tree makes it, and what its cells found that is not as it should be
