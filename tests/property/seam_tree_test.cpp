@@ -159,10 +159,10 @@ TEST(seam_tree, makes_the_triangulation_of_all_sites) {
   std::cout << "final in leaves " << num_final[0] << ", above " << num_final[1] << ", at the root "
             << num_final[2] << "; enclosed " << num_enclosed << ", dropped " << num_dropped
             << ", hidden " << num_hidden << '\n';
-  for (const std::size_t i : num_final) EXPECT_GT(i, scaled(5 * num_cases));
+  for (const std::size_t i : num_final) EXPECT_GT(i, scaled(num_cases));
   EXPECT_GT(num_enclosed, 0U);
-  EXPECT_GT(num_dropped, scaled(5 * num_cases));
-  EXPECT_GT(num_hidden, scaled(num_cases));
+  EXPECT_GT(num_dropped, scaled(num_cases));
+  EXPECT_GT(num_hidden, scaled(num_cases / 2));
 }
 
 // And the case from which on to look for one that the condition matters to.
