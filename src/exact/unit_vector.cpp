@@ -32,6 +32,7 @@ Difference moderate_difference(Difference d, const Point& p, const Point& c) {
     d = difference(quarter(p), quarter(c));
   }
   const double size = std::max({std::abs(d.x.hi), std::abs(d.y.hi), std::abs(d.z.hi)});
+  if (size == 0) return d;  // a site that was moved to the center by whoever has the memory
   const int shift = -std::ilogb(size);
   return {scale(d.x, shift), scale(d.y, shift), scale(d.z, shift)};
 }
