@@ -13,6 +13,7 @@
 #include "kernel/walk.h"
 #include "query/graph.h"
 #include "query/target.h"
+#include "rondel/error.h"
 #include "rondel/query.h"
 
 namespace rondel::query {
@@ -29,7 +30,13 @@ Index first_solid_face(const SurfaceGraph<T>& surface, Index v) {
   return first;
 }
 
-// The query lies in the closed cone of the solid face f. `is_on[i]`: in the plane of edge i.
+// Of sites that are viewed, and that somebody has changed.
+[[noreturn]] inline void refuse_sites() {
+  throw InvalidInput("the sites are not those of the triangulation", 0);
+}
+
+// The query lies in the closed cone of the solid face f. `is_on[i]`: in the plane of edge i, which is
+// so of all three only if the sites are not those that were triangulated.
 template <models::SphereTraits T>
 Location location_in(const SurfaceGraph<T>& surface, Index f, const std::array<bool, 3>& is_on) {
   const topology::Face& face = surface.mesh[f];
@@ -44,17 +51,18 @@ Location location_in(const SurfaceGraph<T>& surface, Index f, const std::array<b
             is_shared ? std::min(f, other) : f,
             {face.vertex[a], face.vertex[topology::next_corner[a]], no_index}};
   }
+  if (count == 3) refuse_sites();
   const auto i = static_cast<unsigned>(std::ranges::find(is_on, false) - is_on.begin());
   const Index v = face.vertex[i];
   return {Where::vertex, first_solid_face(surface, v), {v, no_index, no_index}};
 }
 
 // `f` is a solid face to start from, and becomes the one where the walk ends, which comes to no face
-// twice.
+// twice, unless the sites are not those that were triangulated; then it throws InvalidInput at last.
 template <models::SphereTraits T>
 Location locate(const SurfaceGraph<T>& surface, const Target<T>& target, Index& f) {
   unsigned entered = 3;
-  for (;;) {
+  for (Index left = surface.mesh.num_slots(); left > 0; --left) {
     const topology::Face& face = surface.mesh[f];
     std::array<bool, 3> is_on{};
     unsigned i = 0;
@@ -73,6 +81,7 @@ Location locate(const SurfaceGraph<T>& surface, const Target<T>& target, Index& 
     f = next;
     entered = topology::edge_of(h);
   }
+  refuse_sites();
 }
 
 // The faces in conflict with the target, in increasing order. `solid` is a solid face near it.

@@ -99,6 +99,29 @@ TEST(query_misuse, rejects_angles_sites_and_sizes_that_are_none) {
                  [&] { static_cast<void>(s.locator.k_nearest(queries, huge)); });
 }
 
+// Whoever has the memory of viewed sites may change them: faces then lie over one another, among which
+// a walk may go around, or have no inside.
+int num_refused_after(const std::vector<Point>& changed) {
+  std::vector<Point> sites = random_points(2000, 5);
+  const Triangulation built = delaunay(Sites::view(sites));
+  std::ranges::copy(changed, sites.begin());
+  const Locator locator(built);
+  int num_refused = 0;
+  for (const Point& p : random_points(300, 7)) {
+    try {
+      static_cast<void>(locator.locate(p));
+    } catch (const InvalidInput&) {
+      ++num_refused;
+    }
+  }
+  return num_refused;
+}
+
+TEST(query_misuse, ends_among_sites_that_were_changed) {
+  EXPECT_GT(num_refused_after(random_points(2000, 6)), 0);
+  EXPECT_EQ(num_refused_after(std::vector<Point>(2000, {1, 2, 3})), 300);
+}
+
 TEST(query_small, no_sites_are_an_answer) {
   const Asked s({});
   const Point p = {1, 2, 3};
