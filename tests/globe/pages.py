@@ -67,6 +67,20 @@ class PageTest(unittest.TestCase):
         self.assertGreater(passed, 15)
         self.assertEqual([entry for entry in found if entry[0] in ("serious", "critical")], [])
 
+    def check_tab(self, page, least, controls="canvas, button, input, select"):
+        """More than so many controls are shown, and the tabulator key reaches all of them in their order."""
+        page.run("document.activeElement.blur()")
+        reached = []
+        for _ in range(30):
+            page.call("Input.dispatchKeyEvent", type="keyDown", key="Tab", code="Tab", windowsVirtualKeyCode=9)
+            page.call("Input.dispatchKeyEvent", type="keyUp", key="Tab", code="Tab", windowsVirtualKeyCode=9)
+            reached.append(page.run("document.activeElement.id"))
+        shown = page.run(
+            f"[...document.querySelectorAll('{controls}')].filter((e) => e.offsetParent !== null).map((e) => e.id)"
+        )
+        self.assertGreater(len(shown), least)
+        self.assertEqual(reached[: len(shown)], shown)
+
     def queries(self, queries, command, sites, *options):
         """The rows that `rondel nearest` or `rondel locate` answers for points."""
         path = self.table("queries.csv", queries)
