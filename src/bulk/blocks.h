@@ -5,7 +5,8 @@
 //
 // 1. Blocks: the sites of a square of the Hilbert curve, triangulated by divide and conquer.
 // 2. Certificate: the faces of a block that no site outside can be in conflict with are final.
-// 3. Seam: the sites of all other faces, some sqrt(n) of n, are triangulated by themselves.
+// 3. Seam: the sites of all other faces, some 4 % of all, are triangulated by themselves, in larger
+//    squares if there are many, and at last over the whole sphere.
 // 4. Stitch: the final faces and those of the seam in the region between them are the result.
 //
 // in    the sites in spatial order
@@ -18,6 +19,7 @@
 #include <span>
 
 #include "bulk/input.h"
+#include "bulk/seam_tree.h"
 #include "kernel/triangulate.h"
 #include "system/large_vector.h"
 
@@ -33,10 +35,12 @@ bool has_short_seams(const Input& input);
 
 // As kernel::triangulate, with blocks of at most so many sites; or nothing if the seam has no hull,
 // because all its sites lie on one great circle. The faces come into the memory of `copies`, which
-// may be that of the copies in `input`: blocks read their sites before they write their faces.
+// may be that of the copies in `input`: blocks read their sites before they write their faces. The
+// rule says when the seam is long.
 std::optional<kernel::Triangulated> triangulate_by_blocks(const Input& input,
                                                           std::span<const order::Renamed> renamed,
                                                           std::size_t max_block_sites,
-                                                          LargeVector<Triple> copies = {});
+                                                          LargeVector<Triple> copies = {},
+                                                          const SeamRule& rule = {});
 
 }  // namespace rondel::bulk

@@ -81,6 +81,7 @@ class Emission {
       }
       face += count;
     }
+    for (const Index v : hidden) result_.hidden.push_back(owned_[v].seam);
     owners_.resize(num_owners);
     result_.faces_end = face;
   }

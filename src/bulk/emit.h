@@ -50,6 +50,7 @@ struct BlockResult {
   Index faces_end = 0;
   std::vector<SeamSite> seam_sites;  // in increasing order of rank
   std::vector<SeamEdge> seam_edges;
+  std::vector<Index> hidden;  // seam sites without edges, by their position in the list
   Tally tally;
 };
 

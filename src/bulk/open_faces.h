@@ -42,14 +42,13 @@ class Certificate {
   bool has_weights_;
 };
 
-// Names the open faces in the graph, the outer one included, and clears all other names; `boundary`
-// is an edge with the outer face on its right. is_final(i, j, k) judges the face of these sites.
-// Lists the halfedges with an open face on the left.
+// Names the open faces in the graph, the outer one included; `boundary` is an edge with the outer
+// face on its right. No other face has a name, or the search does not enter it. is_final(i, j, k)
+// judges the face of these sites. Lists the halfedges with an open face on the left.
 template <class IsFinal>
 void find_open_faces(PlaneGraph& graph, PlaneGraph::Edge boundary,
                      std::vector<PlaneGraph::Edge>& open, IsFinal is_final) {
   open.clear();
-  graph.clear_faces();
   const auto add = [&](PlaneGraph::Edge e) {
     graph.set_face(e, open_face);
     open.push_back(e);
@@ -61,7 +60,7 @@ void find_open_faces(PlaneGraph& graph, PlaneGraph::Edge boundary,
   } while (e != boundary);
   for (std::size_t i = 0; i < open.size(); ++i) {
     const PlaneGraph::Edge f = open[i] ^ 1;
-    if (graph.face(f) == open_face) continue;
+    if (graph.face(f) != no_index) continue;
     const PlaneGraph::Edge g = graph.face_next(f);
     const PlaneGraph::Edge h = graph.face_next(g);
     if (is_final(graph.origin(f), graph.origin(g), graph.origin(h))) continue;

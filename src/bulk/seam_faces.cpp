@@ -11,73 +11,99 @@
 #include "topology/mesh.h"
 
 namespace rondel::bulk {
+namespace {
 
 using topology::next_corner;
 
-SeamFaces::SeamFaces(std::span<const BlockResult> results, FaceStore store,
-                     TriangulationArrays seam, unsigned threads)
-    : store_(store), seam_(std::move(seam)), is_inside_(seam_.faces.size(), false) {
-  collect(results);
-  fill(threads);
-  list_owned();
-}
+constexpr std::size_t faces_at_once = 4096;
 
-void SeamFaces::collect(std::span<const BlockResult> results) {
-  for (const BlockResult& block : results)
-    sites_.insert(sites_.end(), block.seam_sites.begin(), block.seam_sites.end());
+constexpr Triple no_links = {no_index, no_index, no_index};
+
+// Edges, found by their ends, which are below `num_sites`.
+class EdgeTable {
+ public:
   // An edge goes to the place of its b, in two passes; then those of each b are sorted, mostly one.
-  edges_begin_.assign(sites_.size() + 1, 0);
-  const auto for_edges = [&](auto visit) {
-    Index offset = 0;
-    for (const BlockResult& block : results) {
-      for (const SeamEdge& e : block.seam_edges)
-        visit(SeamEdge{e.a + offset, e.b + offset, e.face, e.corner});
-      offset += static_cast<Index>(block.seam_sites.size());
+  EdgeTable(std::vector<SeamEdge> edges, std::size_t num_sites)
+      : begin_(num_sites + 1, 0), edges_(edges.size()) {
+    for (const SeamEdge& edge : edges) ++begin_[edge.b + 1];
+    for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+    std::vector<Index> next = begin_;
+    for (const SeamEdge& edge : edges) edges_[next[edge.b]++] = edge;
+    for (std::size_t b = 0; b < num_sites; ++b) {
+      std::sort(edges_.begin() + begin_[b], edges_.begin() + begin_[b + 1],
+                [](const SeamEdge& x, const SeamEdge& y) { return x.a < y.a; });
     }
-  };
-  for_edges([&](const SeamEdge& edge) { ++edges_begin_[edge.b + 1]; });
-  for (std::size_t i = 1; i < edges_begin_.size(); ++i) edges_begin_[i] += edges_begin_[i - 1];
-  edges_.resize(edges_begin_.back());
-  std::vector<Index> next = edges_begin_;
-  for_edges([&](const SeamEdge& edge) { edges_[next[edge.b]++] = edge; });
-  for (std::size_t b = 0; b < sites_.size(); ++b) {
-    std::sort(edges_.begin() + edges_begin_[b], edges_.begin() + edges_begin_[b + 1],
-              [](const SeamEdge& x, const SeamEdge& y) { return x.a < y.a; });
   }
+
+  // Returns the edge with the seam on its left that runs from site b to site a.
+  [[nodiscard]] const SeamEdge* find(Index b, Index a) const {
+    const auto first = edges_.begin() + begin_[b];
+    const auto last = edges_.begin() + begin_[b + 1];
+    const auto found = std::lower_bound(
+        first, last, a, [](const SeamEdge& edge, Index value) { return edge.a < value; });
+    return found != last && found->a == a ? &*found : nullptr;
+  }
+
+ private:
+  std::vector<Index> begin_;  // by b
+  std::vector<SeamEdge> edges_;
+};
+
+}  // namespace
+
+SeamFaces::SeamFaces(std::span<const BlockResult> results, FaceStore store, unsigned threads)
+    : store_(store), first_site_(results.size() + 1, 0) {
+  for (std::size_t i = 0; i < results.size(); ++i)
+    first_site_[i + 1] = first_site_[i] + static_cast<Index>(results[i].seam_sites.size());
+  sites_.resize(first_site_.back());
+  system::parallel_for(threads, results.size(), 1, [&](std::size_t i, std::size_t /*end*/) {
+    std::ranges::copy(results[i].seam_sites, sites_.begin() + first_site_[i]);
+  });
 }
 
-const SeamEdge* SeamFaces::find_edge(Index b, Index a) const {
-  const auto first = edges_.begin() + edges_begin_[b];
-  const auto last = edges_.begin() + edges_begin_[b + 1];
-  const auto found = std::lower_bound(
-      first, last, a, [](const SeamEdge& edge, Index value) { return edge.a < value; });
-  return found != last && found->a == a ? &*found : nullptr;
+Index SeamFaces::add(std::size_t count) {
+  const Index first = names_end();
+  corners_.resize(corners_.size() + count);
+  neighbors_.resize(neighbors_.size() + count);
+  return first;
 }
 
-// Seam faces that meet an edge of the region from its inside are inside, and so are all that can be
-// reached from them without crossing such an edge. Without edges, all are.
-void SeamFaces::fill(unsigned threads) {
-  constexpr std::size_t grain = 4096;
-  const std::size_t num_faces = seam_.faces.size();
+bool SeamFaces::fill(TriangulationArrays seam, std::span<const Index> sites,
+                     std::vector<SeamEdge> edges, unsigned threads) {
+  first_filled_ = corners_.size();
+  const bool fits = find_region(seam, std::move(edges), threads);
+  append(std::move(seam), sites);
+  if (fits) list_owned(threads);
+  return fits;
+}
+
+// Faces that meet an edge of the region from its inside are inside, and so are all that can be
+// reached from them without crossing such an edge. Without edges, all are. Neighbors become names.
+bool SeamFaces::find_region(TriangulationArrays& seam, std::vector<SeamEdge> edges,
+                            unsigned threads) {
+  const std::size_t num_edges = edges.size();
+  const std::size_t num_faces = seam.faces.size();
+  const Index first_name = names_end();
+  const EdgeTable table(std::move(edges), seam.num_sites);
   std::atomic<std::size_t> num_met = 0;
-  std::vector<Triple> links(num_faces, {no_index, no_index, no_index});
-  system::parallel_for(threads, num_faces, grain, [&](std::size_t begin, std::size_t end) {
+  std::vector<Triple> links(num_faces, no_links);
+  system::parallel_for(threads, num_faces, faces_at_once, [&](std::size_t begin, std::size_t end) {
     std::size_t met_here = 0;
     for (std::size_t f = begin; f < end; ++f) {
-      const Triple& v = seam_.faces[f];
+      const Triple& v = seam.faces[f];
       for (unsigned i = 0; i < 3; ++i) {
         const unsigned b = next_corner[i];
-        const SeamEdge* edge = find_edge(v[b], v[next_corner[b]]);
+        const SeamEdge* edge = table.find(v[b], v[next_corner[b]]);
         if (edge == nullptr) continue;
         links[f][i] = edge->face;
-        store_.neighbors[edge->face][edge->corner] = names_begin() + static_cast<Index>(f);
+        neighbors(edge->face)[edge->corner] = first_name + static_cast<Index>(f);
         ++met_here;
       }
     }
     num_met += met_here;
   });
-  fits_ = num_met == edges_.size();
 
+  is_inside_.assign(num_faces, false);
   std::vector<Index> stack;
   const auto enter = [&](Index f) {
     if (is_inside_[f]) return;
@@ -85,32 +111,65 @@ void SeamFaces::fill(unsigned threads) {
     stack.push_back(f);
   };
   for (Index f = 0; f < num_faces; ++f) {
-    if (links[f] != Triple{no_index, no_index, no_index}) enter(f);
+    if (links[f] != no_links) enter(f);
   }
-  if (edges_.empty() && num_faces > 0) enter(0);
+  if (num_edges == 0 && num_faces > 0) enter(0);
   while (!stack.empty()) {
     const Index f = stack.back();
     stack.pop_back();
     for (unsigned i = 0; i < 3; ++i) {
       Index& link = links[f][i];
-      const Index g = seam_.neighbors[f][i];
+      const Index g = seam.neighbors[f][i];
       if (link == no_index) {
         enter(g);
-        link = names_begin() + g;
+        link = first_name + g;
       }
-      seam_.neighbors[f][i] = link;
+      seam.neighbors[f][i] = link;
     }
   }
+  return num_met == num_edges;
 }
 
-void SeamFaces::list_owned() {
-  owned_begin_.assign(sites_.size() + 1, 0);
-  for (Index f = 0; f < seam_.faces.size(); ++f) {
-    if (!is_inside_[f]) continue;
-    owned_.push_back(names_begin() + f);
-    ++owned_begin_[seam_.faces[f][0] + 1];
+void SeamFaces::append(TriangulationArrays seam, std::span<const Index> sites) {
+  const Index first = names_end();
+  for (const Index f : seam.ghost_faces) {
+    if (is_inside_[f]) ghost_faces_.push_back(first + f);
   }
+  if (!sites.empty()) {
+    for (Triple& face : seam.faces) face = {sites[face[0]], sites[face[1]], sites[face[2]]};
+  }
+  if (corners_.empty()) {
+    corners_ = std::move(seam.faces);
+    neighbors_ = std::move(seam.neighbors);
+    return;
+  }
+  corners_.insert(corners_.end(), seam.faces.begin(), seam.faces.end());
+  neighbors_.insert(neighbors_.end(), seam.neighbors.begin(), seam.neighbors.end());
+}
+
+// Faces that were found in squares come in any order, so threads may list them in any, too.
+void SeamFaces::list_owned(unsigned threads) {
+  const unsigned at_once = are_in_order() ? 1 : threads;
+  const auto for_faces = [&](auto visit) {
+    system::parallel_for(at_once, corners_.size(), faces_at_once,
+                         [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t f = begin; f < end; ++f) {
+                             if (f < first_filled_ || is_inside_[f - first_filled_])
+                               visit(corners_[f][0], f);
+                           }
+                         });
+  };
+  owned_begin_.assign(sites_.size() + 1, 0);
+  for_faces([this](Index owner, std::size_t /*face*/) {
+    std::atomic_ref(owned_begin_[owner + 1]).fetch_add(1, std::memory_order_relaxed);
+  });
   for (std::size_t i = 1; i < owned_begin_.size(); ++i) owned_begin_[i] += owned_begin_[i - 1];
+  owned_.resize(owned_begin_.back());
+  std::vector<Index> next = owned_begin_;
+  for_faces([&](Index owner, std::size_t face) {
+    const Index place = std::atomic_ref(next[owner]).fetch_add(1, std::memory_order_relaxed);
+    owned_[place] = names_begin() + static_cast<Index>(face);
+  });
 }
 
 }  // namespace rondel::bulk

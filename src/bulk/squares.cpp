@@ -61,16 +61,23 @@ std::array<Block, 4> quarters(const Block& block, const Input& input) {
   return result;
 }
 
-void split(const Block& block, std::size_t max_sites, const Input& input,
-           std::vector<Block>& blocks) {
-  if (block.begin == block.end) return;
-  if (is_small(block, max_sites)) {
-    blocks.push_back(block);
-    return;
+// Returns the number of the square, or no_index if it has no sites.
+Index split(const Block& block, std::size_t max_sites, const Input& input,
+            std::vector<TreeSquare>& squares) {
+  if (block.begin == block.end) return no_index;
+  TreeSquare square = {block};
+  if (!is_small(block, max_sites)) {
+    const auto parts = quarters(block, input);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      const Index quarter = split(parts[i], max_sites, input, squares);
+      square.quarters[i] = quarter;
+      if (quarter != no_index) {
+        square.height = std::max(square.height, squares[quarter].height + 1);
+      }
+    }
   }
-  for (const Block& quarter : quarters(block, input)) {
-    split(quarter, max_sites, input, blocks);
-  }
+  squares.push_back(square);
+  return static_cast<Index>(squares.size() - 1);
 }
 
 }  // namespace
@@ -88,12 +95,10 @@ std::array<Block, 6> cube_faces(const Input& input) {
   return result;
 }
 
-std::vector<Block> make_blocks(const Input& input, std::size_t max_sites) {
-  std::vector<Block> blocks;
-  for (const Block& face : cube_faces(input)) {
-    split(face, max_sites, input, blocks);
-  }
-  return blocks;
+std::vector<TreeSquare> make_squares(const Input& input, std::size_t max_sites) {
+  std::vector<TreeSquare> squares;
+  for (const Block& face : cube_faces(input)) split(face, max_sites, input, squares);
+  return squares;
 }
 
 Block block_around(Index rank, const Input& input, std::size_t max_sites) {

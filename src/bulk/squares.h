@@ -4,7 +4,7 @@
 // The squares of the Hilbert curve, and blocks of sites in them.
 //
 // in    the sites of a build in their order
-// out   the blocks that squares cut this order into
+// out   the blocks that squares cut this order into, and the squares that these are parts of
 // index ranks; in a piece, local sites
 #pragma once
 
@@ -33,9 +33,17 @@ struct Block {
 // The sites on each face of the cube, empty blocks included.
 std::array<Block, 6> cube_faces(const Input& input);
 
-// Splits all ranks into blocks of at most `max_sites`, in their order, as far as positions can tell
-// sites apart.
-std::vector<Block> make_blocks(const Input& input, std::size_t max_sites);
+// A square with sites: a block if it is not split, or else the four quarters of it, those that have
+// sites.
+struct TreeSquare {
+  Block block;
+  unsigned height = 0;  // of a block 0, else 1 more than that of the highest quarter
+  std::array<Index, 4> quarters = {no_index, no_index, no_index, no_index};  // among all squares
+};
+
+// Splits all ranks into blocks of at most `max_sites`, as far as positions can tell sites apart. Each
+// square comes after its quarters, so the blocks are in their order.
+std::vector<TreeSquare> make_squares(const Input& input, std::size_t max_sites);
 
 // The block of at most so many sites to which a rank belongs.
 Block block_around(Index rank, const Input& input, std::size_t max_sites);

@@ -90,7 +90,7 @@ class Numbering {
     const auto of_seam = seam_.owned_by(s);
     if (of_seam.empty()) return append(site.faces_begin, site.faces_end);
     faces_.clear();
-    if (site.faces_begin == site.faces_end) {
+    if (site.faces_begin == site.faces_end && seam_.are_in_order()) {
       faces_.assign(of_seam.begin(), of_seam.end());
     } else {
       walk_around(site.rank, of_seam[0]);
@@ -139,17 +139,20 @@ void move_runs(std::span<const Run> runs, Move move) {
   }
 }
 
-// Seam sites that are on no face of the region have no face at all.
-void list_hidden(const SeamFaces& seam, std::span<const Index> names, TriangulationArrays& arrays) {
-  std::vector<bool> is_vertex(seam.sites().size(), false);
-  const Index first = seam.names_begin();
-  for (Index s = 0; s < seam.sites().size(); ++s) {
-    for (const Index f : seam.owned_by(s)) {
-      for (const Index v : seam.seam_corners(f - first)) is_vertex[v] = true;
+// Seam sites that are on no face of the seam have no face at all.
+void list_hidden(const SeamFaces& seam, std::span<const Index> names, unsigned threads,
+                 TriangulationArrays& arrays) {
+  constexpr std::size_t grain = 4096;
+  const std::size_t num_sites = seam.sites().size();
+  std::vector<unsigned char> is_vertex(num_sites, 0);
+  system::parallel_for(threads, num_sites, grain, [&](std::size_t begin, std::size_t end) {
+    for (const Index f : seam.owned_by(static_cast<Index>(begin), static_cast<Index>(end))) {
+      for (const Index v : seam.seam_corners(f))
+        std::atomic_ref(is_vertex[v]).store(1, std::memory_order_relaxed);
     }
-  }
-  for (Index s = 0; s < seam.sites().size(); ++s) {
-    if (!is_vertex[s]) arrays.hidden.push_back({names[seam.sites()[s].rank], no_index});
+  });
+  for (std::size_t s = 0; s < num_sites; ++s) {
+    if (is_vertex[s] == 0) arrays.hidden.push_back({names[seam.sites()[s].rank], no_index});
   }
   std::ranges::sort(arrays.hidden, {}, &Hidden::site);
 }
@@ -184,15 +187,13 @@ std::vector<Section> make_sections(std::span<const BlockResult> results, const S
 
 }  // namespace
 
-bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_arrays,
+bool stitch(std::span<const BlockResult> results, const SeamFaces& seam,
             std::span<const Index> names, unsigned threads, TriangulationArrays& arrays) {
-  const SeamFaces seam(results, {arrays.faces, arrays.neighbors}, std::move(seam_arrays), threads);
-  list_hidden(seam, names, arrays);
+  list_hidden(seam, names, threads, arrays);
   const std::size_t expected = 2 * (names.size() - arrays.hidden.size()) - 4;
-  if (!seam.fits()) return false;
   std::vector<Section> sections = make_sections(results, seam, threads);
   if (sections.back().end != expected) return false;
-  LargeVector<Index> final_of(seam.names_begin() + seam.num_all());
+  LargeVector<Index> final_of(seam.names_end());
   std::atomic<bool> fits = true;
   for_each(sections, threads, [&](Section& section) {
     if (!Numbering(seam, section, final_of).run()) fits = false;
@@ -212,9 +213,7 @@ bool stitch(std::span<const BlockResult> results, TriangulationArrays seam_array
   arrays.faces.resize(expected);
   arrays.neighbors.resize(expected);
   arrays.dimension = 2;
-  for (const Index f : seam.ghost_faces()) {
-    if (seam.is_inside(f)) arrays.ghost_faces.push_back(final_of[seam.names_begin() + f]);
-  }
+  for (const Index f : seam.ghost_faces()) arrays.ghost_faces.push_back(final_of[f]);
   std::ranges::sort(arrays.ghost_faces);
   return true;
 }

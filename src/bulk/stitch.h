@@ -9,23 +9,23 @@
 //     \final \|        region finds them among its faces, and so which ones to leave out.
 //      '-----'
 //
-// in    the faces that blocks wrote, and the triangulation of the seam sites
+// in    the faces that blocks wrote, and those of the seam
 // out   the arrays of the result, in place of the faces of the blocks
 // index preliminary and final names of faces; ranks, seam sites, names of sites
 #pragma once
 
 #include <span>
 
-#include "bulk/emit.h"
+#include "bulk/seam_faces.h"
 #include "topology/triangulation_arrays.h"
 
 namespace rondel::bulk {
 
 // `results` are those of the blocks in their order, and `arrays.faces` and `arrays.neighbors` the
-// store that they wrote to; the result replaces it in place. `seam` is the triangulation of the
-// seam sites, named by their position in this order; `names` has the name to report for each rank.
+// store that they wrote to; the result replaces it in place. `seam` has all faces of the seam;
+// `names` has the name to report for each rank.
 // Returns false if the parts do not fit, which cannot be as long as every final face is one.
-bool stitch(std::span<const BlockResult> results, TriangulationArrays seam,
+bool stitch(std::span<const BlockResult> results, const SeamFaces& seam,
             std::span<const Index> names, unsigned threads, TriangulationArrays& arrays);
 
 }  // namespace rondel::bulk

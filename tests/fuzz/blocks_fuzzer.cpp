@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // bulk::triangulate_by_blocks: the incremental build's result, whatever the sites, the size of the
-// blocks and the threads; and divide and conquer by itself, which makes the faces that the center
+// blocks and the threads, and whether squares triangulate the seam; and divide and conquer by itself, which makes the faces that the center
 // sees. The bytes are instructions that add sites, many at once: small integers, cell lines,
 // great circles, ulps, rays, clusters, weights.
 #include <algorithm>
@@ -138,7 +138,7 @@ void require_same(const TriangulationArrays& built, const TriangulationArrays& e
 }
 
 void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsigned threads,
-                 bool has_copies) {
+                 bool has_copies, const bulk::SeamRule& rule) {
   system::Job options{{.model = model, .sphere = set.sphere}, {.threads = 1}};
   LargeVector<Triple> copies(has_copies ? 2 * set.sites.size() : 0);
   const auto order = order::spatial_order(set.sites, model, set.sphere.center, 1, {},
@@ -149,7 +149,7 @@ void test_blocks(const SiteSet& set, Model model, std::size_t block_sites, unsig
   const auto input =
       bulk::make_input(set.sites, order.order, options, system::SiteCopies(std::span(copies)));
   const auto built =
-      bulk::triangulate_by_blocks(input, order.renamed, block_sites, std::move(copies));
+      bulk::triangulate_by_blocks(input, order.renamed, block_sites, std::move(copies), rule);
   require(built.has_value() || expected.dimension < 2, "blocks fit");
   if (built) require_same(built->arrays, expected);
   if (!bulk::surround_center(set.sites, set.sphere.center)) return;
@@ -202,6 +202,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::erase_if(set.sites, [](const Point& p) { return !fuzz::is_finite(p); });
   if (model == Model::projected) fuzz::remove_center(set.sites, set.sphere);
   fuzz::test_divide(set, model);
-  fuzz::test_blocks(set, model, block_sites, mode < 64 ? 2 : 1, mode % 4 < 2);
+  const bulk::SeamRule tree = {.least_sites = 0, .is_every_square = true};
+  fuzz::test_blocks(set, model, block_sites, mode < 64 ? 2 : 1, mode % 4 < 2,
+                    mode % 8 < 4 ? tree : bulk::SeamRule());
   return 0;
 }

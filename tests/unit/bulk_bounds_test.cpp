@@ -295,6 +295,7 @@ void expect_true_certificates(bool has_weights) {
     graph.insert_after(e ^ 1, f);
     graph.insert_after(f ^ 1, g);
     const bulk::Certificate certificate(cone, has_weights);
+    graph.clear_faces();
     std::vector<bulk::PlaneGraph::Edge> open;
     bulk::find_open_faces(graph, e, open, [&](Index i0, Index i1, Index i2) {
       return certificate.is_final(cell.sites().ray(i0), cell.sites().ray(i1), cell.sites().ray(i2));

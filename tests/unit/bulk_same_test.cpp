@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// All named generators: blocks of any size and any number of threads change nothing.
+// All named generators: blocks of any size, any number of threads, and a tree of seams change nothing.
 #include "bulk_support.h"
 
 namespace rondel::test {
@@ -28,6 +28,9 @@ TEST_P(bulk_same, as_the_incremental_build) {
         }
         for (const unsigned threads : {2U, 3U, 7U, 16U}) {
           EXPECT_NE(sites.run(120, threads), is_flat);
+        }
+        for (const std::size_t block : {32U, 70U, 333U}) {
+          for (const unsigned threads : {1U, 5U}) EXPECT_NE(sites.run_tree(block, threads), is_flat);
         }
         ASSERT_FALSE(HasFailure());
       }

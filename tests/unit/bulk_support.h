@@ -36,9 +36,14 @@ class BulkCase {
   [[nodiscard]] std::size_t num_ranks() const { return order_.order.size(); }
 
   // Returns whether there was no need to fall back. What is returned is compared bit by bit.
-  bool run(std::size_t max_block_sites, unsigned threads = 1) {
+  bool run(std::size_t max_block_sites, unsigned threads = 1, const bulk::SeamRule& rule = {}) {
     options_.threads = threads;
-    return compare(bulk::triangulate_by_blocks(input(), order_.renamed, max_block_sites));
+    return compare(bulk::triangulate_by_blocks(input(), order_.renamed, max_block_sites, {}, rule));
+  }
+
+  // The same with a seam that every square triangulates.
+  bool run_tree(std::size_t max_block_sites, unsigned threads = 1) {
+    return run(max_block_sites, threads, {.least_sites = 0, .is_every_square = true});
   }
 
   // The same with copies of the sites.

@@ -1,0 +1,35 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// From what blocks leave to the seam to all of its faces: squares that are larger and larger, and at
+// last the sphere, triangulate what the parts of theirs leave (docs/theory/blocks.md, "A tree of
+// seams").
+//
+// in    the squares, and what the blocks in them leave to the seam
+// out   the faces of the seam
+// index seam sites, in the order of their ranks
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "bulk/seam_faces.h"
+#include "bulk/squares.h"
+
+namespace rondel::bulk {
+
+// Which squares triangulate a seam. The result does not depend on it.
+struct SeamRule {
+  // With fewer seam sites none does: their mesh over the whole sphere fits into the second cache.
+  std::size_t least_sites = std::size_t{1} << 16;
+  // Or those alone that are likely to leave little of what comes in.
+  bool is_every_square = false;
+};
+
+// Adds all faces of the seam to `seam`, and what was counted to `tally`. Returns false if that does
+// not work, because all seam sites lie on one great circle.
+bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
+               std::span<const BlockResult> results, const SeamRule& rule, SeamFaces& seam,
+               Tally& tally);
+
+}  // namespace rondel::bulk
