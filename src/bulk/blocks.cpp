@@ -65,8 +65,8 @@ class BlockBuilder {
 };
 
 template <models::SphereModel T>
-std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vector<Block>& blocks,
-                                            const FaceStore& store) {
+std::vector<BlockResult> build_blocks(const Input& input, const std::vector<Block>& blocks,
+                                      const FaceStore& store) {
   std::vector<BlockResult> results(blocks.size());
   Index most_sites = 0;
   for (const Block& b : blocks) most_sites = std::max(most_sites, b.end - b.begin);
@@ -82,14 +82,6 @@ std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vecto
                          progress.step();
                        });
   return results;
-}
-
-std::vector<Block> blocks_of(std::span<const TreeSquare> squares) {
-  std::vector<Block> blocks;
-  for (const TreeSquare& square : squares) {
-    if (square.height == 0) blocks.push_back(square.block);
-  }
-  return blocks;
 }
 
 }  // namespace
@@ -113,26 +105,28 @@ bool has_short_seams(const Input& input) {
   });
 }
 
+std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vector<Block>& blocks,
+                                            TriangulationArrays& arrays) {
+  arrays.faces.resize(2 * input.order.size());
+  arrays.neighbors.resize(2 * input.order.size());
+  const FaceStore store = {arrays.faces, arrays.neighbors};
+  return models::with_model(input.options.model,
+                            [&]<class T> { return build_blocks<T>(input, blocks, store); });
+}
+
 std::optional<Triangulated> triangulate_by_blocks(const Input& input,
                                                   std::span<const order::Renamed> renamed,
                                                   std::size_t max_block_sites,
                                                   LargeVector<Triple> copies,
                                                   const SeamRule& rule) {
-  const std::size_t num_ranks = input.order.size();
   const auto squares = make_squares(input, max_block_sites);
-  const auto blocks = blocks_of(squares);
   Triangulated result;
   result.builder = Builder::blocks;
   result.arrays.faces = std::move(copies);
-  result.arrays.faces.resize(2 * num_ranks);
-  result.arrays.neighbors.resize(2 * num_ranks);
-  const FaceStore store = {result.arrays.faces, result.arrays.neighbors};
-  const auto results = models::with_model(
-      input.options.model, [&]<class T> { return triangulate_blocks<T>(input, blocks, store); });
-
+  const auto results = triangulate_blocks(input, blocks_of(squares), result.arrays);
   for (const BlockResult& block : results) predicates::add(result.tally, block.tally);
   const unsigned threads = system::num_threads(input.options.threads);
-  SeamFaces seam(results, store, threads);
+  SeamFaces seam(results, {result.arrays.faces, result.arrays.neighbors}, threads);
   if (!fill_seam(input, squares, results, rule, seam, result.tally)) return std::nullopt;
   std::vector<Index> space;
   const auto names = order::names_of(input.order, renamed, space);

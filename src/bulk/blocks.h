@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "bulk/input.h"
 #include "bulk/seam_tree.h"
@@ -32,6 +33,10 @@ inline constexpr std::size_t most_block_sites = 3 << 14;
 // Whether blocks would leave little to the seam, judged by some small ones. They do not where sites
 // lie on curves, or are hidden: then all is seam, and blocks are a detour.
 bool has_short_seams(const Input& input);
+
+// Steps 1 and 2 alone. Room for the faces of the blocks is made in `arrays`.
+std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vector<Block>& blocks,
+                                            TriangulationArrays& arrays);
 
 // As kernel::triangulate, with blocks of at most so many sites; or nothing if the seam has no hull,
 // because all its sites lie on one great circle. The faces come into the memory of `copies`, which

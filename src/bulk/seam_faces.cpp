@@ -77,6 +77,11 @@ bool SeamFaces::fill(TriangulationArrays seam, std::span<const Index> sites,
   return fits;
 }
 
+void SeamFaces::leave_open(unsigned threads) {
+  first_filled_ = corners_.size();
+  list_owned(threads);
+}
+
 // Faces that meet an edge of the region from its inside are inside, and so are all that can be
 // reached from them without crossing such an edge. Without edges, all are. Neighbors become names.
 bool SeamFaces::find_region(TriangulationArrays& seam, std::vector<SeamEdge> edges,

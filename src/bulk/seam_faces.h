@@ -45,6 +45,9 @@ class SeamFaces {
   bool fill(TriangulationArrays seam, std::span<const Index> sites, std::vector<SeamEdge> edges,
             unsigned threads);
 
+  // Without a triangulation to fill what is left. Nothing is added after this.
+  void leave_open(unsigned threads);
+
   // Seam faces follow the faces of the blocks: a name below this is one of those.
   [[nodiscard]] Index names_begin() const { return static_cast<Index>(store_.corners.size()); }
   // Behind all names.

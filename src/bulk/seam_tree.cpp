@@ -68,7 +68,7 @@ std::vector<Point> read_points(std::size_t size, unsigned threads, PointOf point
 // A square of n uniform sites leaves some 7.3 sqrt(n) of them, so two thirds of those that come in
 // would find all of their faces. Nothing is final where it would leave most of its sites.
 bool is_worth_it(const TreeSquare& square, const HandedUp& seam) {
-  const auto num_sites = static_cast<double>(square.block.end - square.block.begin);
+  const double num_sites = square.num_sites;
   const auto num_seam_sites = static_cast<double>(seam.sites.size());
   return num_seam_sites > 22 * std::sqrt(num_sites) && 2 * num_seam_sites < num_sites;
 }
@@ -232,17 +232,18 @@ void add_hidden(HandedUp& root) {
 }
 
 // Over the whole sphere. Most of these sites lie along borders of squares, so blocks would not help;
-// their mesh is small beside the result.
-kernel::Triangulated triangulate_sites(const Input& input, const std::vector<Point>& points) {
-  const std::size_t num_ranks = input.order.size();
+// their mesh is small beside the result, of so many sites.
+kernel::Triangulated triangulate_sites(const Input& input, const std::vector<Point>& points,
+                                       double num_all) {
   std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), Index{0});
   system::Job options = input.options;
   options.progress = {};
-  kernel::Triangulated result = 2 * points.size() >= num_ranks
-                                    ? kernel::triangulate(points, std::move(order), {}, options)
-                                    : triangulate(points, std::move(order), {}, options, {},
-                                                  std::max(most_sphere_sites, num_ranks / 8));
+  kernel::Triangulated result =
+      2 * static_cast<double>(points.size()) >= num_all
+          ? kernel::triangulate(points, std::move(order), {}, options)
+          : triangulate(points, std::move(order), {}, options, {},
+                        std::max(most_sphere_sites, static_cast<std::size_t>(num_all / 8)));
   result.arrays.num_sites = points.size();
   return result;
 }
@@ -256,6 +257,10 @@ bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
   const std::size_t num_sites = seam.sites().size();
   std::vector<Point> points = read_points(
       num_sites, threads, [&](std::size_t i) { return input.point(seam.sites()[i].rank); });
+  double num_all = 0;
+  for (const TreeSquare& square : squares) {
+    if (square.height == 0) num_all += square.num_sites;
+  }
   HandedUp root;
   if (num_sites < rule.least_sites) {
     root.edges = edges_of(results, seam);
@@ -268,11 +273,32 @@ bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
     points = read_points(root.sites.size(), threads,
                          [&](std::size_t i) { return points[root.sites[i]]; });
   }
-  kernel::Triangulated sphere = triangulate_sites(input, std::exchange(points, {}));
+  kernel::Triangulated sphere = triangulate_sites(input, std::exchange(points, {}), num_all);
   if (sphere.arrays.dimension < 2) return false;
   predicates::add(tally, sphere.tally);
   return seam.fill(std::move(sphere.arrays), root.sites, std::move(root.edges),
                    system::num_threads(threads));
+}
+
+OpenSeam fill_square_seam(const Input& input, std::span<const TreeSquare> squares,
+                          std::span<const BlockResult> results, const SeamRule& rule,
+                          SeamFaces& seam, Tally& tally) {
+  const unsigned threads = input.options.threads;
+  const std::vector<Point> points = read_points(seam.sites().size(), threads, [&](std::size_t i) {
+    return input.point(seam.sites()[i].rank);
+  });
+  HandedUp up = models::with_model(input.options.model, [&]<class T> {
+    return SeamTree<T>(input, points, squares, rule, seam).run(results, tally);
+  });
+  seam.leave_open(system::num_threads(threads));
+  add_hidden(up);
+  OpenSeam open = {std::move(up.sites), std::move(up.edges), {}};
+  for (const Index s : up.hidden) {
+    const auto place = std::ranges::lower_bound(open.seam_sites, s) - open.seam_sites.begin();
+    open.hidden.push_back(static_cast<Index>(place));
+  }
+  std::ranges::sort(open.hidden);
+  return open;
 }
 
 }  // namespace rondel::bulk

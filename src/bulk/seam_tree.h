@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "bulk/seam_faces.h"
 #include "bulk/squares.h"
@@ -26,10 +27,22 @@ struct SeamRule {
   bool is_every_square = false;
 };
 
+// What a square leaves open.
+struct OpenSeam {
+  std::vector<Index> seam_sites;  // with an open face, or hidden; increasing
+  std::vector<SeamEdge> edges;    // between positions in `seam_sites`
+  std::vector<Index> hidden;      // positions in `seam_sites`, increasing
+};
+
 // Adds all faces of the seam to `seam`, and what was counted to `tally`. Returns false if that does
 // not work, because all seam sites lie on one great circle.
 bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
                std::span<const BlockResult> results, const SeamRule& rule, SeamFaces& seam,
                Tally& tally);
+
+// The same for one square, the last one, as far as its faces are final.
+OpenSeam fill_square_seam(const Input& input, std::span<const TreeSquare> squares,
+                          std::span<const BlockResult> results, const SeamRule& rule,
+                          SeamFaces& seam, Tally& tally);
 
 }  // namespace rondel::bulk

@@ -23,22 +23,6 @@ Index find_first(Index begin, Index end, Predicate predicate) {
   return begin;
 }
 
-// The quadrants in the order of the curve.
-Square quadrant(const Square& square, unsigned rank) {
-  Square child = square;
-  --child.bits;
-  const std::uint64_t half = std::uint64_t{1} << child.bits;
-  for (unsigned u = 0; u < 2; ++u) {
-    for (unsigned v = 0; v < 2; ++v) {
-      if (order::hilbert_table::rank_in(square.state, u, v) != rank) continue;
-      child.corner.u += u * half;
-      child.corner.v += v * half;
-    }
-  }
-  child.state ^= order::hilbert_table::state_change[rank];
-  return child;
-}
-
 bool has(const Square& square, const order::CubePosition& p) {
   return (p.u - square.corner.u) >> square.bits == 0 && (p.v - square.corner.v) >> square.bits == 0;
 }
@@ -65,7 +49,7 @@ std::array<Block, 4> quarters(const Block& block, const Input& input) {
 Index split(const Block& block, std::size_t max_sites, const Input& input,
             std::vector<TreeSquare>& squares) {
   if (block.begin == block.end) return no_index;
-  TreeSquare square = {block};
+  TreeSquare square = {block, static_cast<double>(block.end - block.begin)};
   if (!is_small(block, max_sites)) {
     const auto parts = quarters(block, input);
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -81,6 +65,21 @@ Index split(const Block& block, std::size_t max_sites, const Input& input,
 }
 
 }  // namespace
+
+Square quadrant(const Square& square, unsigned rank) {
+  Square child = square;
+  --child.bits;
+  const std::uint64_t half = std::uint64_t{1} << child.bits;
+  for (unsigned u = 0; u < 2; ++u) {
+    for (unsigned v = 0; v < 2; ++v) {
+      if (order::hilbert_table::rank_in(square.state, u, v) != rank) continue;
+      child.corner.u += u * half;
+      child.corner.v += v * half;
+    }
+  }
+  child.state ^= order::hilbert_table::state_change[rank];
+  return child;
+}
 
 std::array<Block, 6> cube_faces(const Input& input) {
   const auto num_ranks = static_cast<Index>(input.order.size());
@@ -99,6 +98,21 @@ std::vector<TreeSquare> make_squares(const Input& input, std::size_t max_sites) 
   std::vector<TreeSquare> squares;
   for (const Block& face : cube_faces(input)) split(face, max_sites, input, squares);
   return squares;
+}
+
+std::vector<TreeSquare> make_squares(const Square& square, const Input& input,
+                                     std::size_t max_sites) {
+  std::vector<TreeSquare> squares;
+  split({0, static_cast<Index>(input.order.size()), square}, max_sites, input, squares);
+  return squares;
+}
+
+std::vector<Block> blocks_of(std::span<const TreeSquare> squares) {
+  std::vector<Block> blocks;
+  for (const TreeSquare& square : squares) {
+    if (square.height == 0) blocks.push_back(square.block);
+  }
+  return blocks;
 }
 
 Block block_around(Index rank, const Input& input, std::size_t max_sites) {

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "bulk/input.h"
@@ -37,6 +38,7 @@ std::array<Block, 6> cube_faces(const Input& input);
 // sites.
 struct TreeSquare {
   Block block;
+  double num_sites = 0;
   unsigned height = 0;  // of a block 0, else 1 more than that of the highest quarter
   std::array<Index, 4> quarters = {no_index, no_index, no_index, no_index};  // among all squares
 };
@@ -44,6 +46,14 @@ struct TreeSquare {
 // Splits all ranks into blocks of at most `max_sites`, as far as positions can tell sites apart. Each
 // square comes after its quarters, so the blocks are in their order.
 std::vector<TreeSquare> make_squares(const Input& input, std::size_t max_sites);
+// The same for one square, which has all sites of the input.
+std::vector<TreeSquare> make_squares(const Square& square, const Input& input,
+                                     std::size_t max_sites);
+// Those that are not split.
+std::vector<Block> blocks_of(std::span<const TreeSquare> squares);
+
+// One of its quarters, in the order of the curve.
+Square quadrant(const Square& square, unsigned rank);
 
 // The block of at most so many sites to which a rank belongs.
 Block block_around(Index rank, const Input& input, std::size_t max_sites);

@@ -45,13 +45,21 @@ struct Section {
   std::vector<Copied> copied;
 };
 
+// A seam site of a square: which faces it owns, by their final names, if some of its faces are open.
+struct OpenSite {
+  bool is_open = false;
+  Index faces_begin = 0;
+  Index faces_end = 0;
+};
+
 // Puts the faces of one section in canonical order, and copies those that others will be written
 // over.
 class Numbering {
  public:
-  // Writes final names by preliminary ones to `final_of`.
-  Numbering(const SeamFaces& seam, Section& section, LargeVector<Index>& final_of)
-      : seam_(seam), section_(section), final_of_(final_of), next_(section.begin) {}
+  // Writes final names by preliminary ones to `final_of`, and where the faces of open sites are.
+  Numbering(const SeamFaces& seam, Section& section, LargeVector<Index>& final_of,
+            std::span<OpenSite> open)
+      : seam_(seam), section_(section), final_of_(final_of), open_(open), next_(section.begin) {}
 
   // Returns false if they do not fit.
   bool run() {
@@ -60,7 +68,11 @@ class Numbering {
       Index face = block.faces_begin;
       for (const SeamSite& site : block.seam_sites) {
         append(face, site.faces_begin);
-        append_owned(s++);
+        if (!open_.empty() && open_[s].is_open) {
+          append_open(s++);
+        } else {
+          append_owned(s++);
+        }
         face = site.faces_end;
       }
       append(face, block.faces_end);
@@ -102,6 +114,15 @@ class Numbering {
     }
   }
 
+  // The same if not all of its faces are known, as they come.
+  void append_open(Index s) {
+    const SeamSite& site = seam_.sites()[s];
+    open_[s].faces_begin = next_;
+    append(site.faces_begin, site.faces_end);
+    for (const Index f : seam_.owned_by(s)) final_of_[f] = next_++;
+    open_[s].faces_end = next_;
+  }
+
   // Lists the faces that the site of this rank owns, counterclockwise from one of them.
   void walk_around(Index rank, Index start) {
     Index f = start;
@@ -116,6 +137,7 @@ class Numbering {
   const SeamFaces& seam_;
   Section& section_;
   LargeVector<Index>& final_of_;
+  std::span<OpenSite> open_;  // by seam site, or empty
   Index next_;
   std::vector<Index> faces_;
 };
@@ -185,6 +207,38 @@ std::vector<Section> make_sections(std::span<const BlockResult> results, const S
   return sections;
 }
 
+// Names all faces and puts them where they belong. Returns their final names, or none if the parts do
+// not fit. Neighbors may be missing if sites are open.
+template <bool is_open>
+LargeVector<Index> put_in_order(const SeamFaces& seam, std::span<const Index> names,
+                                std::span<OpenSite> open, unsigned threads,
+                                std::vector<Section> sections, TriangulationArrays& arrays) {
+  LargeVector<Index> final_of(seam.names_end());
+  std::atomic<bool> fits = true;
+  for_each(sections, threads, [&](Section& section) {
+    if (!Numbering(seam, section, final_of, open).run()) fits = false;
+  });
+  if (!fits) return {};
+  const auto final_name = [&](Index f) {
+    return is_open && f == no_index ? no_index : final_of[f];
+  };
+  for_each(sections, threads, [&](const Section& section) {
+    const auto put = [&](const Triple& v, const Triple& n, Index to) {
+      arrays.faces[to] = {names[v[0]], names[v[1]], names[v[2]]};
+      arrays.neighbors[to] = {final_name(n[0]), final_name(n[1]), final_name(n[2])};
+    };
+    move_runs(section.runs,
+              [&](Index from, Index to) { put(arrays.faces[from], arrays.neighbors[from], to); });
+    for (const Copied& face : section.copied) put(face.corners, face.neighbors, face.final);
+    for (const Index f : seam.owned_by(section.sites_begin, section.sites_end))
+      put(seam.corners(f), seam.neighbors(f), final_of[f]);
+  });
+  arrays.faces.resize(sections.back().end);
+  arrays.neighbors.resize(sections.back().end);
+  arrays.dimension = 2;
+  return final_of;
+}
+
 }  // namespace
 
 bool stitch(std::span<const BlockResult> results, const SeamFaces& seam,
@@ -193,29 +247,25 @@ bool stitch(std::span<const BlockResult> results, const SeamFaces& seam,
   const std::size_t expected = 2 * (names.size() - arrays.hidden.size()) - 4;
   std::vector<Section> sections = make_sections(results, seam, threads);
   if (sections.back().end != expected) return false;
-  LargeVector<Index> final_of(seam.names_end());
-  std::atomic<bool> fits = true;
-  for_each(sections, threads, [&](Section& section) {
-    if (!Numbering(seam, section, final_of).run()) fits = false;
-  });
-  if (!fits) return false;
-  for_each(sections, threads, [&](const Section& section) {
-    const auto put = [&](const Triple& v, const Triple& n, Index to) {
-      arrays.faces[to] = {names[v[0]], names[v[1]], names[v[2]]};
-      arrays.neighbors[to] = {final_of[n[0]], final_of[n[1]], final_of[n[2]]};
-    };
-    move_runs(section.runs,
-              [&](Index from, Index to) { put(arrays.faces[from], arrays.neighbors[from], to); });
-    for (const Copied& face : section.copied) put(face.corners, face.neighbors, face.final);
-    for (const Index f : seam.owned_by(section.sites_begin, section.sites_end))
-      put(seam.corners(f), seam.neighbors(f), final_of[f]);
-  });
-  arrays.faces.resize(expected);
-  arrays.neighbors.resize(expected);
-  arrays.dimension = 2;
+  const auto final_of = put_in_order<false>(seam, names, {}, threads, std::move(sections), arrays);
+  if (final_of.empty()) return false;
   for (const Index f : seam.ghost_faces()) arrays.ghost_faces.push_back(final_of[f]);
   std::ranges::sort(arrays.ghost_faces);
   return true;
+}
+
+std::vector<SeamSite> stitch_open(std::span<const BlockResult> results, const SeamFaces& seam,
+                                  std::span<const Index> names, unsigned threads, OpenSeam& open,
+                                  TriangulationArrays& arrays) {
+  std::vector<OpenSite> open_sites(seam.sites().size());
+  for (const Index s : open.seam_sites) open_sites[s].is_open = true;
+  const auto final_of = put_in_order<true>(seam, names, open_sites, threads,
+                                           make_sections(results, seam, threads), arrays);
+  for (SeamEdge& edge : open.edges) edge.face = final_of[edge.face];
+  std::vector<SeamSite> sites;
+  for (const Index s : open.seam_sites)
+    sites.push_back({seam.sites()[s].rank, open_sites[s].faces_begin, open_sites[s].faces_end});
+  return sites;
 }
 
 }  // namespace rondel::bulk

@@ -15,8 +15,9 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
-#include "bulk/seam_faces.h"
+#include "bulk/seam_tree.h"
 #include "topology/triangulation_arrays.h"
 
 namespace rondel::bulk {
@@ -27,5 +28,12 @@ namespace rondel::bulk {
 // Returns false if the parts do not fit, which cannot be as long as every final face is one.
 bool stitch(std::span<const BlockResult> results, const SeamFaces& seam,
             std::span<const Index> names, unsigned threads, TriangulationArrays& arrays);
+
+// The same for one square, whose faces are not all known. There no neighbor is known where `open` says
+// so; the faces that its sites own are in no particular order. Returns these sites, and names the
+// faces in `open` anew.
+std::vector<SeamSite> stitch_open(std::span<const BlockResult> results, const SeamFaces& seam,
+                                  std::span<const Index> names, unsigned threads, OpenSeam& open,
+                                  TriangulationArrays& arrays);
 
 }  // namespace rondel::bulk

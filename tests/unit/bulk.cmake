@@ -3,6 +3,7 @@
 rondel_add_test(bulk_test
   bulk_api_test.cpp
   bulk_bounds_test.cpp
+  bulk_buckets_test.cpp
   bulk_collinear_test.cpp
   bulk_divide_test.cpp
   bulk_few_sites_test.cpp

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A triangulation in buckets: large squares of the curve, which need not be in memory at once. Each one
+// is triangulated as far as its faces are final; what is open is joined at last
+// (docs/theory/blocks.md, "A tree of seams").
+//
+// in    the sites of one bucket after the other, then what all of them left open
+// out   the faces of each bucket, then those between the buckets
+// index ranks and faces of one bucket; open sites and open edges of all buckets, counted through
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "bulk/blocks.h"
+#include "order/spatial_order.h"
+
+namespace rondel::bulk {
+
+struct Bucket {
+  order::SpatialOrder order;
+  // Those of a site are together, and the sites are in their order. Those of open sites are in no
+  // particular order, all others in the canonical one. Corners are ranks; neighbors are faces of the
+  // bucket, or no_index across an open edge.
+  LargeVector<Triple> faces;
+  LargeVector<Triple> neighbors;
+  std::vector<SeamSite> open_sites;  // with an open face, or hidden; in increasing order of rank
+  std::vector<SeamEdge> open_edges;  // between positions in open_sites: a face of the bucket is on
+                                     // the left, opposite to one of its corners
+  std::vector<Index> hidden;         // positions in open_sites, increasing
+  Tally tally{};
+};
+
+// The sites of a square, at least one; `extent` is that of all sites, in all squares.
+Bucket triangulate_bucket(std::span<const Point> sites, const Square& square, const Extent& extent,
+                          const system::Job& options,
+                          std::size_t max_block_sites = most_block_sites,
+                          const SeamRule& rule = {});
+
+// What a bucket leaves to others, with all of its sites counted.
+struct OpenBucket {
+  Square square;
+  double num_sites = 0;
+  std::vector<Point> points;         // of the open sites
+  std::vector<SeamEdge> open_edges;  // as above
+  std::vector<Index> hidden;
+};
+
+// The faces between buckets: all that no bucket has.
+struct JoinedFaces {
+  // Corners are open sites, the lowest one first. The faces that site s owns are
+  // owned_begin[s] ... owned_begin[s + 1] - 1, in no particular order.
+  std::vector<Triple> faces;
+  std::vector<Index> owned_begin;
+  // Face f is num_edges + f here, and what is less is the open edge on the other side.
+  std::vector<Triple> neighbors;
+  Index num_edges = 0;
+  std::vector<Index> across;       // by open edge: the face on its right
+  std::vector<Index> ghost_faces;  // increasing
+  Tally tally{};
+};
+
+// The buckets are in the order of the curve. Returns nothing if all open sites lie on one great
+// circle.
+std::optional<JoinedFaces> join_buckets(std::span<const OpenBucket> buckets, const Extent& extent,
+                                        const system::Job& options, const SeamRule& rule = {});
+
+}  // namespace rondel::bulk

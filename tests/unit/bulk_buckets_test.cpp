@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Triangulations in buckets, one at a time: what comes out is the incremental build's result, bit by
+// bit, whatever the sites, the buckets and the blocks in them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "bulk/bucket_faces.h"
+#include "bulk_support.h"
+
+namespace rondel::test {
+namespace {
+
+using bulk::GlobalIndex;
+
+// Far apart from what 32 bits can count.
+constexpr GlobalIndex first_number = GlobalIndex{1} << 40;
+
+// A bucket on its way: the sites of one square, by increasing index.
+struct Part {
+  bulk::Square square;
+  std::vector<Index> sites;
+  bulk::Bucket bucket;
+  std::vector<Index> names;  // by rank
+};
+
+class BucketCase {
+ public:
+  BucketCase(const SiteSet& set, Model model, std::size_t max_bucket_sites)
+      : sites_(set.sites), options_{{.model = model, .sphere = set.sphere}, {.threads = 1}} {
+    const auto order = order::spatial_order(sites_, model, set.sphere.center, 1);
+    expected_ = kernel::triangulate(sites_, order.order, order.renamed, options_).arrays;
+    const bulk::Input input = bulk::make_input(sites_, order.order, options_);
+    extent_ = input.extent;
+    std::vector<std::size_t> part_of(sites_.size());
+    for (const bulk::Block& block : bulk::blocks_of(bulk::make_squares(input, max_bucket_sites))) {
+      for (Index rank = block.begin; rank < block.end; ++rank)
+        part_of[order.order[rank]] = parts_.size();
+      parts_.push_back({block.square, {}, {}, {}});
+    }
+    // Copies of a place, of which one is in the order, are in one bucket.
+    for (const order::Renamed& renamed : order.renamed)
+      part_of[renamed.name] = part_of[order.order[renamed.rank]];
+    for (const Duplicate& copy : order.duplicates)
+      part_of[copy.site] = part_of[copy.representative];
+    for (Index i = 0; i < sites_.size(); ++i) parts_[part_of[i]].sites.push_back(i);
+  }
+
+  [[nodiscard]] bool is_flat() const { return expected_.dimension < 2; }
+
+  // Returns whether there was no need to fall back.
+  bool run(std::size_t max_block_sites, const bulk::SeamRule& rule) {
+    std::vector<bulk::OpenBucket> open;
+    for (Part& part : parts_) open.push_back(triangulate(part, max_block_sites, rule));
+    const auto joined = bulk::join_buckets(open, extent_, options_, rule);
+    if (!joined) return false;
+    write(*joined);
+    return true;
+  }
+
+ private:
+  bulk::OpenBucket triangulate(Part& part, std::size_t max_block_sites,
+                               const bulk::SeamRule& rule) {
+    std::vector<Point> points;
+    for (const Index i : part.sites) points.push_back(sites_[i]);
+    part.bucket =
+        bulk::triangulate_bucket(points, part.square, extent_, options_, max_block_sites, rule);
+    std::vector<Index> space;
+    part.names.clear();
+    for (const Index i :
+         order::names_of(part.bucket.order.order, part.bucket.order.renamed, space)) {
+      part.names.push_back(part.sites[i]);
+    }
+    bulk::OpenBucket open = {part.square,
+                             static_cast<double>(part.bucket.order.order.size()),
+                             {},
+                             part.bucket.open_edges,
+                             part.bucket.hidden};
+    for (const bulk::SeamSite& site : part.bucket.open_sites)
+      open.points.push_back(points[part.bucket.order.order[site.rank]]);
+    return open;
+  }
+
+  void write(const bulk::JoinedFaces& joined) {
+    std::vector<Index> open_names;
+    for (const Part& part : parts_) {
+      for (const bulk::SeamSite& site : part.bucket.open_sites)
+        open_names.push_back(part.names[site.rank]);
+    }
+    bulk::JoinedNumbers numbers(joined);
+    std::vector<std::array<bulk::BucketNeighbor, 3>> neighbors;
+    LargeVector<Triple> faces;
+    Index first_site = 0;
+    Index first_edge = 0;
+    for (Part& part : parts_) {
+      bulk::BucketFaces own(part.bucket, joined, first_site, first_edge);
+      own.number(first_number + faces.size(), numbers);
+      const std::size_t end = faces.size() + own.size();
+      own.for_each([&](const auto& corners, const auto& across) {
+        Triple face{};
+        for (unsigned i = 0; i < 3; ++i) {
+          face[i] = corners[i].is_own ? part.names[corners[i].index] : open_names[corners[i].index];
+        }
+        faces.push_back(face);
+        neighbors.push_back(across);
+      });
+      EXPECT_EQ(faces.size(), end);
+      first_site += static_cast<Index>(part.bucket.open_sites.size());
+      first_edge += static_cast<Index>(part.bucket.open_edges.size());
+    }
+    EXPECT_TRUE(faces == expected_.faces);
+    ASSERT_EQ(neighbors.size(), expected_.neighbors.size());
+    std::size_t num_different = 0;
+    for (std::size_t f = 0; f < neighbors.size(); ++f) {
+      for (unsigned i = 0; i < 3; ++i)
+        num_different += numbers[neighbors[f][i]] != first_number + expected_.neighbors[f][i];
+    }
+    EXPECT_EQ(num_different, 0U);
+    std::vector<Index> ghost_faces;
+    for (const Index f : joined.ghost_faces)
+      ghost_faces.push_back(static_cast<Index>(numbers.faces[f] - first_number));
+    std::ranges::sort(ghost_faces);
+    EXPECT_TRUE(ghost_faces == expected_.ghost_faces);
+    compare_hidden(joined, open_names);
+  }
+
+  void compare_hidden(const bulk::JoinedFaces& joined, const std::vector<Index>& open_names) const {
+    std::vector<bool> is_vertex(open_names.size(), false);
+    for (const Triple& face : joined.faces) {
+      for (const Index s : face) is_vertex[s] = true;
+    }
+    std::vector<Index> hidden;
+    for (std::size_t s = 0; s < open_names.size(); ++s) {
+      if (!is_vertex[s]) hidden.push_back(open_names[s]);
+    }
+    std::vector<Index> expected;
+    for (const Hidden& h : expected_.hidden) expected.push_back(h.site);
+    std::ranges::sort(hidden);
+    EXPECT_TRUE(hidden == expected);
+  }
+
+  std::vector<Point> sites_;
+  system::Job options_;
+  bulk::Extent extent_;
+  TriangulationArrays expected_;
+  std::vector<Part> parts_;
+};
+
+class bulk_buckets : public testing::TestWithParam<Generator> {};
+
+TEST_P(bulk_buckets, as_the_incremental_build) {
+  const Generator& generator = GetParam();
+  const std::size_t size = generator.has_long_integers ? 60 : is_extreme(generator) ? 300 : 1500;
+  constexpr bulk::SeamRule every_square = {.least_sites = 0, .is_every_square = true};
+  for (const Model model : {Model::projected, Model::weighted}) {
+    if (model == Model::projected && generator.weighted_only) continue;
+    for (std::uint64_t seed = 0; seed < scaled(2); ++seed) {
+      for (const std::size_t bucket : {40U, 200U, 700U}) {
+        SCOPED_TRACE(text_of(model) + " " + std::to_string(bucket) + " " + std::to_string(seed));
+        BucketCase sites(generator.make(size, seed), model, bucket);
+        // All sites on one great circle: nothing else cannot be done in buckets.
+        EXPECT_NE(sites.run(50, every_square), sites.is_flat());
+        EXPECT_NE(sites.run(1000, {}), sites.is_flat());
+        ASSERT_FALSE(HasFailure());
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(generators, bulk_buckets, testing::ValuesIn(generators()),
+                         [](const auto& g) { return std::string(g.param.name); });
+
+}  // namespace
+}  // namespace rondel::test
