@@ -40,7 +40,6 @@ class PieceMemory {
 
  private:
   system::LargeArray<std::byte> memory_;
-  std::size_t size_ = 0;
   SquareCoordinates coordinates_;
   std::byte* edges_ = nullptr;
   std::size_t num_halfedges_ = 0;
