@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -168,6 +169,24 @@ TEST_P(bulk_buckets, as_the_incremental_build) {
         ASSERT_FALSE(HasFailure());
       }
     }
+  }
+}
+
+// Of n uniform sites some 4.8 sqrt(n) are near the border of a square. The blocks alone would leave a
+// quarter of them all.
+TEST(bulk_bucket, leaves_what_is_near_its_border) {
+  const auto uniform = std::ranges::find(generators(), std::string("uniform"), &Generator::name);
+  const SiteSet set = uniform->make(30000, 1);
+  const system::Job options{{.sphere = set.sphere}, {.threads = 1}};
+  const auto order = order::spatial_order(set.sites, Model::projected, set.sphere.center, 1);
+  const bulk::Input input = bulk::make_input(set.sites, order.order, options);
+  for (const bulk::Block& face : bulk::cube_faces(input)) {
+    std::vector<Point> points;
+    for (Index rank = face.begin; rank < face.end; ++rank) points.push_back(input.point(rank));
+    const auto bucket = bulk::triangulate_bucket(points, face.square, input.extent, options, 300,
+                                                 {.least_sites = 0, .is_every_square = true});
+    const auto num_sites = static_cast<double>(points.size());
+    EXPECT_LT(static_cast<double>(bucket.open_sites.size()), 8 * std::sqrt(num_sites));
   }
 }
 
