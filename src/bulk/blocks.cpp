@@ -20,6 +20,14 @@
 namespace rondel::bulk {
 namespace {
 
+// One thread gains nothing from squares that triangulate the seam, and a small module need not have
+// them.
+#if defined(RONDEL_HAS_TBB) || defined(RONDEL_HAS_THREADS)
+constexpr bool has_threads = true;
+#else
+constexpr bool has_threads = false;
+#endif
+
 using kernel::Triangulated;
 using Edge = PlaneGraph::Edge;
 
@@ -127,7 +135,9 @@ std::optional<Triangulated> triangulate_by_blocks(const Input& input,
   for (const BlockResult& block : results) predicates::add(result.tally, block.tally);
   const unsigned threads = system::num_threads(input.options.threads);
   SeamFaces seam(results, {result.arrays.faces, result.arrays.neighbors}, threads);
-  if (!fill_seam(input, squares, results, rule, seam, result.tally)) return std::nullopt;
+  const bool is_filled = has_threads ? fill_seam(input, squares, results, rule, seam, result.tally)
+                                     : fill_seam_at_once(input, results, seam, result.tally);
+  if (!is_filled) return std::nullopt;
   std::vector<Index> space;
   const auto names = order::names_of(input.order, renamed, space);
   if (!stitch(results, seam, names, threads, result.arrays)) return std::nullopt;

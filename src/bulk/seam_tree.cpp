@@ -65,6 +65,11 @@ std::vector<Point> read_points(std::size_t size, unsigned threads, PointOf point
   return points;
 }
 
+std::vector<Point> points_of(const Input& input, const SeamFaces& seam) {
+  return read_points(seam.sites().size(), input.options.threads,
+                     [&](std::size_t i) { return input.point(seam.sites()[i].rank); });
+}
+
 // A square of n uniform sites leaves some 7.3 sqrt(n) of them, so two thirds of those that come in
 // would find all of their faces. Nothing is final where it would leave most of its sites.
 bool is_worth_it(const TreeSquare& square, const HandedUp& seam) {
@@ -248,49 +253,55 @@ kernel::Triangulated triangulate_sites(const Input& input, const std::vector<Poi
   return result;
 }
 
-}  // namespace
-
-bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
-               std::span<const BlockResult> results, const SeamRule& rule, SeamFaces& seam,
-               Tally& tally) {
-  const unsigned threads = input.options.threads;
-  const std::size_t num_sites = seam.sites().size();
-  std::vector<Point> points = read_points(
-      num_sites, threads, [&](std::size_t i) { return input.point(seam.sites()[i].rank); });
-  double num_all = 0;
-  for (const TreeSquare& square : squares) {
-    if (square.height == 0) num_all += square.num_sites;
-  }
-  HandedUp root;
-  if (num_sites < rule.least_sites) {
-    root.edges = edges_of(results, seam);
-  } else {
-    root = models::with_model(input.options.model, [&]<class T> {
-      return SeamTree<T>(input, points, squares, rule, seam).run(results, tally);
-    });
-    // If the center is inside the hull what is hidden in a square is hidden.
-    if (!surround_center(points, input.center())) add_hidden(root);
-    points = read_points(root.sites.size(), threads,
-                         [&](std::size_t i) { return points[root.sites[i]]; });
-  }
+// What came up, or all seam sites if the root lists none.
+bool fill_sphere(const Input& input, std::vector<Point> points, double num_all, HandedUp root,
+                 SeamFaces& seam, Tally& tally) {
   kernel::Triangulated sphere = triangulate_sites(input, std::exchange(points, {}), num_all);
   if (sphere.arrays.dimension < 2) return false;
   predicates::add(tally, sphere.tally);
   return seam.fill(std::move(sphere.arrays), root.sites, std::move(root.edges),
-                   system::num_threads(threads));
+                   system::num_threads(input.options.threads));
+}
+
+}  // namespace
+
+bool fill_seam_at_once(const Input& input, std::span<const BlockResult> results, SeamFaces& seam,
+                       Tally& tally) {
+  const auto num_all = static_cast<double>(input.order.size());
+  HandedUp root;
+  root.edges = edges_of(results, seam);
+  return fill_sphere(input, points_of(input, seam), num_all, std::move(root), seam, tally);
+}
+
+bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
+               std::span<const BlockResult> results, const SeamRule& rule, SeamFaces& seam,
+               Tally& tally) {
+  if (seam.sites().size() < rule.least_sites) {
+    return fill_seam_at_once(input, results, seam, tally);
+  }
+  double num_all = 0;
+  for (const TreeSquare& square : squares) {
+    if (square.height == 0) num_all += square.num_sites;
+  }
+  std::vector<Point> points = points_of(input, seam);
+  HandedUp root = models::with_model(input.options.model, [&]<class T> {
+    return SeamTree<T>(input, points, squares, rule, seam).run(results, tally);
+  });
+  // If the center is inside the hull what is hidden in a square is hidden.
+  if (!surround_center(points, input.center())) add_hidden(root);
+  points = read_points(root.sites.size(), input.options.threads,
+                       [&](std::size_t i) { return points[root.sites[i]]; });
+  return fill_sphere(input, std::move(points), num_all, std::move(root), seam, tally);
 }
 
 OpenSeam fill_square_seam(const Input& input, std::span<const TreeSquare> squares,
                           std::span<const BlockResult> results, const SeamRule& rule,
                           SeamFaces& seam, Tally& tally) {
-  const unsigned threads = input.options.threads;
-  const std::vector<Point> points = read_points(seam.sites().size(), threads, [&](std::size_t i) {
-    return input.point(seam.sites()[i].rank);
-  });
+  const std::vector<Point> points = points_of(input, seam);
   HandedUp up = models::with_model(input.options.model, [&]<class T> {
     return SeamTree<T>(input, points, squares, rule, seam).run(results, tally);
   });
-  seam.leave_open(system::num_threads(threads));
+  seam.leave_open(system::num_threads(input.options.threads));
   add_hidden(up);
   OpenSeam open = {std::move(up.sites), std::move(up.edges), {}};
   for (const Index s : up.hidden) {

@@ -39,6 +39,9 @@ struct OpenSeam {
 bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
                std::span<const BlockResult> results, const SeamRule& rule, SeamFaces& seam,
                Tally& tally);
+// The same without squares: the sphere does all.
+bool fill_seam_at_once(const Input& input, std::span<const BlockResult> results, SeamFaces& seam,
+                       Tally& tally);
 
 // The same for one square, the last one, as far as its faces are final.
 OpenSeam fill_square_seam(const Input& input, std::span<const TreeSquare> squares,
