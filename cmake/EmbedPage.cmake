@@ -5,9 +5,10 @@
 #
 #     cmake -DVIEWER=viewer -DCOAST=data/coast.txt -DMODULES="a.js;b.js" -DOUTPUT=page_text.cpp -P EmbedPage.cmake
 #
-# Parts of the template are files of viewer/parts, as the page to play has them, too. The script is all modules one
-# after the other in one function, lower ones first: browsers load no modules from file://. Imports, the word `export`
-# and comments of whole lines are left out, so every name at the top of a module is unique among all modules.
+# Parts of the template are the files of viewer/parts that parts.txt names, as the page to play has them, too. The script
+# is all modules one after the other in one function, lower ones first: browsers load no modules from file://. Imports,
+# the word `export` and comments of whole lines are left out, so every name at the top of a module is unique among all
+# modules.
 
 cmake_minimum_required(VERSION 3.25)
 
@@ -59,9 +60,13 @@ string(APPEND script "})();")
 set(literals "")
 append_literal(script "${script}")
 file(READ "${VIEWER}/page.html" text)
-foreach(part tools card layers)
+file(STRINGS "${VIEWER}/parts.txt" parts)
+foreach(part IN LISTS parts)
   file(READ "${VIEWER}/parts/${part}.html" content)
   string(TOUPPER "@${part}@\n" place)
+  if(NOT text MATCHES "\n${place}")
+    message(FATAL_ERROR "page.html has no place for ${part}.html")
+  endif()
   string(REPLACE "${place}" "${content}" text "${text}")
 endforeach()
 append_literal(frame "${text}")

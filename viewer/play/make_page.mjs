@@ -14,7 +14,9 @@ import { deflateSync } from "node:zlib";
 const [source, packageFolder, page] = process.argv.slice(2);
 const read = (...path) => readFileSync(join(source, ...path), "utf8");
 
-const shared = read("viewer", "modules.txt").trim().split("\n");
+const namesIn = (list) => read("viewer", list).trim().split("\n");
+
+const shared = namesIn("modules.txt");
 const own = ["groups", "live", "presets", "table", "files", "history", "remote", "play", "start"];
 const pageModules = [...shared.map((name) => ["viewer", "src", `${name}.js`]), ...own.map((name) => ["viewer", "play", "src", `${name}.js`])];
 const library = ["errors", "arguments", "engine", "located", "triangulation", "build", "dynamic"];
@@ -53,8 +55,12 @@ function data(name, bytes) {
   return `<script type="application/octet-stream" id="data-${name}">${text}</script>\n`;
 }
 
-const parts = Object.fromEntries(["tools", "card", "layers"].map((name) => [`@${name.toUpperCase()}@\n`, read("viewer", "parts", `${name}.html`)]));
-const frame = read("viewer", "play", "page.html").replace(/@[A-Z]+@\n/g, (place) => parts[place] ?? place);
+let frame = read("viewer", "play", "page.html");
+for (const name of namesIn("parts.txt")) {
+  const place = `\n@${name.toUpperCase()}@\n`;
+  if (!frame.includes(place)) throw new Error(`page.html has no place for ${name}.html`);
+  frame = frame.replace(place, () => `\n${read("viewer", "parts", `${name}.html`)}`);
+}
 const places = {
   "@STYLE@": read("viewer", "style.css") + read("viewer", "play", "style.css"),
   "@DATA@": data("module", readFileSync(join(packageFolder, "rondel.wasm"))) + data("coast", Buffer.from(read("data", "coast.txt"))),
