@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
@@ -98,6 +99,7 @@ void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
       [&](std::string& text, std::size_t begin, std::size_t end) {
         map::CellMap::Pen pen;
         for (std::size_t site = begin; site < end; ++site) {
+          cell_map.prefetch(std::min(site + 4, n - 1));
           if (cell_map.has_cell(site)) append_feature(text, site, pen);
         }
       },

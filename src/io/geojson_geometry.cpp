@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/geojson_geometry.h"
 
-#include "io/number.h"
+#include <array>
+
+#include "io/number_text.h"
 
 namespace rondel::io {
 namespace {
@@ -11,11 +13,15 @@ namespace {
 void append_polygon(std::string& out, const map::LonLatPolygon& polygon) {
   out += "[[";
   for (const LonLat& position : polygon.ring) {
-    out += '[';
-    append_number(out, position.lon_deg);
-    out += ',';
-    append_number(out, position.lat_deg);
-    out += "],";
+    std::array<char, 2 * number_room> text;
+    char* end = text.data();
+    *end++ = '[';
+    end = write_number(end, position.lon_deg);
+    *end++ = ',';
+    end = write_number(end, position.lat_deg);
+    *end++ = ']';
+    *end++ = ',';
+    out.append(text.data(), end);
   }
   out.back() = ']';
   out += ']';

@@ -14,14 +14,13 @@
 namespace rondel::io {
 
 void write_geojson(AtomicFile& file, const MeshToWrite& mesh) {
-  const map::FaceMap face_map(mesh.triangulation);
+  const map::FaceMap face_map(mesh.triangulation, mesh.execution);
   Index first_solid = 0;
   while (first_solid < mesh.triangulation.num_faces() && mesh.triangulation.is_ghost(first_solid)) {
     ++first_solid;
   }
   file.write(R"({"type":"FeatureCollection","features":[)");
-  mesh.write_faces(file, [&](std::string& text, Index face) {
-    if (mesh.triangulation.is_ghost(face)) return;
+  const auto append_feature = [&](std::string& text, Index face, map::FaceMap::Pen& pen) {
     text += face == first_solid ? "\n" : ",\n";
     text += R"({"type":"Feature","properties":{"sites":[)";
     for (const Index corner : mesh.triangulation.faces()[face]) {
@@ -30,8 +29,14 @@ void write_geojson(AtomicFile& file, const MeshToWrite& mesh) {
     }
     text.back() = ']';
     text += R"(},"geometry":)";
-    append_geometry(text, face_map.polygons(face));
+    append_geometry(text, face_map.polygons(face, pen));
     text += '}';
+  };
+  mesh.write_faces(file, [&](std::string& text, Index begin, Index end) {
+    map::FaceMap::Pen pen;
+    for (Index face = begin; face < end; ++face) {
+      if (!mesh.triangulation.is_ghost(face)) append_feature(text, face, pen);
+    }
   });
   file.write("\n]}\n");
 }

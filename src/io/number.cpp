@@ -10,6 +10,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "io/number_text.h"
 #include "io/utf8.h"
 
 namespace rondel::io {
@@ -81,9 +82,8 @@ std::int64_t parse_integer(std::string_view field, std::string_view what) {
 }
 
 void append_number(std::string& out, double value) {
-  std::array<char, 32> digits;  // the longest double takes 24: -2.2250738585072014e-308
-  const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
-  out.append(digits.data(), result.ptr);
+  std::array<char, number_room> digits;
+  out.append(digits.data(), write_number(digits.data(), value));
 }
 
 void append_integer(std::string& out, std::uint64_t value) {

@@ -19,11 +19,13 @@ void write_ply(AtomicFile& file, const MeshToWrite& mesh) {
   file.write(NumberBytes(sites));
   // A signed index is what most readers expect; it fits, as sites are fewer than 2^30.
   static_assert(max_sites < (std::size_t{1} << 30U));
-  mesh.write_faces(file, [&](std::string& bytes, Index face) {
-    std::array<char, 1 + sizeof(Triple)> record = {3};
-    char* end = record.data() + 1;
-    for (const Index corner : mesh.triangulation.faces()[face]) end = store(corner, end);
-    bytes.append(record.data(), record.size());
+  mesh.write_faces(file, [&](std::string& bytes, Index begin, Index end) {
+    for (const Triple& face : mesh.triangulation.faces().subspan(begin, end - begin)) {
+      std::array<char, 1 + sizeof(Triple)> record = {3};
+      char* next = record.data() + 1;
+      for (const Index corner : face) next = store(corner, next);
+      bytes.append(record.data(), record.size());
+    }
   });
 }
 

@@ -74,13 +74,14 @@ LonLatPolygons cell_polygons(const Triangulation& triangulation, const Diagram& 
 
 LonLatPolygons face_polygons(const Triangulation& triangulation, const Execution& execution) {
   const system::Call call(execution);
-  const map::FaceMap face_map(triangulation);
+  const map::FaceMap face_map(triangulation, execution);
   return collect(execution.threads, triangulation.num_faces(),
                  [&](LonLatPolygons& piece, std::size_t begin, std::size_t end) {
+                   map::FaceMap::Pen pen;
                    for (std::size_t f = begin; f < end; ++f) {
                      const auto face = static_cast<Index>(f);
                      if (!triangulation.is_ghost(face))
-                       append(piece, face_map.polygons(face), face);
+                       append(piece, face_map.polygons(face, pen), face);
                    }
                  });
 }

@@ -42,14 +42,18 @@ void write_stl(AtomicFile& file, const MeshToWrite& mesh) {
   file.write(head);
   const auto num_faces = static_cast<std::uint32_t>(mesh.triangulation.num_faces());
   write_values<std::uint32_t>(file, 1, [=](std::size_t) { return num_faces; });
-  mesh.write_faces(file, [&](std::string& bytes, Index face) {
-    const auto& [a, b, c] = mesh.triangulation.faces()[face];
+  const auto append = [&](std::string& bytes, const Triple& face) {
+    const auto& [a, b, c] = face;
     std::array<char, 12 * sizeof(float) + 2> record = {};  // the last two: no attributes
     char* end = record.data();
     for (const Point& p : {normal(sites[a], sites[b], sites[c]), sites[a], sites[b], sites[c]}) {
       for (const double value : {p.x, p.y, p.z}) end = store(static_cast<float>(value), end);
     }
     bytes.append(record.data(), record.size());
+  };
+  mesh.write_faces(file, [&](std::string& bytes, Index begin, Index end) {
+    const auto faces = mesh.triangulation.faces().subspan(begin, end - begin);
+    for (const Triple& face : faces) append(bytes, face);
   });
 }
 

@@ -21,9 +21,11 @@ struct MeshToWrite {
   const Triangulation& triangulation;
   const Execution& execution;
 
-  // Writes a text for every face, as write_in_parallel does, and reports how far it is.
-  void write_faces(AtomicFile& file,
-                   const std::function<void(std::string& text, Index face)>& append) const;
+  // Writes the texts of the faces from `begin` to `end`, as write_in_parallel does, and reports how
+  // far it is.
+  void write_faces(
+      AtomicFile& file,
+      const std::function<void(std::string& text, Index begin, Index end)>& append) const;
 };
 
 void write_npy(AtomicFile& file, const MeshToWrite& mesh);

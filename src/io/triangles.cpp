@@ -44,13 +44,13 @@ constexpr std::array<TriangleWriter, 7> triangle_writers = {{{".npy", &io::write
 
 }  // namespace
 
-void io::MeshToWrite::write_faces(AtomicFile& file,
-                                  const std::function<void(std::string&, Index)>& append) const {
+void io::MeshToWrite::write_faces(
+    AtomicFile& file, const std::function<void(std::string&, Index, Index)>& append) const {
   const std::size_t num_faces = triangulation.num_faces();
   write_in_parallel(
       file, execution.threads, num_faces, items_per_piece,
       [&](std::string& text, std::size_t begin, std::size_t end) {
-        for (std::size_t face = begin; face < end; ++face) append(text, static_cast<Index>(face));
+        append(text, static_cast<Index>(begin), static_cast<Index>(end));
       },
       [&](std::size_t done) { system::announce(execution, "write", done, num_faces); });
 }

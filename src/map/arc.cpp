@@ -94,6 +94,13 @@ LonLat lonlat_of(const Point& p, bool east) {
   return {std::clamp(lon, -180.0, 180.0) + 0.0, std::clamp(lat, -90.0, 90.0) + 0.0};
 }
 
+bool is_surely_one_line(const MapPoint& p, const MapPoint& q, double tolerance) {
+  const Point& a = p.point;
+  const Point& b = q.point;
+  return is_east(a) == is_east(b) && !is_pole(a) && !is_pole(b) && a.x * b.x + a.y * b.y >= 0 &&
+         is_surely_flat(p, q, tolerance);
+}
+
 std::optional<Point> foot_on_arc(const Point& v, const Point& p, const Point& q) {
   const Point normal = normalized(cross(p, q - p));
   const double height = dot(normal, v - p);

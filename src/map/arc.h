@@ -48,6 +48,12 @@ struct MapPoint {
   LonLat position;
 };
 
+// The antimeridian belongs to the east: think of it as shifted by an infinitesimal to the west, so
+// that every point but a pole is on one side.
+inline bool is_east(const Point& p) { return p.y >= 0; }
+
+inline MapPoint map_point(const Point& p) { return {p, lonlat_of(p, is_east(p))}; }
+
 // How far the straight lines may be from an arc (radians): `least` at the point `center`, which is
 // between two sites, from there on an eighth of the distance from it, but at most `most`.
 // So the lines keep clear of both sites and are still few on long arcs between close sites.
@@ -64,5 +70,9 @@ struct ArcTolerance {
 // Precondition: the arc meets neither a pole nor, its ends apart, the antimeridian.
 void append_arc(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
                 std::vector<MapPoint>& out);
+
+// Whether a cheap test finds that the arc is drawn as one straight line, from end to end within
+// `tolerance` of it (radians) and on one side of the antimeridian and of the meridian opposite.
+bool is_surely_one_line(const MapPoint& p, const MapPoint& q, double tolerance);
 
 }  // namespace rondel::map

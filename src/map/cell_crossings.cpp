@@ -43,26 +43,31 @@ std::vector<CellMap::LinePair> CellMap::crossed_lines(const Trace& trace) const 
   return pairs;
 }
 
-// The cells whose lines cross, in increasing order.
-std::vector<std::size_t> CellMap::find_crossing_lines(const Execution& execution) const {
+// The cells whose lines cross, in increasing order; finds the plain cells on the way.
+std::vector<std::size_t> CellMap::find_crossing_lines(const Execution& execution) {
   constexpr std::size_t grain = 1024;
   constexpr std::size_t stretch = 64 * grain;  // between two reports
-  const std::size_t num_sites = sites_.size();
-  std::vector<std::vector<std::size_t>> found(system::num_pieces(num_sites, grain));
-  for (std::size_t first = 0; first < num_sites; first += stretch) {
-    system::announce(execution, "outline", first, num_sites);
-    const std::size_t size = std::min(stretch, num_sites - first);
+  const std::size_t num_cells = cells_in_order_.size();
+  std::vector<std::vector<std::size_t>> found(system::num_pieces(num_cells, grain));
+  for (std::size_t first = 0; first < num_cells; first += stretch) {
+    system::announce(execution, "outline", first, num_cells);
+    const std::size_t size = std::min(stretch, num_cells - first);
     system::parallel_for(execution.threads, size, grain, [&](std::size_t begin, std::size_t end) {
       Pen pen;
-      for (std::size_t site = first + begin; site < first + end; ++site) {
-        if (draw_ring(site, pen.ring_, pen.trace_) && !crossed_lines(pen.trace_).empty()) {
-          found[site / grain].push_back(site);
+      for (std::size_t cell = first + begin; cell < first + end; ++cell) {
+        prefetch_listed(cell);
+        const Index site = cells_in_order_[cell];
+        if (find_plain(site, pen)) {
+          is_plain_[site] = 1;
+        } else if (draw_ring(site, pen.ring_, pen.trace_) && !crossed_lines(pen.trace_).empty()) {
+          found[cell / grain].push_back(site);
         }
       }
     });
   }
   std::vector<std::size_t> sites;
   for (const auto& some : found) sites.insert(sites.end(), some.begin(), some.end());
+  std::ranges::sort(sites);
   return sites;
 }
 

@@ -6,6 +6,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "map/crossing_lines.h"
+#include "system/parallel.h"
+#include "system/prefetch.h"
+
 namespace rondel::map {
 
 CellMap::CellMap(const Triangulation& triangulation, const Cells& cells, double tolerance_deg,
@@ -15,9 +19,14 @@ CellMap::CellMap(const Triangulation& triangulation, const Cells& cells, double 
       cells_(cells),
       tolerance_(tolerance_deg / degrees_per_radian),
       only_vertex_(triangulation.dimension() == 0 ? triangulation.ring().front() : sites_.size()),
-      representatives_(cells.points.size()) {
+      directions_(sites_.size()),
+      representatives_(cells.points.size()),
+      is_plain_(sites_.size()) {
+  find_directions(execution);
   if (triangulation.dimension() == 1) prepare_great_circle();
-  merge_close_points();
+  list_cells();
+  merge_close_points(execution);
+  place_points(execution);
   resolve_crossing_lines(execution);
 }
 
@@ -25,10 +34,22 @@ bool CellMap::has_cell(std::size_t site) const {
   return site == only_vertex_ || !points_of(site).empty();
 }
 
-std::vector<LonLatPolygon> CellMap::polygons(std::size_t site, Pen& pen) const {
-  if (site == only_vertex_) return lonlat_polygons({}, {});
-  if (unresolved_.contains(site) || !draw_ring(site, pen.ring_, pen.trace_)) return {};
-  return polygons_of(pen.trace_);
+const std::vector<LonLatPolygon>& CellMap::polygons(std::size_t site, Pen& pen) const {
+  const bool is_unchanged = (inner_points_.empty() && merged_.empty()) || !has_changed_arc(site);
+  if (is_plain_[site] != 0 && is_unchanged) {
+    pen.polygons_.resize(1);
+    std::vector<LonLat>& ring = pen.polygons_.front().ring;
+    ring.clear();
+    for (const Index point : points_of(site)) ring.push_back(positions_[point]);
+    ring.push_back(positions_[points_of(site).front()]);
+  } else if (site == only_vertex_) {
+    pen.polygons_ = lonlat_polygons({}, {});
+  } else if (unresolved_.contains(site) || !draw_ring(site, pen.ring_, pen.trace_)) {
+    pen.polygons_.clear();
+  } else {
+    pen.polygons_ = polygons_of(pen.trace_);
+  }
+  return pen.polygons_;
 }
 
 std::span<const Index> CellMap::points_of(std::size_t site) const {
@@ -50,14 +71,59 @@ Index CellMap::find_representative(Index point) {
   return point;
 }
 
-void CellMap::merge_close_points() {
+// Faces are in spatial order: so are their corners, each where it comes first. In the order of the
+// sites each cell would be far from the one before it, and its points in no cache.
+void CellMap::list_cells() {
+  std::vector<std::uint8_t> is_listed(sites_.size());
+  const auto add = [&](std::size_t site) {
+    if (is_listed[site] != 0 || points_of(site).empty()) return;
+    is_listed[site] = 1;
+    cells_in_order_.push_back(static_cast<Index>(site));
+  };
+  cells_in_order_.reserve(sites_.size());
+  for (const Triple& face : triangulation_.faces()) std::ranges::for_each(face, add);
+  for (std::size_t site = 0; site < sites_.size(); ++site) add(site);  // below dimension 2
+}
+
+// A cell is listed soon after the first one that it touches, which asks for its site, too.
+void CellMap::prefetch_listed(std::size_t cell) const {
+  constexpr std::size_t distance = 128;
+  if (cell + 2 * distance < cells_in_order_.size()) {
+    system::prefetch(&cells_.offsets[cells_in_order_[cell + 2 * distance]]);
+  }
+  if (cell + distance < cells_in_order_.size()) {
+    const Index site = cells_in_order_[cell + distance];
+    system::prefetch(cells_.rings.data() + cells_.offsets[site]);
+    system::prefetch(&directions_[site]);
+  }
+}
+
+void CellMap::prefetch(std::size_t site) const {
+  for (const Index point : points_of(site)) system::prefetch(&positions_[point]);
+}
+
+// The representative is the lowest of the points that are one, in whatever order they meet.
+void CellMap::merge_close_points(const Execution& execution) {
   std::iota(representatives_.begin(), representatives_.end(), Index{0});
-  for (std::size_t site = 0; site < sites_.size(); ++site) {
-    const std::span<const Index> ring = points_of(site);
-    for (std::size_t i = 0; i < ring.size(); ++i) {
-      const Index p = ring[i];
-      const Index q = ring[i + 1 == ring.size() ? 0 : i + 1];
-      if (distance(cells_.points[p], cells_.points[q]) > merge_distance) continue;
+  constexpr std::size_t grain = 4096;
+  const std::size_t num_cells = cells_in_order_.size();
+  std::vector<std::vector<Edge>> close(system::num_pieces(num_cells, grain));
+  system::parallel_for(execution.threads, num_cells, grain,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t cell = begin; cell < end; ++cell) {
+                           prefetch_listed(cell);
+                           const std::span<const Index> ring = points_of(cells_in_order_[cell]);
+                           for (std::size_t i = 0; i < ring.size(); ++i) {
+                             const Index p = ring[i];
+                             const Index q = ring[i + 1 == ring.size() ? 0 : i + 1];
+                             if (distance(cells_.points[p], cells_.points[q]) > merge_distance)
+                               continue;
+                             close[begin / grain].emplace_back(p, q);
+                           }
+                         }
+                       });
+  for (const std::vector<Edge>& some : close) {
+    for (const auto& [p, q] : some) {
       const auto [low, high] = std::minmax({find_representative(p), find_representative(q)});
       representatives_[high] = low;
     }
@@ -65,12 +131,57 @@ void CellMap::merge_close_points() {
   for (Index& point : representatives_) point = representative(point);
 }
 
-Point CellMap::direction(std::size_t site) const {
-  return map::direction(sites_[site], triangulation_.sphere().center);
+void CellMap::find_directions(const Execution& execution) {
+  constexpr std::size_t grain = 4096;
+  const Point& center = triangulation_.sphere().center;
+  system::parallel_for(execution.threads, sites_.size(), grain,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           directions_[i] = direction(sites_[i], center);
+                         }
+                       });
+}
+
+void CellMap::place_points(const Execution& execution) {
+  constexpr std::size_t grain = 4096;
+  positions_.resize(cells_.points.size());
+  system::parallel_for(execution.threads, positions_.size(), grain,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           positions_[i] = map_point(snapped(cells_.points[i])).position;
+                         }
+                       });
+}
+
+// Whether a cheap test finds that the cell, as long as its points and arcs stay as they are, is
+// drawn as the polygon of its points, and that no lines of it cross. Leaves their positions in the pen.
+//
+// As in draw_ring(), of which this is the usual case: the arc that follows face (a, u, v) lies
+// between a and v.
+bool CellMap::find_plain(std::size_t site, Pen& pen) const {
+  const std::span<const Index> points = points_of(site);
+  if (triangulation_.dimension() != 2 || points.size() > longest_plain) return false;
+  const Point& own_direction = directions_[site];
+  const auto a = static_cast<Index>(site);
+  std::vector<LonLat>& loop = pen.positions_;
+  loop.clear();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Index p = points[i];
+    const Index q = points[i + 1 == points.size() ? 0 : i + 1];
+    if (p >= triangulation_.num_faces() || representative(p) != p) return false;
+    const Triple& face = triangulation_.faces()[p];
+    const std::size_t corner = face[0] == a ? 0 : (face[1] == a ? 1 : 2);
+    const ArcTolerance tolerance = tolerance_between(own_direction, face[(corner + 2) % 3]);
+    const MapPoint from{snapped(cells_.points[p]), positions_[p]};
+    const MapPoint to{snapped(cells_.points[q]), positions_[q]};
+    if (!is_surely_one_line(from, to, tolerance.least)) return false;
+    loop.push_back(positions_[p]);
+  }
+  return is_plain_loop(loop) && !has_crossing_lines(loop);
 }
 
 ArcTolerance CellMap::tolerance_between(const Point& own_direction, std::size_t other) const {
-  const Point other_direction = direction(other);
+  const Point& other_direction = directions_[other];
   const double most = std::max(tolerance_, merge_distance);
   const double least = distance(own_direction, other_direction) / 8;
   const Point middle = own_direction + other_direction;
@@ -82,11 +193,11 @@ ArcTolerance CellMap::tolerance_between(const Point& own_direction, std::size_t 
 // In dimension 1 one least tolerance, that of the closest sites, serves all arcs.
 void CellMap::prepare_great_circle() {
   const std::span<const Index> ring = triangulation_.ring();
-  const Point first = direction(ring.front());
+  const Point first = directions_[ring.front()];
   circle_tolerance_ = tolerance_between(first, ring.back());
   double length = 0;
   for (std::size_t i = 1; i < ring.size(); ++i) {
-    const Point own = direction(ring[i]);
+    const Point& own = directions_[ring[i]];
     circle_tolerance_.least =
         std::min(circle_tolerance_.least, tolerance_between(own, ring[i - 1]).least);
     const Point axis = cross(first, own);
@@ -135,7 +246,7 @@ void CellMap::add_arc(Index from, Index to, const ArcTolerance& tolerance, Ring&
 // the faces are points on such an arc.
 bool CellMap::draw_ring(std::size_t site, Ring& ring, Trace& trace) const {
   const std::span<const Index> points = points_of(site);
-  const Point own_direction = direction(site);
+  const Point& own_direction = directions_[site];
   const auto a = static_cast<Index>(site);
   ArcTolerance tolerance;
   const auto read_face = [&](Index point) {

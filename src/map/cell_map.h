@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <span>
@@ -30,6 +31,9 @@ namespace rondel::map {
 //    2 says nothing about them. Where their lines cross, or all have passed those of the
 //    other side, they are bisected on their arcs before 3, until they are short.
 // 5. What still crosses itself after that is not drawn.
+//
+// Most cells are plain: small and with few corners, each arc one straight line, nothing crossed. A plain cell is
+// its points, which are placed on the map once for all cells; all others are drawn.
 class CellMap {
  public:
   CellMap(const Triangulation& triangulation, const Cells& cells, double tolerance_deg,
@@ -38,11 +42,15 @@ class CellMap {
   // Whether the site has a cell.
   [[nodiscard]] bool has_cell(std::size_t site) const;
 
+  // Asks for what polygons() will read, which may be far from what it read before.
+  void prefetch(std::size_t site) const;
+
   // Memory for drawing a cell; one for each thread.
   class Pen;
 
-  // The polygons of a site's cell; none if the cell is no wider than rounding.
-  [[nodiscard]] std::vector<LonLatPolygon> polygons(std::size_t site, Pen& pen) const;
+  // The polygons of a site's cell, until the pen is used again; none if the cell is no wider than
+  // rounding.
+  [[nodiscard]] const std::vector<LonLatPolygon>& polygons(std::size_t site, Pen& pen) const;
 
  private:
   using Edge = std::pair<Index, Index>;  // two points, the lower one first
@@ -61,11 +69,16 @@ class CellMap {
     std::vector<Edge> edges;               // of the diagram, on which they lie
   };
 
-  void merge_close_points();
+  void find_directions(const Execution& execution);
+  void list_cells();
+  void prefetch_listed(std::size_t cell) const;
+  void merge_close_points(const Execution& execution);
+  void place_points(const Execution& execution);
+  [[nodiscard]] bool find_plain(std::size_t site, Pen& pen) const;
   [[nodiscard]] Index representative(Index point) const;
   Index find_representative(Index point);
   [[nodiscard]] std::vector<LinePair> crossed_lines(const Trace& trace) const;
-  [[nodiscard]] std::vector<std::size_t> find_crossing_lines(const Execution& execution) const;
+  [[nodiscard]] std::vector<std::size_t> find_crossing_lines(const Execution& execution);
   void resolve_crossing_lines(const Execution& execution);
   bool resolve_crossing_lines(std::size_t site);
   bool bisect(std::span<const LinePair> pairs, double shortest);
@@ -81,7 +94,6 @@ class CellMap {
   [[nodiscard]] bool has_changed_arc(std::size_t site) const;
   bool draw_ring(std::size_t site, Ring& ring, Trace& trace) const;
   void add_arc(Index from, Index to, const ArcTolerance& tolerance, Ring& ring) const;
-  [[nodiscard]] Point direction(std::size_t site) const;
   [[nodiscard]] ArcTolerance tolerance_between(const Point& own_direction, std::size_t other) const;
   void prepare_great_circle();
   [[nodiscard]] ArcTolerance great_circle_tolerance(Index from, Index to) const;
@@ -94,7 +106,11 @@ class CellMap {
   ArcTolerance circle_tolerance_;  // below dimension 2
   Point axis_{};                   // of the great circle of the sites in dimension 1
   std::size_t only_vertex_;
+  std::vector<Point> directions_;  // of the sites, from the center
   std::vector<Index> representatives_;
+  std::vector<Index> cells_in_order_;   // sites, those next to each other close together
+  std::vector<LonLat> positions_;       // of the points
+  std::vector<std::uint8_t> is_plain_;  // whether find_plain() is true; of sites
   std::map<Edge, std::vector<Point>> inner_points_;  // from the lower point on
   std::set<Index> merged_;                           // where lines crossed
   std::set<std::size_t> unresolved_;                 // cells whose lines cross
@@ -106,6 +122,8 @@ class CellMap::Pen {
   friend class CellMap;
   Ring ring_;
   Trace trace_;
+  std::vector<LonLat> positions_;
+  std::vector<LonLatPolygon> polygons_;
 };
 
 }  // namespace rondel::map

@@ -20,6 +20,12 @@ struct Rectangle {
   double south;
   double north;
 
+  static Rectangle around(const Line& line) {
+    const auto [west, east] = std::minmax(line.from.lon_deg, line.to.lon_deg);
+    const auto [south, north] = std::minmax(line.from.lat_deg, line.to.lat_deg);
+    return {west, east, south, north};
+  }
+
   [[nodiscard]] bool overlaps(const Rectangle& other) const {
     return west <= other.east && other.west <= east && south <= other.north && other.south <= north;
   }
@@ -75,11 +81,7 @@ class Rectangles {
  public:
   explicit Rectangles(const std::vector<Line>& lines) : lines_(lines) {
     all_.reserve(2 * lines.size() + std::numeric_limits<std::size_t>::digits);
-    for (const Line& line : lines) {
-      const auto [west, east] = std::minmax(line.from.lon_deg, line.to.lon_deg);
-      const auto [south, north] = std::minmax(line.from.lat_deg, line.to.lat_deg);
-      all_.push_back({west, east, south, north});
-    }
+    for (const Line& line : lines) all_.push_back(Rectangle::around(line));
     for (std::size_t first = 0; all_.size() - first > 1;) {
       const std::size_t past = all_.size();
       firsts_.push_back(past);
@@ -144,6 +146,21 @@ class Rectangles {
 };
 
 }  // namespace
+
+bool has_crossing_lines(std::span<const LonLat> loop) {
+  const auto line = [&](std::size_t i) {
+    return Line{loop[i], loop[i + 1 == loop.size() ? 0 : i + 1], i};
+  };
+  for (std::size_t i = 2; i < loop.size(); ++i) {
+    const Line a = line(i);
+    const Rectangle around = Rectangle::around(a);
+    for (std::size_t j = 0; j + 1 < i; ++j) {
+      const Line b = line(j);
+      if (around.overlaps(Rectangle::around(b)) && meet(b, a)) return true;
+    }
+  }
+  return false;
+}
 
 std::vector<std::pair<std::size_t, std::size_t>> crossing_lines(const Trace& trace) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;

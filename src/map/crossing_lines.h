@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -16,5 +17,8 @@ namespace rondel::map {
 // Two nearly parallel arcs have such lines where they are densified at different places.
 // Time: n log n, and the number of lines whose rectangles overlap.
 std::vector<std::pair<std::size_t, std::size_t>> crossing_lines(const Trace& trace);
+
+// Whether two lines of a closed loop of these positions, no two of which are equal, meet so. Time: n^2.
+bool has_crossing_lines(std::span<const LonLat> loop);
 
 }  // namespace rondel::map

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "map/arc.h"
+#include "system/parallel.h"
 
 namespace rondel::map {
 namespace {
@@ -25,26 +26,71 @@ bool is_determined(const std::array<Point, 3>& ring) {
 
 }  // namespace
 
-std::vector<LonLatPolygon> FaceMap::polygons(Index face) const {
+FaceMap::FaceMap(const Triangulation& triangulation, const Execution& execution)
+    : triangulation_(triangulation),
+      directions_(triangulation.num_sites()),
+      positions_(triangulation.num_sites()),
+      tolerances_deg_(triangulation.num_faces()) {
+  constexpr std::size_t grain = 4096;
+  const std::span<const Point> sites = triangulation.sites().points();
+  const Point& center = triangulation.sphere().center;
+  system::parallel_for(execution.threads, sites.size(), grain,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           directions_[i] = direction(sites[i], center);
+                           positions_[i] = map_point(snapped(directions_[i])).position;
+                         }
+                       });
+  system::parallel_for(execution.threads, tolerances_deg_.size(), grain,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           tolerances_deg_[i] = tolerance(static_cast<Index>(i));
+                         }
+                       });
+}
+
+const std::vector<LonLatPolygon>& FaceMap::polygons(Index face, Pen& pen) const {
   const Corners corners = ring(face);
-  if (!is_determined(corners)) return {};
-  return lonlat_polygons(corners, tolerances(face));
+  const std::array<double, 3> tolerances_deg = tolerances(face);
+  const auto& [a, b, c] = triangulation_.faces()[face];
+  const std::array<LonLat, 3> positions = {positions_[a], positions_[b], positions_[c]};
+  if (is_plain(corners, positions, tolerances_deg)) {
+    pen.resize(1);
+    pen.front().ring.assign({positions[0], positions[1], positions[2], positions[0]});
+  } else if (is_determined(corners)) {
+    pen = lonlat_polygons(corners, tolerances_deg);
+  } else {
+    pen.clear();
+  }
+  return pen;
+}
+
+// Whether a cheap test finds that the face is drawn as the polygon of its corners.
+bool FaceMap::is_plain(const Corners& corners, std::span<const LonLat> positions,
+                       const std::array<double, 3>& tolerances_deg) const {
+  std::array<MapPoint, 3> ends;
+  for (std::size_t i = 0; i < 3; ++i) ends[i] = {snapped(corners[i]), positions[i]};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const MapPoint& from = ends[i];
+    const MapPoint& to = ends[(i + 1) % 3];
+    if (!is_surely_one_line(from, to, tolerances_deg[i] / degrees_per_radian)) return false;
+  }
+  return is_plain_loop(positions);
 }
 
 // The corners on the unit sphere.
 FaceMap::Corners FaceMap::ring(Index face) const {
   const auto& [a, b, c] = triangulation_.faces()[face];
-  const Point& center = triangulation_.sphere().center;
-  return {direction(sites_[a], center), direction(sites_[b], center), direction(sites_[c], center)};
+  return {directions_[a], directions_[b], directions_[c]};
 }
 
 // The tolerances of the edges 01, 12 and 20.
 std::array<double, 3> FaceMap::tolerances(Index face) const {
   const auto& neighbors = triangulation_.neighbors()[face];
-  const double own = tolerance(face);
+  const double own = tolerances_deg_[face];
   const auto edge = [&](std::size_t opposite) {
     const Index neighbor = neighbors[opposite];
-    return triangulation_.is_ghost(neighbor) ? own : std::min(own, tolerance(neighbor));
+    return triangulation_.is_ghost(neighbor) ? own : std::min(own, tolerances_deg_[neighbor]);
   };
   return {edge(2), edge(0), edge(1)};
 }

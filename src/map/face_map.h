@@ -10,19 +10,26 @@
 
 #include "map/polygon.h"
 #include "rondel/triangulation.h"
+#include "rondel/types.h"
 
 namespace rondel::map {
 
 // Sides are within a hundredth of a degree of the arcs, and within a tenth of the width of the
 // thinner of the two faces at an edge, so that faces do not overlap; but never closer than a meter
 // on the earth.
+//
+// Most faces are small, and each of their sides is one straight line: such a face is its corners,
+// which are placed on the map once for all faces. All others are drawn.
 class FaceMap {
  public:
-  explicit FaceMap(const Triangulation& triangulation)
-      : sites_(triangulation.sites().points()), triangulation_(triangulation) {}
+  FaceMap(const Triangulation& triangulation, const Execution& execution);
 
-  // The polygons of a solid face; none if the face is no wider than rounding.
-  [[nodiscard]] std::vector<LonLatPolygon> polygons(Index face) const;
+  // Memory for drawing a face; one for each thread.
+  using Pen = std::vector<LonLatPolygon>;
+
+  // The polygons of a solid face, until the pen is used again; none if the face is no wider than
+  // rounding.
+  [[nodiscard]] const std::vector<LonLatPolygon>& polygons(Index face, Pen& pen) const;
 
  private:
   using Corners = std::array<Point, 3>;
@@ -30,9 +37,13 @@ class FaceMap {
   [[nodiscard]] Corners ring(Index face) const;
   [[nodiscard]] std::array<double, 3> tolerances(Index face) const;
   [[nodiscard]] double tolerance(Index face) const;
+  [[nodiscard]] bool is_plain(const Corners& corners, std::span<const LonLat> positions,
+                              const std::array<double, 3>& tolerances_deg) const;
 
-  std::span<const Point> sites_;
   const Triangulation& triangulation_;
+  std::vector<Point> directions_;       // of the sites, from the center
+  std::vector<LonLat> positions_;       // of the sites
+  std::vector<double> tolerances_deg_;  // of the faces
 };
 
 }  // namespace rondel::map

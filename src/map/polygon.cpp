@@ -37,7 +37,7 @@ Gate gate_at(const MapPoint& end, std::size_t chain) {
   return lon > 0 ? Gate{right, lat, chain} : Gate{left, -lat, chain};
 }
 
-double doubled_area(const std::vector<LonLat>& ring) {
+double doubled_area(std::span<const LonLat> ring) {
   double area = 0;
   const LonLat origin = ring.front();
   for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
@@ -53,7 +53,7 @@ bool is_before_in_plane(const LonLat& p, const LonLat& q) {
 
 // Few positions are compared faster than they are copied and sorted.
 bool visits_twice(std::span<const LonLat> positions) {
-  if (positions.size() <= 32) {
+  if (positions.size() <= longest_plain) {
     for (std::size_t i = 1; i < positions.size(); ++i) {
       const auto earlier = positions.first(i);
       if (std::find(earlier.begin(), earlier.end(), positions[i]) != earlier.end()) return true;
@@ -207,6 +207,11 @@ Loops loops_of(const Trace& trace) {
 }
 
 }  // namespace
+
+bool is_plain_loop(std::span<const LonLat> loop) {
+  return loop.size() >= 3 && loop.size() <= longest_plain && !visits_twice(loop) &&
+         doubled_area(loop) > 0;
+}
 
 std::vector<LonLatPolygon> polygons_of(const Trace& trace) { return loops_of(trace).polygons; }
 

@@ -33,6 +33,11 @@ std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring,
 // The polygons that a drawn ring bounds.
 std::vector<LonLatPolygon> polygons_of(const Trace& trace);
 
+// Whether the polygon of a closed loop of these positions is they themselves: 3 to longest_plain, no
+// two of them equal, and counterclockwise.
+bool is_plain_loop(std::span<const LonLat> loop);
+inline constexpr std::size_t longest_plain = 32;
+
 // Whether the drawn ring, which does not cross itself, has its region to the right: the lines of
 // opposite sides have passed each other from end to end.
 bool is_turned_over(const Trace& trace);

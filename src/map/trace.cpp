@@ -8,10 +8,6 @@
 namespace rondel::map {
 namespace {
 
-// The antimeridian belongs to the east: think of it as shifted by an infinitesimal to the west, so
-// that every point but a pole is on one side.
-bool is_east(const Point& p) { return p.y >= 0; }
-
 // The pole within merge_distance of the arc between two points that are not poles; null if none.
 const Point* pole_on_arc(const Point& p, const Point& q) {
   static constexpr Point north{0, 0, 1};
@@ -28,8 +24,6 @@ Point crossing(const Point& west, const Point& east) {
   if (east.y == 0) return east;
   return normalized(Point{west.x * east.y - east.x * west.y, 0, west.z * east.y - east.z * west.y});
 }
-
-MapPoint map_point(const Point& p) { return {p, lonlat_of(p, is_east(p))}; }
 
 class Drawing {
  public:
@@ -81,8 +75,9 @@ class Drawing {
     const MapPoint start = map_point(p);
     const MapPoint end = map_point(q);
     add(start);
-    const Point middle = east ? crossing(q, p) : crossing(p, q);
-    if (east == is_east(q) || middle.x > 0) {
+    const bool crosses = east != is_east(q);
+    const Point middle = !crosses ? Point{} : east ? crossing(q, p) : crossing(p, q);
+    if (!crosses || middle.x > 0) {
       add_inner(start, end, tolerance);
       return;
     }

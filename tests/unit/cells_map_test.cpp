@@ -4,10 +4,14 @@
 // Whole diagrams as maps: the polygons of all cells are valid and fill the rectangle.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "cells_planar.h"
 #include "map/cell_map.h"
+#include "map/crossing_lines.h"
+#include "map/face_map.h"
 #include "rondel/delaunay.h"
 #include "support/generators.h"
 
@@ -198,6 +202,126 @@ TEST(cell_map, degenerate_sites) {
                  {.has_polygons = false, .site_inside = false});
     }
   }
+}
+
+// The cell of a site, drawn arc by arc, as if there were no other cells.
+std::vector<map::LonLatPolygon> drawn_cell(const Triangulation& triangulation, const Cells& cells,
+                                           Index site) {
+  const double most = 0.01 / map::degrees_per_radian;
+  const auto direction = [&](Index i) {
+    return map::direction(triangulation.sites().points()[i], triangulation.sphere().center);
+  };
+  std::vector<Point> ring;
+  std::vector<map::ArcTolerance> tolerances;
+  for (std::uint64_t i = cells.offsets[site]; i < cells.offsets[site + 1]; ++i) {
+    const Triple& face = triangulation.faces()[cells.rings[i]];
+    const auto corner = static_cast<std::size_t>(std::ranges::find(face, site) - face.begin());
+    const Point own = direction(site);
+    const Point other = direction(face[(corner + 2) % 3]);
+    const double least = std::clamp(norm(own - other) / 8, map::merge_distance, most);
+    tolerances.push_back({least, most, (own + other) / norm(own + other)});
+    ring.push_back(map::snapped(cells.points[cells.rings[i]]));
+  }
+  map::Trace trace;
+  map::draw(ring, tolerances, trace);
+  return map::polygons_of(trace);
+}
+
+std::vector<map::LonLatPolygon> drawn_face(const Triangulation& triangulation, Index face) {
+  const auto corners = [&](Index f) {
+    std::array<Point, 3> points;
+    std::ranges::transform(triangulation.faces()[f], points.begin(), [&](Index i) {
+      return map::direction(triangulation.sites().points()[i], triangulation.sphere().center);
+    });
+    return points;
+  };
+  const auto tolerance = [&](Index f) {
+    const auto [a, b, c] = corners(f);
+    const double longest = std::max({norm(b - a), norm(c - b), norm(a - c)});
+    const double height_deg = norm(cross(b - a, c - b)) / longest * map::degrees_per_radian;
+    return std::clamp(height_deg / 10, 1e-5, 0.01);
+  };
+  std::array<double, 3> tolerances{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Index neighbor = triangulation.neighbors()[face][(i + 2) % 3];
+    tolerances[i] = triangulation.is_ghost(neighbor)
+                        ? tolerance(face)
+                        : std::min(tolerance(face), tolerance(neighbor));
+  }
+  return map::lonlat_polygons(corners(face), tolerances);
+}
+
+void expect_equal(const std::vector<map::LonLatPolygon>& found,
+                  const std::vector<map::LonLatPolygon>& expected, Index of) {
+  ASSERT_EQ(found.size(), expected.size()) << of;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_TRUE(found[i].ring == expected[i].ring) << of;
+  }
+}
+
+// Cells and faces of all sizes, small ones around the poles, the antimeridian and elsewhere.
+std::vector<std::vector<Point>> sites_of_all_sizes() {
+  std::vector<std::vector<Point>> sets = {random_sites(30, 1), random_sites(4000, 2)};
+  for (const double radius : {0.05, 1e-3, 1e-6}) {
+    for (const LonLat& center :
+         {LonLat{0, 90}, LonLat{0, -90}, LonLat{180, 20}, LonLat{0, -30}, LonLat{77, 60}}) {
+      Random random(11);
+      std::vector<Point> sites = random_sites(30, 6);
+      for (int i = 0; i < 500; ++i) {
+        sites.push_back(random_near(random, unit_vector(center), radius));
+      }
+      sets.push_back(std::move(sites));
+    }
+  }
+  return sets;
+}
+
+TEST(cell_map, has_each_cell_as_it_is_drawn) {
+  for (const std::vector<Point>& sites : sites_of_all_sizes()) {
+    const Triangulation triangulation = delaunay(sites);
+    const Cells diagram = cells(triangulation);
+    const map::CellMap map(triangulation, diagram, 0.01, {});
+    map::CellMap::Pen pen;
+    for (Index site = 0; site < sites.size(); ++site) {
+      expect_equal(map.polygons(site, pen), drawn_cell(triangulation, diagram, site), site);
+    }
+  }
+}
+
+TEST(face_map, has_each_face_as_it_is_drawn) {
+  for (const std::vector<Point>& sites : sites_of_all_sizes()) {
+    const Triangulation triangulation = delaunay(sites);
+    const map::FaceMap map(triangulation, {});
+    map::FaceMap::Pen pen;
+    for (Index face = 0; face < triangulation.num_faces(); ++face) {
+      if (triangulation.is_ghost(face)) continue;
+      expect_equal(map.polygons(face, pen), drawn_face(triangulation, face), face);
+    }
+  }
+}
+
+// Loops with corners anywhere, and on a small grid, where lines touch.
+TEST(crossing_lines, are_found_in_a_loop_as_in_a_trace) {
+  Random random(12);
+  int num_crossing = 0;
+  for (int turn = 0; turn < 20000; ++turn) {
+    const std::size_t size = 3 + static_cast<std::size_t>(turn) % 8;
+    std::vector<LonLat> loop;
+    map::Trace trace;
+    while (loop.size() < size) {
+      LonLat position{40 * random.unit(), 40 * random.unit()};
+      if (turn % 2 == 0)
+        position = {std::floor(position.lon_deg / 8), std::floor(position.lat_deg / 8)};
+      if (std::ranges::find(loop, position) != loop.end()) continue;
+      loop.push_back(position);
+      trace.points.push_back({{}, position});
+    }
+    const bool crosses = map::has_crossing_lines(loop);
+    EXPECT_EQ(crosses, !map::crossing_lines(trace).empty());
+    num_crossing += crosses ? 1 : 0;
+  }
+  EXPECT_GT(num_crossing, 5000);
+  EXPECT_LT(num_crossing, 18000);
 }
 
 }  // namespace

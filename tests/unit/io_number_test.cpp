@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <array>
 #include <bit>
+#include <charconv>
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "io/csv_records.h"
 #include "io/number.h"
+#include "io/number_text.h"
 
 namespace rondel::io {
 namespace {
@@ -40,6 +45,59 @@ TEST(number, digits_round_trip) {
     EXPECT_LE(text.size(), 24U);
     EXPECT_TRUE(is_json_number(text)) << text;
     EXPECT_EQ(parse_number(text, "x"), value);
+  }
+}
+
+// What write_number() writes, and what std::to_chars does.
+void expect_usual_text(double value) {
+  std::array<char, number_room> usual{};
+  char* const end = std::to_chars(usual.data(), usual.data() + usual.size(), value).ptr;
+  std::string text;
+  append_number(text, value);
+  EXPECT_EQ(text, std::string(usual.data(), end));
+}
+
+TEST(number, text_is_that_of_the_standard_library) {
+  std::mt19937_64 random(5);
+  for (int i = 0; i < 300000; ++i) expect_usual_text(std::bit_cast<double>(random()));
+  // All exponents that have a way of their own, and those around them.
+  for (int exponent = -40; exponent <= 40; ++exponent) {
+    for (int i = 0; i < 20000; ++i) {
+      const double value =
+          std::ldexp(1 + std::ldexp(static_cast<double>(random() >> 12U), -52), exponent);
+      expect_usual_text(i % 2 == 0 ? value : -value);
+    }
+    const double power = std::ldexp(1, exponent);
+    for (const double value : {power, std::nextafter(power, 0.0), std::nextafter(power, 1e300)}) {
+      expect_usual_text(value);
+    }
+  }
+  for (const double value : {0.0, -0.0, 1e300, 5e-324, std::numeric_limits<double>::infinity(),
+                             -std::numeric_limits<double>::infinity()}) {
+    expect_usual_text(value);
+  }
+}
+
+// With and without an exponent, and the doubles next to a short decimal.
+TEST(number, text_of_few_digits_is_that_of_the_standard_library) {
+  for (int exponent = -12; exponent <= 12; ++exponent) {
+    const double scale = std::pow(10, std::abs(exponent));
+    for (int digits = 1; digits < 3000; ++digits) {
+      const double value = exponent < 0 ? digits / scale : digits * scale;
+      for (const double next : {value, std::nextafter(value, 0.0), std::nextafter(value, 1e300)}) {
+        expect_usual_text(next);
+      }
+    }
+  }
+}
+
+// Numbers of few bits lie in the middle between two decimals of as many digits as they need.
+TEST(number, text_of_a_tie_is_that_of_the_standard_library) {
+  std::mt19937_64 random(6);
+  for (int bits = 1; bits <= 40; ++bits) {
+    for (int i = 0; i < 20000; ++i) {
+      expect_usual_text(std::ldexp(static_cast<double>((random() >> 39U) | 1U), -bits));
+    }
   }
 }
 

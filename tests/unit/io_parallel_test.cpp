@@ -10,6 +10,7 @@
 #include "io/site_formats.h"
 #include "io_support.h"
 #include "rondel/delaunay.h"
+#include "rondel/error.h"
 
 namespace rondel::test {
 namespace {
@@ -58,6 +59,27 @@ TEST(write_in_parallel, leaves_no_file_when_a_text_cannot_be_made) {
     EXPECT_FALSE(std::filesystem::exists(name));
   }
 }
+
+#if !defined(_WIN32)
+// A device that takes nothing: the first write fails, while other texts are being made.
+TEST(write_in_parallel, says_what_failed_when_the_disk_is_full) {
+  for (const unsigned threads : thread_counts) {
+    const auto write = [&] {
+      io::AtomicFile file("/dev/full");
+      io::write_in_parallel(
+          file, threads, 5000, 10,
+          [](std::string& text, std::size_t, std::size_t) { text.append(100'000, 'x'); });
+      file.commit();
+    };
+    try {
+      write();
+      ADD_FAILURE() << threads;
+    } catch (const FileError& error) {
+      EXPECT_STREQ(error.what(), "/dev/full: No space left on device");
+    }
+  }
+}
+#endif
 
 std::vector<LonLat> random_positions(std::size_t n) {
   std::mt19937_64 random(6);
