@@ -20,6 +20,7 @@
 #include "plot_page.h"
 #include "rondel/diagram.h"
 #include "rondel/globe.h"
+#include "run_pieces.h"
 #include "validate.h"
 
 namespace rondel::cli {
@@ -108,8 +109,9 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   }
   std::vector<Point> points = turned(sites, figure.view);
   std::vector<ArcEnds> arcs = triangulation_arcs(triangulation, sites);
-  figure.spacing = median_spacing(arcs, points);
   figure.sites = vertices(triangulation, points);
+  points = in_order_of_arcs(arcs, points);
+  figure.spacing = median_spacing(arcs, points);
   if (show != Show::voronoi) figure.triangulation = {std::move(points), std::move(arcs)};
   if (show != Show::delaunay || options.fill == Fill::area) {
     auto [cells, cell_areas] = diagram(triangulation, execution);
@@ -123,11 +125,17 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   return figure;
 }
 
-// A drawing of very many arcs is hardly what was wanted: programs take minutes to open it.
+// A drawing of very many arcs is hardly what was wanted: programs take minutes to open it. Pixels
+// cannot be magnified.
 void warn_of_size(const PlotOptions& options, const Figure& figure, FigureFormat format) {
   const std::size_t arcs =
       figure.triangulation.arcs.size() + figure.diagram.arcs.size() + figure.circles.size();
   if (options.common.quiet || format == FigureFormat::png || arcs < 200'000) return;
+  if (is_dense(figure, format)) {
+    std::cerr << "rondel: " << options.common.output << " holds pixels, as " << arcs
+              << " arcs are closer together than these; --size N for more of them\n";
+    return;
+  }
   std::cerr << "rondel: " << options.common.output << " holds up to " << arcs
             << " arcs and will be large; a .png is small\n";
 }
@@ -203,7 +211,10 @@ ExitStatus run_plot(const PlotOptions& options) {
   job.time(Stage::dual,
            [&] { figure = make_figure(options, triangulation, table, job.execution()); });
   warn_of_size(options, figure, *format);
-  job.time(Stage::write, [&] { write_file(options.common.output, draw(figure, *format)); });
+  job.time(Stage::write, [&] {
+    write_file(options.common.output, draw(figure, *format, is_dense(figure, *format),
+                                           num_workers(options.common.threads)));
+  });
   job.report(triangulation, "the figure");
   return done;
 }
@@ -305,7 +316,8 @@ Command add_plot_command(CLI::App& tool) {
   parser->footer(
       "The globe is seen from far away (orthographic projection). Edges are arcs of great\n"
       "circles; edges of ghost faces, which the center of the sphere does not see, are left\n"
-      "out. The same input gives the same bytes.\n\n"
+      "out. The same input gives the same bytes. 100,000 arcs and more that are closer\n"
+      "together than pixels are pixels in .svg and .pdf, too: --size says how many.\n\n"
       "A page (.html) is one file for any browser, without a server or a network. It carries\n"
       "all columns of INPUT, which are shown for the site that is picked and can be searched.\n"
       "What is shown can be switched there; the options say how it begins.\n\n"

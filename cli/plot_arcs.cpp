@@ -80,14 +80,33 @@ std::vector<ArcEnds> cell_arcs(const Cells& cells) {
   return arcs;
 }
 
+std::vector<Point> in_order_of_arcs(std::span<ArcEnds> arcs, std::span<const Point> points) {
+  std::vector<Index> numbers(points.size(), no_index);
+  std::vector<Point> ordered;
+  ordered.reserve(points.size());
+  for (ArcEnds& ends : arcs) {
+    for (Index& end : ends) {
+      Index& number = numbers[end];
+      if (number == no_index) {
+        number = static_cast<Index>(ordered.size());
+        ordered.push_back(points[end]);
+      }
+      end = number;
+    }
+  }
+  return ordered;
+}
+
 double median_spacing(std::span<const ArcEnds> arcs, std::span<const Point> points) {
   // In a Delaunay triangulation the nearest site is a neighbor.
+  // Squares of lengths, whose order is the same.
   constexpr double none = std::numeric_limits<double>::infinity();
   std::vector<double> nearest(points.size(), none);
   for (const auto& [a, b] : arcs) {
-    const double length = std::hypot(points[a].x - points[b].x, points[a].y - points[b].y);
-    nearest[a] = std::min(nearest[a], length);
-    nearest[b] = std::min(nearest[b], length);
+    const double dx = points[a].x - points[b].x, dy = points[a].y - points[b].y;
+    const double square = dx * dx + dy * dy;
+    nearest[a] = std::min(nearest[a], square);
+    nearest[b] = std::min(nearest[b], square);
   }
   std::vector<double> in_front;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -96,7 +115,7 @@ double median_spacing(std::span<const ArcEnds> arcs, std::span<const Point> poin
   if (in_front.empty()) return 0;
   const auto middle = in_front.begin() + static_cast<std::ptrdiff_t>(in_front.size() / 2);
   std::ranges::nth_element(in_front, middle);
-  return *middle;
+  return std::sqrt(*middle);
 }
 
 }  // namespace rondel::cli

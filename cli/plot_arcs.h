@@ -26,6 +26,11 @@ std::vector<ArcEnds> triangulation_arcs(const Triangulation& triangulation,
 /// The edges of the cells, as positions in cells.points; none of length zero.
 std::vector<ArcEnds> cell_arcs(const Cells& cells);
 
+/// Numbers the points in the order in which arcs come to them, which is that of space for the arcs of a
+/// triangulation: loops over arcs then read memory from front to back. \returns the points that have
+/// an arc.
+std::vector<Point> in_order_of_arcs(std::span<ArcEnds> arcs, std::span<const Point> points);
+
 /// The distance from a site to the nearest one, the median over the sites that are in front: its
 /// length in the picture. 0 if no arc is there. \pre points in the view frame, the arcs of
 /// a triangulation of them.

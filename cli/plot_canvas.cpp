@@ -6,6 +6,7 @@
 #include <cairo-svg.h>
 #include <cairo.h>
 
+#include <cstring>
 #include <new>
 #include <numbers>
 #include <stdexcept>
@@ -68,6 +69,24 @@ void drop_surface_number(std::string& svg) {
   svg.erase(digits, svg.find('"', digits) - digits);
 }
 
+// The same of the images in it, which are numbered here from 0 on.
+void number_images(std::string& svg) {
+  for (const std::string word : {"image", "source-"}) {  // of one version of Cairo and of others
+    const std::string id = "id=\"" + word;
+    std::size_t count = 0;
+    for (std::size_t at = svg.find(id); at != std::string::npos; at = svg.find(id, at + 1)) {
+      const std::size_t digits = at + id.size();
+      const std::string number = svg.substr(digits, svg.find('"', digits) - digits);
+      const std::string ours = std::to_string(count++);
+      svg.replace(digits, number.size(), ours);
+      const std::string use = "href=\"#" + word + number + '"';
+      for (std::size_t k = svg.find(use, at); k != std::string::npos; k = svg.find(use, k + 1)) {
+        svg.replace(k, use.size(), "href=\"#" + word + ours + '"');
+      }
+    }
+  }
+}
+
 void set_source(cairo_t* context, const Color& c) {
   cairo_set_source_rgba(context, c.red, c.green, c.blue, c.alpha);
 }
@@ -76,6 +95,7 @@ void set_source(cairo_t* context, const Color& c) {
 
 struct Canvas::State {
   FigureFormat format;
+  int size;
   double center, radius;
   std::string bytes;  // outlives the surface, which writes to it
   Owned<cairo_surface_t> surface;
@@ -87,8 +107,9 @@ struct Canvas::State {
 
 Canvas::Canvas(FigureFormat format, int size) : state_(std::make_unique<State>()) {
   state_->format = format;
+  state_->size = size;
   state_->center = size / 2.0;
-  state_->radius = size * (0.5 - margin);
+  state_->radius = radius_of(size);
   state_->surface.reset(make_surface(format, size, state_->bytes));
   state_->context.reset(cairo_create(state_->surface.get()));
   require(cairo_status(state_->context.get()));
@@ -99,6 +120,8 @@ Canvas::Canvas(FigureFormat format, int size) : state_(std::make_unique<State>()
 Canvas::~Canvas() = default;
 
 double Canvas::radius() const noexcept { return state_->radius; }
+
+double Canvas::radius_of(int size) noexcept { return size * (0.5 - margin); }
 
 void Canvas::move_to(Spot to) {
   cairo_move_to(state_->context.get(), state_->x(to), state_->y(to));
@@ -139,6 +162,21 @@ void Canvas::fill(const Color& color) {
   cairo_fill(state_->context.get());
 }
 
+void Canvas::paint(std::span<const std::uint32_t> argb) {
+  const int size = state_->size;
+  const Owned<cairo_surface_t> image(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, size, size));
+  require(cairo_surface_status(image.get()));
+  const auto side = static_cast<std::size_t>(size);
+  unsigned char* row = cairo_image_surface_get_data(image.get());
+  for (std::size_t y = 0; y < side; ++y) {
+    std::memcpy(row, argb.data() + y * side, side * sizeof(std::uint32_t));
+    row += cairo_image_surface_get_stride(image.get());
+  }
+  cairo_surface_mark_dirty(image.get());
+  cairo_set_source_surface(state_->context.get(), image.get(), 0, 0);
+  cairo_paint(state_->context.get());
+}
+
 void Canvas::shade(const Color& inner, const Color& outer) {
   const double c = state_->center, r = state_->radius;
   const Owned<cairo_pattern_t> light(
@@ -154,7 +192,7 @@ void Canvas::shade(const Color& inner, const Color& outer) {
 void Canvas::fill_to_seam(const Color& color) {
   set_source(state_->context.get(), color);
   cairo_fill_preserve(state_->context.get());
-  stroke(color, 0.6);
+  stroke(color, seam_width);
 }
 
 std::string Canvas::finish() {
@@ -164,7 +202,10 @@ std::string Canvas::finish() {
   }
   cairo_surface_finish(state_->surface.get());
   require(cairo_surface_status(state_->surface.get()));
-  if (state_->format == FigureFormat::svg) drop_surface_number(state_->bytes);
+  if (state_->format == FigureFormat::svg) {
+    drop_surface_number(state_->bytes);
+    number_images(state_->bytes);
+  }
   return std::move(state_->bytes);
 }
 

@@ -6,6 +6,7 @@
 /// the drawing library is plot_canvas.cpp.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
@@ -25,8 +26,9 @@ class Canvas final : public Pen {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  /// The radius of the globe in pixels.
+  /// The radius of the globe in pixels. Its center is the middle.
   [[nodiscard]] double radius() const noexcept;
+  static double radius_of(int size) noexcept;
 
   void move_to(Spot to) override;
   void line_to(Spot to) override;
@@ -39,9 +41,12 @@ class Canvas final : public Pen {
   /// Each paints the path and ends it.
   void stroke(const Color& color, double width);
   void fill(const Color& color);
+  /// Lays pixels over the whole picture, as many as it has: `argb` are their rows, as Cairo's ARGB32.
+  void paint(std::span<const std::uint32_t> argb);
   /// Fills from `inner` around the place where the light falls to `outer` at the limb.
   void shade(const Color& inner, const Color& outer);
   /// Fills and covers the seam to equal neighbors by a line of the same color.
+  static constexpr double seam_width = 0.6;
   void fill_to_seam(const Color& color);
 
   /// The bytes of the file, without dates: the same picture gives the same bytes.

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <span>
 
+#include "plot_pixels.h"
 #include "rondel/delaunay.h"
+#include "run_pieces.h"
 
 namespace rondel::cli {
 namespace {
@@ -24,6 +27,14 @@ constexpr Color diagram_on_fill_color{0.060, 0.130, 0.220, 0.55};
 constexpr Color circle_color{0.000, 0.440, 0.340};
 constexpr Color hidden_circle_color{0.000, 0.440, 0.340, 0.30};
 constexpr Color site_color{0.06, 0.06, 0.08};
+
+const Color triangulation_back_color = blend(triangulation_color, white, 0.75);
+const Color diagram_back_color = blend(diagram_color, white, 0.70);
+constexpr double back_circle_paleness = 0.75;
+
+const Color& front_diagram_color(const Figure& figure) {
+  return figure.filled ? diagram_on_fill_color : diagram_color;
+}
 
 // One stroke of very many arcs is slow, and so is a stroke for each.
 constexpr std::size_t arcs_in_a_stroke = 200;
@@ -113,27 +124,34 @@ class AreaScale {
   double low_ = 0, high_ = 0;
 };
 
-void draw_filled_cells(Canvas& canvas, const FilledCells& filled) {
+// Calls paint(corners, color) for the cells; the cell of a single site, which is the whole sphere, has
+// no corners.
+template <class Paint>
+void for_each_cell(const FilledCells& filled, const Paint& paint) {
   const AreaScale scale(filled.areas);
-  const double tolerance = 0.02 / canvas.radius();
   const Cells& cells = filled.cells;
   std::vector<Point> corners;
   for (std::size_t cell = 0; cell < filled.areas.size(); ++cell) {
+    const double area = filled.areas[cell];
+    if (!(area > 0)) continue;  // a duplicate or hidden site
     corners.clear();
     for (auto i = cells.offsets[cell]; i < cells.offsets[cell + 1]; ++i) {
       corners.push_back(cells.points[cells.rings[i]]);
     }
-    const double area = filled.areas[cell];
-    if (!(area > 0)) continue;  // a duplicate or hidden site
-    if (corners.empty()) {
-      canvas.globe();  // the cell of a single site is the whole sphere
-    } else if (!trace_region(canvas, corners, tolerance)) {
-      continue;
-    }
-    canvas.fill_to_seam(area_color(scale(area)));
+    paint(std::span<const Point>(corners), area_color(scale(area)));
   }
-  canvas.globe();
-  canvas.shade(clear_light, clear_dark);
+}
+
+void draw_filled_cells(Canvas& canvas, const FilledCells& filled) {
+  const double tolerance = 0.02 / canvas.radius();
+  for_each_cell(filled, [&](std::span<const Point> corners, const Color& color) {
+    if (corners.empty()) {
+      canvas.globe();
+    } else if (!trace_region(canvas, corners, tolerance)) {
+      return;
+    }
+    canvas.fill_to_seam(color);
+  });
 }
 
 void draw_sites(Canvas& canvas, std::span<const Point> sites, double radius) {
@@ -146,27 +164,149 @@ void draw_sites(Canvas& canvas, std::span<const Point> sites, double radius) {
   canvas.fill(site_color);
 }
 
-}  // namespace
+void draw_back(Canvas& canvas, const Figure& figure, double width) {
+  draw_arcs(canvas, figure.triangulation, Side::back, triangulation_back_color, width);
+  draw_arcs(canvas, figure.diagram, Side::back, diagram_back_color, width);
+  draw_circles(canvas, figure.circles, Side::back, back_circle_paleness, width);
+}
 
-std::string draw(const Figure& figure, FigureFormat format) {
-  Canvas canvas(format, figure.style.size);
-  const Widths width = widths(figure, canvas.radius());
-  canvas.globe();
-  canvas.shade(globe_light, globe_dark);
-  if (figure.style.show_back) {
-    draw_arcs(canvas, figure.triangulation, Side::back, blend(triangulation_color, white, 0.75),
-              0.7 * width.line);
-    draw_arcs(canvas, figure.diagram, Side::back, blend(diagram_color, white, 0.70),
-              0.7 * width.line);
-    draw_circles(canvas, figure.circles, Side::back, 0.75, 0.7 * width.line);
-  }
-  if (figure.filled) draw_filled_cells(canvas, *figure.filled);
-  draw_graticule(canvas, figure);
+void draw_front(Canvas& canvas, const Figure& figure, const Widths& width) {
   draw_circles(canvas, figure.circles, Side::front, 0, width.line);
   draw_arcs(canvas, figure.triangulation, Side::front, triangulation_color, width.line);
-  draw_arcs(canvas, figure.diagram, Side::front,
-            figure.filled ? diagram_on_fill_color : diagram_color, width.line);
+  draw_arcs(canvas, figure.diagram, Side::front, front_diagram_color(figure), width.line);
   if (figure.style.show_sites) draw_sites(canvas, figure.sites, width.dot_radius);
+}
+
+// The same as pixels, some rows of them.
+class PixelLayer {
+ public:
+  PixelLayer(int size, double radius, int first_row, int past_row)
+      : pixels_(size, first_row, past_row),
+        pen_(pixels_, size / 2.0, radius),
+        tolerance_(0.02 / radius) {}
+  ~PixelLayer() = default;
+  PixelLayer(const PixelLayer&) = delete;
+  PixelLayer& operator=(const PixelLayer&) = delete;
+
+  [[nodiscard]] const Pixels& pixels() const { return pixels_; }
+
+  void add_arcs(const ArcLayer& layer, Side side, const Color& color, double width) {
+    for (const auto& [from, to] : layer.arcs) {
+      const Point& a = layer.points[from];
+      const Point& b = layer.points[to];
+      if (pen_.is_elsewhere(a, b, width)) continue;
+      trace_arc(pen_, a, b, side, tolerance_);
+      pen_.stroke(color, width);
+    }
+  }
+
+  void add_circles(std::span<const Circle> circles, Side side, double paleness, double width) {
+    for (const bool is_hidden : {true, false}) {
+      const Color color = blend(is_hidden ? hidden_circle_color : circle_color, white, paleness);
+      for (const Circle& circle : circles) {
+        if (circle.is_hidden != is_hidden) continue;
+        trace_circle(pen_, circle.axis, circle.radius_deg, side);
+        pen_.stroke(color, width);
+      }
+    }
+  }
+
+  void add_filled_cells(const FilledCells& filled) {
+    for_each_cell(filled, [&](std::span<const Point> corners, const Color& color) {
+      if (corners.empty()) {
+        trace_circle(pen_, {0, 0, 1}, 90, Side::front);
+      } else if (!trace_region(pen_, corners, tolerance_)) {
+        return;
+      }
+      pen_.fill(color, Canvas::seam_width);
+    });
+  }
+
+  void add_sites(std::span<const Point> sites, double radius) {
+    for (const Point& site : sites) {
+      const Spot place{site.x, site.y};
+      if (site.z >= 0 && !pen_.is_elsewhere(place, radius)) pen_.dot(place, radius, site_color);
+    }
+  }
+
+ private:
+  Pixels pixels_;
+  PixelPen pen_;
+  double tolerance_;
+};
+
+// Lays over the canvas what add(layer) paints on each of the bands that the picture is divided into,
+// at once by several threads.
+template <class Add>
+void paint(Canvas& canvas, const Figure& figure, unsigned threads, const Add& add) {
+  const int size = figure.style.size;
+  const int num_bands = std::min(size, static_cast<int>(2 * std::min(threads, 256U)));
+  std::vector<std::uint32_t> argb(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
+  run_pieces(threads, num_bands, [&](int band) {
+    const auto row_of = [&](int k) { return static_cast<int>(std::int64_t{size} * k / num_bands); };
+    PixelLayer layer(size, canvas.radius(), row_of(band), row_of(band + 1));
+    add(layer);
+    for (int row = row_of(band); row < row_of(band + 1); ++row) {
+      const auto side = static_cast<std::size_t>(size);
+      layer.pixels().copy_row(row,
+                              std::span(argb).subspan(static_cast<std::size_t>(row) * side, side));
+    }
+  });
+  canvas.paint(argb);
+}
+
+void add_back(PixelLayer& layer, const Figure& figure, double width) {
+  layer.add_arcs(figure.triangulation, Side::back, triangulation_back_color, width);
+  layer.add_arcs(figure.diagram, Side::back, diagram_back_color, width);
+  layer.add_circles(figure.circles, Side::back, back_circle_paleness, width);
+}
+
+void add_front(PixelLayer& layer, const Figure& figure, const Widths& width) {
+  layer.add_circles(figure.circles, Side::front, 0, width.line);
+  layer.add_arcs(figure.triangulation, Side::front, triangulation_color, width.line);
+  layer.add_arcs(figure.diagram, Side::front, front_diagram_color(figure), width.line);
+  if (figure.style.show_sites) layer.add_sites(figure.sites, width.dot_radius);
+}
+
+}  // namespace
+
+bool is_dense(const Figure& figure, FigureFormat format) {
+  constexpr std::size_t many = 100'000;  // paths take a second
+  const std::size_t shapes =
+      figure.triangulation.arcs.size() + figure.diagram.arcs.size() + figure.circles.size();
+  const double radius = Canvas::radius_of(figure.style.size);
+  const bool can_magnify = format != FigureFormat::png;
+  return shapes >= many && widths(figure, radius).line < 1 &&
+         (!can_magnify || figure.spacing * radius < 1);
+}
+
+std::string draw(const Figure& figure, FigureFormat format, bool as_pixels, unsigned threads) {
+  Canvas canvas(format, figure.style.size);
+  const Widths width = widths(figure, canvas.radius());
+  const double back_width = 0.7 * width.line;
+  const auto paint_layer = [&](const auto& add) { paint(canvas, figure, threads, add); };
+  canvas.globe();
+  canvas.shade(globe_light, globe_dark);
+  if (figure.style.show_back && as_pixels) {
+    paint_layer([&](PixelLayer& layer) { add_back(layer, figure, back_width); });
+  } else if (figure.style.show_back) {
+    draw_back(canvas, figure, back_width);
+  }
+  if (figure.filled) {
+    if (as_pixels) {
+      paint_layer([&](PixelLayer& layer) { layer.add_filled_cells(*figure.filled); });
+    } else {
+      draw_filled_cells(canvas, *figure.filled);
+    }
+    canvas.globe();
+    canvas.shade(clear_light, clear_dark);
+  }
+  draw_graticule(canvas, figure);
+  if (as_pixels) {
+    paint_layer([&](PixelLayer& layer) { add_front(layer, figure, width); });
+  } else {
+    draw_front(canvas, figure, width);
+  }
   canvas.globe();
   canvas.stroke(limb_color, 1.2 * figure.style.size / 1000);
   return canvas.finish();

@@ -49,7 +49,16 @@ struct Figure {
   std::optional<FilledCells> filled;
 };
 
-/// The bytes of the figure.
-std::string draw(const Figure& figure, FigureFormat format);
+/// Whether a figure has very many arcs with lines thinner than a pixel, and, for a format that can
+/// be magnified, closer together than pixels.
+bool is_dense(const Figure& figure, FigureFormat format);
+
+/// The bytes of the figure. `as_pixels`: its arcs, circles, cells and sites are painted as pixels
+/// instead of paths, by so many threads, which looks the same where is_dense() is true, and is much
+/// faster. The bytes do not depend on the threads.
+std::string draw(const Figure& figure, FigureFormat format, bool as_pixels, unsigned threads = 1);
+inline std::string draw(const Figure& figure, FigureFormat format) {
+  return draw(figure, format, is_dense(figure, format));
+}
 
 }  // namespace rondel::cli

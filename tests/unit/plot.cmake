@@ -8,6 +8,7 @@ rondel_add_test(unit_plot
   plot_circles_test.cpp
   plot_draw_test.cpp
   plot_globe_test.cpp
+  plot_pixels_test.cpp
   plot_region_test.cpp
   LIBS rondel_plot)
-rondel_compile_alone(unit_plot plot_region_test.cpp)
+rondel_compile_alone(unit_plot plot_pixels_test.cpp plot_region_test.cpp)
