@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A double v = m 2^e, m < 2^53, is what decimals within half of 2^e round to (with both ends if m is
-// even). For exponents as those of coordinates and degrees all of this is exact in two words: with
+// A double v = m 2^e, m < 2^53, is what decimals within half of 2^e round to. For exponents as those of coordinates and degrees all of this is exact in two words: with
 // the least s for which 10^-s <= 2^e, and D = -e - s,
 //
 //     10^s v = m 5^s / 2^D,     10^s 2^e / 2 = (5^s / 2) / 2^D,     1 <= 5^s / 2^D < 10.
@@ -58,10 +57,11 @@ Word shortest_decimal(Word m, const Scale& scale) {
   const exact::TwoWords product = exact::multiply_and_add(m, scale.power_of_5, 0, 0);
   const unsigned d = scale.fraction;
   const Word whole = product.high << (64 - d) | product.low >> d;
-  // In units of 2^-(D + 1), in which half of the interval is 5^s.
+  // In units of 2^-(D + 1), in which half of the interval is 5^s. That is odd and all else is even, so
+  // that nothing lies at an end of it.
   const Word one = Word{2} << d;
   const Word rest = 2 * (product.low & ((Word{1} << d) - 1));
-  const Word half = scale.power_of_5 - (m & 1);  // without the ends if m is odd
+  const Word half = scale.power_of_5;
   const Word last_digit = whole % 10;
   const Word below = last_digit * one + rest;
   if (below <= half) return whole - last_digit;
