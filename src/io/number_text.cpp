@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A double v = m 2^e, m < 2^53, is what decimals within half of 2^e round to. For exponents as those of coordinates and degrees all of this is exact in two words: with
-// the least s for which 10^-s <= 2^e, and D = -e - s,
+// A double v = m 2^e, m < 2^53, is what decimals within half of 2^e round to. For exponents as
+// those of coordinates and degrees all of this is exact in two words: with the least s for which
+// 10^-s <= 2^e, and D = -e - s,
 //
 //     10^s v = m 5^s / 2^D,     10^s 2^e / 2 = (5^s / 2) / 2^D,     1 <= 5^s / 2^D < 10.
 //

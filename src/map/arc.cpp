@@ -97,8 +97,7 @@ LonLat lonlat_of(const Point& p, bool east) {
 bool is_surely_one_line(const MapPoint& p, const MapPoint& q, double tolerance) {
   const Point& a = p.point;
   const Point& b = q.point;
-  return is_east(a) == is_east(b) && !is_pole(a) && !is_pole(b) && a.x * b.x + a.y * b.y >= 0 &&
-         is_surely_flat(p, q, tolerance);
+  return is_east(a) == is_east(b) && !is_pole(a) && !is_pole(b) && is_surely_flat(p, q, tolerance);
 }
 
 std::optional<Point> foot_on_arc(const Point& v, const Point& p, const Point& q) {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <numeric>
 
 #include "cells_planar.h"
@@ -286,6 +287,45 @@ TEST(cell_map, has_each_cell_as_it_is_drawn) {
       expect_equal(map.polygons(site, pen), drawn_cell(triangulation, diagram, site), site);
     }
   }
+}
+
+bool is_on_border(const LonLat& p, const LonLat& q) {
+  return (p.lon_deg == q.lon_deg && std::abs(p.lon_deg) == 180) ||
+         (p.lat_deg == q.lat_deg && std::abs(p.lat_deg) == 90);
+}
+
+// Each line inside the map is a side of two cells, bit by bit, also where lines crossed and arcs
+// of plain cells have changed since.
+TEST(cell_map, has_each_line_in_the_cells_on_both_sides) {
+  std::size_t num_maps = 0;
+  for (const Generator& kind : generators()) {
+    if (kind.weighted_only) continue;
+    const SiteSet set = kind.make(300, 5);
+    const Triangulation triangulation = delaunay(set.sites, {.sphere = set.sphere});
+    const Cells diagram = cells(triangulation);
+    const map::CellMap map(triangulation, diagram, 0.01, {.threads = 2});
+    map::CellMap::Pen pen;
+    std::map<std::array<double, 4>, int> lines;  // in one direction less those in the other
+    bool is_complete = true;
+    for (std::size_t site = 0; site < set.sites.size(); ++site) {
+      const auto& polygons = map.polygons(site, pen);
+      is_complete = is_complete && (!polygons.empty() || !map.has_cell(site));
+      for (const map::LonLatPolygon& polygon : polygons) {
+        for (std::size_t i = 0; i + 1 < polygon.ring.size(); ++i) {
+          const LonLat& p = polygon.ring[i];
+          const LonLat& q = polygon.ring[i + 1];
+          if (is_on_border(p, q)) continue;
+          ++lines[{p.lon_deg, p.lat_deg, q.lon_deg, q.lat_deg}];
+          --lines[{q.lon_deg, q.lat_deg, p.lon_deg, p.lat_deg}];
+        }
+      }
+    }
+    if (!is_complete) continue;  // what is not drawn has lines that nobody has on the other side
+    ++num_maps;
+    const auto is_alone = [](const auto& line) { return line.second != 0; };
+    EXPECT_EQ(std::ranges::count_if(lines, is_alone), 0) << kind.name;
+  }
+  EXPECT_GT(num_maps, 20U);
 }
 
 TEST(face_map, has_each_face_as_it_is_drawn) {
