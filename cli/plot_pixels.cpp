@@ -49,6 +49,7 @@ void Pixels::fill(std::span<const Spot> polygon, const Color& color) {
   Spot low{last, last}, high{0, 0};
   corners_.clear();
   for (const Spot& spot : polygon) {
+    if (!std::isfinite(spot.x) || !std::isfinite(spot.y)) return;
     const Spot inside{std::clamp(spot.x, 0.0, last), std::clamp(spot.y, 0.0, last)};
     low = {std::min(low.x, inside.x), std::min(low.y, inside.y)};
     high = {std::max(high.x, inside.x), std::max(high.y, inside.y)};
@@ -135,7 +136,7 @@ void PixelPen::curve_to(Spot control1, Spot control2, Spot to) {
   const Spot a = path_.back(), b = place(control1), c = place(control2), d = place(to);
   const double length = std::hypot(b.x - a.x, b.y - a.y) + std::hypot(c.x - b.x, c.y - b.y) +
                         std::hypot(d.x - c.x, d.y - c.y);
-  const int lines = std::clamp(static_cast<int>(std::ceil(length / 2)), 1, 64);
+  const int lines = length < 128 ? static_cast<int>(length / 2) + 1 : 64;
   for (int i = 1; i <= lines; ++i) {
     const double t = static_cast<double>(i) / lines, s = 1 - t;
     const double wa = s * s * s, wb = 3 * s * s * t, wc = 3 * s * t * t, wd = t * t * t;

@@ -35,7 +35,7 @@ class Pixels {
   [[nodiscard]] int past_row() const noexcept { return past_row_; }
 
   /// Paints a polygon without holes. What lies outside the whole layer is moved to its border. Which
-  /// rows these are changes nothing in a row.
+  /// rows these are changes nothing in a row. A polygon with a corner that is not finite is none.
   void fill(std::span<const Spot> polygon, const Color& color);
 
   /// A row as Cairo's ARGB32: alpha in the highest byte, the other components multiplied by it.

@@ -32,8 +32,8 @@ namespace rondel::map {
 //    other side, they are bisected on their arcs before 3, until they are short.
 // 5. What still crosses itself after that is not drawn.
 //
-// Most cells are plain: small and with few corners, each arc one straight line, nothing crossed. A plain cell is
-// its points, which are placed on the map once for all cells; all others are drawn.
+// Most cells are plain: small and with few corners, each arc one straight line, nothing crossed. A
+// plain cell is its points, which are placed on the map once for all cells; all others are drawn.
 class CellMap {
  public:
   CellMap(const Triangulation& triangulation, const Cells& cells, double tolerance_deg,

@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <memory>
 #include <numbers>
 #include <random>
@@ -119,6 +120,19 @@ TEST(pixels, do_not_depend_on_the_rows_that_are_made) {
     }
     EXPECT_EQ(joined, whole) << rows;
   }
+}
+
+TEST(pixels, have_nothing_of_what_is_nowhere) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  Pixels pixels(8, 0, 8);
+  pixels.fill(std::vector<Spot>{{1, 1}, {none, 2}, {4, 4}}, black);
+  pixels.fill(std::vector<Spot>{{1, 1}, {2, std::numeric_limits<double>::infinity()}, {4, 4}},
+              black);
+  PixelPen pen(pixels, 4, 4);
+  pen.move_to({0, 0});
+  pen.curve_to({none, none}, {none, 0}, {0, none});
+  pen.stroke(black, 0.5);
+  for (const std::uint32_t pixel : rows_of(pixels, 8)) EXPECT_EQ(pixel, 0U);
 }
 
 // What is said to be elsewhere leaves no trace.
