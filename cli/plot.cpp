@@ -100,17 +100,17 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
       options.show.value_or(options.fill == Fill::area ? Show::voronoi : Show::delaunay);
   Figure figure;
   figure.style = options.style;
-  const std::vector<Point> sites = directions(table.sites, triangulation.sphere().center);
+  std::vector<Point> sites = directions(table.sites, triangulation.sphere().center);
   figure.view = options.view.empty() ? default_view(sites, options.up_deg)
                                      : View({options.view[0], options.view[1]}, options.up_deg);
   if (options.show_circles) {
     figure.circles = real_circles(table, triangulation, sites);
     for (Circle& circle : figure.circles) circle.axis = figure.view.turn(circle.axis);
   }
-  std::vector<Point> points = turned(sites, figure.view);
   std::vector<ArcEnds> arcs = triangulation_arcs(triangulation, sites);
-  figure.sites = vertices(triangulation, points);
-  points = in_order_of_arcs(arcs, points);
+  sites = turned(std::move(sites), figure.view);
+  std::vector<Point> points = in_order_of_arcs(arcs, sites);
+  figure.sites = vertices(triangulation, std::move(sites));
   figure.spacing = median_spacing(arcs, points);
   if (show != Show::voronoi) figure.triangulation = {std::move(points), std::move(arcs)};
   if (show != Show::delaunay || options.fill == Fill::area) {

@@ -194,25 +194,26 @@ void PixelPen::fill(const Color& color, double margin) {
   starts_.clear();
 }
 
-// A polygon of the disc's area.
+// A polygon of the disc's area, with 16 corners, or 8 where the disc is not much larger than a pixel.
 void PixelPen::dot(Spot center, double radius, const Color& color) {
-  constexpr std::size_t corners = 12;
-  static const std::array<Spot, corners> unit = [] {
-    constexpr double step = 2 * std::numbers::pi / corners;
-    const double reach = std::sqrt(step / std::sin(step));
-    std::array<Spot, corners> spots;
-    for (std::size_t i = 0; i < corners; ++i) {
-      const double angle = step * static_cast<double>(i);
-      spots[i] = {reach * std::cos(angle), reach * std::sin(angle)};
+  constexpr std::size_t most = 16;
+  static const std::array<Spot, most> unit = [] {
+    std::array<Spot, most> spots;
+    for (std::size_t i = 0; i < most; ++i) {
+      const double angle = 2 * std::numbers::pi / most * static_cast<double>(i);
+      spots[i] = {std::cos(angle), std::sin(angle)};
     }
     return spots;
   }();
+  const std::size_t step = radius < 1 ? 2 : 1;
+  const double angle = 2 * std::numbers::pi / static_cast<double>(most / step);
+  const double reach = radius * std::sqrt(angle / unit[step].y);
   const Spot middle = place(center);
-  std::array<Spot, corners> disc;
-  std::ranges::transform(unit, disc.begin(), [&](const Spot& spot) {
-    return Spot{middle.x + radius * spot.x, middle.y + radius * spot.y};
-  });
-  pixels_.fill(disc, color);
+  std::array<Spot, most> disc;
+  for (std::size_t i = 0; i < most / step; ++i) {
+    disc[i] = {middle.x + reach * unit[i * step].x, middle.y + reach * unit[i * step].y};
+  }
+  pixels_.fill(std::span(disc).first(most / step), color);
 }
 
 }  // namespace rondel::cli

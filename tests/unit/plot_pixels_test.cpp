@@ -135,6 +135,17 @@ TEST(pixels, have_nothing_of_what_is_nowhere) {
   for (const std::uint32_t pixel : rows_of(pixels, 8)) EXPECT_EQ(pixel, 0U);
 }
 
+TEST(pixels, have_dots_of_the_area_of_discs) {
+  for (const double radius : {0.3, 0.9, 1.0, 2.6}) {
+    Pixels pixels(8, 0, 8);
+    PixelPen pen(pixels, 4, 4);
+    pen.dot({0.05, -0.1}, radius, black);
+    double area = 0;
+    for (const std::uint32_t pixel : rows_of(pixels, 8)) area += (pixel >> 24U) / 255.0;
+    EXPECT_NEAR(area, std::numbers::pi * radius * radius, 0.03) << radius;
+  }
+}
+
 // What is said to be elsewhere leaves no trace.
 TEST(pixels, nothing_that_is_elsewhere_is_there) {
   constexpr int size = 60;
