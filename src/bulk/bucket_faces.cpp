@@ -41,7 +41,7 @@ void BucketFaces::number(GlobalIndex first, JoinedNumbers& numbers) {
   for (Index i = 0; i < num_edges_; ++i)
     numbers.at_edge[first_edge_ + i] = first_ + number_of_[bucket_.open_edges[i].face];
   GlobalIndex number = first_;
-  for (const Run& run : runs_) {
+  for (const CodeRun& run : runs_) {
     if (!is_own(run.begin)) numbers.faces[joined_of(run.begin)] = number;
     number += run.end - run.begin;
   }
@@ -94,15 +94,15 @@ BucketCorner BucketFaces::corner(Index code, unsigned i) const {
 }
 
 BucketNeighbor BucketFaces::neighbor(Index code, unsigned i) const {
-  using Kind = BucketNeighbor::Kind;
+  using Across = BucketNeighbor::Across;
   if (is_own(code)) {
     const Index n = bucket_.neighbors[code][i];
-    if (is_own(n)) return {Kind::number, first_ + number_of_[n]};
-    return {Kind::joined, joined_.across[first_edge_ + (n - num_own())]};
+    if (is_own(n)) return {Across::number, first_ + number_of_[n]};
+    return {Across::joined, joined_.across[first_edge_ + (n - num_own())]};
   }
   const Index n = joined_.neighbors[joined_of(code)][i];
-  if (n < joined_.num_edges) return {Kind::edge, n};
-  return {Kind::joined, n - joined_.num_edges};
+  if (n < joined_.num_edges) return {Across::edge, n};
+  return {Across::joined, n - joined_.num_edges};
 }
 
 Index BucketFaces::across(Index code, unsigned i) const {

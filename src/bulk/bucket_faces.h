@@ -30,8 +30,8 @@ struct BucketCorner {
 // Across an edge: the number of a face of the same bucket; or a face between buckets, or an open edge
 // with a face on its left, whose numbers are known when all buckets are done.
 struct BucketNeighbor {
-  enum class Kind : std::uint8_t { number, joined, edge };
-  Kind kind;
+  enum class Across : std::uint8_t { number, joined, edge };
+  Across across;
   GlobalIndex index;
 };
 
@@ -41,8 +41,8 @@ struct JoinedNumbers {
       : faces(joined.faces.size()), at_edge(joined.num_edges) {}
 
   [[nodiscard]] GlobalIndex operator[](const BucketNeighbor& neighbor) const {
-    if (neighbor.kind == BucketNeighbor::Kind::number) return neighbor.index;
-    return (neighbor.kind == BucketNeighbor::Kind::joined ? faces : at_edge)[neighbor.index];
+    if (neighbor.across == BucketNeighbor::Across::number) return neighbor.index;
+    return (neighbor.across == BucketNeighbor::Across::joined ? faces : at_edge)[neighbor.index];
   }
 
   std::vector<GlobalIndex> faces;    // between buckets
@@ -64,7 +64,7 @@ class BucketFaces {
   // visit(corners, neighbors) for each face in the order of the numbers.
   template <class Visit>
   void for_each(Visit visit) const {
-    for (const Run& run : runs_) {
+    for (const CodeRun& run : runs_) {
       for (Index f = run.begin; f < run.end; ++f) {
         std::array<BucketCorner, 3> corners{};
         std::array<BucketNeighbor, 3> neighbors{};
@@ -79,7 +79,7 @@ class BucketFaces {
 
  private:
   // Codes begin ... end-1, which follow each other in the result.
-  struct Run {
+  struct CodeRun {
     Index begin;
     Index end;
   };
@@ -109,7 +109,7 @@ class BucketFaces {
   GlobalIndex size_ = 0;
   GlobalIndex first_ = 0;
   GlobalIndex next_ = 0;
-  std::vector<Run> runs_;
+  std::vector<CodeRun> runs_;
   LargeVector<Index> number_of_;  // of own faces, from first_ on
   std::vector<Index> ring_;
 };

@@ -24,8 +24,7 @@ namespace rondel::bulk {
 
 // `results` are those of the blocks in their order, and `arrays.faces` and `arrays.neighbors` the
 // store that they wrote to; the result replaces it in place. `seam` has all faces of the seam;
-// `names` has the name to report for each rank.
-// Returns false if the parts do not fit, which cannot be as long as every final face is one.
+// `names` has the name to report for each rank. Returns false if the parts do not fit, which cannot be as long as every final face is one.
 bool stitch(std::span<const BlockResult> results, const SeamFaces& seam,
             std::span<const Index> names, unsigned threads, TriangulationArrays& arrays);
 

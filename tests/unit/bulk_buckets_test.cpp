@@ -7,11 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "bulk/bucket_cuts.h"
 #include "bulk/bucket_faces.h"
 #include "bulk_support.h"
+#include "order/place_keys.h"
 
 namespace rondel::test {
 namespace {
@@ -29,26 +33,30 @@ struct Part {
   std::vector<Index> names;  // by rank
 };
 
+std::vector<bulk::BucketCut> cuts_of(std::span<const std::uint64_t> keys,
+                                     std::uint64_t most_sites) {
+  bulk::BucketCounts counts(most_sites);
+  do {
+    // In two pieces.
+    counts.add(keys.first(keys.size() / 3));
+    counts.add(keys.subspan(keys.size() / 3));
+  } while (counts.end_round());
+  return counts.cuts();
+}
+
 class BucketCase {
  public:
   BucketCase(const SiteSet& set, Model model, std::size_t max_bucket_sites)
       : sites_(set.sites), options_{{.model = model, .sphere = set.sphere}, {.threads = 1}} {
     const auto order = order::spatial_order(sites_, model, set.sphere.center, 1);
     expected_ = kernel::triangulate(sites_, order.order, order.renamed, options_).arrays;
-    const bulk::Input input = bulk::make_input(sites_, order.order, options_);
-    extent_ = input.extent;
-    std::vector<std::size_t> part_of(sites_.size());
-    for (const bulk::Block& block : bulk::blocks_of(bulk::make_squares(input, max_bucket_sites))) {
-      for (Index rank = block.begin; rank < block.end; ++rank)
-        part_of[order.order[rank]] = parts_.size();
-      parts_.push_back({block.square, {}, {}, {}});
-    }
-    // Copies of a place, of which one is in the order, are in one bucket.
-    for (const order::Renamed& renamed : order.renamed)
-      part_of[renamed.name] = part_of[order.order[renamed.rank]];
-    for (const Duplicate& copy : order.duplicates)
-      part_of[copy.site] = part_of[copy.representative];
-    for (Index i = 0; i < sites_.size(); ++i) parts_[part_of[i]].sites.push_back(i);
+    extent_ = bulk::make_input(sites_, order.order, options_).extent;
+    std::vector<std::uint64_t> keys(sites_.size());
+    order::place_keys(sites_, model, set.sphere.center, keys);
+    const auto cuts = cuts_of(keys, max_bucket_sites);
+    for (const bulk::BucketCut& cut : cuts) parts_.push_back({cut.square, {}, {}, {}});
+    for (Index i = 0; i < sites_.size(); ++i)
+      parts_[bulk::bucket_of(keys[i], cuts)].sites.push_back(i);
   }
 
   [[nodiscard]] bool is_flat() const { return expected_.dimension < 2; }
@@ -170,6 +178,50 @@ TEST_P(bulk_buckets, as_the_incremental_build) {
       }
     }
   }
+}
+
+// Sites that are not closer than keys can tell are cut as those in memory are.
+TEST(bulk_bucket, squares_are_those_of_blocks) {
+  // All over the sphere, and near one place of it.
+  for (const double size : {10.0, 1e-2, 1e-3}) {
+    SiteSet set;
+    Random random(7);
+    for (int i = 0; i < 5000; ++i) {
+      const Point around = {random.signed_unit(), random.signed_unit(), random.signed_unit()};
+      set.sites.push_back(normalized(Point{0.3, -0.5, 0.8} + size * around));
+    }
+    std::vector<std::uint64_t> keys(set.sites.size());
+    order::place_keys(set.sites, Model::projected, set.sphere.center, keys);
+    const auto order = order::spatial_order(set.sites, Model::projected, set.sphere.center, 1);
+    ASSERT_EQ(order.order.size(), set.sites.size());
+    const system::Job options{{.sphere = set.sphere}, {.threads = 1}};
+    const bulk::Input input = bulk::make_input(set.sites, order.order, options);
+    for (const std::size_t most : {1U, 30U, 800U, 5000U}) {
+      SCOPED_TRACE(std::to_string(size) + " " + std::to_string(most));
+      const auto cuts = cuts_of(keys, most);
+      const auto blocks = bulk::blocks_of(bulk::make_squares(input, most));
+      ASSERT_EQ(cuts.size(), blocks.size());
+      for (std::size_t i = 0; i < cuts.size(); ++i) {
+        EXPECT_EQ(cuts[i].square.bits, blocks[i].square.bits);
+        EXPECT_EQ(cuts[i].square.corner.face, blocks[i].square.corner.face);
+        EXPECT_EQ(cuts[i].square.corner.u, blocks[i].square.corner.u);
+        EXPECT_EQ(cuts[i].square.corner.v, blocks[i].square.corner.v);
+        EXPECT_EQ(cuts[i].square.state, blocks[i].square.state);
+        EXPECT_EQ(cuts[i].num_sites, blocks[i].end - blocks[i].begin);
+      }
+    }
+  }
+}
+
+// All are in one square of the finest ones: it is a bucket, although it has too many.
+TEST(bulk_bucket, is_as_small_as_keys_can_tell) {
+  const std::vector<std::uint64_t> keys(100,
+                                        (std::uint64_t{3} << (2 * order::high_levels)) + 12345);
+  const auto cuts = cuts_of(keys, 10);
+  ASSERT_EQ(cuts.size(), 1U);
+  EXPECT_EQ(cuts[0].square.bits, order::low_levels);
+  EXPECT_EQ(cuts[0].first_key, keys[0]);
+  EXPECT_EQ(cuts[0].num_sites, 100U);
 }
 
 // Of n uniform sites some 4.8 sqrt(n) are near the border of a square. The blocks alone would leave a
