@@ -79,9 +79,13 @@ void number_images(std::string& svg) {
       const std::string number = svg.substr(digits, svg.find('"', digits) - digits);
       const std::string ours = std::to_string(count++);
       svg.replace(digits, number.size(), ours);
-      const std::string use = "href=\"#" + word + number + '"';
+      const std::string link = "href=\"#" + word;
+      std::string use = link;
+      use.append(number).append(1, '"');
+      std::string our_use = link;
+      our_use.append(ours).append(1, '"');
       for (std::size_t k = svg.find(use, at); k != std::string::npos; k = svg.find(use, k + 1)) {
-        svg.replace(k, use.size(), "href=\"#" + word + ours + '"');
+        svg.replace(k, use.size(), our_use);
       }
     }
   }

@@ -15,7 +15,7 @@ namespace {
 int floor_of(double value) { return static_cast<int>(value); }
 
 std::uint32_t byte(float value) {
-  return static_cast<std::uint32_t>(255 * std::clamp(value, 0.0F, 1.0F) + 0.5F);
+  return static_cast<std::uint32_t>(std::lround(255 * std::clamp(value, 0.0F, 1.0F)));
 }
 
 // From p to q, turned to the right and as long as `length`; zero if p is q.
@@ -177,9 +177,9 @@ void PixelPen::stroke(const Color& color, double width) {
   starts_.clear();
 }
 
-void PixelPen::fill(const Color& color, double margin) {
+void PixelPen::fill(const Color& color, double rim) {
   // The side of the outside, for either orientation.
-  const double out = doubled_area_of(path_) > 0 ? margin / 2 : -margin / 2;
+  const double out = doubled_area_of(path_) > 0 ? rim / 2 : -rim / 2;
   outline_.clear();
   for (std::size_t i = 0; i < path_.size(); ++i) {
     const Spot& p = path_[i];
@@ -206,14 +206,15 @@ void PixelPen::dot(Spot center, double radius, const Color& color) {
     return spots;
   }();
   const std::size_t step = radius < 1 ? 2 : 1;
-  const double angle = 2 * std::numbers::pi / static_cast<double>(most / step);
+  const std::size_t num_corners = most / step;
+  const double angle = 2 * std::numbers::pi / static_cast<double>(num_corners);
   const double reach = radius * std::sqrt(angle / unit[step].y);
   const Spot middle = place(center);
   std::array<Spot, most> disc;
-  for (std::size_t i = 0; i < most / step; ++i) {
+  for (std::size_t i = 0; i < num_corners; ++i) {
     disc[i] = {middle.x + reach * unit[i * step].x, middle.y + reach * unit[i * step].y};
   }
-  pixels_.fill(std::span(disc).first(most / step), color);
+  pixels_.fill(std::span(disc).first(num_corners), color);
 }
 
 }  // namespace rondel::cli

@@ -74,8 +74,8 @@ class PixelPen final : public Pen {
 
   /// Each paints the path and ends it. Lines end where their middle does.
   void stroke(const Color& color, double width);
-  /// One path, and half of `margin` around it.
-  void fill(const Color& color, double margin);
+  /// One path, and half of `rim` around it.
+  void fill(const Color& color, double rim);
   /// A disc of this radius, in pixels.
   void dot(Spot center, double radius, const Color& color);
 

@@ -23,7 +23,7 @@ constexpr Triple no_links = {no_index, no_index, no_index};
 class EdgeTable {
  public:
   // An edge goes to the place of its b, in two passes; then those of each b are sorted, mostly one.
-  EdgeTable(std::vector<SeamEdge> edges, std::size_t num_sites)
+  EdgeTable(const std::vector<SeamEdge>& edges, std::size_t num_sites)
       : begin_(num_sites + 1, 0), edges_(edges.size()) {
     for (const SeamEdge& edge : edges) ++begin_[edge.b + 1];
     for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
@@ -89,7 +89,8 @@ bool SeamFaces::find_region(TriangulationArrays& seam, std::vector<SeamEdge> edg
   const std::size_t num_edges = edges.size();
   const std::size_t num_faces = seam.faces.size();
   const Index first_name = names_end();
-  const EdgeTable table(std::move(edges), seam.num_sites);
+  const EdgeTable table(edges, seam.num_sites);
+  edges = {};
   std::atomic<std::size_t> num_met = 0;
   std::vector<Triple> links(num_faces, no_links);
   system::parallel_for(threads, num_faces, faces_at_once, [&](std::size_t begin, std::size_t end) {

@@ -13,7 +13,7 @@ namespace {
 void append_polygon(std::string& out, const map::LonLatPolygon& polygon) {
   out += "[[";
   for (const LonLat& position : polygon.ring) {
-    std::array<char, 2 * number_room> text;
+    std::array<char, std::size_t{2} * number_room> text;
     char* end = text.data();
     *end++ = '[';
     end = write_number(end, position.lon_deg);

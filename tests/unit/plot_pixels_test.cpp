@@ -79,8 +79,12 @@ TEST(pixels, have_the_share_that_a_shape_covers) {
     for (int i = 0; i < size * size; ++i) {
       int inside = 0;
       for (int k = 0; k < samples * samples; ++k) {
-        const Spot place{i % size + (k % samples + 0.5) / samples,
-                         i / size + (k / samples + 0.5) / samples};
+        const int column = i % size;
+        const int row = i / size;
+        const int column_of_sample = k % samples;
+        const int row_of_sample = k / samples;
+        const Spot place{column + (column_of_sample + 0.5) / samples,
+                         row + (row_of_sample + 0.5) / samples};
         inside += has_inside(polygon, place) ? 1 : 0;
       }
       const double share = inside / static_cast<double>(samples * samples);
