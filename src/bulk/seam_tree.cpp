@@ -244,11 +244,13 @@ kernel::Triangulated triangulate_sites(const Input& input, const std::vector<Poi
   std::iota(order.begin(), order.end(), Index{0});
   system::Job options = input.options;
   options.progress = {};
-  kernel::Triangulated result =
-      2 * static_cast<double>(points.size()) >= num_all
-          ? kernel::triangulate(points, std::move(order), {}, options)
-          : triangulate(points, std::move(order), {}, options, {},
-                        std::max(most_sphere_sites, static_cast<std::size_t>(num_all / 8)));
+  kernel::Triangulated result;
+  if (2 * static_cast<double>(points.size()) >= num_all) {
+    result = kernel::triangulate(points, std::move(order), {}, options);
+  } else {
+    const auto most = std::max(most_sphere_sites, static_cast<std::size_t>(num_all / 8));
+    result = triangulate(points, std::move(order), {}, options, {}, most);
+  }
   result.arrays.num_sites = points.size();
   return result;
 }
