@@ -79,16 +79,6 @@ Point limb_crossing(const Point& a, const Point& b) {
   return normalized({c.x, c.y, 0});
 }
 
-double signed_area(std::span<const Point> corners) {
-  double sum = 0;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const Point& p = corners[i];
-    const Point& q = corners[(i + 1) % corners.size()];
-    sum += p.x * q.y - p.y * q.x;
-  }
-  return sum / 2;
-}
-
 // Continues the path counterclockwise along the limb. The visible part of a convex region has at
 // most half of the limb; what looks longer is an arc of length zero after rounding.
 void trace_limb(Pen& pen, const Point& from, const Point& to) {

@@ -19,6 +19,7 @@
 ///        ' - - - ' `b
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <utility>
@@ -32,6 +33,19 @@ struct Spot {
   double x = 0;
   double y = 0;
 };
+
+/// Of a polygon without holes, as seen in the picture, in squares of the unit of its corners: positive
+/// if x, y and the order of the corners turn the same way.
+template <class Place>
+double signed_area(std::span<const Place> corners) {
+  double sum = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Place& p = corners[i];
+    const Place& q = corners[(i + 1) % corners.size()];
+    sum += p.x * q.y - p.y * q.x;
+  }
+  return sum / 2;
+}
 
 /// Receives the curves of a picture.
 class Pen {

@@ -25,16 +25,6 @@ Spot side_of(const Spot& p, const Spot& q, double length) {
   return norm > 0 ? Spot{dy / norm * length, -dx / norm * length} : Spot{};
 }
 
-double doubled_area_of(std::span<const Spot> polygon) {
-  double sum = 0;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Spot& p = polygon[i];
-    const Spot& q = polygon[(i + 1) % polygon.size()];
-    sum += p.x * q.y - p.y * q.x;
-  }
-  return sum;
-}
-
 }  // namespace
 
 Pixels::Pixels(int size, int first_row, int past_row)
@@ -179,7 +169,7 @@ void PixelPen::stroke(const Color& color, double width) {
 
 void PixelPen::fill(const Color& color, double rim) {
   // The side of the outside, for either orientation.
-  const double out = doubled_area_of(path_) > 0 ? rim / 2 : -rim / 2;
+  const double out = signed_area(std::span<const Spot>(path_)) > 0 ? rim / 2 : -rim / 2;
   outline_.clear();
   for (std::size_t i = 0; i < path_.size(); ++i) {
     const Spot& p = path_[i];

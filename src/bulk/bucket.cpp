@@ -28,8 +28,7 @@ class SquaresAbove {
     if (next_ == buckets_.size()) return false;
     const Square& next = buckets_[next_].square;
     return next.corner.face == square.corner.face && next.bits <= square.bits &&
-           (next.corner.u - square.corner.u) >> square.bits == 0 &&
-           (next.corner.v - square.corner.v) >> square.bits == 0;
+           has(square, next.corner);
   }
 
   Index add(const Square& square) {

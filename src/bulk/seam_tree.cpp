@@ -152,12 +152,8 @@ class SeamTree {
     edges.reserve(seam.edges.size());
     for (const SeamEdge& e : seam.edges) edges.push_back({e.a, e.b});
     builders_.with_builder(std::make_unique<SquareSeamBuilder<T>>, [&](auto& builder) {
-      const bool is_built =
-          builder.build(of_square, squares_[square].block.square, edges, found_[square]);
+      found_[square] = builder.build(of_square, squares_[square].block.square, edges);
       tallies_[square] = builder.tally();
-      if (!is_built) {
-        found_[square] = {};
-      }
     });
   }
 

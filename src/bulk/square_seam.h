@@ -59,15 +59,14 @@ struct SquareSeam {
 template <models::SphereModel T>
 class SquareSeamBuilder {
  public:
-  // For the local sites 0, 1, ... that `input` lists, and edges between them. Returns false if this
-  // does not work: then all that was handed in goes up as it is.
-  bool build(const Input& input, const Square& square, std::span<const FinalEdge> edges,
-             SquareSeam& seam) {
-    seam = {};
-    if (!piece_.triangulate(input, square) || !mark(edges)) return false;
+  // For the local sites 0, 1, ... that `input` lists, and edges between them. Without new faces, also
+  // if this does not work, all that was handed in goes up as it is.
+  SquareSeam build(const Input& input, const Square& square, std::span<const FinalEdge> edges) {
+    if (!piece_.triangulate(input, square) || !mark(edges)) return {};
     const std::vector<Edge>& open = piece_.find_open(square);
     find_region(open);
-    if (!is_consistent()) return false;
+    if (!is_consistent()) return {};
+    SquareSeam seam;
     is_used_.assign(piece_.num_sites(), false);
     list_sites(open, seam);
     write_faces(seam);
@@ -78,7 +77,7 @@ class SquareSeamBuilder {
     for (Index v = 0; v < is_used_.size(); ++v) {
       if (!is_used_[v]) seam.hidden.push_back(v);
     }
-    return true;
+    return seam;
   }
 
   // Of the last build.

@@ -23,10 +23,6 @@ Index find_first(Index begin, Index end, Predicate predicate) {
   return begin;
 }
 
-bool has(const Square& square, const order::CubePosition& p) {
-  return (p.u - square.corner.u) >> square.bits == 0 && (p.v - square.corner.v) >> square.bits == 0;
-}
-
 bool is_small(const Block& block, std::size_t max_sites) {
   return block.end - block.begin <= max_sites || block.square.bits == 0;
 }
@@ -79,6 +75,10 @@ Square quadrant(const Square& square, unsigned rank) {
   }
   child.state ^= order::hilbert_table::state_change[rank];
   return child;
+}
+
+bool has(const Square& square, const order::CubePosition& p) {
+  return (p.u - square.corner.u) >> square.bits == 0 && (p.v - square.corner.v) >> square.bits == 0;
 }
 
 std::array<Block, 6> cube_faces(const Input& input) {

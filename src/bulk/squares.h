@@ -52,6 +52,9 @@ std::vector<TreeSquare> make_squares(const Square& square, const Input& input,
 // Those that are not split.
 std::vector<Block> blocks_of(std::span<const TreeSquare> squares);
 
+// Whether a position on the same face of the cube is in the square.
+bool has(const Square& square, const order::CubePosition& p);
+
 // One of its quarters, in the order of the curve.
 Square quadrant(const Square& square, unsigned rank);
 
