@@ -8,16 +8,19 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 
 #include "order/cube_position.h"
+#include "system/masks.h"
 #include "system/wide_vectors.h"
 
 namespace rondel::order {
 namespace {
+
+using system::choose;
+using system::mask;
 
 constexpr std::size_t batch = 128;
 constexpr std::uint32_t levels = (std::uint32_t{1} << high_levels) - 1;  // one bit each
@@ -35,16 +38,6 @@ struct Positions {
 // Rounded differences from a center would give sites on one ray different keys.
 bool is_rounding_harmless(Model model, const Point& center) {
   return model == Model::weighted || center == Point{};
-}
-
-// A condition as a mask, so that choices are arithmetic.
-RONDEL_ALWAYS_INLINE inline std::uint64_t mask(bool condition) {
-  return std::uint64_t{0} - static_cast<std::uint64_t>(condition);
-}
-
-RONDEL_ALWAYS_INLINE inline double choose(std::uint64_t mask, double yes, double no) {
-  return std::bit_cast<double>((std::bit_cast<std::uint64_t>(yes) & mask) |
-                               (std::bit_cast<std::uint64_t>(no) & ~mask));
 }
 
 // Signed, as most machines convert no other integers quickly.
@@ -104,6 +97,21 @@ RONDEL_ALWAYS_INLINE inline void set_positions(const Point* sites, const Point& 
                                   mask(shorter < near) & is_valid &
                                   (mask(longer < near) ^ mask(std::abs(z) < near));
     positions.is_unsure[i] = static_cast<std::uint32_t>(~is_sure);
+  }
+}
+
+// The same, where vectors are so narrow that choices by masks lose against a table of faces. Keys are
+// for vectors of any width.
+void set_positions_by_table(std::span<const Point> sites, const Point& center,
+                            Positions& positions) {
+  constexpr std::uint64_t low_bits = (std::uint64_t{1} << low_levels) - 1;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const CubePosition p = cube_position(sites[i], center);
+    positions.face[i] = p.face;
+    positions.u[i] = static_cast<std::uint32_t>(p.u >> low_levels);
+    positions.v[i] = static_cast<std::uint32_t>(p.v >> low_levels);
+    positions.low_u[i] = static_cast<std::uint32_t>(p.u & low_bits);
+    positions.low_v[i] = static_cast<std::uint32_t>(p.v & low_bits);
   }
 }
 
@@ -215,17 +223,11 @@ using KeysOfBatch = void (*)(std::span<const Point> sites, const Point& center, 
 
 void keys_of_rounded(std::span<const Point> sites, const Point& center, std::uint64_t* keys,
                      std::uint64_t* low_keys) {
-  if (!system::has_wide_vectors()) {
-    for (std::size_t i = 0; i < sites.size(); ++i) {
-      const CubePosition position = cube_position(sites[i], center);
-      keys[i] = hilbert_key(position).high;
-      if (low_keys != nullptr) low_keys[i] = hilbert_key(position).low;
-    }
-    return;
-  }
   Positions positions;
+  const bool is_wide = system::has_wide_vectors();
+  if (!is_wide) set_positions_by_table(sites, center, positions);
   system::with_wide_vectors([&]() RONDEL_ALWAYS_INLINE {
-    set_positions<false>(sites.data(), center, sites.size(), positions);
+    if (is_wide) set_positions<false>(sites.data(), center, sites.size(), positions);
     if (low_keys == nullptr) {
       set_keys<false>(positions, sites.size(), keys, nullptr);
     } else {

@@ -9,6 +9,9 @@
 // GCC for Windows stores vectors of 256 bits on a stack that is aligned to 128 bits only.
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(_WIN32) && !defined(RONDEL_NARROW_VECTORS)
 #define RONDEL_HAS_WIDE_VECTORS
+#endif
+// Of all widths: a function that is called from a loop keeps it from becoming vector code.
+#if defined(__GNUC__)
 #define RONDEL_ALWAYS_INLINE __attribute__((always_inline))
 #else
 #define RONDEL_ALWAYS_INLINE
@@ -22,8 +25,12 @@ namespace wide_vectors {
 
 enum class Width { bits_128, bits_256, bits_512 };
 
+// Intel's first processors with vectors of 512 bits (Skylake to Cooper Lake) lower their clock for all
+// that runs within a millisecond of them, longer than a small build takes. Those that have VBMI2, and
+// AMD's, do not.
 inline Width widest() {
-  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl")) {
+  if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+      __builtin_cpu_supports("avx512vbmi2")) {
     return Width::bits_512;
   }
   return __builtin_cpu_supports("avx2") ? Width::bits_256 : Width::bits_128;
