@@ -53,18 +53,33 @@ class GivenSites {
   }
 
   // The filters of one step of a merge, see merge_step.h; zero if they are not certain. `normal` is
-  // that of the face (l, r, x), `value` its product with the step from l to y, and r2, x2 and y2 are
-  // the squared lengths of the steps from l to r, x and y.
-  [[nodiscard]] static double squared(const Vector& a) { return dot(a, a); }
-  [[nodiscard]] static Sign certain_orientation(Limits /*limits*/, const Vector& l,
-                                                const Vector& normal, double r2, double x2) {
+  // that of the face (l, r, x), `value` its product with the step from l to y, and `to_r`, `to_x` and
+  // `to_y` are the steps from l. Most values are beyond what the bounds come to at the largest
+  // distances, so that these are not computed.
+  [[nodiscard, gnu::always_inline]] static Sign certain_orientation(Limits /*limits*/,
+                                                                    const Vector& l,
+                                                                    const Vector& normal,
+                                                                    const Vector& to_r,
+                                                                    const Vector& to_x) {
     if constexpr (model == Model::weighted) return Sign::zero;
     constexpr double bound = predicates::direction_orientation_bound;
     const double value = dot(l, normal);
-    return predicates::unless_unsure(value, value * value > bound * bound * std::max(r2, x2));
+    if (value > bound * most_distance) return Sign::positive;
+    if (value < -bound * most_distance) return Sign::negative;
+    return predicates::unless_unsure(
+        value, value * value > bound * bound * std::max(dot(to_r, to_r), dot(to_x, to_x)));
   }
-  [[nodiscard]] static Sign certain_side(Limits /*limits*/, double value, double r2, double x2,
-                                         double y2) {
+  [[nodiscard, gnu::always_inline]] static Sign certain_side(Limits /*limits*/, double value,
+                                                             const Vector& to_r, const Vector& to_x,
+                                                             const Vector& to_y) {
+    if constexpr (model == Model::projected) {
+      constexpr double most = predicates::circle_plane_bound * (most_distance * most_distance);
+      if (value > most) return Sign::positive;
+      if (value < -most) return Sign::negative;
+    }
+    const double r2 = dot(to_r, to_r);
+    const double x2 = dot(to_x, to_x);
+    const double y2 = dot(to_y, to_y);
     const bool is_sure =
         model == Model::weighted
             ? predicates::is_beyond(value, predicates::plane_bound, r2, x2, y2)
@@ -87,6 +102,9 @@ class GivenSites {
   [[nodiscard]] const Tally& tally() const { return tally_; }
 
  private:
+  // Of two stored directions.
+  static constexpr double most_distance = 2.001;
+
   std::span<const Point> sites_;
   std::span<const Index> order_;
   Point center_;

@@ -28,7 +28,7 @@ class MergeStep {
   struct ApexFace {
     Index apex;
     Vector normal;
-    double squared;  // length of the side from l to the apex
+    Vector side;  // the step from l to the apex
   };
 
   [[gnu::always_inline]] MergeStep(Sites& sites, Limits limits, Index l, Index r)
@@ -37,8 +37,7 @@ class MergeStep {
         l_(l),
         r_(r),
         origin_(sites.coordinates(l)),
-        edge_(sites.coordinates(r) - origin_),
-        squared_(Sites::squared(edge_)) {}
+        edge_(sites.coordinates(r) - origin_) {}
 
   [[nodiscard]] Index l() const { return l_; }
   [[nodiscard]] Index r() const { return r_; }
@@ -48,13 +47,12 @@ class MergeStep {
 
   [[nodiscard, gnu::always_inline]] ApexFace face(Index x) const {
     const Vector side = sites_.coordinates(x) - origin_;
-    return {x, cross(edge_, side), Sites::squared(side)};
+    return {x, cross(edge_, side), side};
   }
 
   // Positive if the apex lies to the left of the edge, seen from outside; zero if it is l or r.
   [[nodiscard, gnu::always_inline]] Sign orientation(const ApexFace& face) const {
-    const Sign sign =
-        Sites::certain_orientation(limits_, origin_, face.normal, squared_, face.squared);
+    const Sign sign = Sites::certain_orientation(limits_, origin_, face.normal, edge_, face.side);
     if (sign != Sign::zero) return sign;
     return is_end(face.apex) ? Sign::zero : sites_.orientation(l_, r_, face.apex);
   }
@@ -62,8 +60,7 @@ class MergeStep {
   // Whether y is in conflict with the face. An end of the edge, l or r, is not.
   [[nodiscard, gnu::always_inline]] bool is_in_conflict(const ApexFace& face, Index y) const {
     const Vector to_y = sites_.coordinates(y) - origin_;
-    const Sign sign = Sites::certain_side(limits_, dot(face.normal, to_y), squared_, face.squared,
-                                          Sites::squared(to_y));
+    const Sign sign = Sites::certain_side(limits_, dot(face.normal, to_y), edge_, face.side, to_y);
     if (sign != Sign::zero) {
       sites_.count_filtered();
       return sign == Sign::positive;
@@ -81,7 +78,6 @@ class MergeStep {
   Index r_;
   Vector origin_;
   Vector edge_;
-  double squared_;
 };
 
 }  // namespace rondel::bulk

@@ -122,16 +122,17 @@ class SquareSites {
 
   // The filters of one step of a merge, see GivenSites. Overflow leaves infinities and what is not a
   // number: not certain, too.
-  [[nodiscard]] static double squared(const Vector& /*a*/) { return 0; }
   [[nodiscard, gnu::always_inline]] static Sign certain_orientation(Limits limits,
                                                                     const Vector& /*l*/,
                                                                     const Vector& normal,
-                                                                    double /*r2*/, double /*x2*/) {
+                                                                    const Vector& /*to_r*/,
+                                                                    const Vector& /*to_x*/) {
     return beyond(normal.z, limits.orientation);
   }
   [[nodiscard, gnu::always_inline]] static Sign certain_side(Limits limits, double value,
-                                                             double /*r2*/, double /*x2*/,
-                                                             double /*y2*/) {
+                                                             const Vector& /*to_r*/,
+                                                             const Vector& /*to_x*/,
+                                                             const Vector& /*to_y*/) {
     return -beyond(value, limits.conflict);
   }
 
