@@ -11,6 +11,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <optional>
 #include <span>
@@ -67,9 +68,7 @@ class Piece {
   // merges them: great circles separate the squares. Returns false if this does not work.
   bool solve(std::span<const Block> squares) {
     if (T::model == Model::projected && squares.size() > 1) {
-      for (Index i = squares.front().begin; i < squares.back().end; ++i) {
-        directions_[i] = predicates::direction(input_->point(i), input_->center());
-      }
+      find_directions(squares.front().begin, squares.back().end);
     }
     Merge<GivenSites<T>> merge(given_, graph_);
     for (const Block& block : squares) {
@@ -132,6 +131,15 @@ class Piece {
   }
 
  private:
+  void find_directions(Index begin, Index end) {
+    std::array<Point, 128> some;
+    for (Index first = begin; first < end; first += some.size()) {
+      const Index size = std::min<Index>(some.size(), end - first);
+      for (Index i = 0; i < size; ++i) some[i] = input_->point(first + i);
+      predicates::directions(std::span(some).first(size), input_->center(), directions_ + first);
+    }
+  }
+
   void append(const Piece& next) {
     graph_.append(next.graph_);
     num_sites_ += next.num_sites_;

@@ -17,6 +17,7 @@
 
 #include <array>
 #include <concepts>
+#include <span>
 
 #include "exact/unit_vector.h"
 #include "exact/vector.h"
@@ -47,6 +48,8 @@ concept RaySource = PointSource<S> && requires(S& points, Index a) {
 
 // The unit vector from the center to p != center, off by at most `direction_error`.
 Vector direction(const Point& p, const Point& center);
+// Of many.
+void directions(std::span<const Point> points, const Point& center, Vector* result);
 
 // Points on the stack, named 0, 1, 2, 3. What a rung needs is computed when it asks.
 template <Model m>
