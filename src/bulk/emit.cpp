@@ -17,6 +17,8 @@ using Owned = EmissionSpace::Owned;
 
 // Three passes, over edges, sites, and edges. The first one finds out, without branches, how many
 // faces a site owns and which is the first, so that the second one need not go around sites twice.
+// Where no face is open, nobody asks.
+template <bool has_open>
 class Emission {
  public:
   Emission(PlaneGraph& graph, const EmittedSites& sites, EmissionSpace& space,
@@ -42,6 +44,8 @@ class Emission {
   }
 
  private:
+  static bool is_open(Index face) { return has_open && face == open_face; }
+
   void find_owned() {
     const PlaneGraph::Links* const rings = graph_.rings();
     const Index* const targets = graph_.targets();
@@ -56,7 +60,7 @@ class Emission {
       const Index a = targets[f ^ 1];
       const std::uint64_t b = targets[f];
       const Index c = targets[rings[f].next];
-      const auto is_owned = static_cast<Index>(a < c) & static_cast<Index>(faces[f] != open_face);
+      const auto is_owned = static_cast<Index>(a < c) & static_cast<Index>(!is_open(faces[f]));
       const std::uint64_t key = b << 32 | f | (std::uint64_t{is_owned} - 1);
       owned[a].first = std::min(owned[a].first, key);
       owned[a].count += is_owned;
@@ -109,7 +113,7 @@ class Emission {
       do {
         const Edge next = rings[e].next;
         const Index c = targets[next];
-        if (v < std::min(b, c) && faces[e] != open_face) {
+        if (v < std::min(b, c) && !is_open(faces[e])) {
           corners[face] = {name(v), name(b), name(c)};
           faces[rings[e ^ 1].previous] = 4 * face;
           faces[next ^ 1] = 4 * face + 1;
@@ -132,7 +136,7 @@ class Emission {
       if (targets[e] == no_index) continue;
       const Index left = faces[e];
       const Index right = faces[e + 1];
-      if (std::max(left, right) == open_face) {
+      if (is_open(std::max(left, right))) {
         if (left != open_face) write_seam_edge(e);
         if (right != open_face) write_seam_edge(e ^ 1);
         continue;
@@ -169,7 +173,11 @@ void emit_faces(PlaneGraph& graph, const EmittedSites& sites, const std::vector<
   result.faces_begin = 2 * sites.first;
   space.owned.assign(sites.num, {~std::uint64_t{0}, 0, no_index});
   space.owners.resize(sites.num);
-  Emission(graph, sites, space, store, result).run(open, hidden);
+  if (open.empty()) {
+    Emission<false>(graph, sites, space, store, result).run(open, hidden);
+  } else {
+    Emission<true>(graph, sites, space, store, result).run(open, hidden);
+  }
 }
 
 }  // namespace rondel::bulk

@@ -73,9 +73,10 @@ struct EmittedSites {
   std::span<const Index> names;
 };
 
-// The graph names the open faces (open_faces.h) and no others; `open` lists the halfedges with an
-// open face on their left, `hidden` the sites without edges. Names all faces in the graph. Corners
-// are written as ranks or, if sites have names, by these. Precondition: less than 2^28 sites.
+// The graph names the open faces (open_faces.h) and no others, or anything if none is open; `open`
+// lists the halfedges with an open face on their left, `hidden` the sites without edges. Names all
+// faces in the graph. Corners are written as ranks or, if sites have names, by these. Precondition:
+// less than 2^28 sites.
 void emit_faces(PlaneGraph& graph, const EmittedSites& sites,
                 const std::vector<PlaneGraph::Edge>& open, const std::vector<Index>& hidden,
                 EmissionSpace& space, const FaceStore& store, BlockResult& result);

@@ -133,7 +133,6 @@ class SphereTriangulation {
 
   void write(std::span<const order::Renamed> renamed, TriangulationArrays& arrays) {
     PlaneGraph& graph = pieces_[0].graph();
-    graph.clear_faces();
     Index* const targets = graph.targets();
     for (PlaneGraph::Edge e = 0; e < graph.edge_limit(); ++e) {
       targets[e] = ranks_[std::min(targets[e], num_sites_)];
