@@ -10,11 +10,12 @@ namespace rondel::bench {
 namespace {
 
 void build(benchmark::State& state, const std::string& kind, Model model) {
-  const auto& sites = case_of(kind, state.range(0)).sites;
+  Inputs inputs(kind, state.range(0));
   for (auto _ : state) {
+    const auto& sites = inputs.next();
     benchmark::DoNotOptimize(delaunay(Sites::view(sites), {.model = model}, {.threads = 1}));
   }
-  report_each(state, sites.size());
+  report_each(state, static_cast<std::size_t>(state.range(0)));
 }
 
 void hull(benchmark::State& state, const std::string& kind) {

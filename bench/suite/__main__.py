@@ -37,6 +37,9 @@ def parse(words):
     parser = argparse.ArgumentParser(prog="bench", description=__doc__)
     parser.add_argument("--programs", type=pathlib.Path, default=ROOT / "build/bench/bin",
                         help="the folder of the built programs")
+    parser.add_argument("--narrow-programs", type=pathlib.Path,
+                        default=ROOT / "build/bench-narrow/bin",
+                        help="the folder of rondel_bench built with RONDEL_WIDE_VECTORS=OFF")
     parser.add_argument("--packages", type=pathlib.Path, default=ROOT / "build/bench/packages",
                         help="the folder that holds node_modules and Python modules")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build/bench-results")
@@ -59,7 +62,8 @@ def parse(words):
 def settings_of(arguments):
     peers_log2, log2, shrink, limits = EXTENTS[arguments.extent]
     return Settings(
-        programs=arguments.programs.resolve(), out=arguments.out.resolve(),
+        programs=arguments.programs.resolve(),
+        narrow_programs=arguments.narrow_programs.resolve(), out=arguments.out.resolve(),
         node_packages=arguments.packages.resolve(),
         limits=Limits(arguments.limit or limits.seconds, arguments.runs or limits.runs,
                       limits.budget),

@@ -25,10 +25,18 @@ def _output(*command):
     return done.stdout.strip() if done.returncode == 0 else ""
 
 
-def _processor():
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        names = [line.split(":")[1].strip() for line in file if line.startswith("model name")]
-    return names[0] if names else platform.machine()
+def processor(path="/proc/cpuinfo"):
+    """Its name, its family and model, which tell more where the name is that of many, and how wide its
+    vectors are."""
+    with open(path, encoding="utf-8") as file:
+        lines = (line.partition(":") for line in file)
+        facts = {key.strip(): value.strip() for key, _, value in lines}
+    if "model name" not in facts:
+        return platform.machine()
+    flags = facts.get("flags", "").split()
+    widest = [flag for flag in ("avx2", "avx512vl", "avx512_vbmi2") if flag in flags]
+    numbers = ", ".join(f"{key} {facts[key]}" for key in ("cpu family", "model") if key in facts)
+    return f"{facts['model name']} ({', '.join(filter(None, [numbers, *widest[-1:]]))})"
 
 
 def _cache_variable(settings, name):
@@ -51,7 +59,7 @@ def table(settings):
     rows = [
         ["date", datetime.date.today().isoformat()],
         ["commit", _output("git", "rev-parse", "--short", "HEAD") + changed],
-        ["processor", f"{_processor()}, {len(os.sched_getaffinity(0))} cores"],
+        ["processor", f"{processor()}, {len(os.sched_getaffinity(0))} cores"],
         ["memory", f"{machine_memory() / 2**30:.0f} GiB"],
         ["system", platform.platform()],
         ["compiler", compiler.splitlines()[0] if compiler else "unknown"],

@@ -4,6 +4,7 @@
 
 import math
 
+from . import environment
 from . import peers as peers_module
 from .against_peers import expected_vertices, hard_inputs, verdict
 from .peers import CGAL_GIVEN, CGAL_PROJECTED, QHULL, RONDEL, STRIPACK, STRIPACK_TRMESH
@@ -14,21 +15,45 @@ from .tables import Table, number, power, spread
 HEAD = ["ratio", "input", "of medians (single turns)"]
 
 
+NARROW = "Rondel, narrow vectors"
+
+
+def _command(peer, settings, kind, n):
+    """Other sites in each turn, where the program makes them."""
+    command = peers_module.command(peer, settings, kind, n, None)
+    return command if peer.is_script else [*command, "--seed", SEED]
+
+
 def _against(settings, name, kind, n, peers, threads=1):
-    """Peers that are not there are left out; failures stand in the place of the ratio."""
+    """Peers that are not there are left out; failures stand in the place of the ratio. With one
+    thread also the first build of a process, and Rondel without wide vectors."""
     peers = [p for p in peers if not peers_module.missing(p, settings)]
     if not peers:
         return []
     expected = expected_vertices(settings, kind, n)
-    model = {p.label: p.model for p in (RONDEL, *peers)}
-    cases = {p.label: peers_module.command(p, settings, kind, n, None) for p in (RONDEL, *peers)}
+    model = {p.label: p.model for p in (RONDEL, *peers)} | {NARROW: RONDEL.model}
+    cases = {p.label: _command(p, settings, kind, n) for p in (RONDEL, *peers)}
     cases[RONDEL.label] += ["--threads", threads]
+    narrow = settings.narrow_programs / RONDEL.program
+    if threads == 1 and CGAL_PROJECTED in peers and narrow.exists():
+        cases[NARROW] = [narrow, *cases[RONDEL.label][1:]]
     results = run_in_turns(
         cases, settings.limits, lambda label, outcome: verdict(outcome, expected[model[label]]))
     rondel_label = RONDEL.label + (f", {threads} threads" if threads > 1 else "")
-    return [[f"{p.label} / {rondel_label}", name,
-             results.failure(p.label) or spread(results.ratio(p.label, RONDEL.label))]
-            for p in peers]
+    return [row for p in peers for row in _rows(results, p, name, rondel_label, threads)]
+
+
+def _rows(results, peer, name, rondel_label, threads):
+    def row(label, of_rondel, key="seconds"):
+        return [f"{peer.label} / {label}", name,
+                results.failure(peer.label) or results.failure(of_rondel)
+                or spread(results.ratio(peer.label, of_rondel, key))]
+
+    yield row(rondel_label, RONDEL.label)
+    if peer is CGAL_PROJECTED and threads == 1:
+        yield row(f"{RONDEL.label}, first build of a process", RONDEL.label, "first_seconds")
+        if NARROW in results.of:
+            yield row(NARROW, NARROW)
 
 
 def against_peers(settings):
@@ -79,4 +104,5 @@ def of_rondel(settings):
 
 
 def tables(settings):
-    return [Table("Ratios", HEAD, [*against_peers(settings), *of_rondel(settings)])]
+    return [Table("Ratios", HEAD, [*against_peers(settings), *of_rondel(settings)],
+                  [f"{environment.processor()}. Every build has sites of its own."])]

@@ -14,6 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 @dataclasses.dataclass(frozen=True)
 class Settings:
     programs: pathlib.Path  # rondel_bench and the rest
+    narrow_programs: pathlib.Path  # rondel_bench without wide vectors, or nothing
     out: pathlib.Path
     node_packages: pathlib.Path  # the folder with node_modules
     limits: Limits

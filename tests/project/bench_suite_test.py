@@ -9,6 +9,7 @@ programs here are one-line scripts.
 import csv
 import json
 import pathlib
+import platform
 import sys
 import tempfile
 import time
@@ -17,8 +18,15 @@ import unittest
 ROOT = pathlib.Path(sys.argv.pop(1))
 sys.path.insert(0, str(ROOT / "bench"))
 
-from suite import against_peers, compare, hostile, rondel_alone  # noqa: E402
-from suite.peers import Peer  # noqa: E402
+from suite import (  # noqa: E402
+    against_peers,
+    compare,
+    environment,
+    hostile,
+    ratios,
+    rondel_alone,
+)
+from suite.peers import CGAL_PROJECTED, RONDEL, Peer  # noqa: E402
 from suite.runs import SEED, Limits, Outcome, Results, run_in_turns, run_once  # noqa: E402
 from suite.tables import Table, number, power, spread  # noqa: E402
 
@@ -156,6 +164,31 @@ class Arithmetic(unittest.TestCase):
         self.assertTrue(compare.makes_other_inputs(made, "a", "b"))
         self.assertFalse(compare.makes_other_inputs(made, "a", "c"))
         self.assertFalse(compare.makes_other_inputs(made, "a", "a"))
+
+
+class Environment(unittest.TestCase):
+    def test_a_processor_is_named_with_its_model_and_its_widest_vectors(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "cpuinfo")
+            path.write_text("cpu family\t: 6\nmodel\t\t: 85\nmodel name\t: Xeon\n"
+                            "flags\t\t: fpu avx2 avx512vl\n\n")
+            self.assertEqual(environment.processor(path), "Xeon (cpu family 6, model 85, avx512vl)")
+            path.write_text("processor: 0\n")
+            self.assertEqual(environment.processor(path), platform.machine())
+
+
+class Ratios(unittest.TestCase):
+    def test_first_builds_and_narrow_vectors_have_rows_of_their_own(self):
+        def outcome(warm, first):
+            return [Outcome({"seconds": warm, "first_seconds": first})]
+
+        results = Results()
+        results.of = {CGAL_PROJECTED.label: outcome(6, 12), RONDEL.label: outcome(2, 3),
+                      ratios.NARROW: outcome(3, 4)}
+        rows = list(ratios._rows(results, CGAL_PROJECTED, "uniform", RONDEL.label, 1))
+        self.assertEqual([row[2] for row in rows], ["3.00", "4.00", "2.00"])
+        rows = list(ratios._rows(results, CGAL_PROJECTED, "uniform", RONDEL.label, 2))
+        self.assertEqual(len(rows), 1)
 
 
 class Tables(unittest.TestCase):
