@@ -25,9 +25,8 @@ namespace wide_vectors {
 
 enum class Width { bits_128, bits_256, bits_512 };
 
-// Intel's first processors with vectors of 512 bits (Skylake to Cooper Lake) lower their clock for all
-// that runs within a millisecond of them, longer than a small build takes. Those that have VBMI2, and
-// AMD's, do not.
+// Intel's first processors with vectors of 512 bits (Skylake to Cooper Lake) lower their clock for up
+// to a millisecond after them, longer than a small build takes: those without VBMI2.
 inline Width widest() {
   if (__builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
       __builtin_cpu_supports("avx512vbmi2")) {
