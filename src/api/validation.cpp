@@ -27,12 +27,12 @@ std::string coordinates(const Point& p) {
 
 // Names the first of the points that is not finite or, where points are rays, the center.
 void validate_each(const char* word, std::span<const Point> points, const Point& center,
-                   bool are_rays, const char* what_center_lacks) {
+                   bool are_rays, const char* what_center_lacks, std::uint64_t first = 0) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     const auto refuse = [&](const std::string& flaw) {
-      throw InvalidInput(std::string(word) + " " + std::to_string(i) + ": " +
+      throw InvalidInput(std::string(word) + " " + std::to_string(first + i) + ": " +
                              coordinates(points[i]) + " is " + flaw,
-                         i);
+                         static_cast<std::size_t>(first + i));
     };
     if (!is_finite(points[i])) refuse("not finite");
     if (are_rays && points[i] == center) {
@@ -84,9 +84,13 @@ bool are_valid(std::span<const Point> sites, const Options& options) {
 
 void validate(std::span<const Point> sites, const Options& options) {
   validate(options, sites.size());
+  validate_some(sites, options, 0);
+}
+
+void validate_some(std::span<const Point> sites, const Options& options, std::uint64_t first) {
   if (are_valid(sites, options)) return;
   validate_each("site", sites, options.sphere.center, options.model == Model::projected,
-                "projection");
+                "projection", first);
 }
 
 void validate_queries(std::span<const Point> queries, const Point& center, bool are_rays) {

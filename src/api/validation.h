@@ -5,14 +5,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::api {
 
 // Throws InvalidInput as rondel/delaunay.h promises, because of the options or of so many sites.
-void validate(const Options& options, std::size_t num_sites);
+RONDEL_API void validate(const Options& options, std::size_t num_sites);
 
 // Whether all sites are finite and, in the projected model, none is the center. Faster than to ask
 // for each, as nothing branches.
@@ -20,6 +22,10 @@ bool are_valid(std::span<const Point> sites, const Options& options);
 
 // Throws InvalidInput because of the options, of too many sites, or of the first that is not valid.
 void validate(std::span<const Point> sites, const Options& options);
+
+// The same for some of the sites, of which `first` come before these, without the options.
+RONDEL_API void validate_some(std::span<const Point> sites, const Options& options,
+                              std::uint64_t first);
 
 // Throws InvalidInput if a query point is not finite or, where it stands for a ray, the center.
 void validate_queries(std::span<const Point> queries, const Point& center, bool are_rays = true);

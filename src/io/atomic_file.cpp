@@ -48,11 +48,19 @@ void AtomicFile::drain(std::string_view bytes) {
     const std::ptrdiff_t count = system::write(descriptor_, bytes);
     if (count < 0) fail(errno);
     bytes.remove_prefix(static_cast<std::size_t>(count));
+    num_drained_ += static_cast<std::uint64_t>(count);
   }
+}
+
+void AtomicFile::reserve(std::uint64_t size) {
+  if (is_direct()) return;
+  if (system::reserve(descriptor_, size) != 0) fail(errno);
+  is_reserved_ = true;
 }
 
 void AtomicFile::commit() {
   flush();
+  if (is_reserved_ && system::resize(descriptor_, num_drained_) != 0) fail(errno);
   rename();
 }
 

@@ -6,9 +6,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <string_view>
+
+#include "rondel/export.h"
 
 namespace rondel::io {
 
@@ -29,7 +32,7 @@ namespace rondel::io {
 // On Windows paths are UTF-8, a symbolic link is replaced itself, a temporary file is deleted by the
 // system if its process ends before the renaming, and the permissions of every file are those that
 // its directory gives to new files.
-class AtomicFile {
+class RONDEL_API AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
   ~AtomicFile();
@@ -39,12 +42,17 @@ class AtomicFile {
   // Appends to the content; buffered.
   void write(std::string_view bytes);
 
+  // Asks for room on the disk for so many bytes, unless the file is written directly. What is not
+  // written is given back by commit().
+  void reserve(std::uint64_t size);
+
   // Flushes, closes and renames.
   void commit();
 
  private:
   void flush();
   void drain(std::string_view bytes);
+  [[nodiscard]] bool is_direct() const { return target_.empty(); }
   [[nodiscard]] std::string temporary_name() const;
   [[noreturn]] void fail(int error);
 
@@ -69,6 +77,8 @@ class AtomicFile {
   std::string temporary_;  // empty when the target is written directly or has no name yet
   bool is_nameless_ = false;
   std::string buffer_;
+  std::uint64_t num_drained_ = 0;
+  bool is_reserved_ = false;
   std::size_t slot_ = 0;  // of `temporary_` in the registry, where it has a name
   int descriptor_ = -1;
 };

@@ -154,12 +154,18 @@ NpyTable::NpyTable(std::string_view bytes, std::uint64_t file_size,
   check_size(file_size - header_.data_offset);
 }
 
+NpyTable NpyTable::piece(std::string_view bytes, std::size_t num_rows) const {
+  NpyTable piece = *this;
+  piece.header_.shape[0] = num_rows;
+  piece.data_ = bytes.data();
+  return piece;
+}
+
 // A header may claim anything: nothing is allocated before its claim is compared with the file.
 void NpyTable::check_size(std::uint64_t num_bytes) const {
   std::uint64_t needed = 0;
-  const auto item_size = static_cast<std::uint64_t>(type()[1] - '0');
   if (__builtin_mul_overflow(header_.shape[0], header_.shape[1], &needed) ||
-      __builtin_mul_overflow(needed, item_size, &needed)) {
+      __builtin_mul_overflow(needed, std::uint64_t{item_size()}, &needed)) {
     throw BadValue("shape " + shape() + " is too large");
   }
   if (needed != num_bytes) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/binary.h"
+#include "rondel/export.h"
 
 namespace rondel::io {
 
@@ -29,7 +30,8 @@ struct NpyHeader {
 NpyHeader parse_npy_header(std::string_view bytes);
 
 // A header of version 1 for an array in C order, padded so that the data is aligned to 64 bytes.
-std::string make_npy_header(std::string_view dtype, std::span<const std::uint64_t> shape);
+RONDEL_API std::string make_npy_header(std::string_view dtype,
+                                       std::span<const std::uint64_t> shape);
 
 std::string shape_text(std::span<const std::uint64_t> shape);
 
@@ -48,15 +50,31 @@ class NpyTable {
   [[nodiscard]] std::size_t num_columns() const { return header_.shape[1]; }
   [[nodiscard]] std::string shape() const { return shape_text(header_.shape); }
 
+  // Whether the numbers of a row follow each other as they would in this machine's memory.
+  [[nodiscard]] bool has_native_rows() const {
+    return !header_.is_fortran_order && order_ == std::endian::native;
+  }
+  [[nodiscard]] bool is_by_columns() const { return header_.is_fortran_order; }
+  [[nodiscard]] std::size_t row_bytes() const { return num_columns() * item_size(); }
+  // Where in the file a number is.
+  [[nodiscard]] std::uint64_t place(std::uint64_t row, std::size_t column) const {
+    return header_.data_offset + item_size() * position(row, column);
+  }
+
+  // The same array with `num_rows` rows, whose bytes, in the order of the file, are elsewhere.
+  [[nodiscard]] NpyTable piece(std::string_view bytes, std::size_t num_rows) const;
+
   // Precondition: T is what type() says.
   template <typename T>
   [[nodiscard]] T at(std::size_t row, std::size_t column) const {
-    const std::size_t position =
-        header_.is_fortran_order ? column * num_rows() + row : row * num_columns() + column;
-    return load<T>(data_ + position * sizeof(T), order_);
+    return load<T>(data_ + position(row, column) * sizeof(T), order_);
   }
 
  private:
+  [[nodiscard]] std::size_t item_size() const { return static_cast<std::size_t>(type()[1] - '0'); }
+  [[nodiscard]] std::size_t position(std::size_t row, std::size_t column) const {
+    return header_.is_fortran_order ? column * num_rows() + row : row * num_columns() + column;
+  }
   void check_size(std::uint64_t num_bytes) const;
 
   NpyHeader header_;

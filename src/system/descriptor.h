@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "rondel/export.h"
+
 namespace rondel::system {
 
 inline constexpr int standard_input = 0;
@@ -23,7 +25,7 @@ void keep_bytes(int standard_stream) noexcept;
 int open_to_read(const std::string& path) noexcept;
 
 // 0 where the system does not know it: of pipes and devices.
-std::uint64_t size_of(int descriptor) noexcept;
+RONDEL_API std::uint64_t size_of(int descriptor) noexcept;
 
 // Returns the number of bytes that were read, 0 at the end.
 std::ptrdiff_t read(int descriptor, char* bytes, std::size_t size) noexcept;
@@ -31,7 +33,24 @@ std::ptrdiff_t read(int descriptor, char* bytes, std::size_t size) noexcept;
 // Returns the number of bytes that were written, which may be fewer than there are.
 std::ptrdiff_t write(int descriptor, std::string_view bytes) noexcept;
 
-int close(int descriptor) noexcept;
+// A file to read and to write at any place, which is made if it is not there.
+RONDEL_API int open_to_change(const std::string& path) noexcept;
+
+// As read() and write(), at a place of the file. On Windows one thread at a time may use a file.
+RONDEL_API std::ptrdiff_t read_at(int descriptor, std::uint64_t place, char* bytes,
+                                  std::size_t size) noexcept;
+RONDEL_API std::ptrdiff_t write_at(int descriptor, std::uint64_t place,
+                                   std::string_view bytes) noexcept;
+
+// Makes the file at least so long, with room on the disk for all of it; what is in it stays. Returns 0.
+RONDEL_API int reserve(int descriptor, std::uint64_t size) noexcept;
+// Cuts the file, or makes it longer. Returns 0.
+RONDEL_API int resize(int descriptor, std::uint64_t size) noexcept;
+
+// Nobody else can lock the file as long as it is open. Returns whether nobody else has.
+RONDEL_API bool lock(int descriptor) noexcept;
+
+RONDEL_API int close(int descriptor) noexcept;
 
 // The process that has them.
 std::uint64_t process_number() noexcept;

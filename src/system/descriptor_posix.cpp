@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -42,6 +43,43 @@ std::ptrdiff_t write(int descriptor, std::string_view bytes) noexcept {
     if (count >= 0 || errno != EINTR) return count;
   }
 }
+
+int open_to_change(const std::string& path) noexcept {
+  return ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+}
+
+std::ptrdiff_t read_at(int descriptor, std::uint64_t place, char* bytes,
+                       std::size_t size) noexcept {
+  for (;;) {
+    const ssize_t count = ::pread(descriptor, bytes, size, static_cast<off_t>(place));
+    if (count >= 0 || errno != EINTR) return count;
+  }
+}
+
+std::ptrdiff_t write_at(int descriptor, std::uint64_t place, std::string_view bytes) noexcept {
+  for (;;) {
+    const ssize_t count =
+        ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(place));
+    if (count >= 0 || errno != EINTR) return count;
+  }
+}
+
+int reserve(int descriptor, std::uint64_t size) noexcept {
+#if defined(__APPLE__)
+  return size <= size_of(descriptor) ? 0 : resize(descriptor, size);
+#else
+  int error = EINTR;
+  while (error == EINTR) error = ::posix_fallocate(descriptor, 0, static_cast<off_t>(size));
+  errno = error;
+  return error == 0 ? 0 : -1;
+#endif
+}
+
+int resize(int descriptor, std::uint64_t size) noexcept {
+  return ::ftruncate(descriptor, static_cast<off_t>(size));
+}
+
+bool lock(int descriptor) noexcept { return ::flock(descriptor, LOCK_EX | LOCK_NB) == 0; }
 
 int close(int descriptor) noexcept { return ::close(descriptor); }
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fcntl.h>
 #include <io.h>
+#include <stdio.h>
+#include <sys/locking.h>
 #include <sys/stat.h>
 #include <windows.h>
 
@@ -19,6 +21,16 @@ namespace {
 unsigned clipped(std::size_t size) {
   constexpr std::size_t most = std::numeric_limits<int>::max();
   return static_cast<unsigned>(std::min(size, most));
+}
+
+// Calls move() at a place of the file, and goes back to where the file was.
+template <class Move>
+std::ptrdiff_t at(int descriptor, std::uint64_t place, Move move) {
+  const std::int64_t before = ::_telli64(descriptor);
+  if (before < 0) return -1;
+  if (::_lseeki64(descriptor, static_cast<std::int64_t>(place), SEEK_SET) < 0) return -1;
+  const std::ptrdiff_t count = move();
+  return ::_lseeki64(descriptor, before, SEEK_SET) < 0 ? -1 : count;
 }
 
 }  // namespace
@@ -58,6 +70,36 @@ std::ptrdiff_t read(int descriptor, char* bytes, std::size_t size) noexcept {
 
 std::ptrdiff_t write(int descriptor, std::string_view bytes) noexcept {
   return ::_write(descriptor, bytes.data(), clipped(bytes.size()));
+}
+
+int open_to_change(const std::string& path) noexcept {
+  return ::_wopen(wide_path(path).c_str(), _O_RDWR | _O_CREAT | _O_BINARY | _O_NOINHERIT,
+                  _S_IREAD | _S_IWRITE);
+}
+
+std::ptrdiff_t read_at(int descriptor, std::uint64_t place, char* bytes,
+                       std::size_t size) noexcept {
+  return at(descriptor, place, [&] { return read(descriptor, bytes, size); });
+}
+
+std::ptrdiff_t write_at(int descriptor, std::uint64_t place, std::string_view bytes) noexcept {
+  return at(descriptor, place, [&] { return write(descriptor, bytes); });
+}
+
+int reserve(int descriptor, std::uint64_t size) noexcept {
+  return size <= size_of(descriptor) ? 0 : resize(descriptor, size);
+}
+
+int resize(int descriptor, std::uint64_t size) noexcept {
+  const int error = ::_chsize_s(descriptor, static_cast<std::int64_t>(size));
+  errno = error;
+  return error == 0 ? 0 : -1;
+}
+
+// Far behind all that is read and written: locked bytes cannot be.
+bool lock(int descriptor) noexcept {
+  constexpr std::uint64_t behind_all = std::uint64_t{1} << 62U;
+  return at(descriptor, behind_all, [&] { return ::_locking(descriptor, _LK_NBLCK, 1); }) == 0;
 }
 
 int close(int descriptor) noexcept { return ::_close(descriptor); }

@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_file, write_indices, read_sites, read_triangles, SiteTable::where on files of
+// write_file, write_indices, write_numbers, read_sites, read_triangles, SiteTable::where on files of
 // any bytes and any ending: what a file holds, and messages of one line that begin with its name.
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "fuzz/scratch_folder.h"
@@ -62,6 +63,16 @@ void test_indices(const std::string& path, const std::string& bytes) {
   require(back == values, "indices survive");
 }
 
+// Numbers are those of the bytes, behind the header.
+void test_numbers(const std::string& path, const std::string& bytes) {
+  std::vector<double> values(bytes.size() / sizeof(double));
+  if (!values.empty()) std::memcpy(values.data(), bytes.data(), values.size() * sizeof(double));
+  write_numbers(path, values);
+  const std::string written = content(path);
+  const std::string expected = bytes.substr(0, values.size() * sizeof(double));
+  require(written.ends_with("\n" + expected), "numbers survive");
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -77,5 +88,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::test_sites(path);
   fuzz::test_triangles(path);
   fuzz::test_indices(folder.file("indices.npy"), bytes);
+  fuzz::test_numbers(folder.file("numbers.npy"), bytes);
   return 0;
 }
