@@ -36,8 +36,8 @@ struct Triangulation::Impl {
 namespace api {
 
 // Of arrays that the library made of these sites.
-Triangulation make_triangulation(Sites sites, TriangulationArrays arrays, const Options& options,
-                                 const BuildReport& report);
+RONDEL_API Triangulation make_triangulation(Sites sites, TriangulationArrays arrays,
+                                            const Options& options, const BuildReport& report);
 
 // For whoever walks through the faces. Asks for the proof that is missing, once.
 void require_delaunay(const Triangulation& triangulation, const Execution& execution);

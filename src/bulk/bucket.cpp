@@ -77,14 +77,33 @@ void list_joined(const SeamFaces& seam, std::span<const Triple> at_edges, Joined
   std::ranges::sort(joined.ghost_faces);
 }
 
+// Lists the faces at open sites, and names what is across open edges.
+void make_border(std::span<const Triple> faces, std::span<Triple> neighbors, std::size_t num_sites,
+                 BucketBorder& border) {
+  border.num_faces = static_cast<Index>(faces.size());
+  for (Index i = 0; i < border.open_edges.size(); ++i) {
+    const SeamEdge& edge = border.open_edges[i];
+    neighbors[edge.face][edge.corner] = border.num_faces + i;
+  }
+  std::vector<bool> is_open(num_sites, false);
+  for (const SeamSite& site : border.open_sites) is_open[site.rank] = true;
+  for (Index f = 0; f < faces.size(); ++f) {
+    const Triple& v = faces[f];
+    if (!is_open[v[0]] && !is_open[v[1]] && !is_open[v[2]]) continue;
+    border.rim.push_back(f);
+    border.rim_corners.push_back(v);
+    border.rim_neighbors.push_back(neighbors[f]);
+  }
+}
+
 }  // namespace
 
-Bucket triangulate_bucket(std::span<const Point> sites, const Square& square, const Extent& extent,
+Bucket triangulate_bucket(std::span<const Point> sites, const Square& square, const AllSites& all,
                           const system::Job& options, std::size_t max_block_sites,
                           const SeamRule& rule) {
   Bucket bucket;
   bucket.order = order::spatial_order(sites, options.model, options.sphere.center, options.threads);
-  const Input input = {sites, bucket.order.order, options, {}, extent};
+  const Input input = {sites, bucket.order.order, options, {}, all.extent()};
   const auto squares = make_squares(square, input, max_block_sites);
   TriangulationArrays arrays;
   const auto results = triangulate_blocks(input, blocks_of(squares), arrays);
@@ -92,17 +111,23 @@ Bucket triangulate_bucket(std::span<const Point> sites, const Square& square, co
   const unsigned threads = system::num_threads(options.threads);
   SeamFaces seam(results, {arrays.faces, arrays.neighbors}, threads);
   OpenSeam open = fill_square_seam(input, squares, results, rule, seam, bucket.tally);
+  if (all.surround_center()) {
+    for (const Index s : open.hidden) bucket.hidden.push_back(seam.sites()[s].rank);
+  } else {
+    add_hidden(open);
+  }
   std::vector<Index> ranks(input.order.size());
   std::iota(ranks.begin(), ranks.end(), Index{0});
-  bucket.open_sites = stitch_open(results, seam, ranks, threads, open, arrays);
+  bucket.border.open_sites = stitch_open(results, seam, ranks, threads, open, arrays);
   bucket.faces = std::move(arrays.faces);
   bucket.neighbors = std::move(arrays.neighbors);
-  bucket.open_edges = std::move(open.edges);
-  bucket.hidden = std::move(open.hidden);
+  bucket.border.open_edges = std::move(open.edges);
+  bucket.border.hidden = std::move(open.undecided);
+  make_border(bucket.faces, bucket.neighbors, ranks.size(), bucket.border);
   return bucket;
 }
 
-std::optional<JoinedFaces> join_buckets(std::span<const OpenBucket> buckets, const Extent& extent,
+std::optional<JoinedFaces> join_buckets(std::span<const OpenBucket> buckets, const AllSites& all,
                                         const system::Job& options, const SeamRule& rule) {
   std::vector<BlockResult> results(buckets.size());
   std::vector<Point> points;
@@ -118,7 +143,7 @@ std::optional<JoinedFaces> join_buckets(std::span<const OpenBucket> buckets, con
   }
   std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), Index{0});
-  const Input input = {points, order, options, {}, extent};
+  const Input input = {points, order, options, {}, all.extent()};
   // Each open edge stands for the face on its left.
   std::vector<Triple> corners(num_edges);
   std::vector<Triple> neighbors(num_edges, {no_index, no_index, no_index});

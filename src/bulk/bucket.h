@@ -15,30 +15,42 @@
 #include <span>
 #include <vector>
 
+#include "bulk/all_sites.h"
 #include "bulk/blocks.h"
 #include "order/spatial_order.h"
+#include "rondel/export.h"
 
 namespace rondel::bulk {
+
+// Enough of a bucket to go around its open sites, when its faces are elsewhere.
+struct BucketBorder {
+  std::vector<SeamSite> open_sites;  // with an open face, or hidden; in increasing order of rank
+  std::vector<SeamEdge> open_edges;  // between positions in open_sites: a face of the bucket is on
+                                     // the left, opposite to one of its corners
+  std::vector<Index> hidden;        // positions in open_sites, increasing: those that may be hidden
+  Index num_faces = 0;              // of the bucket
+  std::vector<Index> rim;           // the faces at open sites, increasing
+  std::vector<Triple> rim_corners;  // theirs
+  std::vector<Triple> rim_neighbors;
+};
 
 struct Bucket {
   order::SpatialOrder order;
   // Those of a site are together, and the sites are in their order. Those of open sites are in no
   // particular order, all others in the canonical one. Corners are ranks; neighbors are faces of the
-  // bucket, or no_index across an open edge.
+  // bucket, or across open edge i the number of faces + i.
   LargeVector<Triple> faces;
   LargeVector<Triple> neighbors;
-  std::vector<SeamSite> open_sites;  // with an open face, or hidden; in increasing order of rank
-  std::vector<SeamEdge> open_edges;  // between positions in open_sites: a face of the bucket is on
-                                     // the left, opposite to one of its corners
-  std::vector<Index> hidden;         // positions in open_sites, increasing
+  BucketBorder border;
+  std::vector<Index> hidden;  // ranks, increasing: those that are hidden whatever others have
   Tally tally{};
 };
 
-// The sites of a square, at least one; `extent` is that of all sites, in all squares.
-Bucket triangulate_bucket(std::span<const Point> sites, const Square& square, const Extent& extent,
-                          const system::Job& options,
-                          std::size_t max_block_sites = most_block_sites,
-                          const SeamRule& rule = {});
+// The sites of a square, at least one; `all` is of all sites, in all squares.
+RONDEL_API Bucket triangulate_bucket(std::span<const Point> sites, const Square& square,
+                                     const AllSites& all, const system::Job& options,
+                                     std::size_t max_block_sites = most_block_sites,
+                                     const SeamRule& rule = {});
 
 // What a bucket leaves to others, with all of its sites counted.
 struct OpenBucket {
@@ -65,7 +77,8 @@ struct JoinedFaces {
 
 // The buckets are in the order of the curve. Returns nothing if all open sites lie on one great
 // circle.
-std::optional<JoinedFaces> join_buckets(std::span<const OpenBucket> buckets, const Extent& extent,
-                                        const system::Job& options, const SeamRule& rule = {});
+RONDEL_API std::optional<JoinedFaces> join_buckets(std::span<const OpenBucket> buckets,
+                                                   const AllSites& all, const system::Job& options,
+                                                   const SeamRule& rule = {});
 
 }  // namespace rondel::bulk

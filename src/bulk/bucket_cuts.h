@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bulk/squares.h"
+#include "rondel/export.h"
 
 namespace rondel::bulk {
 
@@ -25,7 +26,7 @@ struct BucketCut {
   std::uint64_t num_sites = 0;
 };
 
-class BucketCounts {
+class RONDEL_API BucketCounts {
  public:
   // With at most this many sites in a bucket. Copies of a site count.
   explicit BucketCounts(std::uint64_t most_sites);
@@ -59,6 +60,6 @@ class BucketCounts {
 };
 
 // The bucket of a key that one of them has.
-std::size_t bucket_of(std::uint64_t high_key, std::span<const BucketCut> cuts);
+RONDEL_API std::size_t bucket_of(std::uint64_t high_key, std::span<const BucketCut> cuts);
 
 }  // namespace rondel::bulk

@@ -3,7 +3,7 @@
 
 // The faces that the sites of a bucket own, in canonical order: its own, and those between buckets.
 //
-// in    a bucket, the faces between buckets, and where the bucket stands among all
+// in    the border of a bucket, the faces between buckets, and where the bucket stands among all
 // out   faces one by one, numbered through all buckets; and the numbers that other buckets need
 // index codes: a face of the bucket, or behind those an open edge while it is not known what is across,
 //       or a face between buckets; 64 bits for what is counted through all buckets
@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "bulk/bucket.h"
+#include "rondel/export.h"
 
 namespace rondel::bulk {
 
@@ -35,7 +36,8 @@ struct BucketNeighbor {
   GlobalIndex index;
 };
 
-// The numbers of faces that more than one bucket asks for.
+// The numbers of faces that more than one bucket asks for. All are known when each bucket has
+// numbered its faces.
 struct JoinedNumbers {
   explicit JoinedNumbers(const JoinedFaces& joined)
       : faces(joined.faces.size()), at_edge(joined.num_edges) {}
@@ -49,11 +51,11 @@ struct JoinedNumbers {
   std::vector<GlobalIndex> at_edge;  // on the left of each open edge
 };
 
-class BucketFaces {
+class RONDEL_API BucketFaces {
  public:
-  // The bucket's open sites and open edges are counted from these on. Its neighbors across open
-  // edges are replaced by codes; it must stay, as must `joined`.
-  BucketFaces(Bucket& bucket, const JoinedFaces& joined, Index first_open_site,
+  // The bucket's open sites and open edges are counted from these on. `border` must stay, as must
+  // `joined`.
+  BucketFaces(const BucketBorder& border, const JoinedFaces& joined, Index first_open_site,
               Index first_open_edge);
 
   [[nodiscard]] GlobalIndex size() const { return size_; }
@@ -61,47 +63,76 @@ class BucketFaces {
   // Numbers the faces `first`, `first` + 1, ..., and tells the numbers that others ask for.
   void number(GlobalIndex first, JoinedNumbers& numbers);
 
-  // visit(corners, neighbors) for each face in the order of the numbers.
+  [[nodiscard]] GlobalIndex first() const { return first_; }
+  // Of the bucket's own faces, counted from the first number on.
+  [[nodiscard]] LargeVector<Index> places_of_own() const;
+
+  // visit(corners) for each face in the order of the numbers. `faces` are the bucket's.
   template <class Visit>
-  void for_each(Visit visit) const {
+  void for_each_face(std::span<const Triple> faces, Visit visit) const {
     for (const CodeRun& run : runs_) {
-      for (Index f = run.begin; f < run.end; ++f) {
-        std::array<BucketCorner, 3> corners{};
-        std::array<BucketNeighbor, 3> neighbors{};
-        for (unsigned i = 0; i < 3; ++i) {
-          corners[i] = corner(f, i);
-          neighbors[i] = neighbor(f, i);
-        }
-        visit(corners, neighbors);
+      if (is_own(run.begin)) {
+        for (Index f = run.begin; f < run.end; ++f) visit(corners_of_own(faces[f]));
+      } else {
+        visit(corners_of_joined(joined_of(run.begin)));
+      }
+    }
+  }
+
+  // visit(neighbors) for each face in the order of the numbers. `neighbors` are the bucket's.
+  template <class Visit>
+  void for_each_neighbors(std::span<const Triple> neighbors, Visit visit) const {
+    const LargeVector<Index> place_of = places_of_own();
+    for (const CodeRun& run : runs_) {
+      if (is_own(run.begin)) {
+        for (Index f = run.begin; f < run.end; ++f) visit(neighbors_of_own(neighbors[f], place_of));
+      } else {
+        visit(neighbors_of_joined(joined_of(run.begin)));
       }
     }
   }
 
  private:
-  // Codes begin ... end-1, which follow each other in the result.
+  // Codes begin ... end-1, which follow each other in the result; one alone of faces between buckets.
   struct CodeRun {
     Index begin;
     Index end;
   };
+  using Corners = std::array<BucketCorner, 3>;
+  using Neighbors = std::array<BucketNeighbor, 3>;
 
-  [[nodiscard]] Index num_own() const { return static_cast<Index>(bucket_.faces.size()); }
+  [[nodiscard]] Index num_own() const { return border_.num_faces; }
   [[nodiscard]] bool is_own(Index code) const { return code < num_own(); }
   [[nodiscard]] Index joined_of(Index code) const { return code - num_own() - num_edges_; }
   [[nodiscard]] Index code_of_joined(Index face) const { return num_own() + num_edges_ + face; }
   [[nodiscard]] bool is_own_site(Index open_site) const {
-    return open_site - first_site_ < bucket_.open_sites.size();
+    return open_site - first_site_ < border_.open_sites.size();
   }
+  // Of a face at an open site: its position in the rim.
+  [[nodiscard]] std::size_t rim_place(Index own_face) const;
 
+  [[nodiscard]] BucketCorner corner_of_joined(Index open_site) const {
+    if (!is_own_site(open_site)) return {false, open_site};
+    return {true, border_.open_sites[open_site - first_site_].rank};
+  }
+  [[nodiscard]] static Corners corners_of_own(const Triple& v) {
+    return {{{true, v[0]}, {true, v[1]}, {true, v[2]}}};
+  }
+  [[nodiscard]] Corners corners_of_joined(Index face) const {
+    const Triple& v = joined_.faces[face];
+    return {{corner_of_joined(v[0]), corner_of_joined(v[1]), corner_of_joined(v[2])}};
+  }
+  [[nodiscard]] Neighbors neighbors_of_own(const Triple& n, std::span<const Index> place_of) const;
+  [[nodiscard]] Neighbors neighbors_of_joined(Index face) const;
+  // Of a face at an open site.
   [[nodiscard]] BucketCorner corner(Index code, unsigned i) const;
-  [[nodiscard]] BucketNeighbor neighbor(Index code, unsigned i) const;
-  // The code of the face across, around a site of the bucket.
   [[nodiscard]] Index across(Index code, unsigned i) const;
   // In the order of all ranks of all buckets.
   [[nodiscard]] GlobalIndex place(const BucketCorner& corner) const;
   void append(Index begin, Index end);
   void append_open(Index open_site);
 
-  Bucket& bucket_;
+  const BucketBorder& border_;
   const JoinedFaces& joined_;
   Index first_site_;
   Index first_edge_;
@@ -110,7 +141,7 @@ class BucketFaces {
   GlobalIndex first_ = 0;
   GlobalIndex next_ = 0;
   std::vector<CodeRun> runs_;
-  LargeVector<Index> number_of_;  // of own faces, from first_ on
+  std::vector<Index> rim_places_;  // of the faces in the rim, counted from first_ on
   std::vector<Index> ring_;
 };
 

@@ -72,10 +72,11 @@ std::vector<Point> points_of(const Input& input, const SeamFaces& seam) {
 
 // A square of n uniform sites leaves some 7.3 sqrt(n) of them, so two thirds of those that come in
 // would find all of their faces. Nothing is final where it would leave most of its sites.
-bool is_worth_it(const TreeSquare& square, const HandedUp& seam) {
+bool is_worth_it(const TreeSquare& square, const HandedUp& seam, bool is_last) {
   const double num_sites = square.num_sites;
   const auto num_seam_sites = static_cast<double>(seam.sites.size());
-  return num_seam_sites > 22 * std::sqrt(num_sites) && 2 * num_seam_sites < num_sites;
+  const double least = is_last ? 0 : 22 * std::sqrt(num_sites);
+  return num_seam_sites > least && 2 * num_seam_sites < num_sites;
 }
 
 // The squares, the lower ones first.
@@ -92,6 +93,9 @@ class SeamTree {
         handed_up_(squares.size()),
         found_(squares.size()),
         tallies_(squares.size()) {}
+
+  // The last square works although what comes in is little, for those above it, which are elsewhere.
+  void finish_last() { has_to_finish_ = true; }
 
   // Returns what goes up to the sphere.
   HandedUp run(std::span<const BlockResult> results, Tally& tally) {
@@ -146,7 +150,8 @@ class SeamTree {
     for (const Index quarter : squares_[square].quarters) {
       if (quarter != no_index) append(std::exchange(handed_up_[quarter], {}), seam);
     }
-    if (!rule_.is_every_square && !is_worth_it(squares_[square], seam)) return;
+    const bool is_last = has_to_finish_ && square + 1 == squares_.size();
+    if (!rule_.is_every_square && !is_worth_it(squares_[square], seam, is_last)) return;
     const Input of_square = {points_, seam.sites, input_.options, {}, input_.extent};
     std::vector<FinalEdge> edges;
     edges.reserve(seam.edges.size());
@@ -202,6 +207,7 @@ class SeamTree {
   std::vector<SquareSeam> found_;    // by square
   std::vector<Tally> tallies_;       // by square
   std::vector<bool> is_part_;        // by square: of a larger one
+  bool has_to_finish_ = false;
   BuilderPool<SquareSeamBuilder<T>> builders_;
 };
 
@@ -297,17 +303,23 @@ OpenSeam fill_square_seam(const Input& input, std::span<const TreeSquare> square
                           SeamFaces& seam, Tally& tally) {
   const std::vector<Point> points = points_of(input, seam);
   HandedUp up = models::with_model(input.options.model, [&]<class T> {
-    return SeamTree<T>(input, points, squares, rule, seam).run(results, tally);
+    SeamTree<T> tree(input, points, squares, rule, seam);
+    tree.finish_last();
+    return tree.run(results, tally);
   });
   seam.leave_open(system::num_threads(input.options.threads));
+  std::ranges::sort(up.hidden);
+  return {std::move(up.sites), std::move(up.edges), std::move(up.hidden), {}};
+}
+
+void add_hidden(OpenSeam& open) {
+  HandedUp up = {std::move(open.seam_sites), std::move(open.edges), std::move(open.hidden)};
   add_hidden(up);
-  OpenSeam open = {std::move(up.sites), std::move(up.edges), {}};
+  open = {std::move(up.sites), std::move(up.edges), {}, {}};
   for (const Index s : up.hidden) {
     const auto place = std::ranges::lower_bound(open.seam_sites, s) - open.seam_sites.begin();
-    open.hidden.push_back(static_cast<Index>(place));
+    open.undecided.push_back(static_cast<Index>(place));
   }
-  std::ranges::sort(open.hidden);
-  return open;
 }
 
 }  // namespace rondel::bulk

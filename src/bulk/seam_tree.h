@@ -29,9 +29,11 @@ struct SeamRule {
 
 // What a square leaves open.
 struct OpenSeam {
-  std::vector<Index> seam_sites;  // with an open face, or hidden; increasing
+  std::vector<Index> seam_sites;  // with an open face, or undecided; increasing
   std::vector<SeamEdge> edges;    // between positions in `seam_sites`
-  std::vector<Index> hidden;      // positions in `seam_sites`, increasing
+  std::vector<Index> hidden;  // seam sites that are hidden if the center is inside the hull of all
+                              // sites, and not among `seam_sites`; increasing
+  std::vector<Index> undecided;  // the same among them, positions in `seam_sites`, increasing
 };
 
 // Adds all faces of the seam to `seam`, and what was counted to `tally`. Returns false if that does
@@ -47,5 +49,7 @@ bool fill_seam_at_once(const Input& input, std::span<const BlockResult> results,
 OpenSeam fill_square_seam(const Input& input, std::span<const TreeSquare> squares,
                           std::span<const BlockResult> results, const SeamRule& rule,
                           SeamFaces& seam, Tally& tally);
+// Leaves open what is hidden: all of it becomes undecided.
+void add_hidden(OpenSeam& open);
 
 }  // namespace rondel::bulk

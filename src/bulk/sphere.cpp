@@ -163,16 +163,19 @@ class SphereTriangulation {
 
 }  // namespace
 
-bool surround_center(std::span<const Point> sites, const Point& center) {
-  constexpr unsigned all = 255;
+unsigned octants_of(std::span<const Point> sites, const Point& center) {
   unsigned octants = 0;
   for (const Point& p : sites) {
     const auto d = exact::to_vector(p) - exact::to_vector(center);
     if (d.x == 0 || d.y == 0 || d.z == 0) continue;
     octants |= 1U << ((d.x > 0 ? 1U : 0U) + (d.y > 0 ? 2U : 0U) + (d.z > 0 ? 4U : 0U));
-    if (octants == all) return true;
+    if (octants == all_octants) break;
   }
-  return false;
+  return octants;
+}
+
+bool surround_center(std::span<const Point> sites, const Point& center) {
+  return octants_of(sites, center) == all_octants;
 }
 
 std::optional<Triangulated> triangulate_sphere(const Input& input,

@@ -25,6 +25,10 @@
 
 namespace rondel::bulk {
 
+// The octants around the center, one bit each, in which there are sites.
+inline constexpr unsigned all_octants = 255;
+unsigned octants_of(std::span<const Point> sites, const Point& center);
+
 // Whether the center is inside the hull of the sites, told by the octants in which they are: all.
 bool surround_center(std::span<const Point> sites, const Point& center);
 

@@ -60,7 +60,7 @@ class DiagramWriter {
         localize_(triangulation, sites, cells) {}
 
   void write(std::size_t begin, std::size_t end, std::span<const ArcPoint> arc_points,
-             const dual::Kites* kites, double* areas) {
+             const dual::Kites* kites, double* areas, std::size_t num_whole) {
     const auto order = sites_.order();
     for (std::size_t k = begin; k < end; ++k) {
       if (k + 2 * prefetch_distance < end) {
@@ -76,7 +76,8 @@ class DiagramWriter {
       }
       const auto rank = static_cast<Index>(k);
       const double area = write_ring(rank, arc_points, kites);
-      if (areas != nullptr) areas[order[k]] = area > 0 ? area : careful_area(localize_, rank);
+      if (areas == nullptr || order[k] >= num_whole) continue;
+      areas[order[k]] = area > 0 ? area : careful_area(localize_, rank);
     }
   }
 
@@ -126,7 +127,7 @@ class DiagramWriter {
 };
 
 Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& sites,
-                    std::vector<double>* areas) {
+                    std::vector<double>* areas, std::size_t num_whole) {
   Cells result;
   dual::FaceKites kites;
   const bool with_kites = sites.is_projected();
@@ -142,7 +143,7 @@ Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& 
                        [&](std::size_t begin, std::size_t end) {
                          DiagramWriter(triangulation, sites, result)
                              .write(begin, end, arc_points, kites.of.get(),
-                                    areas == nullptr ? nullptr : areas->data());
+                                    areas == nullptr ? nullptr : areas->data(), num_whole);
                        });
   return result;
 }
@@ -151,9 +152,17 @@ Cells surface_cells(const Triangulation& triangulation, const dual::SplitSites& 
 
 Cells dual::cells(const Triangulation& triangulation, const SplitSites& sites,
                   std::vector<double>* areas) {
-  if (triangulation.dimension() == 2) return surface_cells(triangulation, sites, areas);
+  if (triangulation.dimension() == 2)
+    return surface_cells(triangulation, sites, areas, triangulation.num_sites());
   if (areas != nullptr) *areas = great_circle_areas(triangulation, sites);
   return great_circle_cells(triangulation, sites);
+}
+
+std::vector<double> dual::areas_within(const Triangulation& surface, std::size_t num_whole) {
+  std::vector<double> areas;
+  surface_cells(surface, SplitSites(surface, 1), &areas, num_whole);
+  areas.resize(num_whole);
+  return areas;
 }
 
 }  // namespace rondel

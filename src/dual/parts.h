@@ -30,6 +30,7 @@
 #include "dual/face_batch.h"
 #include "dual/split_sites.h"
 #include "rondel/diagram.h"
+#include "rondel/export.h"
 #include "system/huge_pages.h"
 
 namespace rondel::dual {
@@ -42,6 +43,10 @@ struct FaceKites {
 // The circumcenters of all faces; `kites`, unless it is null, receives those of all faces.
 std::vector<Point> circumcenters(const Triangulation& triangulation, const SplitSites& sites,
                                  FaceKites* kites = nullptr);
+
+// The areas of the cells of the sites 0 ... num_whole-1 of a surface with a border, across which a face
+// is its own neighbor. All faces of these sites are there; without one the area is 0.
+RONDEL_API std::vector<double> areas_within(const Triangulation& surface, std::size_t num_whole);
 
 // `areas`, unless it is null, receives those of all cells.
 Cells cells(const Triangulation& triangulation, const SplitSites& sites,

@@ -9,6 +9,7 @@
 
 #include "order/cube_position.h"
 #include "order/hilbert.h"
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::order {
@@ -22,7 +23,7 @@ CubePosition place_position(const Point& p, Model model, const Point& center);
 HilbertKey place_key(const Point& p, Model model, const Point& center);
 
 // keys[i] = place_key(sites[i]).high and, unless empty, low_keys[i] = place_key(sites[i]).low.
-void place_keys(std::span<const Point> sites, Model model, const Point& center,
-                std::span<std::uint64_t> keys, std::span<std::uint64_t> low_keys = {});
+RONDEL_API void place_keys(std::span<const Point> sites, Model model, const Point& center,
+                           std::span<std::uint64_t> keys, std::span<std::uint64_t> low_keys = {});
 
 }  // namespace rondel::order

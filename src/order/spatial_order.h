@@ -11,6 +11,7 @@
 
 #include "order/place_keys.h"
 #include "order/renamed.h"
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 #include "system/site_copies.h"
@@ -35,8 +36,9 @@ using SitesCheck = std::function<void(std::span<const Point>)>;
 //
 // Unless `copies` is empty it has room for all sites, those in `order` are copied to it by rank,
 // and 24 bytes more are needed for each site meanwhile.
-SpatialOrder spatial_order(std::span<const Point> sites, Model model, const Point& center,
-                           unsigned threads, const SitesCheck& check = {},
-                           const system::SiteCopies& copies = {});
+RONDEL_API SpatialOrder spatial_order(std::span<const Point> sites, Model model,
+                                      const Point& center, unsigned threads,
+                                      const SitesCheck& check = {},
+                                      const system::SiteCopies& copies = {});
 
 }  // namespace rondel::order

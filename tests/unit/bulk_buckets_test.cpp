@@ -47,10 +47,15 @@ std::vector<bulk::BucketCut> cuts_of(std::span<const std::uint64_t> keys,
 class BucketCase {
  public:
   BucketCase(const SiteSet& set, Model model, std::size_t max_bucket_sites)
-      : sites_(set.sites), options_{{.model = model, .sphere = set.sphere}, {.threads = 1}} {
+      : sites_(set.sites),
+        options_{{.model = model, .sphere = set.sphere}, {.threads = 1}},
+        all_(options_) {
     const auto order = order::spatial_order(sites_, model, set.sphere.center, 1);
     expected_ = kernel::triangulate(sites_, order.order, order.renamed, options_).arrays;
-    extent_ = bulk::make_input(sites_, order.order, options_).extent;
+    all_.add(std::span(sites_).first(sites_.size() / 2));
+    bulk::AllSites others(options_);
+    others.add(std::span(sites_).subspan(sites_.size() / 2));
+    all_.add(others);
     std::vector<std::uint64_t> keys(sites_.size());
     order::place_keys(sites_, model, set.sphere.center, keys);
     const auto cuts = cuts_of(keys, max_bucket_sites);
@@ -65,7 +70,7 @@ class BucketCase {
   bool run(std::size_t max_block_sites, const bulk::SeamRule& rule) {
     std::vector<bulk::OpenBucket> open;
     for (Part& part : parts_) open.push_back(triangulate(part, max_block_sites, rule));
-    const auto joined = bulk::join_buckets(open, extent_, options_, rule);
+    const auto joined = bulk::join_buckets(open, all_, options_, rule);
     if (!joined) return false;
     write(*joined);
     return true;
@@ -77,7 +82,7 @@ class BucketCase {
     std::vector<Point> points;
     for (const Index i : part.sites) points.push_back(sites_[i]);
     part.bucket =
-        bulk::triangulate_bucket(points, part.square, extent_, options_, max_block_sites, rule);
+        bulk::triangulate_bucket(points, part.square, all_, options_, max_block_sites, rule);
     std::vector<Index> space;
     part.names.clear();
     for (const Index i :
@@ -87,9 +92,9 @@ class BucketCase {
     bulk::OpenBucket open = {part.square,
                              static_cast<double>(part.bucket.order.order.size()),
                              {},
-                             part.bucket.open_edges,
-                             part.bucket.hidden};
-    for (const bulk::SeamSite& site : part.bucket.open_sites)
+                             part.bucket.border.open_edges,
+                             part.bucket.border.hidden};
+    for (const bulk::SeamSite& site : part.bucket.border.open_sites)
       open.points.push_back(points[part.bucket.order.order[site.rank]]);
     return open;
   }
@@ -97,7 +102,7 @@ class BucketCase {
   void write(const bulk::JoinedFaces& joined) {
     std::vector<Index> open_names;
     for (const Part& part : parts_) {
-      for (const bulk::SeamSite& site : part.bucket.open_sites)
+      for (const bulk::SeamSite& site : part.bucket.border.open_sites)
         open_names.push_back(part.names[site.rank]);
     }
     bulk::JoinedNumbers numbers(joined);
@@ -106,20 +111,22 @@ class BucketCase {
     Index first_site = 0;
     Index first_edge = 0;
     for (Part& part : parts_) {
-      bulk::BucketFaces own(part.bucket, joined, first_site, first_edge);
+      bulk::BucketFaces own(part.bucket.border, joined, first_site, first_edge);
       own.number(first_number + faces.size(), numbers);
       const std::size_t end = faces.size() + own.size();
-      own.for_each([&](const auto& corners, const auto& across) {
+      own.for_each_face(part.bucket.faces, [&](const auto& corners) {
         Triple face{};
         for (unsigned i = 0; i < 3; ++i) {
           face[i] = corners[i].is_own ? part.names[corners[i].index] : open_names[corners[i].index];
         }
         faces.push_back(face);
-        neighbors.push_back(across);
       });
+      own.for_each_neighbors(part.bucket.neighbors,
+                             [&](const auto& across) { neighbors.push_back(across); });
       EXPECT_EQ(faces.size(), end);
-      first_site += static_cast<Index>(part.bucket.open_sites.size());
-      first_edge += static_cast<Index>(part.bucket.open_edges.size());
+      EXPECT_EQ(neighbors.size(), end);
+      first_site += static_cast<Index>(part.bucket.border.open_sites.size());
+      first_edge += static_cast<Index>(part.bucket.border.open_edges.size());
     }
     EXPECT_TRUE(faces == expected_.faces);
     ASSERT_EQ(neighbors.size(), expected_.neighbors.size());
@@ -147,6 +154,9 @@ class BucketCase {
       if (!is_vertex[s]) hidden.push_back(open_names[s]);
     }
     std::vector<Index> expected;
+    for (const Part& part : parts_) {
+      for (const Index rank : part.bucket.hidden) hidden.push_back(part.names[rank]);
+    }
     for (const Hidden& h : expected_.hidden) expected.push_back(h.site);
     std::ranges::sort(hidden);
     EXPECT_TRUE(hidden == expected);
@@ -154,7 +164,7 @@ class BucketCase {
 
   std::vector<Point> sites_;
   system::Job options_;
-  bulk::Extent extent_;
+  bulk::AllSites all_;
   TriangulationArrays expected_;
   std::vector<Part> parts_;
 };
@@ -232,13 +242,15 @@ TEST(bulk_bucket, leaves_what_is_near_its_border) {
   const system::Job options{{.sphere = set.sphere}, {.threads = 1}};
   const auto order = order::spatial_order(set.sites, Model::projected, set.sphere.center, 1);
   const bulk::Input input = bulk::make_input(set.sites, order.order, options);
+  bulk::AllSites all(options);
+  all.add(set.sites);
   for (const bulk::Block& face : bulk::cube_faces(input)) {
     std::vector<Point> points;
     for (Index rank = face.begin; rank < face.end; ++rank) points.push_back(input.point(rank));
-    const auto bucket = bulk::triangulate_bucket(points, face.square, input.extent, options, 300,
+    const auto bucket = bulk::triangulate_bucket(points, face.square, all, options, 300,
                                                  {.least_sites = 0, .is_every_square = true});
     const auto num_sites = static_cast<double>(points.size());
-    EXPECT_LT(static_cast<double>(bucket.open_sites.size()), 8 * std::sqrt(num_sites));
+    EXPECT_LT(static_cast<double>(bucket.border.open_sites.size()), 8 * std::sqrt(num_sites));
   }
 }
 
