@@ -3,131 +3,22 @@
 
 // bulk::triangulate_by_blocks: the incremental build's result, whatever the sites, the size of the
 // blocks and the threads, and whether squares triangulate the seam; and divide and conquer by itself, which makes the faces that the center
-// sees. The bytes are instructions that add sites, many at once: small integers, cell lines,
-// great circles, ulps, rays, clusters, weights.
+// sees.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "bulk/blocks.h"
 #include "bulk/sphere.h"
-#include "fuzz/fuzz_input.h"
+#include "fuzz/block_sites.h"
 #include "support/divided_faces.h"
 
 namespace rondel::fuzz {
 namespace {
 
-using test::Random;
 using test::SiteSet;
 using test::operator+;
 using test::operator*;
-
-constexpr std::size_t most_sites = 260;
-
-// A place (u, v) on one of the six faces of the cube.
-Point on_cube(unsigned face, double u, double v) {
-  const double side = face % 2 == 0 ? 1 : -1;
-  if (face / 2 % 3 == 0) return {side, u, v};
-  return face / 2 % 3 == 1 ? Point{v, side, u} : Point{u, v, side};
-}
-
-double digit(Random& random, int most) { return random.between(-most, most); }
-
-Point any_of(Random& random, const std::vector<Point>& sites) {
-  return sites.empty() ? Point{1, 0, 0} : sites[random.below(sites.size())];
-}
-
-// Of one instruction: what its sites have in common.
-struct Instruction {
-  std::uint8_t kind;
-  unsigned face;
-  int a;
-  int b;
-  Random random;
-};
-
-Point next_point(Instruction& i, const std::vector<Point>& earlier) {
-  Random& random = i.random;
-  const int width = 1 + i.a % 12;
-  switch (i.kind % 12) {
-    case 0: {  // integers of one digit near a plane before the face
-      const int depth = i.b % 4;
-      const double height = width + random.between(0, depth);
-      return height * on_cube(i.face, digit(random, width) / height, digit(random, width) / height);
-    }
-    case 1:  // the lines of cells
-      return on_cube(i.face, std::ldexp(digit(random, 1 << width), -width),
-                     std::ldexp(digit(random, 1 << width), -width));
-    case 2: {  // in lines and corners of cells, by ulps
-      Point p = on_cube(i.face, std::ldexp(digit(random, 1 << (width % 4)), -(width % 4)),
-                        std::ldexp(digit(random, 1 << (i.b % 20)), -(i.b % 20)));
-      for (int k = random.between(0, 3); k > 0; --k) p = test::moved_by_one_ulp(random, p);
-      return p;
-    }
-    case 3: {  // integers on a great circle
-      const Point pole = {digit(random, 0) + i.a % 5 - 2, i.a / 5 % 5 - 2.0, i.b % 5 - 2.0};
-      return digit(random, 9) * test::cross_product(pole, {1, 2, 3}) +
-             digit(random, 9) * test::cross_product(pole, {3, -1, 2});
-    }
-    case 4:  // earlier ones, by ulps
-      return test::moved_by_one_ulp(random, any_of(random, earlier));
-    case 5:  // the same rays
-      return (1 + random.between(0, width) / 8.0) * any_of(random, earlier);
-    case 6:  // nearly the same rays
-      return (1 + std::ldexp(random.unit(), -(i.b % 60))) * any_of(random, earlier);
-    case 7:  // a cluster
-      return test::random_near(random, test::unit_vector_deg(3.0 * i.a, (i.a * 7) % 180 - 90.0),
-                               std::ldexp(1, -(i.b % 60)));
-    case 8: {  // weights
-      const Point p = on_cube(i.face, random.signed_unit(), random.signed_unit());
-      return (1 + std::ldexp(random.unit(), -(i.a % 60))) * test::normalized(p);
-    }
-    case 9:  // a small circle or a meridian
-      return i.b % 2 == 0 ? test::unit_vector_deg(random.between(0, 360), i.a % 90)
-                          : test::unit_vector_deg(i.a, random.between(-90, 90));
-    case 10:  // in other scales
-      return std::ldexp(1, random.between(-width, width) * (1 + i.b % 6)) * any_of(random, earlier);
-    default:  // integers on a sphere
-      return on_cube(i.face, digit(random, 12), digit(random, 12)) +
-             (12.0 + i.a % 4) * on_cube(i.face, 0, 0);
-  }
-}
-
-bool is_finite(const Point& p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-void add_sites(ByteSource& source, std::vector<Point>& sites) {
-  const std::uint8_t kind = source.byte();
-  if (kind >= 240) {
-    sites.push_back(next_site(source, sites, Scales::all));
-    return;
-  }
-  const unsigned face = kind / 12;
-  const std::uint8_t a = source.byte();
-  const std::uint8_t b = source.byte();
-  const std::size_t count = 1 + source.below(128);
-  Instruction instruction = {kind, face, a, b, Random(source.byte())};
-  for (std::size_t i = 0; i < count && sites.size() < most_sites; ++i) {
-    const Point p = next_point(instruction, sites);
-    if (is_finite(p)) sites.push_back(p);
-  }
-}
-
-void move_center(ByteSource& source, SiteSet& set) {
-  constexpr std::array<Point, 7> centers = {{{0.1, 0.2, -0.3},
-                                             {1e6, 1, -0.1},
-                                             {0x1p-30, 0, 0},
-                                             {1e-20, 1, 2},
-                                             {0.5, 0.25, 8},
-                                             {0x1p-52, 0x1p-53, 0},
-                                             {-1e300, 0, 0}}};
-  const std::uint8_t kind = source.byte();
-  if (kind < 160) return;
-  set.sphere.center = centers[kind % centers.size()];
-  for (Point& p : set.sites) p = p + set.sphere.center;
-}
 
 void require_same(const TriangulationArrays& built, const TriangulationArrays& expected) {
   require(built.dimension == expected.dimension, "the dimension");
@@ -191,16 +82,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::ByteSource source(data, size);
   const std::uint8_t mode = source.byte();
   const std::size_t block_sites = 33 + source.byte() % 96;  // of 260 sites at most
-  test::SiteSet set;
-  fuzz::ByteSource center = source;
-  source.byte();
-  while (!source.is_empty() && set.sites.size() < fuzz::most_sites) {
-    fuzz::add_sites(source, set.sites);
-  }
-  fuzz::move_center(center, set);
   const Model model = mode % 2 == 0 ? Model::weighted : Model::projected;
-  std::erase_if(set.sites, [](const Point& p) { return !fuzz::is_finite(p); });
-  if (model == Model::projected) fuzz::remove_center(set.sites, set.sphere);
+  const test::SiteSet set = fuzz::block_sites(source, model);
   fuzz::test_divide(set, model);
   const bulk::SeamRule tree = {.least_sites = 0, .is_every_square = true};
   fuzz::test_blocks(set, model, block_sites, mode < 64 ? 2 : 1, mode % 4 < 2,

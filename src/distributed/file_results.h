@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// From buckets in files to the files of the result: what they left open is joined, all faces are
+// numbered, and written bucket by bucket.
+//
+// in    all buckets, done
+// out   the files of the result
+// index buckets; rows of the input; faces of the result
+#pragma once
+
+#include <optional>
+
+#include "bulk/bucket_faces.h"
+#include "distributed/area_results.h"
+#include "distributed/row_file.h"
+#include "distributed/run_state.h"
+#include "rondel/out_of_core.h"
+#include "system/job.h"
+
+namespace rondel::distributed {
+
+// The files of the result while they have no names.
+struct FileResults {
+  // Areas by way of a file in the scratch directory.
+  FileResults(const OutOfCoreFiles& files, const std::string& area_scratch);
+
+  void reserve(std::uint64_t num_sites, std::uint64_t first_number);
+  void commit();
+
+  RowFile faces;
+  std::optional<RowFile> neighbors;
+  std::optional<RowFile> duplicates;
+  std::optional<AreaResults> areas;
+};
+
+// Joins and writes. Counts what is found into `report`. The first site and the first face are called
+// `first_number`.
+void write_results(const RunState& state, const BucketStore& store, std::uint64_t first_number,
+                   const system::Job& options, FileResults& results, OutOfCoreReport& report);
+
+}  // namespace rondel::distributed

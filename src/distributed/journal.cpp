@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "distributed/journal.h"
+
+#include "distributed/checksum.h"
+#include "rondel/error.h"
+
+namespace rondel::distributed {
+namespace {
+
+// In front of each record.
+struct RecordHead {
+  std::uint64_t num_words;
+  std::uint64_t checksum;
+};
+
+std::uint64_t checksum_of(std::span<const std::uint64_t> words) {
+  Checksum sum;
+  sum.add(words);
+  return sum.value();
+}
+
+}  // namespace
+
+Journal::Journal(const std::string& path) : file_(path) {
+  if (!file_.lock()) throw FileError(path + ": another process works here");
+  const std::uint64_t size = file_.size();
+  RecordHead head{};
+  while (end_ + sizeof(RecordHead) <= size) {
+    file_.read(end_, std::span(&head, 1));
+    const std::uint64_t most_words = (size - end_ - sizeof(RecordHead)) / sizeof(std::uint64_t);
+    if (head.num_words > most_words) break;
+    Words words(head.num_words);
+    file_.read(end_ + sizeof(RecordHead), std::span(words));
+    if (checksum_of(words) != head.checksum) break;
+    end_ += sizeof(RecordHead) + words.size() * sizeof(std::uint64_t);
+    records_.push_back(std::move(words));
+  }
+}
+
+// At once, as a killed process may leave a part of it.
+void Journal::append(std::span<const std::uint64_t> words) {
+  Words record = {words.size(), checksum_of(words)};
+  record.insert(record.end(), words.begin(), words.end());
+  file_.write(end_, std::span<const std::uint64_t>(record));
+  end_ += record.size() * sizeof(std::uint64_t);
+}
+
+void Journal::clear() {
+  file_.cut(0);
+  records_.clear();
+  end_ = 0;
+}
+
+}  // namespace rondel::distributed

@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "distributed/out_of_core.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "api/validation.h"
+#include "distributed/bucket_sites.h"
+#include "distributed/file_results.h"
+#include "distributed/run_state.h"
+#include "rondel/error.h"
+#include "system/on_failure.h"
+
+namespace rondel {
+namespace distributed {
+namespace {
+
+// The process itself, and the counts of squares.
+constexpr std::uint64_t fixed_bytes = std::uint64_t{64} << 20;
+constexpr std::uint64_t bytes_of_piece_site = 80;
+// Measured, with room (bench/RESULTS.md, "Out of core").
+constexpr std::uint64_t bytes_of_bucket_site = 115;
+constexpr std::uint64_t bytes_of_open_site = 330;
+constexpr std::uint64_t least_memory = std::uint64_t{96} << 20;
+
+std::string in_megabytes(std::uint64_t bytes) {
+  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MB";
+}
+
+std::string path_in(const std::string& scratch, const char* name) {
+  return (std::filesystem::path(scratch) / name).string();
+}
+
+void remove_scratch(const std::string& scratch) {
+  std::error_code ignored;
+  for (const char* name : {"sites", "faces", "borders", "areas", "journal"})
+    std::filesystem::remove(path_in(scratch, name), ignored);
+  std::filesystem::remove(scratch, ignored);  // if it is empty
+}
+
+// Of the input and the results no two are one file.
+void require_different(const std::string& sites, const OutOfCoreFiles& files) {
+  const std::array<const std::string*, 5> names = {&sites, &files.faces, &files.neighbors,
+                                                   &files.areas, &files.duplicates};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t j = i + 1; j < names.size(); ++j) {
+      std::error_code ignored;
+      if (names[j]->empty() ||
+          (*names[i] != *names[j] && !std::filesystem::equivalent(*names[i], *names[j], ignored))) {
+        continue;
+      }
+      throw FileError(*names[j] + (i == 0 ? ": the file of the sites, too"
+                                          : ": the file of another result, too"));
+    }
+  }
+}
+
+class OutOfCoreRun {
+ public:
+  OutOfCoreRun(const io::NpyRows& rows, const OutOfCoreFiles& files,
+               const OutOfCoreOptions& out_of_core, const RunLimits& limits,
+               const system::Job& options)
+      : rows_(rows),
+        scratch_(out_of_core.scratch),
+        limits_(limits),
+        options_(options),
+        results_(files, scratch_path("areas")),
+        parts_{!files.neighbors.empty() || !files.areas.empty(), !files.areas.empty()},
+        state_(scratch_path("journal"), about(), out_of_core.resume) {}
+
+  // Whether something is done that is worth being kept.
+  [[nodiscard]] bool has_begun() const { return state_.has_counts(); }
+
+  // Sets `has_begun` as soon as it has.
+  OutOfCoreReport run(bool& has_begun) {
+    results_.reserve(rows_.num_rows(), limits_.first_number);
+    if (!state_.has_counts()) {
+      state_.set_counts(
+          count_sites(rows_, options_, limits_.most_bucket_sites, limits_.piece_sites));
+    }
+    has_begun = true;
+    check_buckets();
+    const auto& cuts = state_.counts().cuts;
+    Slots slots(scratch_path("sites"), cuts);
+    BucketStore store(scratch_path("faces"), scratch_path("borders"), cuts, parts_);
+    slots.reserve();
+    store.reserve();
+    OutOfCoreReport report;
+    report.num_sites = rows_.num_rows();
+    report.num_buckets = state_.num_buckets();
+    report.num_resumed = find_done(store);
+    do_buckets(slots, store);
+    check_open_sites(store);
+    write_results(state_, store, limits_.first_number, options_, results_, report);
+    results_.commit();
+    return report;
+  }
+
+ private:
+  [[nodiscard]] std::string scratch_path(const char* name) const { return path_in(scratch_, name); }
+
+  // What must be the same if a run is to be resumed.
+  [[nodiscard]] Words about() const {
+    constexpr std::uint64_t version = 1;
+    std::error_code ignored;
+    const auto time = std::filesystem::last_write_time(rows_.name(), ignored);
+    const Sphere& sphere = options_.sphere;
+    const std::vector<double> numbers = {sphere.center.x, sphere.center.y, sphere.center.z,
+                                         sphere.squared_radius};
+    WordWriter writer;
+    writer.add(version);
+    writer.add(rows_.num_rows());
+    writer.add(rows_.num_bytes());
+    writer.add(static_cast<std::uint64_t>(time.time_since_epoch().count()));
+    writer.add(static_cast<std::uint64_t>(options_.model));
+    writer.add(std::uint64_t{rows_.are_radians()});
+    writer.add(std::uint64_t{parts_.has_neighbors});
+    writer.add(std::uint64_t{parts_.has_points});
+    writer.add(numbers);
+    return writer.words();
+  }
+
+  // An earlier run may have had more memory.
+  void check_buckets() const {
+    for (const bulk::BucketCut& cut : state_.counts().cuts) {
+      if (cut.num_sites <= limits_.most_bucket_sites || cut.square.bits == order::low_levels)
+        continue;
+      throw FileError(scratch_ + ": a run with buckets of " + std::to_string(cut.num_sites) +
+                      " sites, for which " +
+                      in_megabytes(fixed_bytes + bytes_of_bucket_site * cut.num_sites) +
+                      " of memory are needed");
+    }
+  }
+
+  // Keeps what is done only where the files have it.
+  std::uint64_t find_done(const BucketStore& store) {
+    std::uint64_t num_done = 0;
+    for (std::size_t i = 0; i < state_.num_buckets(); ++i) {
+      if (!state_.is_done(i)) continue;
+      if (store.has(i, state_.done(i))) {
+        ++num_done;
+      } else {
+        state_.lose_done(i);
+      }
+    }
+    return num_done;
+  }
+
+  void do_buckets(Slots& slots, BucketStore& store) {
+    deal(slots);
+    if (!triangulate(slots, store)) {
+      deal(slots);
+      if (!triangulate(slots, store))
+        throw FileError(scratch_path("sites") + ": what is read is not what was written");
+    }
+  }
+
+  void deal(Slots& slots) {
+    std::vector<bool> wanted(state_.num_buckets());
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      wanted[i] = !state_.is_done(i) && !state_.is_dealt(i);
+    if (std::ranges::find(wanted, true) == wanted.end()) return;
+    state_.set_dealt(slots.deal(rows_, options_, wanted, limits_.piece_sites, limits_.first_number),
+                     wanted);
+  }
+
+  // Returns false if not all buckets are in the slots as they were dealt.
+  bool triangulate(const Slots& slots, BucketStore& store) {
+    bool are_all_done = true;
+    for (std::size_t i = 0; i < state_.num_buckets(); ++i) {
+      if (state_.is_done(i)) continue;
+      system::obey_stop();
+      system::announce(options_, "triangulate", i, state_.num_buckets());
+      if (triangulate(i, slots, store)) continue;
+      state_.lose_dealt(i);
+      are_all_done = false;
+    }
+    return are_all_done;
+  }
+
+  bool triangulate(std::size_t i, const Slots& slots, BucketStore& store) {
+    const bulk::BucketCut& cut = state_.counts().cuts[i];
+    const BucketFiles files = {slots, store, i, cut.num_sites, state_.dealt(i)};
+    StoredBucket stored;
+    auto sites = read_bucket_sites(files, limits_.most_sites, options_, stored);
+    if (!sites) return false;
+    system::Job job = options_;
+    job.progress = {};  // that of all buckets is shown
+    const bulk::Bucket bucket =
+        bulk::triangulate_bucket(sites->points, cut.square, state_.counts().all, job);
+    StoredBorder border;
+    border.border = bucket.border;
+    for (const bulk::SeamSite& site : border.border.open_sites)
+      border.points.push_back(sites->points[bucket.order.order[site.rank]]);
+    LargeVector<Point> points;
+    if (parts_.has_points) {
+      points.reserve(bucket.order.order.size());
+      for (const Index site : bucket.order.order) points.push_back(sites->points[site]);
+    }
+    sites->points = {};
+    if (sites->rows.empty()) {
+      auto rows = read_bucket_rows(files);
+      if (!rows) return false;
+      sites->rows = *std::move(rows);
+    }
+    store.add_duplicates(i, stored, duplicate_rows(bucket.order.duplicates, sites->rows));
+    const auto rows = vertex_rows(bucket.order, sites->rows);
+    for (const bulk::SeamSite& site : border.border.open_sites)
+      border.rows.push_back(rows[site.rank]);
+    store.write(i, bucket, rows, points, border, stored);
+    state_.set_done(i, stored);
+    return true;
+  }
+
+  void check_open_sites(const BucketStore& store) const {
+    std::uint64_t num_open = 0;
+    for (std::size_t i = 0; i < state_.num_buckets(); ++i)
+      num_open += store.num_open_sites(state_.done(i));
+    if (num_open <= limits_.most_open_sites) return;
+    throw FileError(scratch_ + ": the faces of " + std::to_string(num_open) + " of " +
+                    std::to_string(rows_.num_rows()) +
+                    " sites reach beyond every bucket; to join them " +
+                    in_megabytes(fixed_bytes + bytes_of_open_site * num_open) +
+                    " of memory are needed, then the run can be resumed");
+  }
+
+  const io::NpyRows& rows_;
+  std::string scratch_;
+  const RunLimits& limits_;
+  const system::Job& options_;
+  FileResults results_;
+  StoreParts parts_;
+  RunState state_;
+};
+
+}  // namespace
+
+RunLimits limits_of(std::uint64_t memory) {
+  if (memory < least_memory) {
+    throw InvalidInput(in_megabytes(memory) + " of memory are less than the " +
+                           in_megabytes(least_memory) + " that are needed at least",
+                       0);
+  }
+  const std::uint64_t bytes = memory - fixed_bytes;
+  RunLimits limits;
+  limits.most_bucket_sites = std::min<std::uint64_t>(bytes / bytes_of_bucket_site, max_sites);
+  limits.most_sites = limits.most_bucket_sites / 2;
+  limits.most_open_sites = std::min<std::uint64_t>(bytes / bytes_of_open_site, max_sites);
+  limits.piece_sites = std::min<std::size_t>(bytes / 2 / bytes_of_piece_site, most_piece_sites);
+  return limits;
+}
+
+OutOfCoreReport run(const io::NpyRows& rows, const OutOfCoreFiles& files,
+                    const OutOfCoreOptions& out_of_core, const RunLimits& limits,
+                    const system::Job& options) {
+  std::error_code error;
+  std::filesystem::create_directories(out_of_core.scratch, error);
+  if (error) throw FileError(out_of_core.scratch + ": " + error.message());
+  bool has_begun = true;
+  system::OnFailure remove([&] {
+    if (!has_begun) remove_scratch(out_of_core.scratch);
+  });
+  OutOfCoreReport report;
+  {
+    OutOfCoreRun run(rows, files, out_of_core, limits, options);
+    has_begun = run.has_begun();
+    report = run.run(has_begun);
+  }
+  remove.succeed();
+  remove_scratch(out_of_core.scratch);
+  return report;
+}
+
+}  // namespace distributed
+
+OutOfCoreReport delaunay_file(const std::string& sites, const OutOfCoreFiles& files,
+                              const OutOfCoreOptions& out_of_core, const Options& options,
+                              const Execution& execution) {
+  const system::Call call(execution);
+  api::validate(options, 0);
+  distributed::require_different(sites, files);
+  const io::NpyRows rows(sites, out_of_core.radians);
+  const auto limits = distributed::limits_of(out_of_core.memory);
+  return distributed::run(rows, files, out_of_core, limits, {options, execution});
+}
+
+}  // namespace rondel

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "distributed/run_state.h"
+
+#include <utility>
+
+#include "rondel/error.h"
+
+namespace rondel::distributed {
+namespace {
+
+// What a record says, its first word.
+enum JournalRecord : std::uint64_t { about, counted, dealt, done };
+
+template <class T>
+std::vector<T> one(const T& value) {
+  return std::vector<T>(1, value);
+}
+
+}  // namespace
+
+RunState::RunState(const std::string& journal, const Words& about_words, bool resume)
+    : journal_(journal) {
+  WordWriter writer;
+  writer.add(JournalRecord::about);
+  writer.add(about_words);
+  if (journal_.records().size() <= 1) {  // nothing is done
+    journal_.clear();
+    journal_.append(writer.words());
+    return;
+  }
+  if (!resume) {
+    throw FileError(journal +
+                    ": a run that has not come to its end; resume it, or remove the directory");
+  }
+  if (journal_.records().front() != writer.words()) {
+    throw FileError(journal + ": a run with other sites or options");
+  }
+  for (const Words& record : std::span(journal_.records()).subspan(1)) read(record);
+}
+
+void RunState::read(const Words& record) {
+  WordReader reader(record);
+  const std::uint64_t kind = reader.word();
+  if (kind == JournalRecord::counted) {
+    std::vector<bulk::AllSites> all;
+    reader.read(all);
+    counts_ = {all.front(), {}};
+    reader.read(counts_->cuts);
+    dealt_.resize(counts_->cuts.size());
+    done_.resize(counts_->cuts.size());
+  } else if (kind == JournalRecord::dealt) {
+    std::vector<std::uint64_t> buckets;
+    std::vector<SlotChecksums> sums;
+    reader.read(buckets);
+    reader.read(sums);
+    for (std::size_t i = 0; i < buckets.size(); ++i) dealt_[buckets[i]] = sums[i];
+  } else {
+    std::vector<StoredBucket> stored;
+    const std::uint64_t bucket = reader.word();
+    reader.read(stored);
+    done_[bucket] = stored.front();
+  }
+}
+
+void RunState::set_counts(SiteCounts counts) {
+  WordWriter writer;
+  writer.add(JournalRecord::counted);
+  writer.add(one(counts.all));
+  writer.add(counts.cuts);
+  journal_.append(writer.words());
+  counts_ = std::move(counts);
+  dealt_.resize(counts_->cuts.size());
+  done_.resize(counts_->cuts.size());
+}
+
+void RunState::set_dealt(std::span<const SlotChecksums> sums, const std::vector<bool>& wanted) {
+  std::vector<std::uint64_t> buckets;
+  std::vector<SlotChecksums> wanted_sums;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    if (!wanted[i]) continue;
+    buckets.push_back(i);
+    wanted_sums.push_back(sums[i]);
+    dealt_[i] = sums[i];
+  }
+  WordWriter writer;
+  writer.add(JournalRecord::dealt);
+  writer.add(buckets);
+  writer.add(wanted_sums);
+  journal_.append(writer.words());
+}
+
+void RunState::set_done(std::size_t i, const StoredBucket& stored) {
+  WordWriter writer;
+  writer.add(JournalRecord::done);
+  writer.add(i);
+  writer.add(one(stored));
+  journal_.append(writer.words());
+  done_[i] = stored;
+}
+
+}  // namespace rondel::distributed

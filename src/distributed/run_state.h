@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// How far a run has come, as its journal tells.
+//
+// in    what the run is about, and its journal
+// out   the buckets, and which of them are dealt and done
+// index buckets
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "distributed/bucket_store.h"
+#include "distributed/journal.h"
+#include "distributed/site_counts.h"
+#include "distributed/slots.h"
+
+namespace rondel::distributed {
+
+class RunState {
+ public:
+  // `about` tells whether a journal belongs to this run. Throws FileError if the journal of another run
+  // is there, or one of this run that must not be resumed.
+  RunState(const std::string& journal, const Words& about, bool resume);
+
+  [[nodiscard]] bool has_counts() const { return counts_.has_value(); }
+  [[nodiscard]] const SiteCounts& counts() const { return *counts_; }
+  [[nodiscard]] std::size_t num_buckets() const { return counts_->cuts.size(); }
+  [[nodiscard]] const SlotChecksums& dealt(std::size_t i) const { return *dealt_[i]; }
+  [[nodiscard]] const StoredBucket& done(std::size_t i) const { return *done_[i]; }
+  [[nodiscard]] bool is_dealt(std::size_t i) const { return dealt_[i].has_value(); }
+  [[nodiscard]] bool is_done(std::size_t i) const { return done_[i].has_value(); }
+
+  void set_counts(SiteCounts counts);
+  void set_dealt(std::span<const SlotChecksums> sums, const std::vector<bool>& wanted);
+  void set_done(std::size_t i, const StoredBucket& stored);
+  // It turned out that the files have something else.
+  void lose_dealt(std::size_t i) { dealt_[i].reset(); }
+  void lose_done(std::size_t i) { done_[i].reset(); }
+
+ private:
+  void read(const Words& record);
+
+  Journal journal_;
+  std::optional<SiteCounts> counts_;
+  std::vector<std::optional<SlotChecksums>> dealt_;
+  std::vector<std::optional<StoredBucket>> done_;
+};
+
+}  // namespace rondel::distributed

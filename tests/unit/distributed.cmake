@@ -1,0 +1,7 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+rondel_add_test(distributed_test
+  distributed_bad_files_test.cpp
+  distributed_files_test.cpp
+  distributed_resume_test.cpp
+  LIBS rondel_distributed rondel_test_support)
