@@ -56,24 +56,67 @@ void add_query_options(CLI::App& parser, QueryOptions& options, const std::strin
   add_report_options(parser, options.common);
 }
 
+void add_arrays(CLI::App& command, DelaunayOptions& options) {
+  command
+      .add_option("--neighbors", options.neighbors,
+                  "Where to write the neighbors: .npy, m x 3, the face opposite to each corner")
+      ->type_name("FILE");
+  command
+      .add_option("--areas", options.areas,
+                  "Where to write the areas of the cells: .npy, n numbers in steradians")
+      ->type_name("FILE");
+  command
+      .add_option("--duplicates", options.duplicates,
+                  "Where to write the duplicates: .npy, k x 2, the site and the one it repeats")
+      ->type_name("FILE");
+}
+
+void add_out_of_core(CLI::App& command, DelaunayOptions& options) {
+  const char* const group = "More sites than fit into memory: .npy to .npy";
+  CLI::Option* scratch =
+      command
+          .add_option("--scratch", options.scratch,
+                      "A directory for files of some 64 bytes a site, 88 with neighbors,\n"
+                      "128 with areas; made if\n"
+                      "it is not there, and removed at the end")
+          ->type_name("DIR")
+          ->group(group);
+  command
+      .add_option_function<std::string>(
+          "--memory", [&options](const std::string& text) { options.memory = bytes_of(text); },
+          "What may be in memory at once: bytes, or with K, M, G, T (default: 2G)")
+      ->check(bytes_error)
+      ->needs(scratch)
+      ->type_name("SIZE")
+      ->group(group);
+  command
+      .add_flag("--resume", options.resume,
+                "Go on with what a run that ended early left in the scratch directory")
+      ->needs(scratch)
+      ->group(group);
+}
+
 }  // namespace
 
 Command add_delaunay_command(CLI::App& tool) {
-  auto options = std::make_shared<CommonOptions>();
+  auto options = std::make_shared<DelaunayOptions>();
   CLI::App* parser = tool.add_subcommand("delaunay", "Triangulate sites on or near a sphere");
-  add_input_options(*parser, *options);
-  add_output_option(*parser, *options,
+  add_input_options(*parser, options->common);
+  add_output_option(*parser, options->common,
                     "Where to write the triangles: .npy (m x 3 input indices), .off .ply .obj\n"
                     ".stl .vtp .geojson")
       ->required();
-  add_build_options(*parser, *options);
-  add_report_options(*parser, *options);
+  add_build_options(*parser, options->common);
+  add_arrays(*parser, *options);
+  add_out_of_core(*parser, *options);
+  add_report_options(*parser, options->common);
   parser->footer(
       "The triangulation is exact and unique: it depends on the set of sites alone.\n\n"
       "Examples:\n"
       "  rondel delaunay stations.csv -o stations.geojson\n"
       "  rondel delaunay points.xyz --model weighted -o hull.ply\n"
-      "  rondel delaunay stations.csv --lon east --lat north --json -o faces.npy");
+      "  rondel delaunay stations.csv --lon east --lat north --json -o faces.npy\n"
+      "  rondel delaunay sites.npy -o faces.npy --memory 2G --scratch /data/work");
   return {parser, [options] { return run_delaunay(*options); }};
 }
 

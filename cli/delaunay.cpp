@@ -1,18 +1,50 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "rondel/diagram.h"
 #include "run.h"
 
 namespace rondel::cli {
+namespace {
 
-ExitStatus run_delaunay(const CommonOptions& options) {
-  require_output(options, can_write_triangles(options.target()),
+// The numbers of rows of `Width` numbers.
+template <std::size_t Width, class Row>
+void write_rows(const std::string& path, std::span<const Row> rows) {
+  static_assert(sizeof(Row) == Width * sizeof(Index));
+  const std::array<std::uint64_t, 2> shape = {rows.size(), Width};
+  std::vector<Index> numbers;
+  numbers.reserve(Width * rows.size());
+  for (const Row& row : rows) {
+    const auto values = std::bit_cast<std::array<Index, Width>>(row);
+    numbers.insert(numbers.end(), values.begin(), values.end());
+  }
+  write_indices(path, numbers, shape);
+}
+
+}  // namespace
+
+ExitStatus run_delaunay(const DelaunayOptions& options) {
+  if (!options.scratch.empty()) return run_out_of_core(options);
+  const CommonOptions& common = options.common;
+  require_output(common, can_write_triangles(common.target()),
                  ".npy .off .ply .obj .stl .vtp .geojson");
-  Job job(options);
+  Job job(common);
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
-  job.time(Stage::write,
-           [&] { write_triangles(options.target(), table, triangulation, job.execution()); });
+  job.time(Stage::write, [&] {
+    if (!options.neighbors.empty()) write_rows<3>(options.neighbors, triangulation.neighbors());
+    if (!options.areas.empty()) {
+      const std::vector<double> all = areas(triangulation, job.execution());
+      write_numbers(options.areas, all);
+    }
+    if (!options.duplicates.empty()) write_rows<2>(options.duplicates, triangulation.duplicates());
+    write_triangles(common.target(), table, triangulation, job.execution());
+  });
   job.report(triangulation, "the triangulation");
   return done;
 }

@@ -28,17 +28,48 @@ std::string text_of(double seconds) {
   return text;
 }
 
-std::string faces_line(const Triangulation& triangulation) {
-  if (triangulation.dimension() < 2) {
-    return "no faces: " + std::string(triangulation.num_vertices() < 2
-                                          ? "fewer than two vertices"
-                                          : "all vertices lie on one great circle");
+// What all reports of triangulations tell.
+struct Counts {
+  std::uint64_t sites;
+  std::uint64_t vertices;
+  std::uint64_t faces;
+  std::uint64_t ghost_faces;
+  std::uint64_t duplicates;
+  std::uint64_t hidden;
+  int dimension;
+  Model model;
+};
+
+Counts counts_of(const Triangulation& t) {
+  return {t.num_sites(),         t.num_vertices(),  t.num_faces(), t.num_ghost_faces(),
+          t.duplicates().size(), t.hidden().size(), t.dimension(), t.model()};
+}
+
+Counts counts_of(const OutOfCoreReport& report, Model model) {
+  return {report.num_sites,      report.num_vertices, report.num_faces, report.num_ghost_faces,
+          report.num_duplicates, report.num_hidden,   report.dimension, model};
+}
+
+Json json_of(const Counts& counts) {
+  return {{"sites", counts.sites},
+          {"vertices", counts.vertices},
+          {"faces", counts.faces},
+          {"solid_faces", counts.faces - counts.ghost_faces},
+          {"ghost_faces", counts.ghost_faces},
+          {"duplicates", counts.duplicates},
+          {"hidden", counts.hidden},
+          {"dimension", counts.dimension},
+          {"model", name_of(counts.model)}};
+}
+
+std::string faces_line(const Counts& counts) {
+  if (counts.dimension < 2) {
+    return "no faces: " + std::string(counts.vertices < 2 ? "fewer than two vertices"
+                                                          : "all vertices lie on one great circle");
   }
-  std::string line = std::to_string(triangulation.num_faces()) + " faces";
-  if (triangulation.num_ghost_faces() > 0) {
-    line += ", " + std::to_string(triangulation.num_ghost_faces()) +
-            " of them not seen from the center";
-  }
+  std::string line = std::to_string(counts.faces) + " faces";
+  if (counts.ghost_faces > 0)
+    line += ", " + std::to_string(counts.ghost_faces) + " of them not seen from the center";
   return line;
 }
 
@@ -54,36 +85,26 @@ namespace {
 
 Json contract(const Triangulation& triangulation, const Seconds& seconds) {
   const BuildReport& build = triangulation.report();
-  const std::size_t ghosts = triangulation.num_ghost_faces();
-  return {{"sites", triangulation.num_sites()},
-          {"vertices", triangulation.num_vertices()},
-          {"faces", triangulation.num_faces()},
-          {"solid_faces", triangulation.num_faces() - ghosts},
-          {"ghost_faces", ghosts},
-          {"duplicates", triangulation.duplicates().size()},
-          {"hidden", triangulation.hidden().size()},
-          {"dimension", triangulation.dimension()},
-          {"model", name_of(triangulation.model())},
-          {"builder", name_of(build.builder)},
-          {"threads", build.threads},
-          {"seconds",
-           {{"read", seconds.read},
-            {"order", build.order_seconds},
-            {"triangulate", build.triangulate_seconds},
-            {"dual", seconds.dual},
-            {"write", seconds.write},
-            {"total", seconds.total}}},
-          {"peak_memory_bytes", peak_memory_bytes()},
-          {"rungs", json_of(build.rungs)}};
+  Json json = json_of(counts_of(triangulation));
+  json["builder"] = name_of(build.builder);
+  json["threads"] = build.threads;
+  json["seconds"] = {{"read", seconds.read},
+                     {"order", build.order_seconds},
+                     {"triangulate", build.triangulate_seconds},
+                     {"dual", seconds.dual},
+                     {"write", seconds.write},
+                     {"total", seconds.total}};
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  json["rungs"] = json_of(build.rungs);
+  return json;
 }
 
-std::string sites_line(const Triangulation& triangulation) {
-  std::string text = count(triangulation.num_sites(), "site", "sites") + ": " +
-                     count(triangulation.num_vertices(), "vertex", "vertices") + ", " +
-                     count(triangulation.duplicates().size(), "duplicate", "duplicates");
-  if (triangulation.model() == Model::weighted) {
-    text += ", " + count(triangulation.hidden().size(), "hidden site", "hidden sites");
-  }
+std::string sites_line(const Counts& counts) {
+  std::string text = count(counts.sites, "site", "sites") + ": " +
+                     count(counts.vertices, "vertex", "vertices") + ", " +
+                     count(counts.duplicates, "duplicate", "duplicates");
+  if (counts.model == Model::weighted)
+    text += ", " + count(counts.hidden, "hidden site", "hidden sites");
   return text;
 }
 
@@ -125,14 +146,36 @@ std::string hull_json_report(const Triangulation& hull, const HullSize& size,
 
 std::string summary(const Triangulation& triangulation, const Seconds& seconds,
                     const std::string& what, const std::string& output) {
-  return sites_line(triangulation) + '\n' + faces_line(triangulation) + '\n' + "wrote " + what +
-         " to " + output + " in " + text_of(seconds.total) + '\n';
+  const Counts counts = counts_of(triangulation);
+  return sites_line(counts) + '\n' + faces_line(counts) + '\n' + "wrote " + what + " to " + output +
+         " in " + text_of(seconds.total) + '\n';
+}
+
+std::string out_of_core_json_report(const OutOfCoreReport& report, Model model,
+                                    const Seconds& seconds) {
+  Json json = json_of(counts_of(report, model));
+  json["buckets"] = report.num_buckets;
+  json["resumed_buckets"] = report.num_resumed;
+  json["open_sites"] = report.num_open_sites;
+  json["seconds"] = {{"total", seconds.total}};
+  json["peak_memory_bytes"] = peak_memory_bytes();
+  return json.dump(2) + '\n';
+}
+
+std::string out_of_core_summary(const OutOfCoreReport& report, Model model, const Seconds& seconds,
+                                const std::string& output) {
+  const Counts counts = counts_of(report, model);
+  std::string buckets = "in " + count(report.num_buckets, "bucket", "buckets");
+  if (report.num_resumed > 0)
+    buckets += ", " + std::to_string(report.num_resumed) + " of them done before";
+  return sites_line(counts) + '\n' + faces_line(counts) + ", " + buckets + '\n' +
+         "wrote the triangulation to " + output + " in " + text_of(seconds.total) + '\n';
 }
 
 std::string hull_summary(const Triangulation& hull, const HullSize& size, const Seconds& seconds,
                          const std::string& output) {
-  return sites_line(hull) + '\n' + hull_line(hull, size) + '\n' + "wrote the hull to " + output +
-         " in " + text_of(seconds.total) + '\n';
+  return sites_line(counts_of(hull)) + '\n' + hull_line(hull, size) + '\n' + "wrote the hull to " +
+         output + " in " + text_of(seconds.total) + '\n';
 }
 
 }  // namespace rondel::cli

@@ -10,6 +10,7 @@
 
 #include "command.h"
 #include "rondel/hull.h"
+#include "rondel/out_of_core.h"
 
 namespace rondel::cli {
 
@@ -31,6 +32,12 @@ std::string hull_json_report(const Triangulation& hull, const HullSize& size,
 /// A few lines: what was read, what came out, what was written and how long it took.
 std::string summary(const Triangulation& triangulation, const Seconds& seconds,
                     const std::string& what, const std::string& output);
+
+/// The same of a run out of core.
+std::string out_of_core_json_report(const OutOfCoreReport& report, Model model,
+                                    const Seconds& seconds);
+std::string out_of_core_summary(const OutOfCoreReport& report, Model model, const Seconds& seconds,
+                                const std::string& output);
 
 std::string hull_summary(const Triangulation& hull, const HullSize& size, const Seconds& seconds,
                          const std::string& output);

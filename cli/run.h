@@ -14,6 +14,16 @@
 
 namespace rondel::cli {
 
+struct DelaunayOptions {
+  CommonOptions common;
+  std::string neighbors;     ///< --neighbors; empty: not written
+  std::string areas;         ///< --areas; empty: not written
+  std::string duplicates;    ///< --duplicates; empty: not written
+  std::string scratch;       ///< --scratch; empty: all in memory
+  std::uint64_t memory = 0;  ///< --memory, in bytes; 0: not given
+  bool resume = false;       ///< --resume
+};
+
 struct VoronoiOptions {
   CommonOptions common;
   double tolerance_deg = 0.01;
@@ -46,7 +56,9 @@ struct QueryOptions {
   double within_deg = -1;            ///< --within; negative: not given
 };
 
-ExitStatus run_delaunay(const CommonOptions& options);
+ExitStatus run_delaunay(const DelaunayOptions& options);
+/// run_delaunay() with --scratch (out_of_core.cpp).
+ExitStatus run_out_of_core(const DelaunayOptions& options);
 ExitStatus run_voronoi(const VoronoiOptions& options);
 ExitStatus run_hull(const HullCommandOptions& options);
 ExitStatus run_check(const CheckOptions& options);

@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <string_view>
 
 namespace rondel::cli {
 namespace {
@@ -59,5 +61,32 @@ std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_
   return "'" + text + "' is not a whole number from " + std::to_string(min) + " to " +
          std::to_string(max);
 }
+
+namespace {
+
+// 0 where the text is none.
+std::uint64_t parsed_bytes(const std::string& text) {
+  constexpr std::string_view suffixes = "KMGT";
+  std::string digits = text;
+  unsigned bits = 0;
+  if (!digits.empty()) {
+    const std::size_t suffix = suffixes.find(digits.back());
+    if (suffix != std::string_view::npos) {
+      bits = 10 * (static_cast<unsigned>(suffix) + 1);
+      digits.pop_back();
+    }
+  }
+  if (!whole_error(digits, 1, std::numeric_limits<std::uint64_t>::max() >> bits).empty()) return 0;
+  return std::stoull(digits) << bits;
+}
+
+}  // namespace
+
+std::string bytes_error(const std::string& text) {
+  if (parsed_bytes(text) != 0) return {};
+  return "'" + text + "' is not a number of bytes, as 2G or 500M";
+}
+
+std::uint64_t bytes_of(const std::string& text) { return parsed_bytes(text); }
 
 }  // namespace rondel::cli

@@ -17,6 +17,10 @@ std::string range_error(const std::string& text, double min, double max);
 /// The decimal digits of a whole number that is written with a point or an exponent, as 1e6; other
 /// text as it is.
 std::string digits_of_whole(std::string text);
+/// A number of bytes: digits, and perhaps K, M, G or T for powers of 1024.
+std::string bytes_error(const std::string& text);
+/// \pre bytes_error(text) is empty.
+std::uint64_t bytes_of(const std::string& text);
 /// A whole number in [min, max], decimal.
 std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_t max);
 

@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs out of core that are killed, or for which the disk is too small: one line, no result, and another run goes on."""
+
+import filecmp
+import json
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+IS_SANITIZED = any(name in TOOL.read_bytes() for name in (b"__asan_init", b"__tsan_init"))
+NUM_SITES = 40_000 if IS_SANITIZED else 1_500_000
+MEMORY = 128 << 20
+
+
+def limit_files(size):
+    """No file may be longer; a write beyond is an error and not a signal."""
+
+    def limit():
+        signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        resource.setrlimit(resource.RLIMIT_FSIZE, (size, size))
+
+    return limit
+
+
+class OutOfCore(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        cls.folder = pathlib.Path(folder.name).resolve()
+        cls.run_tool("generate", "uniform", "-n", str(NUM_SITES), "-o", "sites.npy")
+        start = time.monotonic()
+        cls.run_tool("delaunay", "sites.npy", "-o", "expected.npy", "--neighbors", "expected_neighbors.npy")
+        cls.seconds = time.monotonic() - start
+
+    @classmethod
+    def run_tool(cls, *arguments, **options):
+        """Runs the tool in the folder."""
+        return subprocess.run([TOOL, *arguments], cwd=cls.folder, capture_output=True, text=True, timeout=300,
+                              check=False, **options)
+
+    def setUp(self):
+        self.command = ["delaunay", "sites.npy", "-o", "faces.npy", "--neighbors", "neighbors.npy",
+                        "--memory", str(MEMORY), "--scratch", "scratch"]
+
+    def expect_no_result(self):
+        self.assertEqual(sorted(path.name for path in self.folder.glob("*.npy")),
+                         ["expected.npy", "expected_neighbors.npy", "sites.npy"])
+
+    def expect_result(self, *options):
+        """Equal bytes, no scratch directory, and no more memory than was promised."""
+        done = self.run_tool(*self.command, "--json", *options)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        for name in ("faces.npy", "neighbors.npy"):
+            expected = self.folder / ("expected.npy" if name == "faces.npy" else "expected_" + name)
+            self.assertTrue(filecmp.cmp(self.folder / name, expected, shallow=False), name)
+            (self.folder / name).unlink()
+        self.assertFalse((self.folder / "scratch").exists())
+        report = json.loads(done.stdout)
+        if not IS_SANITIZED:
+            self.assertLess(report["peak_memory_bytes"], MEMORY)
+        return report
+
+    def test_killed_at_any_time(self):
+        """Until one comes to its end before it would be killed, a little later each time."""
+        num_resumed = []
+        for i in range(1, 30):
+            with subprocess.Popen([TOOL, *self.command, "--quiet"], cwd=self.folder) as process:
+                time.sleep(i * self.seconds / 8)
+                is_done = process.poll() is not None
+                process.kill()
+            if is_done:
+                break
+            self.expect_no_result()
+            num_resumed.append(self.expect_result("--resume")["resumed_buckets"])
+        self.assertTrue(is_done)
+        for name in ("faces.npy", "neighbors.npy"):
+            (self.folder / name).unlink()
+        if not IS_SANITIZED:
+            self.assertGreater(max(num_resumed), 0)
+
+    def test_killed_by_a_signal_that_is_handled(self):
+        """No temporary file is left beside the scratch directory."""
+        with subprocess.Popen([TOOL, *self.command, "--quiet"], cwd=self.folder) as process:
+            time.sleep(self.seconds / 2)
+            process.terminate()
+        left = {path.name for path in self.folder.iterdir()} - {"scratch"}
+        self.assertEqual(left, {"expected.npy", "expected_neighbors.npy", "sites.npy"})
+        self.expect_result("--resume")
+
+    def test_no_room(self):
+        """What is needed is asked for before work begins, and the last files grow without much notice."""
+        for size in (1000, 12 * NUM_SITES, 25 * NUM_SITES, 40 * NUM_SITES):
+            with self.subTest(size=size):
+                start = time.monotonic()
+                done = self.run_tool(*self.command, preexec_fn=limit_files(size))
+                self.assertLess(time.monotonic() - start, 10)
+                self.assertEqual((done.returncode, done.stdout), (1, ""))
+                self.assertRegex(done.stderr, r"^rondel: [^\n]*: File too large\n$")
+                self.expect_no_result()
+                self.expect_result("--resume")
+
+    def test_cut_scratch_files(self):
+        """They are found, and what they had is done again."""
+        for name in ("sites", "faces", "borders", "journal"):
+            with self.subTest(name=name):
+                with subprocess.Popen([TOOL, *self.command, "--quiet"], cwd=self.folder) as process:
+                    time.sleep(0.7 * self.seconds)
+                    process.kill()
+                path = self.folder / "scratch" / name
+                if path.exists():
+                    with open(path, "r+b") as file:
+                        file.truncate(path.stat().st_size // 2)
+                self.expect_no_result()
+                self.expect_result("--resume")
+
+    def test_arguments(self):
+        """What does not go together is said before work begins."""
+        for arguments, message in (
+            (["--memory", "2G"], "--memory requires --scratch"),
+            (["--resume"], "--resume requires --scratch"),
+            (["--scratch", "scratch", "--memory", "2X"], "'2X' is not a number of bytes, as 2G or 500M"),
+        ):
+            with self.subTest(arguments=arguments):
+                done = self.run_tool("delaunay", "sites.npy", "-o", "faces.npy", *arguments)
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(message, done.stderr)
+                self.assertEqual(done.stderr.count("\n"), 1)
+        done = self.run_tool("delaunay", "sites.npy", "-o", "faces.ply", "--scratch", "scratch")
+        self.assertEqual((done.returncode, done.stderr),
+                         (2, "rondel: --output: with --scratch 'faces.ply' must be a .npy file\n"))
+        done = self.run_tool("delaunay", "sites.npy", "-o", "faces.npy", "--scratch", "scratch", "--memory", "1M")
+        self.assertEqual((done.returncode, done.stderr),
+                         (1, "rondel: 1 MB of memory are less than the 96 MB that are needed at least\n"))
+
+
+if __name__ == "__main__":
+    unittest.main()
