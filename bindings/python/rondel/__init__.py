@@ -13,6 +13,11 @@ convex_hull
 unit_vectors, lonlat
     Degrees to unit vectors and back.
 
+Modules
+-------
+rondel.out_of_core
+    Triangulations that are larger than the memory, from files to files.
+
 Classes
 -------
 SphericalVoronoi

@@ -1,0 +1,112 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs from files to files: what rondel.delaunay finds in memory."""
+
+import os
+
+import clouds
+import numpy as np
+import pytest
+
+import rondel
+import rondel.out_of_core
+
+
+@pytest.fixture
+def folder(tmp_path):
+    points = clouds.uniform(3000)
+    np.save(tmp_path / "sites.npy", np.concatenate([points, points[:50]]))
+    return tmp_path
+
+
+def run(folder, **options):
+    return rondel.out_of_core.delaunay(
+        folder / "sites.npy", folder / "faces.npy", scratch=folder / "work", **options
+    )
+
+
+def results(folder):
+    return sorted(path.name for path in folder.glob("*.npy"))
+
+
+@pytest.mark.parametrize("model", ["projected", "weighted"])
+def test_all_results(folder, model):
+    report = run(
+        folder,
+        model=model,
+        neighbors=folder / "neighbors.npy",
+        areas=str(folder / "areas.npy"),
+        duplicates=folder / "duplicates.npy",
+    )
+    tri = rondel.delaunay(np.load(folder / "sites.npy"), model)
+    faces = np.load(folder / "faces.npy")
+    assert faces.dtype == np.uint32
+    np.testing.assert_array_equal(faces, tri.simplices)
+    np.testing.assert_array_equal(np.load(folder / "neighbors.npy"), tri.neighbors)
+    np.testing.assert_array_equal(np.load(folder / "duplicates.npy"), tri.duplicates)
+    areas = np.load(folder / "areas.npy")
+    assert areas.sum() == pytest.approx(4 * np.pi)
+    if model == "projected":
+        voronoi = rondel.SphericalVoronoi(np.load(folder / "sites.npy")[:3000])
+        np.testing.assert_array_equal(areas[:3000], voronoi.calculate_areas())
+        assert not areas[3000:].any()
+    assert (report.num_sites, report.num_vertices, report.num_faces) == (3050, 3000, 5996)
+    assert (report.num_duplicates, report.dimension, report.num_resumed) == (50, 2, 0)
+    assert not (folder / "work").exists()
+
+
+def test_lonlat(folder):
+    rng = np.random.default_rng(4)
+    lon, lat = rng.uniform(-180, 180, 500), rng.uniform(-90, 90, 500)
+    for radians in (False, True):
+        given = np.stack([lon, lat], axis=1)
+        np.save(folder / "sites.npy", np.radians(given) if radians else given)
+        run(folder, radians=radians)
+        if not radians:
+            expected = rondel.delaunay_lonlat(lon, lat).simplices
+            np.testing.assert_array_equal(np.load(folder / "faces.npy"), expected)
+    assert np.load(folder / "faces.npy").shape == (996, 3)
+
+
+def test_progress_and_resume(folder):
+    class Ended(Exception):
+        pass
+
+    def listen(stage, fraction):
+        assert 0 <= fraction <= 1
+        if stage != "count":
+            raise Ended
+
+    np.save(folder / "sites.npy", clouds.uniform(1_000_000))
+    with pytest.raises(Ended):
+        run(folder, progress=listen)
+    assert results(folder) == ["sites.npy"]
+    with pytest.raises(OSError, match="a run that has not come to its end"):
+        run(folder)
+    report = run(folder, resume=True)
+    assert report.num_resumed <= report.num_buckets
+    expected = rondel.delaunay(np.load(folder / "sites.npy")).simplices
+    np.testing.assert_array_equal(np.load(folder / "faces.npy"), expected)
+
+
+def test_what_is_wrong(folder):
+    with pytest.raises(rondel.InvalidInput, match="1 MB of memory are less than the 96 MB"):
+        run(folder, memory="1M")
+    with pytest.raises(ValueError, match="memory is '2X', which is not a number of bytes"):
+        run(folder, memory="2X")
+    with pytest.raises(ValueError, match="model is 'flat'"):
+        run(folder, model="flat")
+    points = np.load(folder / "sites.npy")
+    points[17, 1] = np.nan
+    np.save(folder / "sites.npy", points)
+    with pytest.raises(OSError, match=r"sites\.npy: row 17: "):
+        run(folder)
+    os.remove(folder / "sites.npy")
+    with pytest.raises(FileNotFoundError) as caught:
+        run(folder)
+    assert caught.value.filename == str(folder / "sites.npy")
+    assert results(folder) == []
+
+
+def test_memory_in_bytes(folder):
+    assert run(folder, memory=100 << 20).num_faces == 5996
