@@ -13,7 +13,6 @@ namespace {
 
 using order::high_levels;
 
-constexpr int first_depth = 9;  // 12 MB of counts
 constexpr int next_depth = 5;
 
 constexpr std::size_t num_squares(int depth) { return std::size_t{1} << (2 * depth); }
@@ -25,17 +24,18 @@ constexpr std::uint64_t square_of(std::uint64_t high_key, int level) {
 
 }  // namespace
 
-BucketCounts::BucketCounts(std::uint64_t most_sites)
+BucketCounts::BucketCounts(std::uint64_t most_sites, int depth)
     : most_sites_(std::max<std::uint64_t>(most_sites, 1)) {
-  const std::size_t size = 6 * num_squares(first_depth);
-  tables_.push_back({first_depth, first_depth, std::vector<std::uint64_t>(size, 0),
+  const std::size_t size = 6 * num_squares(depth);
+  tables_.push_back({depth, depth, std::vector<std::uint64_t>(size, 0),
                      std::vector<Index>(size, no_index)});
 }
 
 void BucketCounts::add(std::span<const std::uint64_t> high_keys) {
+  const int first_level = tables_.front().level;
   for (const std::uint64_t key : high_keys) {
     Index table = 0;
-    auto place = static_cast<std::size_t>(square_of(key, first_depth));
+    auto place = static_cast<std::size_t>(square_of(key, first_level));
     while (tables_[table].finer[place] != no_index) {
       table = tables_[table].finer[place];
       const Table& finer = tables_[table];
@@ -43,6 +43,20 @@ void BucketCounts::add(std::span<const std::uint64_t> high_keys) {
           static_cast<std::size_t>(square_of(key, finer.level) & (num_squares(finer.depth) - 1));
     }
     if (table >= num_old_) ++tables_[table].counts[place];
+  }
+}
+
+std::vector<std::uint64_t> BucketCounts::counts_of_round() const {
+  std::vector<std::uint64_t> result;
+  for (const Table& table : std::span(tables_).subspan(num_old_))
+    result.insert(result.end(), table.counts.begin(), table.counts.end());
+  return result;
+}
+
+void BucketCounts::set_counts_of_round(std::span<const std::uint64_t> counts) {
+  for (Table& table : std::span(tables_).subspan(num_old_)) {
+    std::ranges::copy(counts.first(table.counts.size()), table.counts.begin());
+    counts = counts.subspan(table.counts.size());
   }
 }
 
@@ -68,9 +82,10 @@ void BucketCounts::refine(Index table) {
 
 std::vector<BucketCut> BucketCounts::cuts() const {
   std::vector<BucketCut> result;
+  const int depth = tables_.front().depth;
   for (unsigned face = 0; face < 6; ++face) {
     cut(0, {{face, 0, 0}, order::position_bits, 0}, std::uint64_t{face} << (2 * high_levels),
-        face * num_squares(first_depth), first_depth, result);
+        face * num_squares(depth), depth, result);
   }
   return result;
 }

@@ -28,11 +28,19 @@ struct BucketCut {
 
 class RONDEL_API BucketCounts {
  public:
-  // With at most this many sites in a bucket. Copies of a site count.
-  explicit BucketCounts(std::uint64_t most_sites);
+  // 12 MB of counts.
+  static constexpr int usual_depth = 9;
+
+  // With at most this many sites in a bucket. Copies of a site count. In the first round 6 * 4^depth
+  // squares are told apart, on which no result depends.
+  explicit BucketCounts(std::uint64_t most_sites, int depth = usual_depth);
 
   // Counts these sites. In each round all sites are counted once.
   void add(std::span<const std::uint64_t> high_keys);
+  // What was counted in this round, by squares that depend on the counts of earlier rounds alone, for
+  // those who count together: they go on with the sums of their counts.
+  [[nodiscard]] std::vector<std::uint64_t> counts_of_round() const;
+  void set_counts_of_round(std::span<const std::uint64_t> counts);
   // Ends a round. Returns whether another one is needed, in which dense squares are counted finer.
   bool end_round();
 

@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <algorithm>
+#include <utility>
+
+#include "distributed/rank_build.h"
+#include "distributed/rank_result.h"
+
+namespace rondel {
+namespace {
+
+// Rows, shown some at a time.
+class RowVisits {
+ public:
+  explicit RowVisits(const std::function<void(std::span<const GlobalTriple>)>& visit)
+      : visit_(visit) {
+    rows_.reserve(most_rows);
+  }
+
+  void add(const GlobalTriple& row) {
+    rows_.push_back(row);
+    if (rows_.size() == most_rows) flush();
+  }
+  void flush() {
+    if (!rows_.empty()) visit_(rows_);
+    rows_.clear();
+  }
+
+ private:
+  static constexpr std::size_t most_rows = std::size_t{1} << 13;
+
+  const std::function<void(std::span<const GlobalTriple>)>& visit_;
+  std::vector<GlobalTriple> rows_;
+};
+
+}  // namespace
+
+DistributedTriangulation::DistributedTriangulation(std::shared_ptr<const Impl> impl) noexcept
+    : impl_(std::move(impl)) {}
+
+int DistributedTriangulation::dimension() const noexcept { return impl_->dimension; }
+std::uint64_t DistributedTriangulation::num_sites() const noexcept { return impl_->num_sites; }
+std::uint64_t DistributedTriangulation::num_vertices() const noexcept {
+  return impl_->num_vertices;
+}
+std::uint64_t DistributedTriangulation::num_faces() const noexcept { return impl_->num_faces; }
+std::uint64_t DistributedTriangulation::num_ghost_faces() const noexcept {
+  return impl_->num_ghost_faces;
+}
+std::uint64_t DistributedTriangulation::num_duplicates() const noexcept {
+  return impl_->num_duplicates;
+}
+std::uint64_t DistributedTriangulation::num_hidden() const noexcept { return impl_->num_hidden; }
+std::uint64_t DistributedTriangulation::num_open_sites() const noexcept {
+  return impl_->num_open_sites;
+}
+std::uint64_t DistributedTriangulation::first_face() const noexcept { return impl_->first_face; }
+std::uint64_t DistributedTriangulation::num_own_faces() const noexcept {
+  return impl_->num_own_faces;
+}
+std::span<const std::uint64_t> DistributedTriangulation::ghost_faces() const noexcept {
+  return impl_->ghost_faces;
+}
+std::span<const std::uint64_t> DistributedTriangulation::owned_sites() const noexcept {
+  return impl_->own.sites;
+}
+std::span<const std::uint64_t> DistributedTriangulation::ring() const noexcept {
+  return impl_->ring;
+}
+std::span<const GlobalDuplicate> DistributedTriangulation::duplicates() const noexcept {
+  return impl_->duplicates;
+}
+std::span<const std::uint64_t> DistributedTriangulation::hidden() const noexcept {
+  return impl_->hidden;
+}
+
+void DistributedTriangulation::visit_faces(
+    const std::function<void(std::span<const GlobalTriple>)>& visit) const {
+  RowVisits rows(visit);
+  for (std::size_t b = 0; b < impl_->faces.size(); ++b) {
+    const auto names = std::span(impl_->own.sites).subspan(impl_->own.first_site[b]);
+    const auto name = [&](const bulk::BucketCorner& corner) {
+      return corner.is_own ? names[corner.index] : impl_->part.site_indices[corner.index];
+    };
+    impl_->faces[b].for_each_face(impl_->own.buckets[b].faces, [&](const auto& v) {
+      rows.add({name(v[0]), name(v[1]), name(v[2])});
+    });
+  }
+  rows.flush();
+}
+
+void DistributedTriangulation::visit_neighbors(
+    const std::function<void(std::span<const GlobalTriple>)>& visit) const {
+  RowVisits rows(visit);
+  for (std::size_t b = 0; b < impl_->faces.size(); ++b) {
+    const bulk::JoinedNumbers& numbers = *impl_->numbers;
+    impl_->faces[b].for_each_neighbors(impl_->own.buckets[b].neighbors, [&](const auto& n) {
+      rows.add({numbers[n[0]], numbers[n[1]], numbers[n[2]]});
+    });
+  }
+  rows.flush();
+}
+
+DistributedTriangulation delaunay(Communicator& ranks, std::span<const Point> mine,
+                                  const DistributedOptions& distributed, const Options& options,
+                                  const Execution& execution) {
+  const distributed::RankLimits limits = {
+      std::clamp<std::uint64_t>(distributed.most_bucket_sites, 1, max_sites),
+      std::clamp<std::uint64_t>(distributed.most_dealt_sites, 1, max_sites), 0};
+  return DistributedTriangulation(
+      distributed::build_on_ranks(ranks, mine, limits, {options, execution}));
+}
+
+}  // namespace rondel

@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "distributed/rank_buckets.h"
+
+#include <array>
+#include <utility>
+
+#include "distributed/bucket_sites.h"
+
+namespace rondel::distributed {
+namespace {
+
+using OpenEnds = std::array<Index, 2>;
+
+}  // namespace
+
+std::vector<std::uint64_t> RankBuckets::open_sites() const {
+  std::vector<std::uint64_t> result;
+  for (std::size_t b = 0; b < buckets.size(); ++b) {
+    for (std::size_t s = 0; s < buckets[b].border.open_sites.size(); ++s)
+      result.push_back(open_site(b, s));
+  }
+  return result;
+}
+
+RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts,
+                                std::size_t first_bucket, std::size_t num_buckets,
+                                const system::Job& options) {
+  RankBuckets own;
+  own.first_site.push_back(0);
+  system::Job job = options;
+  job.progress = {};  // that of all buckets is shown
+  LargeVector<Point> points;
+  std::vector<std::uint64_t> indices;
+  for (std::size_t b = 0; b < num_buckets; ++b) {
+    system::obey_stop();
+    system::announce(options, "triangulate", b, num_buckets);
+    sites.gather(b, points, indices);
+    bulk::Bucket bucket = bulk::triangulate_bucket(
+        points, counts.plan.buckets[first_bucket + b].square, counts.all, job);
+    std::vector<Point> open_points;
+    for (const bulk::SeamSite& site : bucket.border.open_sites)
+      open_points.push_back(points[bucket.order.order[site.rank]]);
+    own.open_points.push_back(std::move(open_points));
+    const std::vector<std::uint64_t> rows = vertex_rows(bucket.order, indices);
+    own.sites.insert(own.sites.end(), rows.begin(), rows.end());
+    own.first_site.push_back(own.sites.size());
+    for (const Duplicate& d : bucket.order.duplicates)
+      own.duplicates.push_back({indices[d.site], indices[d.representative]});
+    for (const Index rank : bucket.hidden) own.hidden.push_back(rows[rank]);
+    bucket.order = {};
+    own.buckets.push_back(std::move(bucket));
+  }
+  return own;
+}
+
+Bytes write_open_buckets(const RankBuckets& own) {
+  MessageWriter writer;
+  for (std::size_t b = 0; b < own.buckets.size(); ++b) {
+    const bulk::BucketBorder& border = own.buckets[b].border;
+    std::vector<OpenEnds> edges;
+    edges.reserve(border.open_edges.size());
+    for (const bulk::SeamEdge& edge : border.open_edges) edges.push_back({edge.a, edge.b});
+    writer.add_value<std::uint64_t>(own.first_site[b + 1] - own.first_site[b]);
+    writer.add(own.open_points[b]);
+    writer.add(edges);
+    writer.add(border.hidden);
+  }
+  writer.add(own.open_sites());
+  return writer.take();
+}
+
+void read_open_buckets(MessageReader& reader, std::span<const bulk::BucketCut> cuts,
+                       OpenBuckets& all) {
+  for (const bulk::BucketCut& cut : cuts) {
+    bulk::OpenBucket& open = all.buckets.emplace_back();
+    open.square = cut.square;
+    open.num_sites = static_cast<double>(reader.value<std::uint64_t>());
+    open.points = reader.values<Point>();
+    for (const auto& [a, b] : reader.values<OpenEnds>()) open.open_edges.push_back({a, b, 0, 0});
+    open.hidden = reader.values<Index>();
+  }
+  const auto sites = reader.values<std::uint64_t>();
+  all.sites.insert(all.sites.end(), sites.begin(), sites.end());
+}
+
+}  // namespace rondel::distributed

@@ -1,0 +1,55 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The buckets of one rank, triangulated as far as each of them can be by itself.
+//
+// in    the sites of this rank's buckets
+// out   their faces in memory, and what they leave open, as a message
+// index buckets of this rank; sites of all ranks, counted through
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "bulk/bucket.h"
+#include "distributed/rank_sites.h"
+#include "rondel/distributed.h"
+#include "system/job.h"
+
+namespace rondel::distributed {
+
+struct RankBuckets {
+  std::vector<bulk::Bucket> buckets;                // without their orders
+  std::vector<std::size_t> first_site;              // of each bucket in `sites`, and behind the last
+  std::vector<std::uint64_t> sites;                 // by rank, bucket after bucket
+  std::vector<std::vector<Point>> open_points;      // by bucket
+  std::vector<GlobalDuplicate> duplicates;          // in no particular order
+  std::vector<std::uint64_t> hidden;                // whatever other buckets have, in no order
+
+  // Of open site s of a bucket.
+  [[nodiscard]] std::uint64_t open_site(std::size_t bucket, std::size_t s) const {
+    return sites[first_site[bucket] + buckets[bucket].border.open_sites[s].rank];
+  }
+  // Of all buckets, in their order.
+  [[nodiscard]] std::vector<std::uint64_t> open_sites() const;
+};
+
+// The buckets of `plan` from `first_bucket` on.
+RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts,
+                                std::size_t first_bucket, std::size_t num_buckets,
+                                const system::Job& options);
+
+// What the buckets leave open, to be joined.
+Bytes write_open_buckets(const RankBuckets& own);
+
+// Those of all ranks: buckets in the order of the curve, and the indices of their open sites.
+struct OpenBuckets {
+  std::vector<bulk::OpenBucket> buckets;
+  std::vector<std::uint64_t> sites;
+};
+
+// Adds what a rank wrote, whose buckets are these.
+void read_open_buckets(MessageReader& reader, std::span<const bulk::BucketCut> cuts,
+                       OpenBuckets& all);
+
+}  // namespace rondel::distributed

@@ -1,0 +1,215 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "distributed/rank_build.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "distributed/rank_join.h"
+#include "distributed/rank_result.h"
+#include "distributed/supersteps.h"
+
+namespace rondel::distributed {
+namespace {
+
+std::vector<std::uint64_t> gather_values(Supersteps& steps, std::uint64_t value) {
+  MessageWriter writer;
+  writer.add_value(value);
+  std::vector<std::uint64_t> values;
+  for (const Bytes& message : steps.all_gather(writer.take()))
+    values.push_back(MessageReader(message).value<std::uint64_t>());
+  return values;
+}
+
+std::uint64_t sum(std::span<const std::uint64_t> values) {
+  std::uint64_t result = 0;
+  for (const std::uint64_t value : values) result += value;
+  return result;
+}
+
+class RankBuild {
+ public:
+  RankBuild(Supersteps& steps, std::span<const Point> mine, const RankLimits& limits,
+            const system::Job& options)
+      : steps_(steps),
+        mine_(mine),
+        limits_(limits),
+        options_(options),
+        result_(std::make_shared<DistributedTriangulation::Impl>()) {}
+
+  std::shared_ptr<const DistributedTriangulation::Impl> run() {
+    counts_ = count_on_ranks(steps_, mine_, limits_, options_);
+    result_->num_sites = counts_.first_site.back();
+    triangulate();
+    join();
+    if (result_->dimension == 2) number();
+    finish();
+    return std::move(result_);
+  }
+
+ private:
+  RankBuckets& own() { return result_->own; }
+
+  void triangulate() {
+    const RankSites sites(steps_, mine_, counts_, limits_);
+    steps_.begin("triangulate");
+    const std::size_t first = counts_.plan.first_bucket[steps_.rank()];
+    own() = triangulate_buckets(sites, counts_, first, counts_.plan.num_buckets(steps_.rank()),
+                                options_);
+    std::uint64_t num_open = 0;
+    for (const auto& points : own().open_points) num_open += points.size();
+    result_->num_open_sites = sum(gather_values(steps_, num_open));
+    if (result_->num_open_sites <= max_sites) return;
+    throw std::length_error("the faces of " + std::to_string(result_->num_open_sites) + " of " +
+                            std::to_string(result_->num_sites) +
+                            " sites reach beyond every square; at most " +
+                            std::to_string(max_sites) + " can be joined");
+  }
+
+  void join() {
+    steps_.begin("join");
+    system::announce(options_, "join", 0);
+    std::vector<Bytes> messages(steps_.size());
+    messages[0] = write_open_buckets(own());
+    own().open_points = {};
+    std::vector<Bytes> received = steps_.exchange(std::move(messages));
+    messages.assign(steps_.size(), {});
+    if (steps_.rank() == 0) messages = join_ranks(std::move(received), counts_, options_);
+    received = steps_.exchange(std::move(messages));
+    MessageReader reader(received[0]);
+    const auto report = reader.value<JoinedReport>();
+    result_->dimension = report.dimension;
+    result_->num_ghost_faces = report.num_ghost_faces;
+    if (report.dimension == 2) {
+      result_->part = read_joined_part(reader, own().open_sites());
+      add_hidden();
+    } else if (steps_.rank() == 0) {
+      result_->ring = reader.values<std::uint64_t>();
+      const auto hidden = reader.values<std::uint64_t>();
+      own().hidden.insert(own().hidden.end(), hidden.begin(), hidden.end());
+    }
+  }
+
+  // Open sites without a face.
+  void add_hidden() {
+    const JoinedPart& part = result_->part;
+    std::vector<bool> is_vertex(part.site_indices.size(), false);
+    for (const Triple& face : part.faces.faces) {
+      for (const Index s : face) is_vertex[s] = true;
+    }
+    Index s = part.first_site;
+    for (const bulk::Bucket& bucket : own().buckets) {
+      for (std::size_t i = 0; i < bucket.border.open_sites.size(); ++i, ++s) {
+        if (!is_vertex[s]) own().hidden.push_back(part.site_indices[s]);
+      }
+    }
+  }
+
+  void number() {
+    steps_.begin("number");
+    const JoinedPart& part = result_->part;
+    Index first_site = part.first_site;
+    Index first_edge = part.first_edge;
+    result_->faces.reserve(own().buckets.size());
+    for (const bulk::Bucket& bucket : own().buckets) {
+      result_->faces.emplace_back(bucket.border, part.faces, first_site, first_edge);
+      result_->num_own_faces += result_->faces.back().size();
+      first_site += static_cast<Index>(bucket.border.open_sites.size());
+      first_edge += static_cast<Index>(bucket.border.open_edges.size());
+    }
+    const auto num_faces = gather_values(steps_, result_->num_own_faces);
+    result_->num_faces = sum(num_faces);
+    result_->first_face = limits_.first_number + sum(std::span(num_faces).first(steps_.rank()));
+    result_->numbers = std::make_unique<bulk::JoinedNumbers>(part.faces);
+    result_->numbers->faces.resize(part.num_faces);
+    std::uint64_t next = result_->first_face;
+    for (bulk::BucketFaces& faces : result_->faces) {
+      faces.number(next, *result_->numbers);
+      next += faces.size();
+    }
+    for (const Index f : part.faces.ghost_faces)
+      result_->ghost_faces.push_back(result_->numbers->faces[f]);
+    std::ranges::sort(result_->ghost_faces);
+    tell_numbers();
+  }
+
+  void tell_numbers() {
+    bulk::JoinedNumbers& numbers = *result_->numbers;
+    std::vector<Bytes> messages(steps_.size());
+    for (const NumberList& list : result_->part.told) {
+      MessageWriter writer;
+      for (const Index f : list.faces) writer.add_value(numbers.faces[f]);
+      for (const Index e : list.edges) writer.add_value(numbers.at_edge[e]);
+      messages[list.rank] = writer.take();
+    }
+    const std::vector<Bytes> received = steps_.exchange(std::move(messages));
+    for (const NumberList& list : result_->part.asked) {
+      MessageReader reader(received[list.rank]);
+      for (const Index f : list.faces) numbers.faces[f] = reader.value<std::uint64_t>();
+      for (const Index e : list.edges) numbers.at_edge[e] = reader.value<std::uint64_t>();
+    }
+    result_->part.told = {};
+    result_->part.asked = {};
+  }
+
+  // Which rank gave a site.
+  [[nodiscard]] std::size_t home_of(std::uint64_t site) const {
+    const auto& begin = counts_.first_site;
+    return static_cast<std::size_t>(
+               std::ranges::upper_bound(begin, site - limits_.first_number) - begin.begin()) -
+           1;
+  }
+
+  void finish() {
+    steps_.begin("finish");
+    const std::uint64_t num_own = own().sites.size();
+    std::vector<std::vector<GlobalDuplicate>> duplicates(steps_.size());
+    std::vector<std::vector<std::uint64_t>> hidden(steps_.size());
+    for (const GlobalDuplicate& d : own().duplicates) duplicates[home_of(d.site)].push_back(d);
+    for (const std::uint64_t site : own().hidden) hidden[home_of(site)].push_back(site);
+    std::vector<Bytes> messages(steps_.size());
+    for (std::size_t rank = 0; rank < steps_.size(); ++rank) {
+      if (duplicates[rank].empty() && hidden[rank].empty()) continue;
+      MessageWriter writer;
+      writer.add(duplicates[rank]);
+      writer.add(hidden[rank]);
+      messages[rank] = writer.take();
+    }
+    own().duplicates = {};
+    own().hidden = {};
+    for (const Bytes& message : steps_.exchange(std::move(messages))) {
+      if (message.empty()) continue;
+      MessageReader reader(message);
+      for (const auto& d : reader.values<GlobalDuplicate>()) result_->duplicates.push_back(d);
+      for (const auto site : reader.values<std::uint64_t>()) result_->hidden.push_back(site);
+    }
+    std::ranges::sort(result_->duplicates, {}, &GlobalDuplicate::site);
+    std::ranges::sort(result_->hidden);
+    result_->num_duplicates = sum(gather_values(steps_, result_->duplicates.size()));
+    result_->num_hidden = sum(gather_values(steps_, result_->hidden.size()));
+    result_->num_vertices = sum(gather_values(steps_, num_own)) - result_->num_hidden;
+  }
+
+  Supersteps& steps_;
+  std::span<const Point> mine_;
+  const RankLimits& limits_;
+  const system::Job& options_;
+  RankCounts counts_;
+  std::shared_ptr<DistributedTriangulation::Impl> result_;
+};
+
+}  // namespace
+
+std::shared_ptr<const DistributedTriangulation::Impl> build_on_ranks(Communicator& ranks,
+                                                                     std::span<const Point> mine,
+                                                                     const RankLimits& limits,
+                                                                     const system::Job& options) {
+  const system::Call call(options);
+  Supersteps steps(ranks);
+  return steps.run([&] { return RankBuild(steps, mine, limits, options).run(); });
+}
+
+}  // namespace rondel::distributed

@@ -1,0 +1,145 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "distributed/rank_counts.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "api/validation.h"
+#include "bulk/bucket_cuts.h"
+#include "distributed/site_counts.h"
+
+namespace rondel::distributed {
+namespace {
+
+// Squares with a twentieth of a rank's share at most, so that no rank has 5 % more than its share.
+constexpr std::uint64_t squares_of_rank = 20;
+
+std::uint64_t most_square_sites(std::uint64_t num_sites, std::size_t num_ranks,
+                                std::uint64_t most_bucket_sites) {
+  const std::uint64_t share = num_ranks == 1 ? num_sites : num_sites / (squares_of_rank * num_ranks);
+  return std::clamp<std::uint64_t>(share, 1, most_bucket_sites);
+}
+
+// Such that uniform sites need one round, and the counts are as few as that allows.
+int depth_for(std::size_t num_ranks) {
+  int depth = 3;
+  while (depth < bulk::BucketCounts::usual_depth &&
+         (std::size_t{6} << (2 * depth)) < 16 * squares_of_rank * num_ranks) {
+    ++depth;
+  }
+  return depth;
+}
+
+// Of so many values, those that a rank adds up.
+std::size_t slice_begin(std::size_t size, std::size_t rank, std::size_t num_ranks) {
+  return size / num_ranks * rank + std::min(rank, size % num_ranks);
+}
+
+class RankCounter {
+ public:
+  RankCounter(Supersteps& steps, std::span<const Point> mine, const RankLimits& limits,
+              const system::Job& options)
+      : steps_(steps), mine_(mine), limits_(limits), options_(options) {}
+
+  RankCounts run() {
+    steps_.begin("count");
+    find_first_sites();
+    look_at_sites();
+    bool needs_round = true;
+    while (needs_round) {
+      system::obey_stop();
+      const auto received = steps_.exchange(slices_of_counts());
+      read(steps_.all_gather(sum_slices(received)));
+      needs_round = counts_->end_round();
+    }
+    result_.plan = plan_ranks(counts_->cuts(), steps_.size(), limits_.most_bucket_sites);
+    return std::move(result_);
+  }
+
+ private:
+  void find_first_sites() {
+    api::validate(options_, 0);
+    MessageWriter writer;
+    writer.add_value<std::uint64_t>(mine_.size());
+    const auto received = steps_.all_gather(writer.take());
+    result_.first_site.push_back(0);
+    for (const Bytes& message : received) {
+      MessageReader reader(message);
+      result_.first_site.push_back(result_.first_site.back() + reader.value<std::uint64_t>());
+    }
+  }
+
+  // The first site that is not valid is that of the lowest rank that has one, which is heard.
+  void look_at_sites() {
+    api::validate_some(mine_, options_, result_.first_site[steps_.rank()]);
+    result_.all = bulk::AllSites(options_);
+    result_.all.add(mine_);
+    result_.keys.resize(mine_.size());
+    find_keys(mine_, options_, result_.keys);
+    counts_.emplace(
+        most_square_sites(result_.first_site.back(), steps_.size(), limits_.most_bucket_sites),
+        depth_for(steps_.size()));
+  }
+
+  std::vector<Bytes> slices_of_counts() {
+    counts_->add(result_.keys);
+    const std::vector<std::uint64_t> counts = counts_->counts_of_round();
+    num_counts_ = counts.size();
+    std::vector<Bytes> messages;
+    for (std::size_t rank = 0; rank < steps_.size(); ++rank) {
+      const std::size_t begin = slice_begin(num_counts_, rank, steps_.size());
+      const std::size_t end = slice_begin(num_counts_, rank + 1, steps_.size());
+      MessageWriter writer;
+      writer.add_values(std::span(counts).subspan(begin, end - begin));
+      messages.push_back(writer.take());
+    }
+    return messages;
+  }
+
+  Bytes sum_slices(std::span<const Bytes> received) const {
+    const std::size_t begin = slice_begin(num_counts_, steps_.rank(), steps_.size());
+    const std::size_t end = slice_begin(num_counts_, steps_.rank() + 1, steps_.size());
+    std::vector<std::uint64_t> sums(end - begin, 0);
+    std::vector<std::uint64_t> counts(sums.size());
+    for (const Bytes& message : received) {
+      MessageReader(message).read_values(std::span(counts));
+      for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += counts[i];
+    }
+    MessageWriter writer;
+    writer.add_value(result_.all);
+    writer.add_values(std::span<const std::uint64_t>(sums));
+    return writer.take();
+  }
+
+  void read(std::span<const Bytes> received) {
+    std::vector<std::uint64_t> counts(num_counts_);
+    for (std::size_t rank = 0; rank < received.size(); ++rank) {
+      const std::size_t begin = slice_begin(num_counts_, rank, steps_.size());
+      const std::size_t end = slice_begin(num_counts_, rank + 1, steps_.size());
+      MessageReader reader(received[rank]);
+      result_.all.add(reader.value<bulk::AllSites>());
+      reader.read_values(std::span(counts).subspan(begin, end - begin));
+    }
+    counts_->set_counts_of_round(counts);
+  }
+
+  Supersteps& steps_;
+  std::span<const Point> mine_;
+  const RankLimits& limits_;
+  const system::Job& options_;
+  std::optional<bulk::BucketCounts> counts_;
+  std::size_t num_counts_ = 0;
+  RankCounts result_;
+};
+
+}  // namespace
+
+RankCounts count_on_ranks(Supersteps& steps, std::span<const Point> mine, const RankLimits& limits,
+                          const system::Job& options) {
+  return RankCounter(steps, mine, limits, options).run();
+}
+
+}  // namespace rondel::distributed

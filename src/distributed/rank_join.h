@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the buckets of all ranks left open, joined by one rank.
+//
+// in    the open sites and edges of each rank
+// out   for each rank, the faces between buckets that it needs; below dimension 2 the ring
+// index ranks
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "distributed/joined_part.h"
+#include "distributed/rank_counts.h"
+
+namespace rondel::distributed {
+
+// What is told to all ranks. In dimension 2 the part of the rank follows; below that, for rank 0 alone,
+// the ring and the hidden sites.
+struct JoinedReport {
+  int dimension = -1;
+  std::uint64_t num_ghost_faces = 0;
+};
+
+// From what write_open_buckets() wrote on each rank.
+std::vector<Bytes> join_ranks(std::vector<Bytes> open, const RankCounts& counts,
+                              const system::Job& options);
+
+}  // namespace rondel::distributed

@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The sites of each bucket on the rank that triangulates it, in the order of their indices.
+//
+// in    the sites of each rank, some at a time
+// out   the sites of this rank's buckets, one bucket after the other
+// index buckets of this rank, from 0 on; sites of all ranks, counted through
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "distributed/rank_counts.h"
+#include "distributed/supersteps.h"
+#include "system/large_vector.h"
+
+namespace rondel::distributed {
+
+class RankSites {
+ public:
+  // Deals the sites. The keys in `counts` are not needed any more.
+  RankSites(Supersteps& steps, std::span<const Point> mine, RankCounts& counts,
+            const RankLimits& limits);
+
+  // Of one bucket: the points, and the indices, which are increasing.
+  void gather(std::size_t bucket, LargeVector<Point>& points,
+              std::vector<std::uint64_t>& indices) const;
+
+ private:
+  // What one rank sent in one round.
+  struct DealtPiece {
+    Bytes bytes;
+    std::uint64_t first_index = 0;
+    std::vector<Index> begin;           // of each bucket, and behind the last one
+    std::span<const std::byte> points;  // in `bytes`
+    std::span<const std::byte> offsets;
+  };
+
+  void add(Bytes message, std::size_t num_buckets, std::vector<DealtPiece>& pieces);
+
+  std::vector<std::vector<DealtPiece>> pieces_;  // by rank, and by round
+};
+
+}  // namespace rondel::distributed
