@@ -30,12 +30,12 @@ void describe(Bytes& message, std::byte kind, std::string_view text) noexcept {
 
 }  // namespace
 
-Supersteps::Supersteps(Communicator& ranks)
+Supersteps::Supersteps(Communicator& ranks) noexcept
     : ranks_(ranks),
       rank_(static_cast<std::size_t>(ranks.rank())),
-      size_(static_cast<std::size_t>(ranks.size())) {
-  failure_.reserve(1 + most_text_bytes);
-}
+      size_(static_cast<std::size_t>(ranks.size())) {}
+
+void Supersteps::reserve_failure() { failure_.reserve(1 + most_text_bytes); }
 
 void Supersteps::begin(const char* phase) {
   phase_ = phase;

@@ -24,7 +24,7 @@ namespace rondel::distributed {
 
 class Supersteps {
  public:
-  explicit Supersteps(Communicator& ranks);
+  explicit Supersteps(Communicator& ranks) noexcept;
 
   [[nodiscard]] std::size_t rank() const { return rank_; }
   [[nodiscard]] std::size_t size() const { return size_; }
@@ -33,6 +33,7 @@ class Supersteps {
   template <class Work>
   auto run(Work work) {
     try {
+      reserve_failure();
       auto result = work();
       all_gather({});
       return result;
@@ -49,6 +50,7 @@ class Supersteps {
   std::vector<Bytes> exchange(std::vector<Bytes> messages);
 
  private:
+  void reserve_failure();
   void tell_failure();
   void describe_failure() noexcept;
   // Throws what a rank tells.

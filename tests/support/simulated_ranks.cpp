@@ -81,13 +81,13 @@ std::vector<std::string> SimulatedRanks::run(const std::function<void(Communicat
         std::unique_lock lock(mutex_);
         take_turn(lock);
       }
-      Rank rank(*this, static_cast<int>(r));
       try {
+        Rank rank(*this, static_cast<int>(r));
         work(rank);
+        rank.end_phase();
       } catch (const std::exception& error) {
         errors[r] = error.what();
       }
-      rank.end_phase();
       leave();
     });
   }
