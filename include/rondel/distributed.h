@@ -99,6 +99,16 @@ struct DistributedOptions {
   std::uint64_t most_dealt_sites = std::uint64_t{1} << 21;
 };
 
+/// The results of delaunay_file(), .npy files on a disk that all ranks see. They appear complete, when
+/// all ranks are done, or not at all. Numbers of sites and faces are uint32 while all of them fit, and
+/// int64 otherwise.
+struct DistributedFiles {
+  std::string faces;         ///< (m, 3): input indices, counterclockwise, as Triangulation::faces()
+  std::string neighbors{};   ///< (m, 3): faces, opposite to each corner; empty: not written
+  std::string duplicates{};  ///< (k, 2): site and representative, by site; empty: not written
+  bool radians = false;      ///< longitudes and latitudes of the input are in radians
+};
+
 /// The triangulation, of which each rank has its part: consecutive faces, those of rank r behind those
 /// of rank r - 1. Sites have the indices of all input, that of rank r behind that of rank r - 1.
 /// Immutable; copies share everything.
@@ -156,5 +166,15 @@ RONDEL_API DistributedTriangulation delaunay(Communicator& ranks, std::span<cons
                                              const DistributedOptions& distributed = {},
                                              const Options& options = {},
                                              const Execution& execution = {});
+
+/// The same of the sites of a .npy file, (n, 3) points or (n, 2) longitudes and latitudes in degrees, of
+/// any type of numbers, of which each rank reads its share, as it writes its share of the results.
+/// Until all is written a file has the name of the result with ".rondel.tmp" behind it.
+/// \throws DistributedError on all ranks: also what a file or its rows have that is not valid
+RONDEL_API DistributedTriangulation delaunay_file(Communicator& ranks, const std::string& sites,
+                                                  const DistributedFiles& files,
+                                                  const DistributedOptions& distributed = {},
+                                                  const Options& options = {},
+                                                  const Execution& execution = {});
 
 }  // namespace rondel

@@ -45,6 +45,9 @@ class MessageWriter {
     add_values(std::span<const T>(values));
   }
 
+  // To be written later, from take() on.
+  void add_room(std::size_t num_bytes) { bytes_.resize(bytes_.size() + num_bytes); }
+
   Bytes take() { return std::move(bytes_); }
 
  private:

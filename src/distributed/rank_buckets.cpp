@@ -6,8 +6,6 @@
 #include <array>
 #include <utility>
 
-#include "distributed/bucket_sites.h"
-
 namespace rondel::distributed {
 namespace {
 
@@ -32,7 +30,11 @@ RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts
   system::Job job = options;
   job.progress = {};  // that of all buckets is shown
   LargeVector<Point> points;
-  std::vector<std::uint64_t> indices;
+  LargeVector<std::uint64_t> indices;
+  std::uint64_t num_sites = 0;
+  for (std::size_t b = 0; b < num_buckets; ++b)
+    num_sites += counts.plan.buckets[first_bucket + b].num_sites;
+  own.sites.reserve(num_sites);
   for (std::size_t b = 0; b < num_buckets; ++b) {
     system::obey_stop();
     system::announce(options, "triangulate", b, num_buckets);
@@ -43,12 +45,13 @@ RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts
     for (const bulk::SeamSite& site : bucket.border.open_sites)
       open_points.push_back(points[bucket.order.order[site.rank]]);
     own.open_points.push_back(std::move(open_points));
-    const std::vector<std::uint64_t> rows = vertex_rows(bucket.order, indices);
-    own.sites.insert(own.sites.end(), rows.begin(), rows.end());
+    const std::size_t first = own.sites.size();
+    for (const Index site : bucket.order.order) own.sites.push_back(indices[site]);
+    for (const auto& [rank, name] : bucket.order.renamed) own.sites[first + rank] = indices[name];
     own.first_site.push_back(own.sites.size());
     for (const Duplicate& d : bucket.order.duplicates)
       own.duplicates.push_back({indices[d.site], indices[d.representative]});
-    for (const Index rank : bucket.hidden) own.hidden.push_back(rows[rank]);
+    for (const Index rank : bucket.hidden) own.hidden.push_back(own.sites[first + rank]);
     bucket.order = {};
     own.buckets.push_back(std::move(bucket));
   }

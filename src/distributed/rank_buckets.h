@@ -15,16 +15,17 @@
 #include "distributed/rank_sites.h"
 #include "rondel/distributed.h"
 #include "system/job.h"
+#include "system/large_vector.h"
 
 namespace rondel::distributed {
 
 struct RankBuckets {
-  std::vector<bulk::Bucket> buckets;                // without their orders
-  std::vector<std::size_t> first_site;              // of each bucket in `sites`, and behind the last
-  std::vector<std::uint64_t> sites;                 // by rank, bucket after bucket
-  std::vector<std::vector<Point>> open_points;      // by bucket
-  std::vector<GlobalDuplicate> duplicates;          // in no particular order
-  std::vector<std::uint64_t> hidden;                // whatever other buckets have, in no order
+  std::vector<bulk::Bucket> buckets;            // without their orders
+  std::vector<std::size_t> first_site;          // of each bucket in `sites`, and behind the last one
+  LargeVector<std::uint64_t> sites;             // by rank, bucket after bucket
+  std::vector<std::vector<Point>> open_points;  // by bucket
+  std::vector<GlobalDuplicate> duplicates;      // in no particular order
+  std::vector<std::uint64_t> hidden;            // whatever other buckets have, in no order
 
   // Of open site s of a bucket.
   [[nodiscard]] std::uint64_t open_site(std::size_t bucket, std::size_t s) const {

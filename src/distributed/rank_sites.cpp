@@ -10,84 +10,144 @@
 namespace rondel::distributed {
 namespace {
 
-// Some of this rank's sites in a row, sorted by their buckets. Of a site its index is sent as what it is
-// above that of the first one.
-class DealtRound {
+// Finds the bucket of a key by its first bits, as far as they tell.
+class BucketTable {
  public:
-  DealtRound(std::span<const Point> points, std::span<const std::uint64_t> keys, std::uint64_t first_index,
-        const RankPlan& plan)
-      : plan_(plan), first_index_(first_index), begin_(plan.buckets.size() + 1, 0) {
-    std::vector<Index> bucket_of(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      bucket_of[i] = static_cast<Index>(bulk::bucket_of(keys[i], plan.buckets));
-      ++begin_[bucket_of[i] + 1];
-    }
-    for (std::size_t b = 1; b < begin_.size(); ++b) begin_[b] += begin_[b - 1];
-    points_.resize(points.size());
-    offsets_.resize(points.size());
-    std::vector<Index> next = begin_;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const Index place = next[bucket_of[i]]++;
-      points_[place] = points[i];
-      offsets_[place] = static_cast<Index>(i);
-    }
+  explicit BucketTable(std::span<const bulk::BucketCut> cuts) : cuts_(cuts) {
+    first_.reserve(table_size + 1);
+    for (std::size_t i = 0; i < table_size; ++i)
+      first_.push_back(static_cast<Index>(bulk::bucket_of(std::uint64_t{i} << shift, cuts) + 1));
+    first_.push_back(static_cast<Index>(cuts.size()));
   }
 
-  [[nodiscard]] Bytes message_to(std::size_t rank) const {
-    const std::size_t first = plan_.first_bucket[rank];
-    const std::size_t num_buckets = plan_.num_buckets(rank);
-    const Index begin = begin_[first];
-    const Index size = begin_[first + num_buckets] - begin;
-    if (size == 0) return {};
-    MessageWriter writer;
-    writer.reserve(sizeof(std::uint64_t) + num_buckets * sizeof(Index) +
-                   size * (sizeof(Point) + sizeof(Index)));
-    writer.add_value(first_index_);
-    for (std::size_t b = first; b < first + num_buckets; ++b)
-      writer.add_value<Index>(begin_[b + 1] - begin_[b]);
-    writer.add_values(std::span<const Point>(points_).subspan(begin, size));
-    writer.add_values(std::span<const Index>(offsets_).subspan(begin, size));
-    return writer.take();
+  // The buckets that begin at or before a key are one more than the number of its bucket.
+  [[nodiscard]] Index operator()(std::uint64_t key) const {
+    const std::size_t i = key >> shift;
+    const auto cuts = cuts_.subspan(first_[i], first_[i + 1] - first_[i]);
+    const auto next = std::ranges::upper_bound(cuts, key, {}, &bulk::BucketCut::first_key);
+    return first_[i] + static_cast<Index>(next - cuts.begin()) - 1;
   }
 
  private:
+  static constexpr std::size_t table_size = std::size_t{1} << 13;
+  static constexpr int shift = order::high_key_bits - 13;
+
+  std::span<const bulk::BucketCut> cuts_;
+  std::vector<Index> first_;
+};
+
+// Messages with some of this rank's sites in a row, sorted by their buckets: the index of the first
+// one, for each bucket of the receiver how many it gets, all points, and all offsets: of each site, by
+// what its index is above that of the first one.
+class Dealer {
+ public:
+  Dealer(const RankPlan& plan, std::size_t self, std::size_t num_ranks)
+      : plan_(plan), table_(plan.buckets), self_(self), num_ranks_(num_ranks) {}
+
+  std::vector<Bytes> deal(std::span<const Point> points, std::span<const std::uint64_t> keys,
+                          std::uint64_t first_index) {
+    counts_.assign(plan_.buckets.size(), 0);
+    bucket_of_.resize(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      bucket_of_[i] = table_(keys[i]);
+      ++counts_[bucket_of_[i]];
+    }
+    std::vector<Bytes> messages;
+    for (std::size_t rank = 0; rank < num_ranks_; ++rank)
+      messages.push_back(make_message(rank, first_index));
+    find_places(messages);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      Place& place = places_[bucket_of_[i]];
+      const auto offset = static_cast<Index>(i);
+      if (place.point != nullptr) {
+        std::memcpy(place.point, &points[i], sizeof(Point));
+        place.point += sizeof(Point);
+      }
+      std::memcpy(place.offset, &offset, sizeof offset);
+      place.offset += sizeof offset;
+    }
+    return messages;
+  }
+
+ private:
+  // Where the next site of a bucket goes.
+  struct Place {
+    std::byte* point;  // or null
+    std::byte* offset;
+  };
+
+  // With room for the sites.
+  [[nodiscard]] Bytes make_message(std::size_t rank, std::uint64_t first_index) const {
+    const auto counts =
+        std::span(counts_).subspan(plan_.first_bucket[rank], plan_.num_buckets(rank));
+    std::size_t num_sites = 0;
+    for (const Index count : counts) num_sites += count;
+    if (num_sites == 0) return {};
+    MessageWriter writer;
+    const std::size_t room =
+        num_sites * (sizeof(Index) + (rank == self_ ? 0 : sizeof(Point)));
+    writer.reserve(sizeof first_index + counts.size_bytes() + room);
+    writer.add_value(first_index);
+    writer.add_values(counts);
+    writer.add_room(room);
+    return writer.take();
+  }
+
+  void find_places(std::span<Bytes> messages) {
+    places_.clear();
+    for (std::size_t rank = 0; rank < num_ranks_; ++rank) {
+      const auto counts =
+          std::span(counts_).subspan(plan_.first_bucket[rank], plan_.num_buckets(rank));
+      std::size_t num_sites = 0;
+      for (const Index count : counts) num_sites += count;
+      std::byte* const end = messages[rank].data() + messages[rank].size();
+      std::byte* offset = end - num_sites * sizeof(Index);
+      std::byte* point = rank == self_ ? offset : offset - num_sites * sizeof(Point);
+      for (const Index count : counts) {
+        places_.push_back({rank == self_ ? nullptr : point, offset});
+        point += count * sizeof(Point);
+        offset += count * sizeof(Index);
+      }
+    }
+  }
+
   const RankPlan& plan_;
-  std::uint64_t first_index_;
-  std::vector<Index> begin_;  // of each bucket, and behind the last one
-  LargeVector<Point> points_;
-  LargeVector<Index> offsets_;
+  BucketTable table_;
+  std::size_t self_;
+  std::size_t num_ranks_;
+  std::vector<Index> counts_;     // by bucket
+  std::vector<Index> bucket_of_;  // by site
+  std::vector<Place> places_;     // by bucket
 };
 
 }  // namespace
 
 RankSites::RankSites(Supersteps& steps, std::span<const Point> mine, RankCounts& counts,
                      const RankLimits& limits)
-    : pieces_(steps.size()) {
+    : mine_(mine),
+      first_index_(limits.first_number + counts.first_site[steps.rank()]),
+      pieces_(steps.size()) {
   steps.begin("deal");
   std::uint64_t most_sites = 0;
   for (std::size_t rank = 0; rank < steps.size(); ++rank)
     most_sites = std::max(most_sites, counts.num_sites(rank));
-  const std::uint64_t first_index = limits.first_number + counts.first_site[steps.rank()];
   const std::size_t num_buckets = counts.plan.num_buckets(steps.rank());
+  Dealer dealer(counts.plan, steps.rank(), steps.size());
   for (std::uint64_t first = 0; first < most_sites; first += limits.most_dealt_sites) {
     system::obey_stop();
     const std::uint64_t begin = std::min<std::uint64_t>(first, mine.size());
     const std::uint64_t size = std::min(limits.most_dealt_sites, mine.size() - begin);
-    std::vector<Bytes> messages;
-    {
-      const DealtRound round(mine.subspan(begin, size), std::span(counts.keys).subspan(begin, size),
-                        first_index + begin, counts.plan);
-      for (std::size_t rank = 0; rank < steps.size(); ++rank)
-        messages.push_back(round.message_to(rank));
-    }
-    std::vector<Bytes> received = steps.exchange(std::move(messages));
+    std::vector<Bytes> received =
+        steps.exchange(dealer.deal(mine.subspan(begin, size),
+                                   std::span(counts.keys).subspan(begin, size), first_index_ + begin));
     for (std::size_t rank = 0; rank < steps.size(); ++rank)
-      add(std::move(received[rank]), num_buckets, pieces_[rank]);
+      add(std::move(received[rank]), num_buckets, rank != steps.rank(), pieces_[rank]);
   }
   counts.keys = {};
 }
 
-void RankSites::add(Bytes message, std::size_t num_buckets, std::vector<DealtPiece>& pieces) {
+void RankSites::add(Bytes message, std::size_t num_buckets, bool has_points,
+                    std::vector<DealtPiece>& pieces) {
   if (message.empty()) return;
   DealtPiece& piece = pieces.emplace_back();
   piece.bytes = std::move(message);
@@ -96,12 +156,12 @@ void RankSites::add(Bytes message, std::size_t num_buckets, std::vector<DealtPie
   piece.begin.push_back(0);
   for (std::size_t b = 0; b < num_buckets; ++b)
     piece.begin.push_back(piece.begin.back() + reader.value<Index>());
-  piece.points = reader.skip(piece.begin.back() * sizeof(Point));
+  if (has_points) piece.points = reader.skip(piece.begin.back() * sizeof(Point));
   piece.offsets = reader.skip(piece.begin.back() * sizeof(Index));
 }
 
 void RankSites::gather(std::size_t bucket, LargeVector<Point>& points,
-                       std::vector<std::uint64_t>& indices) const {
+                       LargeVector<std::uint64_t>& indices) const {
   std::size_t num_sites = 0;
   for (const auto& of_rank : pieces_) {
     for (const DealtPiece& piece : of_rank) num_sites += piece.begin[bucket + 1] - piece.begin[bucket];
@@ -114,12 +174,15 @@ void RankSites::gather(std::size_t bucket, LargeVector<Point>& points,
       const std::size_t begin = piece.begin[bucket];
       const std::size_t size = piece.begin[bucket + 1] - begin;
       if (size == 0) continue;
-      std::memcpy(static_cast<void*>(&points[next]), &piece.points[begin * sizeof(Point)],
-                  size * sizeof(Point));
+      if (!piece.points.empty()) {
+        std::memcpy(static_cast<void*>(&points[next]), &piece.points[begin * sizeof(Point)],
+                    size * sizeof(Point));
+      }
       for (std::size_t i = 0; i < size; ++i, ++next) {
         Index offset = 0;
         std::memcpy(&offset, &piece.offsets[(begin + i) * sizeof(Index)], sizeof offset);
         indices[next] = piece.first_index + offset;
+        if (piece.points.empty()) points[next] = mine_[indices[next] - first_index_];
       }
     }
   }

@@ -20,13 +20,13 @@ namespace rondel::distributed {
 
 class RankSites {
  public:
-  // Deals the sites. The keys in `counts` are not needed any more.
+  // Deals the sites, which must stay. The keys in `counts` are not needed any more.
   RankSites(Supersteps& steps, std::span<const Point> mine, RankCounts& counts,
             const RankLimits& limits);
 
   // Of one bucket: the points, and the indices, which are increasing.
   void gather(std::size_t bucket, LargeVector<Point>& points,
-              std::vector<std::uint64_t>& indices) const;
+              LargeVector<std::uint64_t>& indices) const;
 
  private:
   // What one rank sent in one round.
@@ -34,12 +34,15 @@ class RankSites {
     Bytes bytes;
     std::uint64_t first_index = 0;
     std::vector<Index> begin;           // of each bucket, and behind the last one
-    std::span<const std::byte> points;  // in `bytes`
+    std::span<const std::byte> points;  // in `bytes`, or nowhere: in `mine_`
     std::span<const std::byte> offsets;
   };
 
-  void add(Bytes message, std::size_t num_buckets, std::vector<DealtPiece>& pieces);
+  void add(Bytes message, std::size_t num_buckets, bool has_points,
+           std::vector<DealtPiece>& pieces);
 
+  std::span<const Point> mine_;
+  std::uint64_t first_index_;  // of these
   std::vector<std::vector<DealtPiece>> pieces_;  // by rank, and by round
 };
 

@@ -9,13 +9,6 @@
 #include "io/npy_header.h"
 
 namespace rondel::distributed {
-namespace {
-
-constexpr bool are_narrow(std::uint64_t num_different) {
-  return num_different <= std::uint64_t{1} << 32U;
-}
-
-}  // namespace
 
 void RowFile::reserve(std::uint64_t num_rows, std::uint64_t num_columns,
                       std::uint64_t num_different) {

@@ -14,6 +14,11 @@
 
 namespace rondel::distributed {
 
+// Whether so many different numbers, from 0 on, are uint32.
+constexpr bool are_narrow(std::uint64_t num_different) {
+  return num_different <= std::uint64_t{1} << 32U;
+}
+
 class RowFile {
  public:
   explicit RowFile(const std::string& path) : file_(path) {}

@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "distributed/shared_rows.h"
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "distributed/row_file.h"
+#include "io/binary.h"
+#include "io/npy_header.h"
+#include "rondel/error.h"
+#include "system/descriptor.h"
+
+namespace rondel::distributed {
+
+SharedRows::SharedRows(Supersteps& steps, const std::string& path, const SharedShape& shape)
+    : path_(path),
+      temporary_(path + ".rondel.tmp"),
+      is_maker_(steps.rank() == 0),
+      is_narrow_(are_narrow(shape.num_different)) {
+  const std::array<std::uint64_t, 2> sizes = {shape.num_rows, shape.num_columns};
+  const std::string header = io::make_npy_header(is_narrow_ ? "<u4" : "<i8", sizes);
+  const std::uint64_t row_bytes = shape.num_columns * (is_narrow_ ? 4 : 8);
+  try {
+    if (is_maker_) make(header, header.size() + shape.num_rows * row_bytes);
+    steps.all_gather({});
+    if (!is_maker_) descriptor_ = system::open_to_change(temporary_);
+    if (descriptor_ < 0) fail(errno);
+  } catch (...) {
+    close();
+    throw;
+  }
+  place_ = header.size() + shape.first_row * row_bytes;
+}
+
+SharedRows::~SharedRows() { close(); }
+
+void SharedRows::make(const std::string& header, std::uint64_t num_bytes) {
+  descriptor_ = system::open_to_change(temporary_);
+  if (descriptor_ < 0 || system::resize(descriptor_, 0) != 0 ||
+      system::reserve(descriptor_, num_bytes) != 0) {
+    fail(errno);
+  }
+  write(header);
+}
+
+void SharedRows::finish() {
+  write_buffer();
+  const int descriptor = std::exchange(descriptor_, -1);
+  if (system::close(descriptor) != 0) fail(errno);
+}
+
+void SharedRows::commit() {
+  std::error_code error;
+  std::filesystem::rename(temporary_, path_, error);
+  if (error) throw FileError(path_ + ": " + error.message());
+  temporary_.clear();
+}
+
+void SharedRows::write_buffer() {
+  write(io::NumberBytes(narrow_));
+  write(io::NumberBytes(wide_));
+  narrow_.clear();
+  wide_.clear();
+}
+
+void SharedRows::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const std::ptrdiff_t count = system::write_at(descriptor_, place_, bytes);
+    if (count < 0) fail(errno);
+    bytes.remove_prefix(static_cast<std::size_t>(count));
+    place_ += static_cast<std::uint64_t>(count);
+  }
+}
+
+void SharedRows::close() {
+  if (descriptor_ >= 0) system::close(std::exchange(descriptor_, -1));
+  std::error_code ignored;
+  if (is_maker_ && !temporary_.empty()) std::filesystem::remove(temporary_, ignored);
+}
+
+void SharedRows::fail(int error) const {
+  throw FileError(path_ + ": " + std::generic_category().message(error));
+}
+
+}  // namespace rondel::distributed

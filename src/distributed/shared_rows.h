@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A .npy file that several ranks write, each its own rows, which follow each other. Rank 0 makes it under
+// a temporary name, and gives it its name when all have written theirs.
+//
+// in    the rows of each rank
+// out   one file
+// index rows of the file
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "distributed/supersteps.h"
+
+namespace rondel::distributed {
+
+// Numbers are less than `num_different`.
+struct SharedShape {
+  std::uint64_t num_rows = 0;  // of all ranks
+  std::uint64_t num_columns = 0;
+  std::uint64_t num_different = 0;
+  std::uint64_t first_row = 0;  // of this rank
+};
+
+class SharedRows {
+ public:
+  // All ranks make it together. Every function throws FileError.
+  SharedRows(Supersteps& steps, const std::string& path, const SharedShape& shape);
+  // Removes the file, if it has no name yet.
+  ~SharedRows();
+  SharedRows(const SharedRows&) = delete;
+  SharedRows& operator=(const SharedRows&) = delete;
+
+  void add(std::uint64_t number) {
+    if (is_narrow_) {
+      narrow_.push_back(static_cast<std::uint32_t>(number));
+    } else {
+      wide_.push_back(static_cast<std::int64_t>(number));
+    }
+    if (narrow_.size() + wide_.size() == buffer_size) write_buffer();
+  }
+
+  // All that this rank has was added.
+  void finish();
+  // All ranks have finished. For rank 0.
+  void commit();
+
+ private:
+  static constexpr std::size_t buffer_size = std::size_t{1} << 18;
+
+  void make(const std::string& header, std::uint64_t num_bytes);
+  void write_buffer();
+  void write(std::string_view bytes);
+  void close();
+  [[noreturn]] void fail(int error) const;
+
+  std::string path_;
+  std::string temporary_;
+  bool is_maker_;
+  bool is_narrow_;
+  int descriptor_ = -1;
+  std::uint64_t place_ = 0;
+  std::vector<std::uint32_t> narrow_;
+  std::vector<std::int64_t> wide_;
+};
+
+}  // namespace rondel::distributed
