@@ -1,0 +1,130 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// rondel-mpi: triangulations by the processes that mpirun starts. Rank 0 speaks for all.
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <exception>
+#include <map>
+#include <string>
+#include <thread>
+
+#include "rondel/distributed.h"
+#include "rondel/mpi.h"
+#include "rondel/version.h"
+
+namespace rondel::cli {
+namespace {
+
+enum ExitStatus { done = 0, failed = 1, usage = 2 };
+
+struct Arguments {
+  std::string sites;
+  DistributedFiles files;
+  Model model = Model::projected;
+  unsigned threads = 0;
+  bool is_json = false;
+  bool is_quiet = false;
+};
+
+// The cores of a machine are shared by the ranks that run there.
+unsigned share_of_cores() {
+  MPI_Comm neighbors = MPI_COMM_NULL;
+  MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &neighbors);
+  int num_ranks = 1;
+  MPI_Comm_size(neighbors, &num_ranks);
+  MPI_Comm_free(&neighbors);
+  return std::max(std::thread::hardware_concurrency() / static_cast<unsigned>(num_ranks), 1U);
+}
+
+void add_delaunay(CLI::App& tool, Arguments& arguments) {
+  CLI::App& command = *tool.add_subcommand("delaunay", "Triangulate the sites of a .npy file");
+  const std::map<std::string, Model> models = {{"projected", Model::projected},
+                                               {"weighted", Model::weighted}};
+  command.add_option("SITES", arguments.sites, "(n, 3) points or (n, 2) longitudes and latitudes")
+      ->required();
+  command.add_option("--output,-o", arguments.files.faces, "The triangles, (m, 3)")->required();
+  command.add_option("--neighbors", arguments.files.neighbors,
+                     "The triangles opposite to each corner, (m, 3)");
+  command.add_option("--duplicates", arguments.files.duplicates,
+                     "Sites in one place and the lowest one there, (k, 2)");
+  command.add_option("--model", arguments.model, "projected or weighted")
+      ->transform(CLI::CheckedTransformer(models));
+  command.add_option("--threads", arguments.threads,
+                     "Threads of each process; default: its share of the cores");
+  command.add_flag("--radians", arguments.files.radians, "Longitudes and latitudes are in radians");
+  command.add_flag("--json", arguments.is_json, "Print a JSON object");
+  command.add_flag("--quiet", arguments.is_quiet, "Print nothing");
+}
+
+void print(const Arguments& arguments, const DistributedTriangulation& t, int num_ranks,
+           double seconds) {
+  const auto number = [](std::uint64_t value) { return std::to_string(value); };
+  if (arguments.is_json) {
+    std::printf(
+        "{\"sites\": %s, \"vertices\": %s, \"faces\": %s, \"ghost_faces\": %s, \"duplicates\": %s, "
+        "\"hidden\": %s, \"open_sites\": %s, \"dimension\": %d, \"ranks\": %d, \"seconds\": %.3f}\n",
+        number(t.num_sites()).c_str(), number(t.num_vertices()).c_str(),
+        number(t.num_faces()).c_str(), number(t.num_ghost_faces()).c_str(),
+        number(t.num_duplicates()).c_str(), number(t.num_hidden()).c_str(),
+        number(t.num_open_sites()).c_str(), t.dimension(), num_ranks, seconds);
+  } else if (!arguments.is_quiet) {
+    std::printf("%s sites: %s triangles in %s, by %d processes in %.1f s\n",
+                number(t.num_sites()).c_str(), number(t.num_faces()).c_str(),
+                arguments.files.faces.c_str(), num_ranks, seconds);
+  }
+}
+
+int fail(int rank, ExitStatus status, std::string message) {
+  std::ranges::replace(message, '\n', ' ');
+  if (rank == 0) std::fprintf(stderr, "rondel-mpi: %s\n", message.c_str());
+  return status;
+}
+
+int run(int argc, char** argv) {
+  MpiCommunicator ranks(MPI_COMM_WORLD);
+  CLI::App tool{"Exact Delaunay triangulations on the sphere, by several processes."};
+  tool.name("rondel-mpi");
+  tool.set_version_flag("--version", std::string("rondel-mpi ") + version);
+  tool.require_subcommand(1);
+  Arguments arguments;
+  add_delaunay(tool, arguments);
+  try {
+    tool.parse(argc, argv);
+  } catch (const CLI::Success& text) {
+    return ranks.rank() == 0 ? tool.exit(text) : done;
+  } catch (const CLI::ParseError& error) {
+    return fail(ranks.rank(), usage, error.what() + std::string(" (see rondel-mpi --help)"));
+  }
+  try {
+    const auto start = std::chrono::steady_clock::now();
+    const unsigned share = share_of_cores();
+    const Execution execution = {.threads = arguments.threads == 0 ? share : arguments.threads};
+    const auto triangulation = delaunay_file(ranks, arguments.sites, arguments.files, {},
+                                             {.model = arguments.model}, execution);
+    const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
+    if (ranks.rank() == 0) print(arguments, triangulation, ranks.size(), time.count());
+    return done;
+  } catch (const DistributedError& error) {
+    return fail(ranks.rank(), failed, error.what());
+  }
+}
+
+}  // namespace
+}  // namespace rondel::cli
+
+int main(int argc, char** argv) {
+  MPI_Init(&argc, &argv);
+  int status = rondel::cli::failed;
+  try {
+    status = rondel::cli::run(argc, argv);
+  } catch (const std::exception& error) {  // of this rank alone: the others cannot go on
+    std::fprintf(stderr, "rondel-mpi: %s\n", error.what());
+    MPI_Abort(MPI_COMM_WORLD, status);
+  }
+  MPI_Finalize();
+  return status;
+}

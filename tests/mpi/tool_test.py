@@ -1,0 +1,109 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""rondel-mpi: the bytes of rondel's files, whatever the number of processes, and errors in one line.
+
+tool_test.py MPIEXEC... -- RONDEL_MPI RONDEL
+"""
+
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import numpy as np
+
+split = sys.argv.index("--")
+MPIEXEC = sys.argv[1:split]
+RONDEL_MPI, RONDEL = sys.argv[split + 1 :]
+del sys.argv[1:]
+
+
+class Tool(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.sites = self.folder / "sites.npy"
+
+    def run_ranks(self, num_ranks, *arguments):
+        return subprocess.run(
+            [*MPIEXEC, "-n", str(num_ranks), RONDEL_MPI, *map(str, arguments)],
+            capture_output=True,
+            text=True,
+            timeout=60,
+            check=False,
+        )
+
+    def files(self, name):
+        return [self.folder / f"{name}-{what}.npy" for what in ("faces", "neighbors", "duplicates")]
+
+    def delaunay(self, files):
+        faces, neighbors, duplicates = files
+        return [
+            "delaunay",
+            str(self.sites),
+            "-o",
+            str(faces),
+            "--neighbors",
+            str(neighbors),
+            "--duplicates",
+            str(duplicates),
+        ]
+
+    def assert_error(self, result, line):
+        self.assertNotEqual(result.returncode, 0)
+        lines = [each for each in result.stderr.splitlines() if each.startswith("rondel-mpi: ")]
+        self.assertEqual(lines, ["rondel-mpi: " + line], result.stderr)
+
+    def test_files_are_those_of_rondel(self):
+        random = np.random.default_rng(1)
+        points = random.normal(size=(5000, 3))
+        angles = np.column_stack([random.uniform(-180, 180, 3000), random.uniform(-90, 90, 3000)])
+        for sites in (points, np.vstack([points, points[:100]]), angles, points[:2], points[:0]):
+            np.save(self.sites, sites)
+            expected = self.files("expected")
+            subprocess.run([RONDEL, *self.delaunay(expected), "--quiet"], check=True)
+            for num_ranks in (1, 3):
+                found = self.files("found")
+                result = self.run_ranks(num_ranks, *self.delaunay(found), "--json")
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertIn(f'"sites": {len(sites)},', result.stdout)
+                for a, b in zip(expected, found, strict=True):
+                    self.assertEqual(a.read_bytes(), b.read_bytes(), b.name)
+                self.assertEqual(list(self.folder.glob("*.tmp")), [])
+
+    def test_a_row_that_is_not_valid(self):
+        sites = np.ones((100, 3))
+        sites[[60, 80]] = np.nan
+        np.save(self.sites, sites)
+        found = self.files("found")
+        for num_ranks, rank in ((1, 0), (4, 2)):
+            result = self.run_ranks(num_ranks, *self.delaunay(found))
+            self.assertNotEqual(result.returncode, 0)
+            self.assertIn(f"rondel-mpi: rank {rank}, read: {self.sites}: row 60", result.stderr)
+            self.assertEqual(list(self.folder.iterdir()), [self.sites])
+
+    def test_files_that_are_not_there(self):
+        result = self.run_ranks(2, *self.delaunay(self.files("found")))
+        self.assert_error(result, f"rank 0, read: {self.sites}: No such file or directory")
+        np.save(self.sites, np.eye(3))
+        nowhere = self.folder / "nowhere" / "faces.npy"
+        result = self.run_ranks(2, "delaunay", self.sites, "-o", nowhere)
+        self.assert_error(result, f"rank 0, write: {nowhere}: No such file or directory")
+
+    def test_what_is_written_does_not_appear_when_another_file_fails(self):
+        np.save(self.sites, np.eye(3))
+        faces = self.folder / "faces.npy"
+        nowhere = self.folder / "nowhere" / "neighbors.npy"
+        result = self.run_ranks(2, "delaunay", self.sites, "-o", faces, "--neighbors", nowhere)
+        self.assert_error(result, f"rank 0, write: {nowhere}: No such file or directory")
+        self.assertEqual(list(self.folder.iterdir()), [self.sites])
+
+    def test_wrong_usage(self):
+        result = self.run_ranks(2, "delaunay", self.sites)
+        self.assert_error(result, "--output is required (see rondel-mpi --help)")
+
+
+if __name__ == "__main__":
+    unittest.main()
