@@ -66,7 +66,8 @@ void print(const Arguments& arguments, const DistributedTriangulation& t, int nu
   if (arguments.is_json) {
     std::printf(
         "{\"sites\": %s, \"vertices\": %s, \"faces\": %s, \"ghost_faces\": %s, \"duplicates\": %s, "
-        "\"hidden\": %s, \"open_sites\": %s, \"dimension\": %d, \"ranks\": %d, \"seconds\": %.3f}\n",
+        "\"hidden\": %s, \"open_sites\": %s, \"dimension\": %d, \"ranks\": %d, \"seconds\": "
+        "%.3f}\n",
         number(t.num_sites()).c_str(), number(t.num_vertices()).c_str(),
         number(t.num_faces()).c_str(), number(t.num_ghost_faces()).c_str(),
         number(t.num_duplicates()).c_str(), number(t.num_hidden()).c_str(),

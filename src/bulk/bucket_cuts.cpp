@@ -27,8 +27,8 @@ constexpr std::uint64_t square_of(std::uint64_t high_key, int level) {
 BucketCounts::BucketCounts(std::uint64_t most_sites, int depth)
     : most_sites_(std::max<std::uint64_t>(most_sites, 1)) {
   const std::size_t size = 6 * num_squares(depth);
-  tables_.push_back({depth, depth, std::vector<std::uint64_t>(size, 0),
-                     std::vector<Index>(size, no_index)});
+  tables_.push_back(
+      {depth, depth, std::vector<std::uint64_t>(size, 0), std::vector<Index>(size, no_index)});
 }
 
 void BucketCounts::add(std::span<const std::uint64_t> high_keys) {

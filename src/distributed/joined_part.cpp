@@ -30,9 +30,7 @@ class Renumbered {
     num_before_ = static_cast<Index>(std::ranges::lower_bound(others_, begin) - others_.begin());
   }
 
-  [[nodiscard]] Index size() const {
-    return static_cast<Index>(others_.size()) + (end_ - begin_);
-  }
+  [[nodiscard]] Index size() const { return static_cast<Index>(others_.size()) + (end_ - begin_); }
   [[nodiscard]] Index first() const { return num_before_; }  // of the rank's own
   [[nodiscard]] std::span<const Index> before() const {
     return std::span(others_).first(num_before_);
@@ -59,7 +57,7 @@ class Renumbered {
 class PartOfRank {
  public:
   PartOfRank(const bulk::JoinedFaces& joined, const OpenRanges& ranges, std::size_t rank,
-       std::span<const Index> listed)
+             std::span<const Index> listed)
       : joined_(joined),
         listed_(listed),
         sites_begin_(ranges.sites[rank]),
@@ -216,8 +214,7 @@ std::vector<NumberList> read_lists(MessageReader& reader) {
 }  // namespace
 
 void write_joined_parts(const bulk::JoinedFaces& joined, const OpenRanges& ranges,
-                        std::span<const std::uint64_t> indices,
-                        std::span<MessageWriter> messages) {
+                        std::span<const std::uint64_t> indices, std::span<MessageWriter> messages) {
   const auto listed = list_faces(joined, ranges);
   const std::size_t num_ranks = ranges.num_ranks();
   std::vector<NumberLists> told(num_ranks);

@@ -33,7 +33,7 @@ struct OpenRanges {
 
 // Faces and open edges of a part whose numbers a rank tells another one, or is told.
 struct NumberList {
-  std::size_t rank = 0;  // the other one
+  std::size_t rank = 0;      // the other one
   std::vector<Index> faces;  // between buckets
   std::vector<Index> edges;  // faces on the left of open edges
 };
@@ -44,14 +44,13 @@ struct JoinedPart {
   Index first_site = 0;     // of this rank's
   Index first_edge = 0;
   std::vector<std::uint64_t> site_indices;  // in the input, by open site of the part
-  std::vector<NumberList> told;   // what this rank gives to others,
-  std::vector<NumberList> asked;  // and gets from them, in the same order
+  std::vector<NumberList> told;             // what this rank gives to others,
+  std::vector<NumberList> asked;            // and gets from them, in the same order
 };
 
 // Writes each rank's part behind what its message has. `indices` are those of all open sites in the input.
 void write_joined_parts(const bulk::JoinedFaces& joined, const OpenRanges& ranges,
-                        std::span<const std::uint64_t> indices,
-                        std::span<MessageWriter> messages);
+                        std::span<const std::uint64_t> indices, std::span<MessageWriter> messages);
 
 // `own_indices` are those of this rank's open sites.
 JoinedPart read_joined_part(MessageReader& reader, std::span<const std::uint64_t> own_indices);

@@ -20,9 +20,9 @@
 namespace rondel::distributed {
 
 struct RankBuckets {
-  std::vector<bulk::Bucket> buckets;            // without their orders
-  std::vector<std::size_t> first_site;          // of each bucket in `sites`, and behind the last one
-  LargeVector<std::uint64_t> sites;             // by rank, bucket after bucket
+  std::vector<bulk::Bucket> buckets;    // without their orders
+  std::vector<std::size_t> first_site;  // of each bucket in `sites`, and behind the last one
+  LargeVector<std::uint64_t> sites;     // by rank, bucket after bucket
   std::vector<std::vector<Point>> open_points;  // by bucket
   std::vector<GlobalDuplicate> duplicates;      // in no particular order
   std::vector<std::uint64_t> hidden;            // whatever other buckets have, in no order

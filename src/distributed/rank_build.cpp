@@ -158,8 +158,8 @@ class RankBuild {
   // Which rank gave a site.
   [[nodiscard]] std::size_t home_of(std::uint64_t site) const {
     const auto& begin = counts_.first_site;
-    return static_cast<std::size_t>(
-               std::ranges::upper_bound(begin, site - limits_.first_number) - begin.begin()) -
+    return static_cast<std::size_t>(std::ranges::upper_bound(begin, site - limits_.first_number) -
+                                    begin.begin()) -
            1;
   }
 

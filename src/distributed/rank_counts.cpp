@@ -19,7 +19,8 @@ constexpr std::uint64_t squares_of_rank = 20;
 
 std::uint64_t most_square_sites(std::uint64_t num_sites, std::size_t num_ranks,
                                 std::uint64_t most_bucket_sites) {
-  const std::uint64_t share = num_ranks == 1 ? num_sites : num_sites / (squares_of_rank * num_ranks);
+  const std::uint64_t share =
+      num_ranks == 1 ? num_sites : num_sites / (squares_of_rank * num_ranks);
   return std::clamp<std::uint64_t>(share, 1, most_bucket_sites);
 }
 

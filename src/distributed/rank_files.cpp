@@ -51,8 +51,7 @@ std::uint64_t sum_before(Supersteps& steps, std::uint64_t value) {
 bool write_files(Supersteps& steps, const DistributedTriangulation& part,
                  const DistributedFiles& files) {
   steps.begin("write");
-  SharedRows faces(steps, files.faces,
-                   {part.num_faces(), 3, part.num_sites(), part.first_face()});
+  SharedRows faces(steps, files.faces, {part.num_faces(), 3, part.num_sites(), part.first_face()});
   std::optional<SharedRows> neighbors;
   std::optional<SharedRows> duplicates;
   part.visit_faces([&](std::span<const GlobalTriple> rows) { add_rows(faces, rows); });
@@ -93,8 +92,7 @@ DistributedTriangulation delaunay_file(Communicator& ranks, const std::string& s
   {
     const system::Call call(job);
     distributed::Supersteps steps(ranks);
-    mine = steps.run(
-        [&] { return distributed::read_share(steps, sites, files.radians, job); });
+    mine = steps.run([&] { return distributed::read_share(steps, sites, files.radians, job); });
   }
   DistributedTriangulation part = delaunay(ranks, mine, distributed, options, execution);
   mine = {};

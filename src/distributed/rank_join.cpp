@@ -15,7 +15,8 @@ namespace {
 
 // All sites are open, and they lie on one great circle. In the order of their indices, with which the
 // ring begins.
-JoinedReport join_ring(const OpenBuckets& open, const system::Job& options, MessageWriter& message) {
+JoinedReport join_ring(const OpenBuckets& open, const system::Job& options,
+                       MessageWriter& message) {
   std::vector<Point> points;
   for (const bulk::OpenBucket& bucket : open.buckets)
     points.insert(points.end(), bucket.points.begin(), bucket.points.end());

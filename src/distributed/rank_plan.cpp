@@ -75,8 +75,8 @@ RankPlan plan_ranks(std::span<const bulk::BucketCut> squares, std::size_t num_ra
   const std::vector<std::size_t> ranks = ranks_of(squares, num_ranks);
   Planner planner(squares, ranks, most_bucket_sites);
   for (unsigned face = 0; face < 6; ++face) {
-    planner.add({{face, 0, 0}, order::position_bits, 0},
-                std::uint64_t{face} << (2 * high_levels), 0);
+    planner.add({{face, 0, 0}, order::position_bits, 0}, std::uint64_t{face} << (2 * high_levels),
+                0);
   }
   return planner.take(num_ranks);
 }

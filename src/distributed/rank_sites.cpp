@@ -84,8 +84,7 @@ class Dealer {
     for (const Index count : counts) num_sites += count;
     if (num_sites == 0) return {};
     MessageWriter writer;
-    const std::size_t room =
-        num_sites * (sizeof(Index) + (rank == self_ ? 0 : sizeof(Point)));
+    const std::size_t room = num_sites * (sizeof(Index) + (rank == self_ ? 0 : sizeof(Point)));
     writer.reserve(sizeof first_index + counts.size_bytes() + room);
     writer.add_value(first_index);
     writer.add_values(counts);
@@ -137,9 +136,9 @@ RankSites::RankSites(Supersteps& steps, std::span<const Point> mine, RankCounts&
     system::obey_stop();
     const std::uint64_t begin = std::min<std::uint64_t>(first, mine.size());
     const std::uint64_t size = std::min(limits.most_dealt_sites, mine.size() - begin);
-    std::vector<Bytes> received =
-        steps.exchange(dealer.deal(mine.subspan(begin, size),
-                                   std::span(counts.keys).subspan(begin, size), first_index_ + begin));
+    std::vector<Bytes> received = steps.exchange(
+        dealer.deal(mine.subspan(begin, size), std::span(counts.keys).subspan(begin, size),
+                    first_index_ + begin));
     for (std::size_t rank = 0; rank < steps.size(); ++rank)
       add(std::move(received[rank]), num_buckets, rank != steps.rank(), pieces_[rank]);
   }
@@ -164,7 +163,8 @@ void RankSites::gather(std::size_t bucket, LargeVector<Point>& points,
                        LargeVector<std::uint64_t>& indices) const {
   std::size_t num_sites = 0;
   for (const auto& of_rank : pieces_) {
-    for (const DealtPiece& piece : of_rank) num_sites += piece.begin[bucket + 1] - piece.begin[bucket];
+    for (const DealtPiece& piece : of_rank)
+      num_sites += piece.begin[bucket + 1] - piece.begin[bucket];
   }
   points.resize(num_sites);
   indices.resize(num_sites);

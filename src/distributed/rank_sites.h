@@ -42,7 +42,7 @@ class RankSites {
            std::vector<DealtPiece>& pieces);
 
   std::span<const Point> mine_;
-  std::uint64_t first_index_;  // of these
+  std::uint64_t first_index_;                    // of these
   std::vector<std::vector<DealtPiece>> pieces_;  // by rank, and by round
 };
 

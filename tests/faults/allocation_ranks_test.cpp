@@ -39,7 +39,8 @@ TEST(Allocation, ranks) {
         };
         const auto errors = ranks.run([&](Communicator& rank) {
           const auto r = static_cast<std::size_t>(rank.rank());
-          const auto sites = std::span(set.sites).subspan(r * 10, r == 0 ? 10 : set.sites.size() - 10);
+          const auto sites =
+              std::span(set.sites).subspan(r * 10, r == 0 ? 10 : set.sites.size() - 10);
           const auto part = delaunay(rank, sites, {.most_bucket_sites = 5, .most_dealt_sites = 4},
                                      {.sphere = set.sphere}, {.threads = 1});
           num_done += part.dimension() >= 0;

@@ -4,6 +4,8 @@
 // Builds by processes of MPI: rank 0 puts together what all have, and compares it with the build in
 // memory. With --fail, one rank after the other has a site that is not valid.
 
+#include "rondel/mpi.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -16,7 +18,6 @@
 #include "inputs/kinds.h"
 #include "rondel/delaunay.h"
 #include "rondel/distributed.h"
-#include "rondel/mpi.h"
 
 namespace rondel::test {
 namespace {
@@ -60,9 +61,9 @@ std::vector<GlobalTriple> widened(std::span<const Triple> rows) {
 
 void compare(Communicator& ranks, std::span<const Point> sites, const Options& options,
              const std::string& name) {
-  const auto part = delaunay(ranks, share(sites, ranks),
-                             {.most_bucket_sites = 1000, .most_dealt_sites = 500}, options,
-                             {.threads = 1});
+  const auto part =
+      delaunay(ranks, share(sites, ranks), {.most_bucket_sites = 1000, .most_dealt_sites = 500},
+               options, {.threads = 1});
   std::vector<GlobalTriple> own;
   const auto keep = [&](std::span<const GlobalTriple> rows) {
     own.insert(own.end(), rows.begin(), rows.end());
@@ -123,8 +124,7 @@ void fail_each(Communicator& ranks) {
     std::vector<Point> sites(10, {1, 2, 3});
     if (ranks.rank() == failing) sites[3].z = std::numeric_limits<double>::infinity();
     const std::string expected = "rank " + std::to_string(failing) + ", count: site " +
-                                 std::to_string(10 * failing + 3) +
-                                 ": (1, 2, inf) is not finite";
+                                 std::to_string(10 * failing + 3) + ": (1, 2, inf) is not finite";
     try {
       delaunay(ranks, sites, {}, {}, {.threads = 1});
       expect(false, "an error");

@@ -28,6 +28,10 @@ NOT_CALLED = {
 }
 
 
+# Headers for programs that link what no fuzzer does: MPI.
+LEFT_OUT = {"mpi.h"}
+
+
 def without_comments(text):
     return re.sub(r"//[^\n]*", "", text)
 
@@ -88,6 +92,8 @@ class Fuzzers(unittest.TestCase):
     def test_every_public_function_is_in_the_table(self):
         listed = {name for names, _ in rows() for name in names}
         for header in sorted((ROOT / "include/rondel").glob("*.h")):
+            if header.name in LEFT_OUT:
+                continue
             for name in filter(is_counted, public_names(header.read_text(encoding="utf-8"))):
                 self.assertIn(name, listed, f"{header.name} has no fuzzer in the table")
 

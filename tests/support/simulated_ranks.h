@@ -62,7 +62,7 @@ class SimulatedRanks {
   std::uint64_t num_meetings_ = 0;
   int num_there_ = 0;
   int num_gone_ = 0;
-  std::vector<std::vector<Bytes>> given_;    // by the rank that gives
+  std::vector<std::vector<Bytes>> given_;     // by the rank that gives
   std::vector<std::vector<Bytes>> received_;  // by the rank that gets
 };
 

@@ -29,7 +29,7 @@ class distributed_failure : public testing::Test {
     return ranks.run([&](Communicator& rank) {
       num_done_ += delaunay(rank, share(sites_, rank.rank(), three, 1),
                             {.most_bucket_sites = 50, .most_dealt_sites = 40}, {}, {.threads = 1})
-                           .dimension() == 2;
+                       .dimension() == 2;
     });
   }
 
@@ -53,8 +53,9 @@ TEST_F(distributed_failure, of_a_call_ends_all) {
       const auto errors = run(ranks);
       for (int r = 0; r < three; ++r) {
         const std::string& error = errors[static_cast<std::size_t>(r)];
-        EXPECT_EQ(error,
-                  !has_failed ? "" : r == failing ? "unplugged" : std::string("a rank has gone"));
+        EXPECT_EQ(error, !has_failed    ? ""
+                         : r == failing ? "unplugged"
+                                        : std::string("a rank has gone"));
       }
       EXPECT_EQ(num_done_, has_failed ? 0 : three);
     }
@@ -91,7 +92,8 @@ TEST_F(distributed_failure, names_the_first_site_that_is_not_valid) {
     end += share(sites_, r, three, 1).size();
   }
   const auto errors = run(ranks);
-  EXPECT_TRUE(errors[0].starts_with("rank " + std::to_string(failing) + ", count: site 150: (nan, "))
+  EXPECT_TRUE(
+      errors[0].starts_with("rank " + std::to_string(failing) + ", count: site 150: (nan, "))
       << errors[0];
   for (const std::string& error : errors) EXPECT_EQ(error, errors[0]);
 }

@@ -26,8 +26,9 @@ RankResults build(std::span<const Point> sites, int num_ranks,
   std::vector<DistributedTriangulation> parts(static_cast<std::size_t>(num_ranks),
                                               DistributedTriangulation(nullptr));
   const auto errors = ranks.run([&](Communicator& rank) {
-    parts[static_cast<std::size_t>(rank.rank())] = DistributedTriangulation(
-        distributed::build_on_ranks(rank, share(sites, rank.rank(), num_ranks, 7), limits, options));
+    parts[static_cast<std::size_t>(rank.rank())] =
+        DistributedTriangulation(distributed::build_on_ranks(
+            rank, share(sites, rank.rank(), num_ranks, 7), limits, options));
   });
   for (const std::string& error : errors) EXPECT_EQ(error, "");
   if (testing::Test::HasFailure()) return all;
@@ -47,8 +48,8 @@ TEST_P(distributed_ranks, as_the_build_in_memory) {
     const Triangulation expected = delaunay(Sites::view(set.sites), options, options);
     for (const int num_ranks : {1, 2, 3, 5, 16}) {
       for (const std::uint64_t most_bucket_sites : {40U, 200U, 100000U}) {
-        SCOPED_TRACE(text_of(model) + ", ranks: " + std::to_string(num_ranks) +
-                     ", squares of " + std::to_string(most_bucket_sites));
+        SCOPED_TRACE(text_of(model) + ", ranks: " + std::to_string(num_ranks) + ", squares of " +
+                     std::to_string(most_bucket_sites));
         expect_same(build(set.sites, num_ranks, {most_bucket_sites, 100, first_number}, options),
                     expected, first_number);
         ASSERT_FALSE(HasFailure());
