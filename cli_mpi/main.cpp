@@ -8,9 +8,10 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <map>
 #include <string>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "rondel/distributed.h"
 #include "rondel/mpi.h"
@@ -42,8 +43,8 @@ unsigned share_of_cores() {
 
 void add_delaunay(CLI::App& tool, Arguments& arguments) {
   CLI::App& command = *tool.add_subcommand("delaunay", "Triangulate the sites of a .npy file");
-  const std::map<std::string, Model> models = {{"projected", Model::projected},
-                                               {"weighted", Model::weighted}};
+  const std::vector<std::pair<std::string, Model>> models = {{"projected", Model::projected},
+                                                             {"weighted", Model::weighted}};
   command.add_option("SITES", arguments.sites, "(n, 3) points or (n, 2) longitudes and latitudes")
       ->required();
   command.add_option("--output,-o", arguments.files.faces, "The triangles, (m, 3)")->required();

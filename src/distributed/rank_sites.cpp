@@ -57,7 +57,7 @@ class Dealer {
       messages.push_back(make_message(rank, first_index));
     find_places(messages);
     for (std::size_t i = 0; i < points.size(); ++i) {
-      Place& place = places_[bucket_of_[i]];
+      DealtPlace& place = places_[bucket_of_[i]];
       const auto offset = static_cast<Index>(i);
       if (place.point != nullptr) {
         std::memcpy(place.point, &points[i], sizeof(Point));
@@ -71,7 +71,7 @@ class Dealer {
 
  private:
   // Where the next site of a bucket goes.
-  struct Place {
+  struct DealtPlace {
     std::byte* point;  // or null
     std::byte* offset;
   };
@@ -116,7 +116,7 @@ class Dealer {
   std::size_t num_ranks_;
   std::vector<Index> counts_;     // by bucket
   std::vector<Index> bucket_of_;  // by site
-  std::vector<Place> places_;     // by bucket
+  std::vector<DealtPlace> places_;     // by bucket
 };
 
 }  // namespace
