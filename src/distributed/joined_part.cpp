@@ -16,8 +16,7 @@ std::size_t rank_of(Index i, std::span<const Index> begin) {
 
 void sort_once(std::vector<Index>& values) {
   std::ranges::sort(values);
-  const auto repeated = std::ranges::unique(values);
-  values.erase(repeated.begin(), repeated.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
 // A rank's own ones, which follow each other, and some others: numbered anew in their order.

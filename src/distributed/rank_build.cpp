@@ -180,7 +180,8 @@ class RankBuild {
     }
     own().duplicates = {};
     own().hidden = {};
-    for (const Bytes& message : steps_.exchange(std::move(messages))) {
+    const std::vector<Bytes> received = steps_.exchange(std::move(messages));
+    for (const Bytes& message : received) {
       if (message.empty()) continue;
       MessageReader reader(message);
       for (const auto& d : reader.values<GlobalDuplicate>()) result_->duplicates.push_back(d);

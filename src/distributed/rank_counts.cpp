@@ -100,7 +100,7 @@ class RankCounter {
     return messages;
   }
 
-  Bytes sum_slices(std::span<const Bytes> received) const {
+  [[nodiscard]] Bytes sum_slices(std::span<const Bytes> received) const {
     const std::size_t begin = slice_begin(num_counts_, steps_.rank(), steps_.size());
     const std::size_t end = slice_begin(num_counts_, steps_.rank() + 1, steps_.size());
     std::vector<std::uint64_t> sums(end - begin, 0);

@@ -24,6 +24,7 @@ JoinedReport join_ring(const OpenBuckets& open, const system::Job& options,
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::sort(order, {}, [&](Index s) { return open.sites[s]; });
   std::vector<Point> ordered;
+  ordered.reserve(order.size());
   for (const Index s : order) ordered.push_back(points[s]);
   const Triangulation flat = delaunay(Sites::view(ordered), options, options);
   std::vector<std::uint64_t> ring;
@@ -39,6 +40,7 @@ JoinedReport join_ring(const OpenBuckets& open, const system::Job& options,
 
 std::vector<Bytes> take(std::vector<MessageWriter> writers) {
   std::vector<Bytes> messages;
+  messages.reserve(writers.size());
   for (MessageWriter& writer : writers) messages.push_back(writer.take());
   return messages;
 }

@@ -25,7 +25,7 @@ struct JoinedReport {
 };
 
 // From what write_open_buckets() wrote on each rank.
-std::vector<Bytes> join_ranks(std::vector<Bytes> open, const RankCounts& counts,
+std::vector<Bytes> join_ranks(std::vector<Bytes> received, const RankCounts& counts,
                               const system::Job& options);
 
 }  // namespace rondel::distributed

@@ -114,9 +114,9 @@ class Dealer {
   BucketTable table_;
   std::size_t self_;
   std::size_t num_ranks_;
-  std::vector<Index> counts_;     // by bucket
-  std::vector<Index> bucket_of_;  // by site
-  std::vector<DealtPlace> places_;     // by bucket
+  std::vector<Index> counts_;       // by bucket
+  std::vector<Index> bucket_of_;    // by site
+  std::vector<DealtPlace> places_;  // by bucket
 };
 
 }  // namespace
