@@ -14,6 +14,7 @@
 
 #include "bulk/input.h"
 #include "order/hilbert.h"
+#include "rondel/export.h"
 
 namespace rondel::bulk {
 
@@ -56,7 +57,7 @@ std::vector<Block> blocks_of(std::span<const TreeSquare> squares);
 bool has(const Square& square, const order::CubePosition& p);
 
 // One of its quarters, in the order of the curve.
-Square quadrant(const Square& square, unsigned rank);
+RONDEL_API Square quadrant(const Square& square, unsigned rank);
 
 // The block of at most so many sites to which a rank belongs.
 Block block_around(Index rank, const Input& input, std::size_t max_sites);

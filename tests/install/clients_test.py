@@ -20,7 +20,7 @@ from commands import run
 
 # What rondel::distributed uses of the core and of rondel::io.
 USED_ABOVE = re.compile(
-    r"rondel::(api::validate|bulk::(AllSites|Bucket|bucket_of|join_buckets|triangulate_bucket)|io::(AtomicFile|NpyRows|make_npy_header)"
+    r"rondel::(api::validate|bulk::(AllSites|Bucket|bucket_of|join_buckets|quadrant|triangulate_bucket)|io::(AtomicFile|NpyRows|make_npy_header)"
     r"|order::(place_keys|spatial_order))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
 )
 
