@@ -13,8 +13,8 @@
 ///     triangulation.visit_faces([&](std::span<const rondel::GlobalTriple> faces) { ... });
 ///
 /// Each rank gets a run of squares of the sphere with about as many sites as every other one,
-/// triangulates it by itself, and what it cannot decide alone, some 20 sqrt(n) of n sites, is joined
-/// by rank 0 (docs/theory/blocks.md, "A tree of seams").
+/// triangulates it by itself, and what it cannot decide alone, together some 11 sqrt(n P) of n uniform
+/// sites on P ranks, is joined by rank 0 (docs/theory/blocks.md, "A tree of seams").
 #pragma once
 
 #include <array>
