@@ -24,7 +24,7 @@
 
 namespace rondel::distributed {
 
-RONDEL_API std::shared_ptr<const DistributedTriangulation::Impl> build_on_ranks(
+std::shared_ptr<const DistributedTriangulation::Impl> build_on_ranks(
     Communicator& ranks, std::span<const Point> mine, const RankLimits& limits,
     const system::Job& options);
 
