@@ -24,8 +24,9 @@
 
 namespace rondel::distributed {
 
-std::shared_ptr<const DistributedTriangulation::Impl> build_on_ranks(
-    Communicator& ranks, std::span<const Point> mine, const RankLimits& limits,
-    const system::Job& options);
+std::shared_ptr<const DistributedTriangulation::Impl> build_on_ranks(Communicator& ranks,
+                                                                     std::span<const Point> mine,
+                                                                     const RankLimits& limits,
+                                                                     const system::Job& options);
 
 }  // namespace rondel::distributed

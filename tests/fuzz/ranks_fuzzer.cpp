@@ -125,7 +125,7 @@ void test_ranks(const SiteSet& set, const Options& options, const Shares& shares
       failed[r] = error.rank();
     }
   });
-  for (const std::string& error : errors) require(error.empty(), error.c_str());
+  for (const std::string& error : errors) require(error.empty(), error);
   if (has_failed) {
     for (const int rank : failed)
       require(rank == static_cast<int>(shares.failing_rank), "one rank fails, and so do all");
