@@ -45,6 +45,7 @@ void remove_scratch(const std::string& scratch) {
 
 // Of the input and the results no two are one file.
 void require_different(const std::string& sites, const OutOfCoreFiles& files) {
+  if (files.faces.empty()) throw FileError("the file of the faces has no name");
   const std::array<const std::string*, 5> names = {&sites, &files.faces, &files.neighbors,
                                                    &files.areas, &files.duplicates};
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -259,9 +260,10 @@ OutOfCoreReport run(const io::NpyRows& rows, const OutOfCoreFiles& files,
                     const OutOfCoreOptions& out_of_core, const RunLimits& limits,
                     const system::Job& options) {
   std::error_code error;
+  // An earlier run, perhaps.
+  bool has_begun = std::filesystem::exists(out_of_core.scratch, error);
   std::filesystem::create_directories(out_of_core.scratch, error);
   if (error) throw FileError(out_of_core.scratch + ": " + error.message());
-  bool has_begun = true;
   system::OnFailure remove([&] {
     if (!has_begun) remove_scratch(out_of_core.scratch);
   });

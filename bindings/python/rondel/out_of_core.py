@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import dataclasses
 import errno
+import operator
 import os
 import re
 from typing import TypeAlias
@@ -138,6 +139,8 @@ def delaunay(
     """
     if model not in ("projected", "weighted"):
         raise ValueError(f"model is {model!r}, which is neither 'projected' nor 'weighted'")
+    if not os.fspath(out):
+        raise ValueError("out has no name")
     files = [
         os.fspath(file) if file is not None else "" for file in (out, neighbors, areas, duplicates)
     ]
@@ -168,8 +171,11 @@ def _bytes(memory: int | str) -> int:
             raise ValueError(
                 f"memory is {memory!r}, which is not a number of bytes, as '2G' or '500M'"
             )
-        return int(match[1]) << 10 * (" KMGT".index(match[2] or " "))
-    return int(memory)
+        return min(int(match[1]) << 10 * (" KMGT".index(match[2] or " ")), 2**63)
+    number = operator.index(memory) if hasattr(memory, "__index__") else -1
+    if isinstance(memory, bool) or number < 0:
+        raise ValueError(f"memory is {memory!r}, which is not a number of bytes, as '2G' or '500M'")
+    return min(number, 2**63)
 
 
 def _with_number(error: OSError) -> OSError:

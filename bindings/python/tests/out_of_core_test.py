@@ -62,10 +62,10 @@ def test_lonlat(folder):
         given = np.stack([lon, lat], axis=1)
         np.save(folder / "sites.npy", np.radians(given) if radians else given)
         run(folder, radians=radians)
-        if not radians:
-            expected = rondel.delaunay_lonlat(lon, lat).simplices
-            np.testing.assert_array_equal(np.load(folder / "faces.npy"), expected)
-    assert np.load(folder / "faces.npy").shape == (996, 3)
+        if radians:
+            lon, lat = np.degrees(np.radians(lon)), np.degrees(np.radians(lat))
+        expected = rondel.delaunay_lonlat(lon, lat).simplices
+        np.testing.assert_array_equal(np.load(folder / "faces.npy"), expected)
 
 
 def test_progress_and_resume(folder):
@@ -94,6 +94,16 @@ def test_what_is_wrong(folder):
         run(folder, memory="1M")
     with pytest.raises(ValueError, match="memory is '2X', which is not a number of bytes"):
         run(folder, memory="2X")
+    for memory in (-1, 2e8, True):
+        with pytest.raises(ValueError, match="which is not a number of bytes"):
+            run(folder, memory=memory)
+    with pytest.raises(ValueError, match="out has no name"):
+        rondel.out_of_core.delaunay(folder / "sites.npy", "", scratch=folder / "work")
+    with pytest.raises(FileNotFoundError):
+        rondel.out_of_core.delaunay(
+            folder / "sites.npy", folder / "no/f.npy", scratch=folder / "work"
+        )
+    assert not (folder / "work").exists()
     with pytest.raises(ValueError, match="model is 'flat'"):
         run(folder, model="flat")
     points = np.load(folder / "sites.npy")
