@@ -12,15 +12,15 @@
 namespace rondel::cli {
 namespace {
 
-// The numbers of rows of `Width` numbers.
-template <std::size_t Width, class Row>
+// The numbers of rows of `width` numbers.
+template <std::size_t width, class Row>
 void write_rows(const std::string& path, std::span<const Row> rows) {
-  static_assert(sizeof(Row) == Width * sizeof(Index));
-  const std::array<std::uint64_t, 2> shape = {rows.size(), Width};
+  static_assert(sizeof(Row) == width * sizeof(Index));
+  const std::array<std::uint64_t, 2> shape = {rows.size(), width};
   std::vector<Index> numbers;
-  numbers.reserve(Width * rows.size());
+  numbers.reserve(width * rows.size());
   for (const Row& row : rows) {
-    const auto values = std::bit_cast<std::array<Index, Width>>(row);
+    const auto values = std::bit_cast<std::array<Index, width>>(row);
     numbers.insert(numbers.end(), values.begin(), values.end());
   }
   write_indices(path, numbers, shape);

@@ -97,7 +97,7 @@ void compare_all(Communicator& ranks) {
 
 // Messages of all sizes, which say where they come from.
 void exchange_pieces(Communicator& ranks) {
-  for (const std::size_t length : {0, 1, 6, 7, 8, 40}) {
+  for (const unsigned length : {0U, 1U, 6U, 7U, 8U, 40U}) {
     std::vector<Bytes> messages;
     const auto mark = [](int from, int to) { return static_cast<std::byte>(16 * from + to); };
     const auto size_of = [&](int from, int to) {

@@ -77,6 +77,7 @@ class FileCase {
             folder_.file("duplicates.npy")};
   }
 
+  // NOLINTNEXTLINE(modernize-use-nodiscard): it writes files
   OutOfCoreReport run(const distributed::RunLimits& limits, bool resume = false,
                       const Execution& execution = {.threads = 1}) const {
     const io::NpyRows rows(folder_.file("sites.npy"), false);
