@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bulk/stitch.h"
+#include "bulk/triangulate.h"
 #include "predicates/rung.h"
 #include "system/parallel.h"
 
@@ -102,10 +103,13 @@ Bucket triangulate_bucket(std::span<const Point> sites, const Square& square, co
                           const system::Job& options, std::size_t max_block_sites,
                           const SeamRule& rule) {
   Bucket bucket;
-  bucket.order = order::spatial_order(sites, options.model, options.sphere.center, options.threads);
-  const Input input = {sites, bucket.order.order, options, {}, all.extent()};
-  const auto squares = make_squares(square, input, max_block_sites);
   TriangulationArrays arrays;
+  if (sites.size() >= least_copied_sites) arrays.faces.resize(2 * sites.size());
+  const system::SiteCopies copies{std::span(arrays.faces)};
+  bucket.order = order::spatial_order(sites, options.model, options.sphere.center, options.threads,
+                                      {}, copies);
+  const Input input = {sites, bucket.order.order, options, copies, all.extent()};
+  const auto squares = make_squares(square, input, max_block_sites);
   const auto results = triangulate_blocks(input, blocks_of(squares), arrays);
   for (const BlockResult& block : results) predicates::add(bucket.tally, block.tally);
   const unsigned threads = system::num_threads(options.threads);

@@ -6,10 +6,21 @@
 #include <array>
 #include <utility>
 
+#include "system/prefetch.h"
+
 namespace rondel::distributed {
 namespace {
 
 using OpenEnds = std::array<Index, 2>;
+
+void append_gathered(std::span<const std::uint64_t> values, std::span<const Index> order,
+                     LargeVector<std::uint64_t>& result) {
+  constexpr std::size_t distance = system::prefetch_distance;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i + distance < order.size()) system::prefetch(&values[order[i + distance]]);
+    result.push_back(values[order[i]]);
+  }
+}
 
 }  // namespace
 
@@ -46,7 +57,7 @@ RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts
       open_points.push_back(points[bucket.order.order[site.rank]]);
     own.open_points.push_back(std::move(open_points));
     const std::size_t first = own.sites.size();
-    for (const Index site : bucket.order.order) own.sites.push_back(indices[site]);
+    append_gathered(indices, bucket.order.order, own.sites);
     for (const auto& [rank, name] : bucket.order.renamed) own.sites[first + rank] = indices[name];
     own.first_site.push_back(own.sites.size());
     for (const Duplicate& d : bucket.order.duplicates)

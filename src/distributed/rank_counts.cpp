@@ -75,11 +75,16 @@ class RankCounter {
 
   // The first site that is not valid is that of the lowest rank that has one, which is heard.
   void look_at_sites() {
-    api::validate_some(mine_, options_, result_.first_site[steps_.rank()]);
+    constexpr std::size_t cached_sites = std::size_t{1} << 15;  // memory is slow
     result_.all = bulk::AllSites(options_);
-    result_.all.add(mine_);
     result_.keys.resize(mine_.size());
-    find_keys(mine_, options_, result_.keys);
+    for (std::size_t begin = 0; begin < mine_.size(); begin += cached_sites) {
+      const std::size_t size = std::min(cached_sites, mine_.size() - begin);
+      const auto sites = mine_.subspan(begin, size);
+      api::validate_some(sites, options_, result_.first_site[steps_.rank()] + begin);
+      result_.all.add(sites);
+      find_keys(sites, options_, std::span(result_.keys).subspan(begin, size));
+    }
     counts_.emplace(
         most_square_sites(result_.first_site.back(), steps_.size(), limits_.most_bucket_sites),
         depth_for(steps_.size()));

@@ -7,6 +7,8 @@
 #include <cstring>
 #include <utility>
 
+#include "system/prefetch.h"
+
 namespace rondel::distributed {
 namespace {
 
@@ -62,6 +64,7 @@ class Dealer {
       if (place.point != nullptr) {
         std::memcpy(place.point, &points[i], sizeof(Point));
         place.point += sizeof(Point);
+        system::prefetch_to_write(place.point + lines_ahead);
       }
       std::memcpy(place.offset, &offset, sizeof offset);
       place.offset += sizeof offset;
@@ -70,6 +73,8 @@ class Dealer {
   }
 
  private:
+  static constexpr std::size_t lines_ahead = 256;  // bytes
+
   // Where the next site of a bucket goes.
   struct DealtPlace {
     std::byte* point;  // or null
@@ -174,15 +179,24 @@ void RankSites::gather(std::size_t bucket, LargeVector<Point>& points,
       const std::size_t begin = piece.begin[bucket];
       const std::size_t size = piece.begin[bucket + 1] - begin;
       if (size == 0) continue;
-      if (!piece.points.empty()) {
+      const bool is_own = piece.points.empty();
+      if (!is_own) {
         std::memcpy(static_cast<void*>(&points[next]), &piece.points[begin * sizeof(Point)],
                     size * sizeof(Point));
       }
-      for (std::size_t i = 0; i < size; ++i, ++next) {
+      const Point* const own = is_own ? &mine_[piece.first_index - first_index_] : nullptr;
+      const auto offset_of = [&](std::size_t i) {
         Index offset = 0;
         std::memcpy(&offset, &piece.offsets[(begin + i) * sizeof(Index)], sizeof offset);
+        return offset;
+      };
+      for (std::size_t i = 0; i < size; ++i, ++next) {
+        const Index offset = offset_of(i);
         indices[next] = piece.first_index + offset;
-        if (piece.points.empty()) points[next] = mine_[indices[next] - first_index_];
+        if (!is_own) continue;
+        if (i + system::prefetch_distance < size)
+          system::prefetch(own + offset_of(i + system::prefetch_distance));
+        points[next] = own[offset];
       }
     }
   }

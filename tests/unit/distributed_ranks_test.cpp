@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "bulk/triangulate.h"
 #include "bulk_support.h"
 #include "distributed_ranks_support.h"
 
@@ -86,6 +87,22 @@ TEST(distributed_rank, may_have_copies_alone) {
     expect_same(build(sites, 5, {10, 7, first_number}, options), expected, first_number);
     sites.push_back({3, 2, 1});
   }
+}
+
+// Squares from this size on are triangulated from copies of their sites; some are duplicates.
+TEST(distributed_rank, may_have_a_large_square) {
+  if (is_shortened()) GTEST_SKIP() << "takes long here";
+  std::vector<Point> sites;
+  Random random(5);
+  while (sites.size() < bulk::least_copied_sites + 1000) {
+    const Point p = random.in_cube();
+    sites.push_back({p.x / 2, p.y / 2, 1});
+    if (sites.size() % 100 == 0) sites.push_back(sites[sites.size() / 2]);
+  }
+  const system::Job options{{}, {.threads = 2}};
+  const Triangulation expected = delaunay(Sites::view(sites), options, options);
+  const std::uint64_t all = sites.size();
+  expect_same(build(sites, 1, {all, all, first_number}, options), expected, first_number);
 }
 
 // The bar for what is sent beside the sites is 12 kB * sqrt(n P). Shares differ by less than 5 %.

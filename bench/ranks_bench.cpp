@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// ranks_bench KIND N RANKS [--seed S]: what each phase of a build by ranks costs each rank, in processor
+// time and in bytes sent to others. Ranks are simulated, one runs at a time with one thread, so the
+// figures do not depend on how many cores there are. Beside them the processor time of the build in
+// memory, with one thread, of the same sites. JSON, for scripts/scale-model.
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
+#include <span>
+#include <string>
+#include <vector>
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+#include "inputs.h"
+#include "measure.h"
+#include "rondel/distributed.h"
+#include "rondel/rondel.h"
+#include "support/simulated_ranks.h"
+
+namespace {
+
+using rondel::Point;
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+struct InMemory {
+  double seconds = 0;
+  std::size_t num_faces = 0;
+};
+
+InMemory build_in_memory(std::span<const Point> sites) {
+  const double start = processor_seconds();
+  const auto triangulation = rondel::delaunay(rondel::Sites::view(sites), {}, {.threads = 1});
+  return {processor_seconds() - start, triangulation.num_faces()};
+}
+
+struct OnRanks {
+  std::uint64_t num_faces = 0;
+  std::uint64_t num_open_sites = 0;
+};
+
+OnRanks build_on_ranks(rondel::test::SimulatedRanks& ranks, std::size_t num_ranks,
+                       std::span<const Point> sites) {
+  OnRanks result;
+  const auto errors = ranks.run([&](rondel::Communicator& rank) {
+    const auto r = static_cast<std::size_t>(rank.rank());
+    const std::size_t begin = sites.size() * r / num_ranks;
+    const std::size_t end = sites.size() * (r + 1) / num_ranks;
+    const auto part =
+        rondel::delaunay(rank, sites.subspan(begin, end - begin), {}, {}, {.threads = 1});
+    if (r == 0) result = {part.num_faces(), part.num_open_sites()};
+  });
+  for (const std::string& error : errors) {
+    if (error.empty()) continue;
+    std::fprintf(stderr, "ranks_bench: %s\n", error.c_str());
+    std::exit(1);
+  }
+  return result;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
+  const int num_ranks = argc == 4 ? std::atoi(argv[3]) : 0;
+  if (num_ranks < 1) {
+    std::fprintf(stderr, "usage: ranks_bench KIND N RANKS [--seed S]\n");
+    return 2;
+  }
+  rondel::bench::Source source(argv[1], argv[2], seed);
+  const std::vector<Point> sites = source.next();
+  rondel::bench::keep_freed_memory();
+#if defined(__GLIBC__)
+  mallopt(M_ARENA_MAX, 1);  // of all threads, of which one runs
+#endif
+  rondel::test::SimulatedRanks ranks(num_ranks);
+  build_on_ranks(ranks, static_cast<std::size_t>(num_ranks), sites);  // fills the heap
+  const OnRanks on_ranks = build_on_ranks(ranks, static_cast<std::size_t>(num_ranks), sites);
+  build_in_memory(sites);
+  const InMemory in_memory = build_in_memory(sites);
+  if (on_ranks.num_faces != in_memory.num_faces) return 1;
+  std::printf(
+      "{\"sites\": %zu, \"ranks\": %d, \"open_sites\": %llu, \"in_memory_seconds\": %.6g,\n",
+      sites.size(), num_ranks, static_cast<unsigned long long>(on_ranks.num_open_sites),
+      in_memory.seconds);
+  std::printf(" \"phases\": [");
+  const char* separator = "\n";
+  for (std::size_t r = 0; r < ranks.costs().size(); ++r) {
+    for (const auto& [phase, cost] : ranks.costs()[r]) {
+      std::printf(
+          "%s  {\"rank\": %zu, \"phase\": \"%s\", \"seconds\": %.6g, \"bytes\": %llu, \"calls\": "
+          "%llu}",
+          separator, r, phase.c_str(), cost.cpu_seconds,
+          static_cast<unsigned long long>(cost.bytes_sent),
+          static_cast<unsigned long long>(cost.num_calls));
+      separator = ",\n";
+    }
+  }
+  std::printf("\n ]}\n");
+}
