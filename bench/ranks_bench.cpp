@@ -6,6 +6,7 @@
 // figures do not depend on how many cores there are. Beside them the processor time of the build in
 // memory, with one thread, of the same sites. JSON, for scripts/scale-model.
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -65,6 +66,59 @@ OnRanks build_on_ranks(rondel::test::SimulatedRanks& ranks, std::size_t num_rank
   return result;
 }
 
+// A phase: rank 0, which joins what the others leave open, and of the others the one that takes longest.
+struct Phase {
+  double first_seconds = 0;
+  double most_seconds = 0;
+  double all_seconds = 0;
+  std::uint64_t first_bytes = 0;
+  std::uint64_t most_bytes = 0;
+  std::uint64_t all_bytes = 0;
+  std::uint64_t num_calls = 0;
+};
+
+Phase sum_up(const rondel::test::SimulatedRanks& ranks, const char* name) {
+  Phase phase;
+  for (std::size_t r = 0; r < ranks.costs().size(); ++r) {
+    const auto found = ranks.costs()[r].find(name);
+    if (found == ranks.costs()[r].end()) continue;
+    const rondel::test::PhaseCost& cost = found->second;
+    phase.all_seconds += cost.cpu_seconds;
+    phase.all_bytes += cost.bytes_sent;
+    phase.num_calls = cost.num_calls;
+    if (r == 0) {
+      phase.first_seconds = cost.cpu_seconds;
+      phase.first_bytes = cost.bytes_sent;
+    } else {
+      phase.most_seconds = std::max(phase.most_seconds, cost.cpu_seconds);
+      phase.most_bytes = std::max(phase.most_bytes, cost.bytes_sent);
+    }
+  }
+  return phase;
+}
+
+void print(std::size_t num_sites, const OnRanks& on_ranks, const InMemory& in_memory,
+           const rondel::test::SimulatedRanks& ranks) {
+  const auto number = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+  std::printf(
+      "{\"sites\": %zu, \"ranks\": %zu, \"open_sites\": %llu, \"seconds_in_memory\": %.6g,\n",
+      num_sites, ranks.costs().size(), number(on_ranks.num_open_sites), in_memory.seconds);
+  std::printf(" \"phases\": [");
+  const char* separator = "\n";
+  for (const char* name : {"count", "deal", "triangulate", "join", "number", "finish"}) {
+    const Phase phase = sum_up(ranks, name);
+    std::printf(
+        "%s  {\"phase\": \"%s\", \"first_seconds\": %.4g, \"most_seconds\": %.4g, "
+        "\"all_seconds\": %.4g,\n   \"first_bytes\": %llu, \"most_bytes\": %llu, "
+        "\"all_bytes\": %llu, \"calls\": %llu}",
+        separator, name, phase.first_seconds, phase.most_seconds, phase.all_seconds,
+        number(phase.first_bytes), number(phase.most_bytes), number(phase.all_bytes),
+        number(phase.num_calls));
+    separator = ",\n";
+  }
+  std::printf("\n ]}\n");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -86,22 +140,5 @@ int main(int argc, char** argv) {
   build_in_memory(sites);
   const InMemory in_memory = build_in_memory(sites);
   if (on_ranks.num_faces != in_memory.num_faces) return 1;
-  std::printf(
-      "{\"sites\": %zu, \"ranks\": %d, \"open_sites\": %llu, \"in_memory_seconds\": %.6g,\n",
-      sites.size(), num_ranks, static_cast<unsigned long long>(on_ranks.num_open_sites),
-      in_memory.seconds);
-  std::printf(" \"phases\": [");
-  const char* separator = "\n";
-  for (std::size_t r = 0; r < ranks.costs().size(); ++r) {
-    for (const auto& [phase, cost] : ranks.costs()[r]) {
-      std::printf(
-          "%s  {\"rank\": %zu, \"phase\": \"%s\", \"seconds\": %.6g, \"bytes\": %llu, \"calls\": "
-          "%llu}",
-          separator, r, phase.c_str(), cost.cpu_seconds,
-          static_cast<unsigned long long>(cost.bytes_sent),
-          static_cast<unsigned long long>(cost.num_calls));
-      separator = ",\n";
-    }
-  }
-  std::printf("\n ]}\n");
+  print(sites.size(), on_ranks, in_memory, ranks);
 }

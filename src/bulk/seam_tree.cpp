@@ -92,7 +92,9 @@ class SeamTree {
         seam_(seam),
         handed_up_(squares.size()),
         found_(squares.size()),
-        tallies_(squares.size()) {}
+        tallies_(squares.size()) {
+    if (rule.ledger != nullptr) rule.ledger->squares.resize(squares.size());
+  }
 
   // The last square works although what comes in is little, for those above it, which are elsewhere.
   void finish_last() { has_to_finish_ = true; }
@@ -152,6 +154,7 @@ class SeamTree {
     }
     const bool is_last = has_to_finish_ && square + 1 == squares_.size();
     if (!rule_.is_every_square && !is_worth_it(squares_[square], seam, is_last)) return;
+    const double start = now();
     const Input of_square = {points_, seam.sites, input_.options, {}, input_.extent};
     std::vector<FinalEdge> edges;
     edges.reserve(seam.edges.size());
@@ -160,13 +163,19 @@ class SeamTree {
       found_[square] = builder.build(of_square, squares_[square].block.square, edges);
       tallies_[square] = builder.tally();
     });
+    if (rule_.ledger == nullptr) return;
+    rule_.ledger->squares[square] = {squares_[square].height, seam.sites.size(),
+                                     found_[square].sites.size(), now() - start};
   }
+
+  [[nodiscard]] double now() const { return rule_.ledger == nullptr ? 0 : rule_.ledger->clock(); }
 
   // Writes the new faces, which get the names first, first + 1, ..., links them to those that are
   // known, and replaces what came in by what goes up.
   void write(Index square, Index first) {
     SquareSeam& found = found_[square];
     if (found.corners.empty()) return;
+    const double start = now();
     HandedUp& seam = handed_up_[square];
     for (Index f = 0; f < found.corners.size(); ++f) {
       for (unsigned i = 0; i < 3; ++i) {
@@ -196,6 +205,7 @@ class SeamTree {
     up.hidden = std::move(seam.hidden);
     seam = std::move(up);
     found = {};
+    if (rule_.ledger != nullptr) rule_.ledger->squares[square].seconds += now() - start;
   }
 
   const Input& input_;
@@ -295,7 +305,15 @@ bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
   if (!surround_center(points, input.center())) add_hidden(root);
   points = read_points(root.sites.size(), input.options.threads,
                        [&](std::size_t i) { return points[root.sites[i]]; });
-  return fill_sphere(input, std::move(points), num_all, std::move(root), seam, tally);
+  const std::size_t num_sphere_sites = points.size();
+  const double start = rule.ledger == nullptr ? 0 : rule.ledger->clock();
+  const bool is_filled =
+      fill_sphere(input, std::move(points), num_all, std::move(root), seam, tally);
+  if (rule.ledger != nullptr) {
+    rule.ledger->num_sphere_sites = num_sphere_sites;
+    rule.ledger->sphere_seconds = rule.ledger->clock() - start;
+  }
+  return is_filled;
 }
 
 OpenSeam fill_square_seam(const Input& input, std::span<const TreeSquare> squares,

@@ -1,0 +1,315 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""How builds by many ranks or threads would scale: a model, from a ledger of measured parts.
+
+The ledger has what each phase costs each of simulated ranks (ranks_bench), and what each square of the
+tree that fills a seam costs (seam_bench), in processor time of one thread. The time of a phase is fitted
+by terms that its work consists of, N = n / P sites of a rank and sqrt(n P) sites that rank 0 joins; a
+message costs its latency for each other rank and its bytes at the bandwidth. Nothing else is in it: not
+the memory bandwidth that cores share, not the file system, no ranks that wait for noise.
+"""
+
+import argparse
+import dataclasses
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+from . import environment
+from .settings import ROOT
+from .tables import Table, number, power
+
+LEDGER = ROOT / "bench" / "ledger.json"
+# Of a rank, of rank 0 for each site that it joins (docs/guide/distributed.md).
+BYTES_OF_SITE = 130
+BYTES_OF_OPEN_SITE = 330
+
+# The terms of the time of rank 0 and of the others, by phase; n sites on P ranks.
+TERMS = {
+    "N": lambda n, ranks: n / ranks,
+    "sqrt N": lambda n, ranks: math.sqrt(n / ranks),
+    "sqrt nP": lambda n, ranks: math.sqrt(n * ranks),
+    "P": lambda n, ranks: ranks,
+}
+WORK = {
+    "count": {"first": ("N", "P"), "most": ("N", "P")},
+    "deal": {"first": ("N",), "most": ("N",)},
+    "triangulate": {"first": ("N", "sqrt N"), "most": ("N", "sqrt N")},
+    "join": {"first": ("sqrt nP", "P"), "most": ("sqrt N", "P")},
+    "number": {"first": ("sqrt nP", "sqrt N"), "most": ("sqrt N", "P")},
+    "finish": {"first": ("N", "P"), "most": ("N", "P")},
+}
+
+
+def fit(rows, terms):
+    """Factors, none negative, of one or two terms, with the least sum of squared relative errors.
+    `rows`: (values of the terms, result)."""
+    rows = [([v / y for v in values], 1.0) for values, y in rows if y > 0]
+
+    def alone(i):
+        square = sum(v[i] * v[i] for v, _ in rows)
+        return sum(v[i] * y for v, y in rows) / square if square else 0.0
+
+    def error(factors):
+        return sum((sum(f * x for f, x in zip(factors, v)) - y) ** 2 for v, y in rows)
+
+    if len(terms) == 1:
+        return [alone(0)]
+    (a, b, d), (s, t) = _normal_equations(rows)
+    candidates = [[alone(0), 0.0], [0.0, alone(1)]]
+    determinant = a * d - b * b
+    if determinant > 1e-12 * a * d:
+        both = [(s * d - b * t) / determinant, (a * t - b * s) / determinant]
+        if min(both) >= 0:
+            candidates.append(both)
+    return min(candidates, key=error)
+
+
+def _normal_equations(rows):
+    matrix = [sum(v[i] * v[j] for v, _ in rows) for i, j in ((0, 0), (0, 1), (1, 1))]
+    return matrix, [sum(v[i] * y for v, y in rows) for i in (0, 1)]
+
+
+@dataclasses.dataclass(frozen=True)
+class Network:
+    latency: float  # seconds a message
+    bandwidth: float  # bytes a second of a rank, in and out
+
+
+class RanksModel:
+    def __init__(self, runs):
+        """`runs`: what ranks_bench printed, some of more than one rank."""
+        self.runs = runs
+        phases = {name: [(run["sites"], run["ranks"], phase) for run in runs
+                         for phase in run["phases"] if phase["phase"] == name] for name in WORK}
+        self.seconds_ = {}
+        self.bytes_ = {}
+        for name, of in phases.items():
+            for who, terms in WORK[name].items():
+                rows = [([TERMS[t](n, p) for t in terms], phase[who + "_seconds"])
+                        for n, p, phase in of if who == "first" or p > 1]
+                self.seconds_[name, who] = fit(rows, terms)
+            self.bytes_[name] = self._fit_bytes(name, of)
+            self.seconds_[name, "calls"] = max(phase["calls"] for _, _, phase in of)
+        self.open_ = fit([([math.sqrt(r["sites"] * r["ranks"])], r["open_sites"]) for r in runs],
+                         ("sqrt nP",))[0]
+        self.in_memory_ = fit([([r["sites"], math.sqrt(r["sites"])], r["seconds_in_memory"])
+                               for r in runs], ("N", "sqrt N"))
+
+    @staticmethod
+    def _fit_bytes(name, of):
+        """What goes through the busiest link: out of a rank, or all of the others into rank 0."""
+        terms = ("N",) if name == "deal" else ("sqrt nP", "P")
+        rows = []
+        for n, p, phase in of:
+            if p == 1:
+                continue
+            busiest = max(phase["first_bytes"], phase["most_bytes"],
+                          phase["all_bytes"] - phase["first_bytes"] if name == "join" else 0)
+            rows.append(([TERMS[t](n, p) * (1 - 1 / p) for t in terms], busiest))
+        return terms, fit(rows, terms)
+
+    def in_memory(self, n):
+        """Seconds of one thread."""
+        return self.in_memory_[0] * n + self.in_memory_[1] * math.sqrt(n)
+
+    def num_open_sites(self, n, ranks):
+        return self.open_ * math.sqrt(n * ranks)
+
+    def seconds(self, name, n, ranks):
+        """Of the rank that takes longest, without the network."""
+        return max(sum(f * TERMS[t](n, ranks) for f, t in zip(self.seconds_[name, who], terms))
+                   for who, terms in WORK[name].items() if who == "first" or ranks > 1)
+
+    def network_seconds(self, name, n, ranks, network):
+        if ranks == 1:
+            return 0.0
+        terms, factors = self.bytes_[name]
+        sent = sum(f * TERMS[t](n, ranks) for f, t in zip(factors, terms)) * (1 - 1 / ranks)
+        return (self.seconds_[name, "calls"] * (ranks - 1) * network.latency +
+                sent / network.bandwidth)
+
+    def wall(self, n, ranks, network):
+        return sum(self.seconds(name, n, ranks) + self.network_seconds(name, n, ranks, network)
+                   for name in WORK)
+
+    def worst_error(self):
+        """The largest relative error of the fits, of the sum of phases of a run."""
+        def measured(run):
+            return sum(max(p["first_seconds"], p["most_seconds"]) for p in run["phases"])
+
+        def modelled(run):
+            return sum(self.seconds(name, run["sites"], run["ranks"]) for name in WORK)
+
+        return max(abs(modelled(run) / measured(run) - 1) for run in self.runs)
+
+
+class ThreadsModel:
+    """Of one build in memory: what all threads share, and the tree of squares, in which each height
+    waits for the one below it."""
+
+    def __init__(self, run):
+        """`run`: what seam_bench printed."""
+        self.sites = run["sites"]
+        self.sphere = run["sphere_seconds"]
+        self.heights = {}
+        for square in run["squares"]:
+            self.heights.setdefault(square["height"], []).append(square["seconds"])
+        in_tree = sum(map(sum, self.heights.values())) + self.sphere
+        self.shared = (run["order_seconds"] + run["blocks_seconds"] + run["stitch_seconds"] +
+                       max(run["seam_seconds"] - in_tree, 0.0))
+        self.all = self.shared + in_tree
+
+    def above_blocks(self, threads):
+        """The longest chain above the blocks; the sphere is one thread's."""
+        return self.sphere + sum(max(max(seconds), sum(seconds) / threads)
+                                 for seconds in self.heights.values())
+
+    def wall(self, threads):
+        return self.shared / threads + self.above_blocks(threads)
+
+    def speed_up(self, threads):
+        return self.all / self.wall(threads)
+
+
+def ranks_table(ledger, n, all_ranks, threads, network):
+    model = RanksModel(ledger["ranks"])
+    speed_up = max(map(ThreadsModel, ledger["seams"]), key=lambda m: m.sites).speed_up(threads)
+    rows = []
+    for ranks in all_ranks:
+        phases = [model.seconds(name, n, ranks) / (speed_up if name == "triangulate" else 1)
+                  for name in WORK]
+        waits = sum(model.network_seconds(name, n, ranks, network) for name in WORK)
+        wall = sum(phases) + waits
+        open_sites = model.num_open_sites(n, ranks)
+        memory = BYTES_OF_SITE * n / ranks + BYTES_OF_OPEN_SITE * open_sites
+        rows.append([f"{ranks:,}", f"{n / ranks:,.0f}", *map(number, phases), number(waits),
+                     number(wall), number(model.in_memory(n) / wall),
+                     number(100 * model.in_memory(n) / wall / ranks / threads) + " %",
+                     number(memory / 1e9) + " GB"])
+    return Table(f"{power(n)} uniform sites, seconds by phase",
+                 ["ranks", "sites of each", *WORK, "network", "all", "speed-up", "efficiency",
+                  "memory of rank 0"], rows,
+                 [f"A model, not a measurement: processor time of simulated ranks on "
+                  f"{ledger['processor']}, fitted to {100 * model.worst_error():.0f} % at worst; "
+                  f"{threads} thread{'s' * (threads > 1)} a rank, which share the triangulation alone; "
+                  f"a network of {network.latency * 1e6:g} microseconds and "
+                  f"{network.bandwidth / 1e9:g} GB/s."])
+
+
+def threads_table(ledger, all_threads):
+    rows = []
+    for run in ledger["seams"]:
+        model = ThreadsModel(run)
+        for threads in all_threads:
+            above = model.above_blocks(threads)
+            wall = model.wall(threads)
+            rows.append([power(model.sites), threads, number(wall), number(1e3 * above),
+                         number(100 * above / wall) + " %",
+                         number(100 * model.above_blocks(math.inf) / model.all) + " %",
+                         number(model.all / wall)])
+    return Table("Threads in one memory",
+                 ["sites", "threads", "seconds", "above the blocks, ms", "of the time",
+                  "of all work", "speed-up"], rows,
+                 [f"A model, not a measurement: processor time of one thread on "
+                  f"{ledger['processor']}; what blocks, order and stitching take is divided "
+                  "by the threads, squares of one height are worked on together, the sphere is one thread's."])
+
+
+def measure(folder, sizes, all_ranks, seam_sizes, repeats):
+    """A new ledger; of repeated runs the one with the least sum."""
+    def best(program, *words, key):
+        runs = []
+        for seed in range(1, repeats + 1):
+            command = [folder / program, "uniform", *map(str, words), "--seed", str(seed)]
+            done = subprocess.run(command, check=True, capture_output=True, text=True)
+            runs.append(json.loads(done.stdout))
+        return min(runs, key=key)
+
+    def of_ranks(run):
+        return sum(phase["all_seconds"] for phase in run["phases"])
+
+    ranks = []
+    for n in sizes:
+        for p in all_ranks:
+            print(f"{power(n)} sites, {p} ranks ...", file=sys.stderr)
+            ranks.append(best("ranks_bench", n, p, key=of_ranks))
+    seams = []
+    for n in seam_sizes:
+        print(f"{power(n)} sites in memory ...", file=sys.stderr)
+        seams.append(best("seam_bench", n, key=lambda run: ThreadsModel(run).all))
+    return {"processor": environment.processor(), "ranks": ranks, "seams": seams}
+
+
+def read_ledger(path):
+    try:
+        ledger = json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        raise SystemExit(f"scale-model: {path}: {error}") from None
+    if not isinstance(ledger, dict) or not {"processor", "ranks", "seams"} <= ledger.keys():
+        raise SystemExit(f"scale-model: {path}: not a ledger")
+    return ledger
+
+
+def count(text):
+    """A number, as 1e9, 1048576 or 2^20."""
+    try:
+        base, caret, exponent = text.partition("^")
+        value = float(base) ** int(exponent) if caret else float(text)
+    except (ValueError, OverflowError):
+        value = 0.0
+    if not 1 <= value < 2**63 or value != int(value):
+        raise argparse.ArgumentTypeError(f"'{text}' is not a number of sites, ranks or threads")
+    return int(value)
+
+
+def positive(text):
+    value = float(text)
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"'{text}' is not positive")
+    return value
+
+
+def parse(words):
+    parser = argparse.ArgumentParser(prog="scripts/scale-model", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True)
+    ranks = commands.add_parser("ranks", help="builds by many ranks")
+    ranks.add_argument("--sites", type=count, default=10**10)
+    ranks.add_argument("--ranks", type=count, nargs="+", default=[1, 16, 64, 256, 1024])
+    ranks.add_argument("--threads", type=count, default=1, help="of each rank")
+    ranks.add_argument("--latency", type=positive, default=2e-6, help="seconds a message")
+    ranks.add_argument("--bandwidth", type=positive, default=10e9,
+                       help="bytes a second, of each rank")
+    threads = commands.add_parser("threads", help="builds in one memory, by many threads")
+    threads.add_argument("--threads", type=count, nargs="+", default=[1, 4, 16, 64])
+    for command in (ranks, threads):
+        command.add_argument("--ledger", type=pathlib.Path, default=LEDGER)
+    new = commands.add_parser("measure", help="writes a new ledger; minutes")
+    new.add_argument("--output", "-o", type=pathlib.Path, default=LEDGER)
+    new.add_argument("--programs", type=pathlib.Path, default=ROOT / "build" / "release" / "bin",
+                     help="the folder with ranks_bench and seam_bench")
+    new.add_argument("--sites", type=count, nargs="+", default=[2**20, 2**22, 2**24])
+    new.add_argument("--ranks", type=count, nargs="+", default=[1, 2, 4, 16, 64])
+    new.add_argument("--seam-sites", type=count, nargs="+", default=[2**24, 2**26])
+    new.add_argument("--repeats", type=count, default=3)
+    return parser.parse_args(words)
+
+
+def main(words=None):
+    task = parse(words)
+    if task.command == "measure":
+        ledger = measure(task.programs, task.sites, task.ranks, task.seam_sites, task.repeats)
+        task.output.write_text(json.dumps(ledger, indent=1) + "\n", encoding="utf-8")
+    elif task.command == "ranks":
+        network = Network(task.latency, task.bandwidth)
+        print(ranks_table(read_ledger(task.ledger), task.sites, task.ranks, task.threads,
+                          network).markdown())
+    else:
+        print(threads_table(read_ledger(task.ledger), task.threads).markdown())
+
+
+if __name__ == "__main__":
+    main()
