@@ -21,15 +21,15 @@ namespace rondel::bulk {
 
 // What squares take, for those who measure.
 struct SeamLedger {
-  struct Square {
+  struct Work {
     unsigned height = 0;
     std::size_t num_seam_sites = 0;  // that come in; 0: handed on
     std::size_t num_open = 0;        // of these, that go up
     double seconds = 0;
   };
 
-  double (*clock)();              // seconds
-  std::vector<Square> squares{};  // in their order
+  double (*clock)();            // seconds
+  std::vector<Work> squares{};  // in their order
   std::size_t num_sphere_sites = 0;
   double sphere_seconds = 0;
 };
