@@ -58,8 +58,6 @@ class Work {
     };
     try {
       work({.threads = threads, .progress = progress, .stop = &stop_});
-    } catch (const Interrupted&) {
-      error = nullptr;
     } catch (...) {
       error = std::current_exception();
     }

@@ -5,6 +5,7 @@
 
 #include <exception>
 
+#include "rondel/distributed.h"
 #include "rondel/error.h"
 #include "rondel/version.h"
 
@@ -19,6 +20,13 @@ void raise_invalid_input(const rondel::InvalidInput& error) {
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
+// rondel.distributed.DistributedError(message, rank).
+void raise_distributed_error(const rondel::DistributedError& error) {
+  const nb::object type = nb::module_::import_("rondel.distributed").attr("DistributedError");
+  const nb::object value = type(error.what(), error.rank());
+  PyErr_SetObject(type.ptr(), value.ptr());
+}
+
 void translate(const std::exception_ptr& pointer, void* /*payload*/) {
   try {
     std::rethrow_exception(pointer);
@@ -26,6 +34,11 @@ void translate(const std::exception_ptr& pointer, void* /*payload*/) {
     raise_invalid_input(error);
   } catch (const rondel::FileError& error) {
     PyErr_SetString(PyExc_OSError, error.what());
+  } catch (const rondel::DistributedError& error) {
+    raise_distributed_error(error);
+  } catch (const rondel::Interrupted& /*error*/) {
+    // Where this rank itself is, it raises what interrupted it.
+    PyErr_SetString(PyExc_KeyboardInterrupt, "another rank was interrupted");
   }
 }
 
@@ -45,4 +58,5 @@ NB_MODULE(_core, module) {
   rondel::python::add_files(module);
   rondel::python::add_globe(module);
   rondel::python::add_out_of_core(module);
+  rondel::python::add_distributed(module);
 }

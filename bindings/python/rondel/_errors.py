@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-__all__ = ["InvalidInput"]
+__all__ = ["DistributedError", "InvalidInput"]
 
 
 class InvalidInput(ValueError):
@@ -20,6 +20,24 @@ class InvalidInput(ValueError):
     def __init__(self, message: str, index: int = 0) -> None:
         super().__init__(message, index)
         self.index: int = index
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class DistributedError(RuntimeError):
+    """What one of several ranks could not do, raised on all of them in one line.
+
+    Attributes
+    ----------
+    rank : int
+        The lowest one of those that failed.
+
+    """
+
+    def __init__(self, message: str, rank: int = 0) -> None:
+        super().__init__(message, rank)
+        self.rank: int = rank
 
     def __str__(self) -> str:
         return str(self.args[0])

@@ -10,8 +10,11 @@ import rondel
 
 PROGRAM = """
 import io
+import pathlib
 import numpy as np
 import rondel
+import rondel.distributed
+import rondel.out_of_core
 
 points = np.eye(3)
 tri = rondel.delaunay(points)
@@ -27,6 +30,26 @@ reveal_type(tri.to_geojson())
 tri.voronoi().to_geojson(io.StringIO(), properties={"name": ["a", "b", "c"]})
 tri.within([1.0, 0.0, 0.0])
 rondel.delaunay(points, copies=True)
+
+path = pathlib.Path("sites.npy")
+reveal_type(rondel.out_of_core.delaunay(path, "faces.npy", scratch=path, memory="2G"))
+rondel.out_of_core.delaunay(path, "faces.npy", scratch=path, memory=2.5)
+
+class Alone:
+    rank = 0
+    size = 1
+    def allgather(self, message: bytes) -> list[bytes]:
+        return [message]
+    def alltoall(self, messages: list[bytes]) -> list[bytes]:
+        return messages
+
+part = rondel.distributed.delaunay(points, Alone(), model="weighted")
+reveal_type(part)
+reveal_type(part.faces.size)
+reveal_type(part.num_faces)
+reveal_type(rondel.distributed.delaunay_file(path, "faces.npy", neighbors=path).first_face)
+reveal_type(rondel.distributed.DistributedError("rank 0, count: none").rank)
+rondel.distributed.delaunay(points, "world")
 """
 
 
@@ -41,6 +64,12 @@ def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
     out, _, _ = api.run(["--strict", "--cache-dir", str(tmp_path / "cache"), str(program)])
     said = out.replace("builtins.", "").splitlines()
     revealed = [line.split('"')[1] for line in said if "Revealed type" in line]
-    assert revealed == [*["int"] * 6, "dict[str, Any]"], out
+    assert revealed == [
+        *["int"] * 6,
+        "dict[str, Any]",
+        "rondel.out_of_core.Report",
+        "rondel.distributed.DistributedTriangulation",
+        *["int"] * 4,
+    ], out
     errors = [line.rpartition("[")[2] for line in said if "error:" in line]
-    assert sorted(errors) == ["call-arg]", "call-overload]"], out
+    assert sorted(errors) == ["arg-type]", "arg-type]", "call-arg]", "call-overload]"], out

@@ -1,0 +1,185 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Ranks of Python. What is written in Python is called by the thread that works, with the lock of the
+// interpreter, while the one that was called waits: handlers of signals run in the main thread alone,
+// so that Ctrl-C ends no call in its middle, for which all other ranks wait.
+
+#include "rondel/distributed.h"
+
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/array.h>
+#include <nanobind/stl/string.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "module.h"
+
+namespace rondel::python {
+namespace {
+
+// rondel.distributed's ranks. All is called without the lock, which the calls into Python take.
+class PythonRanks final : public Communicator {
+ public:
+  explicit PythonRanks(const nb::object& ranks)
+      : ranks_(ranks),
+        rank_(nb::cast<int>(ranks.attr("rank"))),
+        size_(nb::cast<int>(ranks.attr("size"))) {}
+
+  [[nodiscard]] int rank() const override { return rank_; }
+  [[nodiscard]] int size() const override { return size_; }
+
+  // Whether all ranks have what they need to begin; how many threads this one has.
+  unsigned meet() {
+    const nb::gil_scoped_acquire locked;
+    return nb::cast<unsigned>(ranks_.attr("meet")());
+  }
+  std::vector<Bytes> all_gather(Bytes mine) override {
+    const nb::gil_scoped_acquire locked;
+    const nb::bytes sent = to_python(mine);
+    return from_python("allgather", ranks_.attr("allgather")(sent));
+  }
+  std::vector<Bytes> exchange(std::vector<Bytes> messages) override {
+    const nb::gil_scoped_acquire locked;
+    nb::list sent;
+    for (Bytes& message : messages) {
+      sent.append(to_python(message));
+      message = {};
+    }
+    return from_python("alltoall", ranks_.attr("alltoall")(std::move(sent)));
+  }
+
+ private:
+  static nb::bytes to_python(const Bytes& message) {
+    return nb::bytes(message.data(), message.size());
+  }
+
+  [[nodiscard]] std::vector<Bytes> from_python(const char* call, const nb::object& answer) const {
+    std::vector<Bytes> messages;
+    for (const nb::handle message : answer) messages.push_back(bytes_of(message));
+    if (messages.size() == static_cast<std::size_t>(size_)) return messages;
+    const std::string text = std::string(call) + " returned " + std::to_string(messages.size()) +
+                             " messages of " + std::to_string(size_) + " ranks";
+    throw nb::value_error(text.c_str());
+  }
+
+  static Bytes bytes_of(nb::handle message) {
+    Py_buffer view;
+    if (PyObject_GetBuffer(message.ptr(), &view, PyBUF_SIMPLE) != 0) throw nb::python_error();
+    struct Release {
+      void operator()(Py_buffer* buffer) const { PyBuffer_Release(buffer); }
+    };
+    const std::unique_ptr<Py_buffer, Release> held(&view);
+    const auto* first = static_cast<const std::byte*>(view.buf);
+    return {first, first + view.len};
+  }
+
+  nb::handle ranks_;  // of the caller
+  int rank_;
+  int size_;
+};
+
+// Work on all ranks, which always takes long enough to be watched: any of them may come late.
+template <class Work>
+DistributedTriangulation on_ranks(const nb::object& python_ranks, const nb::object& listener,
+                                  const Work& work) {
+  constexpr std::size_t size = std::numeric_limits<std::size_t>::max();
+  PythonRanks ranks(python_ranks);
+  return watched(size, 0, listener, [&](const Execution& watching) {
+    // One thread to Python, whatever it calls there.
+    const nb::gil_scoped_acquire attached;
+    const nb::gil_scoped_release released;
+    Execution execution = watching;
+    execution.threads = ranks.meet();
+    return work(ranks, execution);
+  });
+}
+
+DistributedTriangulation build_on_ranks(const nb::object& ranks, const PointsIn& points,
+                                        bool is_weighted, const std::array<double, 3>& center,
+                                        double squared_radius, std::uint64_t most_bucket_sites,
+                                        const nb::object& listener) {
+  return on_ranks(ranks, listener, [&](Communicator& communicator, const Execution& execution) {
+    return delaunay(communicator, points_of(points), {.most_bucket_sites = most_bucket_sites},
+                    make_options(is_weighted, center, squared_radius), execution);
+  });
+}
+
+DistributedTriangulation build_files_on_ranks(const nb::object& ranks, const std::string& sites,
+                                              const std::array<std::string, 3>& files, bool radians,
+                                              bool is_weighted, const std::array<double, 3>& center,
+                                              double squared_radius,
+                                              std::uint64_t most_bucket_sites,
+                                              const nb::object& listener) {
+  return on_ranks(ranks, listener, [&](Communicator& communicator, const Execution& execution) {
+    return delaunay_file(communicator, sites, {files[0], files[1], files[2], radians},
+                         {.most_bucket_sites = most_bucket_sites},
+                         make_options(is_weighted, center, squared_radius), execution);
+  });
+}
+
+using Rows = std::function<void(std::span<const GlobalTriple>)>;
+
+// What one of the two visits shows, as an array.
+template <void (DistributedTriangulation::*visit)(const Rows&) const>
+ArrayOut<std::int64_t> rows_out(const DistributedTriangulation& t) {
+  return to_array<std::int64_t>(unlocked([&] {
+    std::vector<GlobalTriple> rows;
+    rows.reserve(t.num_own_faces());
+    (t.*visit)([&](std::span<const GlobalTriple> some) {
+      rows.insert(rows.end(), some.begin(), some.end());
+    });
+    return rows;
+  }));
+}
+
+// Functions that return an array of the object `self`.
+template <auto get>
+auto list_getter() {
+  return [](const nb::object& self) {
+    return array_of<std::int64_t>(self, (nb::cast<const DistributedTriangulation&>(self).*get)());
+  };
+}
+
+}  // namespace
+
+void add_distributed(nb::module_& module) {
+  using T = DistributedTriangulation;
+  nb::class_<T>(module, "DistributedTriangulation")
+      .def_prop_ro("dimension", &T::dimension)
+      .def_prop_ro("num_sites", &T::num_sites)
+      .def_prop_ro("num_vertices", &T::num_vertices)
+      .def_prop_ro("num_faces", &T::num_faces)
+      .def_prop_ro("num_ghost_faces", &T::num_ghost_faces)
+      .def_prop_ro("num_duplicates", &T::num_duplicates)
+      .def_prop_ro("num_hidden", &T::num_hidden)
+      .def_prop_ro("num_open_sites", &T::num_open_sites)
+      .def_prop_ro("first_face", &T::first_face)
+      .def_prop_ro("num_own_faces", &T::num_own_faces)
+      .def("faces", &rows_out<&T::visit_faces>)
+      .def("neighbors", &rows_out<&T::visit_neighbors>)
+      .def_prop_ro("ghost_faces", list_getter<&T::ghost_faces>())
+      .def_prop_ro("owned_sites", list_getter<&T::owned_sites>())
+      .def_prop_ro("ring", list_getter<&T::ring>())
+      .def_prop_ro("duplicates", list_getter<&T::duplicates>())
+      .def_prop_ro("hidden", list_getter<&T::hidden>());
+  module.def("delaunay_of_ranks", &build_on_ranks, nb::arg("ranks"), nb::arg("points").noconvert(),
+             nb::arg("is_weighted"), nb::arg("center"), nb::arg("squared_radius"),
+             nb::arg("most_bucket_sites"), nb::arg("progress").none());
+  module.def("delaunay_file_of_ranks", &build_files_on_ranks, nb::arg("ranks"), nb::arg("sites"),
+             nb::arg("files"), nb::arg("radians"), nb::arg("is_weighted"), nb::arg("center"),
+             nb::arg("squared_radius"), nb::arg("most_bucket_sites"), nb::arg("progress").none());
+}
+
+}  // namespace rondel::python

@@ -1,0 +1,312 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Triangulations by several processes, none of which ever has all points.
+
+The processes are the ranks of a communicator of mpi4py, or of anything else that has `rank`,
+`size`, ``allgather(bytes)`` and ``alltoall(list of bytes)``. All of them make the same calls in the
+same order, each with its own share of the points. The result is that of `rondel.delaunay` of all
+points, those of rank r behind those of rank r - 1, bit by bit, whatever the number of ranks.
+
+Where one rank cannot go on, all of them raise. What the communicator itself raises is raised on its
+own rank alone: ``mpirun -n 8 python -m mpi4py program.py`` ends the others, too.
+"""
+
+from __future__ import annotations
+
+import operator
+import os
+from functools import cached_property
+from typing import Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import as_center, as_points, as_threads, frozen, is_weighted
+from ._errors import DistributedError
+from ._ranks import Communicator, Ranks
+from ._repr import count
+from ._types import ArrayLike, Model, Progress
+
+__all__ = [
+    "Communicator",
+    "DistributedError",
+    "DistributedTriangulation",
+    "delaunay",
+    "delaunay_file",
+]
+
+Path: TypeAlias = str | os.PathLike[str]
+LongArray: TypeAlias = npt.NDArray[np.int64]
+
+
+class DistributedTriangulation:
+    """What one rank has of the triangulation that `delaunay` or `delaunay_file` made.
+
+    Numbers are those of all ranks: points of rank r come behind those of rank r - 1, and so do
+    faces. All arrays are of int64 and cannot be written to.
+    """
+
+    def __init__(self, part: _core.DistributedTriangulation) -> None:
+        self._part = part
+
+    @property
+    def dimension(self) -> int:
+        """As that of `SphericalDelaunay`; below 2 there are no faces."""
+        return self._part.dimension
+
+    @property
+    def num_sites(self) -> int:
+        """The points of all ranks."""
+        return self._part.num_sites
+
+    @property
+    def num_vertices(self) -> int:
+        """Of all ranks; with duplicates and hidden points, `num_sites`."""
+        return self._part.num_vertices
+
+    @property
+    def num_faces(self) -> int:
+        """The triangles of all ranks."""
+        return self._part.num_faces
+
+    @property
+    def num_ghost_faces(self) -> int:
+        """Those of all ranks that are not seen from the center."""
+        return self._part.num_ghost_faces
+
+    @property
+    def num_duplicates(self) -> int:
+        """Points of all ranks that are in the same place as one before them."""
+        return self._part.num_duplicates
+
+    @property
+    def num_hidden(self) -> int:
+        """Points of all ranks that are no vertices (model 'weighted')."""
+        return self._part.num_hidden
+
+    @property
+    def num_open_sites(self) -> int:
+        """Points that no rank could decide alone, so that rank 0 joined them."""
+        return self._part.num_open_sites
+
+    @property
+    def first_face(self) -> int:
+        """The number of this rank's first triangle, which row 0 of `faces` is."""
+        return self._part.first_face
+
+    @cached_property
+    def faces(self) -> LongArray:
+        """Ndarray of int64, shape (m, 3): this rank's triangles as points, counterclockwise seen
+        from outside. Made when it is first asked for, as `neighbors`.
+        """
+        return frozen(self._part.faces())
+
+    @cached_property
+    def neighbors(self) -> LongArray:
+        """Ndarray of int64, shape (m, 3): for each corner of `faces` the triangle opposite to it,
+        which may be another rank's.
+        """
+        return frozen(self._part.neighbors())
+
+    @cached_property
+    def ghost_faces(self) -> LongArray:
+        """Ndarray of int64, shape (g,): those of this rank's triangles that are not seen from the
+        center, increasing.
+        """
+        return self._part.ghost_faces
+
+    @cached_property
+    def owned_sites(self) -> LongArray:
+        """Ndarray of int64, shape (s,): the points in this rank's part of the sphere, of several
+        in one place the first. Their triangles are this rank's, but for those in which another
+        corner comes first.
+        """
+        return self._part.owned_sites
+
+    @cached_property
+    def ring(self) -> LongArray:
+        """Ndarray of int64, shape (v,): below dimension 2, on rank 0, the vertices in their order
+        along the great circle. Empty otherwise.
+        """
+        return self._part.ring
+
+    @cached_property
+    def duplicates(self) -> LongArray:
+        """Ndarray of int64, shape (k, 2): points that this rank gave, and the first ones in the
+        same places.
+        """
+        return self._part.duplicates
+
+    @cached_property
+    def hidden(self) -> LongArray:
+        """Ndarray of int64, shape (h,): points that this rank gave and that are no vertices."""
+        return self._part.hidden
+
+    def __repr__(self) -> str:
+        own = f"{self._part.num_own_faces:,} of {count(self.num_faces, 'face')}"
+        name = f"rondel.distributed.{type(self).__name__}"
+        return f"<{name}: {own}, {count(self.num_sites, 'point')}>"
+
+
+def delaunay(
+    points: ArrayLike,
+    comm: Communicator | None = None,
+    *,
+    model: Model = "projected",
+    radius: float = 1.0,
+    center: ArrayLike | None = None,
+    most_bucket_sites: int = 1 << 28,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> DistributedTriangulation:
+    """The Delaunay triangulation of the points of all ranks, which call this together.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        Those of this rank: any share of all, also none. `rondel.unit_vectors` makes them of
+        longitudes and latitudes.
+    comm : mpi4py.MPI.Intracomm or Communicator, optional
+        The ranks; ``mpi4py.MPI.COMM_WORLD`` by default. It is called from another thread, and by
+        nobody else until this returns.
+    model : {'projected', 'weighted'}, optional
+    radius : float, optional
+    center : array_like, shape (3,), optional
+        As for `rondel.delaunay`, and the same on all ranks.
+    most_bucket_sites : int, optional
+        At most so many points of a rank are triangulated at once. The same on all ranks.
+    threads : int, optional
+        At most so many work for this rank; by default its share of the machine's cores.
+    progress : callable, optional
+        Called as ``progress(stage, fraction)`` with this rank's stages, 'triangulate' and 'join'.
+        What it raises ends the work on all ranks.
+
+    Returns
+    -------
+    DistributedTriangulation
+
+    Raises
+    ------
+    DistributedError
+        On all ranks: if a point of one of them is not valid, or its memory is short. Where
+        arguments of a rank are not valid, on the others; that rank has its `TypeError` or
+        `ValueError`.
+    KeyboardInterrupt
+        On all ranks, after Ctrl-C, or an exception of `progress`, on one of them.
+    ModuleNotFoundError
+        If there is no `comm`, and no mpi4py.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rondel.distributed
+    >>> class Alone:  # as MPI.COMM_WORLD where nobody calls mpirun
+    ...     rank, size = 0, 1
+    ...     def allgather(self, message):
+    ...         return [message]
+    ...     def alltoall(self, messages):
+    ...         return messages
+    >>> points = np.random.default_rng(1).normal(size=(1000, 3))
+    >>> part = rondel.distributed.delaunay(points, Alone())
+    >>> part.faces.shape, part.first_face, part.num_faces
+    ((1996, 3), 0, 1996)
+
+    """
+    ranks = Ranks(comm)
+    sites = np.empty((0, 3))
+    options = _no_options
+    try:
+        sites = as_points(points)
+        options = _as_options(model, radius, center, most_bucket_sites)
+        ranks.prepare(("delaunay", options), as_threads(threads))
+    except BaseException as error:
+        ranks.fail(error)
+    return DistributedTriangulation(_core.delaunay_of_ranks(ranks, sites, *options, progress))
+
+
+def delaunay_file(
+    sites: Path,
+    faces: Path,
+    comm: Communicator | None = None,
+    neighbors: Path | None = None,
+    duplicates: Path | None = None,
+    *,
+    model: Model = "projected",
+    radius: float = 1.0,
+    center: ArrayLike | None = None,
+    radians: bool = False,
+    most_bucket_sites: int = 1 << 28,
+    threads: int | None = None,
+    progress: Progress = None,
+) -> DistributedTriangulation:
+    """The Delaunay triangulation of a file, of which each rank reads its share.
+
+    Each rank writes its share of the results, too, on a disk that all of them see. The files appear
+    complete, when all ranks are done, or not at all; until then they have ``.rondel.tmp`` behind
+    their names. Their numbers are of type uint32 while all fit, otherwise int64.
+
+    Parameters
+    ----------
+    sites : path_like
+        A `.npy` file, shape (n, 3) of points or (n, 2) of longitudes and latitudes in degrees.
+    faces : path_like
+        A `.npy` file of the triangles, shape (m, 3): rows of `sites`, counterclockwise.
+    comm : mpi4py.MPI.Intracomm or Communicator, optional
+        As for `delaunay`.
+    neighbors : path_like, optional
+        A `.npy` file, shape (m, 3): the triangles opposite to each corner.
+    duplicates : path_like, optional
+        A `.npy` file, shape (k, 2): rows, and the rows that they repeat.
+    model : {'projected', 'weighted'}, optional
+    radius : float, optional
+    center : array_like, shape (3,), optional
+        As for `rondel.delaunay`. All arguments but the last two are the same on all ranks.
+    radians : bool, optional
+        Whether longitudes and latitudes are in radians.
+    most_bucket_sites, threads, progress : optional
+        As for `delaunay`.
+
+    Returns
+    -------
+    DistributedTriangulation
+
+    Raises
+    ------
+    DistributedError
+        On all ranks, also if a file, or a row of it, cannot be read or written.
+
+    """
+    ranks = Ranks(comm)
+    files = ["", "", "", ""]
+    options = _no_options
+    try:
+        files = [_as_name(file) for file in (sites, faces, neighbors, duplicates)]
+        if not files[1]:
+            raise ValueError("faces has no name")
+        options = _as_options(model, radius, center, most_bucket_sites)
+        ranks.prepare(("delaunay_file", files, radians, options), as_threads(threads))
+    except BaseException as error:
+        ranks.fail(error)
+    return DistributedTriangulation(
+        _core.delaunay_file_of_ranks(ranks, files[0], files[1:], bool(radians), *options, progress)
+    )
+
+
+Options: TypeAlias = tuple[bool, tuple[float, float, float], float, int]
+
+_no_options: Options = (False, (0.0, 0.0, 0.0), 1.0, 1)
+
+
+def _as_options(model: Model, radius: float, center: Any, most_bucket_sites: int) -> Options:
+    most = operator.index(most_bucket_sites)
+    if most < 1:
+        raise ValueError(f"most_bucket_sites must be at least 1, not {most}")
+    return is_weighted(model), as_center(center), float(radius) ** 2, min(most, 1 << 40)
+
+
+def _as_name(path: Path | None) -> str:
+    """A name that the library takes; empty for None."""
+    name = "" if path is None else os.fsdecode(path)
+    name.encode()
+    return name
