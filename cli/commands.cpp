@@ -84,7 +84,7 @@ void add_out_of_core(CLI::App& command, DelaunayOptions& options) {
   command
       .add_option_function<std::string>(
           "--memory", [&options](const std::string& text) { options.memory = bytes_of(text); },
-          "What may be in memory at once: bytes, or with K, M, G, T (default: 2G)")
+          "What may be in memory at once: bytes, or 500M, 1.5g (K, M, G, T; default: 2G)")
       ->check(bytes_error)
       ->needs(scratch)
       ->type_name("SIZE")

@@ -3,6 +3,7 @@
 
 #include "validate.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
@@ -64,20 +65,22 @@ std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_
 
 namespace {
 
-// 0 where the text is none.
+// 0 where the text is none. Parts are those of a unit: 1.5 bytes are a unit that is forgotten.
 std::uint64_t parsed_bytes(const std::string& text) {
-  constexpr std::string_view suffixes = "KMGT";
-  std::string digits = text;
+  const std::size_t end = std::min(text.find_first_not_of("0123456789."), text.size());
+  const std::string number = text.substr(0, end);
   unsigned bits = 0;
-  if (!digits.empty()) {
-    const std::size_t suffix = suffixes.find(digits.back());
-    if (suffix != std::string_view::npos) {
-      bits = 10 * (static_cast<unsigned>(suffix) + 1);
-      digits.pop_back();
-    }
+  if (end < text.size()) {
+    const std::size_t unit = std::string_view("KkMmGgTt").find(text[end]);
+    if (unit == std::string_view::npos || end + 1 < text.size()) return 0;
+    bits = 10 * (static_cast<unsigned>(unit / 2) + 1);
   }
-  if (!whole_error(digits, 1, std::numeric_limits<std::uint64_t>::max() >> bits).empty()) return 0;
-  return std::stoull(digits) << bits;
+  if (whole_error(number, 1, std::numeric_limits<std::uint64_t>::max() >> bits).empty())
+    return std::stoull(number) << bits;
+  double value = 0;
+  if (bits == 0 || number.find('.') == std::string::npos || !parse(number, value)) return 0;
+  value = std::ldexp(value, static_cast<int>(bits));
+  return value < 0x1p64 ? static_cast<std::uint64_t>(value) : 0;
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ std::string range_error(const std::string& text, double min, double max);
 /// The decimal digits of a whole number that is written with a point or an exponent, as 1e6; other
 /// text as it is.
 std::string digits_of_whole(std::string text);
-/// A number of bytes: digits, and perhaps K, M, G or T for powers of 1024.
+/// A number of bytes: digits, or a decimal number and K, M, G or T, or k, m, g or t, powers of 1024.
 std::string bytes_error(const std::string& text);
 /// \pre bytes_error(text) is empty.
 std::uint64_t bytes_of(const std::string& text);

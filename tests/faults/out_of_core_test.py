@@ -130,7 +130,8 @@ class OutOfCore(unittest.TestCase):
         for arguments, message in (
             (["--memory", "2G"], "--memory requires --scratch"),
             (["--resume"], "--resume requires --scratch"),
-            (["--scratch", "scratch", "--memory", "2X"], "'2X' is not a number of bytes, as 2G or 500M"),
+            *((["--scratch", "scratch", "--memory", text], f"'{text}' is not a number of bytes, as 2G or 500M")
+              for text in ("2X", "2GB", "1.5", "1.5.1G", "G", "0", "17e9", "16777216T", "16777216.1T", "0.0001K")),
         ):
             with self.subTest(arguments=arguments):
                 done = self.run_tool("delaunay", "sites.npy", "-o", "faces.npy", *arguments)
@@ -140,9 +141,11 @@ class OutOfCore(unittest.TestCase):
         done = self.run_tool("delaunay", "sites.npy", "-o", "faces.ply", "--scratch", "scratch")
         self.assertEqual((done.returncode, done.stderr),
                          (2, "rondel: --output: with --scratch 'faces.ply' must be a .npy file\n"))
-        done = self.run_tool("delaunay", "sites.npy", "-o", "faces.npy", "--scratch", "scratch", "--memory", "1M")
-        self.assertEqual((done.returncode, done.stderr),
-                         (1, "rondel: 1 MB of memory are less than the 96 MB that are needed at least\n"))
+        for memory in ("1M", "1m", "1024k", "1048576", "1.5M", "0.0015g", "0.0000015T"):
+            found = 2 if "." in memory else 1
+            done = self.run_tool("delaunay", "sites.npy", "-o", "faces.npy", "--scratch", "scratch", "--memory", memory)
+            self.assertEqual((done.returncode, done.stderr),
+                             (1, f"rondel: {found} MB of memory are less than the 96 MB that are needed at least\n"))
 
 
 if __name__ == "__main__":

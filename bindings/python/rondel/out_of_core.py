@@ -9,6 +9,7 @@ import errno
 import operator
 import os
 import re
+from fractions import Fraction
 from typing import TypeAlias
 
 from . import _core
@@ -85,7 +86,7 @@ def delaunay(
         A directory for some 64 bytes a site, 88 with neighbors, 128 with areas. Made if it is
         not there, and removed at the end.
     memory : int or str, optional
-        What the process may have in memory, in bytes or as '500M', '2G', '1T' (powers of 1024):
+        What the process may have in memory, in bytes or as '500M', '1.5g', '1T' (powers of 1024):
         held to if the process has little else in memory.
     neighbors : path_like, optional
         A `.npy` file, shape (m, 3): the faces opposite to each corner.
@@ -165,15 +166,16 @@ def delaunay(
 
 def _bytes(memory: int | str) -> int:
     """A number of bytes."""
+    number = -1
     if isinstance(memory, str):
-        match = re.fullmatch(r"(\d+)([KMGT]?)", memory)
-        if not match:
-            raise ValueError(
-                f"memory is {memory!r}, which is not a number of bytes, as '2G' or '500M'"
-            )
-        return min(int(match[1]) << 10 * (" KMGT".index(match[2] or " ")), 2**63)
-    number = operator.index(memory) if hasattr(memory, "__index__") else -1
-    if isinstance(memory, bool) or number < 0:
+        match = re.fullmatch(r"(\d+)|(\d*\.?\d+)([KMGT])", memory, re.IGNORECASE | re.ASCII)
+        if match and match[1]:
+            number = int(match[1])
+        elif match:
+            number = int(Fraction(match[2]) * 1024 ** (" KMGT".index(match[3].upper())))
+    elif hasattr(memory, "__index__") and not isinstance(memory, bool):
+        number = operator.index(memory)
+    if number < 0:
         raise ValueError(f"memory is {memory!r}, which is not a number of bytes, as '2G' or '500M'")
     return min(number, 2**63)
 

@@ -90,12 +90,12 @@ def test_progress_and_resume(folder):
 
 
 def test_what_is_wrong(folder):
-    with pytest.raises(rondel.InvalidInput, match="1 MB of memory are less than the 96 MB"):
-        run(folder, memory="1M")
-    with pytest.raises(ValueError, match="memory is '2X', which is not a number of bytes"):
-        run(folder, memory="2X")
-    for memory in (-1, 2e8, True):
-        with pytest.raises(ValueError, match="which is not a number of bytes"):
+    for memory in ("1M", "1m", "1024k", "1048576", 1 << 20, "1.5M", "0.0015g", "0.0000015T"):
+        found = 2 if "." in str(memory) else 1
+        with pytest.raises(rondel.InvalidInput, match=f"{found} MB of memory are less than the 96"):
+            run(folder, memory=memory)
+    for memory in ("2X", "2GB", "1.5", "1.5.1G", "G", "", "17e9", -1, 2e8, True):
+        with pytest.raises(ValueError, match=f"memory is {memory!r}, which is not a number of byt"):
             run(folder, memory=memory)
     with pytest.raises(ValueError, match="out has no name"):
         rondel.out_of_core.delaunay(folder / "sites.npy", "", scratch=folder / "work")
@@ -119,4 +119,5 @@ def test_what_is_wrong(folder):
 
 
 def test_memory_in_bytes(folder):
-    assert run(folder, memory=100 << 20).num_faces == 5996
+    for memory in (100 << 20, "0.1g", "100.5M"):
+        assert run(folder, memory=memory).num_faces == 5996
