@@ -13,7 +13,11 @@ import random
 import sys
 import tempfile
 
+import numpy as np
+
 import rondel
+import rondel.distributed
+import rondel.out_of_core
 
 
 def say(name, *arrays):
@@ -56,6 +60,27 @@ for model in ("projected", "weighted"):
     for threads in (1, 3):
         many = rondel.delaunay(cloud, model, threads=threads)
         say(f"{model} cloud", many.simplices, many.neighbors)
+
+
+class Alone:
+    rank, size = 0, 1
+
+    def allgather(self, message):
+        return [message]
+
+    def alltoall(self, messages):
+        return messages
+
+
+part = rondel.distributed.delaunay(cloud, Alone(), most_bucket_sites=10000)
+say("rank", part.faces, part.neighbors, part.owned_sites)
+with tempfile.TemporaryDirectory() as folder:
+    sites, faces, neighbors, scratch = (
+        pathlib.Path(folder, name) for name in ("sites.npy", "faces.npy", "neighbors.npy", "work")
+    )
+    np.save(sites, cloud)
+    rondel.out_of_core.delaunay(sites, faces, scratch=scratch, memory="0.1g", neighbors=neighbors)
+    say("files", np.load(faces), np.load(neighbors))
 hull = rondel.convex_hull(cloud)
 say("hull", hull.simplices)
 print("volume", hull.volume.hex(), hull.area.hex())

@@ -17,6 +17,8 @@ Modules
 -------
 rondel.out_of_core
     Triangulations that are larger than the memory, from files to files.
+rondel.distributed
+    Triangulations by several processes, with MPI or without.
 
 Classes
 -------

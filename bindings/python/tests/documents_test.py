@@ -31,7 +31,9 @@ def test_docstrings(name):
         assert failed == 0
 
 
-@pytest.mark.parametrize("document", ["docs/guide/python.md", "README.md"])
+@pytest.mark.parametrize(
+    "document", ["docs/guide/python.md", "docs/guide/distributed.md", "README.md"]
+)
 def test_documents(document):
     blocks = re.findall(
         r"^```python\n(.*?)^```$", (ROOT / document).read_text("utf-8"), re.M | re.S

@@ -12,6 +12,8 @@ import sys
 
 import pytest
 
+import rondel
+
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 
@@ -79,6 +81,14 @@ def test_an_installed_wheel_has_the_module_of_its_tag():
     (tags,) = (f.read_text() for f in files if f.name == "WHEEL")
     (module,) = (f.name for f in files if f.name.startswith("_core.") and f.suffix == ".so")
     assert ("-abi3-" in tags) == (module == "_core.abi3.so")
+
+
+def test_what_is_imported_has_all_modules():
+    """Built or installed: what CMake links, and what is in the wheel, is what there is."""
+    sources = ROOT / "bindings/python/rondel"
+    modules = {path.name for path in pathlib.Path(rondel.__file__).parent.glob("*.py")}
+    assert {"out_of_core.py", "distributed.py"} <= modules
+    assert modules == {path.name for path in sources.glob("*.py")}
 
 
 @pytest.mark.parametrize(
