@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What each process of python_test.py does.
 
-python_ranks.py SIZE (results FOLDER | pieces | failures | interrupt | lost)
+python_ranks.py SIZE (results FOLDER | pieces | failures | refused TEXT | interrupt | lost)
 """
 
 import pathlib
@@ -98,6 +98,18 @@ def failures():
     )
 
 
+def refused(text):
+    """MPI that other threads may not call; or, where they may, ranks that are two groups."""
+    own = WORLD.Split(RANK == 0)
+    comm = own.Create_intercomm(0, WORLD, int(RANK == 0)) if SIZE > 1 else WORLD
+    try:
+        rondel.distributed.delaunay(np.eye(3), comm)
+    except (RuntimeError, TypeError) as error:
+        assert text in str(error), error
+    else:
+        raise AssertionError("no error")
+
+
 def interrupt():
     """Ctrl-C, which the last rank alone gets."""
     points = np.random.default_rng(RANK).normal(size=(1 << 19, 3))
@@ -127,4 +139,5 @@ def lost():
 
 
 assert int(sys.argv[1]) == SIZE, "mpiexec and mpi4py are not of the same MPI"
-{f.__name__: f for f in (results, pieces, failures, interrupt, lost)}[sys.argv[2]](*sys.argv[3:])
+WORK = (results, pieces, failures, refused, interrupt, lost)
+{work.__name__: work for work in WORK}[sys.argv[2]](*sys.argv[3:])

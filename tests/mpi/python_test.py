@@ -53,6 +53,13 @@ class Ranks(unittest.TestCase):
     def test_failures_are_those_of_all(self):
         self.assert_ends_well(3, "failures")
 
+    def test_what_is_refused(self):
+        self.assert_ends_well(2, "refused", "an intercommunicator")
+        result = run_ranks(
+            1, "--rc=thread_level=funneled", HERE / "python_ranks.py", 1, "refused", "for one thread"
+        )
+        self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_an_interrupt_ends_all(self):
         self.assert_ends_well(3, "interrupt")
 

@@ -23,12 +23,13 @@ Sizes = npt.NDArray[np.int64]
 class Communicator(Protocol):
     """Some processes, or threads, that work together.
 
-    Its calls are made by one thread at a time, which is not the one that called the library.
+    Its calls are made by one thread at a time, which is not the one that called the library, and by
+    all ranks in the same order. Messages may have any size, also none.
     """
 
     @property
     def rank(self) -> int:
-        """Which one this is: 0 to ``size - 1``."""
+        """The number of this one, from 0 to ``size - 1``."""
 
     @property
     def size(self) -> int:
