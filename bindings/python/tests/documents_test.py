@@ -32,7 +32,8 @@ def test_docstrings(name):
 
 
 @pytest.mark.parametrize(
-    "document", ["docs/guide/python.md", "docs/guide/distributed.md", "README.md"]
+    "document",
+    ["docs/guide/python.md", "docs/guide/distributed.md", "docs/guide/scaling.md", "README.md"],
 )
 def test_documents(document):
     blocks = re.findall(
