@@ -60,7 +60,8 @@ class RONDEL_API Communicator {
   virtual std::vector<Bytes> exchange(std::vector<Bytes> messages) = 0;
 
   /// Told by the library before the work that leads to the next call: "count", "deal", "triangulate",
-  /// "join", "number", "finish". For those who measure; does nothing here. What it throws ends all ranks.
+  /// "join", "number", "finish"; "areas". For those who measure; does nothing here. What it throws ends all
+  /// ranks.
   virtual void begin(std::string_view phase);
 };
 
@@ -90,13 +91,16 @@ struct GlobalDuplicate {
   friend bool operator==(const GlobalDuplicate&, const GlobalDuplicate&) = default;
 };
 
-/// How the work is divided. No result depends on it.
+/// How the work is divided, and what is kept. No result depends on it.
 struct DistributedOptions {
   /// At most so many sites are triangulated at once, where squares of 2^-28 of a face of the cube have
   /// no more; a rank has several squares then.
   std::uint64_t most_bucket_sites = std::uint64_t{1} << 28;
   /// At most so many sites are sent at once by each rank.
   std::uint64_t most_dealt_sites = std::uint64_t{1} << 21;
+  /// Each rank keeps the points of the sites in its squares and around them, 24 bytes each, for areas()
+  /// and visit_circumcenters().
+  bool keep_points = false;
 };
 
 /// The results of delaunay_file(), .npy files on a disk that all ranks see. They appear complete, when
@@ -106,7 +110,9 @@ struct DistributedFiles {
   std::string faces;         ///< (m, 3): input indices, counterclockwise, as Triangulation::faces()
   std::string neighbors{};   ///< (m, 3): faces, opposite to each corner; empty: not written
   std::string duplicates{};  ///< (k, 2): site and representative, by site; empty: not written
-  bool radians = false;      ///< longitudes and latitudes of the input are in radians
+  std::string areas{};       ///< (n,) float64: those of the cells, as areas(); empty: not written
+  std::string circumcenters{};  ///< (m, 3) float64: those of the faces; empty: not written
+  bool radians = false;         ///< longitudes and latitudes of the input are in radians
 };
 
 /// The triangulation, of which each rank has its part: consecutive faces, those of rank r behind those
@@ -132,6 +138,11 @@ class RONDEL_API DistributedTriangulation {
   void visit_faces(const std::function<void(std::span<const GlobalTriple>)>& visit) const;
   /// Shows the faces across their edges, opposite to each corner.
   void visit_neighbors(const std::function<void(std::span<const GlobalTriple>)>& visit) const;
+  /// Shows the circumcenters of this rank's faces, those of circumcenters() in every bit. A matter of this
+  /// rank alone.
+  /// \throws InvalidInput if the points were not kept
+  void visit_circumcenters(const std::function<void(std::span<const Point>)>& visit,
+                           const Execution& execution = {}) const;
   /// Those of this rank's faces that are ghost faces, increasing.
   [[nodiscard]] std::span<const std::uint64_t> ghost_faces() const noexcept;
 
@@ -167,7 +178,16 @@ RONDEL_API DistributedTriangulation delaunay(Communicator& ranks, std::span<cons
                                              const Options& options = {},
                                              const Execution& execution = {});
 
-/// The same of the sites of a .npy file, (n, 3) points or (n, 2) longitudes and latitudes in degrees, of
+/// The areas of the cells of the sites that this rank gave, those of areas() in every bit: 0 for duplicates
+/// and hidden sites. All ranks call it together; each one finds those of its own squares and sends them to
+/// the ranks that gave the sites, 16 bytes each.
+/// \throws DistributedError on all ranks: also if the points were not kept
+/// \throws Interrupted on all ranks, if the flag of one of them is set
+RONDEL_API std::vector<double> areas(Communicator& ranks,
+                                     const DistributedTriangulation& triangulation,
+                                     const Execution& execution = {});
+
+/// As delaunay() above, of the sites of a .npy file, (n, 3) points or (n, 2) longitudes and latitudes in degrees, of
 /// any type of numbers, of which each rank reads its share, as it writes its share of the results.
 /// Until all is written a file has the name of the result with ".rondel.tmp" behind it.
 /// \throws DistributedError on all ranks: also what a file or its rows have that is not valid

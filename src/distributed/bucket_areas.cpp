@@ -20,12 +20,14 @@ class StarPiece {
   StarPiece(const AreaInput& input, std::span<const Index> face_at, Index begin, Index end)
       : input_(input), face_at_(face_at), begin_(begin), end_(end) {}
 
-  // Of the sites of the piece, which come first.
+  // Of the sites of the piece.
   std::vector<double> areas(const system::Job& options) {
     list_faces();
     TriangulationArrays arrays;
     arrays.dimension = 2;
-    points_.assign(input_.points.begin() + begin_, input_.points.begin() + end_);
+    points_ = input_.landmarks;
+    points_.insert(points_.end(), input_.points.begin() + begin_, input_.points.begin() + end_);
+    const std::size_t num_whole = points_.size();
     for (const auto& [number, code] : faces_) {
       const Index f = static_cast<Index>(arrays.faces.size());
       Triple face{};
@@ -37,11 +39,12 @@ class StarPiece {
       arrays.faces.push_back(face);
       arrays.neighbors.push_back(neighbors);
     }
-    points_.push_back(input_.largest);
     arrays.num_sites = points_.size();
     const Triangulation surface =
         api::make_triangulation(Sites(std::move(points_)), std::move(arrays), options, {});
-    return dual::areas_within(surface, end_ - begin_);
+    std::vector<double> areas = dual::areas_within(surface, num_whole);
+    areas.erase(areas.begin(), areas.end() - (end_ - begin_));
+    return areas;
   }
 
  private:
@@ -73,7 +76,7 @@ class StarPiece {
   }
 
   Index site_of(const bulk::BucketCorner& v) {
-    if (is_in_piece(v)) return v.index - begin_;
+    if (is_in_piece(v)) return static_cast<Index>(input_.landmarks.size()) + (v.index - begin_);
     const std::uint64_t key = (v.is_own ? 0 : std::uint64_t{1} << 32U) | v.index;
     const auto [place, is_new] = others_.try_emplace(key, static_cast<Index>(points_.size()));
     if (is_new) points_.push_back(v.is_own ? input_.points[v.index] : input_.open_points[v.index]);

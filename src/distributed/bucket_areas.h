@@ -22,7 +22,7 @@ struct AreaInput {
   const bulk::BucketSurface& surface;
   std::span<const Point> points;       // by rank
   std::span<const Point> open_points;  // of all buckets
-  Point largest;                       // of all sites, the one with the largest coordinate
+  std::vector<Point> landmarks;        // of all sites
   // The number of a face, by its code.
   std::function<bulk::GlobalIndex(Index)> number;
 };

@@ -5,7 +5,10 @@
 #include <utility>
 
 #include "distributed/rank_build.h"
+#include "distributed/rank_duals.h"
 #include "distributed/rank_result.h"
+#include "distributed/supersteps.h"
+#include "system/job.h"
 
 namespace rondel {
 namespace {
@@ -102,12 +105,29 @@ void DistributedTriangulation::visit_neighbors(
   rows.flush();
 }
 
+void DistributedTriangulation::visit_circumcenters(
+    const std::function<void(std::span<const Point>)>& visit, const Execution& execution) const {
+  const system::Call call(execution);
+  distributed::visit_circumcenters(*impl_, execution, visit);
+}
+
+std::vector<double> areas(Communicator& ranks, const DistributedTriangulation& triangulation,
+                          const Execution& execution) {
+  const system::Call call(execution);
+  distributed::Supersteps steps(ranks);
+  return steps.run([&] {
+    return distributed::areas_on_ranks(steps, DistributedTriangulation::Impl::of(triangulation),
+                                       execution);
+  });
+}
+
 DistributedTriangulation delaunay(Communicator& ranks, std::span<const Point> mine,
                                   const DistributedOptions& distributed, const Options& options,
                                   const Execution& execution) {
   const distributed::RankLimits limits = {
       std::clamp<std::uint64_t>(distributed.most_bucket_sites, 1, max_sites),
-      std::clamp<std::uint64_t>(distributed.most_dealt_sites, 1, max_sites), 0};
+      std::clamp<std::uint64_t>(distributed.most_dealt_sites, 1, max_sites), 0,
+      distributed.keep_points};
   return DistributedTriangulation(
       distributed::build_on_ranks(ranks, mine, limits, {options, execution}));
 }

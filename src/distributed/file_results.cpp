@@ -155,7 +155,7 @@ class ResultWriter {
                                   : numbers_.faces[surface.joined_of(code)];
     };
     return bucket_areas(
-        {surface, points, joined_.open_points, state_.counts().all.largest(), number}, options_);
+        {surface, points, joined_.open_points, state_.counts().all.landmarks(), number}, options_);
   }
 
   const RunState& state_;

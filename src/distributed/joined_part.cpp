@@ -56,9 +56,10 @@ class Renumbered {
 class PartOfRank {
  public:
   PartOfRank(const bulk::JoinedFaces& joined, const OpenRanges& ranges, std::size_t rank,
-             std::span<const Index> listed)
+             std::span<const Index> listed, std::span<const Point> points)
       : joined_(joined),
         listed_(listed),
+        points_(points),
         sites_begin_(ranges.sites[rank]),
         sites_end_(ranges.sites[rank + 1]),
         edges_begin_(ranges.edges[rank]),
@@ -98,6 +99,13 @@ class PartOfRank {
       for (const Index s : others) of_others.push_back(indices[s]);
       writer.add(of_others);
     }
+    for (const auto& others : {sites_.before(), sites_.behind()}) {
+      std::vector<Point> of_others;
+      for (const Index s : others) {
+        if (has_points()) of_others.push_back(points_[s]);
+      }
+      writer.add(of_others);
+    }
   }
 
   // Faces and edges whose numbers the rank does not know and needs.
@@ -113,6 +121,7 @@ class PartOfRank {
   [[nodiscard]] Index edge(Index e) const { return edges_(e); }
 
  private:
+  [[nodiscard]] bool has_points() const { return !points_.empty(); }
   [[nodiscard]] bool is_edge(Index neighbor) const { return neighbor < joined_.num_edges; }
   [[nodiscard]] Index face_of(Index neighbor) const { return neighbor - joined_.num_edges; }
   [[nodiscard]] bool is_own_site(Index s) const { return s >= sites_begin_ && s < sites_end_; }
@@ -121,7 +130,10 @@ class PartOfRank {
 
   void find_asked() {
     for (const Index f : listed_) {
-      if (!is_own_face(f)) continue;
+      if (!is_own_face(f)) {
+        if (has_points()) asked_faces_.push_back(f);
+        continue;
+      }
       for (const Index n : joined_.neighbors[f]) {
         if (is_edge(n)) {
           if (!is_own_edge(n)) asked_edges_.push_back(n);
@@ -165,6 +177,7 @@ class PartOfRank {
 
   const bulk::JoinedFaces& joined_;
   std::span<const Index> listed_;  // the faces at the rank's sites, increasing
+  std::span<const Point> points_;  // of all open sites, or none
   Index sites_begin_;
   Index sites_end_;
   Index edges_begin_;
@@ -187,6 +200,16 @@ std::vector<std::vector<Index>> list_faces(const bulk::JoinedFaces& joined,
     }
   }
   return listed;
+}
+
+// What is written of a part's sites before the rank's own ones and of those behind them.
+template <class T>
+std::vector<T> read_around(MessageReader& reader, std::span<const T> own) {
+  std::vector<T> all = reader.values<T>();
+  all.insert(all.end(), own.begin(), own.end());
+  const auto behind = reader.values<T>();
+  all.insert(all.end(), behind.begin(), behind.end());
+  return all;
 }
 
 using NumberLists = std::map<std::size_t, NumberList>;  // by the other rank
@@ -213,12 +236,13 @@ std::vector<NumberList> read_lists(MessageReader& reader) {
 }  // namespace
 
 void write_joined_parts(const bulk::JoinedFaces& joined, const OpenRanges& ranges,
-                        std::span<const std::uint64_t> indices, std::span<MessageWriter> messages) {
+                        std::span<const std::uint64_t> indices, std::span<const Point> points,
+                        std::span<MessageWriter> messages) {
   const auto listed = list_faces(joined, ranges);
   const std::size_t num_ranks = ranges.num_ranks();
   std::vector<NumberLists> told(num_ranks);
   for (std::size_t rank = 0; rank < num_ranks; ++rank) {
-    const PartOfRank part(joined, ranges, rank, listed[rank]);
+    const PartOfRank part(joined, ranges, rank, listed[rank], points);
     part.write(indices, messages[rank]);
     NumberLists asked;
     for (const Index f : part.asked_faces()) {
@@ -237,7 +261,8 @@ void write_joined_parts(const bulk::JoinedFaces& joined, const OpenRanges& range
   for (std::size_t rank = 0; rank < num_ranks; ++rank) write_lists(told[rank], messages[rank]);
 }
 
-JoinedPart read_joined_part(MessageReader& reader, std::span<const std::uint64_t> own_indices) {
+JoinedPart read_joined_part(MessageReader& reader, std::span<const std::uint64_t> own_indices,
+                            std::span<const Point> own_points) {
   JoinedPart part;
   part.first_site = reader.value<Index>();
   part.first_edge = reader.value<Index>();
@@ -251,10 +276,8 @@ JoinedPart read_joined_part(MessageReader& reader, std::span<const std::uint64_t
   const std::vector<Index> across = reader.values<Index>();
   part.faces.across.assign(part.faces.num_edges, no_index);
   std::ranges::copy(across, part.faces.across.begin() + part.first_edge);
-  part.site_indices = reader.values<std::uint64_t>();
-  part.site_indices.insert(part.site_indices.end(), own_indices.begin(), own_indices.end());
-  const auto behind = reader.values<std::uint64_t>();
-  part.site_indices.insert(part.site_indices.end(), behind.begin(), behind.end());
+  part.site_indices = read_around(reader, own_indices);
+  part.site_points = read_around(reader, own_points);
   part.asked = read_lists(reader);
   part.told = read_lists(reader);
   for (NumberList& list : part.told) {

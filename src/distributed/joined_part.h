@@ -38,21 +38,31 @@ struct NumberList {
   std::vector<Index> edges;  // faces on the left of open edges
 };
 
+// Of a site in the input.
+struct SiteArea {
+  std::uint64_t site = 0;
+  double area = 0;
+};
+
 struct JoinedPart {
   bulk::JoinedFaces faces;  // of the part; neighbors may be faces of which there is nothing else
   Index num_faces = 0;      // these counted, too
   Index first_site = 0;     // of this rank's
   Index first_edge = 0;
   std::vector<std::uint64_t> site_indices;  // in the input, by open site of the part
+  std::vector<Point> site_points;           // theirs, if they are kept
   std::vector<NumberList> told;             // what this rank gives to others,
   std::vector<NumberList> asked;            // and gets from them, in the same order
 };
 
-// Writes each rank's part behind what its message has. `indices` are those of all open sites in the input.
+// Writes each rank's part behind what its message has. `indices` are those of all open sites in the input,
+// `points` theirs, or none; if there are some, ranks are told the numbers of all faces of their part.
 void write_joined_parts(const bulk::JoinedFaces& joined, const OpenRanges& ranges,
-                        std::span<const std::uint64_t> indices, std::span<MessageWriter> messages);
+                        std::span<const std::uint64_t> indices, std::span<const Point> points,
+                        std::span<MessageWriter> messages);
 
-// `own_indices` are those of this rank's open sites.
-JoinedPart read_joined_part(MessageReader& reader, std::span<const std::uint64_t> own_indices);
+// `own_indices` and `own_points` are those of this rank's open sites; no points, if none are kept.
+JoinedPart read_joined_part(MessageReader& reader, std::span<const std::uint64_t> own_indices,
+                            std::span<const Point> own_points);
 
 }  // namespace rondel::distributed

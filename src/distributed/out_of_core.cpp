@@ -107,7 +107,7 @@ class OutOfCoreRun {
 
   // What must be the same if a run is to be resumed.
   [[nodiscard]] Words about() const {
-    constexpr std::uint64_t version = 1;
+    constexpr std::uint64_t version = 2;
     std::error_code ignored;
     const auto time = std::filesystem::last_write_time(rows_.name(), ignored);
     const Sphere& sphere = options_.sphere;

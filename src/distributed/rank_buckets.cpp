@@ -4,6 +4,7 @@
 #include "distributed/rank_buckets.h"
 
 #include <array>
+#include <cstring>
 #include <utility>
 
 #include "system/prefetch.h"
@@ -13,13 +14,37 @@ namespace {
 
 using OpenEnds = std::array<Index, 2>;
 
-void append_gathered(std::span<const std::uint64_t> values, std::span<const Index> order,
-                     LargeVector<std::uint64_t>& result) {
+template <class T>
+void append_gathered(const LargeVector<T>& values, std::span<const Index> order,
+                     LargeVector<T>& result) {
   constexpr std::size_t distance = system::prefetch_distance;
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i + distance < order.size()) system::prefetch(&values[order[i + distance]]);
     result.push_back(values[order[i]]);
   }
+}
+
+bool are_same_bits(const Point& a, const Point& b) {
+  return std::memcmp(&a, &b, sizeof(Point)) == 0;
+}
+
+// Of the rank's open sites, those with a point of their own, which are few.
+void add_other_points(const RankBuckets& own, MessageWriter& writer) {
+  std::vector<Index> positions;
+  std::vector<Point> points;
+  Index position = 0;
+  for (std::size_t b = 0; b < own.buckets.size(); ++b) {
+    const auto kept = own.points_of(b);
+    const auto& open_sites = own.buckets[b].border.open_sites;
+    for (std::size_t s = 0; s < open_sites.size(); ++s, ++position) {
+      const Point& p = kept[open_sites[s].rank];
+      if (are_same_bits(p, own.open_points[b][s])) continue;
+      positions.push_back(position);
+      points.push_back(p);
+    }
+  }
+  writer.add(positions);
+  writer.add(points);
 }
 
 }  // namespace
@@ -33,8 +58,18 @@ std::vector<std::uint64_t> RankBuckets::open_sites() const {
   return result;
 }
 
+std::vector<Point> RankBuckets::kept_open_points() const {
+  std::vector<Point> result;
+  if (points.empty()) return result;
+  for (std::size_t b = 0; b < buckets.size(); ++b) {
+    for (const bulk::SeamSite& site : buckets[b].border.open_sites)
+      result.push_back(points_of(b)[site.rank]);
+  }
+  return result;
+}
+
 RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts,
-                                std::size_t first_bucket, std::size_t num_buckets,
+                                std::size_t first_bucket, std::size_t num_buckets, bool keep_points,
                                 const system::Job& options) {
   RankBuckets own;
   own.first_site.push_back(0);
@@ -46,6 +81,7 @@ RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts
   for (std::size_t b = 0; b < num_buckets; ++b)
     num_sites += counts.plan.buckets[first_bucket + b].num_sites;
   own.sites.reserve(num_sites);
+  if (keep_points) own.points.reserve(num_sites);
   for (std::size_t b = 0; b < num_buckets; ++b) {
     system::obey_stop();
     system::announce(options, "triangulate", b, num_buckets);
@@ -59,6 +95,10 @@ RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts
     const std::size_t first = own.sites.size();
     append_gathered(indices, bucket.order.order, own.sites);
     for (const auto& [rank, name] : bucket.order.renamed) own.sites[first + rank] = indices[name];
+    if (keep_points) {
+      append_gathered(points, bucket.order.order, own.points);
+      for (const auto& [rank, name] : bucket.order.renamed) own.points[first + rank] = points[name];
+    }
     own.first_site.push_back(own.sites.size());
     for (const Duplicate& d : bucket.order.duplicates)
       own.duplicates.push_back({indices[d.site], indices[d.representative]});
@@ -69,7 +109,7 @@ RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts
   return own;
 }
 
-Bytes write_open_buckets(const RankBuckets& own) {
+Bytes write_open_buckets(const RankBuckets& own, bool keep_points) {
   MessageWriter writer;
   for (std::size_t b = 0; b < own.buckets.size(); ++b) {
     const bulk::BucketBorder& border = own.buckets[b].border;
@@ -82,11 +122,13 @@ Bytes write_open_buckets(const RankBuckets& own) {
     writer.add(border.hidden);
   }
   writer.add(own.open_sites());
+  if (keep_points) add_other_points(own, writer);
   return writer.take();
 }
 
 void read_open_buckets(MessageReader& reader, std::span<const bulk::BucketCut> cuts,
-                       OpenBuckets& all) {
+                       bool keep_points, OpenBuckets& all) {
+  const std::size_t first = all.sites.size();
   for (const bulk::BucketCut& cut : cuts) {
     bulk::OpenBucket& open = all.buckets.emplace_back();
     open.square = cut.square;
@@ -94,9 +136,14 @@ void read_open_buckets(MessageReader& reader, std::span<const bulk::BucketCut> c
     open.points = reader.values<Point>();
     for (const auto& [a, b] : reader.values<OpenEnds>()) open.open_edges.push_back({a, b, 0, 0});
     open.hidden = reader.values<Index>();
+    if (keep_points) all.points.insert(all.points.end(), open.points.begin(), open.points.end());
   }
   const auto sites = reader.values<std::uint64_t>();
   all.sites.insert(all.sites.end(), sites.begin(), sites.end());
+  if (!keep_points) return;
+  const auto positions = reader.values<Index>();
+  const auto points = reader.values<Point>();
+  for (std::size_t i = 0; i < points.size(); ++i) all.points[first + positions[i]] = points[i];
 }
 
 }  // namespace rondel::distributed

@@ -23,6 +23,7 @@ struct RankBuckets {
   std::vector<bulk::Bucket> buckets;    // without their orders
   std::vector<std::size_t> first_site;  // of each bucket in `sites`, and behind the last one
   LargeVector<std::uint64_t> sites;     // by rank, bucket after bucket
+  LargeVector<Point> points;            // of these, if they are kept
   std::vector<std::vector<Point>> open_points;  // by bucket
   std::vector<GlobalDuplicate> duplicates;      // in no particular order
   std::vector<std::uint64_t> hidden;            // whatever other buckets have, in no order
@@ -31,26 +32,39 @@ struct RankBuckets {
   [[nodiscard]] std::uint64_t open_site(std::size_t bucket, std::size_t s) const {
     return sites[first_site[bucket] + buckets[bucket].border.open_sites[s].rank];
   }
+  [[nodiscard]] std::span<const std::uint64_t> sites_of(std::size_t bucket) const {
+    return std::span(sites).subspan(first_site[bucket],
+                                    first_site[bucket + 1] - first_site[bucket]);
+  }
+  [[nodiscard]] std::span<const Point> points_of(std::size_t bucket) const {
+    return std::span(points).subspan(first_site[bucket],
+                                     first_site[bucket + 1] - first_site[bucket]);
+  }
   // Of all buckets, in their order.
   [[nodiscard]] std::vector<std::uint64_t> open_sites() const;
+  // Theirs, or none.
+  [[nodiscard]] std::vector<Point> kept_open_points() const;
 };
 
 // The buckets of `plan` from `first_bucket` on.
 RankBuckets triangulate_buckets(const RankSites& sites, const RankCounts& counts,
-                                std::size_t first_bucket, std::size_t num_buckets,
+                                std::size_t first_bucket, std::size_t num_buckets, bool keep_points,
                                 const system::Job& options);
 
 // What the buckets leave open, to be joined.
-Bytes write_open_buckets(const RankBuckets& own);
+Bytes write_open_buckets(const RankBuckets& own, bool keep_points);
 
-// Those of all ranks: buckets in the order of the curve, and the indices of their open sites.
+// Those of all ranks: buckets in the order of the curve, and their open sites. The points of buckets
+// are those that speak for their places in ties; of copies, the one that names the place may be another
+// point on the same ray.
 struct OpenBuckets {
   std::vector<bulk::OpenBucket> buckets;
   std::vector<std::uint64_t> sites;
+  std::vector<Point> points;  // of these, if they are kept
 };
 
 // Adds what a rank wrote, whose buckets are these.
 void read_open_buckets(MessageReader& reader, std::span<const bulk::BucketCut> cuts,
-                       OpenBuckets& all);
+                       bool keep_points, OpenBuckets& all);
 
 }  // namespace rondel::distributed

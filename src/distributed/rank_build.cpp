@@ -43,10 +43,15 @@ class RankBuild {
   std::shared_ptr<const DistributedTriangulation::Impl> run() {
     counts_ = count_on_ranks(steps_, mine_, limits_, options_);
     result_->num_sites = counts_.first_site.back();
+    result_->options = options_;
+    result_->first_number = limits_.first_number;
+    result_->has_points = limits_.keep_points;
+    if (limits_.keep_points) result_->landmarks = counts_.all.landmarks();
     triangulate();
     join();
     if (result_->dimension == 2) number();
     finish();
+    result_->first_site = std::move(counts_.first_site);
     return std::move(result_);
   }
 
@@ -58,7 +63,7 @@ class RankBuild {
     steps_.begin("triangulate");
     const std::size_t first = counts_.plan.first_bucket[steps_.rank()];
     own() = triangulate_buckets(sites, counts_, first, counts_.plan.num_buckets(steps_.rank()),
-                                options_);
+                                limits_.keep_points, options_);
     std::uint64_t num_open = 0;
     for (const auto& points : own().open_points) num_open += points.size();
     result_->num_open_sites = sum(gather_values(steps_, num_open));
@@ -73,23 +78,25 @@ class RankBuild {
     steps_.begin("join");
     system::announce(options_, "join", 0);
     std::vector<Bytes> messages(steps_.size());
-    messages[0] = write_open_buckets(own());
+    messages[0] = write_open_buckets(own(), limits_.keep_points);
     own().open_points = {};
     std::vector<Bytes> received = steps_.exchange(std::move(messages));
     messages.assign(steps_.size(), {});
-    if (steps_.rank() == 0) messages = join_ranks(std::move(received), counts_, options_);
+    if (steps_.rank() == 0)
+      messages = join_ranks(std::move(received), counts_, limits_.keep_points, options_);
     received = steps_.exchange(std::move(messages));
     MessageReader reader(received[0]);
     const auto report = reader.value<JoinedReport>();
     result_->dimension = report.dimension;
     result_->num_ghost_faces = report.num_ghost_faces;
     if (report.dimension == 2) {
-      result_->part = read_joined_part(reader, own().open_sites());
+      result_->part = read_joined_part(reader, own().open_sites(), own().kept_open_points());
       add_hidden();
     } else if (steps_.rank() == 0) {
       result_->ring = reader.values<std::uint64_t>();
       const auto hidden = reader.values<std::uint64_t>();
       own().hidden.insert(own().hidden.end(), hidden.begin(), hidden.end());
+      result_->flat_areas = reader.values<SiteArea>();
     }
   }
 
@@ -155,12 +162,8 @@ class RankBuild {
     result_->part.asked = {};
   }
 
-  // Which rank gave a site.
   [[nodiscard]] std::size_t home_of(std::uint64_t site) const {
-    const auto& begin = counts_.first_site;
-    return static_cast<std::size_t>(std::ranges::upper_bound(begin, site - limits_.first_number) -
-                                    begin.begin()) -
-           1;
+    return rank_of_site(site - limits_.first_number, counts_.first_site);
   }
 
   void finish() {

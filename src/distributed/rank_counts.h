@@ -9,6 +9,8 @@
 // index sites of this rank; sites of all ranks, counted through
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -27,7 +29,14 @@ struct RankLimits {
   // What the first site and the first face of all are called: not 0 where a test wants to see that 64
   // bits arrive everywhere.
   std::uint64_t first_number = 0;
+  bool keep_points = false;
 };
+
+// Which rank gave a site, where those of rank r begin at first_site[r].
+inline std::size_t rank_of_site(std::uint64_t site, std::span<const std::uint64_t> first_site) {
+  const auto next = std::ranges::upper_bound(first_site, site);
+  return static_cast<std::size_t>(next - first_site.begin()) - 1;
+}
 
 struct RankCounts {
   std::vector<std::uint64_t> first_site;  // of each rank, and behind the last one, from 0 on

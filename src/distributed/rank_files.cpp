@@ -3,10 +3,12 @@
 
 // From a file to files, of which each rank reads and writes its share.
 
-#include <optional>
+#include <memory>
 #include <span>
+#include <string>
+#include <vector>
 
-#include "distributed/rank_counts.h"
+#include "distributed/rank_duals.h"
 #include "distributed/shared_rows.h"
 #include "distributed/supersteps.h"
 #include "io/npy_rows.h"
@@ -37,6 +39,14 @@ void add_rows(SharedRows& file, std::span<const GlobalTriple> rows) {
   }
 }
 
+void add_rows(SharedRows& file, std::span<const Point> rows) {
+  for (const Point& row : rows) {
+    file.add(row.x);
+    file.add(row.y);
+    file.add(row.z);
+  }
+}
+
 // Of all ranks before this one.
 std::uint64_t sum_before(Supersteps& steps, std::uint64_t value) {
   MessageWriter writer;
@@ -48,35 +58,73 @@ std::uint64_t sum_before(Supersteps& steps, std::uint64_t value) {
   return sum;
 }
 
-bool write_files(Supersteps& steps, const DistributedTriangulation& part,
-                 const DistributedFiles& files) {
-  steps.begin("write");
-  SharedRows faces(steps, files.faces, {part.num_faces(), 3, part.num_sites(), part.first_face()});
-  std::optional<SharedRows> neighbors;
-  std::optional<SharedRows> duplicates;
-  part.visit_faces([&](std::span<const GlobalTriple> rows) { add_rows(faces, rows); });
-  faces.finish();
-  if (!files.neighbors.empty()) {
-    neighbors.emplace(steps, files.neighbors,
-                      SharedShape{part.num_faces(), 3, part.num_faces(), part.first_face()});
-    part.visit_neighbors([&](std::span<const GlobalTriple> rows) { add_rows(*neighbors, rows); });
-    neighbors->finish();
+// What is written, so that all of it can be given its name at the end.
+class SharedResults {
+ public:
+  SharedResults(Supersteps& steps, const DistributedTriangulation& part,
+              const DistributedFiles& files)
+      : steps_(steps), part_(part), files_(files) {}
+
+  void write(std::span<const double> areas, const Execution& execution) {
+    const std::uint64_t num_faces = part_.num_faces();
+    const std::uint64_t first_face = part_.first_face();
+    write(files_.faces, {num_faces, 3, part_.num_sites(), first_face}, [&](SharedRows& file) {
+      part_.visit_faces([&](std::span<const GlobalTriple> rows) { add_rows(file, rows); });
+    });
+    write(files_.neighbors, {num_faces, 3, num_faces, first_face}, [&](SharedRows& file) {
+      part_.visit_neighbors([&](std::span<const GlobalTriple> rows) { add_rows(file, rows); });
+    });
+    write(files_.circumcenters, {num_faces, 3, 0, first_face, true}, [&](SharedRows& file) {
+      part_.visit_circumcenters([&](std::span<const Point> rows) { add_rows(file, rows); },
+                                execution);
+    });
+    const std::uint64_t first_area = sum_before(steps_, areas.size());
+    write(files_.areas, {part_.num_sites(), 1, 0, first_area, true}, [&](SharedRows& file) {
+      for (const double area : areas) file.add(area);
+    });
+    const std::uint64_t first_duplicate = sum_before(steps_, part_.duplicates().size());
+    write(files_.duplicates, {part_.num_duplicates(), 2, part_.num_sites(), first_duplicate},
+          [&](SharedRows& file) {
+            for (const GlobalDuplicate& d : part_.duplicates()) {
+              file.add(d.site);
+              file.add(d.representative);
+            }
+          });
   }
-  if (!files.duplicates.empty()) {
-    const std::uint64_t first = sum_before(steps, part.duplicates().size());
-    duplicates.emplace(steps, files.duplicates,
-                       SharedShape{part.num_duplicates(), 2, part.num_sites(), first});
-    for (const GlobalDuplicate& d : part.duplicates()) {
-      duplicates->add(d.site);
-      duplicates->add(d.representative);
+
+  // All ranks have written theirs. The faces, which nobody does without, come last.
+  void commit() {
+    while (!written_.empty()) {
+      written_.back()->commit();
+      written_.pop_back();
     }
-    duplicates->finish();
   }
+
+ private:
+  template <class Add>
+  void write(const std::string& path, const SharedShape& shape, Add add) {
+    if (path.empty()) return;
+    written_.push_back(std::make_unique<SharedRows>(steps_, path, shape));
+    add(*written_.back());
+    written_.back()->finish();
+  }
+
+  Supersteps& steps_;
+  const DistributedTriangulation& part_;
+  const DistributedFiles& files_;
+  std::vector<std::unique_ptr<SharedRows>> written_;
+};
+
+bool write_files(Supersteps& steps, const DistributedTriangulation& part,
+                 const DistributedFiles& files, const Execution& execution) {
+  std::vector<double> areas;
+  if (!files.areas.empty())
+    areas = areas_on_ranks(steps, DistributedTriangulation::Impl::of(part), execution);
+  steps.begin("write");
+  SharedResults results(steps, part, files);
+  results.write(areas, execution);
   steps.all_gather({});
-  if (steps.rank() != 0) return true;
-  if (duplicates) duplicates->commit();
-  if (neighbors) neighbors->commit();
-  faces.commit();
+  if (steps.rank() == 0) results.commit();
   return true;
 }
 
@@ -94,11 +142,13 @@ DistributedTriangulation delaunay_file(Communicator& ranks, const std::string& s
     distributed::Supersteps steps(ranks);
     mine = steps.run([&] { return distributed::read_share(steps, sites, files.radians, job); });
   }
-  DistributedTriangulation part = delaunay(ranks, mine, distributed, options, execution);
+  DistributedOptions with_points = distributed;
+  with_points.keep_points |= !files.areas.empty() || !files.circumcenters.empty();
+  DistributedTriangulation part = delaunay(ranks, mine, with_points, options, execution);
   mine = {};
   const system::Call call(job);
   distributed::Supersteps steps(ranks);
-  steps.run([&] { return distributed::write_files(steps, part, files); });
+  steps.run([&] { return distributed::write_files(steps, part, files, execution); });
   return part;
 }
 

@@ -7,11 +7,20 @@
 #include <numeric>
 #include <utility>
 
+#include "api/triangulation_impl.h"
 #include "distributed/rank_buckets.h"
 #include "rondel/delaunay.h"
+#include "rondel/diagram.h"
 
 namespace rondel::distributed {
 namespace {
+
+std::vector<Point> in_order(std::span<const Point> points, std::span<const Index> order) {
+  std::vector<Point> ordered;
+  ordered.reserve(order.size());
+  for (const Index i : order) ordered.push_back(points[i]);
+  return ordered;
+}
 
 // All sites are open, and they lie on one great circle. In the order of their indices, with which the
 // ring begins.
@@ -23,10 +32,7 @@ JoinedReport join_ring(const OpenBuckets& open, const system::Job& options,
   std::vector<Index> order(points.size());
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::sort(order, {}, [&](Index s) { return open.sites[s]; });
-  std::vector<Point> ordered;
-  ordered.reserve(order.size());
-  for (const Index s : order) ordered.push_back(points[s]);
-  const Triangulation flat = delaunay(Sites::view(ordered), options, options);
+  const Triangulation flat = delaunay(Sites(in_order(points, order)), options, options);
   std::vector<std::uint64_t> ring;
   std::vector<std::uint64_t> hidden;
   for (const Index s : flat.ring()) ring.push_back(open.sites[order[s]]);
@@ -35,6 +41,14 @@ JoinedReport join_ring(const OpenBuckets& open, const system::Job& options,
   message.add_value(report);
   message.add(ring);
   message.add(hidden);
+  std::vector<SiteArea> all;
+  if (!open.points.empty()) {
+    const Triangulation named = api::make_triangulation(
+        Sites(in_order(open.points, order)), Triangulation::Impl::of(flat).arrays, options, {});
+    for (const double area : areas(named, options))
+      all.push_back({open.sites[order[all.size()]], area});
+  }
+  message.add(all);
   return report;
 }
 
@@ -48,7 +62,7 @@ std::vector<Bytes> take(std::vector<MessageWriter> writers) {
 }  // namespace
 
 std::vector<Bytes> join_ranks(std::vector<Bytes> received, const RankCounts& counts,
-                              const system::Job& options) {
+                              bool keep_points, const system::Job& options) {
   OpenBuckets open;
   OpenRanges ranges = {{0}, {0}};
   for (std::size_t rank = 0; rank < received.size(); ++rank) {
@@ -56,7 +70,8 @@ std::vector<Bytes> join_ranks(std::vector<Bytes> received, const RankCounts& cou
     const std::size_t end = counts.plan.first_bucket[rank + 1];
     const Bytes message = std::exchange(received[rank], {});
     MessageReader reader(message);
-    read_open_buckets(reader, std::span(counts.plan.buckets).subspan(first, end - first), open);
+    read_open_buckets(reader, std::span(counts.plan.buckets).subspan(first, end - first),
+                      keep_points, open);
     Index num_edges = ranges.edges.back();
     for (std::size_t b = first; b < end; ++b)
       num_edges += static_cast<Index>(open.buckets[b].open_edges.size());
@@ -71,7 +86,7 @@ std::vector<Bytes> join_ranks(std::vector<Bytes> received, const RankCounts& cou
     open.buckets = {};
     for (MessageWriter& message : messages)
       message.add_value(JoinedReport{2, joined->ghost_faces.size()});
-    write_joined_parts(*joined, ranges, open.sites, messages);
+    write_joined_parts(*joined, ranges, open.sites, open.points, messages);
   } else {
     const JoinedReport report = join_ring(open, job, messages[0]);
     for (MessageWriter& message : std::span(messages).subspan(1)) message.add_value(report);

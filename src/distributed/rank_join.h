@@ -18,7 +18,7 @@
 namespace rondel::distributed {
 
 // What is told to all ranks. In dimension 2 the part of the rank follows; below that, for rank 0 alone,
-// the ring and the hidden sites.
+// the ring, the hidden sites and, if points are kept, the areas.
 struct JoinedReport {
   int dimension = -1;
   std::uint64_t num_ghost_faces = 0;
@@ -26,6 +26,6 @@ struct JoinedReport {
 
 // From what write_open_buckets() wrote on each rank.
 std::vector<Bytes> join_ranks(std::vector<Bytes> received, const RankCounts& counts,
-                              const system::Job& options);
+                              bool keep_points, const system::Job& options);
 
 }  // namespace rondel::distributed

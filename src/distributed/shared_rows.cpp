@@ -6,6 +6,7 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
+#include <span>
 #include <system_error>
 #include <utility>
 
@@ -21,9 +22,8 @@ SharedRows::SharedRows(Supersteps& steps, const std::string& path, const SharedS
     : path_(path),
       temporary_(path + ".rondel.tmp"),
       is_maker_(steps.rank() == 0),
-      is_narrow_(are_narrow(shape.num_different)) {
-  const std::array<std::uint64_t, 2> sizes = {shape.num_rows, shape.num_columns};
-  const std::string header = io::make_npy_header(is_narrow_ ? "<u4" : "<i8", sizes);
+      is_narrow_(!shape.are_doubles && are_narrow(shape.num_different)) {
+  const std::string header = header_of(shape);
   const std::uint64_t row_bytes = shape.num_columns * (is_narrow_ ? 4 : 8);
   try {
     if (is_maker_) make(header, header.size() + shape.num_rows * row_bytes);
@@ -38,6 +38,12 @@ SharedRows::SharedRows(Supersteps& steps, const std::string& path, const SharedS
 }
 
 SharedRows::~SharedRows() { close(); }
+
+std::string SharedRows::header_of(const SharedShape& shape) const {
+  const std::array<std::uint64_t, 2> sizes = {shape.num_rows, shape.num_columns};
+  const char* const type = shape.are_doubles ? "<f8" : is_narrow_ ? "<u4" : "<i8";
+  return io::make_npy_header(type, std::span(sizes).first(shape.num_columns == 1 ? 1 : 2));
+}
 
 void SharedRows::make(const std::string& header, std::uint64_t num_bytes) {
   descriptor_ = system::open_to_change(temporary_);
@@ -64,8 +70,10 @@ void SharedRows::commit() {
 void SharedRows::write_buffer() {
   write(io::NumberBytes(narrow_));
   write(io::NumberBytes(wide_));
+  write(io::NumberBytes(doubles_));
   narrow_.clear();
   wide_.clear();
+  doubles_.clear();
 }
 
 void SharedRows::write(std::string_view bytes) {

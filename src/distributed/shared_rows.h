@@ -17,12 +17,12 @@
 
 namespace rondel::distributed {
 
-// Numbers are less than `num_different`.
 struct SharedShape {
-  std::uint64_t num_rows = 0;  // of all ranks
-  std::uint64_t num_columns = 0;
-  std::uint64_t num_different = 0;
-  std::uint64_t first_row = 0;  // of this rank
+  std::uint64_t num_rows = 0;       // of all ranks
+  std::uint64_t num_columns = 0;    // 1: the rows are numbers
+  std::uint64_t num_different = 0;  // numbers are less than this
+  std::uint64_t first_row = 0;      // of this rank
+  bool are_doubles = false;
 };
 
 class SharedRows {
@@ -42,6 +42,10 @@ class SharedRows {
     }
     if (narrow_.size() + wide_.size() == buffer_size) write_buffer();
   }
+  void add(double number) {
+    doubles_.push_back(number);
+    if (doubles_.size() == buffer_size) write_buffer();
+  }
 
   // All that this rank has was added.
   void finish();
@@ -52,6 +56,7 @@ class SharedRows {
   static constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
   void make(const std::string& header, std::uint64_t num_bytes);
+  [[nodiscard]] std::string header_of(const SharedShape& shape) const;
   void write_buffer();
   void write(std::string_view bytes);
   void close();
@@ -65,6 +70,7 @@ class SharedRows {
   std::uint64_t place_ = 0;
   std::vector<std::uint32_t> narrow_;
   std::vector<std::int64_t> wide_;
+  std::vector<double> doubles_;
 };
 
 }  // namespace rondel::distributed

@@ -28,6 +28,10 @@ std::vector<Point> dual::circumcenters(const Triangulation& triangulation, const
   return result;
 }
 
+std::vector<Point> dual::circumcenters_within(const Triangulation& surface) {
+  return circumcenters(surface, SplitSites(surface, 1));
+}
+
 std::vector<Point> circumcenters(const Triangulation& triangulation, const Execution& execution) {
   const system::Call call(execution);
   return dual::circumcenters(triangulation, dual::SplitSites(triangulation, execution.threads));

@@ -48,6 +48,9 @@ std::vector<Point> circumcenters(const Triangulation& triangulation, const Split
 // is its own neighbor. All faces of these sites are there; without one the area is 0.
 RONDEL_API std::vector<double> areas_within(const Triangulation& surface, std::size_t num_whole);
 
+// The circumcenters of some faces: nothing is asked of their neighbors.
+RONDEL_API std::vector<Point> circumcenters_within(const Triangulation& surface);
+
 // `areas`, unless it is null, receives those of all cells.
 Cells cells(const Triangulation& triangulation, const SplitSites& sites,
             std::vector<double>* areas);

@@ -41,9 +41,10 @@ TEST(Allocation, ranks) {
           const auto r = static_cast<std::size_t>(rank.rank());
           const auto sites =
               std::span(set.sites).subspan(r * 10, r == 0 ? 10 : set.sites.size() - 10);
-          const auto part = delaunay(rank, sites, {.most_bucket_sites = 5, .most_dealt_sites = 4},
-                                     {.sphere = set.sphere}, {.threads = 1});
-          num_done += part.dimension() >= 0;
+          const auto part = delaunay(
+              rank, sites, {.most_bucket_sites = 5, .most_dealt_sites = 4, .keep_points = true},
+              {.sphere = set.sphere}, {.threads = 1});
+          num_done += areas(rank, part, {.threads = 1}).size() == sites.size();
         });
         has_failed = failing->stop();
         EXPECT_EQ(num_done, has_failed ? 0 : num_ranks) << errors[0] << ", " << errors[1];

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Builds by ranks: together they have what delaunay() finds, whatever the sites, their shares, the
-// squares and the rounds; and where the work of a rank fails, all fail with the same line.
+// Builds by ranks: together they have what delaunay(), areas() and circumcenters() find, whatever the sites,
+// their shares, the squares and the rounds; and where the work of a rank fails, all fail with the same line.
 #include <algorithm>
+#include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "fuzz/block_sites.h"
 #include "rondel/delaunay.h"
+#include "rondel/diagram.h"
 #include "rondel/distributed.h"
 #include "support/simulated_ranks.h"
 
@@ -73,8 +75,14 @@ void require_totals(const DistributedTriangulation& part, const Triangulation& e
   require(part.num_open_sites() <= part.num_sites(), "the open sites");
 }
 
+template <class T>
+bool are_same_bits(std::span<const T> a, std::span<const T> b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size_bytes()) == 0);
+}
+
 void require_parts(std::span<const std::optional<DistributedTriangulation>> parts,
-                   const Triangulation& expected) {
+                   std::span<const double> all_areas, const Triangulation& expected) {
   std::vector<GlobalTriple> faces;
   std::vector<GlobalTriple> neighbors;
   std::vector<std::uint64_t> ghost_faces;
@@ -82,12 +90,14 @@ void require_parts(std::span<const std::optional<DistributedTriangulation>> part
   std::vector<std::uint64_t> hidden;
   std::vector<std::uint64_t> owned;
   std::vector<GlobalDuplicate> duplicates;
+  std::vector<Point> centers;
   for (const auto& part : parts) {
     require_totals(*part, expected);
     if (part->dimension() == 2) require(part->first_face() == faces.size(), "the first face");
     part->visit_faces([&](std::span<const GlobalTriple> rows) { append(rows, faces); });
     part->visit_neighbors([&](std::span<const GlobalTriple> rows) { append(rows, neighbors); });
     require(part->first_face() + part->num_own_faces() == faces.size(), "the rank's faces");
+    part->visit_circumcenters([&](std::span<const Point> rows) { append(rows, centers); });
     append(part->ghost_faces(), ghost_faces);
     append(part->ring(), ring);
     append(part->hidden(), hidden);
@@ -104,6 +114,8 @@ void require_parts(std::span<const std::optional<DistributedTriangulation>> part
                                return a.site == b.site && a.representative == b.representative;
                              }),
           "the duplicates");
+  require(are_same_bits<Point>(centers, circumcenters(expected)), "the circumcenters");
+  require(are_same_bits<double>(all_areas, areas(expected)), "the areas");
   std::ranges::sort(owned);
   require(std::ranges::adjacent_find(owned) == owned.end(), "a site has one owner");
 }
@@ -111,6 +123,7 @@ void require_parts(std::span<const std::optional<DistributedTriangulation>> part
 void test_ranks(const SiteSet& set, const Options& options, const Shares& shares) {
   const std::size_t num_ranks = shares.begin.size() - 1;
   std::vector<std::optional<DistributedTriangulation>> parts(num_ranks);
+  std::vector<std::vector<double>> areas_of(num_ranks);
   std::vector<int> failed(num_ranks, -1);
   bool has_failed = false;  // ranks run one at a time
   test::SimulatedRanks ranks(static_cast<int>(num_ranks));
@@ -121,6 +134,7 @@ void test_ranks(const SiteSet& set, const Options& options, const Shares& shares
         std::span(set.sites).subspan(shares.begin[r], shares.begin[r + 1] - shares.begin[r]);
     try {
       parts[r] = delaunay(rank, mine, shares.options, options, {.threads = 1});
+      areas_of[r] = areas(rank, *parts[r], {.threads = 1});
     } catch (const DistributedError& error) {
       failed[r] = error.rank();
     }
@@ -130,7 +144,9 @@ void test_ranks(const SiteSet& set, const Options& options, const Shares& shares
     for (const int rank : failed)
       require(rank == static_cast<int>(shares.failing_rank), "one rank fails, and so do all");
   } else {
-    require_parts(parts, delaunay(set.sites, options));
+    std::vector<double> all_areas;
+    for (const auto& part : areas_of) append(std::span<const double>(part), all_areas);
+    require_parts(parts, all_areas, delaunay(set.sites, options));
   }
 }
 
@@ -143,7 +159,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::uint8_t mode = source.byte();
   fuzz::Shares shares;
   const std::size_t num_ranks = 1 + source.below(6);
-  shares.options = {1 + source.below(300), 1 + source.below(60)};
+  shares.options = {1 + source.below(300), 1 + source.below(60), true};
   shares.failing_rank = source.byte();  // mostly none of them
   shares.most_phases = static_cast<unsigned>(source.below(8));
   std::vector<std::size_t> cuts;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -19,6 +20,7 @@ namespace rondel::test {
 namespace {
 
 constexpr int three = 3;
+constexpr std::array phases = {"count", "deal", "triangulate", "join", "number", "finish", "areas"};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 class distributed_failure : public testing::Test {
@@ -27,9 +29,11 @@ class distributed_failure : public testing::Test {
 
   std::vector<std::string> run(SimulatedRanks& ranks) const {
     return ranks.run([&](Communicator& rank) {
-      num_done_ += delaunay(rank, share(sites_, rank.rank(), three, 1),
-                            {.most_bucket_sites = 50, .most_dealt_sites = 40}, {}, {.threads = 1})
-                       .dimension() == 2;
+      const auto mine = share(sites_, rank.rank(), three, 1);
+      const auto part = delaunay(
+          rank, mine, {.most_bucket_sites = 50, .most_dealt_sites = 40, .keep_points = true}, {},
+          {.threads = 1});
+      num_done_ += areas(rank, part, {.threads = 1}).size() == mine.size();
     });
   }
 
@@ -66,7 +70,7 @@ TEST_F(distributed_failure, of_a_call_ends_all) {
 // The work of a rank.
 TEST_F(distributed_failure, of_work_is_told_to_all) {
   for (int failing = 0; failing < three; ++failing) {
-    for (const char* phase : {"count", "deal", "triangulate", "join", "number", "finish"}) {
+    for (const char* phase : phases) {
       SimulatedRanks ranks(three);
       ranks.on_begin = [&](int rank, std::string_view name) {
         if (rank == failing && name == phase) throw std::runtime_error("too\nmuch");
@@ -124,9 +128,23 @@ TEST_F(distributed_failure, throws_one_type_with_the_rank) {
   EXPECT_EQ(num_caught, three);
 }
 
+// Without the points.
+TEST_F(distributed_failure, is_to_ask_for_areas_that_nobody_can_tell) {
+  SimulatedRanks ranks(three);
+  const auto errors = ranks.run([&](Communicator& rank) {
+    const auto part = delaunay(rank, share(sites_, rank.rank(), three, 1), {}, {}, {.threads = 1});
+    EXPECT_THROW(part.visit_circumcenters([](std::span<const Point>) {}), InvalidInput);
+    areas(rank, part);
+  });
+  for (const std::string& error : errors) {
+    EXPECT_EQ(error,
+              "rank 0, areas: the points were not kept: see DistributedOptions::keep_points");
+  }
+}
+
 // The flag of one rank, set at the beginning of each phase.
 TEST_F(distributed_failure, interrupts_all) {
-  for (const char* phase : {"count", "deal", "triangulate", "join", "number", "finish"}) {
+  for (const char* phase : phases) {
     SimulatedRanks ranks(three);
     std::atomic<bool> stop = false;
     ranks.on_begin = [&](int rank, std::string_view name) {
@@ -135,8 +153,11 @@ TEST_F(distributed_failure, interrupts_all) {
     std::atomic<int> num_interrupted = 0;
     ranks.run([&](Communicator& rank) {
       try {
-        delaunay(rank, share(sites_, rank.rank(), three, 1), {}, {},
-                 {.threads = 1, .stop = rank.rank() == 1 ? &stop : nullptr});
+        const Execution execution = {.threads = 1, .stop = rank.rank() == 1 ? &stop : nullptr};
+        areas(rank,
+              delaunay(rank, share(sites_, rank.rank(), three, 1), {.keep_points = true}, {},
+                       execution),
+              execution);
       } catch (const Interrupted&) {
         ++num_interrupted;
       }

@@ -8,12 +8,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "distributed/rank_build.h"
 #include "rondel/delaunay.h"
+#include "rondel/diagram.h"
 #include "rondel/distributed.h"
 #include "support/generators.h"
 #include "support/simulated_ranks.h"
@@ -32,6 +34,8 @@ struct RankResults {
   std::vector<GlobalDuplicate> duplicates;
   std::vector<std::uint64_t> hidden;
   std::vector<std::uint64_t> owned_sites;
+  std::vector<double> areas;
+  std::vector<Point> circumcenters;
 };
 
 // The rank's sites: different shares, some of them empty.
@@ -51,15 +55,18 @@ void append(std::span<const T> part, std::vector<T>& all) {
   all.insert(all.end(), part.begin(), part.end());
 }
 
-// Adds a rank's part behind those of the ranks before it.
-inline void append(const DistributedTriangulation& part, std::uint64_t first_number,
-                   RankResults& all) {
+// Adds a rank's part behind those of the ranks before it. The points were kept.
+inline void append(const DistributedTriangulation& part, std::span<const double> areas,
+                   std::uint64_t first_number, RankResults& all) {
   EXPECT_EQ(part.first_face(), part.dimension() == 2 ? first_number + all.faces.size() : 0);
   const std::size_t end = all.faces.size() + part.num_own_faces();
   part.visit_faces([&](std::span<const GlobalTriple> faces) { append(faces, all.faces); });
   part.visit_neighbors([&](std::span<const GlobalTriple> faces) { append(faces, all.neighbors); });
   EXPECT_EQ(all.faces.size(), end);
   EXPECT_EQ(all.neighbors.size(), end);
+  part.visit_circumcenters([&](std::span<const Point> rows) { append(rows, all.circumcenters); });
+  EXPECT_EQ(all.circumcenters.size(), end);
+  append(areas, all.areas);
   append(part.ghost_faces(), all.ghost_faces);
   append(part.ring(), all.ring);
   append(part.duplicates(), all.duplicates);
@@ -68,6 +75,13 @@ inline void append(const DistributedTriangulation& part, std::uint64_t first_num
   all.dimension = part.dimension();
   all.num_faces = part.num_faces();
   all.num_vertices = part.num_vertices();
+}
+
+// Also of zeros and of what is not a number.
+template <class T>
+bool are_same_bits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 inline void expect_same(const RankResults& result, const Triangulation& expected,
@@ -97,6 +111,8 @@ inline void expect_same(const RankResults& result, const Triangulation& expected
   std::vector<std::uint64_t> hidden;
   for (const Hidden& h : expected.hidden()) hidden.push_back(first_number + h.site);
   EXPECT_TRUE(result.hidden == hidden);
+  EXPECT_TRUE(are_same_bits(result.areas, areas(expected)));
+  EXPECT_TRUE(are_same_bits(result.circumcenters, circumcenters(expected)));
   EXPECT_EQ(result.owned_sites.size() + duplicates.size(), expected.num_sites());
 }
 

@@ -21,20 +21,24 @@ namespace {
 // Far apart from what 32 bits can count.
 constexpr std::uint64_t first_number = std::uint64_t{1} << 40;
 
-RankResults build(std::span<const Point> sites, int num_ranks,
-                  const distributed::RankLimits& limits, const system::Job& options) {
+RankResults build(std::span<const Point> sites, int num_ranks, distributed::RankLimits limits,
+                  const system::Job& options) {
+  limits.keep_points = true;
   SimulatedRanks ranks(num_ranks);
   RankResults all;
   std::vector<DistributedTriangulation> parts(static_cast<std::size_t>(num_ranks),
                                               DistributedTriangulation(nullptr));
+  std::vector<std::vector<double>> areas_of(parts.size());
   const auto errors = ranks.run([&](Communicator& rank) {
-    parts[static_cast<std::size_t>(rank.rank())] =
-        DistributedTriangulation(distributed::build_on_ranks(
-            rank, share(sites, rank.rank(), num_ranks, 7), limits, options));
+    const auto r = static_cast<std::size_t>(rank.rank());
+    parts[r] = DistributedTriangulation(distributed::build_on_ranks(
+        rank, share(sites, rank.rank(), num_ranks, 7), limits, options));
+    areas_of[r] = areas(rank, parts[r], options);
   });
   for (const std::string& error : errors) EXPECT_EQ(error, "");
   if (testing::Test::HasFailure()) return all;
-  for (const auto& part : parts) append(part, limits.first_number, all);
+  for (std::size_t r = 0; r < parts.size(); ++r)
+    append(parts[r], areas_of[r], limits.first_number, all);
   return all;
 }
 
@@ -103,6 +107,50 @@ TEST(distributed_rank, may_have_a_large_square) {
   const Triangulation expected = delaunay(Sites::view(sites), options, options);
   const std::uint64_t all = sites.size();
   expect_same(build(sites, 1, {all, all, first_number}, options), expected, first_number);
+}
+
+// Of copies on one ray the lowest index names the place, and its point counts for areas and circumcenters;
+// which are so close that another one, known to as many bits, gives others.
+TEST(distributed_rank, has_copies_of_other_lengths) {
+  Random random(9);
+  std::vector<Point> sites;
+  for (int i = 0; i < 300; ++i) {
+    const auto digit = [&] { return static_cast<double>(random.below(100)); };
+    const Point ray = {digit(), digit(), 1e15 + digit()};
+    for (const double length : {3.0, 1.0, 5.0})
+      sites.push_back((i % 2 == 0 ? length : 6 - length) * ray);
+  }
+  const system::Job options{{}, {.threads = 1}};
+  const Triangulation expected = delaunay(Sites::view(sites), options, options);
+  for (const int num_ranks : {1, 3}) {
+    for (const std::uint64_t most_bucket_sites : {50U, 100000U}) {
+      expect_same(build(sites, num_ranks, {most_bucket_sites, 70, first_number}, options), expected,
+                  first_number);
+    }
+  }
+}
+
+// Corners in line have a normal by what is not on their line: with the center on an edge of the hull, in
+// a face of it, or outside, some of the sites that tell are on other ranks.
+TEST(distributed_rank, has_weighted_sites_in_line) {
+  for (unsigned seed = 0; seed < scaled(60); ++seed) {
+    SCOPED_TRACE(seed);
+    Random random(seed);
+    std::vector<Point> sites;
+    for (int i = 0; i < 60; ++i) {
+      const auto digit = [&] { return static_cast<double>(random.below(5)) - 2; };
+      const double y = seed % 3 == 0 ? digit() : std::abs(digit());
+      const double z = seed % 2 == 0 ? std::abs(digit()) : digit() + 2;
+      const double scale =
+          z == 0 ? 5 : 1;  // the one with the largest coordinate is on the plane, too
+      sites.push_back({scale * digit(), scale * y, z});
+    }
+    const system::Job options{{.model = Model::weighted}, {.threads = 1}};
+    const Triangulation expected = delaunay(Sites::view(sites), options, options);
+    expect_same(build(sites, seed % 4 < 2 ? 16 : 3, {seed % 5 + 1, 70, first_number}, options),
+                expected, first_number);
+    ASSERT_FALSE(HasFailure());
+  }
 }
 
 // The bar for what is sent beside the sites is 12 kB * sqrt(n P). Shares differ by less than 5 %.
