@@ -66,6 +66,11 @@ void add_arrays(CLI::App& command, DelaunayOptions& options) {
                   "Where to write the areas of the cells: .npy, n numbers in steradians")
       ->type_name("FILE");
   command
+      .add_option("--circumcenters", options.circumcenters,
+                  "Where to write the circumcenters of the triangles (--model weighted: the power\n"
+                  "centers): .npy, m x 3, unit vectors from the center of the sphere")
+      ->type_name("FILE");
+  command
       .add_option("--duplicates", options.duplicates,
                   "Where to write the duplicates: .npy, k x 2, the site and the one it repeats")
       ->type_name("FILE");
@@ -80,6 +85,7 @@ void add_out_of_core(CLI::App& command, DelaunayOptions& options) {
                       "128 with areas; made if\n"
                       "it is not there, and removed at the end")
           ->type_name("DIR")
+          ->excludes(command.get_option("--circumcenters"))
           ->group(group);
   command
       .add_option_function<std::string>(

@@ -26,6 +26,13 @@ void write_rows(const std::string& path, std::span<const Row> rows) {
   write_indices(path, numbers, shape);
 }
 
+void write_points(const std::string& path, std::span<const Point> points) {
+  std::vector<double> numbers;
+  numbers.reserve(3 * points.size());
+  for (const Point& p : points) numbers.insert(numbers.end(), {p.x, p.y, p.z});
+  write_numbers(path, numbers, std::array<std::uint64_t, 2>{points.size(), 3});
+}
+
 }  // namespace
 
 ExitStatus run_delaunay(const DelaunayOptions& options) {
@@ -42,6 +49,8 @@ ExitStatus run_delaunay(const DelaunayOptions& options) {
       const std::vector<double> all = areas(triangulation, job.execution());
       write_numbers(options.areas, all);
     }
+    if (!options.circumcenters.empty())
+      write_points(options.circumcenters, circumcenters(triangulation, job.execution()));
     if (!options.duplicates.empty()) write_rows<2>(options.duplicates, triangulation.duplicates());
     write_triangles(common.target(), table, triangulation, job.execution());
   });

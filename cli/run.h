@@ -16,12 +16,13 @@ namespace rondel::cli {
 
 struct DelaunayOptions {
   CommonOptions common;
-  std::string neighbors;     ///< --neighbors; empty: not written
-  std::string areas;         ///< --areas; empty: not written
-  std::string duplicates;    ///< --duplicates; empty: not written
-  std::string scratch;       ///< --scratch; empty: all in memory
-  std::uint64_t memory = 0;  ///< --memory, in bytes; 0: not given
-  bool resume = false;       ///< --resume
+  std::string neighbors;      ///< --neighbors; empty: not written
+  std::string areas;          ///< --areas; empty: not written
+  std::string circumcenters;  ///< --circumcenters; empty: not written
+  std::string duplicates;     ///< --duplicates; empty: not written
+  std::string scratch;        ///< --scratch; empty: all in memory
+  std::uint64_t memory = 0;   ///< --memory, in bytes; 0: not given
+  bool resume = false;        ///< --resume
 };
 
 struct VoronoiOptions {

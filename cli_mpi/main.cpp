@@ -50,6 +50,9 @@ void add_delaunay(CLI::App& tool, Arguments& arguments) {
   command.add_option("--output,-o", arguments.files.faces, "The triangles, (m, 3)")->required();
   command.add_option("--neighbors", arguments.files.neighbors,
                      "The triangles opposite to each corner, (m, 3)");
+  command.add_option("--areas", arguments.files.areas, "The areas of the cells, (n,)");
+  command.add_option("--circumcenters", arguments.files.circumcenters,
+                     "The circumcenters of the triangles, (m, 3)");
   command.add_option("--duplicates", arguments.files.duplicates,
                      "Sites in one place and the lowest one there, (k, 2)");
   command.add_option("--model", arguments.model, "projected or weighted")

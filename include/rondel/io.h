@@ -121,8 +121,9 @@ RONDEL_API void write_sites(const FileName& file, std::span<const Point> sites,
 RONDEL_API void write_indices(const std::string& path, std::span<const Index> values,
                               std::span<const std::uint64_t> shape);
 
-/// Writes numbers as .npy (float64), shape (n,).
-RONDEL_API void write_numbers(const std::string& path, std::span<const double> values);
+/// Writes numbers as .npy (float64) of this shape, whose product is their number; of none, (n,).
+RONDEL_API void write_numbers(const std::string& path, std::span<const double> values,
+                              std::span<const std::uint64_t> shape = {});
 
 /// Writes any bytes: all or nothing.
 RONDEL_API void write_file(const std::string& path, std::string_view bytes);

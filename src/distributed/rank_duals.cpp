@@ -122,14 +122,14 @@ class FacePiece {
 
  private:
   static constexpr Index num_slots = 1U << 14U;
-  struct Slot {
+  struct ListedSite {
     Index rank;
     Index place;
   };
 
   Index place(const bulk::BucketCorner& v) {
     if (!v.is_own) return add(open_points_[v.index]);
-    Slot& slot = slots_[v.index % num_slots];
+    ListedSite& slot = slots_[v.index % num_slots];
     if (slot.rank != v.index) slot = {v.index, add(own_points_[v.index])};
     return slot.place;
   }
@@ -143,7 +143,7 @@ class FacePiece {
   std::span<const Point> open_points_;
   const Options& options_;
   std::vector<Point> points_;
-  std::vector<Slot> slots_;
+  std::vector<ListedSite> slots_;
 };
 
 // Each thread takes so many faces at a time.

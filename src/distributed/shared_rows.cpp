@@ -13,6 +13,7 @@
 #include "distributed/row_file.h"
 #include "io/binary.h"
 #include "io/npy_header.h"
+#include "io/replacement.h"
 #include "rondel/error.h"
 #include "system/descriptor.h"
 
@@ -20,7 +21,8 @@ namespace rondel::distributed {
 
 SharedRows::SharedRows(Supersteps& steps, const std::string& path, const SharedShape& shape)
     : path_(path),
-      temporary_(path + ".rondel.tmp"),
+      target_(io::replaced_by(path)),
+      temporary_(target_ + ".rondel.tmp"),
       is_maker_(steps.rank() == 0),
       is_narrow_(!shape.are_doubles && are_narrow(shape.num_different)) {
   const std::string header = header_of(shape);
@@ -46,11 +48,8 @@ std::string SharedRows::header_of(const SharedShape& shape) const {
 }
 
 void SharedRows::make(const std::string& header, std::uint64_t num_bytes) {
-  descriptor_ = system::open_to_change(temporary_);
-  if (descriptor_ < 0 || system::resize(descriptor_, 0) != 0 ||
-      system::reserve(descriptor_, num_bytes) != 0) {
-    fail(errno);
-  }
+  descriptor_ = io::open_replacement(temporary_, target_);
+  if (descriptor_ < 0 || system::reserve(descriptor_, num_bytes) != 0) fail(errno);
   write(header);
 }
 
@@ -62,7 +61,7 @@ void SharedRows::finish() {
 
 void SharedRows::commit() {
   std::error_code error;
-  std::filesystem::rename(temporary_, path_, error);
+  std::filesystem::rename(temporary_, target_, error);
   if (error) throw FileError(path_ + ": " + error.message());
   temporary_.clear();
 }

@@ -63,6 +63,7 @@ class SharedRows {
   [[noreturn]] void fail(int error) const;
 
   std::string path_;
+  std::string target_;  // with symbolic links resolved
   std::string temporary_;
   bool is_maker_;
   bool is_narrow_;

@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "io/atomic_file.h"
+#include "io/replacement.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
 
@@ -86,6 +87,24 @@ void take_permissions(int descriptor, const struct stat& replaced) {
 }
 
 }  // namespace
+
+std::string replaced_by(const std::string& path) { return resolve_links(path); }
+
+// What an earlier process left has permissions of its own, and goes.
+int open_replacement(const std::string& temporary, const std::string& target) noexcept {
+  struct stat status {};
+  const bool exists = ::stat(target.c_str(), &status) == 0;
+  if (exists && ::access(target.c_str(), W_OK) != 0) return -1;
+  if (exists && !S_ISREG(status.st_mode)) {
+    errno = S_ISDIR(status.st_mode) ? EISDIR : EOPNOTSUPP;
+    return -1;
+  }
+  ::unlink(temporary.c_str());
+  const mode_t mode = exists ? 0600 : 0666;
+  const int descriptor = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+  if (exists && descriptor >= 0) take_permissions(descriptor, status);
+  return descriptor;
+}
 
 void AtomicFile::open() {
   struct stat status {};

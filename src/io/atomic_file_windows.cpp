@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "io/atomic_file.h"
+#include "io/replacement.h"
 #include "rondel/io.h"
 #include "system/descriptor.h"
 #include "system/wide_path.h"
@@ -50,6 +51,19 @@ bool is_written_directly(const std::wstring& name) {
 }
 
 }  // namespace
+
+std::string replaced_by(const std::string& path) { return path; }
+
+int open_replacement(const std::string& temporary, const std::string& /*target*/) noexcept {
+  const int descriptor = system::open_to_change(temporary);
+  if (descriptor >= 0 && system::resize(descriptor, 0) != 0) {
+    const int error = errno;
+    system::close(descriptor);
+    errno = error;
+    return -1;
+  }
+  return descriptor;
+}
 
 void AtomicFile::open() {
   const std::wstring name = wide_path(path_);

@@ -16,9 +16,11 @@ void write_indices(const std::string& path, std::span<const Index> values,
   file.commit();
 }
 
-void write_numbers(const std::string& path, std::span<const double> values) {
+void write_numbers(const std::string& path, std::span<const double> values,
+                   std::span<const std::uint64_t> shape) {
   io::AtomicFile file(path);
-  file.write(io::make_npy_header("<f8", std::array<std::uint64_t, 1>{values.size()}));
+  const std::array<std::uint64_t, 1> size = {values.size()};
+  file.write(io::make_npy_header("<f8", shape.empty() ? size : shape));
   file.write(io::NumberBytes(values));
   file.commit();
 }

@@ -17,6 +17,7 @@
 
 #include "inputs/kinds.h"
 #include "rondel/delaunay.h"
+#include "rondel/diagram.h"
 #include "rondel/distributed.h"
 
 namespace rondel::test {
@@ -62,8 +63,9 @@ std::vector<GlobalTriple> widened(std::span<const Triple> rows) {
 void compare(Communicator& ranks, std::span<const Point> sites, const Options& options,
              const std::string& name) {
   const auto part =
-      delaunay(ranks, share(sites, ranks), {.most_bucket_sites = 1000, .most_dealt_sites = 500},
-               options, {.threads = 1});
+      delaunay(ranks, share(sites, ranks),
+               {.most_bucket_sites = 1000, .most_dealt_sites = 500, .keep_points = true}, options,
+               {.threads = 1});
   std::vector<GlobalTriple> own;
   const auto keep = [&](std::span<const GlobalTriple> rows) {
     own.insert(own.end(), rows.begin(), rows.end());
@@ -75,6 +77,8 @@ void compare(Communicator& ranks, std::span<const Point> sites, const Options& o
   const auto neighbors = together(ranks, std::span<const GlobalTriple>(own));
   const auto duplicates = together(ranks, part.duplicates());
   const auto hidden = together(ranks, part.hidden());
+  const auto own_areas = areas(ranks, part, {.threads = 1});
+  const auto all_areas = together(ranks, std::span<const double>(own_areas));
   if (ranks.rank() != 0) return;
   const Triangulation expected = delaunay(Sites::view(sites), options, {.threads = 1});
   expect(part.dimension() == expected.dimension(), name + ": dimension");
@@ -83,6 +87,7 @@ void compare(Communicator& ranks, std::span<const Point> sites, const Options& o
   expect(neighbors == widened(expected.neighbors()), name + ": neighbors");
   expect(duplicates.size() == expected.duplicates().size(), name + ": duplicates");
   expect(hidden.size() == expected.hidden().size(), name + ": hidden sites");
+  expect(all_areas == areas(expected, {.threads = 1}), name + ": areas");
 }
 
 void compare_all(Communicator& ranks) {

@@ -36,10 +36,11 @@ class Tool(unittest.TestCase):
         )
 
     def files(self, name):
-        return [self.folder / f"{name}-{what}.npy" for what in ("faces", "neighbors", "duplicates")]
+        arrays = ("faces", "neighbors", "duplicates", "areas", "circumcenters")
+        return [self.folder / f"{name}-{array}.npy" for array in arrays]
 
     def delaunay(self, files):
-        faces, neighbors, duplicates = files
+        faces, neighbors, duplicates, areas, circumcenters = files
         return [
             "delaunay",
             str(self.sites),
@@ -49,6 +50,10 @@ class Tool(unittest.TestCase):
             str(neighbors),
             "--duplicates",
             str(duplicates),
+            "--areas",
+            str(areas),
+            "--circumcenters",
+            str(circumcenters),
         ]
 
     def assert_error(self, result, line):
@@ -60,18 +65,47 @@ class Tool(unittest.TestCase):
         random = np.random.default_rng(1)
         points = random.normal(size=(5000, 3))
         angles = np.column_stack([random.uniform(-180, 180, 3000), random.uniform(-90, 90, 3000)])
-        for sites in (points, np.vstack([points, points[:100]]), angles, points[:2], points[:0]):
+        inputs = (points, np.vstack([points, points[:100]]), angles, points[:2], points[:0])
+        models = ["projected"] * len(inputs) + ["weighted"]
+        for sites, model in zip((*inputs, points), models, strict=True):
             np.save(self.sites, sites)
             expected = self.files("expected")
-            subprocess.run([RONDEL, *self.delaunay(expected), "--quiet"], check=True)
+            subprocess.run(
+                [RONDEL, *self.delaunay(expected), "--model", model, "--quiet"], check=True
+            )
             for num_ranks in (1, 3):
                 found = self.files("found")
-                result = self.run_ranks(num_ranks, *self.delaunay(found), "--json")
+                result = self.run_ranks(
+                    num_ranks, *self.delaunay(found), "--model", model, "--json"
+                )
                 self.assertEqual(result.returncode, 0, result.stderr)
                 self.assertIn(f'"sites": {len(sites)},', result.stdout)
                 for a, b in zip(expected, found, strict=True):
                     self.assertEqual(a.read_bytes(), b.read_bytes(), b.name)
                 self.assertEqual(list(self.folder.glob("*.tmp")), [])
+
+    def test_a_file_that_is_replaced_keeps_its_permissions_and_its_link(self):
+        np.save(self.sites, np.eye(3))
+        faces = self.folder / "faces.npy"
+        target = self.folder / "target.npy"
+        target.write_text("what was there")
+        target.chmod(0o640)
+        faces.symlink_to(target)
+        result = self.run_ranks(2, "delaunay", self.sites, "-o", faces)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertTrue(faces.is_symlink())
+        self.assertEqual(target.stat().st_mode & 0o777, 0o640)
+        self.assertEqual(np.load(target).shape, (2, 3))
+
+    def test_a_file_that_cannot_be_replaced(self):
+        np.save(self.sites, np.eye(3))
+        folder = self.folder / "folder"
+        folder.mkdir()
+        result = self.run_ranks(2, "delaunay", self.sites, "-o", folder)
+        self.assert_error(result, f"rank 0, write: {folder}: Is a directory")
+        result = self.run_ranks(2, "delaunay", self.sites, "-o", "/dev/null")
+        self.assert_error(result, "rank 0, write: /dev/null: Operation not supported")
+        self.assertFalse(pathlib.Path("/dev/null.rondel.tmp").exists())
 
     def test_a_row_that_is_not_valid(self):
         sites = np.ones((100, 3))
