@@ -166,6 +166,25 @@ class RankBuild {
     return rank_of_site(site - limits_.first_number, counts_.first_site);
   }
 
+  // Those that were not dealt are in the place of one that was.
+  void add_copies() {
+    if (counts_.copies.empty()) return;
+    auto& duplicates = result_->duplicates;
+    const std::uint64_t first = limits_.first_number + counts_.first_site[steps_.rank()];
+    std::vector<GlobalDuplicate> merged;
+    merged.reserve(duplicates.size() + counts_.copies.size());
+    for (const PointCopy& copy : counts_.copies) {
+      const std::uint64_t same = first + copy.same;
+      const auto known = std::ranges::lower_bound(duplicates, same, {}, &GlobalDuplicate::site);
+      const bool is_known = known != duplicates.end() && known->site == same;
+      merged.push_back({first + copy.site, is_known ? known->representative : same});
+    }
+    merged.insert(merged.end(), duplicates.begin(), duplicates.end());
+    std::ranges::sort(merged, {}, &GlobalDuplicate::site);
+    duplicates = std::move(merged);
+    counts_.copies = {};
+  }
+
   void finish() {
     steps_.begin("finish");
     const std::uint64_t num_own = own().sites.size();
@@ -191,6 +210,7 @@ class RankBuild {
       for (const auto site : reader.values<std::uint64_t>()) result_->hidden.push_back(site);
     }
     std::ranges::sort(result_->duplicates, {}, &GlobalDuplicate::site);
+    add_copies();
     std::ranges::sort(result_->hidden);
     result_->num_duplicates = sum(gather_values(steps_, result_->duplicates.size()));
     result_->num_hidden = sum(gather_values(steps_, result_->hidden.size()));

@@ -85,9 +85,25 @@ class RankCounter {
       result_.all.add(sites);
       find_keys(sites, options_, std::span(result_.keys).subspan(begin, size));
     }
+    result_.copies = find_copies(mine_, options_.threads);
+    remove_copies();
     counts_.emplace(
         most_square_sites(result_.first_site.back(), steps_.size(), limits_.most_bucket_sites),
         depth_for(steps_.size()));
+  }
+
+  void remove_copies() {
+    if (result_.copies.empty()) return;
+    auto copy = result_.copies.begin();
+    std::size_t num_kept = 0;
+    for (std::size_t i = 0; i < result_.keys.size(); ++i) {
+      if (copy != result_.copies.end() && copy->site == i) {
+        ++copy;
+      } else {
+        result_.keys[num_kept++] = result_.keys[i];
+      }
+    }
+    result_.keys.resize(num_kept);
   }
 
   std::vector<Bytes> slices_of_counts() {

@@ -17,6 +17,7 @@
 
 #include "bulk/all_sites.h"
 #include "distributed/rank_plan.h"
+#include "distributed/same_points.h"
 #include "distributed/supersteps.h"
 #include "system/job.h"
 
@@ -42,7 +43,8 @@ struct RankCounts {
   std::vector<std::uint64_t> first_site;  // of each rank, and behind the last one, from 0 on
   bulk::AllSites all;
   RankPlan plan;
-  std::vector<std::uint64_t> keys;  // of this rank's sites
+  std::vector<PointCopy> copies;    // of this rank's sites, which are not counted and not dealt
+  std::vector<std::uint64_t> keys;  // of its other sites
 
   [[nodiscard]] std::uint64_t num_sites(std::size_t rank) const {
     return first_site[rank + 1] - first_site[rank];

@@ -38,37 +38,58 @@ class BucketTable {
   std::vector<Index> first_;
 };
 
-// Messages with some of this rank's sites in a row, sorted by their buckets: the index of the first
-// one, for each bucket of the receiver how many it gets, all points, and all offsets: of each site, by
-// what its index is above that of the first one.
+// Some of this rank's sites in a row, from `first` on; of those that are no copies the keys.
+struct SiteRow {
+  std::span<const Point> points;
+  std::uint64_t first;
+  std::span<const PointCopy> copies;
+  std::span<const std::uint64_t> keys;
+
+  // visit(i, k) for each site i of the row, from 0 on, that is the k-th one that is no copy.
+  template <class Visit>
+  void for_each(Visit visit) const {
+    auto copy = copies.begin();
+    std::size_t k = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (copy != copies.end() && copy->site == first + i) {
+        ++copy;
+      } else {
+        visit(i, k++);
+      }
+    }
+  }
+};
+
+// Messages with a row of sites, sorted by their buckets: the index of the first one, for each bucket of the
+// receiver how many it gets, all points, and all offsets: of each site, by what its index is above that
+// of the first one.
 class Dealer {
  public:
   Dealer(const RankPlan& plan, std::size_t self, std::size_t num_ranks)
       : plan_(plan), table_(plan.buckets), self_(self), num_ranks_(num_ranks) {}
 
-  std::vector<Bytes> deal(std::span<const Point> points, std::span<const std::uint64_t> keys,
-                          std::uint64_t first_index) {
+  std::vector<Bytes> deal(const SiteRow& row, std::uint64_t first_index) {
     counts_.assign(plan_.buckets.size(), 0);
-    bucket_of_.resize(points.size());
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      bucket_of_[i] = table_(keys[i]);
-      ++counts_[bucket_of_[i]];
+    bucket_of_.resize(row.keys.size());
+    for (std::size_t k = 0; k < row.keys.size(); ++k) {
+      bucket_of_[k] = table_(row.keys[k]);
+      ++counts_[bucket_of_[k]];
     }
     std::vector<Bytes> messages;
     for (std::size_t rank = 0; rank < num_ranks_; ++rank)
       messages.push_back(make_message(rank, first_index));
     find_places(messages);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      DealtPlace& place = places_[bucket_of_[i]];
+    row.for_each([&](std::size_t i, std::size_t k) {
+      DealtPlace& place = places_[bucket_of_[k]];
       const auto offset = static_cast<Index>(i);
       if (place.point != nullptr) {
-        std::memcpy(place.point, &points[i], sizeof(Point));
+        std::memcpy(place.point, &row.points[i], sizeof(Point));
         place.point += sizeof(Point);
         system::prefetch_to_write(place.point + lines_ahead);
       }
       std::memcpy(place.offset, &offset, sizeof offset);
       place.offset += sizeof offset;
-    }
+    });
     return messages;
   }
 
@@ -120,7 +141,7 @@ class Dealer {
   std::size_t self_;
   std::size_t num_ranks_;
   std::vector<Index> counts_;       // by bucket
-  std::vector<Index> bucket_of_;    // by site
+  std::vector<Index> bucket_of_;    // by site that is no copy
   std::vector<DealtPlace> places_;  // by bucket
 };
 
@@ -137,13 +158,19 @@ RankSites::RankSites(Supersteps& steps, std::span<const Point> mine, RankCounts&
     most_sites = std::max(most_sites, counts.num_sites(rank));
   const std::size_t num_buckets = counts.plan.num_buckets(steps.rank());
   Dealer dealer(counts.plan, steps.rank(), steps.size());
+  std::span<const PointCopy> copies = counts.copies;
+  std::span<const std::uint64_t> keys = counts.keys;
   for (std::uint64_t first = 0; first < most_sites; first += limits.most_dealt_sites) {
     system::obey_stop();
     const std::uint64_t begin = std::min<std::uint64_t>(first, mine.size());
     const std::uint64_t size = std::min(limits.most_dealt_sites, mine.size() - begin);
-    std::vector<Bytes> received = steps.exchange(
-        dealer.deal(mine.subspan(begin, size), std::span(counts.keys).subspan(begin, size),
-                    first_index_ + begin));
+    const auto next = std::ranges::lower_bound(copies, begin + size, {}, &PointCopy::site);
+    const auto num_copies = static_cast<std::size_t>(next - copies.begin());
+    std::vector<Bytes> received = steps.exchange(dealer.deal(
+        {mine.subspan(begin, size), begin, copies.first(num_copies), keys.first(size - num_copies)},
+        first_index_ + begin));
+    copies = copies.subspan(num_copies);
+    keys = keys.subspan(size - num_copies);
     for (std::size_t rank = 0; rank < steps.size(); ++rank)
       add(std::move(received[rank]), num_buckets, rank != steps.rank(), pieces_[rank]);
   }

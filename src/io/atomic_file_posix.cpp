@@ -94,10 +94,12 @@ std::string replaced_by(const std::string& path) { return resolve_links(path); }
 int open_replacement(const std::string& temporary, const std::string& target) noexcept {
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
-  if (exists && ::access(target.c_str(), W_OK) != 0) return -1;
-  if (exists && !S_ISREG(status.st_mode)) {
-    errno = S_ISDIR(status.st_mode) ? EISDIR : EOPNOTSUPP;
-    return -1;
+  if (exists) {
+    if (::access(target.c_str(), W_OK) != 0) return -1;
+    if (!S_ISREG(status.st_mode)) {
+      errno = S_ISDIR(status.st_mode) ? EISDIR : EOPNOTSUPP;
+      return -1;
+    }
   }
   ::unlink(temporary.c_str());
   const mode_t mode = exists ? 0600 : 0666;

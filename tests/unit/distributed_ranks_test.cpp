@@ -109,6 +109,29 @@ TEST(distributed_rank, may_have_a_large_square) {
   expect_same(build(sites, 1, {all, all, first_number}, options), expected, first_number);
 }
 
+// Each rank sends one of many copies; some of them are others in few bits, or on the same ray.
+TEST(distributed_rank, sends_copies_once) {
+  constexpr std::size_t n = 150000;
+  const std::vector<Point> places = {{1, 2, 0}, {1, 2, -0.0}, {3, 6, 0}, {0, 1, 1}};
+  std::vector<Point> sites(n, places[0]);
+  Random random(3);
+  for (std::size_t i = 0; i < n; i += 50) sites[i] = places[random.below(places.size())];
+  for (std::size_t i = 7; i < n; i += 5000) sites[i] = random.direction();
+  for (const Model model : {Model::projected, Model::weighted}) {
+    const system::Job options{{.model = model}, {.threads = 1}};
+    const Triangulation expected = delaunay(Sites::view(sites), options, options);
+    for (const int num_ranks : {1, 4}) {
+      expect_same(build(sites, num_ranks, {100, 3000, first_number}, options), expected,
+                  first_number);
+    }
+  }
+  SimulatedRanks ranks(4);
+  ranks.run([&](Communicator& rank) {
+    delaunay(rank, share(sites, rank.rank(), 4, 7), {}, {}, {.threads = 1});
+  });
+  EXPECT_LT(ranks.bytes_sent("deal"), 4000U);
+}
+
 // Of copies on one ray the lowest index names the place, and its point counts for areas and circumcenters;
 // which are so close that another one, known to as many bits, gives others.
 TEST(distributed_rank, has_copies_of_other_lengths) {
