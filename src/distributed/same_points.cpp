@@ -3,6 +3,7 @@
 
 #include "distributed/same_points.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -45,21 +46,35 @@ class PointTable {
   std::vector<Index> slots_;  // 0, or a point + 1
 };
 
+void find_in_piece(std::span<const Point> points, std::uint64_t begin,
+                   std::vector<PointCopy>& copies) {
+  PointTable table(points.size());
+  for (Index i = 0; i < points.size(); ++i) {
+    const Index first = table.first_same(points, i);
+    if (first != i) copies.push_back({begin + i, begin + first});
+  }
+}
+
 }  // namespace
 
 std::vector<PointCopy> find_copies(std::span<const Point> points, unsigned threads) {
-  std::vector<std::vector<PointCopy>> pieces(system::num_pieces(points.size(), piece_points));
-  system::parallel_for(threads, points.size(), piece_points,
-                       [&](std::size_t begin, std::size_t end) {
-                         const auto piece = points.subspan(begin, end - begin);
-                         PointTable table(piece.size());
-                         for (Index i = 0; i < piece.size(); ++i) {
-                           const Index first = table.first_same(piece, i);
-                           if (first != i)
-                             pieces[begin / piece_points].push_back({begin + i, begin + first});
-                         }
-                       });
+  constexpr std::size_t step = 16;
+  const std::size_t num_pieces = system::num_pieces(points.size(), piece_points);
+  std::vector<std::vector<PointCopy>> pieces(num_pieces);
+  const auto look = [&](bool at_samples) {
+    system::parallel_for(threads, num_pieces, 1, [&](std::size_t i, std::size_t /*end*/) {
+      if ((i % step == 0) != at_samples) return;
+      const std::size_t begin = i * piece_points;
+      const std::size_t size = std::min(piece_points, points.size() - begin);
+      find_in_piece(points.subspan(begin, size), begin, pieces[i]);
+    });
+  };
+  // Where samples have none there are few, which may be sent.
+  look(true);
   std::vector<PointCopy> copies;
+  const auto has_copies = [](const auto& piece) { return !piece.empty(); };
+  if (std::ranges::none_of(pieces, has_copies)) return copies;
+  look(false);
   for (const auto& piece : pieces) copies.insert(copies.end(), piece.begin(), piece.end());
   return copies;
 }

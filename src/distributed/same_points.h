@@ -23,7 +23,8 @@ struct PointCopy {
   std::uint64_t same = 0;  // as this one
 };
 
-// In increasing order of site. Looks at some points at a time, and sees no copies of what is elsewhere.
+// In increasing order of site. Looks at some points at a time, and sees no copies of what is elsewhere; and at
+// samples alone where these have none.
 std::vector<PointCopy> find_copies(std::span<const Point> points, unsigned threads);
 
 }  // namespace rondel::distributed
