@@ -92,8 +92,7 @@ class PythonRanks final : public Communicator {
 
 // Work on all ranks, which always takes long enough to be watched: any of them may come late.
 template <class Work>
-DistributedTriangulation on_ranks(const nb::object& python_ranks, const nb::object& listener,
-                                  const Work& work) {
+auto on_ranks(const nb::object& python_ranks, const nb::object& listener, const Work& work) {
   constexpr std::size_t size = std::numeric_limits<std::size_t>::max();
   PythonRanks ranks(python_ranks);
   return watched(size, 0, listener, [&](const Execution& watching) {
@@ -109,22 +108,23 @@ DistributedTriangulation on_ranks(const nb::object& python_ranks, const nb::obje
 DistributedTriangulation build_on_ranks(const nb::object& ranks, const PointsIn& points,
                                         bool is_weighted, const std::array<double, 3>& center,
                                         double squared_radius, std::uint64_t most_bucket_sites,
-                                        const nb::object& listener) {
+                                        bool keep_points, const nb::object& listener) {
   return on_ranks(ranks, listener, [&](Communicator& communicator, const Execution& execution) {
-    return delaunay(communicator, points_of(points), {.most_bucket_sites = most_bucket_sites},
+    return delaunay(communicator, points_of(points),
+                    {.most_bucket_sites = most_bucket_sites, .keep_points = keep_points},
                     make_options(is_weighted, center, squared_radius), execution);
   });
 }
 
 DistributedTriangulation build_files_on_ranks(const nb::object& ranks, const std::string& sites,
-                                              const std::array<std::string, 3>& files, bool radians,
+                                              const std::array<std::string, 5>& files, bool radians,
                                               bool is_weighted, const std::array<double, 3>& center,
                                               double squared_radius,
                                               std::uint64_t most_bucket_sites,
                                               const nb::object& listener) {
   return on_ranks(ranks, listener, [&](Communicator& communicator, const Execution& execution) {
-    return delaunay_file(communicator, sites, {files[0], files[1], files[2], radians},
-                         {.most_bucket_sites = most_bucket_sites},
+    const DistributedFiles names = {files[0], files[1], files[2], files[3], files[4], radians};
+    return delaunay_file(communicator, sites, names, {.most_bucket_sites = most_bucket_sites},
                          make_options(is_weighted, center, squared_radius), execution);
   });
 }
@@ -141,6 +141,26 @@ ArrayOut<std::int64_t> rows_out(const DistributedTriangulation& t) {
       rows.insert(rows.end(), some.begin(), some.end());
     });
     return rows;
+  }));
+}
+
+ArrayOut<double> areas_of_ranks(const nb::object& ranks, const DistributedTriangulation& t,
+                                const nb::object& listener) {
+  return to_array<double>(
+      on_ranks(ranks, listener, [&](Communicator& communicator, const Execution& execution) {
+        return areas(communicator, t, execution);
+      }));
+}
+
+ArrayOut<double> circumcenters_of(const DistributedTriangulation& t, unsigned threads) {
+  return points_out(watched_quietly(t.num_own_faces(), threads, [&](const Execution& execution) {
+    std::vector<Point> points;
+    points.reserve(t.num_own_faces());
+    const auto add = [&](std::span<const Point> some) {
+      points.insert(points.end(), some.begin(), some.end());
+    };
+    t.visit_circumcenters(add, execution);
+    return points;
   }));
 }
 
@@ -169,6 +189,7 @@ void add_distributed(nb::module_& module) {
       .def_prop_ro("num_own_faces", &T::num_own_faces)
       .def("faces", &rows_out<&T::visit_faces>)
       .def("neighbors", &rows_out<&T::visit_neighbors>)
+      .def("circumcenters", &circumcenters_of, nb::arg("threads"))
       .def_prop_ro("ghost_faces", list_getter<&T::ghost_faces>())
       .def_prop_ro("owned_sites", list_getter<&T::owned_sites>())
       .def_prop_ro("ring", list_getter<&T::ring>())
@@ -176,7 +197,9 @@ void add_distributed(nb::module_& module) {
       .def_prop_ro("hidden", list_getter<&T::hidden>());
   module.def("delaunay_of_ranks", &build_on_ranks, nb::arg("ranks"), nb::arg("points").noconvert(),
              nb::arg("is_weighted"), nb::arg("center"), nb::arg("squared_radius"),
-             nb::arg("most_bucket_sites"), nb::arg("progress").none());
+             nb::arg("most_bucket_sites"), nb::arg("keep_points"), nb::arg("progress").none());
+  module.def("areas_of_ranks", &areas_of_ranks, nb::arg("ranks"), nb::arg("triangulation"),
+             nb::arg("progress").none());
   module.def("delaunay_file_of_ranks", &build_files_on_ranks, nb::arg("ranks"), nb::arg("sites"),
              nb::arg("files"), nb::arg("radians"), nb::arg("is_weighted"), nb::arg("center"),
              nb::arg("squared_radius"), nb::arg("most_bucket_sites"), nb::arg("progress").none());

@@ -37,6 +37,7 @@ __all__ = [
 ]
 
 Path: TypeAlias = str | os.PathLike[str]
+FloatArray: TypeAlias = npt.NDArray[np.float64]
 LongArray: TypeAlias = npt.NDArray[np.int64]
 
 
@@ -47,8 +48,12 @@ class DistributedTriangulation:
     faces. All arrays are of int64 and cannot be written to.
     """
 
-    def __init__(self, part: _core.DistributedTriangulation) -> None:
+    def __init__(
+        self, part: _core.DistributedTriangulation, comm: Communicator | None, keep_points: bool
+    ) -> None:
         self._part = part
+        self._comm = comm
+        self._has_points = keep_points
 
     @property
     def dimension(self) -> int:
@@ -143,6 +148,50 @@ class DistributedTriangulation:
         """Ndarray of int64, shape (h,): points that this rank gave and that are no vertices."""
         return self._part.hidden
 
+    @cached_property
+    def circumcenters(self) -> FloatArray:
+        """Ndarray, shape (m, 3): those of this rank's triangles, as `SphericalDelaunay.circumcenters`,
+        bit by bit. Only after ``keep_points=True``. A matter of this rank alone.
+        """
+        self._require_points()
+        return frozen(self._part.circumcenters(0))
+
+    def areas(self, *, threads: int | None = None, progress: Progress = None) -> FloatArray:
+        """The areas of the cells of the points that this rank gave, in steradians of the unit sphere.
+
+        All ranks call this together, after ``keep_points=True``.
+
+        Parameters
+        ----------
+        threads : int, optional
+        progress : callable, optional
+            As for `delaunay`.
+
+        Returns
+        -------
+        ndarray, shape (n,)
+            As ``tri.voronoi().areas``, bit by bit: 0 for duplicates and hidden points.
+
+        Raises
+        ------
+        DistributedError
+            On all ranks, if memory is short on one of them.
+        ValueError
+            If the points were not kept.
+
+        """
+        self._require_points()
+        ranks = Ranks(self._comm)
+        try:
+            ranks.prepare("areas", as_threads(threads))
+        except BaseException as error:
+            ranks.fail(error)
+        return _core.areas_of_ranks(ranks, self._part, progress)
+
+    def _require_points(self) -> None:
+        if not self._has_points:
+            raise ValueError("the points were not kept: delaunay(..., keep_points=True)")
+
     def __repr__(self) -> str:
         own = f"{self._part.num_own_faces:,} of {count(self.num_faces, 'face')}"
         name = f"rondel.distributed.{type(self).__name__}"
@@ -157,6 +206,7 @@ def delaunay(
     radius: float = 1.0,
     center: ArrayLike | None = None,
     most_bucket_sites: int = 1 << 28,
+    keep_points: bool = False,
     threads: int | None = None,
     progress: Progress = None,
 ) -> DistributedTriangulation:
@@ -176,6 +226,9 @@ def delaunay(
         As for `rondel.delaunay`, and the same on all ranks.
     most_bucket_sites : int, optional
         At most so many points of a rank are triangulated at once. The same on all ranks.
+    keep_points : bool, optional
+        Whether to keep the points, 24 bytes for each, for `areas` and `circumcenters` of the result.
+        The same on all ranks.
     threads : int, optional
         At most so many work for this rank; by default its share of the machine's cores.
     progress : callable, optional
@@ -219,10 +272,11 @@ def delaunay(
     try:
         sites = as_points(points)
         options = _as_options(model, radius, center, most_bucket_sites)
-        ranks.prepare(("delaunay", options), as_threads(threads))
+        ranks.prepare(("delaunay", options, bool(keep_points)), as_threads(threads))
     except BaseException as error:
         ranks.fail(error)
-    return DistributedTriangulation(_core.delaunay_of_ranks(ranks, sites, *options, progress))
+    part = _core.delaunay_of_ranks(ranks, sites, *options, bool(keep_points), progress)
+    return DistributedTriangulation(part, comm, bool(keep_points))
 
 
 def delaunay_file(
@@ -231,6 +285,8 @@ def delaunay_file(
     comm: Communicator | None = None,
     neighbors: Path | None = None,
     duplicates: Path | None = None,
+    areas: Path | None = None,
+    circumcenters: Path | None = None,
     *,
     model: Model = "projected",
     radius: float = 1.0,
@@ -258,6 +314,10 @@ def delaunay_file(
         A `.npy` file, shape (m, 3): the triangles opposite to each corner.
     duplicates : path_like, optional
         A `.npy` file, shape (k, 2): rows, and the rows that they repeat.
+    areas : path_like, optional
+        A `.npy` file of doubles, shape (n,): the areas of the cells in steradians, 0 without a cell.
+    circumcenters : path_like, optional
+        A `.npy` file of doubles, shape (m, 3): those of the triangles.
     model : {'projected', 'weighted'}, optional
     radius : float, optional
     center : array_like, shape (3,), optional
@@ -278,19 +338,21 @@ def delaunay_file(
 
     """
     ranks = Ranks(comm)
-    files = ["", "", "", ""]
+    files = [""] * 6
     options = _no_options
     try:
-        files = [_as_name(file) for file in (sites, faces, neighbors, duplicates)]
+        results = (faces, neighbors, duplicates, areas, circumcenters)
+        files = [_as_name(file) for file in (sites, *results)]
         if not files[1]:
             raise ValueError("faces has no name")
         options = _as_options(model, radius, center, most_bucket_sites)
         ranks.prepare(("delaunay_file", files, radians, options), as_threads(threads))
     except BaseException as error:
         ranks.fail(error)
-    return DistributedTriangulation(
-        _core.delaunay_file_of_ranks(ranks, files[0], files[1:], bool(radians), *options, progress)
+    part = _core.delaunay_file_of_ranks(
+        ranks, files[0], files[1:], bool(radians), *options, progress
     )
+    return DistributedTriangulation(part, comm, False)
 
 
 Options: TypeAlias = tuple[bool, tuple[float, float, float], float, int]

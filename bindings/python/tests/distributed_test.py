@@ -15,6 +15,7 @@ from threads import on_ranks, shares
 
 import rondel
 import rondel.distributed
+from rondel import _core
 from rondel.distributed import DistributedError
 
 
@@ -76,6 +77,36 @@ def test_the_result_is_that_of_delaunay(name, size, model):
         if part.dimension == 2:
             assert part.first_face == first
         first += len(part.faces)
+
+
+@pytest.mark.parametrize("model", ["projected", "weighted"])
+@pytest.mark.parametrize("size", [1, 3])
+@pytest.mark.parametrize("name", CLOUDS)
+def test_areas_and_circumcenters_are_those_in_memory(name, size, model):
+    points = CLOUDS[name]
+    given = shares(points, size)
+
+    def work(rank):
+        mine = given[rank.rank]
+        part = rondel.distributed.delaunay(
+            mine, rank, threads=1, model=model, most_bucket_sites=400, keep_points=True
+        )
+        areas = part.areas()
+        assert areas.shape == (len(mine),)
+        return part.circumcenters, areas
+
+    results = on_ranks(size, work)
+    expected = rondel.delaunay(points, model)._triangulation
+    known = _core.circumcenters(expected), _core.diagram(expected).areas
+    for k in range(2):
+        assert np.concatenate([found[k] for found in results]).tobytes() == known[k].tobytes()
+
+
+def test_points_must_be_kept_for_areas():
+    (part,) = build(CLOUDS["uniform"], 1)
+    for ask in (part.areas, lambda: part.circumcenters):
+        with pytest.raises(ValueError, match="keep_points=True"):
+            ask()
 
 
 def test_the_sphere_is_that_of_delaunay():
@@ -302,12 +333,17 @@ def test_files(tmp_path):
                 rank,
                 tmp_path / "neighbors.npy",
                 tmp_path / "duplicates.npy",
+                tmp_path / "areas.npy",
+                tmp_path / "circumcenters.npy",
                 radians=radians,
             )
 
         parts = on_ranks(3, work)
         assert {part.num_sites for part in parts} == {900}
         np.testing.assert_array_equal(together(parts, "faces"), tri.simplices)
+        areas = np.load(tmp_path / "areas.npy")
+        np.testing.assert_array_equal(areas, _core.diagram(tri._triangulation).areas)
+        np.testing.assert_array_equal(np.load(tmp_path / "circumcenters.npy"), tri.circumcenters)
         faces = np.load(tmp_path / "faces.npy")
         assert faces.dtype == np.uint32
         np.testing.assert_array_equal(faces, tri.simplices)
