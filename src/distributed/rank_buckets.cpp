@@ -4,9 +4,9 @@
 #include "distributed/rank_buckets.h"
 
 #include <array>
-#include <cstring>
 #include <utility>
 
+#include "distributed/same_points.h"
 #include "system/prefetch.h"
 
 namespace rondel::distributed {
@@ -24,10 +24,6 @@ void append_gathered(const LargeVector<T>& values, std::span<const Index> order,
   }
 }
 
-bool are_same_bits(const Point& a, const Point& b) {
-  return std::memcmp(&a, &b, sizeof(Point)) == 0;
-}
-
 // Of the rank's open sites, those with a point of their own, which are few.
 void add_other_points(const RankBuckets& own, MessageWriter& writer) {
   std::vector<Index> positions;
@@ -38,7 +34,7 @@ void add_other_points(const RankBuckets& own, MessageWriter& writer) {
     const auto& open_sites = own.buckets[b].border.open_sites;
     for (std::size_t s = 0; s < open_sites.size(); ++s, ++position) {
       const Point& p = kept[open_sites[s].rank];
-      if (are_same_bits(p, own.open_points[b][s])) continue;
+      if (bits_of(p) == bits_of(own.open_points[b][s])) continue;
       positions.push_back(position);
       points.push_back(p);
     }

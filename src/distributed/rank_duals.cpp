@@ -45,7 +45,8 @@ class AreasHome {
       writer.add(std::exchange(list, {}));
       messages.push_back(writer.take());
     }
-    for (const Bytes& message : steps_.exchange(std::move(messages))) {
+    const std::vector<Bytes> received = steps_.exchange(std::move(messages));
+    for (const Bytes& message : received) {
       for (const SiteArea& area : MessageReader(message).values<SiteArea>()) add(area);
     }
     return std::move(areas_);

@@ -62,7 +62,7 @@ std::uint64_t sum_before(Supersteps& steps, std::uint64_t value) {
 class SharedResults {
  public:
   SharedResults(Supersteps& steps, const DistributedTriangulation& part,
-              const DistributedFiles& files)
+                const DistributedFiles& files)
       : steps_(steps), part_(part), files_(files) {}
 
   void write(std::span<const double> areas, const Execution& execution) {

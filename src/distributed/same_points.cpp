@@ -4,15 +4,12 @@
 #include "distributed/same_points.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 
 #include "system/parallel.h"
 
 namespace rondel::distributed {
 namespace {
-
-using PointBits = std::array<std::uint64_t, 3>;
 
 constexpr std::size_t piece_points = std::size_t{1} << 14;
 
@@ -25,11 +22,11 @@ class PointTable {
 
   // The first of points 0 ... i with the bits of point i, which is looked at after all before it.
   Index first_same(std::span<const Point> points, Index i) {
-    const auto bits = std::bit_cast<PointBits>(points[i]);
+    const auto bits = bits_of(points[i]);
     for (std::size_t slot = hash(bits) >> shift_;; slot = (slot + 1) % slots_.size()) {
       Index& next = slots_[slot];
       if (next == 0) next = i + 1;
-      if (std::bit_cast<PointBits>(points[next - 1]) == bits) return next - 1;
+      if (bits_of(points[next - 1]) == bits) return next - 1;
     }
   }
 

@@ -10,6 +10,8 @@
 // index points, from 0 on
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -17,6 +19,9 @@
 #include "rondel/types.h"
 
 namespace rondel::distributed {
+
+using PointBits = std::array<std::uint64_t, 3>;
+inline PointBits bits_of(const Point& p) { return std::bit_cast<PointBits>(p); }
 
 struct PointCopy {
   std::uint64_t site = 0;

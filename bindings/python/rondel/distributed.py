@@ -150,14 +150,15 @@ class DistributedTriangulation:
 
     @cached_property
     def circumcenters(self) -> FloatArray:
-        """Ndarray, shape (m, 3): those of this rank's triangles, as `SphericalDelaunay.circumcenters`,
-        bit by bit. Only after ``keep_points=True``. A matter of this rank alone.
+        """Ndarray, shape (m, 3): those of this rank's triangles, bit by bit as
+        `SphericalDelaunay.circumcenters`. Only after ``keep_points=True``; a matter of this rank
+        alone.
         """
         self._require_points()
         return frozen(self._part.circumcenters(0))
 
     def areas(self, *, threads: int | None = None, progress: Progress = None) -> FloatArray:
-        """The areas of the cells of the points that this rank gave, in steradians of the unit sphere.
+        """The areas of the cells of the points that this rank gave, in steradians.
 
         All ranks call this together, after ``keep_points=True``.
 
@@ -227,8 +228,8 @@ def delaunay(
     most_bucket_sites : int, optional
         At most so many points of a rank are triangulated at once. The same on all ranks.
     keep_points : bool, optional
-        Whether to keep the points, 24 bytes for each, for `areas` and `circumcenters` of the result.
-        The same on all ranks.
+        Whether to keep the points, 24 bytes for each, for `areas` and `circumcenters` of the
+        result. The same on all ranks.
     threads : int, optional
         At most so many work for this rank; by default its share of the machine's cores.
     progress : callable, optional
@@ -315,7 +316,7 @@ def delaunay_file(
     duplicates : path_like, optional
         A `.npy` file, shape (k, 2): rows, and the rows that they repeat.
     areas : path_like, optional
-        A `.npy` file of doubles, shape (n,): the areas of the cells in steradians, 0 without a cell.
+        A `.npy` file of doubles, shape (n,): the areas of the cells, 0 without a cell.
     circumcenters : path_like, optional
         A `.npy` file of doubles, shape (m, 3): those of the triangles.
     model : {'projected', 'weighted'}, optional
