@@ -26,6 +26,7 @@ class DistinctSites {
   std::vector<DuplicateRow> add(std::span<const Point> points,
                                 std::span<const std::uint64_t> rows) {
     sites_.points.insert(sites_.points.end(), points.begin(), points.end());
+    sites_.named_points.insert(sites_.named_points.end(), points.begin(), points.end());
     sites_.rows.insert(sites_.rows.end(), rows.begin(), rows.end());
     const order::SpatialOrder order = order::spatial_order(
         sites_.points, options_.model, options_.sphere.center, options_.threads);
@@ -44,6 +45,7 @@ class DistinctSites {
     BucketSites kept;
     for (const Index rank : ranks) {
       kept.points.push_back(sites_.points[order.order[rank]]);
+      kept.named_points.push_back(sites_.named_points[names[rank]]);
       kept.rows.push_back(sites_.rows[names[rank]]);
     }
     sites_ = std::move(kept);
@@ -89,6 +91,15 @@ std::vector<std::uint64_t> vertex_rows(const order::SpatialOrder& order,
   result.reserve(order.order.size());
   for (const Index site : order.order) result.push_back(rows[site]);
   for (const auto& [rank, name] : order.renamed) result[rank] = rows[name];
+  return result;
+}
+
+LargeVector<Point> vertex_points(const order::SpatialOrder& order, const BucketSites& sites) {
+  const LargeVector<Point>& points = sites.named_points.empty() ? sites.points : sites.named_points;
+  LargeVector<Point> result;
+  result.reserve(order.order.size());
+  for (const Index site : order.order) result.push_back(points[site]);
+  for (const auto& [rank, name] : order.renamed) result[rank] = points[name];
   return result;
 }
 

@@ -24,6 +24,7 @@ namespace rondel::distributed {
 
 struct BucketSites {
   LargeVector<Point> points;
+  LargeVector<Point> named_points;  // of the rows, where these are not the points
   std::vector<std::uint64_t> rows;  // increasing; empty if they are to be read when they are needed
 };
 
@@ -45,6 +46,8 @@ std::optional<BucketSites> read_bucket_sites(const BucketFiles& files, std::uint
 // By rank.
 std::vector<std::uint64_t> vertex_rows(const order::SpatialOrder& order,
                                        std::span<const std::uint64_t> rows);
+// The points of these rows: of copies on one ray the one that names the place, which counts for areas.
+LargeVector<Point> vertex_points(const order::SpatialOrder& order, const BucketSites& sites);
 std::vector<DuplicateRow> duplicate_rows(std::span<const Duplicate> duplicates,
                                          std::span<const std::uint64_t> rows);
 

@@ -29,6 +29,7 @@ Words words_of(const StoredBorder& stored) {
   WordWriter writer;
   const bulk::BucketBorder& border = stored.border;
   writer.add(stored.points);
+  writer.add(stored.named_points);
   writer.add(stored.rows);
   writer.add(border.open_sites);
   writer.add(border.open_edges);
@@ -45,6 +46,7 @@ StoredBorder border_of(const Words& words, bool has_rim) {
   bulk::BucketBorder& border = stored.border;
   WordReader reader(words);
   reader.read(stored.points);
+  reader.read(stored.named_points);
   reader.read(stored.rows);
   reader.read(border.open_sites);
   reader.read(border.open_edges);

@@ -53,7 +53,8 @@ struct StoredBucket {
 // What the buckets between which there are faces must know of each other.
 struct StoredBorder {
   bulk::BucketBorder border;
-  std::vector<Point> points;        // of the open sites
+  std::vector<Point> points;        // of the open sites, those that speak for their places
+  std::vector<Point> named_points;  // of their rows, if points are stored
   std::vector<std::uint64_t> rows;  // theirs
 };
 

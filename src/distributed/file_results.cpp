@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/triangulation_impl.h"
 #include "bulk/bucket_surface.h"
 #include "distributed/bucket_areas.h"
 #include "distributed/merge_by_row.h"
@@ -43,7 +44,11 @@ void join_flat(std::span<const bulk::OpenBucket> open, const system::Job& option
   const Triangulation ring = delaunay(Sites::view(points), options, options);
   joined.dimension = ring.dimension();
   joined.num_hidden = ring.hidden().size();
-  joined.flat_areas = areas(ring, options);
+  if (joined.open_points.empty()) return;
+  joined.flat_areas =
+      areas(api::make_triangulation(Sites::view(joined.open_points),
+                                    Triangulation::Impl::of(ring).arrays, options, {}),
+            options);
 }
 
 Joined join(const RunState& state, const BucketStore& store, const system::Job& options,
@@ -54,8 +59,8 @@ Joined join(const RunState& state, const BucketStore& store, const system::Job& 
     StoredBorder stored = store.outline(state.done(i));
     joined.open_rows.insert(joined.open_rows.end(), stored.rows.begin(), stored.rows.end());
     if (has_areas)
-      joined.open_points.insert(joined.open_points.end(), stored.points.begin(),
-                                stored.points.end());
+      joined.open_points.insert(joined.open_points.end(), stored.named_points.begin(),
+                                stored.named_points.end());
     open.push_back({state.counts().cuts[i].square, static_cast<double>(state.done(i).num_vertices),
                     std::move(stored.points), std::move(stored.border.open_edges),
                     std::move(stored.border.hidden)});

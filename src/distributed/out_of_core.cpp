@@ -200,10 +200,12 @@ class OutOfCoreRun {
       border.points.push_back(sites->points[bucket.order.order[site.rank]]);
     LargeVector<Point> points;
     if (parts_.has_points) {
-      points.reserve(bucket.order.order.size());
-      for (const Index site : bucket.order.order) points.push_back(sites->points[site]);
+      points = vertex_points(bucket.order, *sites);
+      for (const bulk::SeamSite& site : border.border.open_sites)
+        border.named_points.push_back(points[site.rank]);
     }
     sites->points = {};
+    sites->named_points = {};
     if (sites->rows.empty()) {
       auto rows = read_bucket_rows(files);
       if (!rows) return false;

@@ -89,12 +89,13 @@ INSTANTIATE_TEST_SUITE_P(generators, distributed_files, testing::ValuesIn(genera
 TEST(distributed_crowds, copies_are_kept_once) {
   std::vector<Point> sites;
   Random random(3);
-  const Point place = random.direction();
+  const Point place = {12, 34, 1e15 + 56};
   for (int i = 0; i < 500; ++i) {
     // In one place all, some of other lengths; or close to it, or elsewhere.
-    const double length = i % 3 == 0 ? 0.5 : i % 3 == 1 ? 2 : 1;
+    const double length = i % 3 == 0 ? 3 : i % 3 == 1 ? 5 : 1;
     sites.push_back(i % 50 == 7 ? random.direction() : length * place);
-    if (i % 50 == 8) sites.back() = moved_by_one_ulp(random, place);
+    const auto digit = [&] { return static_cast<double>(random.below(5)); };
+    if (i % 10 == 8) sites.back() = length * (place + Point{digit(), digit(), 0});
   }
   for (const Model model : {Model::projected, Model::weighted}) {
     const FileCase files(sites, {.model = model});
@@ -108,6 +109,22 @@ TEST(distributed_files_once, of_the_usual_limits_and_threads) {
   OutOfCoreOptions options;
   options.scratch = folder.file("scratch");
   files.compare(delaunay_file(folder.file("sites.npy"), files.files(), options));
+}
+
+// Of copies on one ray the lowest index names the place, and its point counts for areas; which are so
+// close that another one, known to as many bits, gives others.
+TEST(distributed_files_once, of_copies_of_other_lengths) {
+  Random random(9);
+  std::vector<Point> sites;
+  for (int i = 0; i < 300; ++i) {
+    const auto digit = [&] { return static_cast<double>(random.below(100)); };
+    const Point ray = {digit(), digit(), 1e15 + digit()};
+    for (const double length : {3.0, 1.0, 5.0})
+      sites.push_back((i % 2 == 0 ? length : 6 - length) * ray);
+  }
+  const FileCase files(sites, {});
+  for (const std::uint64_t bucket : {50U, 10000U})
+    files.compare(files.run({bucket, no_limit, no_limit, 30}));
 }
 
 // What write_triangles() would write, byte by byte; and no other file.
