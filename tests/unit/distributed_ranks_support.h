@@ -57,14 +57,15 @@ void append(std::span<const T> part, std::vector<T>& all) {
 
 // Adds a rank's part behind those of the ranks before it. The points were kept.
 inline void append(const DistributedTriangulation& part, std::span<const double> areas,
-                   std::uint64_t first_number, RankResults& all) {
+                   std::uint64_t first_number, RankResults& all, unsigned threads = 1) {
   EXPECT_EQ(part.first_face(), part.dimension() == 2 ? first_number + all.faces.size() : 0);
   const std::size_t end = all.faces.size() + part.num_own_faces();
   part.visit_faces([&](std::span<const GlobalTriple> faces) { append(faces, all.faces); });
   part.visit_neighbors([&](std::span<const GlobalTriple> faces) { append(faces, all.neighbors); });
   EXPECT_EQ(all.faces.size(), end);
   EXPECT_EQ(all.neighbors.size(), end);
-  part.visit_circumcenters([&](std::span<const Point> rows) { append(rows, all.circumcenters); });
+  part.visit_circumcenters([&](std::span<const Point> rows) { append(rows, all.circumcenters); },
+                           {.threads = threads});
   EXPECT_EQ(all.circumcenters.size(), end);
   append(areas, all.areas);
   append(part.ghost_faces(), all.ghost_faces);

@@ -38,7 +38,7 @@ RankResults build(std::span<const Point> sites, int num_ranks, distributed::Rank
   for (const std::string& error : errors) EXPECT_EQ(error, "");
   if (testing::Test::HasFailure()) return all;
   for (std::size_t r = 0; r < parts.size(); ++r)
-    append(parts[r], areas_of[r], limits.first_number, all);
+    append(parts[r], areas_of[r], limits.first_number, all, options.threads);
   return all;
 }
 
@@ -66,6 +66,17 @@ TEST_P(distributed_ranks, as_the_build_in_memory) {
 
 INSTANTIATE_TEST_SUITE_P(generators, distributed_ranks, testing::ValuesIn(generators()),
                          [](const auto& g) { return std::string(g.param.name); });
+
+// So many that areas and circumcenters are found in pieces, by threads.
+TEST(distributed_rank, may_have_many_sites) {
+  const SiteSet set = generator("uniform").make(100000, 3);
+  for (const Model model : {Model::projected, Model::weighted}) {
+    const system::Job options{{.model = model, .sphere = set.sphere}, {.threads = 2}};
+    const Triangulation expected = delaunay(Sites::view(set.sites), options, options);
+    expect_same(build(set.sites, 2, {100000, 30000, first_number}, options), expected,
+                first_number);
+  }
+}
 
 // Fewer sites than ranks, and none.
 TEST(distributed_rank, may_have_no_sites) {
