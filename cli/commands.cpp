@@ -59,11 +59,13 @@ void add_query_options(CLI::App& parser, QueryOptions& options, const std::strin
 void add_arrays(CLI::App& command, DelaunayOptions& options) {
   command
       .add_option("--neighbors", options.neighbors,
-                  "Where to write the neighbors: .npy, m x 3, the face opposite to each corner")
+                  "Where to write the neighbors: .npy, m x 3, the face opposite to each corner.\n"
+                  "The FILE of --output where that is a .zarr: an array in it")
       ->type_name("FILE");
   command
       .add_option("--areas", options.areas,
-                  "Where to write the areas of the cells: .npy, n numbers in steradians")
+                  "Where to write the areas of the cells: .npy, n numbers in steradians;\n"
+                  "or the .zarr of --output")
       ->type_name("FILE");
   command
       .add_option("--circumcenters", options.circumcenters,
@@ -72,18 +74,18 @@ void add_arrays(CLI::App& command, DelaunayOptions& options) {
       ->type_name("FILE");
   command
       .add_option("--duplicates", options.duplicates,
-                  "Where to write the duplicates: .npy, k x 2, the site and the one it repeats")
+                  "Where to write the duplicates: .npy, k x 2, the site and the one it repeats;\n"
+                  "or the .zarr of --output")
       ->type_name("FILE");
 }
 
 void add_out_of_core(CLI::App& command, DelaunayOptions& options) {
-  const char* const group = "More sites than fit into memory: .npy to .npy";
+  const char* const group = "More sites than fit into memory: .npy to .npy or .zarr";
   CLI::Option* scratch =
       command
           .add_option("--scratch", options.scratch,
                       "A directory for files of some 64 bytes a site, 88 with neighbors,\n"
-                      "128 with areas; made if\n"
-                      "it is not there, and removed at the end")
+                      "128 with areas; made if it is not there, and removed at the end")
           ->type_name("DIR")
           ->excludes(command.get_option("--circumcenters"))
           ->group(group);
@@ -110,7 +112,7 @@ Command add_delaunay_command(CLI::App& tool) {
   add_input_options(*parser, options->common);
   add_output_option(*parser, options->common,
                     "Where to write the triangles: .npy (m x 3 input indices), .off .ply .obj\n"
-                    ".stl .vtp .geojson")
+                    ".stl .vtp .geojson, .zarr (a folder with sites and faces)")
       ->required();
   add_build_options(*parser, options->common);
   add_arrays(*parser, *options);
@@ -122,7 +124,8 @@ Command add_delaunay_command(CLI::App& tool) {
       "  rondel delaunay stations.csv -o stations.geojson\n"
       "  rondel delaunay points.xyz --model weighted -o hull.ply\n"
       "  rondel delaunay stations.csv --lon east --lat north --json -o faces.npy\n"
-      "  rondel delaunay sites.npy -o faces.npy --memory 2G --scratch /data/work");
+      "  rondel delaunay sites.npy -o faces.npy --memory 2G --scratch /data/work\n"
+      "  rondel delaunay sites.npy -o mesh.zarr --areas mesh.zarr");
   return {parser, [options] { return run_delaunay(*options); }};
 }
 

@@ -33,26 +33,53 @@ void write_points(const std::string& path, std::span<const Point> points) {
   write_numbers(path, numbers, std::array<std::uint64_t, 2>{points.size(), 3});
 }
 
+// Whether an array is wanted in the group that OUTPUT is. What is neither that nor a .npy file is refused.
+bool is_in_group(const char* option, const std::string& path, const CommonOptions& common) {
+  const auto without_slashes = [](std::string name) {
+    while (name.ends_with('/')) name.pop_back();
+    return name;
+  };
+  const bool is_output = without_slashes(path) == without_slashes(common.output);
+  if (common.format() == "zarr" && is_output) return true;
+  CommonOptions array;
+  array.output = path;
+  if (array.format() != "zarr") return false;
+  throw UsageError(std::string(option) + ": '" + path +
+                   "' is a Zarr group; it must be that of --output, or a .npy file");
+}
+
 }  // namespace
 
 ExitStatus run_delaunay(const DelaunayOptions& options) {
   if (!options.scratch.empty()) return run_out_of_core(options);
   const CommonOptions& common = options.common;
+  if (common.format() == "zarr" && common.output == "-")
+    throw UsageError("--output: a Zarr group is a folder, which standard output is not");
+  const std::string of_one_file = ".npy .off .ply .obj .stl .vtp .geojson";
   require_output(common, can_write_triangles(common.target()),
-                 ".npy .off .ply .obj .stl .vtp .geojson");
+                 of_one_file + (common.output == "-" ? "" : " .zarr"));
+  const ZarrContent content = {is_in_group("--neighbors", options.neighbors, common),
+                               is_in_group("--areas", options.areas, common),
+                               is_in_group("--duplicates", options.duplicates, common)};
   Job job(common);
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
   job.time(Stage::write, [&] {
-    if (!options.neighbors.empty()) write_rows<3>(options.neighbors, triangulation.neighbors());
-    if (!options.areas.empty()) {
+    if (!options.neighbors.empty() && !content.neighbors)
+      write_rows<3>(options.neighbors, triangulation.neighbors());
+    if (!options.areas.empty() && !content.areas) {
       const std::vector<double> all = areas(triangulation, job.execution());
       write_numbers(options.areas, all);
     }
     if (!options.circumcenters.empty())
       write_points(options.circumcenters, circumcenters(triangulation, job.execution()));
-    if (!options.duplicates.empty()) write_rows<2>(options.duplicates, triangulation.duplicates());
-    write_triangles(common.target(), table, triangulation, job.execution());
+    if (!options.duplicates.empty() && !content.duplicates)
+      write_rows<2>(options.duplicates, triangulation.duplicates());
+    if (common.format() == "zarr") {
+      write_zarr(common.output, table, triangulation, content, job.execution());
+    } else {
+      write_triangles(common.target(), table, triangulation, job.execution());
+    }
   });
   job.report(triangulation, "the triangulation");
   return done;

@@ -123,7 +123,9 @@ CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const 
 }
 
 std::string CommonOptions::format() const {
-  std::string format = std::filesystem::path(output).extension().string();
+  std::string name = output;
+  while (name.ends_with('/')) name.pop_back();  // of a folder
+  std::string format = std::filesystem::path(name).extension().string();
   if (!output_format.empty()) format = output_format;
   if (format.starts_with('.')) format.erase(0, 1);
   std::ranges::transform(format, format.begin(),

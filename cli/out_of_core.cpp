@@ -11,10 +11,11 @@
 namespace rondel::cli {
 namespace {
 
-void require_npy(const char* option, const FileName& file, const std::string& format) {
-  if (file.path != "-" && format == "npy") return;
-  throw UsageError(std::string(option) + ": with --scratch '" + file.path +
-                   "' must be a .npy file");
+// The library goes by the ending alone.
+bool is_group(const CommonOptions& common) {
+  CommonOptions by_ending = common;
+  by_ending.output_format.clear();
+  return common.format() == "zarr" && by_ending.format() == "zarr";
 }
 
 }  // namespace
@@ -24,9 +25,12 @@ ExitStatus run_out_of_core(const DelaunayOptions& options) {
   CommonOptions input;
   input.output = common.input;
   input.output_format = common.input_format;
-  require_npy("INPUT", common.source(), input.format());
-  require_npy("--output", common.target(), common.format());
-  require_output(common, true, ".npy");
+  if (common.input == "-" || input.format() != "npy")
+    throw UsageError("INPUT: with --scratch '" + common.input + "' must be a .npy file");
+  if (!is_group(common) && (common.output == "-" || common.format() != "npy"))
+    throw UsageError("--output: with --scratch '" + common.output +
+                     "' must be a .npy file or a .zarr group");
+  require_output(common, true, ".npy .zarr");
   if (!common.read.radius.empty())
     throw UsageError(
         "--radius: .npy files have no names for columns; give weighted sites as x, y, z");

@@ -21,7 +21,8 @@
 namespace rondel {
 
 /// The results, .npy files. They appear complete, when all is done, or not at all. Numbers of sites and
-/// faces are uint32 while all of them fit, and int64 otherwise.
+/// faces are uint32 while all of them fit, and int64 otherwise. If the name of the faces ends in .zarr, it
+/// is that of a group, as write_zarr() makes one; results with the same name are arrays in it.
 struct OutOfCoreFiles {
   std::string faces;         ///< (m, 3): input indices, counterclockwise, as Triangulation::faces()
   std::string neighbors{};   ///< (m, 3): faces, opposite to each corner; empty: not written

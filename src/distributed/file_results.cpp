@@ -107,6 +107,7 @@ class ResultWriter {
       if (results_.neighbors) write_neighbors(bucket);
       if (results_.areas) write_areas(bucket);
     });
+    if (results_.ghost_faces) write_ghost_faces();
   }
 
  private:
@@ -125,6 +126,7 @@ class ResultWriter {
       first_edge += static_cast<Index>(stored.border.open_edges.size());
       first_face += faces.size();
     }
+    faces_end_ = first_face;
   }
 
   void write_faces(const NumberedBucket& bucket) {
@@ -141,6 +143,16 @@ class ResultWriter {
       for (const bulk::BucketNeighbor& neighbor : across)
         results_.neighbors->add(numbers_[neighbor]);
     });
+  }
+
+  void write_ghost_faces() {
+    std::vector<std::uint64_t> ghost_faces;
+    for (const Index face : joined_.faces.ghost_faces) ghost_faces.push_back(numbers_.faces[face]);
+    if (ghost_faces.empty()) return;
+    std::ranges::sort(ghost_faces);
+    results_.ghost_faces->begin(ghost_faces.size(), 1, faces_end_);
+    for (const std::uint64_t face : ghost_faces) results_.ghost_faces->add(face);
+    results_.ghost_faces->commit();
   }
 
   void write_areas(const NumberedBucket& bucket) {
@@ -170,7 +182,16 @@ class ResultWriter {
   const system::Job& options_;
   FileResults& results_;
   bulk::JoinedNumbers numbers_;
+  bulk::GlobalIndex faces_end_ = 0;
 };
+
+io::ZarrHead areas_head(const std::string& /*type*/, std::uint64_t num_sites) {
+  return io::zarr_areas(num_sites);
+}
+
+std::unique_ptr<io::ZarrGroup> open_group(const std::string& path) {
+  return io::is_zarr(path) ? std::make_unique<io::ZarrGroup>(path) : nullptr;
+}
 
 // Those of all buckets, in increasing order of site.
 void write_duplicates(const RunState& state, const BucketStore& store, RowFile& file) {
@@ -205,10 +226,17 @@ void count_results(const RunState& state, const Joined& joined, OutOfCoreReport&
 }  // namespace
 
 FileResults::FileResults(const OutOfCoreFiles& files, const std::string& area_scratch)
-    : faces(files.faces) {
-  if (!files.neighbors.empty()) neighbors.emplace(files.neighbors);
-  if (!files.duplicates.empty()) duplicates.emplace(files.duplicates);
-  if (!files.areas.empty()) areas.emplace(files.areas, area_scratch);
+    : group(open_group(files.faces)),
+      faces(group ? make_result(*group, &io::zarr_faces) : make_result(files.faces)) {
+  const auto is_in_group = [&](const std::string& path) { return group && path == files.faces; };
+  const auto result = [&](const std::string& path, MakeHead head) {
+    return is_in_group(path) ? make_result(*group, head) : make_result(path);
+  };
+  has_neighbors_in_group = is_in_group(files.neighbors);
+  if (group) ghost_faces.emplace(make_result(*group, &io::zarr_ghost_faces));
+  if (!files.neighbors.empty()) neighbors.emplace(result(files.neighbors, &io::zarr_neighbors));
+  if (!files.duplicates.empty()) duplicates.emplace(result(files.duplicates, &io::zarr_duplicates));
+  if (!files.areas.empty()) areas.emplace(result(files.areas, &areas_head), area_scratch);
 }
 
 // A triangulation of n vertices has at most 2n - 4 faces.
@@ -216,6 +244,7 @@ void FileResults::reserve(std::uint64_t num_sites, std::uint64_t first_number) {
   faces.reserve(2 * num_sites, 3, first_number + num_sites);
   if (neighbors) neighbors->reserve(2 * num_sites, 3, first_number + 2 * num_sites);
   if (areas) areas->reserve(num_sites);
+  if (group) group->reserve(io::zarr_bytes_of_node * num_sites);
 }
 
 void FileResults::commit() {
@@ -223,6 +252,7 @@ void FileResults::commit() {
   if (duplicates) duplicates->commit();
   if (neighbors) neighbors->commit();
   faces.commit();
+  if (group) io::commit_zarr_mesh(*group, has_neighbors_in_group);
 }
 
 void write_results(const RunState& state, const BucketStore& store, std::uint64_t first_number,
@@ -242,6 +272,22 @@ void write_results(const RunState& state, const BucketStore& store, std::uint64_
   }
   if (results.areas) results.areas->write(report.num_sites, first_number);
   if (results.duplicates) write_duplicates(state, store, *results.duplicates);
+}
+
+void write_nodes(const io::NpyRows& rows, std::size_t piece_sites, const system::Job& options,
+                 FileResults& results) {
+  if (!results.group) return;
+  io::ZarrNodes nodes(*results.group, rows.num_rows(), options.sphere.center);
+  std::vector<Point> sites;
+  std::vector<LonLat> positions;
+  for (std::uint64_t first = 0; first < rows.num_rows(); first += sites.size()) {
+    system::obey_stop();
+    sites.resize(std::min<std::uint64_t>(piece_sites, rows.num_rows() - first));
+    if (rows.are_positions()) positions.resize(sites.size());
+    rows.read(first, sites, options.threads, positions);
+    nodes.add(sites, positions, options.threads);
+  }
+  nodes.finish();
 }
 
 }  // namespace rondel::distributed

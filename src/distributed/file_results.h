@@ -5,16 +5,19 @@
 // numbered, and written bucket by bucket.
 //
 // in    all buckets, done
-// out   the files of the result
+// out   the files of the result, or a Zarr group
 // index buckets; rows of the input; faces of the result
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "bulk/bucket_faces.h"
 #include "distributed/area_results.h"
 #include "distributed/row_file.h"
 #include "distributed/run_state.h"
+#include "io/npy_rows.h"
+#include "io/zarr_mesh.h"
 #include "rondel/out_of_core.h"
 #include "system/job.h"
 
@@ -28,15 +31,22 @@ struct FileResults {
   void reserve(std::uint64_t num_sites, std::uint64_t first_number);
   void commit();
 
+  std::unique_ptr<io::ZarrGroup> group;  // if the results are one
   RowFile faces;
+  std::optional<RowFile> ghost_faces;  // of a group
   std::optional<RowFile> neighbors;
   std::optional<RowFile> duplicates;
   std::optional<AreaResults> areas;
+  bool has_neighbors_in_group = false;
 };
 
 // Joins and writes. Counts what is found into `report`. The first site and the first face are called
 // `first_number`.
 void write_results(const RunState& state, const BucketStore& store, std::uint64_t first_number,
                    const system::Job& options, FileResults& results, OutOfCoreReport& report);
+
+// Writes what a group has of the input, reading `piece_sites` of it at a time.
+void write_nodes(const io::NpyRows& rows, std::size_t piece_sites, const system::Job& options,
+                 FileResults& results);
 
 }  // namespace rondel::distributed

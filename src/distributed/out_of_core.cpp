@@ -43,11 +43,15 @@ void remove_scratch(const std::string& scratch) {
   std::filesystem::remove(scratch, ignored);  // if it is empty
 }
 
-// Of the input and the results no two are one file.
+// Of the input and the results no two are one file, but all results may be one Zarr group.
 void require_different(const std::string& sites, const OutOfCoreFiles& files) {
   if (files.faces.empty()) throw FileError("the file of the faces has no name");
   const std::array<const std::string*, 5> names = {&sites, &files.faces, &files.neighbors,
                                                    &files.areas, &files.duplicates};
+  for (std::size_t i = 2; i < names.size(); ++i) {
+    if (io::is_zarr(*names[i]) && *names[i] != files.faces)
+      throw FileError(*names[i] + ": a Zarr group, but not that of the faces");
+  }
   for (std::size_t i = 0; i < names.size(); ++i) {
     for (std::size_t j = i + 1; j < names.size(); ++j) {
       std::error_code ignored;
@@ -55,6 +59,7 @@ void require_different(const std::string& sites, const OutOfCoreFiles& files) {
           (*names[i] != *names[j] && !std::filesystem::equivalent(*names[i], *names[j], ignored))) {
         continue;
       }
+      if (i > 0 && *names[i] == *names[j] && io::is_zarr(*names[j])) continue;
       throw FileError(*names[j] + (i == 0 ? ": the file of the sites, too"
                                           : ": the file of another result, too"));
     }
@@ -98,6 +103,7 @@ class OutOfCoreRun {
     do_buckets(slots, store);
     check_open_sites(store);
     write_results(state_, store, limits_.first_number, options_, results_, report);
+    write_nodes(rows_, limits_.piece_sites, options_, results_);
     results_.commit();
     return report;
   }

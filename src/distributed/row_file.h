@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A .npy file of numbers of sites or faces: uint32 while the largest one fits, otherwise int64, as NumPy
+// An array of numbers of sites or faces: uint32 while the largest one fits, otherwise int64, as NumPy
 // makes a double of uint64 and int64.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <string>
+#include <memory>
+#include <utility>
 #include <vector>
 
-#include "io/atomic_file.h"
+#include "distributed/result_array.h"
 
 namespace rondel::distributed {
 
@@ -21,11 +22,11 @@ constexpr bool are_narrow(std::uint64_t num_different) {
 
 class RowFile {
  public:
-  explicit RowFile(const std::string& path) : file_(path) {}
+  explicit RowFile(std::unique_ptr<ResultArray> array) : array_(std::move(array)) {}
 
   // Asks for room for so many rows.
   void reserve(std::uint64_t num_rows, std::uint64_t num_columns, std::uint64_t num_different);
-  // Numbers are less than `num_different`. As many as the rows have must follow.
+  // Numbers are less than `num_different`. One column: one dimension. As many as the rows have must follow.
   void begin(std::uint64_t num_rows, std::uint64_t num_columns, std::uint64_t num_different);
 
   void add(std::uint64_t number) {
@@ -45,7 +46,7 @@ class RowFile {
 
   void write_buffer();
 
-  io::AtomicFile file_;
+  std::unique_ptr<ResultArray> array_;
   bool is_narrow_ = true;
   std::vector<std::uint32_t> narrow_;
   std::vector<std::int64_t> wide_;

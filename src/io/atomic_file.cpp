@@ -16,6 +16,13 @@ constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
 }  // namespace
 
+// Short and independent of the target's name, which may be as long as a name can be.
+std::string temporary_name(const std::string& directory) {
+  static std::atomic<unsigned> counter{0};
+  return directory + ".rondel-" + std::to_string(system::process_number()) + "-" +
+         std::to_string(counter.fetch_add(1)) + ".tmp";
+}
+
 AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   buffer_.reserve(buffer_size);
   if (path == "-") {
@@ -62,13 +69,6 @@ void AtomicFile::commit() {
   flush();
   if (is_reserved_ && system::resize(descriptor_, num_drained_) != 0) fail(errno);
   rename();
-}
-
-// Short and independent of the target's name, which may be as long as a name can be.
-std::string AtomicFile::temporary_name() const {
-  static std::atomic<unsigned> counter{0};
-  return directory_ + ".rondel-" + std::to_string(system::process_number()) + "-" +
-         std::to_string(counter.fetch_add(1)) + ".tmp";
 }
 
 // Standard output stays open for others.

@@ -15,6 +15,9 @@
 
 namespace rondel::io {
 
+// A name in a directory ("data/", or empty) that no other thread or process has been given.
+std::string temporary_name(const std::string& directory);
+
 // 1. Until commit() returns, `path` is what it was before; after it, the whole new content. Nothing
 //    waits for the disk: a power failure soon after commit() may leave the file cut or empty.
 // 2. Whatever fails, the temporary file is removed and FileError names `path` and the reason:
@@ -53,7 +56,6 @@ class RONDEL_API AtomicFile {
   void flush();
   void drain(std::string_view bytes);
   [[nodiscard]] bool is_direct() const { return target_.empty(); }
-  [[nodiscard]] std::string temporary_name() const;
   [[noreturn]] void fail(int error);
 
   int close() noexcept;

@@ -15,7 +15,9 @@
 #include <system_error>
 
 #include "io/atomic_file.h"
+#include "io/replaced.h"
 #include "io/replacement.h"
+#include "io/temporary_trees.h"
 #include "rondel/error.h"
 #include "rondel/io.h"
 
@@ -62,7 +64,8 @@ class Temporaries {
 
 Temporaries temporaries;
 
-// Where the file of that name is, or would be made: the last symbolic link may lead to nothing.
+}  // namespace
+
 std::string resolve_links(const std::string& path) {
   constexpr int most_links = 40;  // as many as Linux follows
   std::filesystem::path target = path;
@@ -74,7 +77,6 @@ std::string resolve_links(const std::string& path) {
   return target;
 }
 
-// The file was made for its owner alone, so that it has at no moment more rights than it may have.
 // Where a file system knows no permissions, nothing is lost if it refuses them.
 void take_permissions(int descriptor, const struct stat& replaced) {
   constexpr auto same_owner = static_cast<uid_t>(-1);
@@ -85,8 +87,6 @@ void take_permissions(int descriptor, const struct stat& replaced) {
   }
   static_cast<void>(::fchmod(descriptor, mode));
 }
-
-}  // namespace
 
 std::string replaced_by(const std::string& path) { return resolve_links(path); }
 
@@ -144,7 +144,7 @@ void AtomicFile::create(unsigned permissions) {
 
 void AtomicFile::make_temporary(const std::function<bool(const std::string&)>& make) {
   for (;;) {
-    temporary_ = temporary_name();
+    temporary_ = temporary_name(directory_);
     slot_ = temporaries.remember(temporary_);
     if (make(temporary_)) return;
     const int error = errno;
@@ -180,6 +180,9 @@ void AtomicFile::discard() noexcept {
 
 namespace rondel {
 
-void remove_temporaries() noexcept { io::temporaries.remove_all(); }
+void remove_temporaries() noexcept {
+  io::temporaries.remove_all();
+  io::temporary_trees().remove_all();
+}
 
 }  // namespace rondel

@@ -100,7 +100,7 @@ void AtomicFile::create(unsigned /*permissions*/) {
 
 void AtomicFile::make_temporary(const std::function<bool(const std::string&)>& make) {
   for (;;) {
-    temporary_ = temporary_name();
+    temporary_ = temporary_name(directory_);
     if (make(temporary_)) return;
     temporary_.clear();
     if (::GetLastError() != ERROR_FILE_EXISTS) fail(last_error());

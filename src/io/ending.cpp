@@ -8,6 +8,7 @@ namespace rondel::io {
 
 std::string ending(const FileName& file) {
   std::string_view name = file.path;
+  while (name.ends_with('/')) name.remove_suffix(1);  // of a folder
   name.remove_prefix(name.rfind('/') + 1);
   const std::size_t dot = name.rfind('.');
   std::string result;

@@ -107,10 +107,12 @@ NpyRows::NpyRows(const std::string& path, bool are_radians)
 
 NpyRows::~NpyRows() { system::close(descriptor_); }
 
-void NpyRows::read(std::uint64_t first, std::span<Point> sites, unsigned threads) const {
+void NpyRows::read(std::uint64_t first, std::span<Point> sites, unsigned threads,
+                   std::span<LonLat> positions) const {
   constexpr std::size_t grain = std::size_t{1} << 16;
   const auto read_piece = [&](std::size_t begin, std::size_t end) {
-    read_some(first + begin, sites.subspan(begin, end - begin));
+    read_some(first + begin, sites.subspan(begin, end - begin),
+              positions.empty() ? positions : positions.subspan(begin, end - begin));
   };
   try {
     system::parallel_for(threads, sites.size(), grain, read_piece);
@@ -120,7 +122,8 @@ void NpyRows::read(std::uint64_t first, std::span<Point> sites, unsigned threads
   }
 }
 
-void NpyRows::read_some(std::uint64_t first, std::span<Point> sites) const {
+void NpyRows::read_some(std::uint64_t first, std::span<Point> sites,
+                        std::span<LonLat> positions) const {
   if (are_points(table_)) {
     read_bytes(table_.place(first, 0), {reinterpret_cast<char*>(sites.data()), sites.size_bytes()});
     if (are_finite(sites)) return;
@@ -130,6 +133,7 @@ void NpyRows::read_some(std::uint64_t first, std::span<Point> sites) const {
   SiteCollector collector(read, options_);
   in_file(path_, [&] { add_rows(table_.piece(bytes, sites.size()), first, collector); });
   std::ranges::copy(read.sites, sites.begin());
+  if (!positions.empty()) std::ranges::copy(read.positions, positions.begin());
 }
 
 // The bytes of some rows, in the order of the file.

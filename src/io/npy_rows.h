@@ -34,12 +34,17 @@ class RONDEL_API NpyRows {
   [[nodiscard]] bool are_radians() const { return options_.radians; }
   [[nodiscard]] const std::string& name() const { return path_; }
 
+  // Whether rows are longitudes and latitudes.
+  [[nodiscard]] bool are_positions() const { return table_.num_columns() == 2; }
+
   // Reads the rows `first`, `first` + 1, ..., by several threads. They are numbers that are finite.
-  void read(std::uint64_t first, std::span<Point> sites, unsigned threads) const;
+  // Of positions also these, in degrees, if there is room for them.
+  void read(std::uint64_t first, std::span<Point> sites, unsigned threads,
+            std::span<LonLat> positions = {}) const;
 
  private:
   void read_bytes(std::uint64_t place, std::span<char> bytes) const;
-  void read_some(std::uint64_t first, std::span<Point> sites) const;
+  void read_some(std::uint64_t first, std::span<Point> sites, std::span<LonLat> positions) const;
   [[nodiscard]] std::string rows(std::uint64_t first, std::size_t count) const;
   [[noreturn]] void fail(int error) const;
 

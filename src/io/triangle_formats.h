@@ -36,6 +36,9 @@ void write_stl(AtomicFile& file, const MeshToWrite& mesh);
 void write_vtp_triangles(AtomicFile& file, const MeshToWrite& mesh);
 void write_geojson(AtomicFile& file, const MeshToWrite& mesh);
 
+// Formats of several files.
+void write_zarr_mesh(const std::string& path, const MeshToWrite& mesh);
+
 // Each reads the triangles of `bytes`, the content of a file. Indices count from 0 and may be too
 // large for the sites. Throws BadValue.
 std::vector<Triple> read_npy(std::string_view bytes);

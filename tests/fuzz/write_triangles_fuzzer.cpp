@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_triangles, can_write_triangles against read_triangles, face_polygons: the triangles survive every format
-// that can be read; .geojson is JSON with a feature for each solid face, and .stl has their number.
+// write_triangles, can_write_triangles, write_zarr against read_triangles, face_polygons: the triangles survive every format
+// that can be read; .geojson is JSON with a feature for each solid face, and .stl has their number; a Zarr group has the arrays.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -22,7 +22,8 @@ constexpr std::array endings = {".npy", ".off", ".ply", ".obj", ".vtp", ".stl"};
 // A map takes a thousand times longer than a list, so that one of 16 inputs makes one.
 std::string next_ending(ByteSource& source) {
   const std::size_t which = source.below(16);
-  return which == 15 ? ".geojson" : endings[which % endings.size()];
+  if (which >= 14) return which == 15 ? ".geojson" : ".zarr";
+  return endings[which % endings.size()];
 }
 
 void test_stl(const std::string& path, const SiteTable& table, const Triangulation& t) {
@@ -45,6 +46,23 @@ void test_geojson(const std::string& path, const SiteTable& table, const Triangu
   require(drawn.size() + found.not_drawn.size() == found.features, "the same faces are drawn");
 }
 
+template <class Row>
+void require_chunk(const std::string& path, std::span<const Row> rows) {
+  const std::string bytes = rows.empty() ? std::string() : content(path);
+  require(std::ranges::equal(bytes, std::string_view(reinterpret_cast<const char*>(rows.data()),
+                                                     rows.size_bytes())),
+          "a chunk is the array");
+}
+
+void test_zarr(const std::string& path, const SiteTable& table, const Triangulation& t) {
+  write_zarr(path, table, t, {true, true, true});
+  require_chunk(path + "/faces/c.0.0", t.faces());
+  require_chunk(path + "/neighbors/c.0.0", t.neighbors());
+  require_chunk(path + "/duplicates/c.0.0", t.duplicates());
+  require_chunk(path + "/ghost_faces/c.0", t.ghost_faces());
+  require_chunk(path + "/sites/c.0.0", std::span<const Point>(table.sites));
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -63,6 +81,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::test_stl(path, table, t);
   } else if (ending == ".geojson") {
     fuzz::test_geojson(path, table, t);
+  } else if (ending == ".zarr") {
+    fuzz::test_zarr(path, table, t);
   } else {
     write_triangles(path, table, t);
     if (t.num_faces() == 0) return 0;  // some formats refuse to be read without triangles

@@ -84,6 +84,13 @@ TEST_F(distributed_bad_files, are_one_file) {
               delaunay_file(sites, {faces, faces}, out_of_core);
             }),
             faces + ": the file of another result, too");
+  const std::string group = folder_.file("other.zarr");
+  for (const std::string& first : {faces, folder_.file("mesh.zarr")}) {
+    EXPECT_EQ(message_of([&] {
+                delaunay_file(sites, {first, group}, out_of_core);
+              }),
+              group + ": a Zarr group, but not that of the faces");
+  }
   EXPECT_EQ(read_sites(sites).sites.size(), octahedron.size());
 }
 

@@ -138,6 +138,88 @@ TEST(distributed_files_once, have_the_bytes_of_those_in_memory) {
   EXPECT_TRUE(read_all(files.files().faces) == read_all(expected));
 }
 
+// All files of a folder with what is in them.
+std::vector<std::pair<std::string, std::string>> tree_of(const std::filesystem::path& folder) {
+  std::vector<std::pair<std::string, std::string>> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file())
+      files.emplace_back(entry.path().lexically_relative(folder).string(), read_all(entry.path()));
+  }
+  std::ranges::sort(files);
+  return files;
+}
+
+class distributed_groups : public testing::TestWithParam<Generator> {};
+
+// The group is that of write_zarr(), byte by byte, with ghost faces where there are some.
+TEST_P(distributed_groups, as_in_memory) {
+  const SiteSet set = GetParam().make(GetParam().has_long_integers ? 60 : 300, 3);
+  const FileCase files(set.sites, {.model = Model::weighted, .sphere = set.sphere});
+  const std::string path = files.folder().file("sites.npy");
+  const std::string expected = files.folder().file("expected.zarr");
+  const std::string found = files.folder().file("found.zarr");
+  write_zarr(expected, read_sites(path), files.expected(), {true, true, true});
+  OutOfCoreOptions out_of_core;
+  out_of_core.scratch = files.folder().file("scratch");
+  distributed::run(io::NpyRows(path, false), {found, found, found, found}, out_of_core,
+                   {100, no_limit, no_limit, 70},
+                   {{.model = Model::weighted, .sphere = set.sphere}, {.threads = 1}});
+  EXPECT_EQ(tree_of(found).size(), tree_of(expected).size());
+  EXPECT_TRUE(tree_of(found) == tree_of(expected));
+}
+
+INSTANTIATE_TEST_SUITE_P(generators, distributed_groups, testing::ValuesIn(generators()),
+                         [](const auto& g) { return std::string(g.param.name); });
+
+TEST(distributed_files_once, of_positions_in_a_group) {
+  const FileCase files({{1, 0, 0}}, {});
+  std::vector<LonLat> positions;
+  Random random(6);
+  for (int i = 0; i < 300; ++i)
+    positions.push_back({500 * random.signed_unit(), 90 * random.signed_unit()});
+  const std::string path = files.folder().file("positions.npy");
+  write_sites(path, unit_vectors(positions), positions);
+  for (const bool radians : {false, true}) {
+    if (radians) {
+      for (LonLat& p : positions) p = {p.lon_deg / 60, p.lat_deg / 60};
+      write_sites(path, unit_vectors(positions), positions);
+    }
+    ReadOptions read;
+    read.radians = radians;
+    const SiteTable table = read_sites(path, read);
+    const std::string expected = files.folder().file("expected.zarr");
+    const std::string found = files.folder().file("found.zarr");
+    write_triangles(expected, table, delaunay(table.sites));
+    OutOfCoreOptions options;
+    options.scratch = files.folder().file("scratch");
+    options.radians = radians;
+    delaunay_file(path, {found}, options);
+    EXPECT_TRUE(tree_of(found) == tree_of(expected));
+  }
+}
+
+// Numbers that need 64 bits are int64.
+TEST(distributed_files_once, of_64_bits_in_a_group) {
+  const FileCase files(generator("uniform").make(100, 2).sites, {});
+  const std::string group = files.folder().file("group.zarr");
+  OutOfCoreOptions out_of_core;
+  out_of_core.scratch = files.folder().file("scratch");
+  constexpr std::uint64_t first = std::uint64_t{1} << 40U;
+  distributed::run(io::NpyRows(files.folder().file("sites.npy"), false), {group, group},
+                   out_of_core, {20, no_limit, no_limit, 64, first}, {{}, {.threads = 1}});
+  for (const auto& [name, expected] :
+       {std::pair("faces", numbers_of(files.expected().faces())),
+        std::pair("neighbors", numbers_of(files.expected().neighbors()))}) {
+    EXPECT_NE(read_all(group + "/" + name + "/zarr.json").find(R"("data_type": "int64")"),
+              std::string::npos);
+    const std::string bytes = read_all(group + "/" + name + "/c.0.0");
+    std::vector<std::uint64_t> numbers(bytes.size() / 8);
+    std::memcpy(numbers.data(), bytes.data(), bytes.size());
+    for (std::uint64_t& number : numbers) number -= first;
+    EXPECT_TRUE(numbers == expected);
+  }
+}
+
 TEST(distributed_files_once, of_longitudes_and_latitudes) {
   const FileCase files({{1, 0, 0}}, {});
   std::vector<LonLat> positions;

@@ -10,6 +10,7 @@ rondel_add_test(io_test
   io_number_test.cpp
   io_sites_test.cpp
   io_triangles_test.cpp
+  io_zarr_test.cpp
   LIBS rondel_io nlohmann_json::nlohmann_json)
 
 # A program of its own: what a sanitizer of threads needs.

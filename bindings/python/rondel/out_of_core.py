@@ -81,7 +81,9 @@ def delaunay(
         A `.npy` file, shape (n, 3) of points or (n, 2) of longitudes and latitudes in degrees.
     out : path_like
         A `.npy` file of the triangles, shape (m, 3): input rows, counterclockwise. As all
-        results, of type uint32 while all numbers fit, otherwise int64.
+        results, of type uint32 while all numbers fit, otherwise int64. If the name ends in
+        `.zarr`, a Zarr group with the sites, too, which xarray, UXarray and Dask open; other
+        results are arrays in it if they have the same name.
     scratch : path_like
         A directory for some 64 bytes a site, 88 with neighbors, 128 with areas. Made if it is
         not there, and removed at the end.
