@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _core, _geo, _globe, _plot
+from . import _core, _geo, _globe, _plot, _tables
 from ._arrays import (
     as_center,
     as_floats,
@@ -303,6 +303,8 @@ class SphericalDelaunay(Mesh, Queries):
     to_geojson = _geo.triangles_to_geojson
     to_geopandas = _geo.triangles_to_geopandas
     to_xarray = _geo.triangles_to_xarray
+    to_netcdf = _tables.triangles_to_netcdf
+    to_parquet = _tables.triangles_to_parquet
     lonlat_triangles = _plot.lonlat_triangles
     plot = _plot.plot_triangles
     save_html = _globe.save_html

@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from . import _core, _geo, _globe, _plot
+from . import _core, _geo, _globe, _plot, _tables
 from ._arrays import ORIGIN, frozen
 from ._dimensions import FlatMesh
 from ._repr import Described
@@ -209,6 +209,8 @@ class Diagram(Described, Generic[Delaunay]):
     to_geojson = _geo.cells_to_geojson
     to_geopandas = _geo.cells_to_geopandas
     to_xarray = _geo.cells_to_xarray
+    to_netcdf = _tables.cells_to_netcdf
+    to_parquet = _tables.cells_to_parquet
     plot = _plot.plot_cells
     save_html = _globe.save_html
     view = _globe.view
