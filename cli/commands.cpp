@@ -112,7 +112,7 @@ Command add_delaunay_command(CLI::App& tool) {
   add_input_options(*parser, options->common);
   add_output_option(*parser, options->common,
                     "Where to write the triangles: .npy (m x 3 input indices), .off .ply .obj\n"
-                    ".stl .vtp .geojson, .zarr (a folder with sites and faces)")
+                    ".stl .vtp .geojson, .pvtp (and a folder with pieces), .zarr (a folder)")
       ->required();
   add_build_options(*parser, options->common);
   add_arrays(*parser, *options);

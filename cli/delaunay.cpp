@@ -53,11 +53,12 @@ bool is_in_group(const char* option, const std::string& path, const CommonOption
 ExitStatus run_delaunay(const DelaunayOptions& options) {
   if (!options.scratch.empty()) return run_out_of_core(options);
   const CommonOptions& common = options.common;
-  if (common.format() == "zarr" && common.output == "-")
-    throw UsageError("--output: a Zarr group is a folder, which standard output is not");
+  if ((common.format() == "zarr" || common.format() == "pvtp") && common.output == "-")
+    throw UsageError("--output: ." + common.format() +
+                     " is written into a folder, which standard output is not");
   const std::string of_one_file = ".npy .off .ply .obj .stl .vtp .geojson";
   require_output(common, can_write_triangles(common.target()),
-                 of_one_file + (common.output == "-" ? "" : " .zarr"));
+                 of_one_file + (common.output == "-" ? "" : " .pvtp .zarr"));
   const ZarrContent content = {is_in_group("--neighbors", options.neighbors, common),
                                is_in_group("--areas", options.areas, common),
                                is_in_group("--duplicates", options.duplicates, common)};

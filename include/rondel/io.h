@@ -83,7 +83,7 @@ RONDEL_API SiteTable read_sites(const FileName& file, const ReadOptions& options
 /// Reads the faces (m, 3) of .npy .off .ply .obj .vtp.
 RONDEL_API std::vector<Triple> read_triangles(const FileName& file);
 
-/// Whether the format can hold triangles (.npy .off .ply .obj .stl .vtp .geojson .zarr), cells (.geojson
+/// Whether the format can hold triangles (.npy .off .ply .obj .stl .vtp .pvtp .geojson .zarr), cells (.geojson
 /// .vtp .npz), sites (.csv .xyz .npy ...).
 RONDEL_API bool can_write_triangles(const FileName& file);
 RONDEL_API bool can_write_cells(const FileName& file);
@@ -92,7 +92,7 @@ RONDEL_API bool can_write_sites(const FileName& file);
 /// Writes the triangles; throws InvalidInput, as write_cells() does, if the sites of the table are
 /// not those of the triangulation. .npy has input indices (m, 3) uint32; formats with vertices list
 /// every input site in input order with digits that round-trip.
-/// .zarr is a folder (write_zarr()).
+/// .zarr is a folder (write_zarr()), and .pvtp a file beside a folder with .vtp files of 2^20 faces or fewer.
 /// .stl repeats the corners as 32-bit floats, the only numbers that it has. GeoJSON has the solid
 /// faces: seen from the center, ghost faces are flat or reversed.
 RONDEL_API void write_triangles(const FileName& file, const SiteTable& table,

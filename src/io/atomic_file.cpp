@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cerrno>
 #include <system_error>
+#include <utility>
 
 #include "rondel/error.h"
 #include "system/descriptor.h"
@@ -33,6 +34,9 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
     open();
   }
 }
+
+AtomicFile::AtomicFile(int descriptor, std::string name) noexcept
+    : path_(std::move(name)), descriptor_(descriptor) {}
 
 AtomicFile::~AtomicFile() { discard(); }
 

@@ -37,6 +37,7 @@ void write_vtp_triangles(AtomicFile& file, const MeshToWrite& mesh);
 void write_geojson(AtomicFile& file, const MeshToWrite& mesh);
 
 // Formats of several files.
+void write_pvtp(const std::string& path, const MeshToWrite& mesh);
 void write_zarr_mesh(const std::string& path, const MeshToWrite& mesh);
 
 // Each reads the triangles of `bytes`, the content of a file. Indices count from 0 and may be too

@@ -47,8 +47,8 @@ struct TriangleFolderWriter {
   std::string_view ending;
   void (*write)(const std::string& path, const io::MeshToWrite& mesh);
 };
-constexpr std::array<TriangleFolderWriter, 1> triangle_folder_writers = {
-    {{".zarr", &io::write_zarr_mesh}}};
+constexpr std::array<TriangleFolderWriter, 2> triangle_folder_writers = {
+    {{".pvtp", &io::write_pvtp}, {".zarr", &io::write_zarr_mesh}}};
 
 const TriangleFolderWriter* find_folder_writer(const FileName& file) {
   return file.path == "-" ? nullptr

@@ -40,6 +40,7 @@ inline VtpArray vtp_points(std::span<const Point> points) {
 }
 
 struct VtpMesh {
+  std::string_view comment{};  // none if it is empty
   std::size_t num_points = 0;
   std::size_t num_polys = 0;
   VtpArray points;        // Float64, 3 components

@@ -76,7 +76,7 @@ class Zarr(unittest.TestCase):
     def test_names_that_make_no_group(self):
         self.succeed("generate", "uniform", "-n", "100", "-o", "sites.npy")
         for options, error in (
-                (["-o", "-", "--format", "zarr"], "--output: a Zarr group is a folder, which standard output is not"),
+                (["-o", "-", "--format", "zarr"], "--output: .zarr is written into a folder, which standard output is not"),
                 (["-o", "mesh.zarr", "--areas", "a.zarr"],
                  "--areas: 'a.zarr' is a Zarr group; it must be that of --output, or a .npy file"),
                 (["-o", "mesh", "--format", "zarr", "--scratch", "work"],

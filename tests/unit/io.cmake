@@ -8,6 +8,7 @@ rondel_add_test(io_test
   io_circles_test.cpp
   io_mutation_test.cpp
   io_number_test.cpp
+  io_pvtp_test.cpp
   io_sites_test.cpp
   io_triangles_test.cpp
   io_zarr_test.cpp
