@@ -12,6 +12,8 @@
 #include "distributed/shared_rows.h"
 #include "distributed/supersteps.h"
 #include "io/npy_rows.h"
+#include "io/zarr_mesh.h"
+#include "rondel/error.h"
 #include "system/job.h"
 #include "system/large_vector.h"
 
@@ -19,10 +21,13 @@ namespace rondel {
 namespace distributed {
 namespace {
 
-LargeVector<Point> read_share(Supersteps& steps, const std::string& path, bool are_radians,
-                              const system::Job& options) {
+LargeVector<Point> read_share(Supersteps& steps, const std::string& path,
+                              const DistributedFiles& files, const system::Job& options) {
   steps.begin("read");
-  const io::NpyRows rows(path, are_radians);
+  for (const std::string* name : {&files.faces, &files.neighbors, &files.duplicates}) {
+    if (io::is_zarr(*name)) throw FileError(*name + ": several processes write .npy files alone");
+  }
+  const io::NpyRows rows(path, files.radians);
   const auto begin_of = [&](std::size_t rank) {
     const std::uint64_t num_rows = rows.num_rows();
     return num_rows / steps.size() * rank + num_rows % steps.size() * rank / steps.size();
@@ -140,7 +145,7 @@ DistributedTriangulation delaunay_file(Communicator& ranks, const std::string& s
   {
     const system::Call call(job);
     distributed::Supersteps steps(ranks);
-    mine = steps.run([&] { return distributed::read_share(steps, sites, files.radians, job); });
+    mine = steps.run([&] { return distributed::read_share(steps, sites, files, job); });
   }
   DistributedOptions with_points = distributed;
   with_points.keep_points |= !files.areas.empty() || !files.circumcenters.empty();

@@ -35,7 +35,7 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
   }
 }
 
-AtomicFile::AtomicFile(int descriptor, std::string name) noexcept
+AtomicFile::AtomicFile(int descriptor, std::string&& name) noexcept
     : path_(std::move(name)), descriptor_(descriptor) {}
 
 AtomicFile::~AtomicFile() { discard(); }

@@ -39,7 +39,7 @@ class RONDEL_API AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
   // Writes directly to what is open, which is closed by commit(); `name` is what FileError names.
-  AtomicFile(int descriptor, std::string name) noexcept;
+  AtomicFile(int descriptor, std::string&& name) noexcept;
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;

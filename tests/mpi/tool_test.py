@@ -125,6 +125,9 @@ class Tool(unittest.TestCase):
         nowhere = self.folder / "nowhere" / "faces.npy"
         result = self.run_ranks(2, "delaunay", self.sites, "-o", nowhere)
         self.assert_error(result, f"rank 0, write: {nowhere}: No such file or directory")
+        group = self.folder / "mesh.zarr"
+        result = self.run_ranks(2, "delaunay", self.sites, "-o", group)
+        self.assert_error(result, f"rank 0, read: {group}: several processes write .npy files alone")
 
     def test_what_is_written_does_not_appear_when_another_file_fails(self):
         np.save(self.sites, np.eye(3))
