@@ -145,11 +145,11 @@ class ResultWriter {
     });
   }
 
+  // Joined faces keep their order among all.
   void write_ghost_faces() {
     std::vector<std::uint64_t> ghost_faces;
     for (const Index face : joined_.faces.ghost_faces) ghost_faces.push_back(numbers_.faces[face]);
     if (ghost_faces.empty()) return;
-    std::ranges::sort(ghost_faces);
     results_.ghost_faces->begin(ghost_faces.size(), 1, faces_end_);
     for (const std::uint64_t face : ghost_faces) results_.ghost_faces->add(face);
     results_.ghost_faces->commit();
