@@ -62,6 +62,8 @@ ExitStatus run_delaunay(const DelaunayOptions& options) {
   const ZarrContent content = {is_in_group("--neighbors", options.neighbors, common),
                                is_in_group("--areas", options.areas, common),
                                is_in_group("--duplicates", options.duplicates, common)};
+  if (is_in_group("--circumcenters", options.circumcenters, common))
+    throw UsageError("--circumcenters: a Zarr group has none; they need a .npy file");
   Job job(common);
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
