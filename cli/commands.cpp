@@ -87,6 +87,8 @@ void add_out_of_core(CLI::App& command, DelaunayOptions& options) {
                       "A directory for files of some 64 bytes a site, 88 with neighbors,\n"
                       "128 with areas; made if it is not there, and removed at the end")
           ->type_name("DIR")
+          ->check(
+              [](const std::string& name) { return std::string(name.empty() ? "no name" : ""); })
           ->excludes(command.get_option("--circumcenters"))
           ->group(group);
   command

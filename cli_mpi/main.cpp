@@ -6,11 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "rondel/distributed.h"
@@ -25,8 +25,8 @@ enum ExitStatus { done = 0, failed = 1, usage = 2 };
 struct Arguments {
   std::string sites;
   DistributedFiles files;
-  Model model = Model::projected;
-  unsigned threads = 0;
+  std::string model = "projected";
+  unsigned threads = 0;  // 0: this rank's share
   bool is_json = false;
   bool is_quiet = false;
 };
@@ -43,8 +43,6 @@ unsigned share_of_cores() {
 
 void add_delaunay(CLI::App& tool, Arguments& arguments) {
   CLI::App& command = *tool.add_subcommand("delaunay", "Triangulate the sites of a .npy file");
-  const std::vector<std::pair<std::string, Model>> models = {{"projected", Model::projected},
-                                                             {"weighted", Model::weighted}};
   command.add_option("SITES", arguments.sites, "(n, 3) points or (n, 2) longitudes and latitudes")
       ->required();
   command.add_option("--output,-o", arguments.files.faces, "The triangles, (m, 3)")->required();
@@ -56,9 +54,11 @@ void add_delaunay(CLI::App& tool, Arguments& arguments) {
   command.add_option("--duplicates", arguments.files.duplicates,
                      "Sites in one place and the lowest one there, (k, 2)");
   command.add_option("--model", arguments.model, "projected or weighted")
-      ->transform(CLI::CheckedTransformer(models));
-  command.add_option("--threads", arguments.threads,
-                     "Threads of each process; default: its share of the cores");
+      ->check(CLI::IsMember({"projected", "weighted"}));
+  command
+      .add_option("--threads", arguments.threads,
+                  "Threads of each process; default: its share of the cores")
+      ->check(CLI::Range(1U, 1024U));
   command.add_flag("--radians", arguments.files.radians, "Longitudes and latitudes are in radians");
   command.add_flag("--json", arguments.is_json, "Print a JSON object");
   command.add_flag("--quiet", arguments.is_quiet, "Print nothing");
@@ -83,10 +83,43 @@ void print(const Arguments& arguments, const DistributedTriangulation& t, int nu
   }
 }
 
-int fail(int rank, ExitStatus status, std::string message) {
+int fail(bool is_speaker, ExitStatus status, std::string message) {
   std::ranges::replace(message, '\n', ' ');
-  if (rank == 0) std::fprintf(stderr, "rondel-mpi: %s\n", message.c_str());
+  if (is_speaker) std::fprintf(stderr, "rondel-mpi: %s\n", message.c_str());
   return status;
+}
+
+// What must be the same on all ranks.
+std::string common_part(const Arguments& arguments) {
+  const DistributedFiles& files = arguments.files;
+  std::string text;
+  for (const std::string& part :
+       {arguments.sites, files.faces, files.neighbors, files.duplicates, files.areas,
+        files.circumcenters, arguments.model, std::string(files.radians ? "radians" : "")}) {
+    text += part + '\n';
+  }
+  return text;
+}
+
+// Returns whether this rank can begin; where one cannot none does, and one says why.
+bool agree(MpiCommunicator& ranks, const std::string& mine, const std::string& problem) {
+  const std::string text = (problem.empty() ? '+' : '-') + mine;
+  const auto* bytes = reinterpret_cast<const std::byte*>(text.data());
+  const auto told = ranks.all_gather({bytes, bytes + text.size()});
+  for (std::size_t rank = 0; rank < told.size(); ++rank) {
+    const bool is_speaker = static_cast<int>(rank) == ranks.rank();
+    if (told[rank].front() == std::byte{'-'}) {
+      fail(is_speaker, usage, problem + " (see rondel-mpi --help)");
+      return false;
+    }
+  }
+  for (std::size_t rank = 1; rank < told.size(); ++rank) {
+    if (told[rank] == told[0]) continue;
+    fail(ranks.rank() == 0, usage,
+         "rank " + std::to_string(rank) + " has other arguments than rank 0");
+    return false;
+  }
+  return true;
 }
 
 int run(int argc, char** argv) {
@@ -97,24 +130,32 @@ int run(int argc, char** argv) {
   tool.require_subcommand(1);
   Arguments arguments;
   add_delaunay(tool, arguments);
+  std::string problem;
+  std::string mine;
+  int asked = failed;  // for a text
   try {
     tool.parse(argc, argv);
+    mine = common_part(arguments);
   } catch (const CLI::Success& text) {
-    return ranks.rank() == 0 ? tool.exit(text) : done;
+    mine = text.get_name();
+    asked = ranks.rank() == 0 ? tool.exit(text) : done;
   } catch (const CLI::ParseError& error) {
-    return fail(ranks.rank(), usage, error.what() + std::string(" (see rondel-mpi --help)"));
+    problem = error.what();
   }
+  if (!agree(ranks, mine, problem)) return usage;
+  if (asked == done) return done;
   try {
     const auto start = std::chrono::steady_clock::now();
     const unsigned share = share_of_cores();
     const Execution execution = {.threads = arguments.threads == 0 ? share : arguments.threads};
-    const auto triangulation = delaunay_file(ranks, arguments.sites, arguments.files, {},
-                                             {.model = arguments.model}, execution);
+    const Model model = arguments.model == "weighted" ? Model::weighted : Model::projected;
+    const auto triangulation =
+        delaunay_file(ranks, arguments.sites, arguments.files, {}, {.model = model}, execution);
     const std::chrono::duration<double> time = std::chrono::steady_clock::now() - start;
     if (ranks.rank() == 0) print(arguments, triangulation, ranks.size(), time.count());
     return done;
   } catch (const DistributedError& error) {
-    return fail(ranks.rank(), failed, error.what());
+    return fail(ranks.rank() == 0, failed, error.what());
   }
 }
 

@@ -189,7 +189,7 @@ RONDEL_API std::vector<double> areas(Communicator& ranks,
 
 /// As delaunay() above, of the sites of a .npy file, (n, 3) points or (n, 2) longitudes and latitudes in degrees, of
 /// any type of numbers, of which each rank reads its share, as it writes its share of the results.
-/// Until all is written a file has the name of the result with ".rondel.tmp" behind it.
+/// Until all is written a file is called ".rondel-N-M.tmp", in the directory of the result.
 /// \throws DistributedError on all ranks: also what a file or its rows have that is not valid
 RONDEL_API DistributedTriangulation delaunay_file(Communicator& ranks, const std::string& sites,
                                                   const DistributedFiles& files,

@@ -113,7 +113,7 @@ std::vector<DuplicateRow> duplicate_rows(std::span<const Duplicate> duplicates,
 
 std::optional<BucketSites> read_bucket_sites(const BucketFiles& files, std::uint64_t most_sites,
                                              const system::Job& options, StoredBucket& stored) {
-  if (files.num_sites > 2 * most_sites) return read_crowd(files, most_sites, options, stored);
+  if (files.num_sites > most_sites) return read_crowd(files, most_sites, options, stored);
   BucketSites sites;
   sites.points.resize(files.num_sites);
   files.slots.read_points(files.bucket, 0, sites.points);

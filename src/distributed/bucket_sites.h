@@ -37,8 +37,8 @@ struct BucketFiles {
   SlotChecksums dealt;
 };
 
-// Reads all points, or those of different places if there are more than twice as many as may be; then
-// the copies are added to the store. Returns nothing if the slot has something else than was dealt. Throws FileError
+// Reads all points, or those of different places if there are more than may be; then the copies are added to
+// the store. Returns nothing if the slot has something else than was dealt. Throws FileError
 // if too many sites lie together.
 std::optional<BucketSites> read_bucket_sites(const BucketFiles& files, std::uint64_t most_sites,
                                              const system::Job& options, StoredBucket& stored);

@@ -3,11 +3,18 @@
 
 #include "distributed/journal.h"
 
+#include <algorithm>
+#include <array>
+#include <string_view>
+
 #include "distributed/checksum.h"
 #include "rondel/error.h"
 
 namespace rondel::distributed {
 namespace {
+
+// With which a journal begins, also one that was cut.
+constexpr std::string_view mark = "rondel journal\n\n";
 
 // In front of each record.
 struct RecordHead {
@@ -26,6 +33,8 @@ std::uint64_t checksum_of(std::span<const std::uint64_t> words) {
 Journal::Journal(const std::string& path) : file_(path) {
   if (!file_.lock()) throw FileError(path + ": another process works here");
   const std::uint64_t size = file_.size();
+  if (!has_mark(size))
+    throw FileError(path + ": not of a run; the scratch directory must be one of its own");
   RecordHead head{};
   while (end_ + sizeof(RecordHead) <= size) {
     file_.read(end_, std::span(&head, 1));
@@ -39,8 +48,19 @@ Journal::Journal(const std::string& path) : file_(path) {
   }
 }
 
+// At least half of what is there of it, as some of it may be damaged.
+bool Journal::has_mark(std::uint64_t size) const {
+  std::array<char, mark.size()> begin{};
+  const auto there = std::span(begin).first(std::min<std::uint64_t>(size, mark.size()));
+  file_.read(0, there);
+  std::size_t num_equal = 0;
+  for (std::size_t i = 0; i < there.size(); ++i) num_equal += there[i] == mark[i] ? 1 : 0;
+  return 2 * num_equal >= there.size();
+}
+
 // At once, as a killed process may leave a part of it.
 void Journal::append(std::span<const std::uint64_t> words) {
+  if (end_ == mark.size()) file_.write(0, std::span(mark));
   Words record = {words.size(), checksum_of(words)};
   record.insert(record.end(), words.begin(), words.end());
   file_.write(end_, std::span<const std::uint64_t>(record));
@@ -50,7 +70,7 @@ void Journal::append(std::span<const std::uint64_t> words) {
 void Journal::clear() {
   file_.cut(0);
   records_.clear();
-  end_ = 0;
+  end_ = mark.size();
 }
 
 }  // namespace rondel::distributed

@@ -20,7 +20,7 @@ namespace rondel::distributed {
 
 class Journal {
  public:
-  // Opens the journal or makes it. Throws FileError if another process has it open.
+  // Opens the journal or makes it. Throws FileError if another process has it open, or if it is none.
   explicit Journal(const std::string& path);
 
   // Those that were there. After the first one that is damaged there are none.
@@ -31,9 +31,11 @@ class Journal {
   void clear();
 
  private:
+  [[nodiscard]] bool has_mark(std::uint64_t size) const;
+
   ScratchFile file_;
   std::vector<Words> records_;
-  std::uint64_t end_ = 0;
+  std::uint64_t end_ = 16;  // behind the mark
 };
 
 }  // namespace rondel::distributed

@@ -12,6 +12,7 @@
 #include "api/validation.h"
 #include "distributed/bucket_sites.h"
 #include "distributed/file_results.h"
+#include "distributed/result_names.h"
 #include "distributed/run_state.h"
 #include "rondel/error.h"
 #include "system/on_failure.h"
@@ -25,6 +26,7 @@ constexpr std::uint64_t fixed_bytes = std::uint64_t{64} << 20;
 constexpr std::uint64_t bytes_of_piece_site = 80;
 // Measured, with room (bench/RESULTS.md, "Out of core").
 constexpr std::uint64_t bytes_of_bucket_site = 115;
+constexpr std::uint64_t bytes_of_crowded_site = 250;  // within 2^-28 of all others of its bucket
 constexpr std::uint64_t bytes_of_open_site = 330;
 constexpr std::uint64_t least_memory = std::uint64_t{96} << 20;
 
@@ -36,32 +38,32 @@ std::string path_in(const std::string& scratch, const char* name) {
   return (std::filesystem::path(scratch) / name).string();
 }
 
+constexpr std::array<const char*, 5> scratch_names = {"sites", "faces", "borders", "areas",
+                                                      "journal"};
+
 void remove_scratch(const std::string& scratch) {
   std::error_code ignored;
-  for (const char* name : {"sites", "faces", "borders", "areas", "journal"})
-    std::filesystem::remove(path_in(scratch, name), ignored);
+  for (const char* name : scratch_names) std::filesystem::remove(path_in(scratch, name), ignored);
   std::filesystem::remove(scratch, ignored);  // if it is empty
 }
 
-// Of the input and the results no two are one file, but all results may be one Zarr group.
-void require_different(const std::string& sites, const OutOfCoreFiles& files) {
-  if (files.faces.empty()) throw FileError("the file of the faces has no name");
-  const std::array<const std::string*, 5> names = {&sites, &files.faces, &files.neighbors,
-                                                   &files.areas, &files.duplicates};
-  for (std::size_t i = 2; i < names.size(); ++i) {
-    if (io::is_zarr(*names[i]) && *names[i] != files.faces)
-      throw FileError(*names[i] + ": a Zarr group, but not that of the faces");
+// What is called as scratch files are is theirs, or nobody's: what a run has made comes with its journal.
+void require_own_scratch(const std::string& scratch) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path_in(scratch, "journal"), ignored)) return;
+  for (const char* name : scratch_names) {
+    if (std::filesystem::exists(path_in(scratch, name), ignored)) {
+      throw FileError(path_in(scratch, name) +
+                      ": not of a run; the scratch directory must be one of its own");
+    }
   }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    for (std::size_t j = i + 1; j < names.size(); ++j) {
-      std::error_code ignored;
-      if (names[j]->empty() ||
-          (*names[i] != *names[j] && !std::filesystem::equivalent(*names[i], *names[j], ignored))) {
-        continue;
-      }
-      if (i > 0 && *names[i] == *names[j] && io::is_zarr(*names[j])) continue;
-      throw FileError(*names[j] + (i == 0 ? ": the file of the sites, too"
-                                          : ": the file of another result, too"));
+}
+
+void require_outside_scratch(const std::string& scratch, const std::vector<std::string>& files) {
+  for (const char* name : scratch_names) {
+    for (const std::string& file : files) {
+      if (!file.empty() && are_same_file(file, path_in(scratch, name)))
+        throw FileError(file + ": a file of the scratch directory, too");
     }
   }
 }
@@ -77,7 +79,8 @@ class OutOfCoreRun {
         options_(options),
         results_(files, scratch_path("areas")),
         parts_{!files.neighbors.empty() || !files.areas.empty(), !files.areas.empty()},
-        state_(scratch_path("journal"), about(), out_of_core.resume) {}
+        about_(about()),
+        state_(scratch_path("journal"), about_, out_of_core.resume) {}
 
   // Whether something is done that is worth being kept.
   [[nodiscard]] bool has_begun() const { return state_.has_counts(); }
@@ -104,6 +107,7 @@ class OutOfCoreRun {
     check_open_sites(store);
     write_results(state_, store, limits_.first_number, options_, results_, report);
     write_nodes(rows_, limits_.piece_sites, options_, results_);
+    if (about() != about_) throw FileError(rows_.name() + ": changed while it was read");
     results_.commit();
     return report;
   }
@@ -194,7 +198,9 @@ class OutOfCoreRun {
     const bulk::BucketCut& cut = state_.counts().cuts[i];
     const BucketFiles files = {slots, store, i, cut.num_sites, state_.dealt(i)};
     StoredBucket stored;
-    auto sites = read_bucket_sites(files, limits_.most_sites, options_, stored);
+    const bool is_crowd = cut.square.bits == order::low_levels;
+    const std::uint64_t most_sites = is_crowd ? limits_.most_sites : cut.num_sites;
+    auto sites = read_bucket_sites(files, most_sites, options_, stored);
     if (!sites) return false;
     system::Job job = options_;
     job.progress = {};  // that of all buckets is shown
@@ -244,6 +250,7 @@ class OutOfCoreRun {
   const system::Job& options_;
   FileResults results_;
   StoreParts parts_;
+  Words about_;
   RunState state_;
 };
 
@@ -258,7 +265,7 @@ RunLimits limits_of(std::uint64_t memory) {
   const std::uint64_t bytes = memory - fixed_bytes;
   RunLimits limits;
   limits.most_bucket_sites = std::min<std::uint64_t>(bytes / bytes_of_bucket_site, max_sites);
-  limits.most_sites = limits.most_bucket_sites / 2;
+  limits.most_sites = std::min<std::uint64_t>(bytes / bytes_of_crowded_site, max_sites);
   limits.most_open_sites = std::min<std::uint64_t>(bytes / bytes_of_open_site, max_sites);
   limits.piece_sites = std::min<std::size_t>(bytes / 2 / bytes_of_piece_site, most_piece_sites);
   return limits;
@@ -268,16 +275,20 @@ OutOfCoreReport run(const io::NpyRows& rows, const OutOfCoreFiles& files,
                     const OutOfCoreOptions& out_of_core, const RunLimits& limits,
                     const system::Job& options) {
   std::error_code error;
-  // An earlier run, perhaps.
-  bool has_begun = std::filesystem::exists(out_of_core.scratch, error);
+  require_own_scratch(out_of_core.scratch);
   std::filesystem::create_directories(out_of_core.scratch, error);
   if (error) throw FileError(out_of_core.scratch + ": " + error.message());
+  bool is_ours = false;  // not that of another run
+  bool has_begun = false;
   system::OnFailure remove([&] {
-    if (!has_begun) remove_scratch(out_of_core.scratch);
+    std::error_code ignored;
+    if (!is_ours) std::filesystem::remove(out_of_core.scratch, ignored);  // if it is empty
+    if (is_ours && !has_begun) remove_scratch(out_of_core.scratch);
   });
   OutOfCoreReport report;
   {
     OutOfCoreRun run(rows, files, out_of_core, limits, options);
+    is_ours = true;
     has_begun = run.has_begun();
     report = run.run(has_begun);
   }
@@ -293,7 +304,10 @@ OutOfCoreReport delaunay_file(const std::string& sites, const OutOfCoreFiles& fi
                               const Execution& execution) {
   const system::Call call(execution);
   api::validate(options, 0);
-  distributed::require_different(sites, files);
+  distributed::require_different(sites,
+                                 {files.faces, files.neighbors, files.areas, files.duplicates});
+  distributed::require_outside_scratch(
+      out_of_core.scratch, {sites, files.faces, files.neighbors, files.areas, files.duplicates});
   const io::NpyRows rows(sites, out_of_core.radians);
   const auto limits = distributed::limits_of(out_of_core.memory);
   return distributed::run(rows, files, out_of_core, limits, {options, execution});

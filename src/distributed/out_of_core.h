@@ -26,7 +26,7 @@ namespace rondel::distributed {
 // What may be in memory at once.
 struct RunLimits {
   std::uint64_t most_bucket_sites = 0;  // where squares can be smaller
-  std::uint64_t most_sites = 0;         // of a bucket, copies not counted
+  std::uint64_t most_sites = 0;         // where they cannot, copies not counted
   std::uint64_t most_open_sites = 0;    // of all buckets
   std::size_t piece_sites = 0;          // while they are read
   // What the first site and the first face are called: not 0 in tests of numbers that need 64 bits.

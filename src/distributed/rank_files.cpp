@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "distributed/rank_duals.h"
+#include "distributed/result_names.h"
 #include "distributed/shared_rows.h"
 #include "distributed/supersteps.h"
 #include "io/npy_rows.h"
@@ -24,9 +25,12 @@ namespace {
 LargeVector<Point> read_share(Supersteps& steps, const std::string& path,
                               const DistributedFiles& files, const system::Job& options) {
   steps.begin("read");
-  for (const std::string* name : {&files.faces, &files.neighbors, &files.duplicates}) {
-    if (io::is_zarr(*name)) throw FileError(*name + ": several processes write .npy files alone");
+  const std::vector<std::string> results = {files.faces, files.neighbors, files.duplicates,
+                                            files.areas, files.circumcenters};
+  for (const std::string& name : results) {
+    if (io::is_zarr(name)) throw FileError(name + ": several processes write .npy files alone");
   }
+  require_different(path, results);
   const io::NpyRows rows(path, files.radians);
   const auto begin_of = [&](std::size_t rank) {
     const std::uint64_t num_rows = rows.num_rows();

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "distributed/row_file.h"
+#include "io/atomic_file.h"
 #include "io/binary.h"
 #include "io/npy_header.h"
 #include "io/replacement.h"
@@ -22,14 +23,13 @@ namespace rondel::distributed {
 SharedRows::SharedRows(Supersteps& steps, const std::string& path, const SharedShape& shape)
     : path_(path),
       target_(io::replaced_by(path)),
-      temporary_(target_ + ".rondel.tmp"),
       is_maker_(steps.rank() == 0),
       is_narrow_(!shape.are_doubles && are_narrow(shape.num_different)) {
   const std::string header = header_of(shape);
   const std::uint64_t row_bytes = shape.num_columns * (is_narrow_ ? 4 : 8);
   try {
     if (is_maker_) make(header, header.size() + shape.num_rows * row_bytes);
-    steps.all_gather({});
+    take_name(steps.all_gather(name_message()).front());
     if (!is_maker_) descriptor_ = system::open_to_change(temporary_);
     if (descriptor_ < 0) fail(errno);
   } catch (...) {
@@ -47,8 +47,22 @@ std::string SharedRows::header_of(const SharedShape& shape) const {
   return io::make_npy_header(type, std::span(sizes).first(shape.num_columns == 1 ? 1 : 2));
 }
 
+Bytes SharedRows::name_message() const {
+  MessageWriter writer;
+  writer.add_values(std::span<const char>(temporary_));
+  return writer.take();
+}
+
+void SharedRows::take_name(const Bytes& message) {
+  const auto name = std::span(message).subspan(1);
+  temporary_.assign(reinterpret_cast<const char*>(name.data()), name.size());
+}
+
 void SharedRows::make(const std::string& header, std::uint64_t num_bytes) {
-  descriptor_ = io::open_replacement(temporary_, target_);
+  do {
+    temporary_ = io::temporary_name(target_.substr(0, target_.find_last_of("/\\") + 1));
+    descriptor_ = io::open_replacement(temporary_, target_);
+  } while (descriptor_ < 0 && errno == EEXIST);
   if (descriptor_ < 0 || system::reserve(descriptor_, num_bytes) != 0) fail(errno);
   write(header);
 }

@@ -55,7 +55,10 @@ class SharedRows {
  private:
   static constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
+  // Rank 0 makes the file and tells the others its name.
   void make(const std::string& header, std::uint64_t num_bytes);
+  [[nodiscard]] Bytes name_message() const;
+  void take_name(const Bytes& message);
   [[nodiscard]] std::string header_of(const SharedShape& shape) const;
   void write_buffer();
   void write(std::string_view bytes);

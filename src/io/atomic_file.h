@@ -16,7 +16,7 @@
 namespace rondel::io {
 
 // A name in a directory ("data/", or empty) that no other thread or process has been given.
-std::string temporary_name(const std::string& directory);
+RONDEL_API std::string temporary_name(const std::string& directory);
 
 // 1. Until commit() returns, `path` is what it was before; after it, the whole new content. Nothing
 //    waits for the disk: a power failure soon after commit() may leave the file cut or empty.

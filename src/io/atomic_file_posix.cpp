@@ -90,7 +90,6 @@ void take_permissions(int descriptor, const struct stat& replaced) {
 
 std::string replaced_by(const std::string& path) { return resolve_links(path); }
 
-// What an earlier process left has permissions of its own, and goes.
 int open_replacement(const std::string& temporary, const std::string& target) noexcept {
   struct stat status {};
   const bool exists = ::stat(target.c_str(), &status) == 0;
@@ -101,7 +100,6 @@ int open_replacement(const std::string& temporary, const std::string& target) no
       return -1;
     }
   }
-  ::unlink(temporary.c_str());
   const mode_t mode = exists ? 0600 : 0666;
   const int descriptor = ::open(temporary.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (exists && descriptor >= 0) take_permissions(descriptor, status);

@@ -125,11 +125,39 @@ class OutOfCore(unittest.TestCase):
                         file.truncate(path.stat().st_size // 2)
                 self.expect_result("--resume")
 
+    def test_files_of_others_in_the_scratch_directory(self):
+        """Nothing of theirs is written over or removed."""
+        scratch = self.folder / "scratch"
+        for name in ("sites", "faces", "borders", "areas", "journal"):
+            with self.subTest(name=name):
+                scratch.mkdir()
+                (scratch / name).write_text("something precious, and longer than a mark")
+                done = self.run_tool(*self.command)
+                self.assertEqual((done.returncode, done.stderr), (1, f"rondel: scratch/{name}: not of a run; the "
+                                                                     "scratch directory must be one of its own\n"))
+                self.assertEqual((scratch / name).read_text(), "something precious, and longer than a mark")
+                shutil.rmtree(scratch)
+        for results, name in ((["-o", "scratch/faces"], "faces"),
+                              (["-o", "faces.npy", "--areas", "scratch/../scratch/areas"], "../scratch/areas")):
+            done = self.run_tool("delaunay", "sites.npy", *results, "--format", "npy", "--scratch", "scratch")
+            self.assertEqual((done.returncode, done.stderr),
+                             (1, f"rondel: scratch/{name}: a file of the scratch directory, too\n"))
+            self.assertFalse(scratch.exists())
+
+    def test_two_runs_at_once(self):
+        """One of them comes to its end, or both do so one after the other."""
+        runs = [subprocess.Popen([TOOL, *self.command, "--quiet"], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+                for _ in range(2)]
+        said = [run.communicate()[1] for run in runs]
+        self.assertIn(0, [run.returncode for run in runs], said)
+        self.assertTrue(filecmp.cmp(self.folder / "faces.npy", self.folder / "expected.npy", shallow=False))
+
     def test_arguments(self):
         """What does not go together is said before work begins."""
         for arguments, message in (
             (["--memory", "2G"], "--memory requires --scratch"),
             (["--resume"], "--resume requires --scratch"),
+            (["--scratch", ""], "--scratch: no name"),
             *((["--scratch", "scratch", "--memory", text], f"'{text}' is not a number of bytes, as 2G or 500M")
               for text in ("2X", "2GB", "1.5", "1.5.1G", "G", "0", "17e9", "16777216T", "16777216.1T", "0.0001K")),
         ):

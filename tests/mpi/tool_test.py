@@ -105,7 +105,36 @@ class Tool(unittest.TestCase):
         self.assert_error(result, f"rank 0, write: {folder}: Is a directory")
         result = self.run_ranks(2, "delaunay", self.sites, "-o", "/dev/null")
         self.assert_error(result, "rank 0, write: /dev/null: Operation not supported")
-        self.assertFalse(pathlib.Path("/dev/null.rondel.tmp").exists())
+
+    def test_no_file_is_read_and_written_or_written_twice(self):
+        np.save(self.sites, np.eye(3))
+        before = self.sites.read_bytes()
+        faces = self.folder / "faces.npy"
+        other = self.folder / "." / "other" / ".." / "faces.npy"
+        (self.folder / "other").mkdir()
+        for arguments, message in (
+            (["-o", self.sites], f"{self.sites}: the file of the sites, too"),
+            (["-o", faces, "--areas", other], f"{other}: the file of another result, too"),
+            (["-o", ""], "the file of the faces has no name"),
+        ):
+            result = self.run_ranks(2, "delaunay", self.sites, *arguments)
+            self.assert_error(result, f"rank 0, read: {message}")
+        self.assertEqual(self.sites.read_bytes(), before)
+        self.assertFalse(faces.exists())
+
+    def test_arguments_that_one_rank_alone_has(self):
+        np.save(self.sites, np.eye(3))
+        faces = self.folder / "faces.npy"
+        command = ["delaunay", self.sites, "-o", faces]
+        for more, message in (
+            (["--bogus"], "The following argument was not expected: --bogus"),
+            (["--threads", "0"], "--threads"),
+            (["--model", "weighted"], "rank 1 has other arguments than rank 0"),
+        ):
+            result = self.run_ranks(1, *command, ":", "-n", "1", RONDEL_MPI, *command, *more)
+            self.assertEqual(result.returncode, 2, result.stderr)
+            self.assertIn(f"rondel-mpi: {message}", result.stderr)
+            self.assertFalse(faces.exists())
 
     def test_a_row_that_is_not_valid(self):
         sites = np.ones((100, 3))

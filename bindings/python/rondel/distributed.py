@@ -300,8 +300,8 @@ def delaunay_file(
     """The Delaunay triangulation of a file, of which each rank reads its share.
 
     Each rank writes its share of the results, too, on a disk that all of them see. The files appear
-    complete, when all ranks are done, or not at all; until then they have ``.rondel.tmp`` behind
-    their names. Their numbers are of type uint32 while all fit, otherwise int64.
+    complete, when all ranks are done, or not at all; until then they are called
+    ``.rondel-N-M.tmp``. Their numbers are of type uint32 while all fit, otherwise int64.
 
     Parameters
     ----------
