@@ -19,9 +19,8 @@
 #include "measure.h"
 #include "order/spatial_order.h"
 
+namespace rondel::bench {
 namespace {
-
-using namespace rondel;
 
 struct Ledger {
   double order = 0;
@@ -79,27 +78,31 @@ void print(std::size_t num_sites, const Ledger& ledger) {
   const char* separator = "\n";
   for (const auto& square : ledger.tree.squares) {
     if (square.num_seam_sites == 0) continue;
-    std::printf("%s  {\"height\": %u, \"seam_sites\": %zu, \"open_sites\": %zu, \"seconds\": %.6g}",
+    std::printf(R"(%s  {"height": %u, "seam_sites": %zu, "open_sites": %zu, "seconds": %.6g})",
                 separator, square.height, square.num_seam_sites, square.num_open, square.seconds);
     separator = ",\n";
   }
   std::printf("\n ]}\n");
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  const std::uint64_t seed = bench::take_seed(argc, argv);
+int run(int argc, char** argv) {
+  const std::uint64_t seed = take_seed(argc, argv);
   if (argc != 3) {
     std::fprintf(stderr, "usage: seam_bench KIND N [--seed S]\n");
     return 2;
   }
-  bench::Source source(argv[1], argv[2], seed);
+  Source source(argv[1], argv[2], seed);
   const std::vector<Point> sites = source.next();
-  bench::keep_freed_memory();
+  keep_freed_memory();
   Ledger ledger{.tree = {.clock = processor_seconds}};
   if (!build(sites, ledger)) return 1;  // fills the heap
   ledger = {.tree = {.clock = processor_seconds}};
   if (!build(sites, ledger)) return 1;
   print(sites.size(), ledger);
+  return 0;
 }
+
+}  // namespace
+}  // namespace rondel::bench
+
+int main(int argc, char** argv) { return rondel::bench::run(argc, argv); }

@@ -35,9 +35,9 @@
 #include "rondel/rondel.h"
 #include "system/parallel.h"
 
+namespace rondel::bench {
 namespace {
 
-using namespace rondel;
 using Triple64 = std::array<std::uint64_t, 3>;
 
 struct Task {
@@ -283,7 +283,7 @@ class Squares {
     std::fputs("\n", stderr);
   }
 
-  bulk::Bucket triangulate(std::size_t i, std::span<const Point> sites) const {
+  [[nodiscard]] bulk::Bucket triangulate(std::size_t i, std::span<const Point> sites) const {
     return bulk::triangulate_bucket(sites, sources_[i].square(), all_, job_);
   }
 
@@ -350,9 +350,7 @@ FaceSums sums_in_memory(const Squares& squares, const Task& task,
   return sum_up(sums);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
   const Task task = parse(argc, argv);
   if (task.num_sites < 10000 || task.depth < 0 || task.depth > 6) {
     std::fprintf(
@@ -360,7 +358,7 @@ int main(int argc, char** argv) {
         "usage: squares_bench N [--depth D] [--threads T] [--check]; N from 10000 on, D to 6\n");
     return 2;
   }
-  const bench::Stopwatch watch;
+  const Stopwatch watch;
   Squares squares(task);
   if (!squares.join()) return 1;
   const double joined_seconds = watch.seconds();
@@ -382,4 +380,10 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "squares_bench: not as in memory\n");
     return 1;
   }
+  return 0;
 }
+
+}  // namespace
+}  // namespace rondel::bench
+
+int main(int argc, char** argv) { return rondel::bench::run(argc, argv); }

@@ -21,7 +21,7 @@ from commands import run
 # What rondel::distributed uses of the core and of rondel::io.
 USED_ABOVE = re.compile(
     r"rondel::(api::(make_triangulation|validate)|bulk::(AllSites|Bucket|bucket_of|join_buckets|quadrant|triangulate_bucket)"
-    r"|dual::areas_within|io::(AtomicFile|NpyRows|make_npy_header)|order::(place_keys|spatial_order))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
+    r"|dual::(areas|circumcenters)_within|io::(Atomic(File|Folder)|NpyRows|Zarr\w+|is_zarr|zarr_\w+|make_npy_header|open_replacement|replaced_by|temporary_name)|order::(place_keys|spatial_order))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
 )
 
 
