@@ -68,11 +68,11 @@ def fields_of(code):
 
 
 def functions_of(name, code):
-    """The names in declarations of members, without what all classes have."""
+    """The names in declarations of members, types among them, without what all classes have."""
     code = re.sub(r"//.*", "", code)
     found = []
     for statement in re.split(r";|(?<=\})\n", code):
-        match = re.search(r"(operator\S+?|~?\w+)\s*\(", statement)
+        match = re.match(r"\s*using (\w+)", statement) or re.search(r"(operator\S+?|~?\w+)\s*\(", statement)
         if match and match[1] not in (f"~{name}", "operator="):
             found.append(match[1])
     return list(dict.fromkeys(found))
@@ -132,7 +132,7 @@ def page(header):
         code = code.replace("RONDEL_API ", "")
         if name != last:
             names = [name] if re.match(r"class|struct|enum|using|inline constexpr", code) else functions_of("", code)
-            result += [*(anchor(each, f"cpp-{each}") for each in names), f"## {name}"]
+            result += [*(anchor(each, f"cpp-{header.stem}-{each}") for each in names), f"## {name}"]
         last = name
         if code.startswith("class"):
             head = code.split(" {\n", 1)[0]
