@@ -2,10 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Clients of the installed package that do not use CMake, of a plugin, and of the shared libraries.
 
-    clients_test.py pkg_config|c|distributed|globe|plugin|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARIES...
+    clients_test.py pkg_config|c|distributed|globe|plugin|remap|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARIES...
 
 Each compiles client.cpp, that in C examples/c_interface.c, those of other libraries theirs, as globe/globe.cpp, and
-compares what it prints. The libraries are those of rondel, rondel::io and rondel::distributed.
+compares what it prints. The libraries are those of rondel, rondel::io, rondel::distributed and rondel::remap.
 """
 
 import os
@@ -18,7 +18,7 @@ import tempfile
 from commands import run
 
 
-# What rondel::distributed uses of the core and of rondel::io.
+# What rondel::distributed and rondel::remap use of the core and of rondel::io.
 USED_ABOVE = re.compile(
     r"rondel::(api::(make_triangulation|validate)|bulk::(AllSites|Bucket|bucket_of|join_buckets|quadrant|triangulate_bucket)"
     r"|dual::(areas|circumcenters)_within|io::(Atomic(File|Folder)|NpyRows|Zarr\w+|is_zarr|zarr_\w+|make_npy_header|open_replacement|replaced_by|temporary_name)|order::(place_keys|spatial_order))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
@@ -77,6 +77,10 @@ class Client:
         """A program that triangulates by way of files, by pkg-config and by CMake."""
         self.of_library("distributed", "8 faces, 1 error\n")
 
+    def remap(self):
+        """A program that carries values, by pkg-config and by CMake."""
+        self.of_library("remap", "a value, an error\n")
+
     def of_library(self, name, expected):
         """The client of one library, which has a folder."""
         self.expected = expected
@@ -98,7 +102,8 @@ class Client:
 
     def shared(self):
         """The shared libraries: what they show, and a program that links them."""
-        for source, expected in (("client.cpp", self.expected), ("distributed/distributed.cpp", "8 faces, 1 error\n")):
+        for source, expected in (("client.cpp", self.expected), ("distributed/distributed.cpp", "8 faces, 1 error\n"),
+                                 ("remap/remap.cpp", "a value, an error\n")):
             paths = [f"-Wl,-rpath,{library.parent}" for library in self.libraries]
             run([*self.compile, self.file(source), "-o", self.work / "client",
                  f"-I{self.source}/include", f"-I{self.build}/include", *reversed(self.libraries), *paths])
@@ -107,7 +112,7 @@ class Client:
         # These show what libraries above them use.
         layers = set((self.source / "src/LAYERS").read_text(encoding="utf-8").split()) - {"system", "exact"}
         private = re.compile(rf"\brondel::({'|'.join(sorted(layers))})::")
-        public = ("rondel::delaunay(", "rondel::read_sites(", "rondel::delaunay_file(")
+        public = ("rondel::delaunay(", "rondel::read_sites(", "rondel::delaunay_file(", "rondel::apply(")
         for library, known in zip(self.libraries, public, strict=True):
             names = run(["nm", "--dynamic", "--defined-only", "--demangle", library])
             shown = [line for line in names.splitlines() if private.search(line.partition("(")[0])]

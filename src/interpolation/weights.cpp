@@ -1,0 +1,131 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/weights.h"
+
+#include <bit>
+#include <cmath>
+#include <string>
+
+#include "rondel/error.h"
+#include "system/job.h"
+#include "system/parallel.h"
+#include "system/prefetch.h"
+#include "system/shortest_text.h"
+
+namespace rondel {
+namespace {
+
+// So many rows are one thread's work at a time.
+constexpr std::size_t rows_per_piece = 8192;
+
+// FNV-1a (http://www.isthe.com/chongo/tech/comp/fnv).
+constexpr std::uint64_t fnv_offset = 0xcbf29ce484222325U;
+constexpr std::uint64_t fnv_prime = 0x100000001b3U;
+
+std::uint64_t hashed(std::uint64_t hash, double coordinate) {
+  std::uint64_t bits = std::bit_cast<std::uint64_t>(coordinate + 0.0);  // -0 + 0 is 0
+  for (int i = 0; i < 8; ++i, bits >>= 8U) hash = (hash ^ (bits & 0xffU)) * fnv_prime;
+  return hash;
+}
+
+void require_length(std::string_view name, std::size_t length, std::size_t wanted) {
+  if (length == wanted) return;
+  throw InvalidInput(std::string(name) + " has " + std::to_string(length) + " numbers instead of " +
+                         std::to_string(wanted),
+                     0);
+}
+
+void require_rows(const Weights& weights) {
+  const std::size_t num_entries = weights.columns.size();
+  require_length("values", weights.values.size(), num_entries);
+  const auto& offsets = weights.offsets;
+  if (offsets.empty() || offsets.front() != 0 || offsets.back() != num_entries) {
+    throw InvalidInput("the offsets do not go from 0 to " + std::to_string(num_entries), 0);
+  }
+  for (std::size_t r = 0; r < weights.num_rows(); ++r) {
+    if (offsets[r] > offsets[r + 1]) throw InvalidInput("the offsets decrease", r + 1);
+  }
+  for (std::size_t k = 0; k < num_entries; ++k) {
+    if (weights.columns[k] < weights.num_columns) continue;
+    throw InvalidInput("column " + std::to_string(weights.columns[k]) + " of " +
+                           std::to_string(weights.num_columns),
+                       k);
+  }
+}
+
+// The sum over a row of which some values may be missing.
+double sum_of_present(const Weights& weights, std::size_t row, const double* in,
+                      const ApplyOptions& options) {
+  double sum = 0;
+  double present = 0;
+  double all = 0;
+  double absolute_missing = 0;
+  double absolute = 0;
+  for (std::uint64_t k = weights.offsets[row]; k < weights.offsets[row + 1]; ++k) {
+    const double weight = weights.values[k];
+    const double value = in[weights.columns[k]];
+    all += weight;
+    absolute += std::abs(weight);
+    if (std::isnan(value)) {
+      absolute_missing += std::abs(weight);
+    } else {
+      sum += weight * value;
+      present += weight;
+    }
+  }
+  if (absolute_missing == 0) return sum;
+  const bool is_enough = absolute_missing <= options.most_missing * absolute;
+  return is_enough && present != 0 ? sum * (all / present) : options.fill;
+}
+
+void apply_rows(const Weights& weights, std::size_t begin, std::size_t end, const double* in,
+                double* out, const ApplyOptions& options) {
+  const std::size_t num_entries = weights.columns.size();
+  for (std::size_t r = begin; r < end; ++r) {
+    std::uint64_t k = weights.offsets[r];
+    const std::uint64_t last = weights.offsets[r + 1];
+    if (k == last) {
+      out[r] = options.fill;
+      continue;
+    }
+    double sum = 0;
+    for (; k < last; ++k) {
+      const std::size_t ahead = k + system::prefetch_distance;
+      if (ahead < num_entries) system::prefetch(&in[weights.columns[ahead]]);
+      sum += weights.values[k] * in[weights.columns[k]];
+    }
+    out[r] = std::isnan(sum) ? sum_of_present(weights, r, in, options) : sum;
+  }
+}
+
+}  // namespace
+
+std::uint64_t point_set_hash(std::span<const Point> points) {
+  const system::ArithmeticScope arithmetic;
+  std::uint64_t hash = fnv_offset;
+  for (const Point& p : points) hash = hashed(hashed(hashed(hash, p.x), p.y), p.z);
+  return hash == 0 ? 1 : hash;
+}
+
+void apply(const Weights& weights, std::span<const double> in, std::span<double> out,
+           std::size_t num_fields, const ApplyOptions& options, const Execution& execution) {
+  const system::Call call(execution);
+  require_rows(weights);
+  require_length("the input", in.size(), num_fields * weights.num_columns);
+  require_length("the output", out.size(), num_fields * weights.num_rows());
+  if (!(options.most_missing >= 0 && options.most_missing <= 1)) {
+    throw InvalidInput(
+        "most_missing is " + system::shortest_text(options.most_missing) + ", not in [0, 1]", 0);
+  }
+  // All fields of some rows, as long as these rows are in the cache.
+  system::parallel_for(execution.threads, weights.num_rows(), rows_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t f = 0; f < num_fields; ++f) {
+                           apply_rows(weights, begin, end, in.data() + f * weights.num_columns,
+                                      out.data() + f * weights.num_rows(), options);
+                         }
+                       });
+}
+
+}  // namespace rondel
