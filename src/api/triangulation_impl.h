@@ -40,7 +40,7 @@ RONDEL_API Triangulation make_triangulation(Sites sites, TriangulationArrays arr
                                             const Options& options, const BuildReport& report);
 
 // For whoever walks through the faces. Asks for the proof that is missing, once.
-void require_delaunay(const Triangulation& triangulation, const Execution& execution);
+RONDEL_API void require_delaunay(const Triangulation& triangulation, const Execution& execution);
 
 // Throws InvalidInput if the arrays are not those of the triangulation of their sites.
 void prove_delaunay(const Triangulation& triangulation, const Execution& execution);

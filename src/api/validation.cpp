@@ -93,8 +93,9 @@ void validate_some(std::span<const Point> sites, const Options& options, std::ui
                 "projection", first);
 }
 
-void validate_queries(std::span<const Point> queries, const Point& center, bool are_rays) {
-  validate_each("query", queries, center, are_rays, "direction");
+void validate_queries(std::span<const Point> queries, const Point& center, bool are_rays,
+                      const char* word) {
+  validate_each(word, queries, center, are_rays, "direction");
 }
 
 }  // namespace rondel::api

@@ -28,6 +28,7 @@ RONDEL_API void validate_some(std::span<const Point> sites, const Options& optio
                               std::uint64_t first);
 
 // Throws InvalidInput if a query point is not finite or, where it stands for a ray, the center.
-void validate_queries(std::span<const Point> queries, const Point& center, bool are_rays = true);
+RONDEL_API void validate_queries(std::span<const Point> queries, const Point& center,
+                                 bool are_rays = true, const char* word = "query");
 
 }  // namespace rondel::api

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "dual/split_sites.h"
+#include "rondel/export.h"
 
 namespace rondel::dual {
 
@@ -26,7 +27,8 @@ struct ExactDifference {
   Vec direction;  // unit vector, each coordinate within 2^-53
   double length;  // 0 where it is below the smallest double
 };
-ExactDifference exact_projected_difference(const Point& a, const Point& b, const Point& center);
+RONDEL_API ExactDifference exact_projected_difference(const Point& a, const Point& b,
+                                                      const Point& center);
 
 // The unit vector from a to b.
 Vec exact_direction(const Point& a, const Point& b);

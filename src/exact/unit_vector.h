@@ -8,6 +8,7 @@
 
 #include "exact/eft.h"
 #include "exact/vector.h"
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::exact {
@@ -24,7 +25,7 @@ struct SplitPoint {
 // 2. |hi + lo - u| <= 2^-100.
 // 3. The result does not depend on the platform.
 // Precondition: finite coordinates, p != center.
-SplitPoint unit_vector(const Point& p, const Point& center);
+RONDEL_API SplitPoint unit_vector(const Point& p, const Point& center);
 
 // --- its parts, for loops that become vector code ---
 

@@ -8,13 +8,14 @@
 #include <span>
 
 #include "exact/unit_vector.h"
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::exact {
 
 // result[k] = the unit vector from the center to sites[order[k]], with the properties of
 // exact::unit_vector().
-void unit_vectors(std::span<const Point> sites, std::span<const Index> order, const Point& center,
+RONDEL_API void unit_vectors(std::span<const Point> sites, std::span<const Index> order, const Point& center,
                   exact::SplitPoint* result);
 
 }  // namespace rondel::exact

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::order {
@@ -17,6 +18,6 @@ struct KeyedIndices {
 };
 
 // Sorts by the lower `bits` bits of the keys, the higher ones being 0.
-void radix_sort(KeyedIndices& data, int bits);
+RONDEL_API void radix_sort(KeyedIndices& data, int bits);
 
 }  // namespace rondel::order

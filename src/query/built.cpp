@@ -4,6 +4,8 @@
 #include "query/built.h"
 
 #include <algorithm>
+#include <numeric>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "order/along_the_curve.h"
 #include "order/cube_position.h"
 #include "order/hilbert.h"
+#include "order/place_keys.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
 #include "system/gather.h"
@@ -32,6 +35,40 @@ std::vector<Index> vertices_by_index(const Triangulation& triangulation) {
   return vertices;
 }
 
+// Of the sites in a place, the one whose coordinates count.
+class SpeakerOf {
+ public:
+  explicit SpeakerOf(const Triangulation& triangulation) {
+    if (triangulation.duplicates().empty()) return;
+    speakers_.resize(triangulation.num_sites());
+    std::iota(speakers_.begin(), speakers_.end(), Index{0});
+    const Sites& sites = triangulation.sites();
+    for (const auto& [site, representative] : triangulation.duplicates()) {
+      Index& speaker = speakers_[representative];
+      if (predicates::is_lexicographically_less(sites[site], sites[speaker])) speaker = site;
+    }
+  }
+  Index operator()(Index name) const { return speakers_.empty() ? name : speakers_[name]; }
+
+ private:
+  std::vector<Index> speakers_;
+};
+
+// Orders the indices of equal keys by what else there is to places: until here they are in the order
+// of the input.
+template <class RestOf>
+void order_ties(order::KeyedIndices& sorted, const RestOf& rest_of) {
+  const auto& keys = sorted.keys;
+  for (std::size_t i = 0; i < keys.size();) {
+    std::size_t end = i + 1;
+    while (end < keys.size() && keys[end] == keys[i]) ++end;
+    if (end - i > 1) {
+      std::ranges::sort(std::span(sorted.indices).subspan(i, end - i), {}, rest_of);
+    }
+    i = end;
+  }
+}
+
 }  // namespace
 
 Built::Built(const Triangulation& triangulation, std::span<const Index> ids)
@@ -50,6 +87,11 @@ Built::Built(const Triangulation& triangulation, std::span<const Index> ids)
 void Built::list_vertices(const Triangulation& triangulation) {
   auto sorted = order::along_the_curve(vertices_by_index(triangulation), model_, center_, 1,
                                        [this](Index i) { return sites_[i]; });
+  const SpeakerOf speaker_of(triangulation);
+  order_ties(sorted, [&](Index i) {
+    const Point& p = sites_[speaker_of(i)];
+    return std::tuple(order::place_key(p, model_, center_).low, p.x, p.y, p.z);
+  });
   keys_ = std::move(sorted.keys);
   if (is_ring_) {
     names_.assign(triangulation.ring().begin(), triangulation.ring().end());
@@ -61,13 +103,10 @@ void Built::list_vertices(const Triangulation& triangulation) {
   if (is_ring_) {
     for (const Index i : sorted.indices) at_key_.push_back(vertex_of_[i]);
   }
-  speakers_ = names_;
+  speakers_.reserve(names_.size());
+  for (const Index i : names_) speakers_.push_back(speaker_of(i));
   for (const auto& [site, representative] : triangulation.duplicates()) {
-    const Index v = vertex_of_[representative];
-    vertex_of_[site] = v;
-    if (v == no_index) continue;
-    Index& speaker = speakers_[v];
-    if (predicates::is_lexicographically_less(sites_[site], sites_[speaker])) speaker = site;
+    vertex_of_[site] = vertex_of_[representative];
   }
 }
 
@@ -94,14 +133,13 @@ void Built::rename(std::span<const Index> ids) {
   for (Index& name : names_) name = ids[name];
 }
 
-AnyGraph Built::graph() const {
+AnyGraph Built::graph(std::span<const Index> names) const {
   return std::visit(
-      [this]<class T>(const T& model) -> AnyGraph {
+      [this, names]<class T>(const T& model) -> AnyGraph {
         if (!is_ring_) {
-          return SurfaceGraph<T>{model,  mesh_,       kinds_,     corner_of_,
-                                 names_, solid_face_, entry_face_};
+          return SurfaceGraph<T>{model, mesh_, kinds_, corner_of_, names, solid_face_, entry_face_};
         }
-        return RingGraph<T>{model, names_,
+        return RingGraph<T>{model, names,
                             RingLocation(system::gather(sites_.points(), speakers_), center_)};
       },
       points_);

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // A finished triangulation, prepared for queries. Vertices get internal names that suit queries:
-// their spatial rank in dimension 2, so that neighbors are close in memory; their place in the ring
-// below.
+// their spatial rank in dimension 2, so that neighbors are close in memory, which depends on places
+// alone; their place in the ring below.
 #pragma once
 
 #include <cstdint>
@@ -14,12 +14,14 @@
 #include "models/projected_points.h"
 #include "models/weighted_points.h"
 #include "query/graph.h"
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "topology/mesh.h"
 
 namespace rondel::query {
 
-class Built {
+// RONDEL_API, here and in engine.h: what rondel::remap uses.
+class RONDEL_API Built {
  public:
   // `ids`, if any, are what the sites are called outside, in increasing order; otherwise that is
   // their index.
@@ -28,7 +30,9 @@ class Built {
   Built& operator=(const Built&) = delete;
 
   // Refers to this object.
-  [[nodiscard]] AnyGraph graph() const;
+  [[nodiscard]] AnyGraph graph() const { return graph(names_); }
+  // Refers to these names, too, which vertices have outside instead.
+  [[nodiscard]] AnyGraph graph(std::span<const Index> names) const;
   [[nodiscard]] std::size_t num_vertices() const { return names_.size(); }
 
   [[nodiscard]] bool has_site(Index site) const {
@@ -36,6 +40,12 @@ class Built {
   }
   // Precondition: there is such a site. no_index if it is hidden.
   [[nodiscard]] Index vertex_of(Index site) const { return vertex_of_[site]; }
+  // Of each vertex: what it is called outside, the site whose coordinates count, and these.
+  [[nodiscard]] std::span<const Index> names() const { return names_; }
+  [[nodiscard]] std::span<const Index> speakers() const { return speakers_; }
+  [[nodiscard]] const Point& point(Index v) const { return sites_.points()[speakers_[v]]; }
+  // In dimension 2: the faces as the triangulation numbers them.
+  [[nodiscard]] const topology::Mesh& mesh() const { return mesh_; }
   // A vertex close to p. Precondition: there is a vertex.
   [[nodiscard]] Index near(const Point& p) const;
 

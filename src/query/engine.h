@@ -12,6 +12,7 @@
 #include "query/graph.h"
 #include "query/neighborhood.h"
 #include "query/target.h"
+#include "rondel/export.h"
 #include "rondel/query.h"
 
 namespace rondel::query {
@@ -23,7 +24,7 @@ struct Cursor {
   Scratch scratch;
 };
 
-class Engine {
+class RONDEL_API Engine {
  public:
   explicit Engine(AnyGraph graph) : graph_(std::move(graph)) {}
 

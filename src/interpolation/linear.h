@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Barycentric weights in the plane of a face, seen from the center (Renka, ACM TOMS 23, 1997, INTRC0):
+// the ray of u meets the plane of the face (a, b, c) in the point sum of l_i x_i with
+//
+//     l_a : l_b : l_c = det(u, b, c) : det(u, c, a) : det(u, a, b),   sum 1.
+//
+// With the steps A = a - u, B, C from u, det(u, b, c) = u.(B x C): its rounding errors are a few units
+// of |B||C|, whatever the size of the face. On an edge, in the limit, l_a : l_b = |u x B| : |u x A|.
+#pragma once
+
+#include "exact/vector.h"
+#include "interpolation/ground.h"
+#include "interpolation/row.h"
+
+namespace rondel::interpolation {
+
+using Vec = exact::Vector3<double>;
+
+// Steps shorter than this are not right to doubles if they come from split unit vectors.
+inline constexpr double least_split_step = 0x1p-45;
+
+// x - u. Each coordinate is right to a few units of the step if that is no shorter than
+// least_split_step.
+inline Vec step(const exact::SplitPoint& u, const exact::SplitPoint& x) {
+  return {(x.hi.x - u.hi.x) + (x.lo.x - u.lo.x), (x.hi.y - u.hi.y) + (x.lo.y - u.lo.y),
+          (x.hi.z - u.hi.z) + (x.lo.z - u.lo.z)};
+}
+inline bool is_split_enough(const Vec& step) {
+  return dot(step, step) >= least_split_step * least_split_step;
+}
+
+// The step to a vertex that is not in the place of the target, right to a few units however short it is
+// (above 2^-1022).
+Vec exact_step(const Ground& ground, const Place& place, Index vertex);
+inline Vec careful_step(const Ground& ground, const Place& place, Index vertex) {
+  const Vec split = step(place.unit, ground.unit(vertex));
+  return is_split_enough(split) ? split : exact_step(ground, place, vertex);
+}
+
+// The two weights of a target on an edge, in any dimension.
+void weigh_on_edge(const Ground& ground, const Place& place, Row& row);
+
+class LinearKernel {
+ public:
+  explicit LinearKernel(const Ground& ground) : ground_(ground) {}
+  void operator()(const Place& place, Row& row) const;
+
+ private:
+  const Ground& ground_;
+};
+
+}  // namespace rondel::interpolation

@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The rows of many targets: what the location decides, what a kernel adds, what becomes of targets that
+// have no value.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "exact/unit_vectors.h"
+#include "interpolation/ground.h"
+#include "interpolation/linear.h"
+#include "interpolation/row.h"
+#include "query/batch.h"
+#include "rondel/interpolate.h"
+#include "system/prefetch.h"
+#include "system/stage_progress.h"
+
+namespace rondel::interpolation {
+
+// The lowest index of the targets that have no value, whichever thread comes to it.
+class FirstOutside {
+ public:
+  void add(Index target) {
+    std::uint64_t first = first_;
+    while (target < first && !first_.compare_exchange_weak(first, target)) {
+    }
+  }
+  // no_index: none.
+  [[nodiscard]] Index get() const { return static_cast<Index>(first_.load()); }
+
+ private:
+  std::atomic<std::uint64_t> first_ = no_index;
+};
+
+// Divides by r = u.(sum of w_i x_i) = 1 - sum of w_i |x_i - u|^2 / 2.
+inline void make_homogeneous(const Ground& ground, const exact::SplitPoint& u, Row& row) {
+  double lacking = 0;
+  for (const auto& [v, weight] : row) {
+    const Vec s = step(u, ground.unit(v));
+    lacking += weight * dot(s, s);
+  }
+  const double r = 1 - lacking / 2;
+  for (Share& share : row) share.weight /= r;
+}
+
+class NearestRows {
+ public:
+  using RowType = Row;
+  explicit NearestRows(const Ground& ground) : ground_(ground) {}
+  void operator()(Index /*target*/, const Point& p, const exact::SplitPoint& /*u*/,
+                  query::Cursor& cursor, Row& row) const {
+    row.push_back({ground_.engine().nearest(p, cursor), 1});
+  }
+
+ private:
+  const Ground& ground_;
+};
+
+template <class K>
+class KernelRows {
+ public:
+  using RowType = std::conditional_t<Kernel<K>, Row, SlopeRow>;
+
+  KernelRows(const Ground& ground, const InterpolationOptions& options, FirstOutside& outside,
+             K kernel)
+      : ground_(ground), options_(options), outside_(outside), kernel_(std::move(kernel)) {}
+
+  void operator()(Index target, const Point& p, const exact::SplitPoint& u, query::Cursor& cursor,
+                  RowType& row) {
+    place_ = {p, u, ground_.engine().locate(p, cursor)};
+    if (place_.location.where == Where::vertex) {
+      row.push_back({place_.location.sites[0], 1});
+      return;
+    }
+    if (place_.location.where != Where::outside) kernel_(place_, row);
+    if (row.empty()) {
+      answer_outside(target, p, cursor, row);
+      return;
+    }
+    if constexpr (Kernel<K>) {
+      if (options_.normalization == Normalization::homogeneous) make_homogeneous(ground_, u, row);
+    }
+  }
+
+ private:
+  void answer_outside(Index target, const Point& p, query::Cursor& cursor, RowType& row) {
+    if (options_.outside == Outside::nearest) {
+      row.push_back({ground_.engine().nearest(p, cursor), 1});
+    } else if (options_.outside == Outside::error) {
+      outside_.add(target);
+    }
+  }
+
+  const Ground& ground_;
+  const InterpolationOptions& options_;
+  FirstOutside& outside_;
+  K kernel_;
+  Place place_;
+};
+
+// make_rows() and make_taker() for each range of targets; taker.expect(target) some time before
+// taker.take(target, u, row), and taker.finish() at the end. Precondition: there is a vertex.
+template <class MakeRows, class MakeTaker>
+void for_each_row(const Ground& ground, std::span<const Point> targets, const Execution& execution,
+                  const MakeRows& make_rows, const MakeTaker& make_taker) {
+  constexpr std::size_t batch_size = 256;
+  system::StageProgress progress(execution.progress, "interpolate",
+                                 system::num_pieces(targets.size(), query::queries_per_piece));
+  const auto answer_range = [&](std::span<const Index> range, query::Cursor& cursor) {
+    auto rows = make_rows();
+    auto taker = make_taker();
+    typename decltype(rows)::RowType row;
+    std::vector<exact::SplitPoint> units(std::min(batch_size, range.size()));
+    for (std::size_t k = 0; k < range.size(); ++k) {
+      const std::size_t in_batch = k % batch_size;
+      if (in_batch == 0) {
+        const auto batch = range.subspan(k, std::min(batch_size, range.size() - k));
+        exact::unit_vectors(targets, batch, ground.center(), units.data());
+      }
+      const std::size_t ahead = k + system::prefetch_distance;
+      if (ahead < range.size()) taker.expect(range[ahead]);
+      row.clear();
+      rows(range[k], targets[range[k]], units[in_batch], cursor, row);
+      taker.take(range[k], units[in_batch], row);
+    }
+    taker.finish();
+    progress.step();
+  };
+  query::for_each_range(
+      targets, ground.model(), ground.center(), execution.threads,
+      [&ground](const Point& p) { return ground.near(p); }, answer_range);
+}
+
+}  // namespace rondel::interpolation
