@@ -4,6 +4,7 @@
 #include "dual/exact_normal.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -174,6 +175,25 @@ ExactDifference exact_projected_difference(const Point& a, const Point& b, const
     const Integer quotient = shifted(floor_sqrt(dot(d, d)), shift) / product;
     return {rounded_unit(d), to_double(quotient, k - shift)};
   }
+}
+
+// With the integer rays a, b, c and p the weight of a is to the others as det(p, b, c) |a|.
+std::array<double, 3> exact_weights(const std::array<Point, 3>& corners, const Point& p,
+                                    const Point& center) {
+  constexpr int root_bits = 128;
+  const auto r = exact::scaled_rays({corners[0], corners[1], corners[2], p}, center);
+  std::array<Integer, 3> weights = {det(r[3], r[1], r[2]), det(r[3], r[2], r[0]),
+                                    det(r[3], r[0], r[1])};
+  for (std::size_t i = 0; i < 3; ++i) {
+    weights[i] = weights[i] * floor_sqrt(dot(r[i], r[i]) << (2 * root_bits));
+  }
+  const Integer sum = weights[0] + weights[1] + weights[2];
+  const auto share = [&sum](const Integer& weight) {
+    if (weight == 0) return 0.0;
+    const int shift = 128 + num_bits(sum) - num_bits(weight);
+    return to_double(shifted(weight, shift) / sum, -shift);
+  };
+  return {share(weights[0]), share(weights[1]), share(weights[2])};
 }
 
 Vec exact_direction(const Point& a, const Point& b) {

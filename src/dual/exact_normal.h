@@ -4,6 +4,8 @@
 // The slow path of the dual: normals and differences from exact integers, rounded once.
 #pragma once
 
+#include <array>
+
 #include "dual/split_sites.h"
 #include "rondel/export.h"
 
@@ -29,6 +31,11 @@ struct ExactDifference {
 };
 RONDEL_API ExactDifference exact_projected_difference(const Point& a, const Point& b,
                                                       const Point& center);
+
+// The weights, of sum 1, for which the weighted sum of the projections of the corners lies on the ray
+// of p, which is within their cone: each within 2^-53 of itself.
+RONDEL_API std::array<double, 3> exact_weights(const std::array<Point, 3>& corners, const Point& p,
+                                               const Point& center);
 
 // The unit vector from a to b.
 Vec exact_direction(const Point& a, const Point& b);

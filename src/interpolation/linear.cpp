@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <tuple>
+#include <utility>
 
 #include "dual/exact_normal.h"
 #include "exact/eft.h"
@@ -18,12 +19,12 @@ namespace {
 using exact::DoubleDouble;
 using exact::to_vector;
 using Steps = std::array<Vec, 3>;
-using Weights3 = std::array<double, 3>;
 
-// Where a product of two steps is so many times the double area of the face, or a weight that small,
-// double-double arithmetic takes over: rounding errors would be seen.
-constexpr double most_elongated = 16;
-constexpr double least_share = 0x1p-40;
+// Split unit vectors are wrong by 2^-100, and so are steps; so with the largest step L and the sum S of
+// the determinants, which is the double area of the face, weights are wrong by 2^-100 L/S. Rounding
+// errors of doubles add 2^-50 or so times the product P of the two largest steps over S.
+constexpr double least_sum = 0x1p-46;  // S/L
+constexpr double most_elongated = 16;  // P/S, for doubles
 
 // u.(B x C), u.(C x A), u.(A x B).
 template <class V>
@@ -32,48 +33,45 @@ auto determinants(const V& u, const std::array<V, 3>& s) {
                     dot(u, cross(s[0], s[1]))};
 }
 
+double sum_of(const Weights3& w) { return (w[0] + w[1]) + w[2]; }
+
+double largest_square(const Steps& s) {
+  return std::max({dot(s[0], s[0]), dot(s[1], s[1]), dot(s[2], s[2])});
+}
+
+bool is_enough(double sum, double largest_step_squared) {
+  return sum > 0 && sum * sum >= least_sum * least_sum * largest_step_squared;
+}
+
 bool are_well_shaped(const Steps& s, const Weights3& w) {
-  const double sum = (w[0] + w[1]) + w[2];
-  if (!(std::min({w[0], w[1], w[2]}) > least_share * sum)) return false;
+  const double sum = sum_of(w);
   const Weights3 squares = {dot(s[0], s[0]), dot(s[1], s[1]), dot(s[2], s[2])};
-  if (std::min({squares[0], squares[1], squares[2]}) < least_split_step * least_split_step)
-    return false;
-  const double largest =
+  const double product =
       std::max({squares[0] * squares[1], squares[1] * squares[2], squares[2] * squares[0]});
-  return largest <= (most_elongated * most_elongated) * (sum * sum);
+  return product <= (most_elongated * most_elongated) * (sum * sum) &&
+         is_enough(sum, std::max({squares[0], squares[1], squares[2]}));
 }
 
-Weights3 wide_determinants(const Ground& ground, const Place& place, const Triple& corners) {
-  using Wide = exact::Vector3<DoubleDouble>;
-  const exact::SplitPoint& u = place.unit;
-  const auto sum = [](double hi, double lo) { return exact::fast_two_sum(hi, lo); };
-  std::array<Wide, 3> steps;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const exact::SplitPoint& x = ground.unit(corners[i]);
-    const auto d = exact::difference(x.hi, u.hi);
-    steps[i] = {d.x + sum(x.lo.x, -u.lo.x), d.y + sum(x.lo.y, -u.lo.y), d.z + sum(x.lo.z, -u.lo.z)};
-  }
+using Wide = exact::Vector3<DoubleDouble>;
+
+Wide wide_sum(const Point& hi, const Point& lo) {
+  return {exact::fast_two_sum(hi.x, lo.x), exact::fast_two_sum(hi.y, lo.y),
+          exact::fast_two_sum(hi.z, lo.z)};
+}
+
+Weights3 wide_determinants(const exact::SplitPoint& unit,
+                           const std::array<exact::SplitPoint, 3>& x) {
+  const Wide u = wide_sum(unit.hi, unit.lo);
   const auto wide =
-      determinants(Wide{sum(u.hi.x, u.lo.x), sum(u.hi.y, u.lo.y), sum(u.hi.z, u.lo.z)}, steps);
+      determinants(u, std::array{wide_sum(x[0].hi, x[0].lo) - u, wide_sum(x[1].hi, x[1].lo) - u,
+                                 wide_sum(x[2].hi, x[2].lo) - u});
   return {wide[0].hi, wide[1].hi, wide[2].hi};
-}
-
-// Of faces that are smaller than split unit vectors can tell: the same formula with exact steps, times
-// one power of two.
-Weights3 tiny_determinants(const Ground& ground, const Place& place, const Triple& corners) {
-  Steps s;
-  for (std::size_t i = 0; i < 3; ++i) s[i] = careful_step(ground, place, corners[i]);
-  const double largest =
-      std::max({largest_coordinate(s[0]), largest_coordinate(s[1]), largest_coordinate(s[2])});
-  const int shift = -std::ilogb(largest);
-  for (Vec& v : s) v = {std::ldexp(v.x, shift), std::ldexp(v.y, shift), std::ldexp(v.z, shift)};
-  return determinants(to_vector(place.unit.hi), s);
 }
 
 // The location says that no weight is negative.
 void add_shares(const Triple& corners, Weights3 w, Row& row) {
   for (double& weight : w) weight = std::max(weight, 0.0);
-  const double sum = (w[0] + w[1]) + w[2];
+  const double sum = sum_of(w);
   for (std::size_t i = 0; i < 3; ++i) row.push_back({corners[i], w[i] / sum});
 }
 
@@ -101,11 +99,25 @@ void weigh_on_edge(const Ground& ground, const Place& place, Row& row) {
   };
   if (coordinates(b) < coordinates(a)) std::swap(a, b);
   const Vec u = to_vector(place.unit.hi);
-  const double from_a = exact::length_of(cross(u, careful_step(ground, place, a)));
-  const double from_b = exact::length_of(cross(u, careful_step(ground, place, b)));
+  double from_a = exact::length_of(cross(u, step(place.unit, ground.unit(a))));
+  double from_b = exact::length_of(cross(u, step(place.unit, ground.unit(b))));
+  if (from_a + from_b < least_sum) {
+    from_a = exact::length_of(cross(u, exact_step(ground, place, a)));
+    from_b = exact::length_of(cross(u, exact_step(ground, place, b)));
+  }
   const double sum = from_a + from_b;
   row.push_back({a, from_b / sum});
   row.push_back({b, from_a / sum});
+}
+
+Weights3 LinearKernel::careful_weights(const Place& place, const Triple& corners,
+                                       double largest_step_squared) const {
+  const Weights3 wide = wide_determinants(
+      place.unit, {ground_.unit(corners[0]), ground_.unit(corners[1]), ground_.unit(corners[2])});
+  if (is_enough(sum_of(wide), largest_step_squared)) return wide;
+  return dual::exact_weights(
+      {ground_.point(corners[0]), ground_.point(corners[1]), ground_.point(corners[2])},
+      place.point, ground_.center());
 }
 
 void LinearKernel::operator()(const Place& place, Row& row) const {
@@ -117,14 +129,9 @@ void LinearKernel::operator()(const Place& place, Row& row) const {
   const Steps s = {step(place.unit, ground_.unit(corners[0])),
                    step(place.unit, ground_.unit(corners[1])),
                    step(place.unit, ground_.unit(corners[2]))};
-  const Weights3 w = determinants(to_vector(place.unit.hi), s);
-  if (are_well_shaped(s, w)) {
-    add_shares(corners, w, row);
-  } else if (std::ranges::all_of(s, is_split_enough)) {
-    add_shares(corners, wide_determinants(ground_, place, corners), row);
-  } else {
-    add_shares(corners, tiny_determinants(ground_, place, corners), row);
-  }
+  Weights3 w = determinants(to_vector(place.unit.hi), s);
+  if (!are_well_shaped(s, w)) w = careful_weights(place, corners, largest_square(s));
+  add_shares(corners, w, row);
 }
 
 }  // namespace rondel::interpolation

@@ -7,8 +7,10 @@
 //     l_a : l_b : l_c = det(u, b, c) : det(u, c, a) : det(u, a, b),   sum 1.
 //
 // With the steps A = a - u, B, C from u, det(u, b, c) = u.(B x C): its rounding errors are a few units
-// of |B||C|, whatever the size of the face. On an edge, in the limit, l_a : l_b = |u x B| : |u x A|.
+// of |B||C|, whatever the size of the face. Where this is not enough, longer numbers take over. On an edge, in the limit, l_a : l_b = |u x B| : |u x A|.
 #pragma once
+
+#include <array>
 
 #include "exact/vector.h"
 #include "interpolation/ground.h"
@@ -17,6 +19,7 @@
 namespace rondel::interpolation {
 
 using Vec = exact::Vector3<double>;
+using Weights3 = std::array<double, 3>;
 
 // Steps shorter than this are not right to doubles if they come from split unit vectors.
 inline constexpr double least_split_step = 0x1p-45;
@@ -48,6 +51,9 @@ class LinearKernel {
   void operator()(const Place& place, Row& row) const;
 
  private:
+  [[nodiscard]] Weights3 careful_weights(const Place& place, const Triple& corners,
+                                         double largest_step_squared) const;
+
   const Ground& ground_;
 };
 

@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "rondel/error.h"
@@ -33,6 +34,15 @@ void require_length(std::string_view name, std::size_t length, std::size_t wante
   if (length == wanted) return;
   throw InvalidInput(std::string(name) + " has " + std::to_string(length) + " numbers instead of " +
                          std::to_string(wanted),
+                     0);
+}
+
+// The numbers of so many fields.
+std::size_t product(std::size_t num_fields, std::size_t length) {
+  if (length == 0 || num_fields <= std::numeric_limits<std::size_t>::max() / length)
+    return num_fields * length;
+  throw InvalidInput(std::to_string(num_fields) + " fields of " + std::to_string(length) +
+                         " numbers are more than an array can hold",
                      0);
 }
 
@@ -112,8 +122,8 @@ void apply(const Weights& weights, std::span<const double> in, std::span<double>
            std::size_t num_fields, const ApplyOptions& options, const Execution& execution) {
   const system::Call call(execution);
   require_rows(weights);
-  require_length("the input", in.size(), num_fields * weights.num_columns);
-  require_length("the output", out.size(), num_fields * weights.num_rows());
+  require_length("the input", in.size(), product(num_fields, weights.num_columns));
+  require_length("the output", out.size(), product(num_fields, weights.num_rows()));
   if (!(options.most_missing >= 0 && options.most_missing <= 1)) {
     throw InvalidInput(
         "most_missing is " + system::shortest_text(options.most_missing) + ", not in [0, 1]", 0);
