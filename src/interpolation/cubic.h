@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Cubic interpolation: values and gradients at the sites met, the gradient continuous everywhere, order
+// 4. In each face a spherical Clough-Tocher element S (Alfeld, Neamtu, Schumaker, J. Comput. Appl. Math.
+// 73, 1996), divided by what S makes of the constant one; docs/theory/cubic.md derives it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "interpolation/cubic_face.h"
+#include "interpolation/ground.h"
+#include "interpolation/linear.h"
+#include "interpolation/row.h"
+#include "rondel/interpolate.h"
+
+namespace rondel::interpolation {
+
+// A row has the corners of the face, from the lowest rank, and then the vertices opposite to its edges.
+//
+// In faces with a side above 90 degrees or so, where S of one may vanish, in those smaller than
+// 1e-60 and in those with a corner that has no gradient, it is linear.
+class CubicKernel {
+ public:
+  // `has_gradient` of each vertex; empty if all have one. Normalization::homogeneous: S undivided.
+  explicit CubicKernel(const Ground& ground, std::span<const std::uint8_t> has_gradient = {},
+                       Normalization normalization = Normalization::unity)
+      : ground_(ground),
+        linear_(ground),
+        has_gradient_(has_gradient),
+        normalization_(normalization) {}
+
+  void operator()(const Place& place, SlopeRow& row);
+
+ private:
+  [[nodiscard]] bool has_gradient(Index v) const {
+    return has_gradient_.empty() || has_gradient_[v] != 0;
+  }
+  // False if one of them has no gradient.
+  bool find_corners(const Place& place);
+  bool weigh(const Row& flat, SlopeRow& row);
+  static void add(Index v, double weight, const Vec& slope, SlopeRow& row);
+  void add_linear(const Place& place, SlopeRow& row) const;
+
+  const Ground& ground_;
+  LinearKernel linear_;
+  std::span<const std::uint8_t> has_gradient_;
+  Normalization normalization_;
+
+  Row flat_;  // the linear weights
+  std::array<Index, 6> vertices_{};
+  CubicFace face_;
+  CubicFace::Result result_;
+};
+
+}  // namespace rondel::interpolation

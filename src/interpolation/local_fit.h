@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The gradient at a site x from the values around it: that of the polynomial in the stereographic plane
+// of x (scaled so that it is true to length at x) which has the value of x there and fits those of the
+// neighbors best, in the sense of weighted least squares with the weights
+//
+//     w = ((1 - r) / r)^2,   r = the distance from x over 1.1 times that of the farthest neighbor
+//
+// (those of GRADL in Renka's SSRFPACK, ACM TOMS 23, 1997, whose fit is quadratic). The fit is cubic, and
+// quadratic or linear where the neighbors do not determine it well.
+//
+// The plane's coordinates are first made such that the weighted second moments are those of a round
+// cloud, which changes no fit but lets thin clouds pass. Of the normal equations, whose entries are 25
+// moments, the columns stand in the order of their degree; so one factorization L D L^T serves all three
+// fits. A pivot below least_pivot of its diagonal entry ends it at the degree before. Then no entry of
+// the inverse is large, and the weights are right to about 1e-12 of the largest.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "exact/vector.h"
+#include "rondel/types.h"
+
+namespace rondel::interpolation {
+
+class LocalFit {
+ public:
+  static constexpr std::size_t max_terms = 9;
+  static constexpr std::array<std::size_t, 3> terms_of_degree = {2, 5, 9};
+  static constexpr double least_pivot = 0x1p-10;
+
+  using Vec = exact::Vector3<double>;
+
+  // The gradient is the sum of weights[k] (f_k - f(x)), k over the neighbors at x + steps[k], in their
+  // order. The weights are tangent at x. None if the neighbors are all in line with x, or there are
+  // none. Precondition: no step is longer than sqrt(3).
+  bool find(const Vec& x, std::span<const Vec> steps, std::vector<Vec>& weights);
+
+  // How many terms the polynomial of the last fit had.
+  [[nodiscard]] std::size_t num_terms() const { return num_terms_; }
+
+ private:
+  struct ChartPoint {
+    double a;
+    double b;
+    double weight;
+  };
+  using Coefficients = std::array<double, max_terms>;
+
+  bool set_chart(const Vec& x, std::span<const Vec> steps);
+  bool make_round();
+  void add_moments();
+  [[nodiscard]] double entry(std::size_t i, std::size_t j) const;
+  void factor(std::size_t most_terms);
+  [[nodiscard]] Coefficients solved_for(std::size_t unit) const;
+
+  std::vector<ChartPoint> points_;
+  Vec first_axis_{};
+  Vec second_axis_{};
+  double scale_ = 0;  // the unit of the plane's coordinates
+
+  // a' = to_round_[0] a,  b' = to_round_[1] (b - shear_ a)
+  std::array<double, 2> to_round_{};
+  double shear_ = 0;
+
+  // moments_[s - 2][q]: the weighted sum of a'^(s-q) b'^q
+  std::array<std::array<double, 7>, 5> moments_{};
+  std::array<Coefficients, max_terms> lower_{};
+  Coefficients pivots_{};
+  std::size_t num_terms_ = 0;
+};
+
+}  // namespace rondel::interpolation

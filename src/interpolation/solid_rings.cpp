@@ -1,0 +1,88 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "interpolation/solid_rings.h"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "system/parallel.h"
+#include "topology/mesh.h"
+
+namespace rondel::interpolation {
+namespace {
+
+// So many vertices are one thread's work at a time.
+constexpr std::size_t stars_per_piece = 4096;
+
+// Some corner of each vertex.
+std::vector<topology::Halfedge> corners_of(const Ground& ground) {
+  const topology::Mesh& mesh = ground.mesh();
+  std::vector<topology::Halfedge> corners(ground.num_vertices());
+  for (Index f = 0; f < mesh.num_slots(); ++f) {
+    for (unsigned i = 0; i < 3; ++i) corners[mesh[f].vertex[i]] = topology::halfedge(f, i);
+  }
+  return corners;
+}
+
+// Appends the other ends of the edges that a solid face has, counterclockwise.
+void append_star(const Ground& ground, topology::Halfedge first, std::vector<Index>& star) {
+  const topology::Mesh& mesh = ground.mesh();
+  topology::Halfedge h = first;
+  bool is_after_solid = ground.is_solid(
+      topology::face_of(mesh.previous_around(topology::face_of(h), topology::edge_of(h))));
+  do {
+    const Index f = topology::face_of(h);
+    const unsigned corner = topology::edge_of(h);
+    const bool is_solid = ground.is_solid(f);
+    if (is_solid || is_after_solid) star.push_back(mesh[f].vertex[topology::next_corner[corner]]);
+    is_after_solid = is_solid;
+    h = mesh.next_around(f, corner);
+  } while (h != first);
+}
+
+}  // namespace
+
+SolidStars::SolidStars(const Ground& ground, unsigned threads) {
+  const std::vector<topology::Halfedge> corners = corners_of(ground);
+  const std::size_t n = ground.num_vertices();
+  std::vector<std::vector<Index>> pieces(system::num_pieces(n, stars_per_piece));
+  offsets_.assign(n + 1, 0);
+  system::parallel_for(threads, n, stars_per_piece, [&](std::size_t begin, std::size_t end) {
+    std::vector<Index>& ends = pieces[begin / stars_per_piece];
+    ends.reserve(6 * (end - begin) + 6);
+    for (std::size_t v = begin; v < end; ++v) {
+      const auto size = static_cast<std::ptrdiff_t>(ends.size());
+      append_star(ground, corners[v], ends);
+      std::rotate(ends.begin() + size, std::min_element(ends.begin() + size, ends.end()),
+                  ends.end());
+      offsets_[v + 1] = ends.size() - static_cast<std::size_t>(size);
+    }
+  });
+  for (std::size_t v = 0; v < n; ++v) offsets_[v + 1] += offsets_[v];
+  ends_.reserve(offsets_[n]);
+  for (const std::vector<Index>& piece : pieces) {
+    ends_.insert(ends_.end(), piece.begin(), piece.end());
+  }
+}
+
+std::span<const Index> SolidRings::find(Index v, unsigned rings) {
+  found_.clear();
+  visited_.clear();
+  visited_.insert(v);
+  const auto add_star = [this](Index w) {
+    for (const Index x : stars_[w]) {
+      if (visited_.insert(x)) found_.push_back(x);
+    }
+  };
+  add_star(v);
+  std::size_t next = 0;
+  for (unsigned ring = 1; ring < rings; ++ring) {
+    const std::size_t end = found_.size();
+    if (next == end) break;
+    for (; next < end; ++next) add_star(found_[next]);
+  }
+  return found_;
+}
+
+}  // namespace rondel::interpolation
