@@ -63,10 +63,17 @@ class Bench {
     };
     values("nearest", Method::nearest);
     values("linear", Method::linear);
+    values("cubic_estimated", Method::cubic);
+    take("cubic", [&] {
+      sum_ +=
+          interpolator.values(field, gradients, targets, {.method = Method::cubic}, execution_)[0];
+    });
     take("linear_weights", [&] {
       sum_ += interpolator.weights(targets, {.method = Method::linear, .hashes = false}, execution_)
                   .values[0];
     });
+    const rondel::Interpolator fresh(triangulation);
+    take("gradient", [&] { sum_ += fresh.gradient({}, execution_).values[0]; });
   }
 
   void print() {

@@ -91,8 +91,7 @@ GradientRows joined(const std::vector<GradientRows>& pieces, unsigned threads) {
 
 }  // namespace
 
-GradientRows gradient_rows(const Ground& ground, const GradientOptions& options,
-                           unsigned threads) {
+GradientRows gradient_rows(const Ground& ground, const GradientOptions& options, unsigned threads) {
   const SolidStars stars(ground, threads);
   const std::size_t n = ground.num_vertices();
   std::vector<GradientRows> pieces(system::num_pieces(n, gradients_per_piece));

@@ -2,21 +2,27 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <limits>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "api/triangulation_impl.h"
 #include "api/validation.h"
 #include "interpolation/collected_rows.h"
+#include "interpolation/cubic.h"
+#include "interpolation/gradient.h"
 #include "interpolation/ground.h"
 #include "interpolation/linear.h"
 #include "interpolation/place_values.h"
 #include "interpolation/rows.h"
+#include "interpolation/slopes.h"
+#include "interpolation/takers.h"
 #include "rondel/error.h"
 #include "rondel/interpolate.h"
 #include "system/job.h"
-#include "system/prefetch.h"
+#include "system/mutex.h"
 
 namespace rondel {
 namespace {
@@ -25,75 +31,13 @@ using namespace interpolation;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-// Writes the sums of rows into values of the shape (num_fields, num_targets).
-class ValuesTaker {
- public:
-  ValuesTaker(const PlaceValues& fields, std::span<double> values)
-      : fields_(fields),
-        values_(values.data()),
-        num_targets_(values.size() / fields.num_fields()) {}
+// Of fields that are given, what their rows ask for.
+struct Fields {
+  PlaceValues values;
+  std::optional<PlaceGradients> gradients{};
+  std::shared_ptr<const GradientRows> estimated{};  // by these, if not given
 
-  void expect(Index target) const { system::prefetch_to_write(&values_[target]); }
-  void take(Index target, const exact::SplitPoint& /*u*/, const Row& row) const {
-    if (row.empty()) return;
-    for (std::size_t f = 0; f < fields_.num_fields(); ++f) {
-      double sum = 0;
-      for (const auto& [vertex, weight] : row) sum += weight * fields_(f, vertex);
-      values_[f * num_targets_ + target] = sum;
-    }
-  }
-  void finish() const {}
-
- private:
-  const PlaceValues& fields_;
-  double* values_;
-  std::size_t num_targets_;
-};
-
-// Writes tangent vectors of the shape (num_fields, num_targets); the fields are their coordinates.
-class VectorsTaker {
- public:
-  VectorsTaker(const PlaceValues& fields, std::span<Point> vectors)
-      : fields_(fields),
-        vectors_(vectors.data()),
-        num_targets_(3 * vectors.size() / fields.num_fields()) {}
-
-  void expect(Index target) const { system::prefetch_to_write(&vectors_[target]); }
-  void take(Index target, const exact::SplitPoint& u, const Row& row) const {
-    if (row.empty()) return;
-    for (std::size_t f = 0; f < fields_.num_fields(); f += 3) {
-      Vec sum{0, 0, 0};
-      for (const auto& [vertex, weight] : row) {
-        sum =
-            sum + weight * Vec{fields_(f, vertex), fields_(f + 1, vertex), fields_(f + 2, vertex)};
-      }
-      const Vec up = exact::to_vector(u.hi);
-      vectors_[f / 3 * num_targets_ + target] = exact::to_point(sum - dot(sum, up) * up);
-    }
-  }
-  void finish() const {}
-
- private:
-  const PlaceValues& fields_;
-  Point* vectors_;
-  std::size_t num_targets_;
-};
-
-class WeightsTaker {
- public:
-  explicit WeightsTaker(CollectedRows& rows) : rows_(rows) {}
-
-  void expect(Index /*target*/) const {}
-  void take(Index target, const exact::SplitPoint& /*u*/, const Row& row) {
-    rows_.append(row, list_);
-    list_.targets.push_back(target);
-    list_.ends.push_back(list_.columns.size());
-  }
-  void finish() { rows_.add(std::move(list_)); }
-
- private:
-  CollectedRows& rows_;
-  RowList list_;
+  [[nodiscard]] FieldSums sums() const { return {values, gradients ? &*gradients : nullptr}; }
 };
 
 }  // namespace
@@ -103,14 +47,27 @@ class Interpolator::Impl {
   explicit Impl(const Triangulation& triangulation) : ground_(triangulation) {}
 
   [[nodiscard]] const Ground& ground() const { return ground_; }
+  [[nodiscard]] bool needs_gradients(Method method) const {
+    return (method == Method::hermite || method == Method::cubic) &&
+           ground_.triangulation().dimension() == 2;
+  }
 
   void validate(std::span<const Point> targets, const InterpolationOptions& options) const;
   // The number of fields of so many values.
   [[nodiscard]] std::size_t num_fields(std::string_view name, std::size_t size) const;
 
+  [[nodiscard]] std::shared_ptr<const GradientRows> gradient_rows(const GradientOptions& options,
+                                                                  unsigned threads) const;
+  // With estimated gradients if the method needs any.
+  [[nodiscard]] Fields fields(FieldLayout layout, std::size_t num_targets,
+                              const InterpolationOptions& options,
+                              const Execution& execution) const;
+
+  // `gradients`, if any, says which vertices have one.
   template <class MakeTaker>
   void for_each_row(std::span<const Point> targets, const InterpolationOptions& options,
-                    const Execution& execution, const MakeTaker& make_taker) const;
+                    const Execution& execution, const GradientRows* gradients,
+                    const MakeTaker& make_taker) const;
 
   [[nodiscard]] std::uint64_t sites_hash() const {
     std::call_once(hash_once_, [this] {
@@ -123,6 +80,10 @@ class Interpolator::Impl {
   Ground ground_;
   mutable std::once_flag hash_once_;
   mutable std::uint64_t sites_hash_ = 0;
+  // The last ones that were asked for.
+  mutable system::Mutex gradients_mutex_;
+  mutable unsigned gradients_rings_ = 0;
+  mutable std::shared_ptr<const GradientRows> gradients_;
 };
 
 void Interpolator::Impl::validate(std::span<const Point> targets,
@@ -157,10 +118,37 @@ std::size_t Interpolator::Impl::num_fields(std::string_view name, std::size_t si
   return size / num_sites;
 }
 
+std::shared_ptr<const GradientRows> Interpolator::Impl::gradient_rows(
+    const GradientOptions& options, unsigned threads) const {
+  {
+    const std::lock_guard lock(gradients_mutex_);
+    if (gradients_ && gradients_rings_ == options.rings) return gradients_;
+  }
+  auto rows =
+      std::make_shared<const GradientRows>(interpolation::gradient_rows(ground_, options, threads));
+  const std::lock_guard lock(gradients_mutex_);
+  gradients_ = rows;
+  gradients_rings_ = options.rings;
+  return rows;
+}
+
+Fields Interpolator::Impl::fields(FieldLayout layout, std::size_t num_targets,
+                                  const InterpolationOptions& options,
+                                  const Execution& execution) const {
+  const bool has_gradients = needs_gradients(options.method);
+  Fields fields{{ground_, std::move(layout), options.shared_place,
+                 has_gradients ? ground_.num_vertices() : num_targets, execution.threads}};
+  if (has_gradients) {
+    fields.estimated = gradient_rows(options.gradient, execution.threads);
+    fields.gradients.emplace(*fields.estimated, fields.values, execution.threads);
+  }
+  return fields;
+}
+
 template <class MakeTaker>
 void Interpolator::Impl::for_each_row(std::span<const Point> targets,
                                       const InterpolationOptions& options,
-                                      const Execution& execution,
+                                      const Execution& execution, const GradientRows* gradients,
                                       const MakeTaker& make_taker) const {
   FirstOutside outside;
   const auto visit = [&](const auto& make_kernel) {
@@ -168,6 +156,8 @@ void Interpolator::Impl::for_each_row(std::span<const Point> targets,
         ground_, targets, execution,
         [&] { return KernelRows(ground_, options, outside, make_kernel()); }, make_taker);
   };
+  const auto has_gradient =
+      gradients == nullptr ? std::vector<std::uint8_t>() : vertices_with(*gradients);
   if (ground_.num_vertices() == 0) {
     if (options.outside == Outside::error && !targets.empty()) outside.add(0);
   } else if (options.method == Method::nearest) {
@@ -175,6 +165,8 @@ void Interpolator::Impl::for_each_row(std::span<const Point> targets,
         ground_, targets, execution, [&] { return NearestRows(ground_); }, make_taker);
   } else if (options.method == Method::linear || ground_.triangulation().dimension() < 2) {
     visit([&] { return LinearKernel(ground_); });
+  } else if (options.method == Method::cubic) {
+    visit([&] { return CubicKernel(ground_, has_gradient, options.normalization); });
   } else {
     throw InvalidInput("not there yet", 0);
   }
@@ -200,7 +192,12 @@ Weights Interpolator::weights(std::span<const Point> targets, const Interpolatio
   const system::Call call(execution);
   impl_->validate(targets, options);
   CollectedRows rows(impl_->ground(), options.shared_place);
-  impl_->for_each_row(targets, options, execution, [&] { return WeightsTaker(rows); });
+  std::shared_ptr<const GradientRows> gradients;
+  if (impl_->needs_gradients(options.method)) {
+    gradients = impl_->gradient_rows(options.gradient, execution.threads);
+  }
+  impl_->for_each_row(targets, options, execution, gradients.get(),
+                      [&] { return WeightsTaker(rows, gradients.get()); });
   Weights weights = rows.joined(targets.size(), execution.threads);
   if (options.hashes) {
     weights.sites_hash = impl_->sites_hash();
@@ -216,10 +213,54 @@ std::vector<double> Interpolator::values(std::span<const double> field,
   const system::Call call(execution);
   impl_->validate(targets, options);
   std::vector<double> values(impl_->num_fields("field", field.size()) * targets.size(), nan);
-  const PlaceValues fields(impl_->ground(), scalar_fields(field, impl_->ground().num_sites()),
-                           options.shared_place, targets.size(), execution.threads);
-  impl_->for_each_row(targets, options, execution, [&] { return ValuesTaker(fields, values); });
+  const Fields fields = impl_->fields(scalar_fields(field, impl_->ground().num_sites()),
+                                      targets.size(), options, execution);
+  impl_->for_each_row(targets, options, execution, fields.estimated.get(),
+                      [&] { return ValuesTaker(fields.sums(), values); });
   return values;
+}
+
+std::vector<double> Interpolator::values(std::span<const double> field,
+                                         std::span<const Point> gradients,
+                                         std::span<const Point> targets,
+                                         const InterpolationOptions& options,
+                                         const Execution& execution) const {
+  const system::Call call(execution);
+  impl_->validate(targets, options);
+  if (options.method != Method::hermite && options.method != Method::cubic) {
+    throw InvalidInput("only hermite and cubic take gradients", 0);
+  }
+  const Ground& ground = impl_->ground();
+  const std::size_t num_fields = impl_->num_fields("field", field.size());
+  if (gradients.size() != field.size()) {
+    throw InvalidInput("there are " + std::to_string(gradients.size()) + " gradients for " +
+                           std::to_string(field.size()) + " values",
+                       gradients.size());
+  }
+  std::vector<double> values(num_fields * targets.size(), nan);
+  Fields fields{{ground, scalar_fields(field, ground.num_sites()), options.shared_place,
+                 targets.size(), execution.threads}};
+  if (impl_->needs_gradients(options.method)) {
+    fields.gradients.emplace(ground, gradients, options.shared_place, execution.threads);
+  }
+  impl_->for_each_row(targets, options, execution, nullptr,
+                      [&] { return ValuesTaker(fields.sums(), values); });
+  return values;
+}
+
+Weights Interpolator::gradient(const GradientOptions& options, const Execution& execution) const {
+  const system::Call call(execution);
+  const Ground& ground = impl_->ground();
+  if (ground.model() == Model::weighted) throw InvalidInput("weighted sites have no gradients", 0);
+  Weights weights;
+  if (ground.triangulation().dimension() == 2) {
+    weights = gradient_weights(ground, *impl_->gradient_rows(options, execution.threads));
+  } else {
+    weights.offsets.assign(3 * ground.num_sites() + 1, 0);
+    weights.num_columns = ground.num_sites();
+  }
+  weights.sites_hash = impl_->sites_hash();
+  return weights;
 }
 
 std::vector<Point> Interpolator::vectors(std::span<const Point> field,
@@ -230,12 +271,12 @@ std::vector<Point> Interpolator::vectors(std::span<const Point> field,
   impl_->validate(targets, options);
   std::vector<Point> vectors(impl_->num_fields("field", field.size()) * targets.size(),
                              Point{nan, nan, nan});
-  const PlaceValues fields(impl_->ground(), vector_fields(field, impl_->ground().num_sites()),
-                           options.shared_place, targets.size(), execution.threads);
+  const Fields fields = impl_->fields(vector_fields(field, impl_->ground().num_sites()),
+                                      targets.size(), options, execution);
   InterpolationOptions homogeneous = options;
   homogeneous.normalization = Normalization::homogeneous;
-  impl_->for_each_row(targets, homogeneous, execution,
-                      [&] { return VectorsTaker(fields, vectors); });
+  impl_->for_each_row(targets, homogeneous, execution, fields.estimated.get(),
+                      [&] { return VectorsTaker(fields.sums(), vectors); });
   return vectors;
 }
 

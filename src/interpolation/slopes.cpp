@@ -1,0 +1,138 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "interpolation/slopes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "exact/vector.h"
+#include "system/parallel.h"
+#include "system/prefetch.h"
+
+namespace rondel::interpolation {
+namespace {
+
+constexpr std::size_t vertices_at_once = 2048;
+
+}  // namespace
+
+std::vector<std::uint8_t> vertices_with(const GradientRows& rows) {
+  std::vector<std::uint8_t> result;
+  for (std::size_t v = 0; v + 1 < rows.offsets.size(); ++v) {
+    if (rows.offsets[v] != rows.offsets[v + 1]) continue;
+    if (result.empty()) result.assign(rows.offsets.size() - 1, 1);
+    result[v] = 0;
+  }
+  return result;
+}
+
+PlaceGradients::PlaceGradients(const GradientRows& rows, const PlaceValues& values,
+                               unsigned threads)
+    : num_fields_(values.num_fields()) {
+  const std::size_t n = rows.offsets.size() - 1;
+  by_vertex_.resize(num_fields_ * n);
+  const auto estimate = [&](std::size_t v, std::size_t f) {
+    Point sum{};
+    const std::uint64_t first = rows.offsets[v];
+    if (first == rows.offsets[v + 1]) return sum;
+    const double here = values(f, rows.vertices[first]);
+    for (std::uint64_t k = first + 1; k < rows.offsets[v + 1]; ++k) {
+      sum = sum + (values(f, rows.vertices[k]) - here) * rows.weights[k];
+    }
+    return sum;
+  };
+  system::parallel_for(threads, n, vertices_at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t v = begin; v < end; ++v) {
+      for (std::size_t f = 0; f < num_fields_; ++f) {
+        by_vertex_[v * num_fields_ + f] = estimate(v, f);
+      }
+    }
+  });
+}
+
+PlaceGradients::PlaceGradients(const Ground& ground, std::span<const Point> given,
+                               SharedPlace shared, unsigned threads)
+    : num_fields_(given.size() / ground.num_sites()) {
+  const std::size_t n = ground.num_vertices();
+  const auto names = ground.names();
+  by_vertex_.resize(num_fields_ * n);
+  const auto gather = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t f = 0; f < num_fields_; ++f) {
+      const Point* const field = &given[f * ground.num_sites()];
+      for (std::size_t v = begin; v < end; ++v) {
+        const std::size_t ahead = v + system::prefetch_distance;
+        if (ahead < end) system::prefetch(&field[names[ahead]]);
+        by_vertex_[v * num_fields_ + f] = field[names[v]];
+      }
+    }
+  };
+  system::parallel_for(threads, n, vertices_at_once, gather);
+  if (shared == SharedPlace::mean) take_means(ground, given);
+}
+
+void PlaceGradients::take_means(const Ground& ground, std::span<const Point> given) {
+  for (const auto& [vertex, sites] : shared_places(ground)) {
+    for (std::size_t f = 0; f < num_fields_; ++f) {
+      Point sum{};
+      for (const Index i : sites) sum = sum + given[f * ground.num_sites() + i];
+      by_vertex_[vertex * num_fields_ + f] = sum / static_cast<double>(sites.size());
+    }
+  }
+}
+
+Weights gradient_weights(const Ground& ground, const GradientRows& rows) {
+  Weights weights;
+  weights.num_columns = ground.num_sites();
+  weights.offsets.reserve(3 * ground.num_sites() + 1);
+  const auto append = [&](Index v, double Point::*coordinate) {
+    for (std::uint64_t k = rows.offsets[v]; k < rows.offsets[v + std::size_t{1}]; ++k) {
+      weights.columns.push_back(ground.name(rows.vertices[k]));
+      weights.values.push_back(rows.weights[k].*coordinate);
+    }
+    weights.offsets.push_back(weights.columns.size());
+  };
+  for (Index i = 0; i < ground.num_sites(); ++i) {
+    for (double Point::*const coordinate : {&Point::x, &Point::y, &Point::z}) {
+      append(ground.vertex_of(i), coordinate);
+    }
+  }
+  return weights;
+}
+
+// What is added up for one vertex is added in the order of the row, and the largest weight takes what
+// rounding has changed of the sum.
+const Row& SlopeJoiner::operator()(const SlopeRow& row) {
+  shares_.clear();
+  double wanted = 0;
+  for (const auto& [vertex, weight, slope] : row) {
+    shares_.push_back({vertex, weight});
+    wanted += weight;
+    if (slope == Point{}) continue;
+    for (std::uint64_t k = gradients_->offsets[vertex];
+         k < gradients_->offsets[vertex + std::size_t{1}]; ++k) {
+      shares_.push_back({gradients_->vertices[k], dot(slope, gradients_->weights[k])});
+    }
+  }
+  merge();
+  double sum = 0;
+  for (const Share& share : joined_) sum += share.weight;
+  const auto largest = std::ranges::max_element(
+      joined_, {}, [](const Share& share) { return std::abs(share.weight); });
+  if (largest != joined_.end()) largest->weight -= sum - wanted;
+  return joined_;
+}
+
+void SlopeJoiner::merge() {
+  std::ranges::stable_sort(shares_, {}, &Share::vertex);
+  joined_.clear();
+  for (const Share& share : shares_) {
+    if (!joined_.empty() && joined_.back().vertex == share.vertex) {
+      joined_.back().weight += share.weight;
+    } else {
+      joined_.push_back(share);
+    }
+  }
+}
+
+}  // namespace rondel::interpolation

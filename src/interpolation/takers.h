@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What is made of rows as they come (rows.h): values, tangent vectors, weights.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "exact/vector.h"
+#include "interpolation/collected_rows.h"
+#include "interpolation/place_values.h"
+#include "interpolation/row.h"
+#include "interpolation/slopes.h"
+#include "system/prefetch.h"
+
+namespace rondel::interpolation {
+
+// The sums of rows over fields, in the order of the row.
+class FieldSums {
+ public:
+  // `gradients`: for rows with slopes.
+  FieldSums(const PlaceValues& values, const PlaceGradients* gradients)
+      : values_(values), gradients_(gradients) {}
+
+  [[nodiscard]] std::size_t num_fields() const { return values_.num_fields(); }
+  [[nodiscard]] double operator()(std::size_t f, const Row& row) const {
+    double sum = 0;
+    for (const auto& [vertex, weight] : row) sum += weight * values_(f, vertex);
+    return sum;
+  }
+  // At a site its gradient does not count, whatever it is.
+  [[nodiscard]] double operator()(std::size_t f, const SlopeRow& row) const {
+    double sum = 0;
+    for (const auto& [vertex, weight, slope] : row) {
+      sum += weight * values_(f, vertex);
+      if (slope != Point{}) sum += dot(slope, (*gradients_)(f, vertex));
+    }
+    return sum;
+  }
+
+ private:
+  const PlaceValues& values_;
+  const PlaceGradients* gradients_;
+};
+
+// Writes values of the shape (num_fields, num_targets); those of empty rows stay.
+class ValuesTaker {
+ public:
+  ValuesTaker(const FieldSums& sums, std::span<double> values)
+      : sums_(sums), values_(values.data()), num_targets_(values.size() / sums.num_fields()) {}
+
+  void expect(Index target) const { system::prefetch_to_write(&values_[target]); }
+  template <class AnyRow>
+  void take(Index target, const exact::SplitPoint& /*u*/, const AnyRow& row) const {
+    if (row.empty()) return;
+    for (std::size_t f = 0; f < sums_.num_fields(); ++f) {
+      values_[f * num_targets_ + target] = sums_(f, row);
+    }
+  }
+  void finish() const {}
+
+ private:
+  FieldSums sums_;
+  double* values_;
+  std::size_t num_targets_;
+};
+
+// Writes tangent vectors of the shape (num_fields / 3, num_targets); the fields are coordinates.
+class VectorsTaker {
+ public:
+  VectorsTaker(const FieldSums& sums, std::span<Point> vectors)
+      : sums_(sums),
+        vectors_(vectors.data()),
+        num_targets_(vectors.size() / (sums.num_fields() / 3)) {}
+
+  void expect(Index target) const { system::prefetch_to_write(&vectors_[target]); }
+  template <class AnyRow>
+  void take(Index target, const exact::SplitPoint& u, const AnyRow& row) const {
+    if (row.empty()) return;
+    for (std::size_t f = 0; f < sums_.num_fields(); f += 3) {
+      const Point sum{sums_(f, row), sums_(f + 1, row), sums_(f + 2, row)};
+      vectors_[f / 3 * num_targets_ + target] = sum - dot(sum, u.hi) * u.hi;
+    }
+  }
+  void finish() const {}
+
+ private:
+  FieldSums sums_;
+  Point* vectors_;
+  std::size_t num_targets_;
+};
+
+class WeightsTaker {
+ public:
+  // `gradients`: of rows with slopes.
+  WeightsTaker(CollectedRows& rows, const GradientRows* gradients)
+      : rows_(rows), join_(gradients) {}
+
+  void expect(Index /*target*/) const {}
+  void take(Index target, const exact::SplitPoint& /*u*/, const Row& row) {
+    rows_.append(row, list_);
+    list_.targets.push_back(target);
+    list_.ends.push_back(list_.columns.size());
+  }
+  void take(Index target, const exact::SplitPoint& u, const SlopeRow& row) {
+    take(target, u, join_(row));
+  }
+  void finish() { rows_.add(std::move(list_)); }
+
+ private:
+  CollectedRows& rows_;
+  SlopeJoiner join_;
+  RowList list_;
+};
+
+}  // namespace rondel::interpolation
