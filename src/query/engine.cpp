@@ -123,4 +123,14 @@ std::vector<Index> Engine::conflict_region(const Point& p, Cursor& cursor) const
   });
 }
 
+std::span<const topology::HorizonEdge> Engine::horizon(const Point& p, Index start,
+                                                       RegionSearch& search) const {
+  using Sites = models::ProjectedPoints;
+  const auto& graph = std::get<SurfaceGraph<Sites>>(graph_);
+  Target<Sites> target(graph.sites, p);
+  kernel::ConflictTest<Target<Sites>> test(target);
+  search.find(test, graph.mesh, Target<Sites>::query, start);
+  return search.horizon();
+}
+
 }  // namespace rondel::query

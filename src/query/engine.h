@@ -6,9 +6,11 @@
 // they have outside.
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "kernel/conflict_region.h"
 #include "query/graph.h"
 #include "query/neighborhood.h"
 #include "query/target.h"
@@ -24,6 +26,9 @@ struct Cursor {
   Scratch scratch;
 };
 
+// Memory for searches of conflict regions in the projected model, and the last one's horizon.
+using RegionSearch = kernel::ConflictRegion<Target<models::ProjectedPoints>>;
+
 class RONDEL_API Engine {
  public:
   explicit Engine(AnyGraph graph) : graph_(std::move(graph)) {}
@@ -36,6 +41,11 @@ class RONDEL_API Engine {
   // Counterclockwise from the lowest.
   [[nodiscard]] std::vector<Index> neighbors(Index v) const;
   std::vector<Index> conflict_region(const Point& p, Cursor& cursor) const;
+  // The edges around the conflict region of p, counterclockwise, their vertices under internal names.
+  // Precondition: dimension 2, the projected model; `start` is in conflict with p, as is every solid
+  // face that has p, unless p is a vertex.
+  std::span<const topology::HorizonEdge> horizon(const Point& p, Index start,
+                                                 RegionSearch& search) const;
 
  private:
   AnyGraph graph_;

@@ -6,17 +6,10 @@
 #include <cstddef>
 
 namespace rondel::test {
-namespace {
 
 RealVector minus(const RealVector& a, const RealVector& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
-
-RealVector plus(const RealVector& a, const RealVector& b) {
-  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
-}
-
-RealVector times(const Real& s, const RealVector& v) { return {s * v[0], s * v[1], s * v[2]}; }
 
 Real dot(const RealVector& a, const RealVector& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -25,6 +18,14 @@ Real dot(const RealVector& a, const RealVector& b) {
 RealVector cross(const RealVector& a, const RealVector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+
+namespace {
+
+RealVector plus(const RealVector& a, const RealVector& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+
+RealVector times(const Real& s, const RealVector& v) { return {s * v[0], s * v[1], s * v[2]}; }
 
 Real length(const RealVector& v) { return sqrt(dot(v, v)); }
 

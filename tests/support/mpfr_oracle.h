@@ -37,6 +37,7 @@ class Real {
   ~Real() { mpfr_clear(value_); }
 
   [[nodiscard]] double rounded() const { return mpfr_get_d(value_, MPFR_RNDN); }
+  [[nodiscard]] int sign() const { return mpfr_sgn(value_); }
   [[nodiscard]] bool is_zero() const { return mpfr_zero_p(value_) != 0; }
 
   friend Real operator+(const Real& a, const Real& b) { return binary(mpfr_add, a, b); }
@@ -62,6 +63,10 @@ class Real {
 };
 
 using RealVector = std::array<Real, 3>;
+
+RealVector minus(const RealVector& a, const RealVector& b);
+Real dot(const RealVector& a, const RealVector& b);
+RealVector cross(const RealVector& a, const RealVector& b);
 
 RealVector to_real(const Point& p);
 // Empty for the zero vector.

@@ -1,0 +1,109 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "interpolation/natural.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "interpolation/linear.h"
+
+namespace rondel::interpolation {
+namespace {
+
+// Of weights, as far as the estimate tells. The tests find errors of at most as much (docs/theory).
+constexpr double most_error = 0x1p-45;
+// Of steps and of what is made of them, relative.
+constexpr double double_unit = 0x1p-53;
+constexpr double wide_unit = 0x1p-98;
+constexpr double exact_unit = 0x1p-90;
+constexpr double split_error = 0x1p-98;
+
+bool is_on_contour(const Ground& ground, const Location& location) {
+  if (location.where != Where::edge) return false;
+  const topology::Face& face = ground.mesh()[location.face];
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (face.vertex[i] == location.sites[0] || face.vertex[i] == location.sites[1]) continue;
+    return !ground.is_solid(topology::face_of(face.opposite[i]));
+  }
+  return false;
+}
+
+}  // namespace
+
+// Where the cell is not bounded even in the best arithmetic, the target is as near to an edge of the
+// contour as makes no difference.
+void NaturalKernel::operator()(const Place& place, Row& row) {
+  if (is_on_contour(ground_, place.location)) {
+    weigh_on_edge(ground_, place, row);
+    return;
+  }
+  region_.find(place);
+  if (method_ != NaturalMethod::laplace) region_.list_faces();
+  if (weigh_in_doubles(place) || weigh_from_split_points(place) || weigh_from_exact_steps(place)) {
+    add_shares(row);
+  } else {
+    LinearKernel{ground_}(place, row);
+  }
+}
+
+template <class T>
+double NaturalKernel::weigh(NaturalCell<T>& cell, double shrink) {
+  if (method_ == NaturalMethod::planar_sibson) make_stereographic<T>(cell.bisectors(), shrink);
+  const Condition condition = method_ == NaturalMethod::laplace
+                                  ? cell.laplace(shares_)
+                                  : cell.sibson(region_.faces(), shares_);
+  return condition.value;
+}
+
+bool NaturalKernel::weigh_in_doubles(const Place& place) {
+  const TangentBasis basis(place.unit.hi);
+  const Vec u = exact::to_vector(place.unit.hi);
+  auto& bisectors = cell_.bisectors();
+  bisectors.clear();
+  double nearest = 1;
+  for (const Index v : region_.ring()) {
+    bisectors.push_back(basis.bisector(u, step(place.unit, ground_.unit(v))));
+    nearest = std::min(nearest, bisectors.back().s);
+  }
+  if (nearest < least_split_step * least_split_step) return false;
+  return weigh(cell_, 1) * double_unit <= most_error;
+}
+
+bool NaturalKernel::weigh_from_split_points(const Place& place) {
+  const TangentBasis basis(place.unit.hi);
+  const WideVector u = wide(place.unit);
+  auto& bisectors = wide_cell_.bisectors();
+  bisectors.clear();
+  double nearest = 1;
+  for (const Index v : region_.ring()) {
+    bisectors.push_back(basis.bisector(u, wide_step(place.unit, ground_.unit(v))));
+    nearest = std::min(nearest, bisectors.back().s.hi);
+  }
+  const double unit = std::max(wide_unit, split_error / std::sqrt(2 * nearest));
+  return weigh(wide_cell_, 1) * unit <= most_error;
+}
+
+bool NaturalKernel::weigh_from_exact_steps(const Place& place) {
+  const TangentBasis basis(place.unit.hi);
+  const WideVector u = wide(place.unit);
+  sites_.clear();
+  for (const Index v : region_.ring()) sites_.push_back(ground_.point(v));
+  const double shrink = exact_wide_steps(place.point, sites_, ground_.center(), steps_);
+  auto& bisectors = wide_cell_.bisectors();
+  bisectors.clear();
+  for (const WideVector& d : steps_) bisectors.push_back(basis.bisector(u, d, shrink));
+  return std::isfinite(weigh(wide_cell_, shrink) * exact_unit);
+}
+
+void NaturalKernel::add_shares(Row& row) const {
+  double sum = 0;
+  for (const double share : shares_) sum += std::max(share, 0.0);
+  const std::span<const Index> ring = region_.ring();
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    if (shares_[i] > 0) row.push_back({ring[i], shares_[i] / sum});
+  }
+}
+
+}  // namespace rondel::interpolation

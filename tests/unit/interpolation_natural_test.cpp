@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Natural neighbors against their definition in numbers of 4400 bits, and what must hold of them.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "interpolation/natural.h"
+#include "rondel/delaunay.h"
+#include "rondel/diagram.h"
+#include "support/generators.h"
+#include "support/natural_oracle.h"
+#include "support/query_oracle.h"
+
+namespace rondel {
+namespace {
+
+using interpolation::Ground;
+using interpolation::NaturalKernel;
+using interpolation::NaturalMethod;
+using interpolation::Place;
+using interpolation::Row;
+
+constexpr double weight_error = 1e-13;
+
+// The place of a target, as interpolation finds it.
+Place place_of(const Ground& ground, const Point& target) {
+  query::Cursor cursor;
+  cursor.vertex = ground.near(target);
+  return {target, exact::unit_vector(target, ground.center()),
+          ground.engine().locate(target, cursor)};
+}
+
+bool is_for_kernels(const Place& place) {
+  return place.location.where == Where::face || place.location.where == Where::edge;
+}
+
+bool is_on_contour(const Ground& ground, const Place& place) {
+  if (place.location.where != Where::edge) return false;
+  const auto& [a, b, none] = place.location.sites;
+  for (std::size_t f = 0; f < ground.mesh().num_slots(); ++f) {
+    const auto& corners = ground.mesh()[static_cast<Index>(f)].vertex;
+    if (std::ranges::count(corners, a) + std::ranges::count(corners, b) == 2 &&
+        !ground.is_solid(static_cast<Index>(f)))
+      return true;
+  }
+  return false;
+}
+
+// On edges, near sites and in circumcenters, too.
+std::vector<Point> targets_of(const Triangulation& triangulation, std::span<const Point> sites,
+                              test::Random& random) {
+  const Point center = triangulation.sphere().center;
+  std::vector<Point> targets = test::query_points(sites, center, random);
+  const auto directions = circumcenters(triangulation);
+  for (int i = 0; i < 6; ++i) {
+    const std::size_t f = random.below(triangulation.num_faces());
+    const Triple& face = triangulation.faces()[f];
+    const Point a = exact::unit_vector(sites[face[0]], center).hi;
+    const Point b = exact::unit_vector(sites[face[1]], center).hi;
+    const Point c = exact::unit_vector(sites[face[2]], center).hi;
+    targets.push_back(center + directions[f]);
+    targets.push_back(center + (a + b));
+    targets.push_back(center + ((a + b) + c));
+    targets.push_back(center + ((a + 0x1p-20 * b) + 0x1p-20 * c));
+  }
+  std::erase_if(targets, [&](const Point& p) { return p == center; });
+  return targets;
+}
+
+struct Difference {
+  double value = 0;
+  std::size_t num_rows = 0;
+  void include(double other) { value = std::isnan(other) ? other : std::max(value, other); }
+};
+
+double largest_difference(const Row& row, const std::vector<double>& expected) {
+  std::vector<double> weights(expected.size());
+  for (const auto& [vertex, weight] : row) weights[vertex] += weight;
+  double largest = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double difference = std::abs(weights[i] - expected[i]);
+    if (!(difference <= largest)) largest = difference;
+  }
+  return largest;
+}
+
+void compare(const Ground& ground, const test::NaturalOracle& oracle, const Point& target,
+             Difference& difference) {
+  const Place place = place_of(ground, target);
+  if (!is_for_kernels(place) || is_on_contour(ground, place)) return;
+  const auto gnomonic = oracle.weights(target, test::NaturalPlane::gnomonic);
+  const auto stereographic = oracle.weights(target, test::NaturalPlane::stereographic);
+  ASSERT_FALSE(gnomonic.sibson.empty()) << "the cell reaches beyond the hemisphere";
+  ASSERT_FALSE(stereographic.sibson.empty());
+  const auto check = [&](NaturalMethod method, const std::vector<double>& expected) {
+    Row row;
+    NaturalKernel kernel(ground, method);
+    kernel(place, row);
+    const double d = largest_difference(row, expected);
+    EXPECT_LE(d, weight_error) << "method " << static_cast<int>(method) << ", target " << target.x
+                               << " " << target.y << " " << target.z;
+    difference.include(d);
+  };
+  check(NaturalMethod::laplace, gnomonic.laplace);
+  check(NaturalMethod::sibson, gnomonic.sibson);
+  check(NaturalMethod::planar_sibson, stereographic.sibson);
+  ++difference.num_rows;
+}
+
+Difference compare_with_definition(const test::SiteSet& set, std::uint64_t seed,
+                                   std::size_t step) {
+  Difference difference;
+  const auto triangulation = delaunay(set.sites, {.sphere = set.sphere});
+  if (triangulation.dimension() < 2) return difference;
+  const Ground ground(triangulation);
+  std::vector<Point> places;
+  for (Index v = 0; v < ground.num_vertices(); ++v) places.push_back(ground.point(v));
+  const test::NaturalOracle oracle(places, ground.center());
+  test::Random random(seed);
+  const std::vector<Point> targets = targets_of(triangulation, set.sites, random);
+  for (std::size_t i = 0; i < targets.size(); i += step) {
+    compare(ground, oracle, targets[i], difference);
+  }
+  return difference;
+}
+
+class interpolation_natural : public testing::TestWithParam<test::Generator> {};
+
+TEST_P(interpolation_natural, are_those_of_the_definition) {
+  const std::size_t step = test::is_shortened() ? 5 : 1;
+  for (const std::size_t n : {8U, 50U, 300U}) {
+    const Difference difference = compare_with_definition(GetParam().make(n, 3), 7, step);
+    RecordProperty("error_over_1e_16_of_" + std::to_string(n),
+                   std::to_string(difference.value * 1e16));
+    RecordProperty("rows_of_" + std::to_string(n), std::to_string(difference.num_rows));
+  }
+}
+
+std::vector<test::Generator> projected_generators() {
+  std::vector<test::Generator> kept;
+  std::ranges::copy_if(test::generators(), std::back_inserter(kept),
+                       [](const test::Generator& g) { return !g.weighted_only; });
+  return kept;
+}
+
+INSTANTIATE_TEST_SUITE_P(generators, interpolation_natural,
+                         testing::ValuesIn(projected_generators()),
+                         [](const auto& tested) { return std::string(tested.param.name); });
+
+}  // namespace
+}  // namespace rondel
