@@ -63,6 +63,8 @@ class Bench {
     };
     values("nearest", Method::nearest);
     values("linear", Method::linear);
+    values("laplace", Method::laplace);
+    values("sibson", Method::sibson);
     values("cubic_estimated", Method::cubic);
     take("cubic", [&] {
       sum_ +=

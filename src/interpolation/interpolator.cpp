@@ -15,6 +15,7 @@
 #include "interpolation/gradient.h"
 #include "interpolation/ground.h"
 #include "interpolation/linear.h"
+#include "interpolation/natural.h"
 #include "interpolation/place_values.h"
 #include "interpolation/rows.h"
 #include "interpolation/slopes.h"
@@ -165,6 +166,10 @@ void Interpolator::Impl::for_each_row(std::span<const Point> targets,
         ground_, targets, execution, [&] { return NearestRows(ground_); }, make_taker);
   } else if (options.method == Method::linear || ground_.triangulation().dimension() < 2) {
     visit([&] { return LinearKernel(ground_); });
+  } else if (options.method == Method::laplace) {
+    visit([&] { return LaplaceKernel(ground_); });
+  } else if (options.method == Method::sibson) {
+    visit([&] { return SibsonKernel(ground_); });
   } else if (options.method == Method::cubic) {
     visit([&] { return CubicKernel(ground_, has_gradient, options.normalization); });
   } else {

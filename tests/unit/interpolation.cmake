@@ -4,14 +4,10 @@ rondel_add_test(interpolation_test
   interpolation_linear_test.cpp
   interpolation_rules_test.cpp
   interpolation_weights_test.cpp
-<<<<<<< HEAD
   LIBS rondel_remap rondel_dual_support rondel_test_support)
-=======
-  LIBS rondel_remap rondel_test_support)
 
 rondel_add_test(interpolation_natural_test
   interpolation_natural_test.cpp
   ${PROJECT_SOURCE_DIR}/tests/support/mpfr_oracle.cpp
   ${PROJECT_SOURCE_DIR}/tests/support/natural_oracle.cpp
   LIBS rondel_remap rondel_test_support)
->>>>>>> 6999b5a (Natural neighbors: Laplace, Sibson, and the planar weights that Hermite needs)

