@@ -17,8 +17,23 @@ constexpr double most_error = 0x1p-45;
 // Of steps and of what is made of them, relative.
 constexpr double double_unit = 0x1p-53;
 constexpr double wide_unit = 0x1p-98;
-constexpr double exact_unit = 0x1p-90;
 constexpr double split_error = 0x1p-98;
+
+using WideVector = exact::Vector3<exact::DoubleDouble>;
+
+WideVector wide(const exact::SplitPoint& u) {
+  return {exact::fast_two_sum(u.hi.x, u.lo.x), exact::fast_two_sum(u.hi.y, u.lo.y),
+          exact::fast_two_sum(u.hi.z, u.lo.z)};
+}
+
+// x - u from split points, so right to 2^-99.
+WideVector wide_step(const exact::SplitPoint& u, const exact::SplitPoint& x) {
+  const auto difference = [](double a_hi, double a_lo, double b_hi, double b_lo) {
+    return exact::two_diff(b_hi, a_hi) + exact::two_diff(b_lo, a_lo);
+  };
+  return {difference(u.hi.x, u.lo.x, x.hi.x, x.lo.x), difference(u.hi.y, u.lo.y, x.hi.y, x.lo.y),
+          difference(u.hi.z, u.lo.z, x.hi.z, x.lo.z)};
+}
 
 bool is_on_contour(const Ground& ground, const Location& location) {
   if (location.where != Where::edge) return false;
@@ -41,7 +56,7 @@ void NaturalKernel::operator()(const Place& place, Row& row) {
   }
   region_.find(place);
   if (method_ != NaturalMethod::laplace) region_.list_faces();
-  if (weigh_in_doubles(place) || weigh_from_split_points(place) || weigh_from_exact_steps(place)) {
+  if (weigh_in_doubles(place) || weigh_from_split_points(place) || weigh_exactly(place)) {
     add_shares(row);
   } else {
     LinearKernel{ground_}(place, row);
@@ -49,12 +64,13 @@ void NaturalKernel::operator()(const Place& place, Row& row) {
 }
 
 template <class T>
-double NaturalKernel::weigh(NaturalCell<T>& cell, double shrink) {
-  if (method_ == NaturalMethod::planar_sibson) make_stereographic<T>(cell.bisectors(), shrink);
-  const Condition condition = method_ == NaturalMethod::laplace
-                                  ? cell.laplace(shares_)
-                                  : cell.sibson(region_.faces(), shares_);
-  return condition.value;
+double NaturalKernel::weigh(NaturalCell<T>& cell) {
+  if (method_ == NaturalMethod::planar_sibson) make_stereographic<T>(cell.bisectors());
+  const double error =
+      method_ == NaturalMethod::laplace ? cell.laplace() : cell.sibson(region_.faces());
+  shares_.clear();
+  for (const T& share : cell.shares()) shares_.push_back(leading(share));
+  return error;
 }
 
 bool NaturalKernel::weigh_in_doubles(const Place& place) {
@@ -68,7 +84,7 @@ bool NaturalKernel::weigh_in_doubles(const Place& place) {
     nearest = std::min(nearest, bisectors.back().s);
   }
   if (nearest < least_split_step * least_split_step) return false;
-  return weigh(cell_, 1) * double_unit <= most_error;
+  return weigh(cell_) * double_unit <= most_error;
 }
 
 bool NaturalKernel::weigh_from_split_points(const Place& place) {
@@ -82,19 +98,14 @@ bool NaturalKernel::weigh_from_split_points(const Place& place) {
     nearest = std::min(nearest, bisectors.back().s.hi);
   }
   const double unit = std::max(wide_unit, split_error / std::sqrt(2 * nearest));
-  return weigh(wide_cell_, 1) * unit <= most_error;
+  return weigh(wide_cell_) * unit <= most_error;
 }
 
-bool NaturalKernel::weigh_from_exact_steps(const Place& place) {
-  const TangentBasis basis(place.unit.hi);
-  const WideVector u = wide(place.unit);
+bool NaturalKernel::weigh_exactly(const Place& place) {
   sites_.clear();
   for (const Index v : region_.ring()) sites_.push_back(ground_.point(v));
-  const double shrink = exact_wide_steps(place.point, sites_, ground_.center(), steps_);
-  auto& bisectors = wide_cell_.bisectors();
-  bisectors.clear();
-  for (const WideVector& d : steps_) bisectors.push_back(basis.bisector(u, d, shrink));
-  return std::isfinite(weigh(wide_cell_, shrink) * exact_unit);
+  return exact_natural_weights(method_, place.point, sites_, ground_.center(), region_.faces(),
+                               shares_);
 }
 
 void NaturalKernel::add_shares(Row& row) const {

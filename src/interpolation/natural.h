@@ -12,22 +12,15 @@
 // 4. A row is counterclockwise from the lowest vertex, without weights that are exactly zero.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "interpolation/ground.h"
 #include "interpolation/natural_cell.h"
+#include "interpolation/natural_exact.h"
 #include "interpolation/natural_region.h"
-#include "interpolation/natural_steps.h"
 #include "interpolation/row.h"
 
 namespace rondel::interpolation {
-
-enum class NaturalMethod : std::uint8_t {
-  laplace,         // sides of the new cell over distances, in the gnomonic plane of u
-  sibson,          // stolen areas, in the gnomonic plane of u
-  planar_sibson,   // stolen areas, in the stereographic plane from -u
-};
 
 class NaturalKernel {
  public:
@@ -38,10 +31,11 @@ class NaturalKernel {
 
  private:
   template <class T>
-  [[nodiscard]] double weigh(NaturalCell<T>& cell, double shrink);
+  [[nodiscard]] double weigh(NaturalCell<T>& cell);
+  // Whether the error is small enough.
   [[nodiscard]] bool weigh_in_doubles(const Place& place);
   [[nodiscard]] bool weigh_from_split_points(const Place& place);
-  [[nodiscard]] bool weigh_from_exact_steps(const Place& place);
+  [[nodiscard]] bool weigh_exactly(const Place& place);
   void add_shares(Row& row) const;
 
   const Ground& ground_;
@@ -49,7 +43,6 @@ class NaturalKernel {
   NaturalRegion region_;
   NaturalCell<double> cell_;
   NaturalCell<exact::DoubleDouble> wide_cell_;
-  std::vector<WideVector> steps_;
   std::vector<Point> sites_;
   std::vector<double> shares_;
 };

@@ -10,7 +10,7 @@
 // Its corner v_i lies on the lines of i and i+1. The vertex w that the diagram had before for a face
 // (a, b, c) fulfills w.(p_b - p_a) = s_b - s_a and w.(p_c - p_a) = s_c - s_a.
 //
-// T is a double or a DoubleDouble. Any two vectors across u serve as a basis of the plane if they are
+// T is a double, a DoubleDouble or a Ball. Any two vectors across u serve as a basis of the plane if they are
 // perpendicular and equally long: a factor of all p divides all of the plane, and ratios stay.
 #pragma once
 
@@ -18,10 +18,10 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <span>
 #include <vector>
 
+#include "exact/ball.h"
 #include "exact/eft.h"
 #include "exact/vector.h"
 #include "interpolation/natural_region.h"
@@ -39,9 +39,29 @@ inline exact::DoubleDouble quotient(const exact::DoubleDouble& a, const exact::D
   return exact::fast_two_sum(q, rest);
 }
 
-template <class T>
-T number(double value) {
-  return T{value};
+template <std::size_t N>
+double leading(const exact::Ball<N>& a) {
+  if (a.size_of_midpoint() == exact::nothing) return 0;
+  const double size = std::ldexp(static_cast<double>(a.leading()), a.size_of_midpoint() - 64);
+  return a.midpoint().sign() == Sign::negative ? -size : size;
+}
+
+// Nothing is known of what is divided by something that may be zero.
+template <std::size_t N>
+exact::Ball<N> quotient(const exact::Ball<N>& a, const exact::Ball<N>& b) {
+  constexpr exact::Magnitude unknown = 1 << 20;
+  const bool is_negative = b.midpoint().sign() == Sign::negative;
+  const auto root = exact::inverse_square_root(is_negative ? -b : b);
+  if (!root) return exact::Ball<N>().wider_by(unknown);
+  const exact::Ball<N> r = a * (*root * *root);
+  return is_negative ? -r : r;
+}
+
+inline double half(double a) { return 0.5 * a; }
+inline exact::DoubleDouble half(const exact::DoubleDouble& a) { return {0.5 * a.hi, 0.5 * a.lo}; }
+template <std::size_t N>
+exact::Ball<N> half(const exact::Ball<N>& a) {
+  return a.times_power_of_two(-1);
 }
 
 // A point of the plane.
@@ -80,15 +100,13 @@ class TangentBasis {
     if (size[2] < size[axis_]) axis_ = 2;
   }
 
-  // Of the step d from u to a site. u.d = -s, so that the part of d along u is -s u. `shrink`: d is
-  // given divided by it, and so is what comes back.
+  // Of the step d from u to a site. u.d = -s, so that the part of d along u is -s u.
   template <class T>
-  [[nodiscard]] Bisector<T> bisector(const exact::Vector3<T>& u, const exact::Vector3<T>& d,
-                                     double shrink = 1) const {
-    const T s = dot(d, d) * 0.5;
+  [[nodiscard]] Bisector<T> bisector(const exact::Vector3<T>& u, const exact::Vector3<T>& d) const {
+    const T s = half(dot(d, d));
     const auto [ui, uj, uk] = turned(u);
     const auto [di, dj, dk] = turned(d);
-    const Planar<T> p = {uj * dk - uk * dj, di + ui * s * shrink};
+    const Planar<T> p = {uj * dk - uk * dj, di + ui * s};
     return {p, s, size_of(p)};
   }
 
@@ -105,36 +123,29 @@ class TangentBasis {
 
 // The same in the stereographic plane.
 template <class T>
-void make_stereographic(std::span<Bisector<T>> bisectors, double shrink = 1) {
+void make_stereographic(std::span<Bisector<T>> bisectors) {
   for (Bisector<T>& b : bisectors) {
-    const T rest = number<T>(1) - b.s * (0.5 * shrink * shrink);
+    const T rest = T{1} - half(b.s);
     b = {{quotient(b.p.x, rest), quotient(b.p.y, rest)}, quotient(b.s, rest), 0};
     b.size = size_of(b.p) / leading(rest);
   }
 }
-
-// Shares that are not divided by their sum yet, and an estimate of the error of a share over the sum,
-// in units of the relative error of what they are made of.
-struct Condition {
-  double value = std::numeric_limits<double>::infinity();
-};
 
 template <class T>
 class NaturalCell {
  public:
   std::vector<Bisector<T>>& bisectors() { return bisectors_; }
 
-  // L_i / |p_i|, L_i being the length of the side on line i:
-  //
-  //     s_{i-1} D_{i,i+1} + s_i D_{i+1,i-1} + s_{i+1} D_{i-1,i}
-  //     ---------------------------------------------------------,    D_ij = p_i x p_j.
-  //                     D_{i-1,i} D_{i,i+1}
-  //
-  // Empty shares mean that the ring does not wind around u, as far as T can tell.
-  Condition laplace(std::vector<double>& shares);
+  // Both return an estimate of the error of a weight, in units of the relative error of the bisectors;
+  // infinity where the cell is not bounded, as far as T can tell.
 
+  // L_i / |p_i|, L_i being the length of the side on line i: p_i x (v_i - v_{i-1}) / |p_i|^2.
+  double laplace();
   // The areas of what the cell takes from those of the neighbors, twice.
-  Condition sibson(std::span<const RegionFace> faces, std::vector<double>& shares);
+  double sibson(std::span<const RegionFace> faces);
+
+  // Of each neighbor. The weights are these over their sum.
+  [[nodiscard]] const std::vector<T>& shares() const { return shares_; }
 
  private:
   struct Corner {
@@ -145,17 +156,24 @@ class NaturalCell {
   [[nodiscard]] static Corner corner(const Bisector<T>& a, const Bisector<T>& b);
   [[nodiscard]] static Corner vertex(const Bisector<T>& a, const Bisector<T>& b,
                                      const Bisector<T>& c);
+  void make_corners();
+  [[nodiscard]] std::size_t after(std::size_t i) const {
+    return i + 1 < bisectors_.size() ? i + 1 : 0;
+  }
+  [[nodiscard]] std::size_t before(std::size_t i) const {
+    return (i > 0 ? i : bisectors_.size()) - 1;
+  }
   // The area between the origin and the edge from one vertex to another goes from one cell to another.
   void move(const Planar<T>& from, const Planar<T>& to, std::size_t taker, std::size_t giver) {
     const T area = cross(from, to);
-    areas_[taker] = areas_[taker] + area;
-    areas_[giver] = areas_[giver] - area;
+    shares_[taker] = shares_[taker] + area;
+    shares_[giver] = shares_[giver] - area;
   }
 
   std::vector<Bisector<T>> bisectors_;
   std::vector<Corner> corners_;
   std::vector<Corner> vertices_;
-  std::vector<T> areas_;
+  std::vector<T> shares_;
 };
 
 template <class T>
@@ -183,54 +201,47 @@ auto NaturalCell<T>::vertex(const Bisector<T>& a, const Bisector<T>& b, const Bi
 }
 
 template <class T>
-Condition NaturalCell<T>::laplace(std::vector<double>& shares) {
+void NaturalCell<T>::make_corners() {
   const std::size_t size = bisectors_.size();
-  shares.clear();
-  double sum = 0;
-  double error = 0;
-  const Bisector<T>* before = &bisectors_[size - 1];
-  const Bisector<T>* here = bisectors_.data();
-  T d_before = cross(before->p, here->p);
+  corners_.resize(size);
   for (std::size_t i = 0; i < size; ++i) {
-    const Bisector<T>* after = &bisectors_[i + 1 < size ? i + 1 : 0];
-    const T d_after = cross(here->p, after->p);
-    if (!(leading(d_after) > 0)) return {};
-    const T in_circle = before->s * d_after + here->s * cross(after->p, before->p) +
-                        after->s * d_before;
-    const double product = leading(d_before) * leading(d_after);
-    const double share = leading(in_circle) / product;
-    const double size_before = before->size * here->size;
-    const double size_after = here->size * after->size;
-    error += (leading(before->s) * size_after + leading(here->s) * (after->size * before->size) +
-              leading(after->s) * size_before) /
-                 product +
-             std::abs(share) * (size_before / leading(d_before) + size_after / leading(d_after));
-    sum += share;
-    shares.push_back(share);
-    before = here;
-    here = after;
-    d_before = d_after;
+    corners_[i] = corner(bisectors_[i], bisectors_[after(i)]);
   }
-  return {error / sum};
 }
 
 template <class T>
-Condition NaturalCell<T>::sibson(std::span<const RegionFace> faces, std::vector<double>& shares) {
+double NaturalCell<T>::laplace() {
+  make_corners();
   const std::size_t size = bisectors_.size();
-  corners_.resize(size);
+  shares_.resize(size);
+  double sum = 0;
+  double error = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    const Bisector<T>& own = bisectors_[i];
+    const Corner& last = corners_[before(i)];
+    const Corner& next = corners_[i];
+    const T square = own.p.x * own.p.x + own.p.y * own.p.y;
+    shares_[i] = quotient(cross(own.p, next.at - last.at), square);
+    sum += leading(shares_[i]);
+    error += (last.error + next.error + size_of(last.at) + size_of(next.at)) / own.size;
+  }
+  return error / std::max(sum, 0.0);
+}
+
+template <class T>
+double NaturalCell<T>::sibson(std::span<const RegionFace> faces) {
+  make_corners();
+  const std::size_t size = bisectors_.size();
   vertices_.resize(faces.size());
-  areas_.assign(size, number<T>(0));
+  shares_.resize(size);
   double error = 0;
   double radius = 0;
+  double total = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    corners_[i] = corner(bisectors_[i], bisectors_[i + 1 < size ? i + 1 : 0]);
+    shares_[i] = cross(corners_[before(i)].at, corners_[i].at);
+    total += leading(shares_[i]);
     error += corners_[i].error;
     radius = std::max(radius, size_of(corners_[i].at));
-  }
-  T total = number<T>(0);
-  for (std::size_t i = 0; i < size; ++i) {
-    areas_[i] = cross(corners_[i > 0 ? i - 1 : size - 1].at, corners_[i].at);
-    total = total + areas_[i];
   }
   for (std::size_t f = 0; f < faces.size(); ++f) {
     const auto& [a, apex, end, parent] = faces[f];
@@ -242,9 +253,7 @@ Condition NaturalCell<T>::sibson(std::span<const RegionFace> faces, std::vector<
     if (apex == a + 1) move(corners_[a].at, w, a, apex);
     if (end == apex + 1) move(corners_[apex].at, w, apex, b);
   }
-  shares.clear();
-  for (const T& area : areas_) shares.push_back(leading(area));
-  return {(error + radius) * radius / std::max(leading(total), 0.0)};
+  return (error + radius) * radius / std::max(total, 0.0);
 }
 
 }  // namespace rondel::interpolation
