@@ -4,6 +4,7 @@
 #include "interpolation/cubic_face.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace rondel::interpolation {
 namespace {
@@ -15,6 +16,10 @@ constexpr std::array<unsigned, 3> previous = {2, 0, 1};
 // sides of an octahedron, 2, are well within.
 constexpr double longest_square = 2.125;
 constexpr double shortest_square = 0x1p-400;
+
+// Of the coordinates a and b: C1 across edges so much shorter than their faces would take values so many
+// times.
+constexpr double largest_part = 1024;
 
 // Both faces of an edge are higher than an eighth of it.
 constexpr double full_share_of_height = 64;
@@ -107,6 +112,11 @@ void CubicFace::weigh_edge(unsigned k, Result& result) {
   Edge edge{i, j, corners[i].step, corners[j].step - corners[i].step, squares_[k], of_edges_[k]};
   const Vec e = corners[k].step - edge.start;
   edge.inner = edge.part(e, squares_[j], squares_[i]);
+  if (std::max(std::abs(edge.inner.a), std::abs(edge.inner.b)) > largest_part) {
+    of_pairs_[i][k] += edge.weight / 2;
+    of_pairs_[j][k] += edge.weight / 2;
+    return;
+  }
   const Vec middle = corners[i].place + 0.5 * edge.d;
   edge.h = (e - edge.inner.along * edge.d) + edge.inner.lack * middle;
   edge.height = dot(edge.h, edge.h);

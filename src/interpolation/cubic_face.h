@@ -23,7 +23,9 @@
 //     X_4 fits p[x_k, x_k, .] and p[y_k, y_k, .] at x_i and x_j, in least squares: exact on cubics
 //
 // (Mann, CAGD 16, 1999, in the plane; there after Foley and Opitz, 1992). X_4 counts by a factor from
-// 0 to 1 that is 0 without a y_k, 1 if both faces of the edge are higher than an eighth of it.
+// 0 to 1 that is 0 without a y_k, 1 if both faces of the edge are higher than an eighth of it. Where a
+// or b is beyond 1024, e_k is the mean of p[x_i, x_i, x_k] and p[x_j, x_j, x_k], and the gradient is not
+// continuous at that edge, which is that much shorter than its faces.
 //
 // The weights follow by going through the evaluation backwards: from what the value takes of each
 // coefficient to what that takes of the data.

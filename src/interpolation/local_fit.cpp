@@ -15,6 +15,8 @@ constexpr std::array<std::size_t, LocalFit::max_terms> powers_of_b = {0, 1, 0, 1
 
 // The radius at which weights vanish, over the distance of the farthest neighbor.
 constexpr double reach = 1.1;
+// No neighbor weighs more than one at this part of the radius.
+constexpr double least_radius = 1.0 / 16;
 
 // Clouds thinner than this, and those whose thinness rounding may have made, are lines.
 constexpr double least_thickness = 0x1p-40;
@@ -50,9 +52,10 @@ bool LocalFit::set_chart(const Vec& x, std::span<const Vec> steps) {
     points_.push_back({a, b, squared_radius});
   }
   const double radius = reach * std::sqrt(largest);
+  const double least = (least_radius * least_radius) * (radius * radius);
   for (ChartPoint& p : points_) {
     const double lacking = radius - std::sqrt(p.weight);
-    p.weight = p.weight > 0 ? (lacking * lacking) / p.weight : 0;
+    p.weight = (lacking * lacking) / std::max(p.weight, least);
   }
   return true;
 }

@@ -5,10 +5,11 @@
 // of x (scaled so that it is true to length at x) which has the value of x there and fits those of the
 // neighbors best, in the sense of weighted least squares with the weights
 //
-//     w = ((1 - r) / r)^2,   r = the distance from x over 1.1 times that of the farthest neighbor
+//     w = ((1 - r) / max(r, 1/16))^2,   r = the distance over 1.1 times that of the farthest neighbor
 //
-// (those of GRADL in Renka's SSRFPACK, ACM TOMS 23, 1997, whose fit is quadratic). The fit is cubic, and
-// quadratic or linear where the neighbors do not determine it well.
+// (those of GRADL in Renka's SSRFPACK, ACM TOMS 23, 1997, whose fit is quadratic; the bound is ours: a
+// neighbor very near to x says nothing about gradients but noise). The fit is cubic, and quadratic or
+// linear where the neighbors do not determine it well.
 //
 // The plane's coordinates are first made such that the weighted second moments are those of a round
 // cloud, which changes no fit but lets thin clouds pass. Of the normal equations, whose entries are 25

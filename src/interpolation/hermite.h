@@ -1,0 +1,52 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Natural neighbors with gradients: with the weights m_i of Sibson's method in the stereographic plane
+// of the target u and c_i = x_i.u,
+//
+//     f(u) = sum of m_i (f_i + g_i.u / (1 + c_i)).
+//
+// With exact gradients 1, x, y and z come back. In the plane, x_i lies at p_i = 2 (x_i - c_i u) /
+// (1 + c_i), and the sum of m_i p_i is 0. For f = h.x, g_i = h - (h.x_i) x_i, so the bracket is
+// h.x_i + (h.u - c_i h.x_i) / (1 + c_i) = h.(x_i + u) / (1 + c_i) = h.p_i / 2 + h.u.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "interpolation/ground.h"
+#include "interpolation/natural.h"
+#include "interpolation/row.h"
+#include "rondel/interpolate.h"
+
+namespace rondel::interpolation {
+
+// Where a neighbor has no gradient, the row is that of Sibson's method.
+class HermiteKernel {
+ public:
+  // `has_gradient` of each vertex; empty if all have one. Both normalizations are the same, for what the
+  // gradients serve.
+  explicit HermiteKernel(const Ground& ground, std::span<const std::uint8_t> has_gradient = {},
+                         Normalization normalization = Normalization::unity)
+      : ground_(ground),
+        planar_(ground),
+        sibson_(ground),
+        has_gradient_(has_gradient),
+        normalization_(normalization) {}
+
+  void operator()(const Place& place, SlopeRow& row);
+
+ private:
+  [[nodiscard]] bool all_have_gradients() const;
+  void weigh_on_contour(const Place& place);
+  void add_without_gradients(const Place& place, SlopeRow& row);
+
+  const Ground& ground_;
+  PlanarSibsonKernel planar_;
+  SibsonKernel sibson_;
+  std::span<const std::uint8_t> has_gradient_;
+  Normalization normalization_;
+  Row flat_;
+};
+
+}  // namespace rondel::interpolation
