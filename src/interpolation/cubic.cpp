@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "interpolation/unity.h"
 #include "topology/mesh.h"
 
 namespace rondel::interpolation {
@@ -62,21 +63,6 @@ bool CubicKernel::weigh(const Row& flat, SlopeRow& row) {
   }
   if (normalization_ == Normalization::unity) take_up_rounding(row);
   return true;
-}
-
-// Makes the sum 1: the largest weight takes what rounding has lost. Where large weights cancel, all are
-// rounded to multiples of one power of two before, of which sums are exact.
-void CubicKernel::take_up_rounding(SlopeRow& row) {
-  constexpr double much = 1.5;
-  double absolute = 0;
-  for (const SlopeShare& share : row) absolute += std::abs(share.weight);
-  if (absolute > much) {
-    const double large = std::ldexp(1.5, std::ilogb(absolute) + 2);
-    for (SlopeShare& share : row) share.weight = (share.weight + large) - large;
-  }
-  double sum = 0;
-  for (const SlopeShare& share : row) sum += share.weight;
-  std::ranges::max_element(row, {}, &SlopeShare::weight)->weight += 1 - sum;
 }
 
 // In triangulations of few sites a vertex may be opposite to several edges.

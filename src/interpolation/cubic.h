@@ -42,7 +42,6 @@ class CubicKernel {
   bool find_corners(const Place& place);
   bool weigh(const Row& flat, SlopeRow& row);
   static void add(Index v, double weight, const Vec& slope, SlopeRow& row);
-  static void take_up_rounding(SlopeRow& row);
   void add_linear(const Place& place, SlopeRow& row) const;
 
   const Ground& ground_;

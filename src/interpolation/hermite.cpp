@@ -8,6 +8,7 @@
 
 #include "interpolation/linear.h"
 #include "interpolation/rows.h"
+#include "interpolation/unity.h"
 
 namespace rondel::interpolation {
 
@@ -44,6 +45,7 @@ void HermiteKernel::operator()(const Place& place, SlopeRow& row) {
     return;
   }
   if (flat_.size() == 2) weigh_on_contour(place);
+  take_up_rounding(flat_);
   for (const auto& [v, weight] : flat_) {
     // u = x - s; its part along x is 1 - |s|^2 / 2.
     const Vec s = careful_step(ground_, place, v);

@@ -82,7 +82,7 @@ TEST(interpolation_cubic, agrees_with_its_definition) {
     CubicKernel kernel(ground);
     CubicKernel undivided(ground, {}, Normalization::homogeneous);
     int num_checked = 0;
-    for (const Place& place : places_in_faces(ground, scaled(100), random)) {
+    for (const Place& place : places_in_faces(ground, scaled(40), random)) {
       SlopeRow row;
       kernel(place, row);
       const RealVector u = *normalized(to_real(place.point - ground.center()));
@@ -112,7 +112,7 @@ TEST(interpolation_cubic, has_one_gradient_on_both_sides_of_an_edge) {
     const Ground ground(triangulation);
     Random random(9);
     const CubicOracle oracle(triangulation, oracle_data(ground, RandomData(ground, random)));
-    for (std::size_t i = 0; i < scaled(20); ++i) {
+    for (std::size_t i = 0; i < scaled(8); ++i) {
       const Index face = static_cast<Index>(random.below(triangulation.num_faces()));
       const unsigned k = static_cast<unsigned>(random.below(3));
       const Index other = triangulation.neighbors()[face][k];

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "interpolation/row.h"
+
+namespace rondel::interpolation {
+
+// Makes the sum 1 of weights that rounding has brought off it: the largest takes what is missing. Where
+// large weights cancel, or there are many, all are rounded to multiples of one power of two before, of
+// which sums are exact.
+template <class R>
+void take_up_rounding(R& row) {
+  constexpr double much = 1.5;
+  constexpr std::size_t many = 32;
+  double absolute = 0;
+  double sum = 0;
+  for (const auto& share : row) {
+    absolute += std::abs(share.weight);
+    sum += share.weight;
+  }
+  if (absolute > much || row.size() > many) {
+    const double large = std::ldexp(1.5, std::ilogb(absolute) + 2);
+    sum = 0;
+    for (auto& share : row) {
+      share.weight = (share.weight + large) - large;
+      sum += share.weight;
+    }
+  }
+  if (sum == 1) return;
+  const auto largest = std::ranges::max_element(
+      row, {}, [](const auto& share) { return std::abs(share.weight); });
+  largest->weight += 1 - sum;
+}
+
+}  // namespace rondel::interpolation
