@@ -5,26 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 #include "interpolation/row.h"
 
 namespace rondel::interpolation {
 
 // Makes the sum 1 of weights that rounding has brought off it: the largest takes what is missing. Where
-// large weights cancel, or there are many, all are rounded to multiples of one power of two before, of
-// which sums are exact.
+// large weights cancel, all are rounded to multiples of one power of two before, of which sums are exact.
 template <class R>
 void take_up_rounding(R& row) {
   constexpr double much = 1.5;
-  constexpr std::size_t many = 32;
   double absolute = 0;
   double sum = 0;
   for (const auto& share : row) {
     absolute += std::abs(share.weight);
     sum += share.weight;
   }
-  if (absolute > much || row.size() > many) {
+  if (absolute > much) {
     const double large = std::ldexp(1.5, std::ilogb(absolute) + 2);
     sum = 0;
     for (auto& share : row) {
