@@ -47,6 +47,13 @@ class Drawing {
     }
   }
 
+  // The end of an open line. A pole is already there.
+  void finish_at(const Point& end) {
+    if (!is_pole(end)) add(map_point(end));
+    std::vector<std::size_t>& starts = trace_.starts;
+    if (starts.empty() || starts.front() != 0) starts.insert(starts.begin(), 0);
+  }
+
   void finish() {
     rotate_to_first_start();
     trace_.has_north_corners = has_north_corners();
@@ -146,6 +153,14 @@ void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances,
                     tolerances[i]);
   }
   drawing.finish();
+}
+
+void draw_line(std::span<const Point> line, const ArcTolerance& tolerance, Trace& trace) {
+  Drawing drawing(trace);
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    drawing.add_arc(line[i], line[i + 1], static_cast<std::uint32_t>(i), tolerance);
+  }
+  drawing.finish_at(line.back());
 }
 
 }  // namespace rondel::map

@@ -37,4 +37,7 @@ struct Trace {
 // Precondition: the region, to the left of the ring, is spherically convex (at most a hemisphere).
 void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances, Trace& trace);
 
+// Draws an open line of at least two points in the same way: all of its chains are in `starts`.
+void draw_line(std::span<const Point> line, const ArcTolerance& tolerance, Trace& trace);
+
 }  // namespace rondel::map

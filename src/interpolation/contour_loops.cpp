@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "interpolation/contour_loops.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <vector>
+
+namespace rondel::interpolation {
+namespace {
+
+std::uint64_t hash_of(const Point& p) {
+  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio: spreads the bits
+  std::uint64_t hash = 0;
+  for (const double coordinate : {p.x, p.y, p.z}) {
+    hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * odd;
+    hash ^= hash >> 32U;
+  }
+  return hash;
+}
+
+// False only if no point is there twice.
+bool may_repeat(std::span<const Point> line) {
+  std::vector<std::uint64_t> hashes(line.size());
+  std::ranges::transform(line, hashes.begin(), hash_of);
+  std::ranges::sort(hashes);
+  return std::ranges::adjacent_find(hashes) != hashes.end();
+}
+
+void append_line(std::span<const Point> line, bool is_closed, TracedLines& out) {
+  if (line.size() < (is_closed ? 3U : 2U)) return;
+  out.points.insert(out.points.end(), line.begin(), line.end());
+  out.ends.push_back(out.points.size());
+  out.is_closed.push_back(is_closed ? 1 : 0);
+}
+
+}  // namespace
+
+void append_simple_lines(std::span<const Point> line, bool is_closed, TracedLines& out) {
+  if (!may_repeat(line)) {
+    append_line(line, is_closed, out);
+    return;
+  }
+  const auto key = [](const Point& p) { return std::tuple(p.x, p.y, p.z); };
+  std::map<std::tuple<double, double, double>, std::size_t> places;
+  std::vector<Point> open;
+  for (const Point& p : line) {
+    const auto [place, is_new] = places.try_emplace(key(p), open.size());
+    if (is_new) {
+      open.push_back(p);
+      continue;
+    }
+    const std::size_t first = place->second;
+    append_line(std::span(open).subspan(first), true, out);
+    while (open.size() > first + 1) {
+      places.erase(key(open.back()));
+      open.pop_back();
+    }
+  }
+  append_line(open, is_closed, out);
+}
+
+}  // namespace rondel::interpolation

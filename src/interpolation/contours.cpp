@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/contours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <unordered_map>
+
+#include "interpolation/contour_tracing.h"
+#include "rondel/error.h"
+#include "system/job.h"
+#include "system/parallel.h"
+
+namespace rondel {
+namespace {
+
+using interpolation::ContourTracer;
+using interpolation::RegionKind;
+using interpolation::TracedLines;
+
+void require_values_and_levels(const Triangulation& triangulation, std::span<const double> values,
+                               std::span<const double> levels) {
+  if (triangulation.model() == Model::weighted) {
+    throw InvalidInput("weighted sites have no isolines", 0);
+  }
+  if (values.size() != triangulation.num_sites()) {
+    throw InvalidInput("there are " + std::to_string(values.size()) + " values for " +
+                           std::to_string(triangulation.num_sites()) + " sites",
+                       0);
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isinf(values[i])) throw InvalidInput("a value is infinite", i);
+  }
+  for (std::size_t k = 0; k < levels.size(); ++k) {
+    if (!std::isfinite(levels[k])) throw InvalidInput("a level is not finite", k);
+    if (k > 0 && !(levels[k - 1] < levels[k])) {
+      throw InvalidInput("a level is not above the one before", k);
+    }
+  }
+}
+
+// What trace(k) finds for each of the regions, at once.
+template <class Trace>
+std::vector<TracedLines> traced_regions(std::size_t num_regions, const Execution& execution,
+                                        const Trace& trace) {
+  std::vector<TracedLines> traced(num_regions);
+  system::parallel_for(execution.threads, num_regions, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) traced[k] = trace(k);
+  });
+  return traced;
+}
+
+// Appends the rings, those of a part of the band one after the other.
+void append_polygons(const TracedLines& rings, Bands& out) {
+  std::unordered_map<std::uint64_t, std::size_t> polygon_of;
+  std::vector<std::vector<std::size_t>> polygons;
+  for (std::size_t ring = 0; ring < rings.ends.size(); ++ring) {
+    const auto [place, is_new] = polygon_of.try_emplace(rings.component[ring], polygons.size());
+    if (is_new) polygons.emplace_back();
+    polygons[place->second].push_back(ring);
+  }
+  for (const std::vector<std::size_t>& polygon : polygons) {
+    for (const std::size_t ring : polygon) {
+      const std::uint64_t begin = ring == 0 ? 0 : rings.ends[ring - 1];
+      out.points.insert(out.points.end(),
+                        rings.points.begin() + static_cast<std::ptrdiff_t>(begin),
+                        rings.points.begin() + static_cast<std::ptrdiff_t>(rings.ends[ring]));
+      out.ring_offsets.push_back(out.points.size());
+    }
+    out.polygon_offsets.push_back(out.ring_offsets.size() - 1);
+  }
+}
+
+}  // namespace
+
+Isolines isolines(const Triangulation& triangulation, std::span<const double> values,
+                  std::span<const double> levels, const Execution& execution) {
+  const system::Call call(execution);
+  require_values_and_levels(triangulation, values, levels);
+  ContourTracer tracer(triangulation, values, levels, RegionKind::from_level_on, execution);
+  const std::vector<TracedLines> traced = traced_regions(
+      levels.size(), execution, [&](std::size_t level) { return tracer.lines(level + 1); });
+  Isolines out;
+  out.levels.assign(levels.begin(), levels.end());
+  for (const TracedLines& lines : traced) {
+    const std::uint64_t first = out.points.size();
+    out.points.insert(out.points.end(), lines.points.begin(), lines.points.end());
+    for (const std::uint64_t end : lines.ends) out.line_offsets.push_back(first + end);
+    out.is_closed.insert(out.is_closed.end(), lines.is_closed.begin(), lines.is_closed.end());
+    out.level_offsets.push_back(out.num_lines());
+  }
+  return out;
+}
+
+Bands bands(const Triangulation& triangulation, std::span<const double> values,
+            std::span<const double> levels, const Execution& execution) {
+  const system::Call call(execution);
+  require_values_and_levels(triangulation, values, levels);
+  ContourTracer tracer(triangulation, values, levels, RegionKind::band, execution);
+  const std::vector<TracedLines> traced =
+      traced_regions(tracer.num_regions(), execution,
+                     [&](std::size_t region) { return tracer.rings(region); });
+  const bool is_without_rings =
+      std::ranges::all_of(traced, [](const TracedLines& rings) { return rings.ends.empty(); });
+  const std::size_t whole = is_without_rings ? tracer.region_without_border() : traced.size();
+  Bands out;
+  out.levels.assign(levels.begin(), levels.end());
+  for (std::size_t k = 0; k < traced.size(); ++k) {
+    append_polygons(traced[k], out);
+    if (k == whole) out.polygon_offsets.push_back(out.ring_offsets.size() - 1);
+    out.band_offsets.push_back(out.num_polygons());
+  }
+  return out;
+}
+
+}  // namespace rondel

@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Isolines and bands as GeoJSON (RFC 7946): a FeatureCollection with a feature for each level or band.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/cell_formats.h"
+#include "io/ending.h"
+#include "io/number.h"
+#include "io/number_text.h"
+#include "map/arc.h"
+#include "map/region.h"
+#include "rondel/contours.h"
+#include "rondel/error.h"
+#include "system/job.h"
+#include "system/parallel.h"
+
+namespace rondel::io {
+namespace {
+
+
+struct IsolinesToWrite {
+  const Isolines& isolines;
+  double tolerance;  // radians
+  const Execution& execution;
+};
+
+struct BandsToWrite {
+  const Bands& bands;
+  double tolerance;  // radians
+  const Execution& execution;
+};
+
+// [[lon,lat],...]
+void append_positions(std::string& out, std::span<const LonLat> positions) {
+  out += '[';
+  for (const LonLat& position : positions) {
+    std::array<char, std::size_t{2} * number_room> text;
+    char* end = text.data();
+    *end++ = '[';
+    end = write_number(end, position.lon_deg);
+    *end++ = ',';
+    end = write_number(end, position.lat_deg);
+    *end++ = ']';
+    *end++ = ',';
+    out.append(text.data(), end);
+  }
+  out.back() = ']';
+}
+
+void append_polygon(std::string& out, const map::PolygonWithHoles& polygon) {
+  out += '[';
+  for (const std::vector<LonLat>& ring : polygon.rings) {
+    append_positions(out, ring);
+    out += ',';
+  }
+  out.back() = ']';
+}
+
+// The texts of the items [begin, end), made by several threads; each item leaves a comma behind it. Empty,
+// or without the last comma.
+std::string joined_texts(const Execution& execution, std::uint64_t begin, std::uint64_t end,
+                         const std::function<void(std::string&, std::uint64_t)>& append) {
+  std::vector<std::string> texts(end - begin);
+  system::parallel_for(execution.threads, texts.size(), 1, [&](std::size_t from, std::size_t to) {
+    for (std::size_t i = from; i < to; ++i) append(texts[i], begin + i);
+  });
+  std::string all;
+  for (const std::string& text : texts) all += text;
+  if (!all.empty()) all.pop_back();
+  return all;
+}
+
+void write_feature(AtomicFile& file, bool is_first, const std::string& properties,
+                   const char* geometry, const std::string& coordinates) {
+  file.write(is_first ? "\n" : ",\n");
+  file.write(R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":)");
+  if (coordinates.empty()) {
+    file.write("null}");
+    return;
+  }
+  file.write(std::string(R"({"type":")") + geometry + R"(","coordinates":[)");
+  file.write(coordinates);
+  file.write("]}}");
+}
+
+template <class T>
+std::span<const T> row(const std::vector<T>& values, const std::vector<std::uint64_t>& offsets,
+                       std::uint64_t i) {
+  return std::span(values).subspan(offsets[i], offsets[i + 1] - offsets[i]);
+}
+
+void write_isolines_geojson(AtomicFile& file, const IsolinesToWrite& job) {
+  const Isolines& isolines = job.isolines;
+  const auto append_line = [&](std::string& text, std::uint64_t line) {
+    const auto points = row(isolines.points, isolines.line_offsets, line);
+    for (const auto& part : map::line_parts(points, isolines.is_closed[line] != 0, job.tolerance)) {
+      append_positions(text, part);
+      text += ',';
+    }
+  };
+  file.write(R"({"type":"FeatureCollection","features":[)");
+  for (std::size_t k = 0; k < isolines.levels.size(); ++k) {
+    std::string properties = R"("level":)";
+    append_number(properties, isolines.levels[k]);
+    write_feature(file, k == 0, properties, "MultiLineString",
+                  joined_texts(job.execution, isolines.level_offsets[k],
+                               isolines.level_offsets[k + 1], append_line));
+  }
+  file.write("\n]}\n");
+}
+
+void write_bands_geojson(AtomicFile& file, const BandsToWrite& job) {
+  const Bands& bands = job.bands;
+  const auto append_polygons = [&](std::string& text, std::uint64_t polygon) {
+    std::vector<map::UnitVectors> rings;
+    for (auto ring = bands.polygon_offsets[polygon]; ring < bands.polygon_offsets[polygon + 1];
+         ++ring) {
+      rings.push_back(row(bands.points, bands.ring_offsets, ring));
+    }
+    for (const auto& part : map::region_polygons(rings, job.tolerance)) {
+      append_polygon(text, part);
+      text += ',';
+    }
+  };
+  file.write(R"({"type":"FeatureCollection","features":[)");
+  for (std::size_t k = 0; k < bands.num_bands(); ++k) {
+    std::string properties = R"("low":)";
+    const auto append_end = [&](bool is_open, std::size_t level) {
+      if (is_open) {
+        properties += "null";
+      } else {
+        append_number(properties, bands.levels[level]);
+      }
+    };
+    append_end(k == 0, k - 1);
+    properties += R"(,"high":)";
+    append_end(k == bands.levels.size(), k);
+    write_feature(file, k == 0, properties, "MultiPolygon",
+                  joined_texts(job.execution, bands.band_offsets[k], bands.band_offsets[k + 1],
+                               append_polygons));
+  }
+  file.write("\n]}\n");
+}
+
+bool are_offsets(const std::vector<std::uint64_t>& offsets, std::size_t num_rows, std::size_t end) {
+  return offsets.size() == num_rows + 1 && offsets.front() == 0 && offsets.back() == end &&
+         std::ranges::is_sorted(offsets);
+}
+
+bool are_unit_vectors(const std::vector<Point>& points) {
+  return std::ranges::all_of(points, [](const Point& p) {
+    return std::abs(p.x * p.x + p.y * p.y + p.z * p.z - 1) < 1e-6;
+  });
+}
+
+void require(bool is_right, const std::string& what) {
+  if (!is_right) throw InvalidInput("the arrays of the " + what + " do not fit together", 0);
+}
+
+using IsolineWriter = Writer<IsolinesToWrite>;
+using BandWriter = Writer<BandsToWrite>;
+constexpr std::array<IsolineWriter, 1> isoline_writers = {{{".geojson", &write_isolines_geojson}}};
+constexpr std::array<BandWriter, 1> band_writers = {{{".geojson", &write_bands_geojson}}};
+
+}  // namespace
+}  // namespace rondel::io
+
+namespace rondel {
+
+void write_isolines(const FileName& file, const Isolines& isolines, double tolerance_deg,
+                    const Execution& execution) {
+  const system::Call call(execution);
+  const std::size_t num_lines = isolines.is_closed.size();
+  io::require(io::are_offsets(isolines.level_offsets, isolines.levels.size(), num_lines) &&
+                  io::are_offsets(isolines.line_offsets, num_lines, isolines.points.size()) &&
+                  io::are_unit_vectors(isolines.points),
+              "isolines");
+  const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
+  io::write_whole<io::IsolinesToWrite>(io::isoline_writers, file, "isolines are written as",
+                                       {isolines, tolerance, execution});
+}
+
+void write_bands(const FileName& file, const Bands& bands, double tolerance_deg,
+                 const Execution& execution) {
+  const system::Call call(execution);
+  io::require(!bands.polygon_offsets.empty() && !bands.ring_offsets.empty() &&
+                  io::are_offsets(bands.band_offsets, bands.num_bands(), bands.num_polygons()) &&
+                  io::are_offsets(bands.polygon_offsets, bands.num_polygons(),
+                                  bands.ring_offsets.size() - 1) &&
+                  io::are_offsets(bands.ring_offsets, bands.ring_offsets.size() - 1,
+                                  bands.points.size()) &&
+                  io::are_unit_vectors(bands.points),
+              "bands");
+  const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
+  io::write_whole<io::BandsToWrite>(io::band_writers, file, "bands are written as",
+                                    {bands, tolerance, execution});
+}
+
+}  // namespace rondel

@@ -1,0 +1,36 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Regions and lines of any shape in the plane of longitude and latitude: not convex, with holes, with poles
+// inside. polygon.h has what is convex.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "rondel/types.h"
+
+namespace rondel::map {
+
+// A polygon with holes, as GeoJSON has it (RFC 7946): the outer ring first, counterclockwise, the holes
+// clockwise; each closed (the last position is the first).
+struct PolygonWithHoles {
+  std::vector<std::vector<LonLat>> rings;
+};
+
+using UnitVectors = std::span<const Point>;
+
+// The region to the left of all of the rings, consecutive points of which (and the last and the first) are
+// joined by the shorter arc of a great circle, as polygons inside [-180, 180] x [-90, 90]: cut along the
+// antimeridian, at a pole they reach the side lat = +-90. Without rings it is the whole sphere. What is no
+// wider than merge_distance is left out.
+// 1. Sides are within the tolerance (radians) of the arcs.
+// 2. An arc gives the same positions, bit by bit, to the regions on both sides of it.
+// Precondition: the region is connected, the rings are simple and meet at most in points.
+std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings, double tolerance);
+
+// A line, cut at the antimeridian and at the poles: each part has two positions or more. A closed line, of
+// three points or more, that meets neither is one part whose last position is the first.
+std::vector<std::vector<LonLat>> line_parts(UnitVectors line, bool is_closed, double tolerance);
+
+}  // namespace rondel::map
