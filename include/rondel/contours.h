@@ -23,8 +23,8 @@ struct Isolines {
   std::vector<double> levels;
   std::vector<std::uint64_t> level_offsets = {0};  ///< number of levels + 1
   std::vector<std::uint64_t> line_offsets = {0};   ///< number of lines + 1
-  std::vector<std::uint8_t> is_closed;             ///< of each line: the last point leads to the first
-  std::vector<Point> points;                       ///< unit vectors from the center of the sphere
+  std::vector<std::uint8_t> is_closed;  ///< of each line: the last point leads to the first
+  std::vector<Point> points;            ///< unit vectors from the center of the sphere
 
   [[nodiscard]] std::size_t num_lines() const noexcept { return is_closed.size(); }
 };

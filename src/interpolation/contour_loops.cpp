@@ -13,7 +13,8 @@ namespace rondel::interpolation {
 namespace {
 
 std::uint64_t hash_of(const Point& p) {
-  constexpr std::uint64_t odd = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio: spreads the bits
+  constexpr std::uint64_t odd =
+      0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio: spreads the bits
   std::uint64_t hash = 0;
   for (const double coordinate : {p.x, p.y, p.z}) {
     hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * odd;

@@ -38,7 +38,8 @@ std::size_t Piece::edge_of(std::size_t side) const {
 void ValuedFaces::find_missing(std::size_t begin, std::size_t end) {
   for (std::size_t f = begin; f < end; ++f) {
     const auto& [a, b, c] = faces_[f];
-    if (std::isnan(values_[a]) || std::isnan(values_[b]) || std::isnan(values_[c])) is_missing_[f] = 1;
+    if (std::isnan(values_[a]) || std::isnan(values_[b]) || std::isnan(values_[c]))
+      is_missing_[f] = 1;
   }
 }
 

@@ -154,8 +154,8 @@ std::size_t ContourTracer::region_without_border() const {
   if (content_.empty() || std::ranges::any_of(content_, has_gap)) return num_regions();
   std::vector<std::uint64_t> sizes(part_.size(), 0);
   for (const std::uint64_t part : part_) ++sizes[part];
-  const auto largest = static_cast<std::uint64_t>(
-      std::distance(sizes.begin(), std::ranges::max_element(sizes)));
+  const auto largest =
+      static_cast<std::uint64_t>(std::distance(sizes.begin(), std::ranges::max_element(sizes)));
   const auto past = std::ranges::upper_bound(first_piece_, largest);
   const auto face = static_cast<Index>(std::distance(first_piece_.begin(), past) - 1);
   return lowest_[face] + static_cast<std::size_t>(largest - first_piece_[face]);
@@ -247,7 +247,8 @@ TracedLines ContourTracer::lines(std::size_t region) {
       if (is_rim) {
         place = first;
         std::ranges::reverse(line);
-        for (go_back(place, values); kind(place, values) == SideKind::line; go_back(place, values)) {
+        for (go_back(place, values); kind(place, values) == SideKind::line;
+             go_back(place, values)) {
           take(place, region);
           line.push_back(point(place.piece.corners[place.side]));
         }

@@ -26,9 +26,10 @@ enum class RegionKind : std::uint8_t { band, from_level_on };
 // Lines or rings of one region.
 struct TracedLines {
   std::vector<Point> points;
-  std::vector<std::uint64_t> ends;       // of each line, in `points`
-  std::vector<std::uint8_t> is_closed;   // of each line
-  std::vector<std::uint64_t> component;  // of each ring: which connected part of its band it borders
+  std::vector<std::uint64_t> ends;      // of each line, in `points`
+  std::vector<std::uint8_t> is_closed;  // of each line
+  std::vector<std::uint64_t>
+      component;  // of each ring: which connected part of its band it borders
 };
 
 class ContourTracer {
@@ -54,7 +55,11 @@ class ContourTracer {
     Piece piece{};
   };
   enum class SideKind : std::uint8_t { inner, line, rim };
-  enum class Content : std::uint8_t { plain, mixed, missing };  // of a face; plain: no border is in it
+  enum class Content : std::uint8_t {
+    plain,
+    mixed,
+    missing
+  };  // of a face; plain: no border is in it
 
   [[nodiscard]] ValueRange range(std::size_t region) const;
   void find_levels(std::span<const double> values, unsigned threads);
@@ -69,7 +74,8 @@ class ContourTracer {
     return first_piece_[face] + (region - lowest_[face]);
   }
   [[nodiscard]] std::size_t highest(Index face) const {
-    return lowest_[face] + static_cast<std::size_t>(first_piece_[face + 1] - first_piece_[face]) - 1;
+    return lowest_[face] + static_cast<std::size_t>(first_piece_[face + 1] - first_piece_[face]) -
+           1;
   }
 
   [[nodiscard]] SideKind kind(const Place& place, const ValueRange& range) const;
@@ -87,13 +93,14 @@ class ContourTracer {
   std::span<const double> levels_;
   RegionKind kind_;
   ValuedFaces faces_;
-  std::unordered_map<Index, Index> speakers_;  // of a vertex, where another site of its place speaks for it
-  std::vector<std::uint32_t> region_of_;       // of each site: the number of levels up to its value
-  std::vector<Content> content_;               // of the faces
-  std::vector<std::uint32_t> lowest_;          // region of each face
-  std::vector<std::uint64_t> first_piece_;     // of each face: a piece for each of its regions
-  std::vector<std::uint8_t> taken_;            // of each piece: a bit for each side
-  std::vector<std::uint64_t> part_;            // of each piece: the first one that is connected to it
+  std::unordered_map<Index, Index>
+      speakers_;  // of a vertex, where another site of its place speaks for it
+  std::vector<std::uint32_t> region_of_;    // of each site: the number of levels up to its value
+  std::vector<Content> content_;            // of the faces
+  std::vector<std::uint32_t> lowest_;       // region of each face
+  std::vector<std::uint64_t> first_piece_;  // of each face: a piece for each of its regions
+  std::vector<std::uint8_t> taken_;         // of each piece: a bit for each side
+  std::vector<std::uint64_t> part_;         // of each piece: the first one that is connected to it
   std::vector<std::vector<Index>> mixed_faces_;  // of each region
 };
 

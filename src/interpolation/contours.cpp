@@ -64,8 +64,7 @@ void append_polygons(const TracedLines& rings, Bands& out) {
   for (const std::vector<std::size_t>& polygon : polygons) {
     for (const std::size_t ring : polygon) {
       const std::uint64_t begin = ring == 0 ? 0 : rings.ends[ring - 1];
-      out.points.insert(out.points.end(),
-                        rings.points.begin() + static_cast<std::ptrdiff_t>(begin),
+      out.points.insert(out.points.end(), rings.points.begin() + static_cast<std::ptrdiff_t>(begin),
                         rings.points.begin() + static_cast<std::ptrdiff_t>(rings.ends[ring]));
       out.ring_offsets.push_back(out.points.size());
     }
@@ -99,9 +98,8 @@ Bands bands(const Triangulation& triangulation, std::span<const double> values,
   const system::Call call(execution);
   require_values_and_levels(triangulation, values, levels);
   ContourTracer tracer(triangulation, values, levels, RegionKind::band, execution);
-  const std::vector<TracedLines> traced =
-      traced_regions(tracer.num_regions(), execution,
-                     [&](std::size_t region) { return tracer.rings(region); });
+  const std::vector<TracedLines> traced = traced_regions(
+      tracer.num_regions(), execution, [&](std::size_t region) { return tracer.rings(region); });
   const bool is_without_rings =
       std::ranges::all_of(traced, [](const TracedLines& rings) { return rings.ends.empty(); });
   const std::size_t whole = is_without_rings ? tracer.region_without_border() : traced.size();

@@ -24,7 +24,6 @@
 namespace rondel::io {
 namespace {
 
-
 struct IsolinesToWrite {
   const Isolines& isolines;
   double tolerance;  // radians
@@ -190,14 +189,14 @@ void write_isolines(const FileName& file, const Isolines& isolines, double toler
 void write_bands(const FileName& file, const Bands& bands, double tolerance_deg,
                  const Execution& execution) {
   const system::Call call(execution);
-  io::require(!bands.polygon_offsets.empty() && !bands.ring_offsets.empty() &&
-                  io::are_offsets(bands.band_offsets, bands.num_bands(), bands.num_polygons()) &&
-                  io::are_offsets(bands.polygon_offsets, bands.num_polygons(),
-                                  bands.ring_offsets.size() - 1) &&
-                  io::are_offsets(bands.ring_offsets, bands.ring_offsets.size() - 1,
-                                  bands.points.size()) &&
-                  io::are_unit_vectors(bands.points),
-              "bands");
+  io::require(
+      !bands.polygon_offsets.empty() && !bands.ring_offsets.empty() &&
+          io::are_offsets(bands.band_offsets, bands.num_bands(), bands.num_polygons()) &&
+          io::are_offsets(bands.polygon_offsets, bands.num_polygons(),
+                          bands.ring_offsets.size() - 1) &&
+          io::are_offsets(bands.ring_offsets, bands.ring_offsets.size() - 1, bands.points.size()) &&
+          io::are_unit_vectors(bands.points),
+      "bands");
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
   io::write_whole<io::BandsToWrite>(io::band_writers, file, "bands are written as",
                                     {bands, tolerance, execution});

@@ -7,16 +7,15 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <limits>
-#include <map>
+#include <numbers>
 #include <utility>
 
+#include "exact/argument.h"
+#include "map/planar_loops.h"
 #include "map/trace.h"
 
 namespace rondel::map {
 namespace {
-
-using Loop = std::vector<LonLat>;  // closed, without repeating the first position at the end
 
 // The border of the rectangle counterclockwise from its corner in the north west, as a distance along it.
 constexpr std::array<LonLat, 4> border_corners{{{-180, -90}, {180, -90}, {180, 90}, {-180, 90}}};
@@ -50,43 +49,20 @@ struct Chain {
   BorderPlace end;
 };
 
-double doubled_loop_area(std::span<const LonLat> loop) {
+// The area to the left of a ring (Oosterom, Strackee 1983), from -2 pi to 2 pi, by triangles at its first point:
+// of a small ring it has the right sign however thin the ring is.
+double area_on_left(std::span<const Point> ring) {
   double area = 0;
-  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
-    const LonLat& o = loop.front();
-    area += (loop[i].lon_deg - o.lon_deg) * (loop[i + 1].lat_deg - o.lat_deg) -
-            (loop[i + 1].lon_deg - o.lon_deg) * (loop[i].lat_deg - o.lat_deg);
+  const Point& a = ring.front();
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const Point& b = ring[i];
+    const Point& c = ring[i + 1];
+    const double sine = dot(a, cross(b - a, c - a));
+    const double cosine = 1 + dot(a, b) + dot(b, c) + dot(c, a);
+    const double half = exact::argument(std::abs(sine), cosine);
+    area += sine < 0 ? -2 * half : 2 * half;
   }
-  return area;
-}
-
-struct InPlane {
-  bool operator()(const LonLat& p, const LonLat& q) const {
-    return p.lon_deg != q.lon_deg ? p.lon_deg < q.lon_deg : p.lat_deg < q.lat_deg;
-  }
-};
-
-// The loops between two visits of a position that have area, and what is left.
-std::vector<Loop> simple_loops(const Loop& loop) {
-  std::vector<Loop> found;
-  const auto add = [&](Loop part) {
-    if (part.size() >= 3 && doubled_loop_area(part) != 0) found.push_back(std::move(part));
-  };
-  std::map<LonLat, std::size_t, InPlane> places;
-  Loop open;
-  for (const LonLat& position : loop) {
-    const auto [place, is_new] = places.try_emplace(position, open.size());
-    if (is_new) {
-      open.push_back(position);
-      continue;
-    }
-    const auto first = open.begin() + static_cast<std::ptrdiff_t>(place->second);
-    add({first, open.end()});
-    std::for_each(first + 1, open.end(), [&](const LonLat& p) { places.erase(p); });
-    open.erase(first + 1, open.end());
-  }
-  add(std::move(open));
-  return found;
+  return std::remainder(area, 4 * std::numbers::pi);
 }
 
 // Snapped to the poles and the antimeridian, and without points that are where the one before is.
@@ -103,7 +79,8 @@ std::vector<Point> cleaned(UnitVectors line, bool is_closed) {
 std::vector<Loop> positions_of_chains(const Trace& trace) {
   std::vector<Loop> chains;
   for (std::size_t k = 0; k < trace.starts.size(); ++k) {
-    const std::size_t past = k + 1 < trace.starts.size() ? trace.starts[k + 1] : trace.points.size();
+    const std::size_t past =
+        k + 1 < trace.starts.size() ? trace.starts[k + 1] : trace.points.size();
     Loop& chain = chains.emplace_back();
     for (std::size_t i = trace.starts[k]; i < past; ++i) {
       const LonLat& position = trace.points[i].position;
@@ -123,14 +100,20 @@ class RegionDrawing {
   [[nodiscard]] std::vector<PolygonWithHoles> polygons() {
     if (chains_.empty() && loops_.empty()) return {};
     std::vector<Loop> outer = outer_loops();
-    std::vector<PolygonWithHoles> found(outer.size());
-    for (std::size_t i = 0; i < outer.size(); ++i) found[i].rings.push_back(std::move(outer[i]));
+    if (outer.empty()) return {};
+    std::vector<std::vector<Loop>> holes(outer.size());
+    const HoleOwners owners(outer);
     for (const Loop& loop : loops_) {
       for (Loop& hole : simple_loops(loop)) {
         if (doubled_loop_area(hole) > 0) continue;  // what its lines do not resolve
-        const std::size_t owner = owner_of(hole, found);
-        if (owner < found.size()) found[owner].rings.push_back(std::move(hole));
+        holes[owners.owner_of(hole)].push_back(std::move(hole));
       }
+    }
+    std::vector<PolygonWithHoles> found(outer.size());
+    for (std::size_t i = 0; i < outer.size(); ++i) {
+      std::vector<Loop>& rings = found[i].rings;
+      rings.push_back(std::move(outer[i]));
+      std::ranges::move(holes[i], std::back_inserter(rings));
     }
     for (PolygonWithHoles& polygon : found) {
       for (Loop& ring : polygon.rings) ring.push_back(ring.front());
@@ -142,6 +125,7 @@ class RegionDrawing {
   void add(UnitVectors ring, double tolerance) {
     const std::vector<Point> points = cleaned(ring, true);
     if (points.size() < 3) return;
+    area_ += area_on_left(points);
     const std::vector<ArcTolerance> tolerances(points.size(), {tolerance, tolerance, {}});
     Trace trace;
     draw(points, tolerances, trace);
@@ -164,15 +148,26 @@ class RegionDrawing {
     if (!chains_.empty()) return stitched();
     const auto size = [](const Loop& loop) { return std::abs(doubled_loop_area(loop)); };
     const auto largest = std::ranges::max_element(loops_, {}, size);
-    if (doubled_loop_area(*largest) <= 0) return {Loop(border_corners.begin(), border_corners.end())};
+    if (doubled_loop_area(*largest) <= 0) {
+      if (is_sliver(*largest)) return {};
+      return {Loop(border_corners.begin(), border_corners.end())};
+    }
     Loop outer = std::move(*largest);
     loops_.erase(largest);
     return outer_parts(outer);
   }
 
+  // Whether the region is small and so thin that its loop, drawn as lines, is clockwise.
+  [[nodiscard]] bool is_sliver(const Loop& loop) const {
+    constexpr double small = 1e-3;  // square radians, far above what is lost between arcs and lines
+    const double in_plane = doubled_loop_area(loop) / 2 / degrees_per_radian / degrees_per_radian;
+    return std::abs(in_plane) < small && area_ > 0 && area_ < small;
+  }
+
   static std::vector<Loop> outer_parts(const Loop& loop) {
     std::vector<Loop> parts = simple_loops(loop);
-    if (parts.size() == 1 && doubled_loop_area(parts.front()) < 0) std::ranges::reverse(parts.front());
+    if (parts.size() == 1 && doubled_loop_area(parts.front()) < 0)
+      std::ranges::reverse(parts.front());
     std::erase_if(parts, [](const Loop& part) { return doubled_loop_area(part) < 0; });
     return parts;
   }
@@ -233,36 +228,15 @@ class RegionDrawing {
     return loops;
   }
 
-  // The polygon that has the hole: from its point farthest in the south the first outer side below is
-  // one of that polygon, as the outer rings are apart.
-  static std::size_t owner_of(const Loop& hole, std::span<const PolygonWithHoles> polygons) {
-    if (polygons.size() <= 1) return 0;
-    const LonLat place = *std::ranges::min_element(hole, {}, &LonLat::lat_deg);
-    double nearest = -std::numeric_limits<double>::infinity();
-    std::size_t owner = polygons.size();
-    for (std::size_t i = 0; i < polygons.size(); ++i) {
-      const Loop& ring = polygons[i].rings.front();
-      for (std::size_t k = 0; k < ring.size(); ++k) {
-        const LonLat& p = ring[k];
-        const LonLat& q = ring[k + 1 == ring.size() ? 0 : k + 1];
-        if ((p.lon_deg > place.lon_deg) == (q.lon_deg > place.lon_deg)) continue;
-        const double share = (place.lon_deg - p.lon_deg) / (q.lon_deg - p.lon_deg);
-        const double lat = std::lerp(p.lat_deg, q.lat_deg, share);
-        if (lat > place.lat_deg || lat <= nearest) continue;
-        nearest = lat;
-        owner = i;
-      }
-    }
-    return owner;
-  }
-
   std::vector<Chain> chains_;
   std::vector<Loop> loops_;
+  double area_ = 0;  // to the left of the rings, up to multiples of 4 pi
 };
 
 }  // namespace
 
-std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings, double tolerance) {
+std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings,
+                                              double tolerance) {
   if (!rings.empty()) return RegionDrawing(rings, tolerance).polygons();
   Loop all(border_corners.begin(), border_corners.end());
   all.push_back(all.front());

@@ -35,8 +35,7 @@ class Field {
   // NaN where there is no value.
   [[nodiscard]] double at(const Point& u) const {
     const Point& center = triangulation_.sphere().center;
-    const Location location =
-        locator_.locate({u.x + center.x, u.y + center.y, u.z + center.z});
+    const Location location = locator_.locate({u.x + center.x, u.y + center.y, u.z + center.z});
     if (location.face == no_index) return std::numeric_limits<double>::quiet_NaN();
     std::array<Rational, 3> corners;
     std::array<double, 3> f{};
@@ -134,8 +133,8 @@ TEST(isolines, have_their_level_everywhere) {
         for (const double share : {0.0, 0.3, 0.5}) {
           const Point& p = points[i];
           const Point& q = points[i + 1];
-          const Point place = unit({p.x + share * (q.x - p.x), p.y + share * (q.y - p.y),
-                                    p.z + share * (q.z - p.z)});
+          const Point place = unit(
+              {p.x + share * (q.x - p.x), p.y + share * (q.y - p.y), p.z + share * (q.z - p.z)});
           EXPECT_NEAR(field.at(place), levels[k], 1e-13);
         }
       }
@@ -158,8 +157,8 @@ TEST(isolines, have_higher_values_to_the_left) {
                        middle.z * along.x - middle.x * along.z,
                        middle.x * along.y - middle.y * along.x};
       const double step = 1e-4;
-      const Point beside = unit(
-          {middle.x + step * left.x, middle.y + step * left.y, middle.z + step * left.z});
+      const Point beside =
+          unit({middle.x + step * left.x, middle.y + step * left.y, middle.z + step * left.z});
       EXPECT_GT(field.at(beside), 0.1);
     }
   }

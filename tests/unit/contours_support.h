@@ -73,7 +73,8 @@ inline std::vector<std::span<const Point>> rings_of_band(const Bands& bands, std
 inline double polygon_area(const Bands& bands, std::uint64_t polygon) {
   constexpr double sphere = 4 * std::numbers::pi;
   double area = 0;
-  for (auto ring = bands.polygon_offsets[polygon]; ring < bands.polygon_offsets[polygon + 1]; ++ring) {
+  for (auto ring = bands.polygon_offsets[polygon]; ring < bands.polygon_offsets[polygon + 1];
+       ++ring) {
     area += signed_ring_area(ring_points(bands, ring));
   }
   area = std::fmod(area, sphere);

@@ -138,9 +138,8 @@ TEST(bands, share_their_arcs_and_isolines_are_these) {
     std::map<Arc, std::size_t> band_of;
     for (std::size_t k = 0; k < found.num_bands(); ++k) {
       for (const auto& ring : rings_of_band(found, k)) {
-        for_each_arc(ring, [&](const Arc& arc) {
-          EXPECT_TRUE(band_of.emplace(arc, k).second) << c.name;
-        });
+        for_each_arc(
+            ring, [&](const Arc& arc) { EXPECT_TRUE(band_of.emplace(arc, k).second) << c.name; });
       }
     }
     std::map<Arc, int> expected;  // how many levels pass there
@@ -237,8 +236,10 @@ TEST(bands, of_one_value_are_the_whole_surface) {
 }
 
 TEST(bands, of_fewer_than_two_dimensions_are_empty) {
-  for (const std::vector<Point>& sites :
-       {std::vector<Point>{}, {{1, 0, 0}}, {{1, 0, 0}, {0, 1, 0}}, {{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}) {
+  for (const std::vector<Point>& sites : {std::vector<Point>{},
+                                          {{1, 0, 0}},
+                                          {{1, 0, 0}, {0, 1, 0}},
+                                          {{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}) {
     const Triangulation t = delaunay(sites);
     const std::vector<double> values(sites.size(), 1.0);
     EXPECT_EQ(bands(t, values, std::vector<double>{0}).num_polygons(), 0U);
@@ -249,7 +250,8 @@ TEST(bands, of_fewer_than_two_dimensions_are_empty) {
 // A site at the level between two higher and two lower ones: the higher side is connected there only in
 // a point.
 TEST(contours, of_a_saddle_at_a_level) {
-  const std::vector<Point> sites{{0, 0, 1}, {1, 0, 0.5}, {0, 1, 0.5}, {-1, 0, 0.5}, {0, -1, 0.5}, {0, 0, -1}};
+  const std::vector<Point> sites{{0, 0, 1},    {1, 0, 0.5},  {0, 1, 0.5},
+                                 {-1, 0, 0.5}, {0, -1, 0.5}, {0, 0, -1}};
   const Triangulation t = delaunay(sites);
   const std::vector<double> values{1, 2, 0, 2, 0, 0};
   const Bands found = bands(t, values, std::vector<double>{1});
@@ -257,7 +259,8 @@ TEST(contours, of_a_saddle_at_a_level) {
   EXPECT_EQ(isolines(t, values, std::vector<double>{1}).num_lines(), 2U);
   const std::vector<double> peak{1, 0, 0, 0, 0, 0};
   EXPECT_EQ(isolines(t, peak, std::vector<double>{1}).num_lines(), 0U);
-  EXPECT_EQ(bands(t, peak, std::vector<double>{1}).band_offsets, (std::vector<std::uint64_t>{0, 1, 1}));
+  EXPECT_EQ(bands(t, peak, std::vector<double>{1}).band_offsets,
+            (std::vector<std::uint64_t>{0, 1, 1}));
 }
 
 }  // namespace
