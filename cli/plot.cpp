@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "column_values.h"
 #include "command.h"
 #include "globe.h"
 #include "plot_draw.h"
@@ -177,7 +178,7 @@ ExitStatus run_page(const PlotOptions& options) {
   const SiteTable table = job.read();
   GlobeOptions globe = globe_options(options);
   std::vector<double> values;
-  if (!options.values.empty()) values = column_values(table, options.values);
+  if (!options.values.empty()) values = column_values(table, options.values, "--values");
   globe.values = values;
   const Triangulation triangulation = job.triangulate(table);
   Diagram both;

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
 #include "map/arc.h"
@@ -20,7 +21,97 @@ struct InPlane {
   }
 };
 
+bool has_touching(std::span<const Loop> loops) {
+  std::vector<LonLat> positions;
+  for (const Loop& loop : loops) positions.insert(positions.end(), loop.begin(), loop.end());
+  std::ranges::sort(positions, InPlane());
+  return std::ranges::adjacent_find(positions) != positions.end();
+}
+
+// The sides of loops by their first position, without those in both directions.
+class Sides {
+ public:
+  explicit Sides(std::span<const Loop> loops) {
+    for (const Loop& loop : loops) {
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        add(loop[k], loop[k + 1 == loop.size() ? 0 : k + 1]);
+      }
+    }
+  }
+
+  // Takes the loops out, one after the other; empty at the end.
+  [[nodiscard]] Loop take_loop() {
+    Loop loop;
+    while (!ends_.empty() && ends_.begin()->second.empty()) ends_.erase(ends_.begin());
+    if (ends_.empty()) return loop;
+    const LonLat first = ends_.begin()->first;
+    const LonLat second = ends_.begin()->second.back();
+    ends_.begin()->second.pop_back();
+    loop.push_back(first);
+    LonLat before = first;
+    for (LonLat here = second; !(here == first && !has_inner_turn(before, here, second));) {
+      loop.push_back(here);
+      const LonLat next = take_next(before, here);
+      before = here;
+      here = next;
+    }
+    return loop;
+  }
+
+ private:
+  void add(const LonLat& from, const LonLat& to) {
+    const auto back = ends_.find(to);
+    if (back != ends_.end()) {
+      const auto same = std::ranges::find(back->second, from);
+      if (same != back->second.end()) {
+        back->second.erase(same);
+        return;
+      }
+    }
+    ends_[from].push_back(to);
+  }
+
+  // How far clockwise, seen from `here`, one turns from `before` to `after`: that is through the region.
+  static double turn(const LonLat& before, const LonLat& here, const LonLat& after) {
+    const double back = std::atan2(before.lat_deg - here.lat_deg, before.lon_deg - here.lon_deg);
+    const double out = std::atan2(after.lat_deg - here.lat_deg, after.lon_deg - here.lon_deg);
+    const double angle = back - out;
+    return angle > 0 ? angle : angle + 2 * std::numbers::pi;
+  }
+
+  // Whether the loop, back at its first position, has to go on first.
+  [[nodiscard]] bool has_inner_turn(const LonLat& before, const LonLat& here,
+                                    const LonLat& after) const {
+    const auto ends = ends_.find(here);
+    if (ends == ends_.end()) return false;
+    const double most = turn(before, here, after);
+    return std::ranges::any_of(ends->second,
+                               [&](const LonLat& end) { return turn(before, here, end) < most; });
+  }
+
+  LonLat take_next(const LonLat& before, const LonLat& here) {
+    std::vector<LonLat>& ends = ends_[here];
+    const auto nearest = std::ranges::min_element(
+        ends, {}, [&](const LonLat& end) { return turn(before, here, end); });
+    const LonLat next = *nearest;
+    ends.erase(nearest);
+    return next;
+  }
+
+  std::map<LonLat, std::vector<LonLat>, InPlane> ends_;
+};
+
 }  // namespace
+
+std::vector<Loop> separated_loops(std::vector<Loop> loops) {
+  if (!has_touching(loops)) return loops;
+  std::vector<Loop> found;
+  Sides sides(loops);
+  for (Loop loop = sides.take_loop(); !loop.empty(); loop = sides.take_loop()) {
+    for (Loop& part : simple_loops(loop)) found.push_back(std::move(part));
+  }
+  return found;
+}
 
 double doubled_loop_area(std::span<const LonLat> loop) {
   double area = 0;

@@ -20,6 +20,11 @@ double doubled_loop_area(std::span<const LonLat> loop);
 // The loops between two visits of a position that have area, and what is left.
 std::vector<Loop> simple_loops(const Loop& loop);
 
+// The loops around the same region, where they touch: each keeps to one fan of it (the region is to the left), so
+// that no two parts of it that touch in a position only have a loop in common. Sides in both directions go.
+// Loops that touch nowhere stay as they are.
+std::vector<Loop> separated_loops(std::vector<Loop> loops);
+
 // Which of some outer rings has a hole: from the hole's point farthest in the south the first side of an
 // outer ring below is one of that ring's, as outer rings are apart. The sides are listed by longitude.
 class HoleOwners {

@@ -99,24 +99,26 @@ class RegionDrawing {
 
   [[nodiscard]] std::vector<PolygonWithHoles> polygons() {
     if (chains_.empty() && loops_.empty()) return {};
-    std::vector<Loop> outer = outer_loops();
-    if (outer.empty()) return {};
-    std::vector<std::vector<Loop>> holes(outer.size());
-    const HoleOwners owners(outer);
+    std::vector<Loop> all = outer_loops();
+    if (all.empty()) return {};
     for (const Loop& loop : loops_) {
       for (Loop& hole : simple_loops(loop)) {
-        if (doubled_loop_area(hole) > 0) continue;  // what its lines do not resolve
-        holes[owners.owner_of(hole)].push_back(std::move(hole));
+        if (doubled_loop_area(hole) < 0)
+          all.push_back(std::move(hole));  // else its lines do not resolve it
       }
     }
+    split_border(all);
+    all = separated_loops(std::move(all));
+    const auto is_outer = [](const Loop& loop) { return doubled_loop_area(loop) > 0; };
+    const auto holes = std::ranges::stable_partition(all, is_outer);
+    const std::span<Loop> outer(all.begin(), holes.begin());
+    if (outer.empty()) return {};
     std::vector<PolygonWithHoles> found(outer.size());
+    const HoleOwners owners(outer);
+    for (Loop& hole : holes) found[owners.owner_of(hole)].rings.push_back(std::move(hole));
     for (std::size_t i = 0; i < outer.size(); ++i) {
-      std::vector<Loop>& rings = found[i].rings;
-      rings.push_back(std::move(outer[i]));
-      std::ranges::move(holes[i], std::back_inserter(rings));
-    }
-    for (PolygonWithHoles& polygon : found) {
-      for (Loop& ring : polygon.rings) ring.push_back(ring.front());
+      found[i].rings.insert(found[i].rings.begin(), std::move(outer[i]));
+      for (Loop& ring : found[i].rings) ring.push_back(ring.front());
     }
     return found;
   }
@@ -140,6 +142,43 @@ class RegionDrawing {
       const std::size_t past = is_last ? trace.points.size() : trace.starts[k + 1];
       chains_.push_back({std::move(parts[k]), border_place(trace.points[trace.starts[k]]),
                          border_place(trace.points[past - 1])});
+    }
+  }
+
+  // Gives the sides along the border the positions where other loops meet it.
+  static void split_border(std::vector<Loop>& loops) {
+    std::vector<LonLat> on_border;
+    for (const Loop& loop : loops) {
+      std::ranges::copy_if(loop, std::back_inserter(on_border),
+                           [](const LonLat& p) { return std::abs(p.lon_deg) == 180; });
+    }
+    if (on_border.empty()) return;
+    std::ranges::sort(on_border, {}, &LonLat::lat_deg);
+    for (Loop& loop : loops) {
+      Loop split;
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const LonLat& p = loop[k];
+        const LonLat& q = loop[k + 1 == loop.size() ? 0 : k + 1];
+        split.push_back(p);
+        if (std::abs(p.lon_deg) != 180 || p.lon_deg != q.lon_deg) continue;
+        append_between(p, q, on_border, split);
+      }
+      loop = std::move(split);
+    }
+  }
+
+  static void append_between(const LonLat& p, const LonLat& q, std::span<const LonLat> positions,
+                             Loop& out) {
+    const auto [low, high] = std::minmax({p.lat_deg, q.lat_deg});
+    const auto first = std::ranges::upper_bound(positions, low, {}, &LonLat::lat_deg);
+    const auto past = std::ranges::lower_bound(positions, high, {}, &LonLat::lat_deg);
+    const std::size_t begin = out.size();
+    for (auto place = first; place < past; ++place) {
+      if (place->lon_deg != p.lon_deg || *place == out.back()) continue;
+      out.push_back(*place);
+    }
+    if (q.lat_deg < p.lat_deg) {
+      std::reverse(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end());
     }
   }
 

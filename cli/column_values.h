@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// A column of numbers that an option names.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rondel/io.h"
+
+namespace rondel::cli {
+
+/// The numbers of a column that was kept, one of each site; an empty cell is not a number.
+/// \throws UsageError, which begins with the option, if the table has no such column or there are other
+/// cells than numbers.
+std::vector<double> column_values(const SiteTable& table, const std::string& name,
+                                  const std::string& option);
+
+}  // namespace rondel::cli

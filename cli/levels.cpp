@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "levels.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "command.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+std::vector<std::string> parts_of(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, ',');) parts.push_back(part);
+  return parts;
+}
+
+double number_of(const std::string& text) {
+  double value = 0;
+  const char* const begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  std::from_chars(begin, text.data() + text.size(), value);
+  return value;
+}
+
+double rounded_to_15_digits(double value) {
+  std::array<char, 32> text{};
+  const auto end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 15)
+          .ptr;
+  double rounded = value;
+  std::from_chars(text.data(), end, rounded);
+  return rounded + 0.0;  // not -0
+}
+
+}  // namespace
+
+std::string levels_error(const std::string& text) {
+  const std::vector<std::string> parts = parts_of(text);
+  if (parts.empty()) return "there is no level";
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const std::string error = finite_error(parts[i]);
+    if (!error.empty()) return error;
+    if (i > 0 && !(number_of(parts[i - 1]) < number_of(parts[i]))) {
+      return "'" + parts[i] + "' is not above '" + parts[i - 1] + "'";
+    }
+  }
+  return {};
+}
+
+std::vector<double> levels_of(const std::string& text) {
+  std::vector<double> levels;
+  for (const std::string& part : parts_of(text)) levels.push_back(number_of(part));
+  return levels;
+}
+
+std::vector<double> levels_at(double step, std::span<const double> values,
+                              const std::string& option) {
+  constexpr double most = 10'000;
+  double least = std::numeric_limits<double>::infinity();
+  double largest = -least;
+  for (const double value : values) {
+    if (std::isnan(value)) continue;
+    least = std::min(least, value);
+    largest = std::max(largest, value);
+  }
+  if (!(least < largest)) return {};
+  if (!(largest / step - least / step <= most)) {
+    throw UsageError(option + ": there would be more than 10000 levels");
+  }
+  std::vector<double> levels;
+  for (double k = std::floor(least / step); k <= std::ceil(largest / step); ++k) {
+    const double level = rounded_to_15_digits(k * step);
+    if (least < level && level <= largest && (levels.empty() || levels.back() < level)) {
+      levels.push_back(level);
+    }
+  }
+  return levels;
+}
+
+}  // namespace rondel::cli
