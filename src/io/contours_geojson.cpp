@@ -4,10 +4,12 @@
 // Isolines and bands as GeoJSON (RFC 7946): a FeatureCollection with a feature for each level or band.
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/cell_formats.h"
@@ -15,6 +17,7 @@
 #include "io/number.h"
 #include "io/number_text.h"
 #include "map/arc.h"
+#include "map/crossing_lines.h"
 #include "map/region.h"
 #include "rondel/contours.h"
 #include "rondel/error.h"
@@ -62,18 +65,24 @@ void append_polygon(std::string& out, const map::PolygonWithHoles& polygon) {
   out.back() = ']';
 }
 
-// The texts of the items [begin, end), made by several threads; each item leaves a comma behind it. Empty,
-// or without the last comma.
-std::string joined_texts(const Execution& execution, std::uint64_t begin, std::uint64_t end,
-                         const std::function<void(std::string&, std::uint64_t)>& append) {
-  std::vector<std::string> texts(end - begin);
-  system::parallel_for(execution.threads, texts.size(), 1, [&](std::size_t from, std::size_t to) {
-    for (std::size_t i = from; i < to; ++i) append(texts[i], begin + i);
-  });
+// The texts one after the other; each has a comma behind it, the last one none.
+std::string joined(std::span<const std::string> texts) {
   std::string all;
   for (const std::string& text : texts) all += text;
   if (!all.empty()) all.pop_back();
   return all;
+}
+
+// The texts of items that several threads make.
+std::vector<std::string> made_texts(
+    const Execution& execution, std::size_t count,
+    const std::function<void(std::string& text, std::size_t item)>& append) {
+  constexpr std::size_t grain = 16;
+  std::vector<std::string> texts(count);
+  system::parallel_for(execution.threads, count, grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) append(texts[i], i);
+  });
+  return texts;
 }
 
 void write_feature(AtomicFile& file, bool is_first, const std::string& properties,
@@ -97,37 +106,69 @@ std::span<const T> row(const std::vector<T>& values, const std::vector<std::uint
 
 void write_isolines_geojson(AtomicFile& file, const IsolinesToWrite& job) {
   const Isolines& isolines = job.isolines;
-  const auto append_line = [&](std::string& text, std::uint64_t line) {
-    const auto points = row(isolines.points, isolines.line_offsets, line);
-    for (const auto& part : map::line_parts(points, isolines.is_closed[line] != 0, job.tolerance)) {
-      append_positions(text, part);
-      text += ',';
-    }
-  };
+  const std::vector<std::string> texts =
+      made_texts(job.execution, isolines.num_lines(), [&](std::string& text, std::size_t line) {
+        const auto points = row(isolines.points, isolines.line_offsets, line);
+        const bool is_closed = isolines.is_closed[line] != 0;
+        for (const auto& part : map::line_parts(points, is_closed, job.tolerance)) {
+          append_positions(text, part);
+          text += ',';
+        }
+      });
   file.write(R"({"type":"FeatureCollection","features":[)");
   for (std::size_t k = 0; k < isolines.levels.size(); ++k) {
     std::string properties = R"("level":)";
     append_number(properties, isolines.levels[k]);
     write_feature(file, k == 0, properties, "MultiLineString",
-                  joined_texts(job.execution, isolines.level_offsets[k],
-                               isolines.level_offsets[k + 1], append_line));
+                  joined(row(texts, isolines.level_offsets, k)));
   }
   file.write("\n]}\n");
 }
 
+struct DrawnPolygons {
+  std::vector<std::string> texts;
+  std::size_t num_crossed = 0;  // how many have lines that cross, which their arcs do not
+};
+
+DrawnPolygons draw_polygons(const BandsToWrite& job, double tolerance) {
+  const Bands& bands = job.bands;
+  std::atomic<std::size_t> num_crossed = 0;
+  std::vector<std::string> texts =
+      made_texts(job.execution, bands.num_polygons(), [&](std::string& text, std::size_t polygon) {
+        std::vector<map::UnitVectors> rings;
+        for (auto ring = bands.polygon_offsets[polygon]; ring < bands.polygon_offsets[polygon + 1];
+             ++ring) {
+          rings.push_back(row(bands.points, bands.ring_offsets, ring));
+        }
+        bool is_crossed = false;
+        for (const auto& part : map::region_polygons(rings, tolerance)) {
+          is_crossed = is_crossed || map::have_crossing_lines(part.rings);
+          append_polygon(text, part);
+          text += ',';
+        }
+        if (is_crossed) ++num_crossed;
+      });
+  return {std::move(texts), num_crossed};
+}
+
+// Arcs that are closer together than the tolerance may cross when they are drawn. Then all are drawn
+// closer to what they are, as long as that helps: of all polygons, as neighbors share their arcs.
+std::vector<std::string> draw_uncrossed_polygons(const BandsToWrite& job) {
+  constexpr int most_attempts = 6;
+  double tolerance = job.tolerance;
+  DrawnPolygons best = draw_polygons(job, tolerance);
+  for (int i = 0; i < most_attempts && best.num_crossed > 0; ++i) {
+    tolerance /= 8;
+    DrawnPolygons drawn = draw_polygons(job, tolerance);
+    if (drawn.num_crossed >= best.num_crossed) break;
+    best = std::move(drawn);
+  }
+  return std::move(best.texts);
+}
+
 void write_bands_geojson(AtomicFile& file, const BandsToWrite& job) {
   const Bands& bands = job.bands;
-  const auto append_polygons = [&](std::string& text, std::uint64_t polygon) {
-    std::vector<map::UnitVectors> rings;
-    for (auto ring = bands.polygon_offsets[polygon]; ring < bands.polygon_offsets[polygon + 1];
-         ++ring) {
-      rings.push_back(row(bands.points, bands.ring_offsets, ring));
-    }
-    for (const auto& part : map::region_polygons(rings, job.tolerance)) {
-      append_polygon(text, part);
-      text += ',';
-    }
-  };
+  const std::vector<std::string> texts = draw_uncrossed_polygons(job);
   file.write(R"({"type":"FeatureCollection","features":[)");
   for (std::size_t k = 0; k < bands.num_bands(); ++k) {
     std::string properties = R"("low":)";
@@ -142,8 +183,7 @@ void write_bands_geojson(AtomicFile& file, const BandsToWrite& job) {
     properties += R"(,"high":)";
     append_end(k == bands.levels.size(), k);
     write_feature(file, k == 0, properties, "MultiPolygon",
-                  joined_texts(job.execution, bands.band_offsets[k], bands.band_offsets[k + 1],
-                               append_polygons));
+                  joined(row(texts, bands.band_offsets, k)));
   }
   file.write("\n]}\n");
 }

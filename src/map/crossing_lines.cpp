@@ -162,6 +162,16 @@ bool has_crossing_lines(std::span<const LonLat> loop) {
   return false;
 }
 
+bool have_crossing_lines(std::span<const std::vector<LonLat>> rings) {
+  std::vector<Line> lines;
+  for (const std::vector<LonLat>& ring : rings) {
+    for (std::size_t i = 0; i + 1 < ring.size(); ++i) lines.push_back({ring[i], ring[i + 1], i});
+  }
+  bool is_crossed = false;
+  Rectangles(lines).find_meeting([&](std::size_t, std::size_t) { is_crossed = true; });
+  return is_crossed;
+}
+
 std::vector<std::pair<std::size_t, std::size_t>> crossing_lines(const Trace& trace) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   const std::vector<Line> lines = unrolled(trace);
