@@ -17,8 +17,10 @@
 #include "column_values.h"
 #include "command.h"
 #include "globe.h"
+#include "levels.h"
 #include "plot_draw.h"
 #include "plot_page.h"
+#include "rondel/contours.h"
 #include "rondel/diagram.h"
 #include "rondel/globe.h"
 #include "run_pieces.h"
@@ -27,16 +29,18 @@
 namespace rondel::cli {
 namespace {
 
-enum class Show { delaunay, voronoi, both };
-enum class Fill { none, area };
+enum class Show { none, delaunay, voronoi, both };
+enum class Fill { none, area, cells, field };
 
 struct PlotOptions {
   CommonOptions common;
   FigureStyle style;
   std::optional<Show> show;  // none: the cells if they are filled, otherwise the triangulation
-  Fill fill = Fill::none;
+  std::optional<Fill> fill;  // none: by values if there are any
   bool show_circles = false;
-  std::string values;        // --values: a column; empty: none
+  std::string values;   // --values: a column; empty: none
+  double contours = 0;  // --contours: their step; 0: none
+  std::optional<bool> show_sites;
   std::vector<double> view;  // LON LAT, or empty
   double up_deg = 0;
   std::string only_pictures;  // an option that was given and that pages do not have; empty: none
@@ -80,6 +84,17 @@ std::vector<Point> turned(std::vector<Point> points, const View& view) {
   return points;
 }
 
+std::vector<ArcEnds> line_arcs(const Isolines& lines) {
+  std::vector<ArcEnds> arcs;
+  for (std::size_t line = 0; line < lines.num_lines(); ++line) {
+    const auto begin = static_cast<Index>(lines.line_offsets[line]);
+    const auto end = static_cast<Index>(lines.line_offsets[line + 1]);
+    for (Index i = begin; i + 1 < end; ++i) arcs.push_back({i, i + 1});
+    if (lines.is_closed[line] != 0) arcs.push_back({end - 1, begin});
+  }
+  return arcs;
+}
+
 // The vertices: all sites but duplicates, hidden ones and one at the center of the sphere, which a
 // hull may have as a corner.
 std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Point> points) {
@@ -95,12 +110,45 @@ std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Poin
   return points;
 }
 
+Fill filling(const PlotOptions& options) {
+  return options.fill.value_or(options.values.empty() ? Fill::none : Fill::field);
+}
+
+Show shown(const PlotOptions& options) {
+  if (options.show) return *options.show;
+  if (filling(options) == Fill::field) return Show::none;
+  return filling(options) == Fill::none ? Show::delaunay : Show::voronoi;
+}
+
+// The field, its isolines and what the colors mean.
+void add_values(Figure& figure, const PlotOptions& options, const Triangulation& triangulation,
+                std::span<const Point> directions, std::vector<double> values,
+                const Execution& execution) {
+  figure.scale = scale_of(values, options.values);
+  if (options.contours > 0) {
+    const auto levels = levels_at(options.contours, values, "--contours");
+    const Isolines lines = isolines(triangulation, values, levels, execution);
+    figure.isolines = {turned(lines.points, figure.view), line_arcs(lines)};
+  }
+  if (filling(options) == Fill::cells) {
+    figure.filled->values = std::move(values);
+  } else if (filling(options) == Fill::field) {
+    std::vector<Triple> faces;
+    for (Index f = 0; f < triangulation.num_faces(); ++f) {
+      const auto& [a, b, c] = triangulation.faces()[f];
+      const bool has_values = !std::isnan(values[a] + values[b] + values[c]);
+      if (has_values && !triangulation.is_ghost(f)) faces.push_back(triangulation.faces()[f]);
+    }
+    figure.field = {{directions.begin(), directions.end()}, std::move(values), std::move(faces)};
+  }
+}
+
 Figure make_figure(const PlotOptions& options, const Triangulation& triangulation,
                    const SiteTable& table, const Execution& execution) {
-  const Show show =
-      options.show.value_or(options.fill == Fill::area ? Show::voronoi : Show::delaunay);
+  const Show show = shown(options);
   Figure figure;
   figure.style = options.style;
+  figure.style.show_sites = options.show_sites.value_or(options.values.empty());
   std::vector<Point> sites = directions(table.sites, triangulation.sphere().center);
   figure.view = options.view.empty() ? default_view(sites, options.up_deg)
                                      : View({options.view[0], options.view[1]}, options.up_deg);
@@ -111,17 +159,26 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   std::vector<ArcEnds> arcs = triangulation_arcs(triangulation, sites);
   sites = turned(std::move(sites), figure.view);
   std::vector<Point> points = in_order_of_arcs(arcs, sites);
+  const std::vector<Point> in_view = options.values.empty() ? std::vector<Point>() : sites;
   figure.sites = vertices(triangulation, std::move(sites));
   figure.spacing = median_spacing(arcs, points);
-  if (show != Show::voronoi) figure.triangulation = {std::move(points), std::move(arcs)};
-  if (show != Show::delaunay || options.fill == Fill::area) {
+  const bool has_filled_cells = filling(options) == Fill::area || filling(options) == Fill::cells;
+  const bool has_cells = show == Show::voronoi || show == Show::both;
+  if (show == Show::delaunay || show == Show::both) {
+    figure.triangulation = {std::move(points), std::move(arcs)};
+  }
+  if (has_cells || has_filled_cells) {
     auto [cells, cell_areas] = diagram(triangulation, execution);
     cells.points = turned(std::move(cells.points), figure.view);
-    if (show != Show::delaunay) {
+    if (has_cells) {
       figure.diagram.arcs = cell_arcs(cells);
       figure.diagram.points = cells.points;
     }
-    if (options.fill == Fill::area) figure.filled = {std::move(cells), std::move(cell_areas)};
+    if (has_filled_cells) figure.filled = {std::move(cells), std::move(cell_areas), {}};
+  }
+  if (!options.values.empty()) {
+    add_values(figure, options, triangulation, in_view,
+               column_values(table, options.values, "--values"), execution);
   }
   return figure;
 }
@@ -160,7 +217,7 @@ GlobeOptions globe_options(const PlotOptions& options) {
   globe.fill = options.fill == Fill::area ? GlobeFill::area
                : !options.values.empty()  ? GlobeFill::values
                                           : GlobeFill::none;
-  globe.show_sites = options.style.show_sites;
+  globe.show_sites = options.show_sites.value_or(true);
   globe.show_circles = options.show_circles;
   globe.graticule_deg = options.style.graticule_deg;
   if (!options.view.empty()) globe.view = LonLat{options.view[0], options.view[1]};
@@ -198,14 +255,28 @@ void require_view(const PlotOptions& options) {
   }
 }
 
+void require_values(const PlotOptions& options) {
+  const bool needs_values = filling(options) == Fill::cells || filling(options) == Fill::field;
+  if (options.values.empty() && needs_values) throw UsageError("--fill: --values names no column");
+  if (options.values.empty() && options.contours > 0) {
+    throw UsageError("--contours: --values names no column");
+  }
+  const bool is_linear = filling(options) == Fill::field || options.contours > 0;
+  if (options.common.build.model == Model::weighted && is_linear) {
+    throw UsageError("--values: of weighted sites only --fill cells shows values");
+  }
+}
+
 ExitStatus run_plot(const PlotOptions& options) {
   const bool is_page = options.common.format() == "html";
   const auto format = figure_format(options.common.format());
   require_output(options.common, is_page || format.has_value(), ".png .svg .pdf .html");
   require_view(options);
   if (is_page) return run_page(options);
-  if (!options.values.empty()) throw UsageError("--values: only a page (.html) shows values");
-  Job job(options.common);
+  require_values(options);
+  CommonOptions common = options.common;
+  common.read.keep_columns = !options.values.empty();
+  Job job(common);
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
   Figure figure;
@@ -246,23 +317,36 @@ void add_choice(CLI::App& parser, const std::string& name, Target& target,
 
 void add_content_options(CLI::App& parser, PlotOptions& options) {
   add_choice<Show>(parser, "--show", options.show,
-                   {{"delaunay", Show::delaunay}, {"voronoi", Show::voronoi}, {"both", Show::both}},
-                   "delaunay (default), voronoi (default with --fill or --values) or both");
-  add_choice<Fill>(parser, "--fill", options.fill, {{"none", Fill::none}, {"area", Fill::area}},
-                   "area: color the cells by area, dark for small ones; none (default)");
+                   {{"none", Show::none},
+                    {"delaunay", Show::delaunay},
+                    {"voronoi", Show::voronoi},
+                    {"both", Show::both}},
+                   "delaunay (default), voronoi (default where cells are filled), both or none\n"
+                   "(default where a field is)");
+  add_choice<Fill>(
+      parser, "--fill", options.fill,
+      {{"none", Fill::none}, {"area", Fill::area}, {"cells", Fill::cells}, {"field", Fill::field}},
+      "area: color the cells by area, dark for small ones; cells: by --values;\n"
+      "field: the values, linear in the triangles (default with --values in\n"
+      "pictures); none (default)");
   add_choice<bool>(parser, "--back", options.style.show_back, {{"none", false}, {"faint", true}},
                    "What is behind the globe: faint, or none (default)");
   parser
       .add_option("--values", options.values,
-                  "Page: a column of numbers, shown as the colors of the cells with a color bar")
+                  "A column of numbers, shown as colors with a color bar")
       ->type_name("COL");
+  parser
+      .add_option("--contours", options.contours,
+                  "Draw isolines of --values at the multiples of STEP")
+      ->check(positive_error)
+      ->type_name("STEP");
   parser.add_flag("--circles", options.show_circles,
                   "Draw the circles for which weighted sites stand, hidden ones paler");
   const auto show_sites = [&options](bool show) {
-    return [&options, show] { options.style.show_sites = show; };
+    return [&options, show] { options.show_sites = show; };
   };
-  CLI::Option* sites =
-      parser.add_flag_callback("--sites", show_sites(true), "Draw the sites as dots (default)");
+  CLI::Option* sites = parser.add_flag_callback(
+      "--sites", show_sites(true), "Draw the sites as dots (default without --values)");
   parser.add_flag_callback("--no-sites", show_sites(false), "Do not draw the sites")
       ->excludes(sites);
   parser
@@ -326,12 +410,15 @@ Command add_plot_command(CLI::App& tool) {
       "  rondel plot stations.csv -o stations.png --view -60 35\n"
       "  rondel plot stations.csv -o cells.svg --show voronoi --fill area\n"
       "  rondel plot circles.csv --radius radius --circles --show voronoi -o power.pdf\n"
+      "  rondel plot stations.csv --values temperature --contours 5 -o warm.png\n"
       "  rondel plot stations.csv -o globe.html\n"
       "  rondel plot cities.csv --values population -o cities.html");
   return {parser, [options, parser] {
-            for (const char* name : {"--back", "--size", "--line-width"}) {
+            for (const char* name : {"--back", "--size", "--line-width", "--contours"}) {
               if (parser->count(name) > 0) options->only_pictures = name;
             }
+            if (options->show == Show::none) options->only_pictures = "--show none";
+            if (options->fill == Fill::field) options->only_pictures = "--fill field";
             return run_plot(*options);
           }};
 }

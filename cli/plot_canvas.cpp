@@ -44,12 +44,12 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned length) n
   }
 }
 
-cairo_surface_t* make_surface(FigureFormat format, int size, std::string& bytes) {
+cairo_surface_t* make_surface(FigureFormat format, int size, int height, std::string& bytes) {
   switch (format) {
     case FigureFormat::svg:
-      return cairo_svg_surface_create_for_stream(append, &bytes, size, size);
+      return cairo_svg_surface_create_for_stream(append, &bytes, size, height);
     case FigureFormat::pdf: {
-      cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(append, &bytes, size, size);
+      cairo_surface_t* surface = cairo_pdf_surface_create_for_stream(append, &bytes, size, height);
       // An empty date is no date: otherwise each run would write its own.
       cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "");
       return surface;
@@ -57,7 +57,7 @@ cairo_surface_t* make_surface(FigureFormat format, int size, std::string& bytes)
     case FigureFormat::png:
       break;
   }
-  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, size, size);
+  return cairo_image_surface_create(CAIRO_FORMAT_RGB24, size, height);
 }
 
 // Cairo numbers the surfaces of a process and writes the number into the drawing.
@@ -109,12 +109,12 @@ struct Canvas::State {
   [[nodiscard]] double y(Spot p) const { return center - radius * p.y; }
 };
 
-Canvas::Canvas(FigureFormat format, int size) : state_(std::make_unique<State>()) {
+Canvas::Canvas(FigureFormat format, int size, int below) : state_(std::make_unique<State>()) {
   state_->format = format;
   state_->size = size;
   state_->center = size / 2.0;
   state_->radius = radius_of(size);
-  state_->surface.reset(make_surface(format, size, state_->bytes));
+  state_->surface.reset(make_surface(format, size, size + below, state_->bytes));
   state_->context.reset(cairo_create(state_->surface.get()));
   require(cairo_status(state_->context.get()));
   set_source(state_->context.get(), {1, 1, 1});
@@ -149,6 +149,24 @@ void Canvas::dot(Spot center, double radius) {
 void Canvas::globe() {
   cairo_arc(state_->context.get(), state_->center, state_->center, state_->radius, 0,
             2 * std::numbers::pi);
+}
+
+void Canvas::box(double left, double top, double width, double height) {
+  cairo_rectangle(state_->context.get(), left, top, width, height);
+}
+
+void Canvas::text(const std::string& utf8, double x, double base, double letter_size,
+                  TextAlign align, const Color& color) {
+  cairo_t* context = state_->context.get();
+  cairo_select_font_face(context, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  cairo_set_font_size(context, letter_size);
+  cairo_text_extents_t extents;
+  cairo_text_extents(context, utf8.c_str(), &extents);
+  const double share = align == TextAlign::left ? 0 : align == TextAlign::center ? 0.5 : 1;
+  set_source(context, color);
+  cairo_move_to(context, x - share * extents.x_advance, base);
+  cairo_show_text(context, utf8.c_str());
+  cairo_new_path(context);
 }
 
 void Canvas::stroke(const Color& color, double width) {

@@ -18,10 +18,13 @@ namespace rondel::cli {
 
 enum class FigureFormat { png, svg, pdf };
 
+enum class TextAlign { left, center, right };
+
 /// Paths in the coordinates of the unit disc; widths and radii in pixels (points in a PDF).
 class Canvas final : public Pen {
  public:
-  Canvas(FigureFormat format, int size);
+  /// `below`: what the picture is higher than wide, for a legend below the globe.
+  Canvas(FigureFormat format, int size, int below = 0);
   ~Canvas() override;
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
@@ -37,6 +40,12 @@ class Canvas final : public Pen {
   void dot(Spot center, double radius);
   /// Adds the outline of the globe to the path.
   void globe();
+
+  /// Adds a rectangle to the path, in pixels from the corner at the top left.
+  void box(double left, double top, double width, double height);
+  /// Writes UTF-8 at a place in pixels, in a font without serifs.
+  void text(const std::string& utf8, double x, double base, double letter_size, TextAlign align,
+            const Color& color);
 
   /// Each paints the path and ends it.
   void stroke(const Color& color, double width);

@@ -58,4 +58,23 @@ Color area_color(double t) {
   return blend(area_stops[stop], area_stops[stop + 1], place - static_cast<double>(stop));
 }
 
+Color value_color(double t) {
+  constexpr std::array<Color, 7> powers{{{0.2777273272, 0.0054073445, 0.3340998053},
+                                         {0.1050930431, 1.4046135299, 1.3845901626},
+                                         {-0.3308618287, 0.2148475595, 0.0950951630},
+                                         {-4.6342304990, -5.7991009734, -19.3324409563},
+                                         {6.2282699363, 14.1799333668, 56.6905526007},
+                                         {4.7763849977, -13.7451453777, -65.3530326334},
+                                         {-5.4354558559, 4.6458526122, 26.3124352496}}};
+  const double place = std::clamp(t, 0.0, 1.0);
+  Color color{0, 0, 0};
+  for (std::size_t i = powers.size(); i-- > 0;) {
+    color.red = color.red * place + powers[i].red;
+    color.green = color.green * place + powers[i].green;
+    color.blue = color.blue * place + powers[i].blue;
+  }
+  const auto clipped = [](double c) { return std::clamp(c, 0.0, 1.0); };
+  return {clipped(color.red), clipped(color.green), clipped(color.blue)};
+}
+
 }  // namespace rondel::cli

@@ -23,4 +23,9 @@ Color blend(const Color& a, const Color& b, double t);
 /// lightness grows with t, so it also reads in grey.
 Color area_color(double t);
 
+/// The color map of values: viridis (Nathaniel Smith, Stéfan van der Walt, Eric Firing, 2015; CC0), purple for
+/// the least (t = 0) to yellow, in even steps for the eye, for color-blind people too. Within 0.02 of
+/// its table: a polynomial by Matt Zucker (CC0).
+Color value_color(double t);
+
 }  // namespace rondel::cli

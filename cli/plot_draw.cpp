@@ -26,6 +26,7 @@ constexpr Color diagram_color{0.850, 0.270, 0.080};
 constexpr Color diagram_on_fill_color{0.060, 0.130, 0.220, 0.55};
 constexpr Color circle_color{0.000, 0.440, 0.340};
 constexpr Color hidden_circle_color{0.000, 0.440, 0.340, 0.30};
+constexpr Color isoline_color{0.02, 0.02, 0.04, 0.75};
 constexpr Color site_color{0.06, 0.06, 0.08};
 
 const Color triangulation_back_color = blend(triangulation_color, white, 0.75);
@@ -127,8 +128,10 @@ class AreaScale {
 // Calls paint(corners, color) for the cells; the cell of a single site, which is the whole sphere, has
 // no corners.
 template <class Paint>
-void for_each_cell(const FilledCells& filled, const Paint& paint) {
-  const AreaScale scale(filled.areas);
+void for_each_cell(const Figure& figure, const Paint& paint) {
+  const FilledCells& filled = *figure.filled;
+  const bool has_values = !filled.values.empty();
+  const AreaScale scale(has_values ? std::span<const double>() : filled.areas);
   const Cells& cells = filled.cells;
   std::vector<Point> corners;
   for (std::size_t cell = 0; cell < filled.areas.size(); ++cell) {
@@ -138,13 +141,17 @@ void for_each_cell(const FilledCells& filled, const Paint& paint) {
     for (auto i = cells.offsets[cell]; i < cells.offsets[cell + 1]; ++i) {
       corners.push_back(cells.points[cells.rings[i]]);
     }
-    paint(std::span<const Point>(corners), area_color(scale(area)));
+    if (!has_values) {
+      paint(std::span<const Point>(corners), area_color(scale(area)));
+    } else if (!std::isnan(filled.values[cell])) {
+      paint(std::span<const Point>(corners), figure.scale->color(filled.values[cell]));
+    }
   }
 }
 
-void draw_filled_cells(Canvas& canvas, const FilledCells& filled) {
+void draw_filled_cells(Canvas& canvas, const Figure& figure) {
   const double tolerance = 0.02 / canvas.radius();
-  for_each_cell(filled, [&](std::span<const Point> corners, const Color& color) {
+  for_each_cell(figure, [&](std::span<const Point> corners, const Color& color) {
     if (corners.empty()) {
       canvas.globe();
     } else if (!trace_region(canvas, corners, tolerance)) {
@@ -211,8 +218,8 @@ class PixelLayer {
     }
   }
 
-  void add_filled_cells(const FilledCells& filled) {
-    for_each_cell(filled, [&](std::span<const Point> corners, const Color& color) {
+  void add_filled_cells(const Figure& figure) {
+    for_each_cell(figure, [&](std::span<const Point> corners, const Color& color) {
       if (corners.empty()) {
         trace_circle(pen_, {0, 0, 1}, 90, Side::front);
       } else if (!trace_region(pen_, corners, tolerance_)) {
@@ -255,6 +262,22 @@ void paint(Canvas& canvas, const Figure& figure, unsigned threads, const Add& ad
   canvas.paint(argb);
 }
 
+// Always as pixels, whatever the format: paths would be of one color each.
+void draw_field(Canvas& canvas, const Figure& figure, unsigned threads) {
+  const int size = figure.style.size;
+  const auto side = static_cast<std::size_t>(size);
+  const int num_bands = std::min(size, static_cast<int>(2 * std::min(threads, 256U)));
+  std::vector<std::uint32_t> argb(side * side, 0);
+  run_pieces(threads, num_bands, [&](int band) {
+    const auto row_of = [&](int k) { return static_cast<int>(std::int64_t{size} * k / num_bands); };
+    const auto begin = static_cast<std::size_t>(row_of(band)) * side;
+    const auto end = static_cast<std::size_t>(row_of(band + 1)) * side;
+    paint_field(*figure.field, *figure.scale, size, canvas.radius(), row_of(band), row_of(band + 1),
+                std::span(argb).subspan(begin, end - begin));
+  });
+  canvas.paint(argb);
+}
+
 void add_back(PixelLayer& layer, const Figure& figure, double width) {
   layer.add_arcs(figure.triangulation, Side::back, triangulation_back_color, width);
   layer.add_arcs(figure.diagram, Side::back, diagram_back_color, width);
@@ -281,7 +304,7 @@ bool is_dense(const Figure& figure, FigureFormat format) {
 }
 
 std::string draw(const Figure& figure, FigureFormat format, bool as_pixels, unsigned threads) {
-  Canvas canvas(format, figure.style.size);
+  Canvas canvas(format, figure.style.size, figure.scale ? bar_height(figure.style.size) : 0);
   const Widths width = widths(figure, canvas.radius());
   const double back_width = 0.7 * width.line;
   const auto paint_layer = [&](const auto& add) { paint(canvas, figure, threads, add); };
@@ -294,14 +317,20 @@ std::string draw(const Figure& figure, FigureFormat format, bool as_pixels, unsi
   }
   if (figure.filled) {
     if (as_pixels) {
-      paint_layer([&](PixelLayer& layer) { layer.add_filled_cells(*figure.filled); });
+      paint_layer([&](PixelLayer& layer) { layer.add_filled_cells(figure); });
     } else {
-      draw_filled_cells(canvas, *figure.filled);
+      draw_filled_cells(canvas, figure);
     }
-    canvas.globe();
-    canvas.shade(clear_light, clear_dark);
+    // Light would change what colors of values mean.
+    if (!figure.scale) {
+      canvas.globe();
+      canvas.shade(clear_light, clear_dark);
+    }
   }
+  if (figure.field) draw_field(canvas, figure, threads);
   draw_graticule(canvas, figure);
+  draw_arcs(canvas, figure.isolines, Side::front, isoline_color,
+            figure.style.line_width > 0 ? figure.style.line_width : 1.2 * figure.style.size / 1000);
   if (as_pixels) {
     paint_layer([&](PixelLayer& layer) { add_front(layer, figure, width); });
   } else {
@@ -309,6 +338,7 @@ std::string draw(const Figure& figure, FigureFormat format, bool as_pixels, unsi
   }
   canvas.globe();
   canvas.stroke(limb_color, 1.2 * figure.style.size / 1000);
+  if (figure.scale) draw_bar(canvas, *figure.scale, figure.style.size);
   return canvas.finish();
 }
 

@@ -12,6 +12,7 @@
 #include "plot_arcs.h"
 #include "plot_canvas.h"
 #include "plot_circles.h"
+#include "plot_field.h"
 #include "rondel/types.h"
 
 namespace rondel::cli {
@@ -35,6 +36,7 @@ struct ArcLayer {
 struct FilledCells {
   Cells cells;
   std::vector<double> areas;
+  std::vector<double> values;  ///< that give the colors, of the sites; empty: areas do
 };
 
 /// What a figure shows. Layers that are not wanted stay empty.
@@ -47,6 +49,9 @@ struct Figure {
   ArcLayer diagram;
   std::vector<Circle> circles;  ///< axes in the view frame
   std::optional<FilledCells> filled;
+  std::optional<ValueField> field;
+  std::optional<ValueScale> scale;  ///< of values, if there are any: they have a bar below
+  ArcLayer isolines;
 };
 
 /// Whether a figure has very many arcs with lines thinner than a pixel, and, for a format that can
