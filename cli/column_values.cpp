@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string_view>
@@ -11,6 +12,19 @@
 #include "command.h"
 
 namespace rondel::cli {
+namespace {
+
+// The number that a cell has; not a number where it is empty or says so.
+double number_in(std::string_view cell, const SiteTable& table, std::size_t site,
+                 const std::string& name) {
+  double value = std::numeric_limits<double>::quiet_NaN();
+  if (cell.empty()) return value;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error == std::errc() && end == cell.data() + cell.size() && !std::isinf(value)) return value;
+  throw FileError(table.where(site) + ": " + name + " '" + std::string(cell) + "' is not a number");
+}
+
+}  // namespace
 
 std::vector<double> column_values(const SiteTable& table, const std::string& name,
                                   const std::string& option) {
@@ -18,15 +32,12 @@ std::vector<double> column_values(const SiteTable& table, const std::string& nam
   if (column == table.columns.end()) {
     throw UsageError(option + ": " + table.name + " has no column '" + name + "'");
   }
-  if (!column->is_numeric)
-    throw UsageError(option + ": column '" + name + "' has other cells than numbers");
   std::vector<double> values;
+  values.reserve(column->ends.size());
   std::uint64_t begin = 0;
   for (const std::uint64_t end : column->ends) {
     const std::string_view cell = std::string_view(column->text).substr(begin, end - begin);
-    double value = std::numeric_limits<double>::quiet_NaN();
-    std::from_chars(cell.data(), cell.data() + cell.size(), value);
-    values.push_back(value);
+    values.push_back(number_in(cell, table, values.size(), name));
     begin = end;
   }
   return values;

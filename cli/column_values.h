@@ -12,9 +12,9 @@
 
 namespace rondel::cli {
 
-/// The numbers of a column that was kept, one of each site; an empty cell is not a number.
-/// \throws UsageError, which begins with the option, if the table has no such column or there are other
-/// cells than numbers.
+/// The numbers of a column that was kept, one of each site; not a number where the cell is empty or "nan".
+/// \throws UsageError, which begins with the option, if the table has no such column; FileError with the
+/// place of the first cell that is no finite number.
 std::vector<double> column_values(const SiteTable& table, const std::string& name,
                                   const std::string& option);
 
