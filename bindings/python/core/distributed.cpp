@@ -15,16 +15,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "arrays.h"
 #include "interrupt.h"
 #include "module.h"
+#include "rondel/error.h"
 
 namespace rondel::python {
 namespace {
@@ -44,6 +46,12 @@ class PythonRanks final : public Communicator {
   unsigned meet() {
     const nb::gil_scoped_acquire locked;
     return nb::cast<unsigned>(ranks_.attr("meet")());
+  }
+  // The last call of all ranks. Throws if something was raised on one of them.
+  void agree(bool has_raised) {
+    for (const Bytes& message : all_gather(Bytes(1, std::byte{has_raised}))) {
+      if (message != Bytes(1, std::byte{0})) throw Interrupted();
+    }
   }
   std::vector<Bytes> all_gather(Bytes mine) override {
     const nb::gil_scoped_acquire locked;
@@ -90,19 +98,23 @@ class PythonRanks final : public Communicator {
   int size_;
 };
 
-// Work on all ranks, which always takes long enough to be watched: any of them may come late.
+// Work on all ranks, which always takes long enough to be watched: any of them may come late. What is raised
+// on one of them when all have done theirs leaves no result on another.
 template <class Work>
 auto on_ranks(const nb::object& python_ranks, const nb::object& listener, const Work& work) {
-  constexpr std::size_t size = std::numeric_limits<std::size_t>::max();
   PythonRanks ranks(python_ranks);
-  return watched(size, 0, listener, [&](const Execution& watching) {
+  std::optional<std::invoke_result_t<Work, Communicator&, const Execution&>> result;
+  const auto run = [&](const Execution& watching, const std::function<bool()>& ask) {
     // One thread to Python, whatever it calls there.
     const nb::gil_scoped_acquire attached;
     const nb::gil_scoped_release released;
     Execution execution = watching;
     execution.threads = ranks.meet();
-    return work(ranks, execution);
-  });
+    result.emplace(work(ranks, execution));
+    ranks.agree(ask());
+  };
+  run_watched_until_asked(0, listener, run);
+  return std::move(*result);
 }
 
 DistributedTriangulation build_on_ranks(const nb::object& ranks, const PointsIn& points,

@@ -25,15 +25,24 @@ constexpr auto nap = 50ms;
 // What the thread that works and the one that watches share.
 class Work {
  public:
-  Work(unsigned threads, const std::function<void(const Execution&)>& work)
+  enum class State { works, asks, has_ended };
+
+  Work(unsigned threads, const WatchedWork& work)
       : thread_([this, threads, &work] { run(threads, work); }) {}
 
-  // Whether the work ended within a nap.
-  bool wait() {
+  // Returns after a nap, or before, when there is an answer to give, or when all is done.
+  State wait() {
     std::unique_lock lock(mutex_);
-    return ended_.wait_for(lock, nap, [this] { return has_ended_; });
+    changed_.wait_for(lock, nap, [this] { return state_ != State::works; });
+    return state_;
   }
   void stop() { stop_ = true; }
+  void answer(bool has_raised) {
+    const std::lock_guard lock(mutex_);
+    has_raised_ = has_raised;
+    state_ = State::works;
+    changed_.notify_all();
+  }
   void tell(const nb::object& listener) {
     std::string stage;
     double fraction = 0;
@@ -51,20 +60,27 @@ class Work {
   }
 
  private:
-  void run(unsigned threads, const std::function<void(const Execution&)>& work) {
+  void run(unsigned threads, const WatchedWork& work) {
     std::exception_ptr error;
     const auto progress = [this](std::string_view stage, double fraction) {
       report(stage, fraction);
     };
     try {
-      work({.threads = threads, .progress = progress, .stop = &stop_});
+      work({.threads = threads, .progress = progress, .stop = &stop_}, [this] { return ask(); });
     } catch (...) {
       error = std::current_exception();
     }
     const std::lock_guard lock(mutex_);
     error_ = error;
-    has_ended_ = true;
-    ended_.notify_one();
+    state_ = State::has_ended;
+    changed_.notify_all();
+  }
+  bool ask() {
+    std::unique_lock lock(mutex_);
+    state_ = State::asks;
+    changed_.notify_all();
+    changed_.wait(lock, [this] { return state_ == State::works; });
+    return has_raised_;
   }
   void report(std::string_view stage, double fraction) {
     if (stop_) throw Interrupted();
@@ -74,8 +90,9 @@ class Work {
   }
 
   std::mutex mutex_;
-  std::condition_variable ended_;
-  bool has_ended_ = false;
+  std::condition_variable changed_;
+  State state_ = State::works;
+  bool has_raised_ = false;
   std::atomic<bool> stop_ = false;
   std::string stage_;
   double fraction_ = 0;
@@ -96,6 +113,30 @@ std::exception_ptr watch(Work& work, const nb::object& listener) {
 
 }  // namespace
 
+void run_watched_until_asked(unsigned threads, const nb::object& listener,
+                             const WatchedWork& work) {
+  std::exception_ptr raised;
+  std::exception_ptr error;
+  {
+    const nb::gil_scoped_release released;
+    Work running(threads, work);
+    bool is_watched = true;
+    for (auto state = running.wait(); state != Work::State::has_ended; state = running.wait()) {
+      if (is_watched && !raised) {
+        const nb::gil_scoped_acquire acquired;
+        raised = watch(running, listener);
+        if (raised) running.stop();
+      }
+      if (state != Work::State::asks) continue;
+      is_watched = false;
+      running.answer(raised != nullptr);
+    }
+    error = running.join();
+  }
+  if (raised) std::rethrow_exception(raised);
+  if (error) std::rethrow_exception(error);
+}
+
 void run_watched(std::size_t size, unsigned threads, const nb::object& listener,
                  const std::function<void(const Execution&)>& work) {
   if (size < many_items && listener.is_none()) {
@@ -103,25 +144,11 @@ void run_watched(std::size_t size, unsigned threads, const nb::object& listener,
     work({.threads = threads});
     return;
   }
-  std::exception_ptr raised;
-  std::exception_ptr error;
-  {
-    const nb::gil_scoped_release released;
-    Work running(threads, work);
-    while (!running.wait()) {
-      if (raised) continue;
-      const nb::gil_scoped_acquire acquired;
-      raised = watch(running, listener);
-      if (raised) running.stop();
-    }
-    error = running.join();
-    if (!raised && !error) {
-      const nb::gil_scoped_acquire acquired;
-      raised = watch(running, listener);
-    }
-  }
-  if (raised) std::rethrow_exception(raised);
-  if (error) std::rethrow_exception(error);
+  run_watched_until_asked(threads, listener,
+                          [&](const Execution& execution, const std::function<bool()>& ask) {
+                            work(execution);
+                            ask();
+                          });
 }
 
 }  // namespace rondel::python

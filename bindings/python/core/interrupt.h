@@ -26,7 +26,16 @@ namespace rondel::python {
 void run_watched(std::size_t size, unsigned threads, const nanobind::object& listener,
                  const std::function<void(const Execution&)>& work);
 
-// The same for work that returns something.
+// Work, and how it asks at its end, once, whether one of the two has raised: they are called a last
+// time before, and not again, so that it can tell others and nothing is raised behind its back.
+using WatchedWork =
+    std::function<void(const Execution& execution, const std::function<bool()>& ask)>;
+
+// The same, always by another thread, for work that asks.
+void run_watched_until_asked(unsigned threads, const nanobind::object& listener,
+                             const WatchedWork& work);
+
+// As run_watched() for work that returns something.
 template <class Work>
 auto watched(std::size_t size, unsigned threads, const nanobind::object& listener,
              const Work& work) {
