@@ -140,6 +140,10 @@ auto with_places(const SiteTable& table, Work&& work) {
   }
 }
 
+/// \throws UsageError if the name of a further result than OUTPUT has another ending than .npy or .zarr;
+/// it may have none
+void require_array(const char* option, const std::string& path);
+
 /// Writes to stdout and flushes. \throws FileError
 void print(const std::string& text);
 

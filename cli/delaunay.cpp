@@ -41,6 +41,7 @@ bool is_in_group(const char* option, const std::string& path, const CommonOption
   };
   const bool is_output = without_slashes(path) == without_slashes(common.output);
   if (common.format() == "zarr" && is_output) return true;
+  require_array(option, path);
   CommonOptions array;
   array.output = path;
   if (array.format() != "zarr") return false;

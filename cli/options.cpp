@@ -181,6 +181,14 @@ void add_report_options(CLI::App& command, CommonOptions& options) {
   command.add_flag("--quiet", options.quiet, "Print no summary and show no progress");
 }
 
+void require_array(const char* option, const std::string& path) {
+  CommonOptions array;
+  array.output = path;
+  const std::string ending = array.format();
+  if (ending.empty() || ending == "npy" || ending == "zarr") return;
+  throw UsageError(std::string(option) + ": the ending of '" + path + "' is not .npy");
+}
+
 void require_output(const CommonOptions& options, bool is_known, const std::string& endings) {
   if (!is_known && !options.output_format.empty()) {
     throw UsageError("--format: '" + options.output_format + "' is not one of " + endings);

@@ -31,6 +31,9 @@ ExitStatus run_out_of_core(const DelaunayOptions& options) {
     throw UsageError("--output: with --scratch '" + common.output +
                      "' must be a .npy file or a .zarr group");
   require_output(common, true, ".npy .zarr");
+  require_array("--neighbors", options.neighbors);
+  require_array("--areas", options.areas);
+  require_array("--duplicates", options.duplicates);
   if (!common.read.radius.empty())
     throw UsageError(
         "--radius: .npy files have no names for columns; give weighted sites as x, y, z");

@@ -11,6 +11,7 @@
 #include "distributed/rank_duals.h"
 #include "distributed/result_names.h"
 #include "distributed/shared_rows.h"
+#include "distributed/site_counts.h"
 #include "distributed/supersteps.h"
 #include "io/npy_rows.h"
 #include "io/zarr_mesh.h"
@@ -31,6 +32,7 @@ LargeVector<Point> read_share(Supersteps& steps, const std::string& path,
     if (io::is_zarr(name)) throw FileError(name + ": several processes write .npy files alone");
   }
   require_different(path, results);
+  require_npy(files.faces);
   const io::NpyRows rows(path, files.radians);
   const auto begin_of = [&](std::size_t rank) {
     const std::uint64_t num_rows = rows.num_rows();
@@ -39,6 +41,7 @@ LargeVector<Point> read_share(Supersteps& steps, const std::string& path,
   const std::uint64_t begin = begin_of(steps.rank());
   LargeVector<Point> sites(begin_of(steps.rank() + 1) - begin);
   rows.read(begin, sites, options.threads);
+  validate_rows(rows, sites, options, begin);  // where the file has a name
   return sites;
 }
 

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <system_error>
 
+#include "io/ending.h"
 #include "io/zarr_mesh.h"
 #include "rondel/error.h"
 
@@ -21,6 +22,11 @@ bool are_same_file(const std::string& a, const std::string& b) {
   return first == std::filesystem::weakly_canonical(b, error) && !error;
 }
 
+void require_npy(const std::string& name) {
+  const std::string ending = io::ending(name);
+  if (!ending.empty() && ending != ".npy") throw FileError(name + ": results are .npy files");
+}
+
 void require_different(const std::string& sites, const std::vector<std::string>& results) {
   const std::string& faces = results.front();
   if (faces.empty()) throw FileError("the file of the faces has no name");
@@ -32,6 +38,7 @@ void require_different(const std::string& sites, const std::vector<std::string>&
       if (name == faces) continue;
       throw FileError(name + ": a Zarr group, but not that of the faces");
     }
+    if (i != 0) require_npy(name);
     for (std::size_t j = 0; j < i; ++j) {
       if (!results[j].empty() && are_same_file(results[j], name))
         throw FileError(name + ": the file of another result, too");

@@ -14,16 +14,16 @@ namespace {
 
 constexpr std::size_t grain = std::size_t{1} << 14;
 
-void validate(const io::NpyRows& rows, std::span<const Point> sites, const system::Job& options,
-              std::uint64_t first) {
+}  // namespace
+
+void validate_rows(const io::NpyRows& rows, std::span<const Point> sites, const Options& options,
+                   std::uint64_t first) {
   try {
     api::validate_some(sites, options, first);
   } catch (const InvalidInput& error) {
     throw FileError(rows.name() + ": row " + std::to_string(error.index()) + ": " + error.what());
   }
 }
-
-}  // namespace
 
 void find_keys(std::span<const Point> sites, const system::Job& options,
                std::span<std::uint64_t> keys) {
@@ -48,7 +48,7 @@ SiteCounts count_sites(const io::NpyRows& rows, const system::Job& options,
       const std::span piece = std::span(sites).first(size);
       rows.read(first, piece, options.threads);
       if (round == 1) {
-        validate(rows, piece, options, first);
+        validate_rows(rows, piece, options, first);
         result.all.add(piece);
       }
       find_keys(piece, options, keys);

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bulk/all_sites.h"
@@ -25,6 +26,10 @@ struct SiteCounts {
   bulk::AllSites all;
   std::vector<bulk::BucketCut> cuts;
 };
+
+// Throws FileError because of the first of these sites, which `first` are before, that is not valid.
+void validate_rows(const io::NpyRows& rows, std::span<const Point> sites, const Options& options,
+                   std::uint64_t first);
 
 // Throws FileError because of the first row that is not valid.
 SiteCounts count_sites(const io::NpyRows& rows, const system::Job& options,

@@ -10,13 +10,14 @@
 #include <vector>
 
 #include "io/atomic_file.h"
+#include "rondel/export.h"
 #include "rondel/io.h"
 
 namespace rondel::io {
 
 // ".csv" of the format "CSV" or, if none is named, of the path "data/Stations.CSV": in lower case;
 // empty if the path has no ending. Slashes at the end, as of a folder, do not count.
-std::string ending(const FileName& file);
+RONDEL_API std::string ending(const FileName& file);
 
 // The row of a table of formats whose member `ending` fits the file; null if there is none.
 template <typename Format>

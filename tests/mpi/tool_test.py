@@ -116,6 +116,8 @@ class Tool(unittest.TestCase):
             (["-o", self.sites], f"{self.sites}: the file of the sites, too"),
             (["-o", faces, "--areas", other], f"{other}: the file of another result, too"),
             (["-o", ""], "the file of the faces has no name"),
+            (["-o", "faces.off"], "faces.off: results are .npy files"),
+            (["-o", faces, "--areas", "areas.txt"], "areas.txt: results are .npy files"),
         ):
             result = self.run_ranks(2, "delaunay", self.sites, *arguments)
             self.assert_error(result, f"rank 0, read: {message}")
@@ -146,6 +148,14 @@ class Tool(unittest.TestCase):
             self.assertNotEqual(result.returncode, 0)
             self.assertIn(f"rondel-mpi: rank {rank}, read: {self.sites}: row 60", result.stderr)
             self.assertEqual(list(self.folder.iterdir()), [self.sites])
+        sites[[60, 80]] = 0
+        np.save(self.sites, sites)
+        said = subprocess.run([RONDEL, *self.delaunay(found)], capture_output=True, text=True)
+        for num_ranks, rank in ((1, 0), (4, 2)):
+            result = self.run_ranks(num_ranks, *self.delaunay(found))
+            text = said.stderr.removeprefix("rondel: ").strip()
+            self.assertTrue(text.startswith(f"{self.sites}: "), text)
+            self.assert_error(result, f"rank {rank}, read: {text}")
 
     def test_files_that_are_not_there(self):
         result = self.run_ranks(2, *self.delaunay(self.files("found")))

@@ -8,6 +8,7 @@ What is used during a call alone is not copied if it is such an array. What an o
 from __future__ import annotations
 
 import operator
+import os
 from typing import TypeVar
 
 import numpy as np
@@ -15,7 +16,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._errors import InvalidInput
-from ._types import ArrayLike, FloatArray, IntArray, Model
+from ._types import ArrayLike, FloatArray, IntArray, Model, Path
 
 Number = TypeVar("Number", bound=np.generic)
 
@@ -48,6 +49,26 @@ def as_rows(values: ArrayLike, columns: int, name: str) -> FloatArray:
 def as_points(points: ArrayLike, name: str = "points") -> FloatArray:
     """An array of shape (n, 3)."""
     return as_rows(points, 3, name)
+
+
+def as_name(path: Path) -> str:
+    """The name of a file, as the library takes it."""
+    name = os.fsdecode(path)
+    if "\0" in name:
+        raise ValueError(f"the name of a file has a NUL: {name!r}")
+    try:
+        name.encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"the name of a file is not UTF-8: {name!r}") from None
+    return name
+
+
+def as_result_name(path: Path | None, argument: str) -> str:
+    """That of a file of results, empty for None. Its ending is that of what is written, if any."""
+    name = "" if path is None else as_name(path)
+    if os.path.splitext(name.rstrip("/"))[1].lower() not in ("", ".npy", ".zarr"):
+        raise ValueError(f"{argument} is {name!r}, whose ending is not .npy")
+    return name
 
 
 def frozen(array: npt.NDArray[Number]) -> npt.NDArray[Number]:

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from typing import Any, Literal, Protocol, TypeAlias
 
@@ -18,6 +19,7 @@ IntArray: TypeAlias = npt.NDArray[np.int32]
 BoolArray: TypeAlias = npt.NDArray[np.bool_]
 Model: TypeAlias = Literal["projected", "weighted"]
 Progress: TypeAlias = Callable[[str, float], Any] | None
+Path: TypeAlias = str | bytes | os.PathLike[str] | os.PathLike[bytes]
 
 
 class Triangulated(Protocol):

@@ -14,7 +14,6 @@ own rank alone: ``mpirun -n 8 python -m mpi4py program.py`` ends the others, too
 from __future__ import annotations
 
 import operator
-import os
 from functools import cached_property
 from typing import Any, TypeAlias
 
@@ -22,11 +21,19 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_center, as_points, as_threads, frozen, is_weighted
+from ._arrays import (
+    as_center,
+    as_name,
+    as_points,
+    as_result_name,
+    as_threads,
+    frozen,
+    is_weighted,
+)
 from ._errors import DistributedError
 from ._ranks import Communicator, Ranks
 from ._repr import count
-from ._types import ArrayLike, Model, Progress
+from ._types import ArrayLike, Model, Path, Progress
 
 __all__ = [
     "Communicator",
@@ -36,7 +43,6 @@ __all__ = [
     "delaunay_file",
 ]
 
-Path: TypeAlias = str | os.PathLike[str]
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 LongArray: TypeAlias = npt.NDArray[np.int64]
 
@@ -234,7 +240,7 @@ def delaunay(
         At most so many work for this rank; by default its share of the machine's cores.
     progress : callable, optional
         Called as ``progress(stage, fraction)`` with this rank's stages, 'triangulate' and 'join'.
-        What it raises ends the work on all ranks.
+        What it raises ends the work on all ranks, also when it is called a last time.
 
     Returns
     -------
@@ -342,8 +348,14 @@ def delaunay_file(
     files = [""] * 6
     options = _no_options
     try:
-        results = (faces, neighbors, duplicates, areas, circumcenters)
-        files = [_as_name(file) for file in (sites, *results)]
+        results = {
+            "faces": faces,
+            "neighbors": neighbors,
+            "duplicates": duplicates,
+            "areas": areas,
+            "circumcenters": circumcenters,
+        }
+        files = [as_name(sites), *(as_result_name(results[each], each) for each in results)]
         if not files[1]:
             raise ValueError("faces has no name")
         options = _as_options(model, radius, center, most_bucket_sites)
@@ -366,10 +378,3 @@ def _as_options(model: Model, radius: float, center: Any, most_bucket_sites: int
     if most < 1:
         raise ValueError(f"most_bucket_sites must be at least 1, not {most}")
     return is_weighted(model), as_center(center), float(radius) ** 2, min(most, 1 << 40)
-
-
-def _as_name(path: Path | None) -> str:
-    """A name that the library takes; empty for None."""
-    name = "" if path is None else os.fsdecode(path)
-    name.encode()
-    return name

@@ -10,15 +10,12 @@ import operator
 import os
 import re
 from fractions import Fraction
-from typing import TypeAlias
 
 from . import _core
-from ._arrays import as_center, as_threads
-from ._types import ArrayLike, Model, Progress
+from ._arrays import as_center, as_name, as_result_name, as_threads
+from ._types import ArrayLike, Model, Path, Progress
 
 __all__ = ["Report", "delaunay"]
-
-Path: TypeAlias = str | os.PathLike[str]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -142,17 +139,16 @@ def delaunay(
     """
     if model not in ("projected", "weighted"):
         raise ValueError(f"model is {model!r}, which is neither 'projected' nor 'weighted'")
-    if not os.fspath(out):
+    results = {"out": out, "neighbors": neighbors, "areas": areas, "duplicates": duplicates}
+    files = [as_result_name(file, argument) for argument, file in results.items()]
+    if not files[0]:
         raise ValueError("out has no name")
-    files = [
-        os.fspath(file) if file is not None else "" for file in (out, neighbors, areas, duplicates)
-    ]
     try:
         found = _core.delaunay_file(
-            os.fspath(path),
+            as_name(path),
             files,
             _bytes(memory),
-            os.fspath(scratch),
+            as_name(scratch),
             bool(resume),
             bool(radians),
             model == "weighted",

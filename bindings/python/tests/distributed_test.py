@@ -316,6 +316,20 @@ def test_progress_is_told_and_ends_all():
     assert type(errors[0]) is KeyboardInterrupt
 
 
+def test_progress_that_raises_when_all_is_done_leaves_no_result():
+    """Of few points it is told at the end alone."""
+
+    def lose(stage, fraction):
+        raise Lost(stage)
+
+    def work(rank):
+        listener = lose if rank.rank == 1 else None
+        return rondel.distributed.delaunay(CLOUDS["uniform"], rank, progress=listener)
+
+    found = [type(error) for error in on_ranks(3, work)]
+    assert found == [KeyboardInterrupt, Lost, KeyboardInterrupt]
+
+
 def test_files(tmp_path):
     rng = np.random.default_rng(7)
     lonlat = np.column_stack([rng.uniform(-180, 180, 900), rng.uniform(-90, 90, 900)])
@@ -368,6 +382,15 @@ def test_files_that_cannot_be(tmp_path):
         assert str(error) == "faces has no name"
     for error in run(sites, faces, neighbors=3):
         assert type(error) is TypeError
+    for error in run(sites, faces, areas="areas.txt"):
+        assert str(error) == "areas is 'areas.txt', whose ending is not .npy"
+    for error in run(f"{sites}\0", faces):
+        assert type(error) is ValueError
+    points = np.ones((9, 3))
+    points[7] = 0
+    np.save(sites, points)
+    for error in run(sites, faces):
+        assert str(error).startswith(f"rank 1, read: {sites}: row 7: site 7: (0, 0, 0) is the ")
     assert list(tmp_path.iterdir()) == [sites]
 
 

@@ -118,6 +118,37 @@ def test_what_is_wrong(folder):
     assert results(folder) == []
 
 
+class Named:
+    def __init__(self, path):
+        self.path = path
+
+    def __fspath__(self):
+        return self.path
+
+
+def test_names(folder):
+    sites, faces, work = (os.fsencode(folder / name) for name in ("sites.npy", "f.npy", "work"))
+    for kind in (bytes, os.fsdecode, Named):
+        report = rondel.out_of_core.delaunay(kind(sites), kind(faces), scratch=kind(work))
+        assert report.num_faces == len(np.load(folder / "f.npy"))
+    for wrong, text in (("a\0b.npy", "has a NUL"), (b"\0", "has a NUL"), (b"\xff", "is not UTF-8")):
+        names = {"path": sites, "out": faces, "scratch": work, "areas": None}
+        for argument in names:
+            with pytest.raises(ValueError, match=f"the name of a file {text}: "):
+                rondel.out_of_core.delaunay(**names | {argument: wrong})
+    with pytest.raises(TypeError, match="expected str, bytes or os"):
+        rondel.out_of_core.delaunay(3, faces, scratch=work)
+
+
+@pytest.mark.parametrize("argument", ["out", "neighbors", "areas", "duplicates"])
+def test_endings_that_are_not_written(folder, argument):
+    names = {"path": folder / "sites.npy", "out": folder / "f.npy", "scratch": folder / "work"}
+    for name in ("a.txt", "a.npy.gz", "A.CSV"):
+        with pytest.raises(ValueError, match=f"{argument} is '{name}', whose ending is not .npy"):
+            rondel.out_of_core.delaunay(**names | {argument: name})
+    assert results(folder) == ["sites.npy"]
+
+
 def test_memory_in_bytes(folder):
     for memory in (100 << 20, "0.1g", "100.5M"):
         assert run(folder, memory=memory).num_faces == 5996
