@@ -7,6 +7,7 @@
 #include <numeric>
 #include <string>
 
+#include "distributed/run_limits.h"
 #include "order/spatial_order.h"
 #include "rondel/error.h"
 
@@ -74,10 +75,11 @@ std::optional<BucketSites> read_crowd(const BucketFiles& files, std::uint64_t mo
     row_sum.add(std::span<const std::uint64_t>(rows));
     files.store.add_duplicates(files.bucket, stored, places.add(points, rows));
     if (places.size() <= most_sites) continue;
-    throw FileError("of " + std::to_string(files.num_sites) +
-                    " sites within 2^-28 rad of each other, row " + std::to_string(rows[0]) +
-                    " among them, more than " + std::to_string(most_sites) +
-                    " are in different places: more memory is needed");
+    throw FileError(
+        "of " + std::to_string(files.num_sites) + " sites within 2^-28 rad of each other, row " +
+        std::to_string(rows[0]) + " among them, more than " + std::to_string(most_sites) +
+        " are in different places: for all of them " + memory_of_crowd(files.num_sites) +
+        " of memory are enough, then the run can be resumed");
   }
   if (point_sum.value() != files.dealt.points || row_sum.value() != files.dealt.rows) return {};
   return places.take();

@@ -4,6 +4,8 @@
 #include "distributed/bucket_store.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <cstring>
 #include <utility>
 
 #include "distributed/checksum.h"
@@ -25,8 +27,43 @@ std::uint64_t sum_of(std::span<const DuplicateRow> duplicates) {
   return sum;
 }
 
-Words words_of(const StoredBorder& stored) {
-  WordWriter writer;
+// Writes what a WordReader reads, without a copy: of sites on a curve all are open.
+class BorderWriter {
+ public:
+  BorderWriter(ScratchFile& file, std::uint64_t place) : file_(file), begin_(place), end_(place) {}
+
+  [[nodiscard]] std::uint64_t num_words() const { return (end_ - begin_) / sizeof(std::uint64_t); }
+  [[nodiscard]] std::uint64_t checksum() const { return sum_.value(); }
+
+  void add(std::uint64_t word) { put(std::span<const std::uint64_t>(&word, 1)); }
+
+  template <class T>
+  void add(const std::vector<T>& values) {
+    add(values.size());
+    const auto bytes = std::as_bytes(std::span(values));
+    const std::size_t num_rest = bytes.size() % sizeof(std::uint64_t);
+    put(bytes.first(bytes.size() - num_rest));
+    if (num_rest == 0) return;
+    std::uint64_t last = 0;
+    std::memcpy(&last, bytes.last(num_rest).data(), num_rest);
+    add(last);
+  }
+
+ private:
+  template <class T>
+  void put(std::span<const T> values) {
+    file_.write(end_, values);
+    sum_.add(values);
+    end_ += values.size_bytes();
+  }
+
+  ScratchFile& file_;
+  std::uint64_t begin_;
+  std::uint64_t end_;
+  Checksum sum_;
+};
+
+void write_border(const StoredBorder& stored, BorderWriter& writer) {
   const bulk::BucketBorder& border = stored.border;
   writer.add(stored.points);
   writer.add(stored.named_points);
@@ -38,7 +75,6 @@ Words words_of(const StoredBorder& stored) {
   writer.add(border.rim);
   writer.add(border.rim_corners);
   writer.add(border.rim_neighbors);
-  return writer.words();
 }
 
 StoredBorder border_of(const Words& words, bool has_rim) {
@@ -71,9 +107,6 @@ BucketStore::BucketStore(const std::string& faces, const std::string& borders,
   for (const bulk::BucketCut& cut : cuts) first_site_.push_back(first_site_.back() + cut.num_sites);
 }
 
-// Of v vertices there are less than 2v faces, and a duplicate takes less than a vertex.
-void BucketStore::reserve() { faces_.reserve(site_bytes() * first_site_.back()); }
-
 void BucketStore::add_duplicates(std::size_t i, StoredBucket& stored,
                                  std::span<const DuplicateRow> duplicates) {
   faces_.write(duplicates_at(i) + sizeof(DuplicateRow) * stored.num_duplicates, duplicates);
@@ -98,12 +131,12 @@ void BucketStore::write(std::size_t i, const bulk::Bucket& bucket,
   if (parts_.has_points) write(points_at(i, stored), points);
   stored.checksum = sum.value();
 
-  const Words words = words_of(border);
+  BorderWriter writer(borders_, borders_end_);
+  write_border(border, writer);
   stored.border_place = borders_end_;
-  stored.border_words = words.size();
-  stored.border_checksum = checksum_of(std::span(words));
-  borders_.write(borders_end_, std::span(words));
-  borders_end_ += words.size() * sizeof(std::uint64_t);
+  stored.border_words = writer.num_words();
+  stored.border_checksum = writer.checksum();
+  borders_end_ += writer.num_words() * sizeof(std::uint64_t);
 }
 
 bool BucketStore::has(std::size_t i, const StoredBucket& stored) const {

@@ -37,6 +37,12 @@ struct StoreParts {
   bool has_points = false;
 };
 
+// Of v vertices there are less than 2v faces, and a duplicate takes less than a vertex.
+constexpr std::uint64_t bytes_of_stored_site(StoreParts parts) {
+  return sizeof(std::uint64_t) + (parts.has_neighbors ? 4 : 2) * sizeof(Triple) +
+         (parts.has_points ? sizeof(Point) : 0);
+}
+
 // Where a bucket is, and how large: what the journal says of it.
 struct StoredBucket {
   std::uint64_t num_vertices = 0;  // and hidden sites
@@ -64,12 +70,10 @@ class BucketStore {
   BucketStore(const std::string& faces, const std::string& borders,
               std::span<const bulk::BucketCut> cuts, StoreParts parts);
 
-  void reserve();
-
   // Adds to the duplicates of a bucket, which is not written yet.
   void add_duplicates(std::size_t i, StoredBucket& stored,
                       std::span<const DuplicateRow> duplicates);
-  // Of its ranks are the rows and, if they are kept, the points.
+  // Of its ranks are the rows and, if they are kept, the points. The bucket's border has been taken.
   void write(std::size_t i, const bulk::Bucket& bucket, std::span<const std::uint64_t> vertex_rows,
              std::span<const Point> points, const StoredBorder& border, StoredBucket& stored);
   // Whether the files have what was written.
@@ -89,10 +93,7 @@ class BucketStore {
   [[nodiscard]] StoredBorder outline(const StoredBucket& stored) const;
 
  private:
-  [[nodiscard]] std::uint64_t site_bytes() const {
-    return sizeof(std::uint64_t) + (parts_.has_neighbors ? 4 : 2) * sizeof(Triple) +
-           (parts_.has_points ? sizeof(Point) : 0);
-  }
+  [[nodiscard]] std::uint64_t site_bytes() const { return bytes_of_stored_site(parts_); }
   // One after the other: duplicates, rows of vertices, faces, neighbors, points.
   [[nodiscard]] std::uint64_t duplicates_at(std::size_t i) const {
     return site_bytes() * first_site_[i];

@@ -14,25 +14,14 @@
 #include "distributed/file_results.h"
 #include "distributed/result_names.h"
 #include "distributed/run_state.h"
+#include "distributed/scratch_file.h"
+#include "distributed/slots.h"
 #include "rondel/error.h"
 #include "system/on_failure.h"
 
 namespace rondel {
 namespace distributed {
 namespace {
-
-// The process itself, and the counts of squares.
-constexpr std::uint64_t fixed_bytes = std::uint64_t{64} << 20;
-constexpr std::uint64_t bytes_of_piece_site = 80;
-// Measured, with room (bench/RESULTS.md, "Out of core").
-constexpr std::uint64_t bytes_of_bucket_site = 115;
-constexpr std::uint64_t bytes_of_crowded_site = 250;  // within 2^-28 of all others of its bucket
-constexpr std::uint64_t bytes_of_open_site = 330;
-constexpr std::uint64_t least_memory = std::uint64_t{96} << 20;
-
-std::string in_megabytes(std::uint64_t bytes) {
-  return std::to_string((bytes + (1U << 20U) - 1) >> 20U) + " MB";
-}
 
 std::string path_in(const std::string& scratch, const char* name) {
   return (std::filesystem::path(scratch) / name).string();
@@ -87,7 +76,7 @@ class OutOfCoreRun {
 
   // Sets `has_begun` as soon as it has.
   OutOfCoreReport run(bool& has_begun) {
-    results_.reserve(rows_.num_rows(), limits_.first_number);
+    reserve();
     if (!state_.has_counts()) {
       state_.set_counts(
           count_sites(rows_, options_, limits_.most_bucket_sites, limits_.piece_sites));
@@ -97,8 +86,6 @@ class OutOfCoreRun {
     const auto& cuts = state_.counts().cuts;
     Slots slots(scratch_path("sites"), cuts);
     BucketStore store(scratch_path("faces"), scratch_path("borders"), cuts, parts_);
-    slots.reserve();
-    store.reserve();
     OutOfCoreReport report;
     report.num_sites = rows_.num_rows();
     report.num_buckets = state_.num_buckets();
@@ -107,33 +94,44 @@ class OutOfCoreRun {
     check_open_sites(store);
     write_results(state_, store, limits_.first_number, options_, results_, report);
     write_nodes(rows_, limits_.piece_sites, options_, results_);
-    if (about() != about_) throw FileError(rows_.name() + ": changed while it was read");
+    if (!is_still_the_same()) throw FileError(rows_.name() + ": changed while it was read");
     results_.commit();
     return report;
   }
 
  private:
+  // Room on the disk, of which the number of sites tells how much: for all but what buckets leave open.
+  void reserve() {
+    results_.reserve(rows_.num_rows(), limits_.first_number);
+    ScratchFile(scratch_path("sites")).reserve(slot_bytes * rows_.num_rows());
+    ScratchFile(scratch_path("faces")).reserve(bytes_of_stored_site(parts_) * rows_.num_rows());
+  }
+
   [[nodiscard]] std::string scratch_path(const char* name) const { return path_in(scratch_, name); }
 
   // What must be the same if a run is to be resumed.
-  [[nodiscard]] Words about() const {
+  [[nodiscard]] std::vector<RunPart> about() const {
     constexpr std::uint64_t version = 2;
     std::error_code ignored;
     const auto time = std::filesystem::last_write_time(rows_.name(), ignored);
     const Sphere& sphere = options_.sphere;
     const std::vector<double> numbers = {sphere.center.x, sphere.center.y, sphere.center.z,
                                          sphere.squared_radius};
-    WordWriter writer;
-    writer.add(version);
-    writer.add(rows_.num_rows());
-    writer.add(rows_.num_bytes());
-    writer.add(static_cast<std::uint64_t>(time.time_since_epoch().count()));
-    writer.add(static_cast<std::uint64_t>(options_.model));
-    writer.add(std::uint64_t{rows_.are_radians()});
-    writer.add(std::uint64_t{parts_.has_neighbors});
-    writer.add(std::uint64_t{parts_.has_points});
-    writer.add(numbers);
-    return writer.words();
+    WordWriter sphere_words;
+    sphere_words.add(numbers);
+    return {{"another version of Rondel", {version}},
+            {"other sites: the file has another size", {rows_.num_rows(), rows_.num_bytes()}},
+            {"other sites: the file was changed at another time",
+             {static_cast<std::uint64_t>(time.time_since_epoch().count())}},
+            {"other options: the model", {static_cast<std::uint64_t>(options_.model)}},
+            {"other options: degrees or radians", {std::uint64_t{rows_.are_radians()}}},
+            {"other options: the results that are wanted",
+             {std::uint64_t{parts_.has_neighbors}, std::uint64_t{parts_.has_points}}},
+            {"other options: the sphere", sphere_words.words()}};
+  }
+
+  [[nodiscard]] bool is_still_the_same() const {
+    return std::ranges::equal(about(), about_, {}, &RunPart::words, &RunPart::words);
   }
 
   // An earlier run may have had more memory.
@@ -142,8 +140,7 @@ class OutOfCoreRun {
       if (cut.num_sites <= limits_.most_bucket_sites || cut.square.bits == order::low_levels)
         continue;
       throw FileError(scratch_ + ": a run with buckets of " + std::to_string(cut.num_sites) +
-                      " sites, for which " +
-                      in_megabytes(fixed_bytes + bytes_of_bucket_site * cut.num_sites) +
+                      " sites, for which " + memory_of_bucket(cut.num_sites) +
                       " of memory are needed");
     }
   }
@@ -204,10 +201,10 @@ class OutOfCoreRun {
     if (!sites) return false;
     system::Job job = options_;
     job.progress = {};  // that of all buckets is shown
-    const bulk::Bucket bucket =
+    bulk::Bucket bucket =
         bulk::triangulate_bucket(sites->points, cut.square, state_.counts().all, job);
     StoredBorder border;
-    border.border = bucket.border;
+    border.border = std::move(bucket.border);
     for (const bulk::SeamSite& site : border.border.open_sites)
       border.points.push_back(sites->points[bucket.order.order[site.rank]]);
     LargeVector<Point> points;
@@ -237,11 +234,10 @@ class OutOfCoreRun {
     for (std::size_t i = 0; i < state_.num_buckets(); ++i)
       num_open += store.num_open_sites(state_.done(i));
     if (num_open <= limits_.most_open_sites) return;
-    throw FileError(scratch_ + ": the faces of " + std::to_string(num_open) + " of " +
-                    std::to_string(rows_.num_rows()) +
-                    " sites reach beyond every bucket; to join them " +
-                    in_megabytes(fixed_bytes + bytes_of_open_site * num_open) +
-                    " of memory are needed, then the run can be resumed");
+    throw FileError(
+        scratch_ + ": the faces of " + std::to_string(num_open) + " of " +
+        std::to_string(rows_.num_rows()) + " sites reach beyond every bucket; to join them " +
+        memory_of_open_sites(num_open) + " of memory are needed, then the run can be resumed");
   }
 
   const io::NpyRows& rows_;
@@ -250,26 +246,11 @@ class OutOfCoreRun {
   const system::Job& options_;
   FileResults results_;
   StoreParts parts_;
-  Words about_;
+  std::vector<RunPart> about_;
   RunState state_;
 };
 
 }  // namespace
-
-RunLimits limits_of(std::uint64_t memory) {
-  if (memory < least_memory) {
-    throw InvalidInput(in_megabytes(memory) + " of memory are less than the " +
-                           in_megabytes(least_memory) + " that are needed at least",
-                       0);
-  }
-  const std::uint64_t bytes = memory - fixed_bytes;
-  RunLimits limits;
-  limits.most_bucket_sites = std::min<std::uint64_t>(bytes / bytes_of_bucket_site, max_sites);
-  limits.most_sites = std::min<std::uint64_t>(bytes / bytes_of_crowded_site, max_sites);
-  limits.most_open_sites = std::min<std::uint64_t>(bytes / bytes_of_open_site, max_sites);
-  limits.piece_sites = std::min<std::size_t>(bytes / 2 / bytes_of_piece_site, most_piece_sites);
-  return limits;
-}
 
 OutOfCoreReport run(const io::NpyRows& rows, const OutOfCoreFiles& files,
                     const OutOfCoreOptions& out_of_core, const RunLimits& limits,

@@ -14,27 +14,12 @@
 // index rows of the input; buckets
 #pragma once
 
-#include <cstdint>
-#include <string>
-
+#include "distributed/run_limits.h"
 #include "io/npy_rows.h"
 #include "rondel/out_of_core.h"
 #include "system/job.h"
 
 namespace rondel::distributed {
-
-// What may be in memory at once.
-struct RunLimits {
-  std::uint64_t most_bucket_sites = 0;  // where squares can be smaller
-  std::uint64_t most_sites = 0;         // where they cannot, copies not counted
-  std::uint64_t most_open_sites = 0;    // of all buckets
-  std::size_t piece_sites = 0;          // while they are read
-  // What the first site and the first face are called: not 0 in tests of numbers that need 64 bits.
-  std::uint64_t first_number = 0;
-};
-
-// What these bytes allow. Throws InvalidInput if they are too few.
-RunLimits limits_of(std::uint64_t memory);
 
 OutOfCoreReport run(const io::NpyRows& rows, const OutOfCoreFiles& files,
                     const OutOfCoreOptions& out_of_core, const RunLimits& limits,

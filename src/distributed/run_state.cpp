@@ -3,6 +3,7 @@
 
 #include "distributed/run_state.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "rondel/error.h"
@@ -18,24 +19,44 @@ std::vector<T> one(const T& value) {
   return std::vector<T>(1, value);
 }
 
-}  // namespace
-
-RunState::RunState(const std::string& journal, const Words& about_words, bool resume)
-    : journal_(journal) {
+Words about_record(const std::vector<RunPart>& parts) {
+  Words words;
+  for (const RunPart& part : parts) words.insert(words.end(), part.words.begin(), part.words.end());
   WordWriter writer;
   writer.add(JournalRecord::about);
-  writer.add(about_words);
+  writer.add(words);
+  return writer.words();
+}
+
+// Of the first part that is another one in the record.
+const char* difference_of(const Words& record, const std::vector<RunPart>& parts) {
+  std::size_t next = 2;  // behind the kind of record and the number of words
+  for (const RunPart& part : parts) {
+    const auto rest = std::span(record).subspan(std::min(next, record.size()));
+    if (!std::ranges::equal(part.words, rest.first(std::min(part.words.size(), rest.size()))))
+      return part.difference;
+    next += part.words.size();
+  }
+  return parts.front().difference;
+}
+
+}  // namespace
+
+RunState::RunState(const std::string& journal, const std::vector<RunPart>& about_run, bool resume)
+    : journal_(journal) {
+  const Words about_words = about_record(about_run);
   if (journal_.records().size() <= 1) {  // nothing is done
     journal_.clear();
-    journal_.append(writer.words());
+    journal_.append(about_words);
     return;
   }
   if (!resume) {
     throw FileError(journal +
                     ": a run that has not come to its end; resume it, or remove the directory");
   }
-  if (journal_.records().front() != writer.words()) {
-    throw FileError(journal + ": a run with other sites or options");
+  if (journal_.records().front() != about_words) {
+    throw FileError(journal + ": a run with " +
+                    difference_of(journal_.records().front(), about_run));
   }
   for (const Words& record : std::span(journal_.records()).subspan(1)) read(record);
 }

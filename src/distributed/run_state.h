@@ -21,11 +21,17 @@
 
 namespace rondel::distributed {
 
+// What must be the same if a run is to be resumed.
+struct RunPart {
+  const char* difference;  // "a run with ...", where it is not
+  Words words;             // of every run as many
+};
+
 class RunState {
  public:
   // `about` tells whether a journal belongs to this run. Throws FileError if the journal of another run
-  // is there, or one of this run that must not be resumed.
-  RunState(const std::string& journal, const Words& about, bool resume);
+  // is there, and says in what that is another, or one of this run that must not be resumed.
+  RunState(const std::string& journal, const std::vector<RunPart>& about, bool resume);
 
   [[nodiscard]] bool has_counts() const { return counts_.has_value(); }
   [[nodiscard]] const SiteCounts& counts() const { return *counts_; }

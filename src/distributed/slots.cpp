@@ -63,8 +63,6 @@ Slots::Slots(const std::string& path, std::span<const bulk::BucketCut> cuts)
   for (const bulk::BucketCut& cut : cuts) first_site_.push_back(first_site_.back() + cut.num_sites);
 }
 
-void Slots::reserve() { file_.reserve(slot_bytes * first_site_.back()); }
-
 std::vector<SlotChecksums> Slots::deal(const io::NpyRows& rows, const system::Job& options,
                                        const std::vector<bool>& wanted, std::size_t piece_sites,
                                        std::uint64_t first_number) {

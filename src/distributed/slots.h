@@ -32,8 +32,6 @@ class Slots {
  public:
   Slots(const std::string& path, std::span<const bulk::BucketCut> cuts);
 
-  void reserve();
-
   // Deals the sites of those buckets that are wanted; the first row is called `first_number`. Returns the checksums of each of all buckets.
   std::vector<SlotChecksums> deal(const io::NpyRows& rows, const system::Job& options,
                                   const std::vector<bool>& wanted, std::size_t piece_sites,

@@ -5,10 +5,14 @@
 
 import filecmp
 import json
+import math
+import os
 import pathlib
+import re
 import resource
 import shutil
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
@@ -52,6 +56,12 @@ class OutOfCore(unittest.TestCase):
         self.command = ["delaunay", "sites.npy", "-o", "faces.npy", "--neighbors", "neighbors.npy",
                         "--memory", str(MEMORY), "--scratch", "scratch"]
         self.addCleanup(self.remove_all)
+
+    def write_at(self, place, some):
+        """Into the file of the sites."""
+        with open(self.folder / "sites.npy", "r+b") as file:
+            file.seek(place)
+            file.write(some)
 
     def remove_all(self):
         """What a run leaves."""
@@ -111,6 +121,42 @@ class OutOfCore(unittest.TestCase):
                 self.assertRegex(done.stderr, r"^rondel: [^\n]*: File too large\n$")
                 self.expect_no_result()
                 self.expect_result("--resume")
+
+    def test_no_room_is_known_before_the_sites_are_read(self):
+        """The last one of which is no number."""
+        with open(self.folder / "sites.npy", "r+b", buffering=0) as file:  # what Python reads, children count as theirs
+            place = file.seek(-8, os.SEEK_END)
+            last = file.read(8)
+            self.addCleanup(self.write_at, place, last)
+        self.write_at(place, struct.pack("<d", math.nan))
+        done = self.run_tool(*self.command)
+        self.assertRegex(done.stderr, f"^rondel: sites.npy: row {NUM_SITES - 1}: [^\n]*\n$")
+        for size, name in ((30, "sites"), (40, "faces")):  # bytes of a site
+            done = self.run_tool(*self.command, preexec_fn=limit_files(size * NUM_SITES))
+            self.assertEqual((done.returncode, done.stderr), (1, f"rondel: scratch/{name}: File too large\n"))
+            self.assertFalse((self.folder / "scratch").exists())
+
+    @unittest.skipIf(IS_SANITIZED, "takes memory of its own")
+    def test_sites_on_a_curve(self):
+        """All of them are open. What is said to be enough is enough, and a run that ends for it keeps its promise, too."""
+        sites = self.folder / "curve.npy"
+        self.addCleanup(sites.unlink)
+        self.run_tool("generate", "great-circle", "-n", "1000000", "-o", sites)
+        command = [TOOL, "delaunay", sites, "-o", "faces.npy", "--areas", "neighbors.npy", "--scratch", "scratch", "--quiet"]
+        said = self.expect_memory(96, command)
+        enough = int(re.search(r"reach beyond every bucket; to join them (\d+) MB of memory are needed", said)[1])
+        self.assertEqual(self.expect_memory(enough, [*command, "--resume"]), "")
+        self.assertTrue((self.folder / "faces.npy").exists())
+
+    def expect_memory(self, megabytes, command):
+        """What a run says that has no more than so much in memory."""
+        with subprocess.Popen([*command, "--memory", f"{megabytes}M"], cwd=self.folder, stderr=subprocess.PIPE,
+                              text=True) as run:
+            said = run.stderr.read()
+            _, status, usage = os.wait4(run.pid, 0)
+            run.returncode = os.waitstatus_to_exitcode(status)
+        self.assertLess(usage.ru_maxrss, megabytes << 10)
+        return said
 
     def test_cut_scratch_files(self):
         """They are found, and what they had is done again."""

@@ -84,6 +84,12 @@ TEST_F(distributed_bad_files, are_one_file) {
               delaunay_file(sites, {faces, faces}, out_of_core);
             }),
             faces + ": the file of another result, too");
+  const std::string text = folder_.file("areas.txt");
+  EXPECT_EQ(message_of([&] {
+              delaunay_file(sites, {faces, "", text}, out_of_core);
+            }),
+            text + ": results are .npy files");
+  EXPECT_FALSE(std::filesystem::exists(faces));
   const std::string group = folder_.file("other.zarr");
   for (const std::string& first : {faces, folder_.file("mesh.zarr")}) {
     EXPECT_EQ(message_of([&] {
@@ -108,8 +114,16 @@ TEST_F(distributed_bad_files, need_memory) {
   for (int i = 0; i < 300; ++i) sites.push_back(random_near(random, {1, 0.3, 0.2}, 1e-10));
   const FileCase files(sites, {});
   const std::string crowd = message_of([&] { files.run({100, 50, 1000, 50}); });
-  EXPECT_TRUE(crowd.find("of 300 sites within 2^-28 rad of each other, row ") != std::string::npos)
+  EXPECT_TRUE(crowd.starts_with("of 300 sites within 2^-28 rad of each other, row ")) << crowd;
+  EXPECT_TRUE(
+      crowd.ends_with(" among them, more than 50 are in different places: for all of them "
+                      "96 MB of memory are enough, then the run can be resumed"))
       << crowd;
+  for (const std::uint64_t size : {200'000U, 1'000'000U, 700'000'000U}) {
+    const auto memory = std::stoull(distributed::memory_of_crowd(size));
+    EXPECT_GE(distributed::limits_of(memory << 20U).most_sites, size);
+    EXPECT_LT(distributed::limits_of((memory - 1) << 20U).most_sites, size);
+  }
 }
 
 }  // namespace

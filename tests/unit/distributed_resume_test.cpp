@@ -4,9 +4,15 @@
 // Runs that end early, and those that go on with what is left.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "distributed/journal.h"
 #include "distributed_support.h"
 #include "rondel/error.h"
 
@@ -115,18 +121,53 @@ TEST(distributed_resume, is_for_the_same_sites_and_options) {
   const FileCase files(some_sites(), {});
   ASSERT_FALSE(run_until(files, 12, false));
   const std::string scratch = files.folder().file("scratch");
-  const auto resume = [&](const std::string& sites, const Options& options) {
+  const std::string sites = files.folder().file("sites.npy");
+  const auto difference = [&](const std::string& path, const OutOfCoreFiles& results,
+                              const Options& options, bool radians = false) {
     OutOfCoreOptions out_of_core;
     out_of_core.scratch = scratch;
     out_of_core.resume = true;
-    delaunay_file(sites, files.files(), out_of_core, options);
+    out_of_core.radians = radians;
+    const std::string message =
+        message_of([&] { delaunay_file(path, results, out_of_core, options); });
+    const std::string begin = scratch + "/journal: a run with ";
+    EXPECT_TRUE(message.starts_with(begin)) << message;
+    return message.substr(std::min(begin.size(), message.size()));
   };
-  const std::string sites = files.folder().file("sites.npy");
-  const std::string expected = scratch + "/journal: a run with other sites or options";
-  EXPECT_EQ(message_of([&] { resume(sites, {.model = Model::weighted}); }), expected);
+  EXPECT_EQ(difference(sites, files.files(), {.model = Model::weighted}),
+            "other options: the model");
+  EXPECT_EQ(difference(sites, files.files(), {.sphere = {{1, 0, 0}, 1}}),
+            "other options: the sphere");
+  EXPECT_EQ(difference(sites, files.files(), {}, true), "other options: degrees or radians");
+  EXPECT_EQ(difference(sites, {files.files().faces}, {}),
+            "other options: the results that are wanted");
   const std::string others = files.folder().file("others.npy");
   write_sites(others, generator("uniform").make(100, 4).sites);
-  EXPECT_EQ(message_of([&] { resume(others, {}); }), expected);
+  EXPECT_EQ(difference(others, files.files(), {}), "other sites: the file has another size");
+  const auto time = std::filesystem::last_write_time(sites);
+  std::filesystem::last_write_time(sites, time + std::chrono::seconds(1));
+  EXPECT_EQ(difference(sites, files.files(), {}),
+            "other sites: the file was changed at another time");
+  std::filesystem::last_write_time(sites, time);
+  files.compare(files.run(limits, true));
+}
+
+// The number of its format, the third word of the first record, behind mark and head.
+TEST(distributed_resume, is_not_for_another_version) {
+  const FileCase files(some_sites(), {});
+  ASSERT_FALSE(run_until(files, 12, false));
+  const std::string path = files.folder().file("scratch") + "/journal";
+  std::uint64_t version = 0;
+  {
+    distributed::Journal journal(path);
+    std::vector<distributed::Words> records = journal.records();
+    version = records[0][2]++;
+    journal.clear();
+    for (const distributed::Words& record : records) journal.append(record);
+  }
+  EXPECT_EQ(version, 2U);
+  EXPECT_EQ(message_of([&] { files.run(limits, true); }),
+            path + ": a run with another version of Rondel");
 }
 
 TEST(distributed_resume, is_not_for_two_at_once) {
