@@ -173,7 +173,8 @@ class bulk_buckets : public testing::TestWithParam<Generator> {};
 
 TEST_P(bulk_buckets, as_the_incremental_build) {
   const Generator& generator = GetParam();
-  const std::size_t size = generator.has_long_integers ? 60 : is_extreme(generator) ? 300 : 1500;
+  const std::size_t many = is_shortened() ? 800 : 1500;
+  const std::size_t size = generator.has_long_integers ? 60 : is_extreme(generator) ? 300 : many;
   constexpr bulk::SeamRule every_square = {.least_sites = 0, .is_every_square = true};
   for (const Model model : {Model::projected, Model::weighted}) {
     if (model == Model::projected && generator.weighted_only) continue;

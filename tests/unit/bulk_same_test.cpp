@@ -11,7 +11,8 @@ class bulk_same : public testing::TestWithParam<Generator> {};
 
 TEST_P(bulk_same, as_the_incremental_build) {
   const Generator& generator = GetParam();
-  const std::size_t most = generator.has_long_integers ? 60 : is_extreme(generator) ? 500 : 2500;
+  const std::size_t many = is_shortened() ? 1200 : 2500;
+  const std::size_t most = generator.has_long_integers ? 60 : is_extreme(generator) ? 500 : many;
   for (const Model model : {Model::projected, Model::weighted}) {
     if (model == Model::projected && generator.weighted_only) continue;
     for (const std::size_t size : {std::min<std::size_t>(200, most), most}) {

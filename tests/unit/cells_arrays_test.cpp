@@ -93,6 +93,7 @@ TEST(cells, arrays_want_a_tolerance) {
   for (const double wrong : {0.0, -1.0, std::nan("")}) {
     EXPECT_THROW(cell_polygons(t, dual, wrong), InvalidInput);
   }
+  if (is_shortened()) return;  // millions of points
   const LonLatPolygons finest = cell_polygons(t, dual, least_tolerance_deg);
   EXPECT_EQ(cell_polygons(t, dual, 1e-300).positions, finest.positions);
 }

@@ -300,7 +300,7 @@ TEST(cell_map, has_each_line_in_the_cells_on_both_sides) {
   std::size_t num_maps = 0;
   for (const Generator& kind : generators()) {
     if (kind.weighted_only) continue;
-    const SiteSet set = kind.make(300, 5);
+    const SiteSet set = kind.make(is_shortened() ? 100 : 300, 5);
     const Triangulation triangulation = delaunay(set.sites, {.sphere = set.sphere});
     const Cells diagram = cells(triangulation);
     const map::CellMap map(triangulation, diagram, 0.01, {.threads = 2});

@@ -12,7 +12,7 @@ rondel_add_test(io_test
   io_sites_test.cpp
   io_triangles_test.cpp
   io_zarr_test.cpp
-  LIBS rondel_io nlohmann_json::nlohmann_json)
+  LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json)
 
 # A program of its own: what a sanitizer of threads needs.
-rondel_add_test(io_parallel_test io_parallel_test.cpp LIBS rondel_io)
+rondel_add_test(io_parallel_test io_parallel_test.cpp LIBS rondel_io rondel_test_support)

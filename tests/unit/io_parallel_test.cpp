@@ -11,6 +11,7 @@
 #include "io_support.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "support/generators.h"
 
 namespace rondel::test {
 namespace {
@@ -97,6 +98,7 @@ TEST(write_triangles, and_cells_have_the_same_bytes_for_any_number_of_threads) {
   table.sites = unit_vectors(random_positions(20000));
   std::vector<std::string> expected;
   for (const unsigned threads : thread_counts) {
+    if (is_shortened() && threads != 1 && threads != 3) continue;
     const Execution execution{.threads = threads};
     const Triangulation triangulation = delaunay(table.sites, {}, execution);
     const Diagram cells = diagram(triangulation, execution);

@@ -7,6 +7,7 @@
 
 #include "io_support.h"
 #include "rondel/delaunay.h"
+#include "support/generators.h"
 
 namespace rondel::test {
 namespace {
@@ -69,7 +70,9 @@ std::vector<Triple> faces_of_pieces(const std::string& pvtp, const SiteTable& ta
 TEST(write_pvtp, has_a_piece_for_each_million_of_faces) {
   const TemporaryDirectory directory;
   const std::string path = directory.file("a & b.pvtp");
-  for (const SiteTable& table : {random_table(300), random_table(525'000)}) {
+  for (const std::size_t size : {300U, 525'000U}) {
+    if (size > 300 && is_shortened()) continue;
+    const SiteTable table = random_table(size);
     const Triangulation t = delaunay(table.sites);
     write_triangles(path, table, t);
     const std::string index = read_all(path);

@@ -10,5 +10,5 @@ rondel_add_test(unit_plot
   plot_globe_test.cpp
   plot_pixels_test.cpp
   plot_region_test.cpp
-  LIBS rondel_plot)
+  LIBS rondel_plot rondel_test_support)
 rondel_compile_alone(unit_plot plot_pixels_test.cpp plot_region_test.cpp)

@@ -22,6 +22,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
 #include "run_pieces.h"
+#include "support/generators.h"
 
 namespace rondel::cli {
 namespace {
@@ -71,7 +72,7 @@ TEST(pixels, have_the_share_that_a_shape_covers) {
   constexpr int size = 9;
   constexpr int samples = 64;  // in each direction of a pixel
   std::mt19937 random(1);
-  for (int turn = 0; turn < 100; ++turn) {
+  for (std::size_t turn = 0; turn < test::scaled(100); ++turn) {
     const std::vector<Spot> polygon = random_polygon(random, size);
     Pixels pixels(size, 0, size);
     pixels.fill(polygon, black);
