@@ -1,0 +1,208 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// isolines, bands, write_isolines, write_bands: what rondel/contours.h promises of any sites and values.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <vector>
+
+#include "fuzz/fuzz_input.h"
+#include "fuzz/scratch_folder.h"
+#include "fuzz/table_input.h"
+#include "rondel/contours.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+
+namespace rondel::fuzz {
+namespace {
+
+// Quarters, which are often equal, missing ones, and at times any numbers.
+double next_value(ByteSource& source) {
+  const std::size_t which = source.below(32);
+  if (which == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (which == 1) return source.finite_double();
+  if (which == 2 && source.below(16) == 0) return std::numeric_limits<double>::infinity();
+  return source.small() / 64 / 2.0;
+}
+
+std::vector<double> next_levels(ByteSource& source) {
+  std::vector<double> levels{source.below(4) == 0 ? source.finite_double() : source.small() / 64.0};
+  while (levels.size() < 4 && source.below(4) != 0) {
+    const double level = levels.back() + (1 + source.small() % 4) / 2.0;
+    if (level > levels.back()) levels.push_back(level);
+  }
+  return levels;
+}
+
+bool is_simple(std::span<const Point> points) {
+  std::vector<std::array<double, 3>> places;
+  for (const Point& p : points) {
+    if (!(std::abs(p.x * p.x + p.y * p.y + p.z * p.z - 1) < 1e-14)) return false;
+    places.push_back({p.x, p.y, p.z});
+  }
+  std::ranges::sort(places);
+  return std::ranges::adjacent_find(places) == places.end();
+}
+
+std::span<const Point> part(const std::vector<Point>& points,
+                            const std::vector<std::uint64_t>& offsets, std::size_t i) {
+  return std::span(points).subspan(offsets[i], offsets[i + 1] - offsets[i]);
+}
+
+void test_isolines(const Isolines& lines) {
+  require(lines.level_offsets.size() == lines.levels.size() + 1 &&
+              lines.level_offsets.back() == lines.num_lines() &&
+              lines.line_offsets.size() == lines.num_lines() + 1 &&
+              lines.line_offsets.back() == lines.points.size(),
+          "the arrays of isolines fit together");
+  for (std::size_t i = 0; i < lines.num_lines(); ++i) {
+    const auto points = part(lines.points, lines.line_offsets, i);
+    require(points.size() >= (lines.is_closed[i] != 0 ? 3U : 2U) && is_simple(points),
+            "isolines are simple");
+  }
+}
+
+// The area to the left of a ring up to multiples of 4 pi, by triangles (Oosterom, Strackee 1983) at a place
+// that is the antipode of no point.
+double ring_area(std::span<const Point> ring) {
+  const double length = std::hypot(0.4157097201, 0.8828118405, 0.2189138513);
+  const Point a{0.4157097201 / length, 0.8828118405 / length, 0.2189138513 / length};
+  double area = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point& b = ring[i];
+    const Point& c = ring[(i + 1) % ring.size()];
+    const Point d{c.x - b.x, c.y - b.y, c.z - b.z};
+    const double volume = a.x * (b.y * d.z - b.z * d.y) + a.y * (b.z * d.x - b.x * d.z) +
+                          a.z * (b.x * d.y - b.y * d.x);
+    const auto dot = [](const Point& p, const Point& q) {
+      return p.x * q.x + p.y * q.y + p.z * q.z;
+    };
+    area += 2 * std::atan2(volume, 1 + dot(a, b) + dot(b, c) + dot(c, a));
+  }
+  return area;
+}
+
+void test_bands(const Bands& bands) {
+  require(bands.band_offsets.size() == bands.num_bands() + 1 &&
+              bands.band_offsets.back() == bands.num_polygons() &&
+              bands.polygon_offsets.back() == bands.ring_offsets.size() - 1 &&
+              bands.ring_offsets.back() == bands.points.size(),
+          "the arrays of bands fit together");
+  for (std::size_t ring = 0; ring + 1 < bands.ring_offsets.size(); ++ring) {
+    const auto points = part(bands.points, bands.ring_offsets, ring);
+    require(points.size() >= 3 && is_simple(points), "rings are simple");
+  }
+}
+
+double area_of(const Bands& bands) {
+  double area = 0;
+  for (std::size_t ring = 0; ring + 1 < bands.ring_offsets.size(); ++ring) {
+    area += ring_area(part(bands.points, bands.ring_offsets, ring));
+  }
+  return area;
+}
+
+// Whether doubles tell the ends of all edges apart, and from the antipodes of each other.
+bool has_clear_edges(const Triangulation& t) {
+  const auto unit = [&](Index site) {
+    const Point& p = t.sites()[site];
+    const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    const Point scaled{p.x / largest, p.y / largest, p.z / largest};
+    const double length = std::hypot(scaled.x, scaled.y, scaled.z);
+    return Point{scaled.x / length, scaled.y / length, scaled.z / length};
+  };
+  for (const Triple& face : t.faces()) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point p = unit(face[i]);
+      const Point q = unit(face[(i + 1) % 3]);
+      if (std::hypot(p.x - q.x, p.y - q.y, p.z - q.z) < 1e-9) return false;
+      if (std::hypot(p.x + q.x, p.y + q.y, p.z + q.z) < 1e-4) return false;
+    }
+  }
+  return true;
+}
+
+// Levels divide the surface; they change nothing of what it covers.
+void test_area(const Bands& bands, const Bands& undivided) {
+  const double difference = area_of(bands) - area_of(undivided);
+  require(std::abs(std::remainder(difference, 4 * std::numbers::pi)) < 1e-9,
+          "bands cover the surface");
+}
+
+// Positions on the map, closed rings.
+void test_document(const nlohmann::json& document, std::size_t num_features) {
+  require(document.at("features").size() == num_features, "a feature for each level or band");
+  for (const auto& feature : document.at("features")) {
+    if (feature.at("geometry").is_null()) continue;
+    const bool is_polygon = feature["geometry"].at("type") == "MultiPolygon";
+    for (const auto& item : feature["geometry"].at("coordinates")) {
+      for (const auto& ring : is_polygon ? item : nlohmann::json::array({item})) {
+        require(ring.size() >= (is_polygon ? 4U : 2U), "enough positions");
+        require(!is_polygon || ring.front() == ring.back(), "rings are closed");
+        for (const auto& position : ring) {
+          require(std::abs(position[0].get<double>()) <= 180 &&
+                      std::abs(position[1].get<double>()) <= 90,
+                  "positions are on the map");
+        }
+      }
+    }
+  }
+}
+
+void test_any_order(std::vector<Point> sites, std::vector<double> values, const Options& options,
+                    std::span<const double> levels, const Bands& expected) {
+  std::ranges::reverse(sites);
+  std::ranges::reverse(values);
+  const Triangulation t = delaunay(sites, options);
+  if (!t.duplicates().empty()) return;  // which value counts depends on the order
+  const Bands found = bands(t, values, levels);
+  require(found.points == expected.points && found.ring_offsets == expected.ring_offsets &&
+              found.polygon_offsets == expected.polygon_offsets,
+          "the order of the sites changes nothing");
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace rondel;
+  static const fuzz::ScratchFolder folder;
+  fuzz::ByteSource source(data, size);
+  const bool is_written = source.below(8) == 0;
+  const std::vector<double> levels = fuzz::next_levels(source);
+  std::vector<double> pool;
+  for (int i = 0; i < 16; ++i) pool.push_back(fuzz::next_value(source));
+  const fuzz::Scales scales = fuzz::next_scales(source);
+  const std::size_t limit = fuzz::next_limit(source, 30);
+  const Options options;
+  const std::vector<Point> sites = fuzz::all_sites(source, limit, scales, options);
+  std::vector<double> values;
+  for (std::size_t i = 0; i < sites.size(); ++i) values.push_back(pool[i * i / 3 % pool.size()]);
+  const Triangulation t = delaunay(sites, options);
+  const auto infinite =
+      std::ranges::find_if(values, [](double value) { return std::isinf(value); });
+  try {
+    const Isolines lines = isolines(t, values, levels);
+    fuzz::require(infinite == values.end(), "infinite values are refused");
+    fuzz::test_isolines(lines);
+    const Bands found = bands(t, values, levels);
+    fuzz::test_bands(found);
+    if (fuzz::has_clear_edges(t)) fuzz::test_area(found, bands(t, values, {}));
+    fuzz::test_any_order(sites, values, options, levels, found);
+    if (!is_written) return 0;
+    const std::string path = folder.file("contours.geojson");
+    write_isolines(path, lines, 5);
+    fuzz::test_document(nlohmann::json::parse(fuzz::content(path)), levels.size());
+    write_bands(path, found, 5);
+    fuzz::test_document(nlohmann::json::parse(fuzz::content(path)), levels.size() + 1);
+  } catch (const InvalidInput& error) {
+    fuzz::require(infinite != values.end() &&
+                      error.index() == static_cast<std::size_t>(infinite - values.begin()),
+                  "the first infinite value is named");
+  }
+  return 0;
+}
