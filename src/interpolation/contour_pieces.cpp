@@ -9,20 +9,22 @@
 namespace rondel::interpolation {
 namespace {
 
-struct Extent {
+struct ValueExtent {
   double least, most;
 };
 
-Extent extent_of(double a, double b, double c) {
+ValueExtent extent_of(double a, double b, double c) {
   return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
 }
 
-bool has_area(const Extent& extent, const ValueRange& range) {
+bool has_area(const ValueExtent& extent, const ValueRange& range) {
   if (extent.least == extent.most) return range.low <= extent.least && extent.least < range.high;
   return extent.most > range.low && extent.least < range.high;
 }
 
-void add_corner(Piece& piece, const PieceCorner& corner) { piece.corners[piece.size++] = corner; }
+void add_corner(ContourPiece& piece, const PieceCorner& corner) {
+  piece.corners[piece.size++] = corner;
+}
 
 bool is_strictly_between(double level, double a, double b) {
   return (a < level && level < b) || (b < level && level < a);
@@ -30,7 +32,7 @@ bool is_strictly_between(double level, double a, double b) {
 
 }  // namespace
 
-std::size_t Piece::edge_of(std::size_t side) const {
+std::size_t ContourPiece::edge_of(std::size_t side) const {
   const unsigned common = corners[side].edges & corners[next(side)].edges;
   return common == 0 ? 3 : static_cast<std::size_t>(std::countr_zero(common));
 }
@@ -54,8 +56,8 @@ bool ValuedFaces::has_piece(Index face, const ValueRange& range) const {
   return has_area(extent_of(values_[a], values_[b], values_[c]), range);
 }
 
-Piece ValuedFaces::piece(Index face, const ValueRange& range) const {
-  Piece piece;
+ContourPiece ValuedFaces::piece(Index face, const ValueRange& range) const {
+  ContourPiece piece;
   if (!has_piece(face, range)) return piece;
   const Triple& corners = faces_[face];
   for (std::size_t edge = 0; edge < 3; ++edge) {

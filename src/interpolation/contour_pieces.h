@@ -40,7 +40,7 @@ struct PieceCorner {
   unsigned edges = 0;  // bit i: on edge i of the face, from its corner i to the next
 };
 
-struct Piece {
+struct ContourPiece {
   std::array<PieceCorner, 6> corners;  // counterclockwise
   std::size_t size = 0;                // 0: the face has no area of the region
 
@@ -78,7 +78,7 @@ class ValuedFaces {
   [[nodiscard]] std::size_t twin(Index face, std::size_t edge, Index across) const;
 
   // Precondition: the face is not missing.
-  [[nodiscard]] Piece piece(Index face, const ValueRange& range) const;
+  [[nodiscard]] ContourPiece piece(Index face, const ValueRange& range) const;
   [[nodiscard]] bool has_piece(Index face, const ValueRange& range) const;
 
  private:

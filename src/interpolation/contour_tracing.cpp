@@ -140,7 +140,7 @@ void ContourTracer::connect_plain(Index face) {
 void ContourTracer::connect_mixed(Index face) {
   for (std::size_t k = lowest_[face]; k <= highest(face); ++k) {
     const ValueRange values = range(k);
-    Place place{face, 0, faces_.piece(face, values)};
+    PieceSide place{face, 0, faces_.piece(face, values)};
     for (place.side = 0; place.side < place.piece.size; ++place.side) {
       if (kind(place, values) != SideKind::inner) continue;
       const Index other = faces_.across(face, place.piece.edge_of(place.side));
@@ -161,7 +161,7 @@ std::size_t ContourTracer::region_without_border() const {
   return lowest_[face] + static_cast<std::size_t>(largest - first_piece_[face]);
 }
 
-ContourTracer::SideKind ContourTracer::kind(const Place& place, const ValueRange& range) const {
+ContourTracer::SideKind ContourTracer::kind(const PieceSide& place, const ValueRange& range) const {
   const std::size_t edge = place.piece.edge_of(place.side);
   if (edge == 3) return SideKind::line;
   const Index other = faces_.across(place.face, edge);
@@ -169,7 +169,7 @@ ContourTracer::SideKind ContourTracer::kind(const Place& place, const ValueRange
   return faces_.has_piece(other, range) ? SideKind::inner : SideKind::line;
 }
 
-void ContourTracer::cross(Place& place, const ValueRange& range) const {
+void ContourTracer::cross(PieceSide& place, const ValueRange& range) const {
   const std::size_t edge = place.piece.edge_of(place.side);
   const Index other = faces_.across(place.face, edge);
   const std::size_t twin = faces_.twin(place.face, edge, other);
@@ -177,7 +177,7 @@ void ContourTracer::cross(Place& place, const ValueRange& range) const {
   while (place.piece.edge_of(place.side) != twin) ++place.side;
 }
 
-void ContourTracer::go_on(Place& place, const ValueRange& range) const {
+void ContourTracer::go_on(PieceSide& place, const ValueRange& range) const {
   place.side = place.piece.next(place.side);
   while (kind(place, range) == SideKind::inner) {
     cross(place, range);
@@ -185,7 +185,7 @@ void ContourTracer::go_on(Place& place, const ValueRange& range) const {
   }
 }
 
-void ContourTracer::go_back(Place& place, const ValueRange& range) const {
+void ContourTracer::go_back(PieceSide& place, const ValueRange& range) const {
   place.side = place.piece.previous(place.side);
   while (kind(place, range) == SideKind::inner) {
     cross(place, range);
@@ -193,7 +193,7 @@ void ContourTracer::go_back(Place& place, const ValueRange& range) const {
   }
 }
 
-bool ContourTracer::take(const Place& place, std::size_t region) {
+bool ContourTracer::take(const PieceSide& place, std::size_t region) {
   std::uint8_t& sides = taken_[piece_name(place.face, region)];
   const auto bit = static_cast<std::uint8_t>(1U << place.side);
   const bool is_new = (sides & bit) == 0;
@@ -206,9 +206,9 @@ TracedLines ContourTracer::rings(std::size_t region) {
   const ValueRange values = range(region);
   std::vector<Point> ring;
   for (const Index face : mixed_faces_[region]) {
-    const Piece piece = faces_.piece(face, values);
+    const ContourPiece piece = faces_.piece(face, values);
     for (std::size_t side = 0; side < piece.size; ++side) {
-      Place place{face, side, piece};
+      PieceSide place{face, side, piece};
       if (kind(place, values) == SideKind::inner) continue;
       ring.clear();
       while (take(place, region)) {
@@ -228,12 +228,12 @@ TracedLines ContourTracer::lines(std::size_t region) {
   const ValueRange values = range(region);
   std::vector<Point> line;
   for (const Index face : mixed_faces_[region]) {
-    const Piece piece = faces_.piece(face, values);
+    const ContourPiece piece = faces_.piece(face, values);
     for (std::size_t side = 0; side < piece.size; ++side) {
-      const Place first{face, side, piece};
+      const PieceSide first{face, side, piece};
       if (kind(first, values) != SideKind::line || !take(first, region)) continue;
       line.assign({point(piece.corners[side])});
-      Place place = first;
+      PieceSide place = first;
       const auto last_point = [&] {
         line.push_back(point(place.piece.corners[place.piece.next(place.side)]));
       };

@@ -49,10 +49,10 @@ class ContourTracer {
 
  private:
   // A side of a face's piece.
-  struct Place {
+  struct PieceSide {
     Index face = 0;
     std::size_t side = 0;
-    Piece piece{};
+    ContourPiece piece{};
   };
   enum class SideKind : std::uint8_t { inner, line, rim };
   enum class Content : std::uint8_t {
@@ -78,13 +78,13 @@ class ContourTracer {
            1;
   }
 
-  [[nodiscard]] SideKind kind(const Place& place, const ValueRange& range) const;
+  [[nodiscard]] SideKind kind(const PieceSide& place, const ValueRange& range) const;
   // Steps into the face across the side, to the same side there.
-  void cross(Place& place, const ValueRange& range) const;
-  void go_on(Place& place, const ValueRange& range) const;
-  void go_back(Place& place, const ValueRange& range) const;
+  void cross(PieceSide& place, const ValueRange& range) const;
+  void go_on(PieceSide& place, const ValueRange& range) const;
+  void go_back(PieceSide& place, const ValueRange& range) const;
   // Marks the side; whether it was not marked before.
-  bool take(const Place& place, std::size_t region);
+  bool take(const PieceSide& place, std::size_t region);
 
   [[nodiscard]] Point point(const PieceCorner& corner) const;
   [[nodiscard]] Point direction(Index site) const;
