@@ -36,7 +36,7 @@ struct ArcLayer {
 struct FilledCells {
   Cells cells;
   std::vector<double> areas;
-  std::vector<double> values;  ///< that give the colors, of the sites; empty: areas do
+  std::vector<double> values{};  ///< that give the colors, of the sites; empty: areas do
 };
 
 /// What a figure shows. Layers that are not wanted stay empty.

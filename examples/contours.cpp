@@ -3,12 +3,13 @@
 //
 // Isolines and bands of heights at a few thousand sites, for a map.
 
+#include "rondel/contours.h"
+
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <vector>
 
-#include "rondel/contours.h"
 #include "rondel/rondel.h"
 
 namespace {

@@ -7,6 +7,7 @@ rondel_add_test(unit_plot
   plot_arcs_test.cpp
   plot_circles_test.cpp
   plot_draw_test.cpp
+  plot_field_test.cpp
   plot_globe_test.cpp
   plot_pixels_test.cpp
   plot_region_test.cpp
