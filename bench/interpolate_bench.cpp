@@ -66,6 +66,10 @@ class Bench {
     values("laplace", Method::laplace);
     values("sibson", Method::sibson);
     values("cubic_estimated", Method::cubic);
+    take("hermite", [&] {
+      sum_ += interpolator.values(field, gradients, targets, {.method = Method::hermite},
+                                  execution_)[0];
+    });
     take("cubic", [&] {
       sum_ +=
           interpolator.values(field, gradients, targets, {.method = Method::cubic}, execution_)[0];

@@ -14,6 +14,7 @@
 #include "interpolation/cubic.h"
 #include "interpolation/gradient.h"
 #include "interpolation/ground.h"
+#include "interpolation/hermite.h"
 #include "interpolation/linear.h"
 #include "interpolation/natural.h"
 #include "interpolation/place_values.h"
@@ -170,10 +171,10 @@ void Interpolator::Impl::for_each_row(std::span<const Point> targets,
     visit([&] { return LaplaceKernel(ground_); });
   } else if (options.method == Method::sibson) {
     visit([&] { return SibsonKernel(ground_); });
-  } else if (options.method == Method::cubic) {
-    visit([&] { return CubicKernel(ground_, has_gradient, options.normalization); });
+  } else if (options.method == Method::hermite) {
+    visit([&] { return HermiteKernel(ground_, has_gradient, options.normalization); });
   } else {
-    throw InvalidInput("not there yet", 0);
+    visit([&] { return CubicKernel(ground_, has_gradient, options.normalization); });
   }
   if (outside.get() != no_index) {
     throw InvalidInput(

@@ -4,9 +4,9 @@
 #include "interpolation/slopes.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "exact/vector.h"
+#include "interpolation/unity.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
 
@@ -100,14 +100,13 @@ Weights gradient_weights(const Ground& ground, const GradientRows& rows) {
   return weights;
 }
 
-// What is added up for one vertex is added in the order of the row, and the largest weight takes what
-// rounding has changed of the sum.
+// What is added up for one vertex is added in the order of the row.
 const Row& SlopeJoiner::operator()(const SlopeRow& row) {
   shares_.clear();
-  double wanted = 0;
+  double sum = 0;
   for (const auto& [vertex, weight, slope] : row) {
     shares_.push_back({vertex, weight});
-    wanted += weight;
+    sum += weight;
     if (slope == Point{}) continue;
     for (std::uint64_t k = gradients_->offsets[vertex];
          k < gradients_->offsets[vertex + std::size_t{1}]; ++k) {
@@ -115,11 +114,7 @@ const Row& SlopeJoiner::operator()(const SlopeRow& row) {
     }
   }
   merge();
-  double sum = 0;
-  for (const Share& share : joined_) sum += share.weight;
-  const auto largest = std::ranges::max_element(
-      joined_, {}, [](const Share& share) { return std::abs(share.weight); });
-  if (largest != joined_.end()) largest->weight -= sum - wanted;
+  if (sum == 1) take_up_rounding(joined_);
   return joined_;
 }
 

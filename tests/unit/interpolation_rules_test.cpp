@@ -20,8 +20,8 @@
 namespace rondel::test {
 namespace {
 
-constexpr std::array methods = {Method::nearest, Method::linear, Method::laplace, Method::sibson,
-                                Method::cubic};
+constexpr std::array methods = {Method::nearest, Method::linear,  Method::laplace,
+                                Method::sibson,  Method::hermite, Method::cubic};
 
 std::string name_of(Method method) { return "method " + std::to_string(static_cast<int>(method)); }
 
