@@ -109,8 +109,12 @@ bool NaturalKernel::weigh_exactly(const Place& place) {
 }
 
 void NaturalKernel::add_shares(Row& row) const {
-  double sum = 0;
-  for (const double share : shares_) sum += std::max(share, 0.0);
+  exact::DoubleDouble exact_sum;
+  for (const double share : shares_) {
+    const auto next = exact::two_sum(exact_sum.hi, std::max(share, 0.0));
+    exact_sum = {next.hi, exact_sum.lo + next.lo};
+  }
+  const double sum = exact_sum.hi + exact_sum.lo;
   const std::span<const Index> ring = region_.ring();
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (shares_[i] > 0) row.push_back({ring[i], shares_[i] / sum});

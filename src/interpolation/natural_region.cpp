@@ -14,8 +14,8 @@ void NaturalRegion::find(const Place& place) {
   ring_.clear();
   for (auto edge = first; edge != horizon.end(); ++edge) ring_.push_back(edge->origin);
   for (auto edge = horizon.begin(); edge != first; ++edge) ring_.push_back(edge->origin);
-  root_ = ground_.mesh()[topology::face_of(first->outside)]
-              .opposite[topology::edge_of(first->outside)];
+  root_ =
+      ground_.mesh()[topology::face_of(first->outside)].opposite[topology::edge_of(first->outside)];
 }
 
 // Depth first. Edge i of a face runs from corner i+1 to corner i+2, and the apex is opposite to the
@@ -35,7 +35,8 @@ void NaturalRegion::list_faces() {
     const auto index = static_cast<Index>(faces_.size());
     faces_.push_back({next.a, position, next.b, next.parent});
     if (position + 1 < next.b) {
-      stack_.push_back({face.opposite[topology::previous_corner[entered]], position, next.b, index});
+      stack_.push_back(
+          {face.opposite[topology::previous_corner[entered]], position, next.b, index});
     }
     if (next.a + 1 < position) {
       next = {face.opposite[topology::next_corner[entered]], next.a, position, index};

@@ -41,8 +41,8 @@ Polygon cut(const Polygon& polygon, const HalfPlane& half, std::size_t site) {
     if (!is_positive(at_a)) result.push_back(a);
     if (is_positive(at_a) == is_positive(at_b)) continue;
     const Real share = at_a / (at_a - at_b);
-    result.push_back({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
-                      is_positive(at_a) ? a.site : site});
+    result.push_back(
+        {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y), is_positive(at_a) ? a.site : site});
   }
   return result;
 }

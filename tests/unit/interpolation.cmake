@@ -10,13 +10,11 @@ rondel_add_test(interpolation_test
 
 rondel_add_test(interpolation_natural_test
   interpolation_natural_test.cpp
-  ${PROJECT_SOURCE_DIR}/tests/support/mpfr_oracle.cpp
   ${PROJECT_SOURCE_DIR}/tests/support/natural_oracle.cpp
-  LIBS rondel_remap rondel_test_support)
+  LIBS rondel_remap rondel_dual_support rondel_test_support)
 
 rondel_add_test(interpolation_slopes_test
   interpolation_cubic_test.cpp
   interpolation_gradient_test.cpp
   interpolation_hermite_test.cpp
-  ${PROJECT_SOURCE_DIR}/tests/support/mpfr_oracle.cpp
-  LIBS rondel_remap rondel_test_support)
+  LIBS rondel_remap rondel_dual_support rondel_test_support)

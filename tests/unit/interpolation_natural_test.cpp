@@ -6,18 +6,23 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "interpolation/natural.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
+#include "rondel/interpolate.h"
 #include "support/generators.h"
 #include "support/natural_oracle.h"
 #include "support/query_oracle.h"
+#include "unit/interpolation_support.h"
 
 namespace rondel {
 namespace {
@@ -115,8 +120,7 @@ void compare(const Ground& ground, const test::NaturalOracle& oracle, const Poin
   ++difference.num_rows;
 }
 
-Difference compare_with_definition(const test::SiteSet& set, std::uint64_t seed,
-                                   std::size_t step) {
+Difference compare_with_definition(const test::SiteSet& set, std::uint64_t seed, std::size_t step) {
   Difference difference;
   const auto triangulation = delaunay(set.sites, {.sphere = set.sphere});
   if (triangulation.dimension() < 2) return difference;
@@ -132,15 +136,176 @@ Difference compare_with_definition(const test::SiteSet& set, std::uint64_t seed,
   return difference;
 }
 
-class interpolation_natural : public testing::TestWithParam<test::Generator> {};
+class interpolation_natural_weights : public testing::TestWithParam<test::Generator> {};
 
-TEST_P(interpolation_natural, are_those_of_the_definition) {
-  const std::size_t step = test::is_shortened() ? 5 : 1;
+// A scale of the tests above 1 takes all targets.
+TEST_P(interpolation_natural_weights, are_those_of_the_definition) {
+  const std::size_t step = test::scaled(4) > 4 ? 1 : test::is_shortened() ? 13 : 5;
   for (const std::size_t n : {8U, 50U, 300U}) {
     const Difference difference = compare_with_definition(GetParam().make(n, 3), 7, step);
     RecordProperty("error_over_1e_16_of_" + std::to_string(n),
                    std::to_string(difference.value * 1e16));
     RecordProperty("rows_of_" + std::to_string(n), std::to_string(difference.num_rows));
+  }
+}
+
+// --- what holds of weights, with Interpolator ---
+
+using test::row_of;
+
+constexpr std::array natural_methods = {Method::laplace, Method::sibson};
+
+// Random, in sites, on edges, in circumcenters.
+std::vector<Point> some_targets(const Triangulation& triangulation, std::size_t count) {
+  test::Random random(17);
+  std::vector<Point> targets;
+  const auto directions = circumcenters(triangulation);
+  while (targets.size() < count) {
+    const std::size_t f = random.below(triangulation.num_faces());
+    const Triple& face = triangulation.faces()[f];
+    const auto site = [&](std::size_t i) { return triangulation.sites().points()[face[i]]; };
+    const double share = random.unit();
+    targets.push_back(random.direction());
+    targets.push_back(site(0));
+    targets.push_back(site(1) + site(2));
+    targets.push_back(directions[f]);
+    targets.push_back((site(0) + share * site(1)) + (share * share) * site(2));
+  }
+  return targets;
+}
+
+// |1 - sum of weights| and |u x sum of weights times sites|.
+void check_row(const Triangulation& triangulation, const Point& target, test::WeightRow row) {
+  using test::Real;
+  Real sum;
+  test::RealVector mean;
+  for (std::size_t k = 0; k < row.values.size(); ++k) {
+    const Real weight(row.values[k]);
+    const auto x = test::normalized(test::to_real(triangulation.sites().points()[row.columns[k]]));
+    sum = sum + weight;
+    for (std::size_t i = 0; i < 3; ++i) mean[i] = mean[i] + weight * x.value()[i];
+    EXPECT_GT(row.values[k], 0);
+  }
+  EXPECT_LE(std::abs((sum - Real(1)).rounded()), 4 * test::ulp);
+  const auto across = test::cross(test::normalized(test::to_real(target)).value(), mean);
+  EXPECT_LE(sqrt(test::dot(across, across)).rounded(), 1e-14);
+}
+
+TEST(interpolation_natural, weights_sum_up_to_1_and_their_mean_is_on_the_ray) {
+  for (const char* name : {"uniform", "globe_grid", "patch_1e_6", "s_n", "falling_spiral"}) {
+    const test::SiteSet set = test::generator(name).make(1 << 14, 2);
+    const auto triangulation = delaunay(set.sites, {.sphere = set.sphere});
+    const auto targets = some_targets(triangulation, test::scaled(60));
+    const Interpolator interpolator(triangulation);
+    for (const Method method : natural_methods) {
+      SCOPED_TRACE(name);
+      const Weights weights = interpolator.weights(targets, {.method = method});
+      for (std::size_t t = 0; t < targets.size(); ++t) {
+        const test::WeightRow row = row_of(weights, t);
+        if (!row.values.empty()) check_row(triangulation, targets[t], row);
+      }
+    }
+  }
+}
+
+// Weights by site, of a target.
+using Dense = std::vector<double>;
+Dense dense_row(const Weights& weights, std::size_t t) {
+  Dense row(weights.num_columns);
+  const test::WeightRow sparse = row_of(weights, t);
+  for (std::size_t k = 0; k < sparse.values.size(); ++k) row[sparse.columns[k]] = sparse.values[k];
+  return row;
+}
+
+double largest_difference(const Weights& a, const Weights& b) {
+  double largest = 0;
+  for (std::size_t t = 0; t < a.num_rows(); ++t) {
+    const Dense x = dense_row(a, t);
+    const Dense y = dense_row(b, t);
+    for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(x[i] - y[i]));
+  }
+  return largest;
+}
+
+template <class Move>
+std::vector<Point> moved(std::span<const Point> points, const Move& move) {
+  std::vector<Point> result;
+  for (const Point& p : points) result.push_back(move(p));
+  return result;
+}
+
+TEST(interpolation_natural, weights_turn_with_the_sites) {
+  constexpr std::size_t n = 1000;
+  constexpr double spacing = 0.1;
+  test::Random random(23);
+  const Point x = random.direction();
+  const Point y = test::normalized(test::cross_product(random.direction(), x));
+  const Point z = test::cross_product(x, y);
+  const auto turn = [&](const Point& p) { return (p.x * x + p.y * y) + p.z * z; };
+  const auto sites = test::generator("uniform").make(n, 4).sites;
+  const auto targets = test::generator("uniform").make(n, 5).sites;
+  for (const Method method : natural_methods) {
+    const auto weights = Interpolator(delaunay(sites)).weights(targets, {.method = method});
+    const auto turned = Interpolator(delaunay(moved(sites, turn)))
+                            .weights(moved(targets, turn), {.method = method});
+    EXPECT_LE(largest_difference(weights, turned), 1e-13 / spacing);
+  }
+}
+
+// Ties are broken by coordinates, so the mirrored grid gets other diagonals.
+TEST(interpolation_natural, diagonals_of_cocircular_sites_have_no_effect) {
+  const auto mirror = [](const Point& p) { return Point{-p.x, p.y, p.z}; };
+  const auto sites = test::generator("globe_grid").make(500, 1).sites;
+  const auto triangulation = delaunay(sites);
+  const auto mirrored = delaunay(moved(sites, mirror));
+  const auto edges_of = [](const Triangulation& t) {
+    std::set<std::pair<Index, Index>> found;
+    for (const auto& [a, b] : edges(t)) found.insert(std::minmax(a, b));
+    return found;
+  };
+  ASSERT_NE(edges_of(triangulation), edges_of(mirrored));
+  const auto targets = some_targets(triangulation, test::scaled(500));
+  for (const Method method : natural_methods) {
+    const auto weights = Interpolator(triangulation).weights(targets, {.method = method});
+    const auto others = Interpolator(mirrored).weights(moved(targets, mirror), {.method = method});
+    EXPECT_LE(largest_difference(weights, others), weight_error);
+  }
+}
+
+TEST(interpolation_natural, the_region_is_that_of_the_query) {
+  for (const test::Generator& generator : test::generators()) {
+    if (generator.weighted_only) continue;
+    const test::SiteSet set = generator.make(60, 9);
+    const auto triangulation = delaunay(set.sites, {.sphere = set.sphere});
+    if (triangulation.dimension() < 2) continue;
+    const Ground ground(triangulation);
+    interpolation::NaturalRegion region(ground);
+    test::Random random(5);
+    for (const Point& target : test::query_points(set.sites, set.sphere.center, random)) {
+      const Place place = place_of(ground, target);
+      if (!is_for_kernels(place)) continue;
+      region.find(place);
+      region.list_faces();
+      query::Cursor cursor;
+      cursor.vertex = ground.near(target);
+      const auto faces = ground.engine().conflict_region(target, cursor);
+      ASSERT_EQ(region.faces().size(), faces.size());
+      ASSERT_EQ(region.ring().size(), faces.size() + 2);
+      EXPECT_EQ(region.ring().front(), std::ranges::min(region.ring()));
+      std::set<Index> around(region.ring().begin(), region.ring().end());
+      std::set<std::set<Index>> expected;
+      std::set<std::set<Index>> found;
+      for (const Index f : faces) {
+        const auto& corners = ground.mesh()[f].vertex;
+        expected.insert({corners.begin(), corners.end()});
+      }
+      for (const auto& [a, apex, b, parent] : region.faces()) {
+        const std::size_t end = b % region.ring().size();
+        found.insert({region.ring()[a], region.ring()[apex], region.ring()[end]});
+      }
+      EXPECT_EQ(found, expected);
+      EXPECT_EQ(around.size(), region.ring().size());
+    }
   }
 }
 
@@ -151,7 +316,7 @@ std::vector<test::Generator> projected_generators() {
   return kept;
 }
 
-INSTANTIATE_TEST_SUITE_P(generators, interpolation_natural,
+INSTANTIATE_TEST_SUITE_P(generators, interpolation_natural_weights,
                          testing::ValuesIn(projected_generators()),
                          [](const auto& tested) { return std::string(tested.param.name); });
 
