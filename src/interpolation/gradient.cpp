@@ -25,7 +25,8 @@ class GradientFinder {
   GradientFinder(const Ground& ground, const SolidStars& stars, unsigned rings)
       : ground_(ground), rings_(stars), num_rings_(rings) {}
 
-  void append(Index v, GradientRows& rows) {
+  // Whether v has a gradient: the sum of weights() times differences of values from v's.
+  bool find(Index v) {
     const exact::SplitPoint& x = ground_.unit(v);
     const Place place{ground_.point(v), x, {}};
     neighbors_.clear();
@@ -36,22 +37,12 @@ class GradientFinder {
       neighbors_.push_back(w);
       steps_.push_back(to_w);
     }
-    if (fit_.find(exact::to_vector(x.hi), steps_, weights_)) append_row(v, rows);
-    rows.offsets.push_back(rows.vertices.size());
+    return fit_.find(exact::to_vector(x.hi), steps_, weights_);
   }
+  [[nodiscard]] const std::vector<Index>& neighbors() const { return neighbors_; }
+  [[nodiscard]] const std::vector<Vec>& weights() const { return weights_; }
 
  private:
-  void append_row(Index v, GradientRows& rows) const {
-    Vec sum{0, 0, 0};
-    for (const Vec& weight : weights_) sum = sum + weight;
-    rows.vertices.push_back(v);
-    rows.weights.push_back(exact::to_point(-1 * sum));
-    for (std::size_t k = 0; k < weights_.size(); ++k) {
-      rows.vertices.push_back(neighbors_[k]);
-      rows.weights.push_back(exact::to_point(weights_[k]));
-    }
-  }
-
   const Ground& ground_;
   SolidRings rings_;
   unsigned num_rings_;
@@ -60,6 +51,15 @@ class GradientFinder {
   std::vector<Vec> steps_;
   std::vector<Vec> weights_;
 };
+
+void append_row(Index v, const GradientFinder& found, GradientRows& rows) {
+  Vec sum{0, 0, 0};
+  for (const Vec& weight : found.weights()) sum = sum + weight;
+  rows.vertices.push_back(v);
+  rows.weights.push_back(exact::to_point(-1 * sum));
+  rows.vertices.insert(rows.vertices.end(), found.neighbors().begin(), found.neighbors().end());
+  for (const Vec& weight : found.weights()) rows.weights.push_back(exact::to_point(weight));
+}
 
 GradientRows joined(const std::vector<GradientRows>& pieces, unsigned threads) {
   GradientRows all;
@@ -92,13 +92,19 @@ GradientRows joined(const std::vector<GradientRows>& pieces, unsigned threads) {
 }  // namespace
 
 GradientRows gradient_rows(const Ground& ground, const GradientOptions& options, unsigned threads) {
+  constexpr std::size_t usual_entries = 21;
   const SolidStars stars(ground, threads);
   const std::size_t n = ground.num_vertices();
   std::vector<GradientRows> pieces(system::num_pieces(n, gradients_per_piece));
   system::parallel_for(threads, n, gradients_per_piece, [&](std::size_t begin, std::size_t end) {
     GradientFinder finder(ground, stars, options.rings);
     GradientRows& rows = pieces[begin / gradients_per_piece];
-    for (std::size_t v = begin; v < end; ++v) finder.append(static_cast<Index>(v), rows);
+    rows.vertices.reserve(usual_entries * (end - begin));
+    rows.weights.reserve(usual_entries * (end - begin));
+    for (std::size_t v = begin; v < end; ++v) {
+      if (finder.find(static_cast<Index>(v))) append_row(static_cast<Index>(v), finder, rows);
+      rows.offsets.push_back(rows.vertices.size());
+    }
   });
   return joined(pieces, threads);
 }

@@ -23,11 +23,16 @@ constexpr double least_thickness = 0x1p-40;
 constexpr double least_remainder = 0x1p-30;
 
 // The sum of c_t times term t.
-double polynomial(const std::array<double, LocalFit::max_terms>& c, double a, double b) {
+inline double polynomial(const std::array<double, LocalFit::max_terms>& c, double a, double b) {
   const double linear = c[0] * a + c[1] * b;
   const double quadratic = c[2] * (a * a) + c[3] * (a * b) + c[4] * (b * b);
   const double cubic = (a * a) * (c[5] * a + c[6] * b) + (b * b) * (c[7] * a + c[8] * b);
   return (linear + quadratic) + cubic;
+}
+
+template <class F>
+double sum_of_lanes(const F& four) {
+  return (four[0] + four[1]) + (four[2] + four[3]);
 }
 
 }  // namespace
@@ -36,60 +41,96 @@ bool LocalFit::set_chart(const Vec& x, std::span<const Vec> steps) {
   scale_ = 0;
   for (const Vec& step : steps) scale_ = std::max(scale_, largest_coordinate(step));
   if (!(scale_ >= 0x1p-1000)) return false;
-  const auto farthest = std::ranges::max_element(
-      steps, {}, [this](const Vec& step) { return dot(step / scale_, step / scale_); });
-  // x.step = -|step|^2 / 2.
-  first_axis_ = normalized(*farthest / scale_ + (dot(*farthest, *farthest / scale_) / 2) * x);
-  second_axis_ = cross(x, first_axis_);
-  points_.clear();
-  double largest = 0;
+  const double in_scale = 1 / scale_;
+  double farthest = 0;
+  Vec far{0, 0, 0};
   for (const Vec& step : steps) {
-    const double stretch = 1 / ((1 - dot(step, step) / 4) * scale_);
+    const Vec scaled_step = in_scale * step;
+    const double square = dot(scaled_step, scaled_step);
+    if (square > farthest) far = scaled_step;
+    farthest = std::max(farthest, square);
+  }
+  // x.step = -|step|^2 / 2.
+  first_axis_ = normalized(far + (farthest * scale_ / 2) * x);
+  second_axis_ = cross(x, first_axis_);
+  points_.assign((steps.size() + lanes - 1) / lanes, ChartPoints{});
+  double largest = 0;
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const Vec& step = steps[k];
+    const double stretch = in_scale / (1 - dot(step, step) / 4);
     const double a = dot(first_axis_, step) * stretch;
     const double b = dot(second_axis_, step) * stretch;
-    const double squared_radius = a * a + b * b;
-    largest = std::max(largest, squared_radius);
-    points_.push_back({a, b, squared_radius});
+    ChartPoints& points = points_[k / lanes];
+    points.a[k % lanes] = a;
+    points.b[k % lanes] = b;
+    points.weight[k % lanes] = 1;
+    largest = std::max(largest, a * a + b * b);
   }
-  const double radius = reach * std::sqrt(largest);
-  const double least = (least_radius * least_radius) * (radius * radius);
-  for (ChartPoint& p : points_) {
-    const double lacking = radius - std::sqrt(p.weight);
-    p.weight = (lacking * lacking) / std::max(p.weight, least);
-  }
+  set_weights(largest);
   return true;
 }
 
-bool LocalFit::make_round() {
-  double aa = 0;
-  double ab = 0;
-  double bb = 0;
-  for (const auto& [a, b, weight] : points_) {
-    aa += weight * (a * a);
-    ab += weight * (a * b);
-    bb += weight * (b * b);
+void LocalFit::set_weights(double largest_square) {
+  const double radius = reach * std::sqrt(largest_square);
+  const double least = (least_radius * least_radius) * (radius * radius);
+  for (ChartPoints& p : points_) {
+    for (std::size_t i = 0; i < lanes; ++i) {
+      const double square = p.a[i] * p.a[i] + p.b[i] * p.b[i];
+      const double lacking = radius - std::sqrt(square);
+      p.weight[i] *= (lacking * lacking) / std::max(square, least);
+    }
   }
+}
+
+bool LocalFit::make_round() {
+  std::array<Four, 3> sums{};
+  for (const ChartPoints& p : points_) {
+    for (std::size_t i = 0; i < lanes; ++i) {
+      sums[0][i] += p.weight[i] * (p.a[i] * p.a[i]);
+      sums[1][i] += p.weight[i] * (p.a[i] * p.b[i]);
+      sums[2][i] += p.weight[i] * (p.b[i] * p.b[i]);
+    }
+  }
+  const double aa = sum_of_lanes(sums[0]);
+  const double ab = sum_of_lanes(sums[1]);
+  const double bb = sum_of_lanes(sums[2]);
   shear_ = ab / aa;
   const double rest = bb - shear_ * ab;
   if (!(rest > least_thickness * least_thickness * aa && rest > least_remainder * bb)) return false;
   to_round_ = {1 / std::sqrt(aa), 1 / std::sqrt(rest)};
-  for (ChartPoint& p : points_) {
-    p.b = to_round_[1] * (p.b - shear_ * p.a);
-    p.a *= to_round_[0];
+  for (ChartPoints& p : points_) {
+    for (std::size_t i = 0; i < lanes; ++i) {
+      p.b[i] = to_round_[1] * (p.b[i] - shear_ * p.a[i]);
+      p.a[i] = to_round_[0] * p.a[i];
+    }
   }
   return true;
 }
 
 void LocalFit::add_moments() {
-  moments_ = {};
-  for (const auto& [a, b, weight] : points_) {
-    std::array<double, 7> power{weight * (a * a), weight * (a * b), weight * (b * b)};
-    for (std::size_t q = 0; q < 3; ++q) moments_[0][q] += power[q];
-    for (std::size_t s = 3; s <= 6; ++s) {
-      power[s] = power[s - 1] * b;
-      for (std::size_t q = 0; q < s; ++q) power[q] *= a;
-      for (std::size_t q = 0; q <= s; ++q) moments_[s - 2][q] += power[q];
+  std::array<std::array<Four, 7>, 5> sums{};
+  for (const ChartPoints& p : points_) {
+    std::array<Four, 7> power{};
+    for (std::size_t i = 0; i < lanes; ++i) {
+      power[0][i] = p.weight[i] * (p.a[i] * p.a[i]);
+      power[1][i] = p.weight[i] * (p.a[i] * p.b[i]);
+      power[2][i] = p.weight[i] * (p.b[i] * p.b[i]);
     }
+    for (std::size_t q = 0; q < 3; ++q) {
+      for (std::size_t i = 0; i < lanes; ++i) sums[0][q][i] += power[q][i];
+    }
+    for (std::size_t s = 3; s <= 6; ++s) {
+      for (std::size_t i = 0; i < lanes; ++i) power[s][i] = power[s - 1][i] * p.b[i];
+      for (std::size_t q = 0; q < s; ++q) {
+        for (std::size_t i = 0; i < lanes; ++i) power[q][i] *= p.a[i];
+      }
+      for (std::size_t q = 0; q <= s; ++q) {
+        for (std::size_t i = 0; i < lanes; ++i) sums[s - 2][q][i] += power[q][i];
+      }
+    }
+  }
+  for (std::size_t s = 2; s <= 6; ++s) {
+    for (std::size_t q = 0; q <= s; ++q) moments_[s - 2][q] = sum_of_lanes(sums[s - 2][q]);
   }
 }
 
@@ -152,9 +193,20 @@ bool LocalFit::find(const Vec& x, std::span<const Vec> steps, std::vector<Vec>& 
   const Vec sheared = (to_round_[1] * shear_ / scale_) * first_axis_;
   const Vec b_slope = second - sheared;
   const Vec a_slope = (to_round_[0] / scale_) * first_axis_;
-  for (const auto& [a, b, weight] : points_) {
-    weights.push_back((weight * polynomial(by_a, a, b)) * a_slope +
-                      (weight * polynomial(by_b, a, b)) * b_slope);
+  for (ChartPoints& p : points_) {
+    Four along_a{};
+    Four along_b{};
+    for (std::size_t i = 0; i < lanes; ++i) {
+      along_a[i] = p.weight[i] * polynomial(by_a, p.a[i], p.b[i]);
+      along_b[i] = p.weight[i] * polynomial(by_b, p.a[i], p.b[i]);
+    }
+    p.a = along_a;
+    p.b = along_b;
+  }
+  weights.resize(steps.size());
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const ChartPoints& p = points_[k / lanes];
+    weights[k] = p.a[k % lanes] * a_slope + p.b[k % lanes] * b_slope;
   }
   return true;
 }

@@ -45,21 +45,26 @@ class LocalFit {
   [[nodiscard]] std::size_t num_terms() const { return num_terms_; }
 
  private:
-  struct ChartPoint {
-    double a;
-    double b;
-    double weight;
+  // Neighbors come in fours, so that the loops over them become vector code; sums are of each fourth
+  // one, and these are added at last. Those that fill up have no weight.
+  static constexpr std::size_t lanes = 4;
+  using Four = std::array<double, lanes>;
+  struct ChartPoints {
+    Four a;
+    Four b;
+    Four weight;
   };
   using Coefficients = std::array<double, max_terms>;
 
   bool set_chart(const Vec& x, std::span<const Vec> steps);
+  void set_weights(double largest_square);
   bool make_round();
   void add_moments();
   [[nodiscard]] double entry(std::size_t i, std::size_t j) const;
   void factor(std::size_t most_terms);
   [[nodiscard]] Coefficients solved_for(std::size_t unit) const;
 
-  std::vector<ChartPoint> points_;
+  std::vector<ChartPoints> points_;
   Vec first_axis_{};
   Vec second_axis_{};
   double scale_ = 0;  // the unit of the plane's coordinates
