@@ -7,7 +7,7 @@ import os
 import pathlib
 import sys
 
-from . import against_peers, environment, features, hostile, ratios, rondel_alone
+from . import accuracy, against_peers, environment, features, hostile, ratios, rondel_alone
 from .runs import Limits
 from .settings import ROOT, Settings
 
@@ -23,6 +23,7 @@ TABLES = {
     "hulls": features.hulls,
     "queries": features.queries,
     "changes": features.changes,
+    "accuracy": accuracy.of_values,
 }
 
 # How large and how often: (peers up to 2^k, Rondel up to 2^k, division of fixed sizes, limits).
