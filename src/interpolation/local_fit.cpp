@@ -14,7 +14,10 @@ constexpr std::array<std::size_t, LocalFit::max_terms> degrees = {1, 1, 2, 2, 2,
 constexpr std::array<std::size_t, LocalFit::max_terms> powers_of_b = {0, 1, 0, 1, 2, 0, 1, 2, 3};
 
 // The radius at which weights vanish, over the distance of the farthest neighbor.
-constexpr double reach = 1.1;
+constexpr double reach = 1.2;
+// Of linear, quadratic and cubic fits: one or two more than terms, lest a pair of close sites decide.
+constexpr std::array<std::size_t, 3> least_neighbors = {2, 6, 11};
+
 // No neighbor weighs more than one at this part of the radius.
 constexpr double least_radius = 1.0 / 16;
 
@@ -77,7 +80,8 @@ void LocalFit::set_weights(double largest_square) {
     for (std::size_t i = 0; i < lanes; ++i) {
       const double square = p.a[i] * p.a[i] + p.b[i] * p.b[i];
       const double lacking = radius - std::sqrt(square);
-      p.weight[i] *= (lacking * lacking) / std::max(square, least);
+      const double root = (lacking * lacking) / std::max(square, least);
+      p.weight[i] *= root * root;
     }
   }
 }
@@ -182,8 +186,8 @@ bool LocalFit::find(const Vec& x, std::span<const Vec> steps, std::vector<Vec>& 
   if (steps.size() < terms_of_degree[0] || !set_chart(x, steps) || !make_round()) return false;
   add_moments();
   std::size_t most_terms = terms_of_degree[0];
-  for (const std::size_t terms : terms_of_degree) {
-    if (terms <= steps.size()) most_terms = terms;
+  for (std::size_t i = 0; i < terms_of_degree.size(); ++i) {
+    if (steps.size() >= least_neighbors[i]) most_terms = terms_of_degree[i];
   }
   factor(most_terms);
   const Coefficients by_a = solved_for(0);

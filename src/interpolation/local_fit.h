@@ -5,17 +5,18 @@
 // of x (scaled so that it is true to length at x) which has the value of x there and fits those of the
 // neighbors best, in the sense of weighted least squares with the weights
 //
-//     w = ((1 - r) / max(r, 1/16))^2,   r = the distance over 1.1 times that of the farthest neighbor
+//     w = ((1 - r) / max(r, 1/16))^4,   r = the distance over 1.2 times that of the farthest neighbor.
 //
-// (those of GRADL in Renka's SSRFPACK, ACM TOMS 23, 1997, whose fit is quadratic; the bound is ours: a
-// neighbor very near to x says nothing about gradients but noise). The fit is cubic, and quadratic or
-// linear where the neighbors do not determine it well.
+// The fit is cubic, and quadratic or linear where the neighbors do not determine it well. (GRADL in
+// Renka's SSRFPACK, ACM TOMS 23, 1997, has a quadratic fit and the square of (1 - r) / r. What is best
+// for smooth functions was measured: docs/theory/cubic.md. The bound is for pairs of sites much nearer
+// than others: they say nothing about gradients but noise.)
 //
 // The plane's coordinates are first made such that the weighted second moments are those of a round
 // cloud, which changes no fit but lets thin clouds pass. Of the normal equations, whose entries are 25
 // moments, the columns stand in the order of their degree; so one factorization L D L^T serves all three
-// fits. A pivot below least_pivot of its diagonal entry ends it at the degree before. Then no entry of
-// the inverse is large, and the weights are right to about 1e-12 of the largest.
+// fits. A pivot below least_pivot of its diagonal entry ends it at the degree before; so rounding errors
+// of weights are below 1e-9 of the largest, mostly 1e-13, and polynomials come back as exactly.
 #pragma once
 
 #include <array>
@@ -32,7 +33,7 @@ class LocalFit {
  public:
   static constexpr std::size_t max_terms = 9;
   static constexpr std::array<std::size_t, 3> terms_of_degree = {2, 5, 9};
-  static constexpr double least_pivot = 0x1p-10;
+  static constexpr double least_pivot = 0x1p-16;
 
   using Vec = exact::Vector3<double>;
 
