@@ -119,11 +119,14 @@ auto NaturalOracle::weights(const Point& target, NaturalPlane plane) const -> An
     sides[i] = sqrt((dx * dx + dy * dy) / (own.x * own.x + own.y * own.y));
     // Who is nearest in the cell has a side of it: the way from there to him leaves the cell where he
     // is nearest.
+    // Next ones first, which leave a small polygon to the others.
     Polygon stolen = cell;
-    for (const Corner& other : cell) {
-      const HalfPlane& its = half_planes[other.site];
-      if (other.site != i && !stolen.empty()) {
-        stolen = cut(stolen, {its.x - own.x, its.y - own.y, its.t - own.t}, other.site);
+    for (std::size_t step = 1; step < cell.size() && !stolen.empty(); ++step) {
+      const std::size_t away = step % 2 == 1 ? (step + 1) / 2 : cell.size() - step / 2;
+      const std::size_t other = cell[(k + away) % cell.size()].site;
+      const HalfPlane& its = half_planes[other];
+      if (other != i) {
+        stolen = cut(stolen, {its.x - own.x, its.y - own.y, its.t - own.t}, other);
       }
     }
     areas[i] = twice_area(stolen);

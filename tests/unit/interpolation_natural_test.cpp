@@ -296,6 +296,7 @@ TEST(interpolation_natural, the_region_is_that_of_the_query) {
       std::set<std::set<Index>> expected;
       std::set<std::set<Index>> found;
       for (const Index f : faces) {
+        EXPECT_TRUE(ground.is_solid(f) || is_on_contour(ground, place));
         const auto& corners = ground.mesh()[f].vertex;
         expected.insert({corners.begin(), corners.end()});
       }
