@@ -10,6 +10,8 @@ power_diagram
     The cells of circles.
 convex_hull
     The hull of any points in space.
+interpolate
+    Values at longitudes and latitudes, from values at others.
 unit_vectors, lonlat
     Degrees to unit vectors and back.
 
@@ -19,6 +21,8 @@ rondel.out_of_core
     Triangulations that are larger than the memory, from files to files.
 rondel.distributed
     Triangulations by several processes, with MPI or without.
+rondel.xarray
+    The accessor `rondel` of Datasets, which interpolates.
 
 Classes
 -------
@@ -28,6 +32,10 @@ SphericalDelaunay, PowerDiagram, ConvexHull
     Results.
 DynamicTriangulation
     Sites that come, go and move.
+SphericalInterpolator
+    In place of `scipy.interpolate.LinearNDInterpolator`.
+Weights
+    What carries values from sites to targets, as a sparse matrix.
 """
 
 from . import _core
@@ -37,11 +45,13 @@ from ._diagram import Cells
 from ._dynamic import DynamicTriangulation, Snapshot
 from ._errors import InvalidInput
 from ._hull import ConvexHull, convex_hull
+from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
 from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where
 from ._voronoi import SphericalVoronoi
+from ._weights import Weights, point_set_hash
 
 __version__ = _core.version
 
@@ -57,12 +67,16 @@ __all__ = [
     "PowerDiagram",
     "Snapshot",
     "SphericalDelaunay",
+    "SphericalInterpolator",
     "SphericalVoronoi",
+    "Weights",
     "Where",
     "convex_hull",
     "delaunay",
     "delaunay_lonlat",
+    "interpolate",
     "lonlat",
+    "point_set_hash",
     "power_diagram",
     "unit_vectors",
 ]

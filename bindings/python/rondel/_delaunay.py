@@ -22,6 +22,7 @@ from ._arrays import (
     lonlat,
 )
 from ._diagram import Diagram
+from ._interpolation import Interpolation
 from ._mesh import Mesh
 from ._queries import Queries
 from ._types import ArrayLike, FloatArray, IntArray, Model, Progress
@@ -49,7 +50,7 @@ class CheckReport(NamedTuple):
         return self.is_valid
 
 
-class SphericalDelaunay(Mesh, Queries):
+class SphericalDelaunay(Mesh, Queries, Interpolation):
     """The Delaunay or regular triangulation of points on or close to a sphere.
 
     Exact for every finite input, and unique: it depends on the set of points alone, not on their
@@ -207,6 +208,13 @@ class SphericalDelaunay(Mesh, Queries):
 
     def _locator(self) -> _core.Locator:
         return self._lazy_locator
+
+    @cached_property
+    def _lazy_interpolator(self) -> _core.Interpolator:
+        return _core.Interpolator(self._triangulation)
+
+    def _interpolator(self) -> _core.Interpolator:
+        return self._lazy_interpolator
 
     def locate(self, xi: ArrayLike, *, threads: int | None = None) -> Location:
         """What each query point meets: a vertex, an edge, a face or nothing.

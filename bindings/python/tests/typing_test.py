@@ -30,6 +30,14 @@ reveal_type(tri.to_geojson())
 tri.voronoi().to_geojson(io.StringIO(), properties={"name": ["a", "b", "c"]})
 tri.within([1.0, 0.0, 0.0])
 rondel.delaunay(points, copies=True)
+weights = tri.weights(points, method="linear")
+reveal_type(weights.shape[0])
+reveal_type(weights.indices.size)
+reveal_type((weights @ points).size)
+reveal_type(tri.interpolate(np.ones(3), points, outside="nearest").size)
+reveal_type(tri.interpolate_winds(points[0], points[1], 0.0, 90.0)[0].size)
+reveal_type(rondel.SphericalInterpolator((points[0], points[1]), np.ones(3))(0.0, 0.0).size)
+tri.weights(points, method="spline")
 
 path = pathlib.Path("sites.npy")
 reveal_type(rondel.out_of_core.delaunay(path, "faces.npy", scratch=path, memory="2G"))
@@ -67,9 +75,16 @@ def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
     assert revealed == [
         *["int"] * 6,
         "dict[str, Any]",
+        *["int"] * 6,
         "rondel.out_of_core.Report",
         "rondel.distributed.DistributedTriangulation",
         *["int"] * 4,
     ], out
     errors = [line.rpartition("[")[2] for line in said if "error:" in line]
-    assert sorted(errors) == ["arg-type]", "arg-type]", "call-arg]", "call-overload]"], out
+    assert sorted(errors) == [
+        "arg-type]",
+        "arg-type]",
+        "arg-type]",
+        "call-arg]",
+        "call-overload]",
+    ], out

@@ -1,0 +1,161 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/tuple.h>
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "module.h"
+#include "rondel/interpolate.h"
+#include "rondel/weights.h"
+
+namespace rondel::python {
+namespace {
+
+using FieldsIn = nb::ndarray<const double, nb::ndim<2>, nb::c_contig, nb::device::cpu>;
+using VectorsIn = nb::ndarray<const double, nb::shape<-1, -1, 3>, nb::c_contig, nb::device::cpu>;
+
+std::span<const double> numbers_of(const FieldsIn& fields) {
+  return {fields.data(), fields.size()};
+}
+std::span<const Point> vectors_of(const VectorsIn& fields) {
+  return {reinterpret_cast<const Point*>(fields.data()), fields.size() / 3};
+}
+
+// Method, Outside, SharedPlace, Normalization as numbers, and the rings of gradients.
+using Choices = std::tuple<int, int, int, int, unsigned>;
+
+InterpolationOptions options_of(const Choices& choices) {
+  const auto& [method, outside, shared_place, normalization, rings] = choices;
+  return {.method = static_cast<Method>(method),
+          .outside = static_cast<Outside>(outside),
+          .shared_place = static_cast<SharedPlace>(shared_place),
+          .normalization = static_cast<Normalization>(normalization),
+          .gradient = {.rings = rings}};
+}
+
+Weights weights_from_arrays(const OffsetsIn& offsets, const IndicesIn& columns,
+                            const NumbersIn& values, std::size_t num_columns,
+                            std::uint64_t sites_hash, std::uint64_t targets_hash) {
+  const auto numbers = rows_of<double>(values);
+  const auto indices = rows_of<Index>(columns);
+  const auto ends = rows_of<std::uint64_t>(offsets);
+  return {.offsets = {ends.begin(), ends.end()},
+          .columns = {indices.begin(), indices.end()},
+          .values = {numbers.begin(), numbers.end()},
+          .num_columns = num_columns,
+          .sites_hash = sites_hash,
+          .targets_hash = targets_hash};
+}
+
+// An array of the object `self`.
+template <class T, auto member>
+auto vector_getter() {
+  return [](const nb::object& self) {
+    const auto& numbers = nb::cast<const Weights&>(self).*member;
+    return array_of<T>(self, std::span(numbers));
+  };
+}
+
+ArrayOut<double> apply_weights(const Weights& weights, const FieldsIn& fields, double fill,
+                               double most_missing, unsigned threads) {
+  const std::size_t count = fields.shape(0) * weights.num_rows();
+  return to_array<double>(watched_quietly(count, threads, [&](const Execution& execution) {
+    std::vector<double> out(count);
+    apply(weights, numbers_of(fields), out, fields.shape(0),
+          {.fill = fill, .most_missing = most_missing}, execution);
+    return out;
+  }));
+}
+
+void add_weights(nb::module_& module) {
+  nb::class_<Weights>(module, "Weights")
+      .def_static("from_arrays", &weights_from_arrays, nb::arg("offsets").noconvert(),
+                  nb::arg("columns").noconvert(), nb::arg("values").noconvert(),
+                  nb::arg("num_columns"), nb::arg("sites_hash"), nb::arg("targets_hash"))
+      .def_prop_ro("offsets", vector_getter<std::int64_t, &Weights::offsets>())
+      .def_prop_ro("columns", vector_getter<std::int32_t, &Weights::columns>())
+      .def_prop_ro("values", vector_getter<double, &Weights::values>())
+      .def_ro("num_columns", &Weights::num_columns)
+      .def_ro("sites_hash", &Weights::sites_hash)
+      .def_ro("targets_hash", &Weights::targets_hash)
+      .def("apply", &apply_weights, nb::arg("fields").noconvert(), nb::arg("fill"),
+           nb::arg("most_missing"), nb::arg("threads"));
+}
+
+ArrayOut<double> values_at(const Interpolator& self, const FieldsIn& fields,
+                           const std::optional<VectorsIn>& gradients, const PointsIn& targets,
+                           const Choices& choices, unsigned threads, const nb::object& listener) {
+  return to_array<double>(
+      watched(targets.shape(0), threads, listener, [&](const Execution& execution) {
+        const InterpolationOptions options = options_of(choices);
+        if (!gradients) {
+          return self.values(numbers_of(fields), points_of(targets), options, execution);
+        }
+        return self.values(numbers_of(fields), vectors_of(*gradients), points_of(targets), options,
+                           execution);
+      }));
+}
+
+}  // namespace
+
+void add_interpolation(nb::module_& module) {
+  add_weights(module);
+  module.def(
+      "point_set_hash",
+      [](const PointsIn& points) {
+        return unlocked([&] { return point_set_hash(points_of(points)); });
+      },
+      nb::arg("points").noconvert());
+  nb::class_<Interpolator>(module, "Interpolator")
+      .def(
+          "__init__",
+          [](Interpolator* self, const Triangulation& t) {
+            new (self) Interpolator(unlocked([&] { return Interpolator(t); }));
+          },
+          nb::arg("triangulation"))
+      .def(
+          "weights",
+          [](const Interpolator& self, const PointsIn& targets, const Choices& choices,
+             unsigned threads, const nb::object& listener) {
+            return watched(targets.shape(0), threads, listener, [&](const Execution& execution) {
+              return self.weights(points_of(targets), options_of(choices), execution);
+            });
+          },
+          nb::arg("targets").noconvert(), nb::arg("choices"), nb::arg("threads"),
+          nb::arg("progress").none())
+      .def("values", &values_at, nb::arg("fields").noconvert(),
+           nb::arg("gradients").noconvert().none(), nb::arg("targets").noconvert(),
+           nb::arg("choices"), nb::arg("threads"), nb::arg("progress").none())
+      .def(
+          "gradient",
+          [](const Interpolator& self, std::size_t size, unsigned rings, unsigned threads,
+             const nb::object& listener) {
+            return watched(size, threads, listener, [&](const Execution& execution) {
+              return self.gradient({.rings = rings}, execution);
+            });
+          },
+          nb::arg("size"), nb::arg("rings"), nb::arg("threads"), nb::arg("progress").none())
+      .def(
+          "vectors",
+          [](const Interpolator& self, const VectorsIn& fields, const PointsIn& targets,
+             const Choices& choices, unsigned threads, const nb::object& listener) {
+            return points_out(
+                watched(targets.shape(0), threads, listener, [&](const Execution& execution) {
+                  return self.vectors(vectors_of(fields), points_of(targets), options_of(choices),
+                                      execution);
+                }));
+          },
+          nb::arg("fields").noconvert(), nb::arg("targets").noconvert(), nb::arg("choices"),
+          nb::arg("threads"), nb::arg("progress").none());
+}
+
+}  // namespace rondel::python

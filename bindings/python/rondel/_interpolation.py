@@ -1,0 +1,323 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Values between sites, for triangulations."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_floats, as_threads, unit_vectors
+from ._types import ArrayLike, FloatArray, Progress
+from ._weights import Weights, as_fields
+
+Method: TypeAlias = Literal["nearest", "linear", "laplace", "sibson", "hermite", "cubic"]
+Outside: TypeAlias = Literal["nan", "nearest", "error"]
+SharedPlace: TypeAlias = Literal["first", "mean", "error"]
+Normalization: TypeAlias = Literal["unity", "homogeneous"]
+
+METHODS = ("nearest", "linear", "laplace", "sibson", "hermite", "cubic")
+_OUTSIDE = ("nan", "nearest", "error")
+_SHARED_PLACE = ("first", "mean", "error")
+_NORMALIZATION = ("unity", "homogeneous")
+
+
+def _position(name: str, value: Any, known: tuple[str, ...]) -> int:
+    if value not in known:
+        raise ValueError(f"{name} must be one of {', '.join(map(repr, known))}, not {value!r}")
+    return known.index(value)
+
+
+def _choices(
+    method: Method,
+    outside: Outside,
+    duplicates: SharedPlace,
+    normalization: Normalization,
+    rings: int,
+) -> tuple[int, int, int, int, int]:
+    return (
+        _position("method", method, METHODS),
+        _position("outside", outside, _OUTSIDE),
+        _position("duplicates", duplicates, _SHARED_PLACE),
+        _position("normalization", normalization, _NORMALIZATION),
+        _as_rings(rings),
+    )
+
+
+def _as_rings(rings: int) -> int:
+    rings = operator.index(rings)
+    if not 1 <= rings <= 100:
+        raise ValueError(f"rings must be from 1 to 100, not {rings}")
+    return rings
+
+
+def _as_targets(targets: ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
+    """Targets as (m, 3), and the shape of the answers."""
+    array = as_floats(targets, "targets")
+    if array.shape == (0,):
+        array = array.reshape(0, 3)
+    if array.ndim == 0 or array.shape[-1] != 3:
+        raise ValueError(
+            f"targets must have shape (..., 3), not {array.shape}; "
+            "rondel.unit_vectors(lon, lat) makes them of degrees"
+        )
+    return array.reshape(-1, 3), array.shape[:-1]
+
+
+def _as_vectors(values: ArrayLike, num_sites: int, name: str) -> FloatArray:
+    array = as_floats(values, name)
+    if array.ndim < 2 or array.shape[-2:] != (num_sites, 3):
+        raise ValueError(f"{name} must have shape (..., {num_sites}, 3), not {array.shape}")
+    return array
+
+
+def directions(lon: FloatArray, lat: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """The unit vectors to the east and to the north at some places, shape (..., 3)."""
+    a, b = np.radians(lon), np.radians(lat)
+    east = np.stack([-np.sin(a), np.cos(a), np.zeros_like(a)], axis=-1)
+    north = np.stack([-np.sin(b) * np.cos(a), -np.sin(b) * np.sin(a), np.cos(b)], axis=-1)
+    return east, north
+
+
+class Interpolation:
+    """Values between the sites of a triangulation. Targets stand for rays from the center."""
+
+    @property
+    def npoints(self) -> int:
+        raise NotImplementedError
+
+    @property
+    def lonlat(self) -> FloatArray:
+        raise NotImplementedError
+
+    def _interpolator(self) -> _core.Interpolator:
+        raise NotImplementedError
+
+    def weights(
+        self,
+        targets: ArrayLike,
+        method: Method = "sibson",
+        *,
+        outside: Outside = "nan",
+        duplicates: SharedPlace = "first",
+        normalization: Normalization = "unity",
+        rings: int = 2,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> Weights:
+        """What makes values at targets of values at the sites, for any number of fields.
+
+        Parameters
+        ----------
+        targets : array_like, shape (..., 3)
+            Only directions from the center of the sphere count. Of degrees:
+            ``rondel.unit_vectors(lon, lat)``.
+        method : str, optional
+            'nearest'; 'linear' in the triangles; 'laplace' and 'sibson' of all natural neighbors;
+            'hermite' (these, with gradients) and 'cubic' (smooth), which estimate gradients.
+        outside : {'nan', 'nearest', 'error'}, optional
+            What a target gets that no face of the sites has: nothing, what the nearest site has,
+            or an `InvalidInput`.
+        duplicates : {'first', 'mean', 'error'}, optional
+            Which value counts where several sites are in one place.
+        normalization : {'unity', 'homogeneous'}, optional
+            Whether the weights of a target have the sum 1, so that constants come back, or give
+            its unit vector if they are applied to those of the sites, so that x, y, z come back.
+        rings : int, optional
+            Gradients are estimated from sites up to so many edges away.
+        threads : int, optional
+            At most so many; by default one for each core. The result is the same.
+        progress : callable, optional
+            Called as ``progress(stage, fraction)`` some times a second.
+
+        Returns
+        -------
+        Weights
+            A row for each target, in C order.
+
+        Raises
+        ------
+        InvalidInput
+            If a target is not finite or is the center, with `index`, or because of 'error'; or if
+            the model is 'weighted' and the method not 'nearest'.
+
+        """
+        rays, _ = _as_targets(targets)
+        choices = _choices(method, outside, duplicates, normalization, rings)
+        return Weights._of(
+            self._interpolator().weights(rays, choices, as_threads(threads), progress)
+        )
+
+    def interpolate(
+        self,
+        values: ArrayLike,
+        targets: ArrayLike,
+        method: Method = "sibson",
+        *,
+        gradients: ArrayLike | None = None,
+        outside: Outside = "nan",
+        duplicates: SharedPlace = "first",
+        normalization: Normalization = "unity",
+        rings: int = 2,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> FloatArray:
+        """Values at targets. For many calls with the same targets `weights` is faster.
+
+        Parameters
+        ----------
+        values : array_like, shape (..., n)
+            A value for each site; more axes are more fields, such as time steps.
+        targets : array_like, shape (..., 3)
+        method : str, optional
+        gradients : array_like, shape (..., n, 3), optional
+            For 'hermite' and 'cubic' the tangent gradient of each value, in its unit a radian,
+            instead of an estimate.
+        outside, duplicates, normalization, rings, threads, progress
+            As in `weights`.
+
+        Returns
+        -------
+        ndarray of float64
+            The shape of the values without the last axis, then that of the targets without
+            theirs. NaN where there is no value, and where it needs one that is NaN.
+
+        Raises
+        ------
+        InvalidInput
+            As `weights`.
+
+        """
+        fields = as_fields(values, self.npoints)
+        rays, shape = _as_targets(targets)
+        choices = _choices(method, outside, duplicates, normalization, rings)
+        leading = fields.shape[:-1]
+        slopes = None
+        if gradients is not None:
+            slopes = np.broadcast_to(
+                _as_vectors(gradients, self.npoints, "gradients"), (*fields.shape, 3)
+            )
+            slopes = np.ascontiguousarray(slopes.reshape(-1, self.npoints, 3))
+        if not fields.size:
+            return np.full((*leading, *shape), np.nan)
+        found = self._interpolator().values(
+            fields.reshape(-1, self.npoints), slopes, rays, choices, as_threads(threads), progress
+        )
+        return found.reshape((*leading, *shape))[()]
+
+    def gradient(
+        self,
+        values: ArrayLike,
+        *,
+        rings: int = 2,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> FloatArray:
+        """The gradients at the sites, estimated from the values around them.
+
+        Parameters
+        ----------
+        values : array_like, shape (..., n)
+        rings : int, optional
+            The sites up to so many edges away count.
+        threads : int, optional
+        progress : callable, optional
+
+        Returns
+        -------
+        ndarray of float64, shape (..., n, 3)
+            Tangent vectors, in units of the values a radian; divide by the radius for units a
+            length. NaN where there is none: below dimension 2, and around missing values.
+
+        """
+        fields = as_fields(values, self.npoints)
+        weights = Weights._of(
+            self._interpolator().gradient(
+                self.npoints, _as_rings(rings), as_threads(threads), progress
+            )
+        )
+        return weights.apply(fields, threads=threads).reshape(*fields.shape, 3)
+
+    def interpolate_vectors(
+        self,
+        vectors: ArrayLike,
+        targets: ArrayLike,
+        method: Method = "sibson",
+        *,
+        outside: Outside = "nan",
+        duplicates: SharedPlace = "first",
+        rings: int = 2,
+        threads: int | None = None,
+        progress: Progress = None,
+    ) -> FloatArray:
+        """Tangent vectors at the sites, such as winds, carried to tangent vectors at targets.
+
+        In space, so that poles are places like all others: the wind of a turning globe comes back
+        as it is with 'linear', 'laplace' and 'sibson', and nearly so with 'hermite' and 'cubic'.
+
+        Parameters
+        ----------
+        vectors : array_like, shape (..., n, 3)
+            Cartesian. For components to the east and the north see `interpolate_winds`.
+        targets : array_like, shape (..., 3)
+        method, outside, duplicates, rings, threads, progress
+            As in `weights`.
+
+        Returns
+        -------
+        ndarray of float64, shape (..., 3)
+            The shape of the vectors without the last two axes, then that of the targets.
+
+        """
+        fields = _as_vectors(vectors, self.npoints, "vectors")
+        rays, shape = _as_targets(targets)
+        choices = _choices(method, outside, duplicates, "homogeneous", rings)
+        leading = fields.shape[:-2]
+        if not fields.size:
+            return np.full((*leading, *shape, 3), np.nan)
+        found = self._interpolator().vectors(
+            fields.reshape(-1, self.npoints, 3), rays, choices, as_threads(threads), progress
+        )
+        return found.reshape((*leading, *shape, 3))
+
+    def interpolate_winds(
+        self,
+        east: ArrayLike,
+        north: ArrayLike,
+        lon: ArrayLike,
+        lat: ArrayLike,
+        method: Method = "sibson",
+        **options: Any,
+    ) -> tuple[FloatArray, FloatArray]:
+        """Winds to the east and the north, at longitudes and latitudes; across poles, too.
+
+        Parameters
+        ----------
+        east, north : array_like, shape (..., n)
+            The components at the sites. At a pole the east is that of the longitude by which the
+            site was given, otherwise of longitude 0.
+        lon, lat : array_like
+            Where to, in degrees; broadcast against each other.
+        method : str, optional
+        **options
+            As in `interpolate_vectors`.
+
+        Returns
+        -------
+        tuple of ndarray of float64
+            The two components there. At a pole they are those of its longitude in `lon`.
+
+        """
+        u = as_fields(east, self.npoints, "east")
+        v = as_fields(north, self.npoints, "north")
+        if u.shape != v.shape:
+            raise ValueError(f"east and north differ in shape: {u.shape} and {v.shape}")
+        to_east, to_north = directions(*np.moveaxis(self.lonlat, -1, 0))
+        vectors = u[..., None] * to_east + v[..., None] * to_north
+        lon, lat = np.broadcast_arrays(as_floats(lon, "lon"), as_floats(lat, "lat"))
+        found = self.interpolate_vectors(vectors, unit_vectors(lon, lat), method, **options)
+        to_east, to_north = directions(lon, lat)
+        return (found * to_east).sum(axis=-1), (found * to_north).sum(axis=-1)

@@ -1,0 +1,180 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Values between points in one call, and in the manner of `scipy.interpolate`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._arrays import as_floats, as_points, unit_vectors
+from ._delaunay import SphericalDelaunay, delaunay, delaunay_lonlat
+from ._interpolation import METHODS, Method
+from ._repr import Described, count
+from ._types import ArrayLike, FloatArray
+from ._weights import as_fields
+
+
+def _triangulated(points: Any) -> SphericalDelaunay:
+    """The triangulation of a tuple (lon, lat), of rows of two degrees or three coordinates."""
+    if isinstance(points, SphericalDelaunay):
+        return points
+    if isinstance(points, tuple):
+        if len(points) != 2:
+            raise ValueError(f"a tuple of points is (lon, lat), not {len(points)} arrays")
+        return delaunay_lonlat(*points)
+    array = as_floats(points, "points")
+    if array.ndim == 2 and array.shape[1] == 2:
+        return delaunay_lonlat(array[:, 0], array[:, 1])
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise ValueError(f"points must have shape (n, 2), in degrees, or (n, 3), not {array.shape}")
+    return delaunay(as_points(array))
+
+
+def _as_rays(xi: tuple[Any, ...]) -> FloatArray:
+    """The targets of f(points), f((lon, lat)) or f(lon, lat)."""
+    if len(xi) == 1 and isinstance(xi[0], tuple):
+        xi = xi[0]
+    if len(xi) == 2:
+        return unit_vectors(*xi)
+    if len(xi) != 1:
+        raise TypeError(f"targets are points, or longitudes and latitudes, not {len(xi)} arrays")
+    array = as_floats(xi[0], "targets")
+    if array.ndim and array.shape[-1] == 2:
+        return unit_vectors(array[..., 0], array[..., 1])
+    return array
+
+
+class SphericalInterpolator(Described):
+    """Values between points on the sphere, as `scipy.interpolate.LinearNDInterpolator`.
+
+    Parameters
+    ----------
+    points : tuple of array_like, array_like or SphericalDelaunay
+        A tuple (lon, lat) or rows of two numbers are degrees; rows of three are points in space.
+    values : array_like, shape (..., n)
+        A value for each point; more axes, such as time, come first.
+    method : str, optional
+        'nearest', 'linear', 'laplace', 'sibson', 'hermite' or 'cubic'.
+    fill_value : float, optional
+        The value outside of points that do not surround the center of the sphere.
+    **options
+        As in `SphericalDelaunay.interpolate`.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> lon, lat = [0, 120, 240, 0, 180], [-30, -30, -30, 90, -90]
+    >>> f = rondel.SphericalInterpolator((lon, lat), [10, 20, 30, 0, 5], method="linear")
+    >>> f
+    <rondel.SphericalInterpolator: 5 points, linear>
+    >>> f([60, 180], 0).round(2)
+    array([10.  , 16.67])
+
+    """
+
+    def __init__(
+        self,
+        points: Any,
+        values: ArrayLike,
+        method: Method = "sibson",
+        *,
+        fill_value: float = np.nan,
+        **options: Any,
+    ) -> None:
+        if method not in METHODS:
+            raise ValueError(f"method must be one of {', '.join(METHODS)}, not {method!r}")
+        self._triangulation = _triangulated(points)
+        self._values = as_fields(values, self._triangulation.npoints)
+        self._method = method
+        self._fill = float(fill_value)
+        self._options = options
+
+    @property
+    def triangulation(self) -> SphericalDelaunay:
+        """SphericalDelaunay: that of the points."""
+        return self._triangulation
+
+    def __call__(self, *xi: Any) -> FloatArray:
+        """The values at places.
+
+        Parameters
+        ----------
+        *xi : array_like
+            ``f(lon, lat)`` in degrees, broadcast against each other; or one array of shape (..., 2)
+            in degrees, or (..., 3) in space.
+
+        Returns
+        -------
+        ndarray of float64
+            The shape of the values without the last axis, then that of the places.
+
+        """
+        rays = _as_rays(xi)
+        tri, method, options = self._triangulation, self._method, self._options
+        found = np.asarray(tri.interpolate(self._values, rays, method, **options))
+        if not np.isnan(self._fill) and np.isnan(found).any():
+            suspects = np.isnan(found).any(axis=tuple(range(self._values.ndim - 1)))
+            same = {name: value for name, value in options.items() if name != "gradients"}
+            has_row = np.diff(tri.weights(rays[suspects], method, **same).indptr) > 0
+            outside = np.array(suspects)
+            outside[suspects] = ~has_row
+            found[..., outside] = self._fill
+        return found[()]
+
+    def _facts(self) -> list[tuple[str, str]]:
+        return [
+            ("points", count(self._triangulation.npoints, "point")),
+            ("method", self._method),
+        ]
+
+
+def interpolate(
+    lon: ArrayLike,
+    lat: ArrayLike,
+    values: ArrayLike,
+    to_lon: ArrayLike,
+    to_lat: ArrayLike,
+    method: Method = "sibson",
+    **options: Any,
+) -> FloatArray:
+    """Values at longitudes and latitudes, from values at others, in one call.
+
+    Parameters
+    ----------
+    lon, lat : array_like, shape (n,)
+        Where the values are, in degrees. Arrays of more dimensions are flattened.
+    values : array_like, shape (..., n)
+        More axes, such as time, come first. Values of the shape of `lon` are flattened, too.
+    to_lon, to_lat : array_like
+        Where they are wanted; broadcast against each other: ``lon[None, :]``, ``lat[:, None]`` for
+        a grid.
+    method : str, optional
+    **options
+        As in `SphericalDelaunay.interpolate`.
+
+    Returns
+    -------
+    ndarray of float64
+        The other axes of the values, then those of the targets.
+
+    Raises
+    ------
+    InvalidInput
+        If an angle is not finite or a latitude is outside [-90, 90].
+
+    Examples
+    --------
+    >>> import rondel
+    >>> lon, lat = [0, 120, 240, 0, 180], [-30, -30, -30, 90, -90]
+    >>> float(rondel.interpolate(lon, lat, [10, 20, 30, 0, 5], 180, 0, method="linear").round(2))
+    16.67
+
+    """
+    tri = delaunay_lonlat(lon, lat)
+    shape = np.shape(lon)
+    if len(shape) > 1 and np.shape(values)[-len(shape) :] == shape:
+        values = np.ma.asanyarray(values) if np.ma.isMaskedArray(values) else np.asarray(values)
+        values = values.reshape(*values.shape[: -len(shape)], -1)
+    return tri.interpolate(values, unit_vectors(to_lon, to_lat), method, **options)

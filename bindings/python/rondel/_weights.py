@@ -1,0 +1,290 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Sparse weights, which carry values from sites to targets."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import as_floats, as_points, as_threads
+from ._geo import Path
+from ._repr import Described, count
+from ._tables import _replaced
+from ._types import ArrayLike, FloatArray, IntArray
+
+
+def as_fields(values: ArrayLike, num_sites: int, name: str = "values") -> FloatArray:
+    """Values of shape (..., n) as float64; what is masked is NaN."""
+    if np.ma.isMaskedArray(values):
+        values = np.ma.filled(np.ma.asarray(values).astype(np.float64), np.nan)
+    array = as_floats(values, name)
+    if array.ndim == 0 or array.shape[-1] != num_sites:
+        shape = array.shape
+        hint = "; the sites are the last axis" if num_sites in shape[:-1] else ""
+        raise ValueError(f"{name} must have shape (..., {num_sites}), not {shape}{hint}")
+    return array
+
+
+class Weights(Described):
+    """A sparse matrix with a row for each target and a column for each site.
+
+    The value of target r is the sum of ``data[k] * values[indices[k]]`` over
+    ``indptr[r] <= k < indptr[r + 1]``; a row without entries is a target without a value.
+    `SphericalDelaunay.weights` makes them. They depend on places alone, so that they serve for
+    every field and every time step.
+
+    Parameters
+    ----------
+    indptr : array_like of int, shape (m + 1,)
+    indices : array_like of int, shape (k,)
+    data : array_like, shape (k,)
+        The three arrays of a matrix in compressed rows, as in `scipy.sparse.csr_matrix`.
+    shape : tuple of int
+        The number of targets m and of sites n.
+    sites_hash, targets_hash : int, optional
+        What `is_of` compares; 0 where it is not known.
+
+    Raises
+    ------
+    InvalidInput
+        If they are no matrix in compressed rows.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> tri = rondel.delaunay([[1, 0, 0], [0, 1, 0], [0, 0, 1], [-1, -1, -1]])
+    >>> weights = tri.weights([[1, 1, 0], [1, 1, 1]], method="linear")
+    >>> weights
+    <rondel.Weights: 2 targets, 4 sites, 5 entries>
+    >>> weights.apply([10, 20, 60, 0])
+    array([15., 30.])
+
+    """
+
+    def __init__(
+        self,
+        indptr: ArrayLike,
+        indices: ArrayLike,
+        data: ArrayLike,
+        shape: tuple[int, int],
+        *,
+        sites_hash: int = 0,
+        targets_hash: int = 0,
+    ) -> None:
+        rows, columns = shape
+        offsets = _as_integers(indptr, np.int64, "indptr")
+        if len(offsets) != rows + 1:
+            raise ValueError(f"indptr must have shape ({rows + 1},), not {offsets.shape}")
+        self._weights = _core.Weights.from_arrays(
+            offsets,
+            _as_integers(indices, np.int32, "indices"),
+            np.atleast_1d(as_floats(data, "data")),
+            columns,
+            sites_hash,
+            targets_hash,
+        )
+        self.apply(np.zeros(columns), threads=1)  # says what is wrong with them
+
+    @classmethod
+    def _of(cls, weights: _core.Weights) -> Weights:
+        self = cls.__new__(cls)
+        self._weights = weights
+        return self
+
+    def __reduce__(self) -> Any:
+        hashes = {"sites_hash": self.sites_hash, "targets_hash": self.targets_hash}
+        return _unpickled, (self.indptr, self.indices, self.data, self.shape, hashes)
+
+    @property
+    def indptr(self) -> npt.NDArray[np.int64]:
+        """Ndarray of int64, shape (m + 1,): where the rows begin and end, read-only."""
+        return self._weights.offsets
+
+    @property
+    def indices(self) -> IntArray:
+        """Ndarray of int32, shape (k,): the site of each entry, read-only. The order within a row
+        depends on the places of the sites alone, so that sums along it do, too.
+        """
+        return self._weights.columns
+
+    @property
+    def data(self) -> FloatArray:
+        """Ndarray of float64, shape (k,): the weight of each entry, read-only."""
+        return self._weights.values
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Tuple of int: the number of targets and of sites."""
+        return len(self.indptr) - 1, self._weights.num_columns
+
+    @property
+    def sites_hash(self) -> int:
+        """int: `point_set_hash` of the sites; 0 where it is not known."""
+        return self._weights.sites_hash
+
+    @property
+    def targets_hash(self) -> int:
+        """int: `point_set_hash` of the targets; 0 where it is not known."""
+        return self._weights.targets_hash
+
+    def is_of(self, sites: ArrayLike | None = None, targets: ArrayLike | None = None) -> bool:
+        """Whether these are weights of such points, in such an order.
+
+        Parameters
+        ----------
+        sites : array_like, shape (n, 3), optional
+        targets : array_like, shape (..., 3), optional
+
+        Returns
+        -------
+        bool
+            False also if the hash that it takes is not known. A set that is not given is not
+            compared.
+
+        """
+        given = ((sites, self.sites_hash), (targets, self.targets_hash))
+        return all(p is None or point_set_hash(p) == known for p, known in given)
+
+    def apply(
+        self,
+        values: ArrayLike,
+        *,
+        skipna: bool = False,
+        most_missing: float = 1.0,
+        fill: float = np.nan,
+        threads: int | None = None,
+    ) -> FloatArray:
+        """The values of targets.
+
+        Parameters
+        ----------
+        values : array_like, shape (..., n)
+            A value for each site, of one field or of many: the sites are the last axis.
+        skipna : bool, optional
+            What a missing value (NaN, or masked) does. By default a target that needs one has no
+            value. With True it is left out, and the weights that are left count for its share.
+        most_missing : float, optional
+            With `skipna`: up to which share of its absolute weights a target may miss values. 1:
+            one value is enough.
+        fill : float, optional
+            The value of targets that have none.
+        threads : int, optional
+
+        Returns
+        -------
+        ndarray of float64, shape (..., m)
+
+        """
+        rows, columns = self.shape
+        fields = as_fields(values, columns)
+        leading = fields.shape[:-1]
+        if not 0 <= most_missing <= 1:
+            raise ValueError(f"most_missing must be from 0 to 1, not {most_missing}")
+        found = self._weights.apply(
+            fields.reshape(int(np.prod(leading)), columns),
+            float(fill),
+            float(most_missing) if skipna else 0.0,
+            as_threads(threads),
+        )
+        return found.reshape((*leading, rows))
+
+    def __matmul__(self, other: ArrayLike) -> FloatArray:
+        """The product with a vector (n,) or with matrices (..., n, k)."""
+        if np.ndim(other) < 2:
+            return self.apply(other)
+        return np.swapaxes(self.apply(np.swapaxes(as_floats(other, "values"), -1, -2)), -1, -2)
+
+    def tocsr(self) -> Any:
+        """The same as a `scipy.sparse.csr_matrix`, which owns its arrays."""
+        import scipy.sparse
+
+        arrays = (self.data, self.indices, self.indptr)
+        return scipy.sparse.csr_matrix(arrays, shape=self.shape, copy=True)
+
+    def save(self, path: Path) -> None:
+        """Writes a file that `load` and `scipy.sparse.load_npz` read.
+
+        Parameters
+        ----------
+        path : path-like
+            The file appears when it is complete, and replaces the one that is there.
+
+        """
+        with _replaced(path) as name, open(name, "wb") as file:
+            np.savez(
+                file,
+                indices=self.indices,
+                indptr=self.indptr,
+                format=np.array(b"csr"),
+                shape=np.array(self.shape),
+                data=self.data,
+                hashes=np.array([self.sites_hash, self.targets_hash], np.uint64),
+            )
+
+    @classmethod
+    def load(cls, path: Path) -> Weights:
+        """Reads a file of `save`, or a matrix in compressed rows of `scipy.sparse.save_npz`.
+
+        Parameters
+        ----------
+        path : path-like
+
+        Returns
+        -------
+        Weights
+
+        """
+        with np.load(path, allow_pickle=False) as file:
+            names = ("indptr", "indices", "data", "shape", "format")
+            if any(name not in file for name in names) or file["format"].item() != b"csr":
+                raise ValueError(f"{path}: no matrix in compressed rows (csr)")
+            hashes = file["hashes"].tolist() if "hashes" in file else [0, 0]
+            rows, columns = file["shape"].tolist()
+            arrays = (file["indptr"], file["indices"], file["data"])
+        return cls(*arrays, (rows, columns), sites_hash=hashes[0], targets_hash=hashes[1])
+
+    def _facts(self) -> list[tuple[str, str]]:
+        rows, columns = self.shape
+        return [
+            ("targets", count(rows, "target")),
+            ("sites", count(columns, "site")),
+            ("entries", count(len(self.data), "entry", "entries")),
+        ]
+
+
+def _unpickled(
+    indptr: Any, indices: Any, data: Any, shape: tuple[int, int], hashes: dict[str, int]
+) -> Weights:
+    return Weights(indptr, indices, data, shape, **hashes)
+
+
+def _as_integers(values: ArrayLike, kind: Any, name: str) -> Any:
+    array = np.asarray(values)
+    if array.size == 0:
+        array = array.astype(kind)
+    if array.dtype.kind not in "iu":
+        raise TypeError(f"{name} must be integers, not {array.dtype}")
+    if array.size and not 0 <= array.min() <= array.max() <= np.iinfo(kind).max:
+        raise ValueError(f"{name} has numbers that are negative or too large")
+    return np.require(array, kind, ["C", "A"]).reshape(-1)
+
+
+def point_set_hash(points: ArrayLike) -> int:
+    """A number that depends on points and their order, to tell whether weights are theirs.
+
+    Parameters
+    ----------
+    points : array_like, shape (..., 3)
+
+    Returns
+    -------
+    int
+        Of 64 bits, never 0; the same on every machine.
+
+    """
+    array = as_floats(points, "points")
+    return _core.point_set_hash(as_points(array.reshape(-1, array.shape[-1] if array.ndim else 1)))
