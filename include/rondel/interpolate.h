@@ -77,16 +77,17 @@ struct InterpolationOptions {
 /// it. For the weights w of a target, x_i being the unit vectors of the sites and u that of the target:
 ///
 /// 1. Unity: the sum of w is 1 to 4 ulp (Normalization::unity).
-/// 2. Direction: the sum of w_i x_i is r u with 0 < r <= 1, to 1e-14 (linear, laplace, sibson). So
+/// 2. Direction: the sum of w_i x_i is r u with r <= 1, to 1e-14 (linear, laplace, sibson); r is
+///    positive if all sites of the row are within 90 degrees, or the method is linear. So
 ///    a + g.x comes back as a + r g.u, where 1 - r grows with the squared distance of the sites. With
 ///    Normalization::homogeneous, w/r instead of w, it comes back as a/r + g.u.
 /// 3. Range: no weight of nearest, linear, laplace and sibson is negative. hermite and cubic may
 ///    overshoot.
 /// 4. At a site: its value, exactly, by one weight. On an edge linear has two weights.
-/// 5. Outside of all solid faces (Locator) there is no value but as Outside says; natural neighbors have
-///    none either where the new cell is larger than a hemisphere. nearest always has one if there is a
-///    site. In dimension 1 all methods but nearest are linear within solid arcs; in dimension 0 they
-///    have a value at the site alone.
+/// 5. Outside of all solid faces (Locator) there is no value but as Outside says. Natural neighbors have
+///    none either where the new cell is larger than a hemisphere, homogeneous weights where r is
+///    below 2^-20. nearest always has one if there is a site. In dimension 1 all methods but nearest
+///    are linear within solid arcs; in dimension 0 they have a value at the site alone.
 /// 6. Model::weighted has Method::nearest only, by the power distance.
 /// 7. The same bytes on every machine, for any number of threads, and for every order of the sites
 ///    that keeps the order of those in one place.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <type_traits>
@@ -40,7 +41,11 @@ class FirstOutside {
   std::atomic<std::uint64_t> first_ = no_index;
 };
 
-// Divides by r = u.(sum of w_i x_i) = 1 - sum of w_i |x_i - u|^2 / 2.
+// Below it r, in a face next to which the center lies, is hardly more than rounding errors. Natural
+// neighbors beyond 90 degrees can make it negative, too.
+constexpr double least_r = 0x1p-20;
+
+// Divides by r = u.(sum of w_i x_i) = 1 - sum of w_i |x_i - u|^2 / 2, or leaves nothing.
 inline void make_homogeneous(const Ground& ground, const exact::SplitPoint& u, Row& row) {
   double lacking = 0;
   for (const auto& [v, weight] : row) {
@@ -48,7 +53,15 @@ inline void make_homogeneous(const Ground& ground, const exact::SplitPoint& u, R
     lacking += weight * dot(s, s);
   }
   const double r = 1 - lacking / 2;
+  if (!(r >= least_r)) row.clear();
   for (Share& share : row) share.weight /= r;
+}
+// The kernel has divided.
+inline void make_homogeneous(const Ground& /*ground*/, const exact::SplitPoint& /*u*/,
+                             SlopeRow& row) {
+  const bool is_sound = std::ranges::all_of(
+      row, [](const SlopeShare& share) { return std::abs(share.weight) <= 1 / least_r; });
+  if (!is_sound) row.clear();
 }
 
 class NearestRows {
@@ -81,13 +94,8 @@ class KernelRows {
       return;
     }
     if (place_.location.where != Where::outside) kernel_(place_, row);
-    if (row.empty()) {
-      answer_outside(target, p, cursor, row);
-      return;
-    }
-    if constexpr (Kernel<K>) {
-      if (options_.normalization == Normalization::homogeneous) make_homogeneous(ground_, u, row);
-    }
+    if (options_.normalization == Normalization::homogeneous) make_homogeneous(ground_, u, row);
+    if (row.empty()) answer_outside(target, p, cursor, row);
   }
 
  private:

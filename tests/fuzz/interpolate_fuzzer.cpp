@@ -86,7 +86,7 @@ void test_row(const Question& q, std::span<const Index> columns, std::span<const
   const Method method = q.how.method;
   double sum = 0;
   for (const double weight : weights) {
-    require(std::isfinite(weight), "a weight is a number");
+    require(std::isfinite(weight), "a weight is a number: method " + std::to_string(static_cast<int>(method)));
     require(!is_positive(method) || weight >= 0, "a weight is not negative");
     sum += weight;
   }
@@ -200,7 +200,9 @@ void test(const Question& q) {
   test_gradients(q, interpolator);
   test_order(q, interpolator, weights);
   refuse_wrong_calls(q, interpolator);
-  for (const Point& v : interpolator.vectors(q.sites, q.targets, q.how)) {
+  std::vector<Point> wind;
+  for (const double value : q.field) wind.push_back({value, 1 - value, 0.5});
+  for (const Point& v : interpolator.vectors(wind, q.targets, q.how)) {
     require(std::isnan(v.x) == std::isnan(v.y) && std::isnan(v.y) == std::isnan(v.z),
             "a vector is there or it is not");
   }
