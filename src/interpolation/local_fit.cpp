@@ -19,7 +19,7 @@ constexpr double reach = 1.2;
 constexpr std::array<std::size_t, 3> least_neighbors = {2, 6, 11};
 
 // No neighbor weighs more than one at this part of the radius.
-constexpr double least_radius = 1.0 / 16;
+constexpr double least_radius = 0.25;
 
 // Clouds thinner than this, and those whose thinness rounding may have made, are lines.
 constexpr double least_thickness = 0x1p-40;

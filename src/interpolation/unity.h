@@ -30,8 +30,8 @@ void take_up_rounding(R& row) {
     }
   }
   if (sum == 1) return;
-  const auto largest = std::ranges::max_element(
-      row, {}, [](const auto& share) { return std::abs(share.weight); });
+  const auto largest =
+      std::ranges::max_element(row, {}, [](const auto& share) { return std::abs(share.weight); });
   largest->weight += 1 - sum;
 }
 

@@ -90,7 +90,8 @@ class CubicOracle {
       return x_part * x_part * x.value + other_part * other_part * pair(other, x.place) +
              Real(2) * x_part * other_part * pair(x, other.place) + Real(2) * x_part * z_n * normal;
     };
-    const auto equation = [&](const Data& x, const Real& normal, int ix, const Data& other, int io) {
+    const auto equation = [&](const Data& x, const Real& normal, int ix, const Data& other,
+                              int io) {
       const Real left_c = pair(c, x.place) - known_at(x, normal, in[ix], in[io], other, in[2]);
       const Real left_d = pair(*d, x.place) - known_at(x, normal, out[ix], out[io], other, out[2]);
       // left / z_n^2 = 2 (z_o / z_n) X + W
@@ -98,7 +99,8 @@ class CubicOracle {
                         left_c / (in[2] * in[2]) - left_d / (out[2] * out[2])};
     };
     const double square = inner(a.place - b.place, a.place - b.place).rounded();
-    const double heights = std::min(in[2].rounded() * in[2].rounded(), out[2].rounded() * out[2].rounded());
+    const double heights =
+        std::min(in[2].rounded() * in[2].rounded(), out[2].rounded() * out[2].rounded());
     // Where the arc from c to d meets the plane of the edge.
     const RealVector meets = (Real(0) - out[2]) * c.place + in[2] * d->place;
     const Three m = coordinates(meets, a.place, b.place, n);
@@ -112,7 +114,8 @@ class CubicOracle {
     return Real(1 - share) * plain + Real(share) * fitted;
   }
 
-  [[nodiscard]] const Data* opposite(Index face, unsigned edge, const std::vector<Data>& data) const {
+  [[nodiscard]] const Data* opposite(Index face, unsigned edge,
+                                     const std::vector<Data>& data) const {
     const Index other = triangulation_.neighbors()[face][edge];
     if (triangulation_.is_ghost(other)) return nullptr;
     const Triple& here = triangulation_.faces()[face];
@@ -123,7 +126,8 @@ class CubicOracle {
   }
 
   // de Casteljau in the part of the face that has u.
-  [[nodiscard]] Real evaluate(Index face, const RealVector& u, const std::vector<Data>& data) const {
+  [[nodiscard]] Real evaluate(Index face, const RealVector& u,
+                              const std::vector<Data>& data) const {
     const Triple& f = triangulation_.faces()[face];
     const std::array<const Data*, 3> x = {&data[f[0]], &data[f[1]], &data[f[2]]};
     const RealVector v = x[0]->place + x[1]->place + x[2]->place;

@@ -3,8 +3,6 @@
 
 // The cubic: against its definition in long numbers, and by the laws that it is made for.
 
-#include "interpolation/cubic.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "interpolation/cubic.h"
 #include "interpolation/gradient.h"
 #include "rondel/delaunay.h"
 #include "support/generators.h"
@@ -68,7 +67,8 @@ std::vector<Sample> samples() {
     for (int i = 0; i < 100; ++i) patch.push_back(center + size * random.direction());
     all.push_back({"patch of " + std::to_string(size), patch, size});
   }
-  all.push_back({"octahedron", {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, 1});
+  all.push_back(
+      {"octahedron", {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}}, 1});
   return all;
 }
 
@@ -272,8 +272,8 @@ TEST(interpolation_cubic, is_linear_where_a_corner_has_no_gradient) {
     Row flat;
     kernel(place, row);
     linear(place, flat);
-    const bool is_linear = std::ranges::any_of(
-        ground.mesh()[place.location.face].vertex, [&](Index v) { return has_gradient[v] == 0; });
+    const bool is_linear = std::ranges::any_of(ground.mesh()[place.location.face].vertex,
+                                               [&](Index v) { return has_gradient[v] == 0; });
     if (!is_linear) {
       for (const SlopeShare& share : row) ASSERT_NE(has_gradient[share.vertex], 0);
       continue;

@@ -4,8 +4,6 @@
 // Gradients from values around: fits against polynomials and against least squares by rotations, rows
 // by their laws.
 
-#include "interpolation/gradient.h"
-
 #include <gtest/gtest.h>
 
 #include <array>
@@ -13,6 +11,7 @@
 #include <set>
 #include <vector>
 
+#include "interpolation/gradient.h"
 #include "interpolation/local_fit.h"
 #include "rondel/delaunay.h"
 #include "support/generators.h"
@@ -108,7 +107,7 @@ std::array<double, 2> slopes_by_rotations(const Spots& spots, const std::vector<
   std::array<std::array<long double, 10>, 9> upper{};
   for (std::size_t k = 0; k < spots.size(); ++k) {
     const double r = std::hypot(spots[k][0], spots[k][1]) / (1.2 * farthest);
-    const double weight = std::pow((1 - r) / std::max(r, 1.0 / 16), 2);
+    const double weight = std::pow((1 - r) / std::max(r, 0.25), 2);
     std::array<long double, 10> row{};
     const auto at = terms(spots[k][0], spots[k][1]);
     for (std::size_t t = 0; t < num_terms; ++t) row[t] = weight * at[t];

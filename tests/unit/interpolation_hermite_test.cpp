@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "interpolation/hermite.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "interpolation/hermite.h"
 #include "rondel/delaunay.h"
 #include "support/generators.h"
 #include "unit/interpolation_slopes.h"
