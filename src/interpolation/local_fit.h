@@ -8,9 +8,9 @@
 //     w = ((1 - r) / max(r, 1/4))^4,   r = the distance over 1.2 times that of the farthest neighbor.
 //
 // The fit is cubic, and quadratic or linear where the neighbors do not determine it well. (GRADL in
-// Renka's SSRFPACK, ACM TOMS 23, 1997, has a quadratic fit and the square of (1 - r) / r. What is best
-// for smooth functions was measured: docs/theory/cubic.md. The bound keeps noise small, above all of pairs of sites much nearer
-// than others.)
+// Renka's SSRFPACK, ACM TOMS 23, 1997, has a quadratic fit and the square of (1 - r) / r; what is best
+// for smooth functions was measured: docs/theory/cubic.md. The bound keeps noise small, above all that
+// of pairs of sites much nearer than others.)
 //
 // The plane's coordinates are first made such that the weighted second moments are those of a round
 // cloud, which changes no fit but lets thin clouds pass. Of the normal equations, whose entries are 25
