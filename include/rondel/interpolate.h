@@ -76,7 +76,7 @@ struct InterpolationOptions {
 /// Interpolates on a triangulation. A target stands for the ray from the center of the sphere through
 /// it. For the weights w of a target, x_i being the unit vectors of the sites and u that of the target:
 ///
-/// 1. Unity: the sum of w is 1 to 4 ulp (Normalization::unity).
+/// 1. Unity: the sum of w is 1 to 4 ulp of the sum of |w| (Normalization::unity).
 /// 2. Direction: the sum of w_i x_i is r u with r <= 1, to 1e-14 (linear, laplace, sibson); r is
 ///    positive if all sites of the row are within 90 degrees, or the method is linear. So
 ///    a + g.x comes back as a + r g.u, where 1 - r grows with the squared distance of the sites. With

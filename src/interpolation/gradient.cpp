@@ -20,6 +20,9 @@ constexpr std::size_t gradients_per_piece = 1024;
 // Neighbors farther than 120 degrees are left out: in the stereographic plane they would be too far.
 constexpr double largest_squared_chord = 3;
 
+// Of vertices closer than its reciprocal no gradient can be had: it would not be a number.
+constexpr double largest_gradient_weight = 0x1p500;
+
 class GradientFinder {
  public:
   GradientFinder(const Ground& ground, const SolidStars& stars, unsigned rings)
@@ -37,7 +40,10 @@ class GradientFinder {
       neighbors_.push_back(w);
       steps_.push_back(to_w);
     }
-    return fit_.find(exact::to_vector(x.hi), steps_, weights_);
+    return fit_.find(exact::to_vector(x.hi), steps_, weights_) &&
+           std::ranges::all_of(weights_, [](const Vec& weight) {
+             return largest_coordinate(weight) <= largest_gradient_weight;
+           });
   }
   [[nodiscard]] const std::vector<Index>& neighbors() const { return neighbors_; }
   [[nodiscard]] const std::vector<Vec>& weights() const { return weights_; }
