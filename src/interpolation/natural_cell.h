@@ -148,14 +148,14 @@ class NaturalCell {
   [[nodiscard]] const std::vector<T>& shares() const { return shares_; }
 
  private:
-  struct Corner {
+  struct CellCorner {
     Planar<T> at;
     double error = 0;
   };
 
-  [[nodiscard]] static Corner corner(const Bisector<T>& a, const Bisector<T>& b);
-  [[nodiscard]] static Corner vertex(const Bisector<T>& a, const Bisector<T>& b,
-                                     const Bisector<T>& c);
+  [[nodiscard]] static CellCorner corner(const Bisector<T>& a, const Bisector<T>& b);
+  [[nodiscard]] static CellCorner vertex(const Bisector<T>& a, const Bisector<T>& b,
+                                         const Bisector<T>& c);
   void make_corners();
   [[nodiscard]] std::size_t after(std::size_t i) const {
     return i + 1 < bisectors_.size() ? i + 1 : 0;
@@ -171,13 +171,13 @@ class NaturalCell {
   }
 
   std::vector<Bisector<T>> bisectors_;
-  std::vector<Corner> corners_;
-  std::vector<Corner> vertices_;
+  std::vector<CellCorner> corners_;
+  std::vector<CellCorner> vertices_;
   std::vector<T> shares_;
 };
 
 template <class T>
-auto NaturalCell<T>::corner(const Bisector<T>& a, const Bisector<T>& b) -> Corner {
+auto NaturalCell<T>::corner(const Bisector<T>& a, const Bisector<T>& b) -> CellCorner {
   const T d = cross(a.p, b.p);
   const Planar<T> v = {quotient(a.s * b.p.y - b.s * a.p.y, d),
                        quotient(b.s * a.p.x - a.s * b.p.x, d)};
@@ -188,7 +188,7 @@ auto NaturalCell<T>::corner(const Bisector<T>& a, const Bisector<T>& b) -> Corne
 
 template <class T>
 auto NaturalCell<T>::vertex(const Bisector<T>& a, const Bisector<T>& b, const Bisector<T>& c)
-    -> Corner {
+    -> CellCorner {
   const Planar<T> to_b = b.p - a.p;
   const Planar<T> to_c = c.p - a.p;
   const T sb = b.s - a.s;
@@ -218,8 +218,8 @@ double NaturalCell<T>::laplace() {
   double error = 0;
   for (std::size_t i = 0; i < size; ++i) {
     const Bisector<T>& own = bisectors_[i];
-    const Corner& last = corners_[before(i)];
-    const Corner& next = corners_[i];
+    const CellCorner& last = corners_[before(i)];
+    const CellCorner& next = corners_[i];
     const T square = own.p.x * own.p.x + own.p.y * own.p.y;
     shares_[i] = quotient(cross(own.p, next.at - last.at), square);
     sum += leading(shares_[i]);

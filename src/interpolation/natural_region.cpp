@@ -25,7 +25,7 @@ void NaturalRegion::list_faces() {
   const auto size = static_cast<Index>(ring_.size());
   faces_.clear();
   stack_.clear();
-  Crossing next{root_, 1, size, no_index};
+  RegionEntry next{root_, 1, size, no_index};
   for (;;) {
     const topology::Face& face = mesh[topology::face_of(next.into)];
     const unsigned entered = topology::edge_of(next.into);

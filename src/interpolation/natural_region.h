@@ -41,7 +41,7 @@ class NaturalRegion {
   [[nodiscard]] std::span<const RegionFace> faces() const { return faces_; }
 
  private:
-  struct Crossing {
+  struct RegionEntry {
     topology::Halfedge into;  // the edge b -> a of the face that is entered
     Index a;
     Index b;
@@ -53,7 +53,7 @@ class NaturalRegion {
   topology::Halfedge root_ = 0;  // the horizon's first edge, seen from inside
   std::vector<Index> ring_;
   std::vector<RegionFace> faces_;
-  std::vector<Crossing> stack_;
+  std::vector<RegionEntry> stack_;
 };
 
 }  // namespace rondel::interpolation

@@ -16,6 +16,13 @@ namespace rondel::test {
 
 enum class NaturalPlane : std::uint8_t { gnomonic, stereographic };
 
+// The half-plane x g_x + y g_y <= t.
+struct HalfPlane {
+  Real x;
+  Real y;
+  Real t;
+};
+
 class NaturalOracle {
  public:
   // No two in one place.
@@ -28,6 +35,9 @@ class NaturalOracle {
   [[nodiscard]] Answer weights(const Point& target, NaturalPlane plane) const;
 
  private:
+  // Of each site, what is nearer to the target.
+  [[nodiscard]] std::vector<HalfPlane> half_planes(const Point& target, NaturalPlane plane) const;
+
   RealVector center_;
   std::vector<RealVector> units_;
 };
