@@ -52,7 +52,7 @@ class CubicKernel {
   Row flat_;  // the linear weights
   std::array<Index, 6> vertices_{};
   CubicFace face_;
-  CubicFace::Result result_;
+  CubicFace::FaceWeights result_;
 };
 
 }  // namespace rondel::interpolation

@@ -27,7 +27,7 @@ constexpr double full_share_of_height = 64;
 }  // namespace
 
 // Edge k, from x_i to x_j.
-struct CubicFace::Edge {
+struct CubicFace::FaceEdge {
   unsigned i;
   unsigned j;
   Vec start;  // the step to x_i
@@ -36,26 +36,26 @@ struct CubicFace::Edge {
 
   // z = a x_i + b x_j + something normal to the edge, z - x_i - that is
   // (a + b - 1) times the midpoint plus (b - a + 1) / 2 times d.
-  struct Part {
+  struct EdgeCoordinates {
     double a;
     double b;
     double along;
     double lack;  // 1 - a - b
   };
   // Of the point at e from x_i, with |e|^2 and |e - d|^2.
-  [[nodiscard]] Part part(const Vec& e, double from_i, double from_j) const {
+  [[nodiscard]] EdgeCoordinates part(const Vec& e, double from_i, double from_j) const {
     const double along = dot(e, d) / square;
     const double lack = (from_i + from_j - square) / (4 - square);
     return {1 - along - lack / 2, along - lack / 2, along, lack};
   }
 
-  double weight;    // what the value takes of X
-  Vec h{};          // H
-  double height{};  // |H|^2
-  Part inner{};     // of x_k
+  double weight;            // what the value takes of X
+  Vec h{};                  // H
+  double height{};          // |H|^2
+  EdgeCoordinates inner{};  // of x_k
 };
 
-bool CubicFace::weigh(const std::array<double, 3>& l, Result& result) {
+bool CubicFace::weigh(const std::array<double, 3>& l, FaceWeights& result) {
   for (unsigned k = 0; k < 3; ++k) {
     const Vec d = corners[previous[k]].step - corners[next[k]].step;
     squares_[k] = dot(d, d);
@@ -106,10 +106,11 @@ void CubicFace::weigh_points(const std::array<double, 3>& l) {
   of_pairs_[j][i] += 3 * s * t * t;
 }
 
-void CubicFace::weigh_edge(unsigned k, Result& result) {
+void CubicFace::weigh_edge(unsigned k, FaceWeights& result) {
   const unsigned i = next[k];
   const unsigned j = previous[k];
-  Edge edge{i, j, corners[i].step, corners[j].step - corners[i].step, squares_[k], of_edges_[k]};
+  FaceEdge edge{i,           j,           corners[i].step, corners[j].step - corners[i].step,
+                squares_[k], of_edges_[k]};
   const Vec e = corners[k].step - edge.start;
   edge.inner = edge.part(e, squares_[j], squares_[i]);
   if (std::max(std::abs(edge.inner.a), std::abs(edge.inner.b)) > largest_part) {
@@ -138,7 +139,7 @@ void CubicFace::weigh_edge(unsigned k, Result& result) {
 // where A = qb + b' and B = qa + a'; the same at x_j with A and B in turns. Least squares:
 // X = (A R_i + B R_j) / (2 q (A^2 + B^2)). The other face of the edge has 1/q, H -> -q H and the same X
 // in its own terms.
-double CubicFace::weigh_across(const Edge& edge, unsigned k, Result& result) {
+double CubicFace::weigh_across(const FaceEdge& edge, unsigned k, FaceWeights& result) {
   const unsigned i = edge.i;
   const unsigned j = edge.j;
   const Vec e = opposites[k].step - edge.start;
@@ -146,7 +147,7 @@ double CubicFace::weigh_across(const Edge& edge, unsigned k, Result& result) {
   const double from_j = dot(e - edge.d, e - edge.d);
   const double q = -dot(e, edge.h) / edge.height;
   if (!(q > 0)) return 0;
-  const Edge::Part outer = edge.part(e, from_i, from_j);
+  const FaceEdge::EdgeCoordinates outer = edge.part(e, from_i, from_j);
   const double a_sum = q * edge.inner.b + outer.b;  // A
   const double b_sum = q * edge.inner.a + outer.a;  // B
   // Where the edge is seen from x_k and y at more than a right angle or so, as in few faces of a
@@ -179,7 +180,7 @@ double CubicFace::weigh_across(const Edge& edge, unsigned k, Result& result) {
   return share;
 }
 
-void CubicFace::collect(Result& result) const {
+void CubicFace::collect(FaceWeights& result) const {
   for (unsigned i = 0; i < 3; ++i) {
     double weight = of_pairs_[i][i];
     double radial = 0;

@@ -50,13 +50,13 @@ class CubicFace {
 
   // The value at sum of l_i x_i is the sum of weights times values and of slopes times gradients,
   // corners first, then opposites. Slopes are tangent.
-  struct Result {
+  struct FaceWeights {
     std::array<double, 6> weights{};
     std::array<Vec, 6> slopes{};
   };
 
   // False where the face is too large or too small; then nothing is weighed.
-  bool weigh(const std::array<double, 3>& l, Result& result);
+  bool weigh(const std::array<double, 3>& l, FaceWeights& result);
 
   // |sum of l_i x_i|^2, after weigh().
   [[nodiscard]] double squared_norm(const std::array<double, 3>& l) const {
@@ -64,11 +64,11 @@ class CubicFace {
   }
 
  private:
-  struct Edge;
+  struct FaceEdge;
   void weigh_points(const std::array<double, 3>& l);
-  void weigh_edge(unsigned k, Result& result);
-  double weigh_across(const Edge& edge, unsigned k, Result& result);
-  void collect(Result& result) const;
+  void weigh_edge(unsigned k, FaceWeights& result);
+  double weigh_across(const FaceEdge& edge, unsigned k, FaceWeights& result);
+  void collect(FaceWeights& result) const;
 
   // What the value takes of p[x_i, x_i, x_j] at [i][j], of f_i at [i][i], of e_k.
   std::array<std::array<double, 3>, 3> of_pairs_{};
