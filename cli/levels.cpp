@@ -45,7 +45,7 @@ std::string levels_error(const std::string& text) {
   const std::vector<std::string> parts = parts_of(text);
   if (parts.empty()) return "there is no level";
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const std::string error = finite_error(parts[i]);
+    std::string error = finite_error(parts[i]);
     if (!error.empty()) return error;
     if (i > 0 && !(number_of(parts[i - 1]) < number_of(parts[i]))) {
       return "'" + parts[i] + "' is not above '" + parts[i - 1] + "'";
