@@ -44,7 +44,6 @@ breathe_domain_by_extension = {"h": "c"}
 # Python
 autodoc_member_order = "bysource"
 autodoc_typehints = "none"  # docstrings say them
-autodoc_mock_imports = ["xarray"]
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 napoleon_use_admonition_for_examples = False
