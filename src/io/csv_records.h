@@ -11,12 +11,14 @@
 #include <string_view>
 #include <vector>
 
+#include "rondel/export.h"
+
 namespace rondel::io {
 
 // 1. Records end with LF or CRLF, the last one also with the text. Empty lines are skipped.
 // 2. A field that starts with a quote ends with the next single quote; inside, two quotes stand for
 //    one and line ends are part of it. Elsewhere quotes are ordinary characters.
-class CsvRecords {
+class RONDEL_API CsvRecords {
  public:
   CsvRecords(std::string_view text, char delimiter)
       : next_(text.data()), start_(next_), end_(next_ + text.size()), delimiter_(delimiter) {}

@@ -25,7 +25,7 @@ constexpr std::pair<std::string_view, const char*> compressed[] = {{"\x1F\x8B", 
 
 }  // namespace
 
-FileBytes::FileBytes(const std::string& path)
+FileBytes::FileBytes(const std::string& path, bool may_be_zip)
     : name_(path == "-" ? "<stdin>" : path),
       descriptor_(path == "-" ? system::standard_input : system::open_to_read(path)) {
   if (descriptor_.value < 0) fail(errno);
@@ -34,7 +34,7 @@ FileBytes::FileBytes(const std::string& path)
   bytes_ = system::make_large_array<char>(head_size);
   read_up_to(head_size);
   for (const auto& [magic, format] : compressed) {
-    if (!head().starts_with(magic)) continue;
+    if (!head().starts_with(magic) || (may_be_zip && format == std::string_view("zip"))) continue;
     throw FileError(name_ + ": compressed (" + format + "); unpack it first");
   }
 }

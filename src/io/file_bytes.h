@@ -9,17 +9,18 @@
 #include <string>
 #include <string_view>
 
+#include "rondel/export.h"
 #include "system/huge_pages.h"
 
 namespace rondel::io {
 
 // The file is read in two steps, so that what its head claims can be refused before the rest takes
 // time and memory.
-class FileBytes {
+class RONDEL_API FileBytes {
  public:
   // Opens the file and reads its head. "-" is standard input. Throws FileError:
   // "stations.csv: No such file or directory", "stations.csv: compressed (gzip); unpack it first".
-  explicit FileBytes(const std::string& path);
+  explicit FileBytes(const std::string& path, bool may_be_zip = false);
 
   // The file in messages.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }

@@ -27,13 +27,13 @@ struct NpyHeader {
 };
 
 // Reads the header of a file of version 1, 2 or 3. Throws BadValue.
-NpyHeader parse_npy_header(std::string_view bytes);
+RONDEL_API NpyHeader parse_npy_header(std::string_view bytes);
 
 // A header of version 1 for an array in C order, padded so that the data is aligned to 64 bytes.
 RONDEL_API std::string make_npy_header(std::string_view dtype,
                                        std::span<const std::uint64_t> shape);
 
-std::string shape_text(std::span<const std::uint64_t> shape);
+RONDEL_API std::string shape_text(std::span<const std::uint64_t> shape);
 
 // A two-dimensional array in the bytes of a file.
 class NpyTable {

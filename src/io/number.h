@@ -12,13 +12,14 @@
 #include <string_view>
 
 #include "io/bad_value.h"
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::io {
 
 // The finite number in `field`, blanks around it and a leading plus allowed. `what` names it in
 // the message: `longitude "12,5" is not a number`.
-double parse_number(std::string_view field, std::string_view what);
+RONDEL_API double parse_number(std::string_view field, std::string_view what);
 
 // The integer in `field`, blanks around it allowed; `what` as above.
 std::int64_t parse_integer(std::string_view field, std::string_view what);
@@ -34,7 +35,7 @@ Index checked_index(Integer value) {
 }
 
 // The shortest digits that give back the same bits.
-void append_number(std::string& out, double value);
+RONDEL_API void append_number(std::string& out, double value);
 void append_integer(std::string& out, std::uint64_t value);
 
 // Whether JSON accepts `text` as a number (RFC 8259, section 6).
@@ -44,7 +45,7 @@ bool is_json_number(std::string_view text);
 // without control characters.
 std::string one_line(std::string_view text, std::size_t longest);
 // one_line() of a value of at most 60 bytes, in quotes.
-std::string in_quotes(std::string_view value);
+RONDEL_API std::string in_quotes(std::string_view value);
 
 // The position in degrees of a longitude and latitude, given in degrees or radians. Throws BadValue
 // if they are not finite or the latitude lies beyond a pole.

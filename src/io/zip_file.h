@@ -10,12 +10,13 @@
 #include <vector>
 
 #include "io/atomic_file.h"
+#include "rondel/export.h"
 
 namespace rondel::io {
 
 // Equal members give equal bytes: the date is always the first of 1980. Members and archives
 // of 4 GiB and more use the zip64 fields.
-class ZipWriter {
+class RONDEL_API ZipWriter {
  public:
   explicit ZipWriter(AtomicFile& file) : file_(file) {}
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "exact/vector.h"
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
@@ -31,7 +32,7 @@ inline double distance_from_axis(const Point& p) { return std::sqrt(p.x * p.x + 
 
 // Longitude and latitude of a unit vector that is not a pole. A point on the antimeridian has two
 // longitudes; it gets the one on the side of `east`: 180 if true, else -180.
-LonLat lonlat_of(const Point& p, bool east);
+RONDEL_API LonLat lonlat_of(const Point& p, bool east);
 
 // The unit vector from the center to a site of any size; zero for the center itself.
 inline Point direction(const Point& site, const Point& center) {

@@ -18,3 +18,5 @@ rondel_add_test(interpolation_slopes_test
   interpolation_gradient_test.cpp
   interpolation_hermite_test.cpp
   LIBS rondel_remap rondel_dual_support rondel_test_support)
+
+rondel_add_test(weight_files_test weight_files_test.cpp LIBS rondel_remap)

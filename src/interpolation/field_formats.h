@@ -1,0 +1,37 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The formats of fields, one function each way.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "io/atomic_file.h"
+#include "rondel/fields.h"
+
+namespace rondel::remap {
+
+struct FieldsToRead {
+  std::span<const std::string> names;
+  std::uint64_t num_points;
+  const ReadOptions& options;
+};
+// Each reads the content of a file. Throws BadValue.
+FieldSet read_fields_csv(std::string_view bytes, const FieldsToRead& wanted);
+FieldSet read_fields_tsv(std::string_view bytes, const FieldsToRead& wanted);
+FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted);
+FieldSet read_fields_netcdf(std::string_view bytes, const FieldsToRead& wanted);
+
+struct FieldsToWrite {
+  const FieldSet& fields;
+  const WeightSide& side;
+};
+void write_fields_csv(io::AtomicFile& file, const FieldsToWrite& job);
+void write_fields_tsv(io::AtomicFile& file, const FieldsToWrite& job);
+void write_fields_npy(io::AtomicFile& file, const FieldsToWrite& job);
+void write_fields_netcdf(io::AtomicFile& file, const FieldsToWrite& job);
+
+}  // namespace rondel::remap

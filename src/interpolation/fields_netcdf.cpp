@@ -1,0 +1,245 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// FieldSet in netCDF with the CF conventions.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "interpolation/field_formats.h"
+#include "interpolation/weight_formats.h"
+#include "io/bad_value.h"
+#include "io/netcdf_reader.h"
+#include "io/netcdf_writer.h"
+#include "io/number.h"
+
+namespace rondel::remap {
+namespace {
+
+using io::NetcdfType;
+using ReadVariable = io::NetcdfReader::Variable;
+
+// How many of the dimensions, from the last one on, hold the points; 0: the variable has others.
+std::size_t point_dimensions(const ReadVariable& variable, std::uint64_t num_points) {
+  if (variable.type == NetcdfType::text) return 0;
+  std::uint64_t product = 1;
+  for (std::size_t used = 1; used <= variable.shape.size(); ++used) {
+    const std::uint64_t length = variable.shape[variable.shape.size() - used];
+    if (__builtin_mul_overflow(product, length, &product)) return 0;
+    if (product == num_points) return used;
+  }
+  return 0;
+}
+
+double number_or(const ReadVariable& variable, const char* name, double otherwise) {
+  const io::NetcdfAttribute* const attribute = io::find_attribute(variable.attributes, name);
+  const bool has_one = attribute != nullptr && attribute->numbers.size() == 1;
+  return has_one ? attribute->numbers.front() : otherwise;
+}
+
+// Missing values become NaN, packed ones what they stand for.
+void unpack(const ReadVariable& variable, std::vector<double>& values) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const double fill = number_or(variable, "_FillValue", none);
+  const double missing = number_or(variable, "missing_value", none);
+  const double scale = number_or(variable, "scale_factor", 1);
+  const double offset = number_or(variable, "add_offset", 0);
+  for (double& value : values) {
+    if (value == fill || value == missing) {
+      value = none;
+    } else if (scale != 1 || offset != 0) {
+      value = value * scale + offset;
+    }
+  }
+}
+
+// What a field still is at other points.
+std::vector<std::pair<std::string, std::string>> kept_attributes(const ReadVariable& variable) {
+  std::vector<std::pair<std::string, std::string>> kept;
+  for (const io::NetcdfAttribute& attribute : variable.attributes) {
+    for (const char* name :
+         {"units", "long_name", "standard_name", "calendar", "positive", "axis"}) {
+      if (attribute.name == name && !attribute.text.empty()) {
+        kept.emplace_back(name, attribute.text);
+      }
+    }
+  }
+  return kept;
+}
+
+FieldArray array_of(const io::NetcdfReader& file, const ReadVariable& variable,
+                    std::size_t num_leading) {
+  FieldArray array;
+  array.name = variable.name;
+  for (std::size_t d = 0; d < num_leading; ++d) {
+    array.dimensions.push_back(file.dimensions()[variable.dimensions[d]].name);
+    array.shape.push_back(variable.shape[d]);
+  }
+  array.values = file.numbers(variable);
+  array.attributes = kept_attributes(variable);
+  return array;
+}
+
+// The coordinates along the dimensions in front of that of the points.
+void add_axes(const io::NetcdfReader& file, FieldSet& fields) {
+  for (const FieldArray& array : fields.arrays) {
+    for (const std::string& name : array.dimensions) {
+      const ReadVariable* const variable = file.find(name);
+      const bool is_known = std::ranges::count(fields.axes, name, &FieldArray::name) != 0;
+      if (is_known || variable == nullptr || variable->type == NetcdfType::text ||
+          variable->shape.size() != 1) {
+        continue;
+      }
+      fields.axes.push_back(array_of(file, *variable, 1));
+    }
+  }
+}
+
+}  // namespace
+
+FieldSet read_fields_netcdf(std::string_view bytes, const FieldsToRead& wanted) {
+  const io::NetcdfReader file(bytes);
+  FieldSet fields;
+  fields.num_points = wanted.num_points;
+  const auto add = [&](const ReadVariable& variable) {
+    const std::size_t used = point_dimensions(variable, wanted.num_points);
+    if (used == 0) return false;
+    fields.arrays.push_back(array_of(file, variable, variable.shape.size() - used));
+    unpack(variable, fields.arrays.back().values);
+    return true;
+  };
+  for (const std::string& name : wanted.names) {
+    if (add(file.require(name))) continue;
+    throw io::BadValue("no last dimensions of variable " + io::in_quotes(name) + " have " +
+                       std::to_string(wanted.num_points) + " points");
+  }
+  if (wanted.names.empty()) {
+    for (const ReadVariable& variable : file.variables()) {
+      const bool is_axis = variable.shape.size() == 1 &&
+                           file.dimensions()[variable.dimensions[0]].name == variable.name;
+      const std::string units = io::netcdf_text(variable.attributes, "units");
+      if (!is_axis && !units.starts_with("degree") && !units.starts_with("radian")) add(variable);
+    }
+    if (fields.arrays.empty()) {
+      throw io::BadValue("no variable has " + std::to_string(wanted.num_points) + " points");
+    }
+  }
+  add_axes(file, fields);
+  return fields;
+}
+
+namespace {
+
+std::vector<io::NetcdfAttribute> with_attributes(const FieldArray& array) {
+  std::vector<io::NetcdfAttribute> attributes;
+  for (const auto& [name, text] : array.attributes) {
+    attributes.push_back({name, NetcdfType::text, text, {}});
+  }
+  return attributes;
+}
+
+// The points of a side as a grid, or one after the other.
+class PointsOut {
+ public:
+  PointsOut(const WeightSide& side, std::size_t num_points) : side_(side) {
+    const std::vector<LonLat>& points = side.points;
+    is_grid_ = side.shape.size() == 2 && !points.empty();
+    num_lon_ = is_grid_ ? side.shape[1] : num_points;
+    for (std::size_t i = 0; is_grid_ && i < points.size(); ++i) {
+      is_grid_ = points[i].lon_deg == points[i % num_lon_].lon_deg &&
+                 points[i].lat_deg == points[i - i % num_lon_].lat_deg;
+    }
+    num_points_ = num_points;
+  }
+
+  // Defines dimensions and coordinates.
+  void define(io::NetcdfWriter& out) {
+    if (is_grid_) {
+      dimensions_ = {out.add_dimension("lat", side_.shape[0]), out.add_dimension("lon", num_lon_)};
+    } else if (side_.shape.size() > 1) {
+      for (std::size_t d = 0; d < side_.shape.size(); ++d) {
+        dimensions_.push_back(out.add_dimension("axis_" + std::to_string(d), side_.shape[d]));
+      }
+    } else {
+      dimensions_ = {out.add_dimension("point", num_points_)};
+    }
+    if (side_.points.empty()) return;
+    const auto of = [&](std::size_t d) {
+      return is_grid_ ? std::vector<std::size_t>{dimensions_[d]} : dimensions_;
+    };
+    out.add_variable(variable("lat", NetcdfType::float64, of(0),
+                              {{"units", "degrees_north"}, {"standard_name", "latitude"}}));
+    out.add_variable(variable("lon", NetcdfType::float64, of(1),
+                              {{"units", "degrees_east"}, {"standard_name", "longitude"}}));
+  }
+  void write(io::NetcdfWriter& out) const {
+    if (side_.points.empty()) return;
+    const std::size_t step = is_grid_ ? num_lon_ : 1;
+    out.write_values<double>(is_grid_ ? side_.shape[0] : num_points_,
+                             [&](std::size_t i) { return side_.points[i * step].lat_deg; });
+    out.write_values<double>(num_lon_, [&](std::size_t i) { return side_.points[i].lon_deg; });
+  }
+  [[nodiscard]] const std::vector<std::size_t>& dimensions() const { return dimensions_; }
+  [[nodiscard]] bool needs_coordinates() const { return !is_grid_ && !side_.points.empty(); }
+
+ private:
+  const WeightSide& side_;
+  bool is_grid_ = false;
+  std::size_t num_lon_ = 0;
+  std::size_t num_points_ = 0;
+  std::vector<std::size_t> dimensions_;
+};
+
+}  // namespace
+
+void write_fields_netcdf(io::AtomicFile& file, const FieldsToWrite& job) {
+  io::NetcdfWriter out(file);
+  PointsOut points(job.side, job.fields.num_points);
+  out.add_attribute("Conventions", "CF-1.8");
+  // Dimensions by name and length: two arrays may have one.
+  std::vector<std::pair<std::string, std::uint64_t>> known;
+  std::vector<std::size_t> numbers;
+  const auto dimension = [&](const std::string& name, std::uint64_t length) {
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      if (known[k].first == name && known[k].second == length) return numbers[k];
+    }
+    known.emplace_back(name, length);
+    numbers.push_back(out.add_dimension(name, length));
+    return numbers.back();
+  };
+  std::vector<std::vector<std::size_t>> leading;
+  for (const FieldArray& array : job.fields.arrays) {
+    leading.emplace_back();
+    for (std::size_t d = 0; d < array.shape.size(); ++d) {
+      leading.back().push_back(dimension(array.dimensions[d], array.shape[d]));
+    }
+  }
+  for (const FieldArray& axis : job.fields.axes) {
+    out.add_variable({axis.name,
+                      NetcdfType::float64,
+                      {dimension(axis.dimensions[0], axis.shape[0])},
+                      with_attributes(axis)});
+  }
+  points.define(out);
+  for (std::size_t a = 0; a < leading.size(); ++a) {
+    const FieldArray& array = job.fields.arrays[a];
+    std::vector<std::size_t> dimensions = leading[a];
+    dimensions.insert(dimensions.end(), points.dimensions().begin(), points.dimensions().end());
+    std::vector<io::NetcdfAttribute> attributes = with_attributes(array);
+    attributes.push_back(
+        {"_FillValue", NetcdfType::float64, {}, {std::numeric_limits<double>::quiet_NaN()}});
+    if (points.needs_coordinates()) {
+      attributes.push_back({"coordinates", NetcdfType::text, "lon lat", {}});
+    }
+    out.add_variable({array.name, NetcdfType::float64, std::move(dimensions), attributes});
+  }
+  out.begin();
+  for (const FieldArray& axis : job.fields.axes) out.write(std::span<const double>(axis.values));
+  points.write(out);
+  for (const FieldArray& array : job.fields.arrays) {
+    out.write(std::span<const double>(array.values));
+  }
+  out.finish();
+}
+
+}  // namespace rondel::remap

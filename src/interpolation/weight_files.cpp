@@ -1,0 +1,94 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// write_weights and read_weights: which format, and whether the content fits together.
+#include "rondel/weight_files.h"
+
+#include <array>
+#include <cmath>
+
+#include "interpolation/weight_formats.h"
+#include "io/bad_value.h"
+#include "io/ending.h"
+#include "io/file_bytes.h"
+#include "map/arc.h"
+#include "rondel/error.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace {
+
+using WeightWriter = io::Writer<WeightFile>;
+constexpr std::array<WeightWriter, 4> weight_writers = {{{".nc", &remap::write_esmf},
+                                                         {".npz", &remap::write_weights_npz},
+                                                         {".esmf", &remap::write_esmf},
+                                                         {".scrip", &remap::write_scrip}}};
+
+struct WeightReader {
+  std::string_view ending;
+  WeightFile (*read)(std::string_view);
+};
+constexpr std::array<WeightReader, 4> weight_readers = {{{".nc", &remap::read_weights_netcdf},
+                                                         {".npz", &remap::read_weights_npz},
+                                                         {".esmf", &remap::read_weights_netcdf},
+                                                         {".scrip", &remap::read_weights_netcdf}}};
+
+void require_number(const char* what, std::size_t length, std::size_t wanted) {
+  if (length == 0 || length == wanted) return;
+  throw InvalidInput(std::string(what) + " are " + std::to_string(length) + " instead of " +
+                         std::to_string(wanted),
+                     0);
+}
+
+void require_side(const WeightSide& side, std::size_t size) {
+  require_number("points", side.points.size(), size);
+  require_number("areas", side.areas.size(), size);
+  require_number("fractions", side.fractions.size(), size);
+  require_number("the mask's numbers", side.mask.size(), size);
+  if (side.shape.empty()) return;
+  std::uint64_t product = 1;
+  for (const std::uint64_t length : side.shape) {
+    if (__builtin_mul_overflow(product, length, &product)) product = 0;
+  }
+  require_number("the points of the shape", product == 0 ? ~std::size_t{0} : product, size);
+}
+
+// apply() to no field checks the weights alone.
+void require_content(const WeightFile& content) {
+  apply(content.weights, {}, {}, 0);
+  require_side(content.source, content.weights.num_columns);
+  require_side(content.target, content.weights.num_rows());
+}
+
+}  // namespace
+
+void write_weights(const FileName& file, const WeightFile& content) {
+  const system::ArithmeticScope arithmetic;
+  require_content(content);
+  io::write_whole<WeightFile>(weight_writers, file, "weights are written as", content);
+}
+
+WeightFile read_weights(const FileName& file) {
+  const system::ArithmeticScope arithmetic;
+  const WeightReader& reader =
+      io::require_format<WeightReader>(weight_readers, file, "weights are read from");
+  io::FileBytes bytes(file.path, true);
+  return io::in_file(bytes.name(), [&] { return reader.read(bytes.text()); });
+}
+
+std::vector<LonLat> lonlats(std::span<const Point> points) {
+  const system::ArithmeticScope arithmetic;
+  std::vector<LonLat> result;
+  result.reserve(points.size());
+  for (const Point& point : points) {
+    const Point u = map::direction(point, {});
+    if (map::is_pole(u)) {
+      result.push_back({0, std::copysign(90.0, u.z)});
+    } else {
+      result.push_back(map::lonlat_of(u, true));
+    }
+  }
+  return result;
+}
+
+}  // namespace rondel

@@ -1,0 +1,200 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the two netCDF formats of weights share.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <numbers>
+
+#include "interpolation/weight_formats.h"
+#include "io/bad_value.h"
+#include "io/number.h"
+
+namespace rondel::remap {
+namespace {
+
+constexpr const char* source_hash_name = "rondel_source_hash";
+constexpr const char* target_hash_name = "rondel_target_hash";
+constexpr const char* method_name = "rondel_method";
+
+std::string hexadecimal(std::uint64_t hash) {
+  std::array<char, 16> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16).ptr;
+  return {digits.data(), end};
+}
+
+std::uint64_t hash_of(const io::NetcdfReader& file, const char* name) {
+  const std::string text = io::netcdf_text(file.attributes(), name);
+  std::uint64_t hash = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), hash, 16);
+  if (!text.empty() && (error != std::errc{} || end != text.data() + text.size())) {
+    throw io::BadValue("attribute " + std::string(name) + " is " + io::in_quotes(text) +
+                       ", not a hash");
+  }
+  return hash;
+}
+
+template <typename Values>
+void require_size(const std::string& name, const Values& values, std::size_t size) {
+  if (values.size() == size) return;
+  throw io::BadValue("variable " + io::in_quotes(name) + " has " + std::to_string(values.size()) +
+                     " values instead of " + std::to_string(size));
+}
+
+std::vector<double> numbers_of(const io::NetcdfReader& file, const std::string& name,
+                               std::size_t size) {
+  const io::NetcdfReader::Variable* const variable = file.find(name);
+  if (variable == nullptr) return {};
+  std::vector<double> values = file.numbers(*variable);
+  require_size(name, values, size);
+  if (std::ranges::all_of(values, [](double value) { return value == 0; })) values.clear();
+  return values;
+}
+
+// Degrees, unless the units say otherwise.
+std::vector<double> angles_of(const io::NetcdfReader& file, const std::string& name) {
+  const io::NetcdfReader::Variable& variable = file.require(name);
+  std::vector<double> values = file.numbers(variable);
+  if (io::netcdf_text(variable.attributes, "units").starts_with("rad")) {
+    for (double& value : values) value *= 180 / std::numbers::pi;
+  }
+  return values;
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> shape_or(const WeightSide& side, std::size_t size) {
+  return side.shape.empty() ? std::vector<std::uint64_t>{size} : side.shape;
+}
+
+io::NetcdfVariable variable(std::string name, io::NetcdfType type,
+                            std::vector<std::size_t> dimensions,
+                            std::initializer_list<std::pair<const char*, const char*>> attributes) {
+  io::NetcdfVariable result{std::move(name), type, std::move(dimensions), {}};
+  for (const auto& [key, text] : attributes) {
+    result.attributes.push_back({key, io::NetcdfType::text, text, {}});
+  }
+  return result;
+}
+
+void add_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide& side,
+              std::size_t cells, std::size_t rank) {
+  using io::NetcdfType;
+  const auto add = [&](const std::string& name, NetcdfType type, const char* units) {
+    out.add_variable(variable(name, type, {cells}, {{"units", units}}));
+  };
+  if (!side.points.empty()) {
+    add(names.lon, NetcdfType::float64, "degrees");
+    add(names.lat, NetcdfType::float64, "degrees");
+  }
+  add(names.mask, NetcdfType::int32, "unitless");
+  add(names.area, NetcdfType::float64, "square radians");
+  add(names.fraction, NetcdfType::float64, "unitless");
+  out.add_variable(variable(names.dims, NetcdfType::int32, {rank}));
+}
+
+void add_own_attributes(io::NetcdfWriter& out, const WeightFile& content) {
+  const Weights& weights = content.weights;
+  if (!content.method.empty()) out.add_attribute(method_name, content.method);
+  if (weights.sites_hash != 0) {
+    out.add_attribute(source_hash_name, hexadecimal(weights.sites_hash));
+  }
+  if (weights.targets_hash != 0) {
+    out.add_attribute(target_hash_name, hexadecimal(weights.targets_hash));
+  }
+}
+
+void read_own_attributes(const io::NetcdfReader& file, WeightFile& content) {
+  content.weights.sites_hash = hash_of(file, source_hash_name);
+  content.weights.targets_hash = hash_of(file, target_hash_name);
+  content.normalization = io::netcdf_text(file.attributes(), "normalization");
+  content.method = io::netcdf_text(file.attributes(), method_name);
+  if (content.method.empty()) content.method = io::netcdf_text(file.attributes(), "map_method");
+}
+
+void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
+               WeightSide& side) {
+  if (file.find(names.lon) != nullptr && file.find(names.lat) != nullptr) {
+    const std::vector<double> lon = angles_of(file, names.lon);
+    const std::vector<double> lat = angles_of(file, names.lat);
+    require_size(names.lon, lon, size);
+    require_size(names.lat, lat, size);
+    side.points.resize(size);
+    for (std::size_t i = 0; i < size; ++i) side.points[i] = {lon[i], lat[i]};
+  }
+  side.areas = numbers_of(file, names.area, size);
+  side.fractions = numbers_of(file, names.fraction, size);
+  if (const auto* const mask = file.find(names.mask)) {
+    const std::vector<double> values = file.numbers(*mask);
+    require_size(names.mask, values, size);
+    for (const double value : values) side.mask.push_back(value == 0 ? 0 : 1);
+    if (std::ranges::count(side.mask, 0) == 0) side.mask.clear();
+  }
+  if (const auto* const dims = file.find(names.dims)) {
+    std::uint64_t product = 1;
+    for (const std::int64_t length : file.integers(*dims)) {
+      if (length < 1 || __builtin_mul_overflow(product, length, &product)) product = 0;
+      side.shape.insert(side.shape.begin(), static_cast<std::uint64_t>(length));
+    }
+    if (product != size) {
+      throw io::BadValue("variable " + io::in_quotes(names.dims) + " does not multiply to " +
+                         std::to_string(size));
+    }
+    if (side.shape.size() < 2) side.shape.clear();
+  }
+}
+
+Weights rows_of_entries(std::span<const std::int64_t> rows, std::span<const std::int64_t> columns,
+                        std::span<const double> values, std::size_t num_rows,
+                        std::size_t num_columns) {
+  const std::size_t num_entries = values.size();
+  if (rows.size() != num_entries || columns.size() != num_entries) {
+    throw io::BadValue(std::to_string(rows.size()) + " rows and " + std::to_string(columns.size()) +
+                       " columns for " + std::to_string(num_entries) + " weights");
+  }
+  if (num_columns > no_index) throw io::BadValue("more than 2^32 - 1 sources");
+  const auto require = [](const char* what, std::int64_t index, std::size_t size, std::size_t k) {
+    if (index >= 1 && static_cast<std::uint64_t>(index) <= size) return;
+    throw io::BadValue("entry " + std::to_string(k) + ": " + what + " " + std::to_string(index) +
+                       " is not in 1 to " + std::to_string(size));
+  };
+  Weights weights;
+  weights.num_columns = num_columns;
+  weights.offsets.assign(num_rows + 1, 0);
+  for (std::size_t k = 0; k < num_entries; ++k) {
+    require("row", rows[k], num_rows, k);
+    require("column", columns[k], num_columns, k);
+    ++weights.offsets[static_cast<std::size_t>(rows[k])];
+  }
+  for (std::size_t r = 0; r < num_rows; ++r) weights.offsets[r + 1] += weights.offsets[r];
+  std::vector<std::uint64_t> next(weights.offsets.begin(), weights.offsets.end() - 1);
+  weights.columns.resize(num_entries);
+  weights.values.resize(num_entries);
+  for (std::size_t k = 0; k < num_entries; ++k) {
+    const std::uint64_t at = next[static_cast<std::size_t>(rows[k] - 1)]++;
+    weights.columns[at] = static_cast<Index>(columns[k] - 1);
+    weights.values[at] = values[k];
+  }
+  return weights;
+}
+
+std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name) {
+  for (const io::NetcdfDimension& dimension : file.dimensions()) {
+    if (dimension.name != name) continue;
+    // No more than the file has bytes, or none would be about most of them.
+    if (dimension.size > no_index) break;
+    return static_cast<std::size_t>(dimension.size);
+  }
+  throw io::BadValue("no dimension " + io::in_quotes(name) + " of up to 2^32 - 1");
+}
+
+WeightFile read_weights_netcdf(std::string_view bytes) {
+  const io::NetcdfReader file(bytes);
+  if (file.find("S") != nullptr) return read_esmf(file);
+  if (file.find("remap_matrix") != nullptr) return read_scrip(file);
+  throw io::BadValue(
+      "no file of weights: neither variable \"S\" (ESMF) nor \"remap_matrix\" (SCRIP)");
+}
+
+}  // namespace rondel::remap

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Weights as SCRIP wrote them (Jones 1999), one weight a link: what CDO reads.
+#include <string>
+
+#include "interpolation/weight_formats.h"
+#include "io/bad_value.h"
+
+namespace rondel::remap {
+namespace {
+
+SideNames names_of(const std::string& grid) {
+  const std::string start = grid + "_grid_";
+  return {start + "center_lon", start + "center_lat", start + "area",
+          start + "frac",       start + "imask",      start + "dims"};
+}
+
+// Programs know a few methods by their names; all others are weighted means to them.
+std::string known_method(const std::string& method) {
+  for (const char* known : {"Conservative", "Bilinear", "Bicubic", "Distance", "Largest"}) {
+    if (method.starts_with(known)) return method;
+  }
+  return method == "conservative" ? "Conservative remapping"
+                                  : "Distance weighted avg of nearest neighbors";
+}
+
+}  // namespace
+
+void write_scrip(io::AtomicFile& file, const WeightFile& content) {
+  const Weights& weights = content.weights;
+  const std::size_t num_sources = weights.num_columns;
+  const std::size_t num_targets = weights.num_rows();
+  io::NetcdfWriter out(file);
+  const std::size_t src_size = out.add_dimension("src_grid_size", num_sources);
+  const std::size_t dst_size = out.add_dimension("dst_grid_size", num_targets);
+  const std::size_t src_rank =
+      out.add_dimension("src_grid_rank", shape_or(content.source, num_sources).size());
+  const std::size_t dst_rank =
+      out.add_dimension("dst_grid_rank", shape_or(content.target, num_targets).size());
+  const std::size_t links = out.add_dimension("num_links", weights.columns.size());
+  const std::size_t wgts = out.add_dimension("num_wgts", 1);
+  out.add_attribute("title", "Weights that carry values from points to points");
+  out.add_attribute("normalization",
+                    content.normalization.empty() ? "none" : content.normalization);
+  out.add_attribute("map_method", known_method(content.method));
+  out.add_attribute("conventions", "SCRIP");
+  add_own_attributes(out, content);
+  add_side(out, names_of("src"), content.source, src_size, src_rank);
+  add_side(out, names_of("dst"), content.target, dst_size, dst_rank);
+  // SCRIP's own integers: CDO refuses others.
+  out.add_variable(variable("src_address", index_type(num_sources), {links}));
+  out.add_variable(variable("dst_address", index_type(num_targets), {links}));
+  out.add_variable(variable("remap_matrix", io::NetcdfType::float64, {links, wgts}));
+  out.begin();
+  write_side(out, content.source, num_sources, [](std::size_t) { return 0.0; });
+  write_side(out, content.target, num_targets,
+             [&](std::size_t row) { return fraction_of(weights, row); });
+  const auto column = [&](std::size_t k) { return std::int64_t{weights.columns[k]} + 1; };
+  if (index_type(num_sources) == io::NetcdfType::int32) {
+    out.write_values<std::int32_t>(weights.columns.size(), column);
+  } else {
+    out.write_values<std::int64_t>(weights.columns.size(), column);
+  }
+  if (index_type(num_targets) == io::NetcdfType::int32) {
+    write_row_numbers<std::int32_t>(out, weights);
+  } else {
+    write_row_numbers<std::int64_t>(out, weights);
+  }
+  out.write(std::span<const double>(weights.values));
+  out.finish();
+}
+
+WeightFile read_scrip(const io::NetcdfReader& file) {
+  WeightFile content;
+  const std::size_t num_sources = dimension_of(file, "src_grid_size");
+  const std::size_t num_targets = dimension_of(file, "dst_grid_size");
+  read_side(file, names_of("src"), num_sources, content.source);
+  read_side(file, names_of("dst"), num_targets, content.target);
+  const io::NetcdfReader::Variable& matrix = file.require("remap_matrix");
+  if (matrix.shape.size() == 2 && matrix.shape[1] != 1) {
+    throw io::BadValue("remap_matrix has " + std::to_string(matrix.shape[1]) +
+                       " weights a link, of which all but the first need gradients");
+  }
+  content.weights = rows_of_entries(file.integers(file.require("dst_address")),
+                                    file.integers(file.require("src_address")),
+                                    file.numbers(matrix), num_targets, num_sources);
+  read_own_attributes(file, content);
+  return content;
+}
+
+}  // namespace rondel::remap

@@ -1,0 +1,196 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/netcdf_reader.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "io/bad_value.h"
+#include "io/binary.h"
+#include "io/netcdf_header.h"
+#include "io/number.h"
+
+namespace rondel::io {
+namespace {
+
+[[noreturn]] void refuse(const NetcdfReader::Variable& variable, const std::string& why) {
+  throw BadValue("variable " + in_quotes(variable.name) + " " + why);
+}
+
+std::uint64_t product(const NetcdfReader::Variable& variable, std::uint64_t a, std::uint64_t b) {
+  std::uint64_t result = 0;
+  if (__builtin_mul_overflow(a, b, &result)) refuse(variable, "is too large");
+  return result;
+}
+
+std::uint64_t sum(const NetcdfReader::Variable& variable, std::uint64_t a, std::uint64_t b) {
+  std::uint64_t result = 0;
+  if (__builtin_add_overflow(a, b, &result)) refuse(variable, "is too large");
+  return result;
+}
+
+// Where it ends of which `size` bytes are at `offset`, held against the file.
+void require_bytes(const NetcdfReader::Variable& variable, std::uint64_t size,
+                   std::uint64_t file_size) {
+  if (size == 0) return;
+  const std::uint64_t end = sum(variable, variable.offset, size);
+  if (end <= file_size) return;
+  refuse(variable,
+         "ends at byte " + std::to_string(end) + ", the file at " + std::to_string(file_size));
+}
+
+}  // namespace
+
+NetcdfReader::NetcdfReader(std::string_view bytes) : bytes_(bytes) {
+  NetcdfHeader header = parse_netcdf_header(bytes);
+  dimensions_ = std::move(header.dimensions);
+  attributes_ = std::move(header.attributes);
+  variables_ = std::move(header.variables);
+  for (Variable& variable : variables_) {
+    variable.record_values = 1;
+    for (std::size_t i = 0; i < variable.dimensions.size(); ++i) {
+      const std::uint64_t size = dimensions_[variable.dimensions[i]].size;
+      variable.shape.push_back(size);
+      if (size != 0) {
+        variable.record_values = product(variable, variable.record_values, size);
+      } else if (i == 0) {
+        variable.has_records = true;
+      } else {
+        refuse(variable, "has the dimension of records not as its first one");
+      }
+    }
+    const std::uint64_t size = product(variable, variable.record_values, size_of(variable.type));
+    variable.num_values = variable.record_values;
+    if (!variable.has_records) require_bytes(variable, size, bytes.size());
+  }
+  place_records(header.counts_records ? header.num_records
+                                      : std::numeric_limits<std::uint64_t>::max());
+}
+
+// The records of all variables follow each other; of a single variable they are not padded. Where the
+// header does not count them, they are as many as the file has whole ones.
+void NetcdfReader::place_records(std::uint64_t claimed) {
+  std::size_t num_variables = 0;
+  std::uint64_t unpadded = 0;
+  std::uint64_t first = bytes_.size();
+  for (const Variable& variable : variables_) {
+    if (!variable.has_records) continue;
+    ++num_variables;
+    unpadded = variable.record_values * size_of(variable.type);
+    if (unpadded > bytes_.size() && claimed != 0) refuse(variable, "is longer than the file");
+    record_size_ =
+        sum(variable, record_size_, netcdf_padded(std::min(unpadded, ~std::uint64_t{7})));
+    first = std::min(first, variable.offset);
+  }
+  if (num_variables == 0) return;
+  if (num_variables == 1) record_size_ = unpadded;
+  std::uint64_t number = claimed;
+  if (number == std::numeric_limits<std::uint64_t>::max()) {
+    number = record_size_ == 0 ? 0 : (bytes_.size() - first) / record_size_;
+  }
+  for (Variable& variable : variables_) {
+    if (!variable.has_records) continue;
+    variable.shape.front() = number;
+    variable.num_values = product(variable, number, variable.record_values);
+    if (number == 0) continue;
+    const std::uint64_t before = product(variable, number - 1, record_size_);
+    require_bytes(variable, sum(variable, before, variable.record_values * size_of(variable.type)),
+                  bytes_.size());
+  }
+  for (NetcdfDimension& dimension : dimensions_) {
+    if (dimension.size == 0) dimension.size = number;
+  }
+}
+
+const NetcdfReader::Variable* NetcdfReader::find(std::string_view name) const {
+  const auto at = std::ranges::find(variables_, name, &Variable::name);
+  return at == variables_.end() ? nullptr : &*at;
+}
+
+const NetcdfReader::Variable& NetcdfReader::require(std::string_view name) const {
+  if (const Variable* const variable = find(name)) return *variable;
+  throw BadValue("no variable " + in_quotes(name));
+}
+
+const char* NetcdfReader::place(const Variable& variable, std::uint64_t index) const {
+  const std::size_t size = size_of(variable.type);
+  if (!variable.has_records) return bytes_.data() + variable.offset + index * size;
+  const std::uint64_t record = index / variable.record_values;
+  return bytes_.data() + variable.offset + record * record_size_ +
+         index % variable.record_values * size;
+}
+
+template <typename T, typename Out>
+void NetcdfReader::copy(const Variable& variable, std::vector<Out>& out) const {
+  for (std::uint64_t i = 0; i < variable.num_values; ++i) {
+    out[i] = static_cast<Out>(load<T>(place(variable, i), std::endian::big));
+  }
+}
+
+std::vector<double> NetcdfReader::numbers(const Variable& variable) const {
+  if (variable.type == NetcdfType::float64 || variable.type == NetcdfType::float32) {
+    std::vector<double> values(variable.num_values);
+    if (variable.type == NetcdfType::float64) {
+      copy<double>(variable, values);
+    } else {
+      copy<float>(variable, values);
+    }
+    return values;
+  }
+  const std::vector<std::int64_t> whole = integers(variable);
+  return {whole.begin(), whole.end()};
+}
+
+std::vector<std::int64_t> NetcdfReader::integers(const Variable& variable) const {
+  // Checked before there is room for them.
+  if (variable.type == NetcdfType::text) refuse(variable, "is a text where numbers are needed");
+  std::vector<std::int64_t> values(variable.num_values);
+  switch (variable.type) {
+    case NetcdfType::int8:
+      copy<std::int8_t>(variable, values);
+      break;
+    case NetcdfType::int16:
+      copy<std::int16_t>(variable, values);
+      break;
+    case NetcdfType::int32:
+      copy<std::int32_t>(variable, values);
+      break;
+    case NetcdfType::uint8:
+      copy<std::uint8_t>(variable, values);
+      break;
+    case NetcdfType::uint16:
+      copy<std::uint16_t>(variable, values);
+      break;
+    case NetcdfType::uint32:
+      copy<std::uint32_t>(variable, values);
+      break;
+    case NetcdfType::int64:
+      copy<std::int64_t>(variable, values);
+      break;
+    case NetcdfType::uint64:
+      copy<std::uint64_t>(variable, values);
+      for (const std::int64_t value : values) {
+        if (value < 0) refuse(variable, "has an integer beyond 2^63");
+      }
+      break;
+    case NetcdfType::text:
+    case NetcdfType::float32:
+    case NetcdfType::float64:
+      refuse(variable, "is not of integers");
+  }
+  return values;
+}
+
+const NetcdfAttribute* find_attribute(std::span<const NetcdfAttribute> attributes,
+                                      std::string_view name) {
+  const auto at = std::ranges::find(attributes, name, &NetcdfAttribute::name);
+  return at == attributes.end() ? nullptr : &*at;
+}
+
+std::string netcdf_text(std::span<const NetcdfAttribute> attributes, std::string_view name) {
+  const NetcdfAttribute* const attribute = find_attribute(attributes, name);
+  return attribute == nullptr ? std::string() : attribute->text;
+}
+
+}  // namespace rondel::io

@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Files of netCDF's classic formats, read in place.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/netcdf_format.h"
+#include "rondel/export.h"
+
+namespace rondel::io {
+
+class RONDEL_API NetcdfReader {
+ public:
+  struct Variable : NetcdfVariable {
+    std::vector<std::uint64_t> shape;  // of records as many as there are
+    std::uint64_t offset = 0;          // in the file
+    bool has_records = false;
+    std::uint64_t record_values = 0;  // values in a record; else all
+    std::uint64_t num_values = 0;
+  };
+
+  // Reads the header and holds it against the bytes, which live as long as this. Throws BadValue:
+  // nothing is allocated for what a count claims before the bytes can have it, and every value of every
+  // variable is there.
+  explicit NetcdfReader(std::string_view bytes);
+
+  [[nodiscard]] std::span<const NetcdfDimension> dimensions() const { return dimensions_; }
+  [[nodiscard]] std::span<const NetcdfAttribute> attributes() const { return attributes_; }
+  [[nodiscard]] std::span<const Variable> variables() const { return variables_; }
+  // Null if there is none.
+  [[nodiscard]] const Variable* find(std::string_view name) const;
+  // Throws BadValue if there is none.
+  [[nodiscard]] const Variable& require(std::string_view name) const;
+
+  // All values as doubles. Throws BadValue if they are a text.
+  [[nodiscard]] std::vector<double> numbers(const Variable& variable) const;
+  // The same as integers. Throws BadValue if they are a text, are floating, or are beyond 2^63.
+  [[nodiscard]] std::vector<std::int64_t> integers(const Variable& variable) const;
+
+ private:
+  [[nodiscard]] const char* place(const Variable& variable, std::uint64_t index) const;
+  template <typename T, typename Out>
+  void copy(const Variable& variable, std::vector<Out>& out) const;
+  void place_records(std::uint64_t claimed);
+
+  std::string_view bytes_;
+  std::vector<NetcdfDimension> dimensions_;
+  std::vector<NetcdfAttribute> attributes_;
+  std::vector<Variable> variables_;
+  std::uint64_t record_size_ = 0;
+};
+
+// The text of an attribute; empty if there is none, or it is a number.
+RONDEL_API std::string netcdf_text(std::span<const NetcdfAttribute> attributes,
+                                   std::string_view name);
+// The attribute; null if there is none.
+RONDEL_API const NetcdfAttribute* find_attribute(std::span<const NetcdfAttribute> attributes,
+                                                 std::string_view name);
+
+}  // namespace rondel::io

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/netcdf_writer.h"
+
+#include <cassert>
+#include <utility>
+
+namespace rondel::io {
+namespace {
+
+// The largest dimension, and the largest variable, of CDF-1 and CDF-2.
+constexpr std::uint64_t largest_dimension = 0x7fff'ffff;
+constexpr std::uint64_t largest_variable = 0xffff'fffc;
+// Where a variable may start at most in CDF-1.
+constexpr std::uint64_t largest_offset = 0x7fff'ffff;
+
+// The header as it grows. Counts have the width that the version gives them.
+class HeaderBytes {
+ public:
+  explicit HeaderBytes(int version) : version_(version) {
+    bytes_ = "CDF";
+    bytes_ += static_cast<char>(version);
+  }
+
+  void u32(std::uint64_t value) { add<std::uint32_t>(value); }
+  void count(std::uint64_t value) { version_ == 5 ? add<std::uint64_t>(value) : u32(value); }
+  void offset(std::uint64_t value) { version_ == 1 ? u32(value) : add<std::uint64_t>(value); }
+  void name(std::string_view name) {
+    count(name.size());
+    text(name);
+  }
+  void text(std::string_view text) {
+    bytes_ += text;
+    pad();
+  }
+  // The head of a list; of one without members nothing follows.
+  void list(std::uint32_t tag, std::size_t size) {
+    u32(size == 0 ? 0 : tag);
+    count(size);
+  }
+  void attributes(const std::vector<NetcdfAttribute>& attributes) {
+    list(netcdf_attributes_tag, attributes.size());
+    for (const NetcdfAttribute& attribute : attributes) {
+      name(attribute.name);
+      u32(static_cast<std::uint32_t>(attribute.type));
+      if (attribute.type == NetcdfType::text) {
+        count(attribute.text.size());
+        text(attribute.text);
+      } else {
+        numbers(attribute);
+      }
+    }
+  }
+  [[nodiscard]] std::string take() { return std::move(bytes_); }
+
+ private:
+  template <typename T>
+  void add(std::uint64_t value) {
+    std::array<char, sizeof(T)> bytes;
+    store(static_cast<T>(value), bytes.data(), std::endian::big);
+    bytes_.append(bytes.data(), bytes.size());
+  }
+  void numbers(const NetcdfAttribute& attribute) {
+    count(attribute.numbers.size());
+    for (const double number : attribute.numbers) {
+      if (attribute.type == NetcdfType::int32) {
+        u32(static_cast<std::uint32_t>(static_cast<std::int32_t>(number)));
+      } else {
+        assert(attribute.type == NetcdfType::float64);
+        add<std::uint64_t>(std::bit_cast<std::uint64_t>(number));
+      }
+    }
+  }
+  void pad() { bytes_.resize(netcdf_padded(bytes_.size())); }
+
+  int version_;
+  std::string bytes_;
+};
+
+}  // namespace
+
+std::size_t NetcdfWriter::add_dimension(std::string name, std::uint64_t size) {
+  dimensions_.push_back({std::move(name), size});
+  return dimensions_.size() - 1;
+}
+
+void NetcdfWriter::add_attribute(std::string name, std::string text) {
+  attributes_.push_back({std::move(name), NetcdfType::text, std::move(text), {}});
+}
+
+void NetcdfWriter::add_variable(NetcdfVariable variable) {
+  variables_.push_back(std::move(variable));
+}
+
+// Without the padding.
+std::uint64_t NetcdfWriter::size_of_values(const NetcdfVariable& variable) const {
+  std::uint64_t size = size_of(variable.type);
+  for (const std::size_t dimension : variable.dimensions) size *= dimensions_[dimension].size;
+  return size;
+}
+
+int NetcdfWriter::needed_version() const {
+  for (const NetcdfDimension& dimension : dimensions_) {
+    if (dimension.size > largest_dimension) return 5;
+  }
+  std::uint64_t offset = header(2, 0).size();
+  std::uint64_t last_offset = offset;
+  for (const NetcdfVariable& variable : variables_) {
+    const std::uint64_t size = netcdf_padded(size_of_values(variable));
+    if (variable.type > NetcdfType::float64 || size > largest_variable) return 5;
+    last_offset = std::exchange(offset, offset + size);
+  }
+  return last_offset > largest_offset ? 2 : 1;
+}
+
+// A variable of records says how long one of them is.
+std::string NetcdfWriter::header(int version, std::uint64_t first_offset) const {
+  HeaderBytes bytes(version);
+  bytes.count(0);  // records
+  bytes.list(netcdf_dimensions_tag, dimensions_.size());
+  for (const NetcdfDimension& dimension : dimensions_) {
+    bytes.name(dimension.name);
+    bytes.count(dimension.size);
+  }
+  bytes.attributes(attributes_);
+  bytes.list(netcdf_variables_tag, variables_.size());
+  std::uint64_t offset = first_offset;
+  for (const NetcdfVariable& variable : variables_) {
+    bytes.name(variable.name);
+    bytes.count(variable.dimensions.size());
+    std::uint64_t of_record = size_of(variable.type);
+    for (const std::size_t dimension : variable.dimensions) {
+      bytes.count(dimension);
+      of_record *= std::max<std::uint64_t>(dimensions_[dimension].size, 1);
+    }
+    bytes.attributes(variable.attributes);
+    bytes.u32(static_cast<std::uint32_t>(variable.type));
+    bytes.count(netcdf_padded(of_record));
+    bytes.offset(offset);
+    offset += netcdf_padded(size_of_values(variable));
+  }
+  return bytes.take();
+}
+
+void NetcdfWriter::begin() {
+  const int version = needed_version();
+  const std::uint64_t size = header(version, 0).size();
+  file_.write(header(version, size));
+  end_full_variables();
+}
+
+void NetcdfWriter::write_bytes(std::string_view bytes) {
+  assert(current_ < variables_.size() &&
+         num_written_ + bytes.size() <= size_of_values(variables_[current_]));
+  file_.write(bytes);
+  num_written_ += bytes.size();
+  end_full_variables();
+}
+
+void NetcdfWriter::end_full_variables() {
+  constexpr std::string_view zeros("\0\0\0", 3);
+  while (current_ < variables_.size() && num_written_ == size_of_values(variables_[current_])) {
+    file_.write(zeros.substr(0, netcdf_padded(num_written_) - num_written_));
+    num_written_ = 0;
+    ++current_;
+  }
+}
+
+void NetcdfWriter::finish() { assert(current_ == variables_.size()); }
+
+}  // namespace rondel::io

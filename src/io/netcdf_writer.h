@@ -1,0 +1,75 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Files of netCDF's classic formats, written from front to back.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/atomic_file.h"
+#include "io/binary.h"
+#include "io/netcdf_format.h"
+#include "rondel/export.h"
+
+namespace rondel::io {
+
+// A header of its own for each of the formats: the lowest one is taken that can say what is to be said.
+// CDF-5 if a variable has 64-bit integers, 4 GiB or a dimension of 2^31; CDF-2 if one starts beyond
+// 2 GiB; else CDF-1, which everything reads.
+//
+// First the definitions, then begin(), then the values of all variables in the order of their
+// definition, in as many pieces as are wanted, then finish(). Equal calls give equal bytes.
+// A dimension of no size is the one of records, of which there are none: one may be such.
+class RONDEL_API NetcdfWriter {
+ public:
+  explicit NetcdfWriter(AtomicFile& file) : file_(file) {}
+
+  // The number by which variables name it.
+  std::size_t add_dimension(std::string name, std::uint64_t size);
+  void add_attribute(std::string name, std::string text);
+  void add_variable(NetcdfVariable variable);
+  void begin();
+
+  // The next values of the variable; T is that of its type: char, int32_t, int64_t, float or double.
+  template <typename T>
+  void write(std::span<const T> values) {
+    write_values<T>(values.size(), [&](std::size_t i) { return values[i]; });
+  }
+  // The same of value(0), ..., value(count - 1).
+  template <typename T, typename Value>
+  void write_values(std::size_t count, Value value) {
+    std::array<T, 4096> block;
+    for (std::size_t start = 0; start < count; start += block.size()) {
+      const std::size_t size = std::min(block.size(), count - start);
+      for (std::size_t i = 0; i < size; ++i) block[i] = static_cast<T>(value(start + i));
+      write_bytes(NumberBytes(std::span(block.data(), size), std::endian::big));
+    }
+  }
+
+  // Precondition: all values are written.
+  void finish();
+
+ private:
+  [[nodiscard]] std::uint64_t size_of_values(const NetcdfVariable& variable) const;
+  [[nodiscard]] int needed_version() const;
+  [[nodiscard]] std::string header(int version, std::uint64_t first_offset) const;
+  void write_bytes(std::string_view bytes);
+  void end_full_variables();
+
+  AtomicFile& file_;
+  std::vector<NetcdfDimension> dimensions_;
+  std::vector<NetcdfAttribute> attributes_;
+  std::vector<NetcdfVariable> variables_;
+  std::size_t current_ = 0;        // the variable whose values are next
+  std::uint64_t num_written_ = 0;  // bytes of it
+};
+
+}  // namespace rondel::io

@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The members of zip archives, stored or deflated.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "rondel/export.h"
+
+namespace rondel::io {
+
+// The content of a member of the archive in `bytes`. Throws BadValue, also where its checksum is wrong;
+// no memory is taken for a size that the archive's bytes cannot have.
+RONDEL_API std::string zip_member(std::string_view bytes, std::string_view name);
+
+}  // namespace rondel::io

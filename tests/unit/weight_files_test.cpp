@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Files of weights: what is written is read back, in all formats, and what is wrong is named.
+#include "rondel/weight_files.h"
+
+#include <random>
+
+#include "io/binary.h"
+#include "io_support.h"
+#include "rondel/fields.h"
+
+namespace rondel::test {
+namespace {
+
+WeightFile example() {
+  WeightFile content;
+  content.weights.offsets = {0, 2, 2, 3, 6};
+  content.weights.columns = {2, 0, 1, 1, 2, 0};
+  content.weights.values = {0.25, 0.75, 1, 0.5, 0.25, 0.25};
+  content.weights.num_columns = 3;
+  content.weights.sites_hash = 0x0123456789abcdefU;
+  content.weights.targets_hash = 7;
+  content.source.points = {{0, 0}, {90, 0}, {0, 89.5}};
+  content.source.areas = {1, 2, 3};
+  content.target.points = {{-135, -45}, {45, -45}, {-135, 45}, {45, 45}};
+  content.target.shape = {2, 2};
+  content.target.mask = {1, 0, 1, 1};
+  content.method = "sibson";
+  content.normalization = "none";
+  return content;
+}
+
+TEST(weight_files, come_back_from_both_kinds_of_netcdf) {
+  const TemporaryDirectory directory;
+  for (const char* format : {"esmf", "scrip"}) {
+    const FileName file(directory.file("w.nc"), format);
+    const WeightFile content = example();
+    write_weights(file, content);
+    const WeightFile read = read_weights(file.path);
+    EXPECT_EQ(read.weights, content.weights) << format;
+    EXPECT_EQ(read.source.points, content.source.points);
+    EXPECT_EQ(read.source.areas, content.source.areas);
+    EXPECT_TRUE(read.source.fractions.empty());
+    EXPECT_TRUE(read.target.areas.empty());
+    EXPECT_EQ(read.target.fractions, (std::vector<double>{1, 0, 1, 1}));
+    EXPECT_EQ(read.target.points, content.target.points);
+    EXPECT_EQ(read.target.shape, content.target.shape);
+    EXPECT_TRUE(read.source.shape.empty());
+    EXPECT_EQ(read.target.mask, content.target.mask);
+    EXPECT_EQ(read.method, "sibson");
+    EXPECT_EQ(read.normalization, "none");
+  }
+}
+
+TEST(weight_files, come_back_from_npz_without_hashes) {
+  const TemporaryDirectory directory;
+  WeightFile content = example();
+  write_weights(directory.file("w.npz"), content);
+  content.weights.sites_hash = content.weights.targets_hash = 0;
+  EXPECT_EQ(read_weights(directory.file("w.npz")).weights, content.weights);
+}
+
+TEST(weight_files, may_have_no_entries) {
+  const TemporaryDirectory directory;
+  WeightFile content;
+  content.weights.offsets = {0, 0, 0};
+  content.weights.num_columns = 2;
+  for (const char* name : {"w.nc", "w.npz"}) {
+    write_weights(directory.file(name), content);
+    EXPECT_EQ(read_weights(directory.file(name)).weights, content.weights) << name;
+  }
+}
+
+// The netCDF file of the example, with a change of the bytes of one variable.
+TEST(weight_files, tell_what_is_wrong) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("w.nc");
+  write_weights(path, example());
+  const std::string bytes = read_all(path);
+  const auto message = [&](const std::string& changed) {
+    return message_of([&] { read_weights(directory.with("bad.nc", changed)); });
+  };
+  EXPECT_EQ(message("\x89HDF\r\n\x1a\n"),
+            directory.file("bad.nc") +
+                ": netCDF-4 (HDF5) is not read; nccopy -k cdf5 makes a classic file of it");
+  EXPECT_EQ(message("CDX"), directory.file("bad.nc") + ": not a netCDF file");
+  EXPECT_EQ(message(bytes.substr(0, 100)), directory.file("bad.nc") + ": the header is cut off");
+  EXPECT_EQ(message(bytes.substr(0, bytes.size() - 1)),
+            directory.file("bad.nc") + ": variable \"S\" ends at byte " +
+                std::to_string(bytes.size()) + ", the file at " + std::to_string(bytes.size() - 1));
+  // Rows are the numbers before S, which has six doubles at the end of the file.
+  std::string wrong = bytes;
+  io::store(std::int32_t{9}, wrong.data() + wrong.size() - 48 - 4, std::endian::big);
+  EXPECT_EQ(message(wrong), directory.file("bad.nc") + ": entry 5: row 9 is not in 1 to 4");
+}
+
+TEST(weight_files, in_any_order_of_entries_are_rows) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("w.nc");
+  write_weights(path, example());
+  std::string bytes = read_all(path);
+  // The rows of the entries: 1 1 3 4 4 4 becomes 4 3 4 1 1 1.
+  const std::int32_t rows[] = {4, 3, 4, 1, 1, 1};
+  for (int k = 0; k < 6; ++k) {
+    io::store(rows[k], bytes.data() + bytes.size() - 48 - 24 + 4 * k, std::endian::big);
+  }
+  const Weights read = read_weights(directory.with("other.nc", bytes)).weights;
+  EXPECT_EQ(read.offsets, (std::vector<std::uint64_t>{0, 3, 3, 4, 6}));
+  EXPECT_EQ(read.columns, (std::vector<Index>{1, 2, 0, 0, 2, 1}));
+  EXPECT_EQ(read.values, (std::vector<double>{0.5, 0.25, 0.25, 0.75, 0.25, 1}));
+}
+
+TEST(weight_files, that_are_damaged_are_refused_or_read) {
+  const TemporaryDirectory directory;
+  std::mt19937_64 random(5);
+  std::size_t refused = 0;
+  for (const char* format : {"esmf", "scrip", "npz"}) {
+    const FileName file(directory.file("w.nc"), format);
+    write_weights(file, example());
+    const std::string bytes = read_all(file.path);
+    for (int i = 0; i < 2000; ++i) {
+      std::string changed = bytes;
+      for (int k = 0; k < 3; ++k) changed[random() % changed.size()] = static_cast<char>(random());
+      if (i % 4 == 0) changed.resize(random() % changed.size());
+      const FileName bad(directory.with("bad.nc", changed), format);
+      const std::string message = message_of([&] { read_weights(bad); });
+      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+      if (!message.empty()) ++refused;
+    }
+  }
+  EXPECT_GT(refused, 1500U);
+}
+
+TEST(fields, come_back) {
+  const TemporaryDirectory directory;
+  FieldSet fields;
+  fields.num_points = 4;
+  fields.arrays = {{"t", {"time"}, {2}, {1, 2, 3, 4, 5, 6, 7, 0.1}, {{"units", "K"}}}};
+  fields.axes = {{"time", {"time"}, {2}, {0, 6}, {{"units", "hours since 2000-01-01"}}}};
+  const WeightSide side = example().target;
+  write_fields(directory.file("f.nc"), fields, side);
+  const FieldSet read = read_fields(directory.file("f.nc"), {}, 4);
+  ASSERT_EQ(read.arrays.size(), 1U);
+  EXPECT_EQ(read.arrays[0].values, fields.arrays[0].values);
+  EXPECT_EQ(read.arrays[0].shape, fields.arrays[0].shape);
+  EXPECT_EQ(read.arrays[0].attributes, fields.arrays[0].attributes);
+  ASSERT_EQ(read.axes.size(), 1U);
+  EXPECT_EQ(read.axes[0].values, fields.axes[0].values);
+  write_fields(directory.file("f.npy"), fields, side);
+  EXPECT_EQ(read_fields(directory.file("f.npy"), {}, 4).arrays[0].values, fields.arrays[0].values);
+  write_fields(directory.file("f.csv"), fields, side);
+  const std::vector<std::string> names = {"t_1"};
+  EXPECT_EQ(read_fields(directory.file("f.csv"), names, 4).arrays[0].values,
+            (std::vector<double>{5, 6, 7, 0.1}));
+}
+
+}  // namespace
+}  // namespace rondel::test
