@@ -7,6 +7,7 @@ rondel_add_test(io_test
   io_binary_test.cpp
   io_circles_test.cpp
   io_mutation_test.cpp
+  io_netcdf_test.cpp
   io_number_test.cpp
   io_pvtp_test.cpp
   io_sites_test.cpp
