@@ -18,7 +18,10 @@ namespace {
 double number_in(std::string_view cell, const SiteTable& table, std::size_t site,
                  const std::string& name) {
   double value = std::numeric_limits<double>::quiet_NaN();
-  if (cell.empty()) return value;
+  const auto first = cell.find_first_not_of(" \t+");
+  if (first == std::string_view::npos) return value;
+  cell = cell.substr(first, cell.find_last_not_of(" \t") + 1 - first);
+  if (cell == "NA" || cell == "null") return value;
   const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   if (error == std::errc() && end == cell.data() + cell.size() && !std::isinf(value)) return value;
   throw FileError(table.where(site) + ": " + name + " '" + std::string(cell) + "' is not a number");

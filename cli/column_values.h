@@ -12,7 +12,8 @@
 
 namespace rondel::cli {
 
-/// The numbers of a column that was kept, one of each site; not a number where the cell is empty or "nan".
+/// The numbers of a column that was kept, one of each site; not a number where the cell is empty,
+/// "nan", "NA" or "null".
 /// \throws UsageError, which begins with the option, if the table has no such column; FileError with the
 /// place of the first cell that is no finite number.
 std::vector<double> column_values(const SiteTable& table, const std::string& name,

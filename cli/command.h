@@ -151,12 +151,14 @@ Command add_delaunay_command(CLI::App& tool);
 Command add_voronoi_command(CLI::App& tool);
 Command add_hull_command(CLI::App& tool);
 Command add_check_command(CLI::App& tool);
-Command add_contours_command(CLI::App& tool);     // contours.cpp
-Command add_interpolate_command(CLI::App& tool);  // interpolate.cpp
-Command add_plot_command(CLI::App& tool);         // plot.cpp
+Command add_contours_command(CLI::App& tool);  // contours.cpp
+Command add_plot_command(CLI::App& tool);      // plot.cpp
 Command add_generate_command(CLI::App& tool);
 Command add_info_command(CLI::App& tool);
 Command add_locate_command(CLI::App& tool);
 Command add_nearest_command(CLI::App& tool);
+Command add_interpolate_command(CLI::App& tool);    // remap_commands.cpp
+Command add_apply_command(CLI::App& tool);          // remap_commands.cpp
+Command add_check_weights_command(CLI::App& tool);  // remap_commands.cpp
 
 }  // namespace rondel::cli

@@ -1,266 +1,145 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// rondel interpolate: columns of values at sites, carried to other points.
 #include "rondel/interpolate.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
-#include <memory>
 #include <nlohmann/json.hpp>
-#include <string>
-#include <utility>
-#include <vector>
+#include <optional>
 
 #include "column_values.h"
-#include "command.h"
 #include "process.h"
+#include "remap.h"
 #include "report.h"
-#include "targets.h"
-#include "value_table.h"
+#include "rondel/delaunay.h"
 
 namespace rondel::cli {
 namespace {
 
-template <class Choice>
-using Names = std::vector<std::pair<std::string, Choice>>;
-
-const Names<Method>& methods() {
-  static const Names<Method> names = {{"nearest", Method::nearest}, {"linear", Method::linear},
-                                      {"laplace", Method::laplace}, {"sibson", Method::sibson},
-                                      {"hermite", Method::hermite}, {"cubic", Method::cubic}};
-  return names;
-}
-
-struct InterpolateOptions {
-  CommonOptions common;
-  std::vector<std::string> values;  // --value: columns
-  std::string targets;              // --to
-  InterpolationOptions how;         // --method --outside --duplicates
-};
-
-std::vector<bool> present(const std::vector<double>& values) {
-  std::vector<bool> is_present;
-  is_present.reserve(values.size());
-  for (const double value : values) is_present.push_back(!std::isnan(value));
-  return is_present;
-}
-
-// The sites that have a value, in places of their own.
-SiteTable sites_with(const SiteTable& table, const std::vector<bool>& is_present) {
+// The sites that have a value, with their places in the file.
+SiteTable with_values(const SiteTable& table, std::vector<double>& values) {
   SiteTable kept;
   kept.name = table.name;
   kept.first_line = table.first_line;
-  for (std::size_t i = 0; i < table.sites.size(); ++i) {
-    if (!is_present[i]) continue;
+  std::vector<double> known;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    known.push_back(values[i]);
     kept.sites.push_back(table.sites[i]);
-    if (table.is_lonlat()) kept.positions.push_back(table.positions[i]);
-    if (table.first_line > 0 || !table.lines.empty())
-      kept.lines.push_back(table.lines.empty() ? table.first_line + i : table.lines[i]);
+    if (!table.lines.empty()) {
+      kept.lines.push_back(table.lines[i]);
+    } else if (table.first_line != 0) {
+      kept.lines.push_back(table.first_line + i);
+    }
   }
+  values = std::move(known);
   return kept;
 }
 
-class InterpolateJob {
- public:
-  explicit InterpolateJob(const InterpolateOptions& options)
-      : options_(completed(options)), job_(options_.common) {
-    const CommonOptions& common = options_.common;
-    const std::string format = common.format();
-    require_output(common, format == "csv" || format == "tsv" || format == "npy", ".csv .tsv .npy");
-    if (common.build.model == Model::weighted && options_.how.method != Method::nearest)
-      throw UsageError("--method: weighted sites have 'nearest' only");
-  }
-
-  void run() {
-    read();
-    for (const std::string& name : options_.values) {
-      answers_.push_back({name, {}});
-      fields_.push_back(column_values(sites_, name, "--value"));
-    }
-    // Columns that miss values at the same sites share a triangulation.
-    for (std::size_t i = 0; i < fields_.size(); ++i) {
-      if (answers_[i].values.empty()) answer_from(i);
-    }
-    write();
-    report();
-  }
-
- private:
-  static InterpolateOptions completed(InterpolateOptions options) {
-    CommonOptions& common = options.common;
-    common.read.keep_columns = true;
-    if (common.output == "-" && common.output_format.empty()) common.output_format = "csv";
-    return options;
-  }
-
-  void read() {
-    sites_ = job_.read();
-    ReadOptions read = options_.common.read;
-    read.radius.clear();
-    read.keep_columns = false;
-    targets_ = read_targets(job_, options_.targets, read);
-  }
-
-  void answer_from(std::size_t first) {
-    const std::vector<bool> is_present = present(fields_[first]);
-    const SiteTable kept = sites_with(sites_, is_present);
-    std::vector<std::size_t> columns;
-    std::vector<double> values;
-    for (std::size_t i = first; i < fields_.size(); ++i) {
-      if (present(fields_[i]) != is_present) continue;
-      columns.push_back(i);
-      std::ranges::copy_if(fields_[i], std::back_inserter(values),
-                           [](double v) { return !std::isnan(v); });
-    }
-    const std::vector<double> found = interpolated(kept, values);
-    const auto size = static_cast<std::ptrdiff_t>(targets_.table.sites.size());
-    auto begin = found.begin();
-    for (const std::size_t i : columns) {
-      answers_[i].values.assign(begin, begin + size);
-      begin += size;
-    }
-  }
-
-  std::vector<double> interpolated(const SiteTable& kept, const std::vector<double>& values) {
-    const Triangulation triangulation = job_.triangulate(kept);
-    const auto& duplicates = triangulation.duplicates();
-    if (options_.how.shared_place == SharedPlace::error && !duplicates.empty()) {
-      throw FileError(kept.where(duplicates.front().site) + ": the place of " +
-                      kept.where(duplicates.front().representative));
-    }
-    std::vector<double> found;
-    job_.time(Stage::query, [&] {
-      const Interpolator interpolator(triangulation);
-      found = with_places(targets_.table, [&] {
-        return interpolator.values(values, targets_.table.sites, options_.how, job_.execution());
-      });
-    });
-    return found;
-  }
-
-  void write() {
-    job_.time(Stage::write, [&] {
-      if (options_.common.format() == "npy") {
-        write_array(options_.common.output, answers_, targets_.shape);
-      } else {
-        const char separator = options_.common.format() == "tsv" ? '\t' : ',';
-        write_file(options_.common.output, table_of(targets_.table, answers_, separator));
-      }
-    });
-  }
-
-  void report() {
-    const Seconds seconds = job_.seconds();
-    const auto method =
-        std::ranges::find(methods(), options_.how.method, &std::pair<std::string, Method>::second);
-    nlohmann::ordered_json json = {{"sites", sites_.sites.size()},
-                                   {"targets", targets_.table.sites.size()},
-                                   {"method", method->first}};
-    std::string text = count(sites_.sites.size(), "site", "sites") + " to " +
-                       count(targets_.table.sites.size(), "target", "targets") + " by " +
-                       method->first + '\n';
-    for (const ValueColumn& answer : answers_) {
-      json["missing"][answer.name] = answer.num_missing();
-      if (answer.num_missing() == 0) continue;
-      text += answer.name + ": " + count(answer.num_missing(), "target", "targets") +
-              " without a value (outside of the sites' triangles)\n";
-    }
-    json["seconds"] = {{"read", seconds.read},
-                       {"query", seconds.query},
-                       {"write", seconds.write},
-                       {"total", seconds.total}};
-    json["peak_memory_bytes"] = peak_memory_bytes();
-    std::array<char, 32> time{};
-    std::snprintf(time.data(), time.size(), "%.3f s", seconds.total);
-    text += "wrote the values to " + options_.common.output + " in " + time.data() + '\n';
-    job_.report(json.dump(2) + '\n', text);
-  }
-
-  InterpolateOptions options_;
-  Job job_;
-  SiteTable sites_;
-  Targets targets_;
-  std::vector<std::vector<double>> fields_;
-  std::vector<ValueColumn> answers_;
+struct InterpolateCounts {
+  std::size_t sites = 0;
+  std::size_t targets = 0;
+  std::size_t left_out = 0;  // values of sites that are not there
+  std::size_t missing = 0;   // values of targets, or rows, that are not there
 };
 
-template <class Choice>
-void add_choice(CLI::App& parser, const std::string& name, Choice& choice,
-                const Names<Choice>& names, const std::string& what) {
-  const auto find = [&names](const std::string& text) {
-    return std::ranges::find(names, text, &std::pair<std::string, Choice>::first);
-  };
-  std::string list;
-  for (const auto& [word, value] : names) list += (list.empty() ? "" : ", ") + word;
-  parser
-      .add_option_function<std::string>(
-          name, [&choice, find](const std::string& text) { choice = find(text)->second; }, what)
-      ->check([&names, find, list](const std::string& text) {
-        return find(text) == names.end() ? "'" + text + "' is none of " + list : std::string();
-      })
-      ->type_name("WORD");
+void report(Job& job, const InterpolateOptions& options, const InterpolateCounts& counts) {
+  const Seconds seconds = job.seconds();
+  const nlohmann::ordered_json json = {{"sites", counts.sites},
+                                       {"targets", counts.targets},
+                                       {"left_out", counts.left_out},
+                                       {"missing", counts.missing},
+                                       {"seconds",
+                                        {{"read", seconds.read},
+                                         {"interpolate", seconds.query},
+                                         {"write", seconds.write},
+                                         {"total", seconds.total}}},
+                                       {"peak_memory_bytes", peak_memory_bytes()}};
+  std::string text =
+      count(counts.sites, "site", "sites") + " to " + count(counts.targets, "target", "targets");
+  if (counts.left_out > 0)
+    text += ", left out " + std::to_string(counts.left_out) + " without value";
+  text += "; targets without value: " + std::to_string(counts.missing) + '\n';
+  if (!options.weights.empty()) text += "wrote the weights to " + options.weights + '\n';
+  job.report(json.dump(2) + '\n', text);
 }
 
-void add_ways(CLI::App& parser, InterpolationOptions& how) {
-  static const Names<Outside> outsides = {
-      {"nan", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}};
-  static const Names<SharedPlace> places = {
-      {"first", SharedPlace::first}, {"mean", SharedPlace::mean}, {"error", SharedPlace::error}};
-  add_choice(parser, "--method", how.method, methods(),
-             "nearest, linear, laplace, sibson (default), hermite or cubic");
-  add_choice(parser, "--outside", how.outside, outsides,
-             "Targets outside of the sites' triangles: nan (default: no value), nearest (that\n"
-             "of the nearest site), error");
-  add_choice(parser, "--duplicates", how.shared_place, places,
-             "Sites in one place: first (default: the first one's value), mean, error");
+// One triangulation for all columns without gaps, one more for each that has some.
+void interpolate_columns(Job& job, const InterpolateOptions& options, const SiteTable& table,
+                         const Targets& targets, InterpolateCounts& counts) {
+  FieldSet fields;
+  fields.num_points = targets.points.size();
+  std::optional<Interpolator> whole;
+  for (const std::string& name : options.columns) {
+    std::vector<double> values = column_values(table, name, "--value");
+    const SiteTable kept = with_values(table, values);
+    const bool is_whole = kept.sites.size() == table.sites.size();
+    counts.left_out += table.sites.size() - kept.sites.size();
+    std::optional<Interpolator> own;
+    if (!is_whole) own.emplace(job.triangulate(kept));
+    if (is_whole && !whole) whole.emplace(job.triangulate(table));
+    FieldArray array;
+    array.name = name;
+    job.time(Stage::query, [&] {
+      array.values = (is_whole ? *whole : *own)
+                         .values(values, targets.points, options.interpolation, job.execution());
+    });
+    counts.missing += static_cast<std::size_t>(
+        std::ranges::count_if(array.values, [](double value) { return std::isnan(value); }));
+    fields.arrays.push_back(std::move(array));
+  }
+  job.time(Stage::write, [&] { write_fields(options.common.target(), fields, targets.side); });
+}
+
+constexpr const char* method_names[] = {"nearest", "linear",  "laplace",
+                                        "sibson",  "hermite", "cubic"};
+
+void write_weights_of(Job& job, const InterpolateOptions& options, const SiteTable& table,
+                      Targets& targets, InterpolateCounts& counts) {
+  const Triangulation triangulation = job.triangulate(table);
+  const Interpolator interpolator(triangulation);
+  WeightFile file;
+  job.time(Stage::query, [&] {
+    file.weights = interpolator.weights(targets.points, options.interpolation, job.execution());
+  });
+  file.method = method_names[static_cast<std::size_t>(options.interpolation.method)];
+  file.normalization = "none";
+  file.source.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
+  file.target = std::move(targets.side);
+  for (std::size_t r = 0; r < file.weights.num_rows(); ++r) {
+    if (file.weights.offsets[r] == file.weights.offsets[r + 1]) ++counts.missing;
+  }
+  job.time(Stage::write, [&] { write_weights({options.weights, options.weight_format}, file); });
 }
 
 }  // namespace
 
-Command add_interpolate_command(CLI::App& tool) {
-  const auto options = std::make_shared<InterpolateOptions>();
-  CLI::App* parser =
-      tool.add_subcommand("interpolate", "Carry values at the sites to other points");
-  options->common.output = "-";
-  add_input_options(*parser, options->common);
-  parser
-      ->add_option("--value", options->values,
-                   "A column with values; may be repeated. A site whose cell is empty does not\n"
-                   "count for this column")
-      ->required()
-      ->allow_extra_args(false)
-      ->type_name("COL");
-  parser
-      ->add_option("--to", options->targets,
-                   "Where values are wanted: a file of points, in the formats of INPUT; grid:DEG,\n"
-                   "the centers of cells of DEG x DEG; or grid:NLONxNLAT")
-      ->required()
-      ->check(targets_error)
-      ->type_name("TARGET");
-  add_output_option(*parser, options->common,
-                    "Where to write the values: .csv .tsv (standard output: CSV), or .npy:\n"
-                    "(targets), of a grid (latitudes, longitudes), before it the columns if there\n"
-                    "are several");
-  add_ways(*parser, options->how);
-  add_build_options(*parser, options->common);
-  add_report_options(*parser, options->common);
-  parser->footer(
-      "A row for each target: its place and the values; an empty cell (.npy: NaN) is none.\n"
-      "Grids go from south to north, and within a row from -180 degrees to the east.\n\n"
-      "linear is exact at the sites and has edges; laplace and sibson (natural neighbors) are\n"
-      "smooth off the sites; hermite and cubic use gradients, which they estimate, and are the\n"
-      "most accurate for smooth fields, but may overshoot.\n\n"
-      "Examples:\n"
-      "  rondel interpolate stations.csv --value temperature --to grid:1 -o grid.npy\n"
-      "  rondel interpolate stations.csv --value t --to ships.csv --method linear");
-  return {parser, [options] {
-            InterpolateJob(*options).run();
-            return done;
-          }};
+ExitStatus run_interpolate(const InterpolateOptions& options) {
+  const CommonOptions& common = options.common;
+  const bool has_values = !options.columns.empty();
+  if (has_values != !common.output.empty()) {
+    throw UsageError("--value and --output go together: values of a column to a file");
+  }
+  if (!has_values && options.weights.empty()) {
+    throw UsageError("nothing to do: --value COL -o FILE, or --weights FILE");
+  }
+  if (has_values) {
+    require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc");
+  }
+  Job job(common);
+  ReadOptions read = common.read;
+  read.keep_columns = has_values;
+  const SiteTable table = job.read(common.source(), read);
+  Targets targets = read_targets(options.target, common.read);
+  InterpolateCounts counts{table.sites.size(), targets.points.size(), 0, 0};
+  if (has_values) interpolate_columns(job, options, table, targets, counts);
+  if (!options.weights.empty()) {
+    counts.missing = 0;
+    write_weights_of(job, options, table, targets, counts);
+  }
+  report(job, options, counts);
+  return done;
 }
 
 }  // namespace rondel::cli

@@ -31,12 +31,13 @@ int fail(ExitStatus status, std::string message) {
 std::vector<Command> add_commands(CLI::App& tool) {
   return {
     add_delaunay_command(tool), add_voronoi_command(tool), add_hull_command(tool),
-        add_check_command(tool), add_contours_command(tool), add_interpolate_command(tool),
+        add_check_command(tool), add_contours_command(tool),
 #if defined(RONDEL_HAS_PLOT)
         add_plot_command(tool),
 #endif
         add_generate_command(tool), add_info_command(tool), add_locate_command(tool),
-        add_nearest_command(tool)
+        add_nearest_command(tool), add_interpolate_command(tool), add_apply_command(tool),
+        add_check_weights_command(tool)
   };
 }
 

@@ -1,95 +1,89 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "targets.h"
 
 #include <charconv>
 #include <cmath>
-#include <optional>
-#include <string_view>
 
+#include "remap.h"
 #include "rondel/delaunay.h"
+#include "validate.h"
 
 namespace rondel::cli {
 namespace {
 
-constexpr std::string_view grid_prefix = "grid:";
-constexpr std::uint64_t most_targets = 1'000'000'000;
+constexpr std::uint64_t most_parallels = 1'000'000;
 
-struct Grid {
+struct GridSize {
   std::uint64_t num_lon = 0;
   std::uint64_t num_lat = 0;
 };
 
-template <class Number>
-std::optional<Number> number(std::string_view text) {
-  Number value{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
+[[noreturn]] void refuse(const std::string& text) {
+  throw UsageError("--to: '" + text +
+                   "' is no grid; grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT "
+                   "has so many cells");
 }
 
-// How often the width goes into an angle.
-std::optional<std::uint64_t> times(double width_deg, double angle_deg) {
-  const double ratio = std::round(angle_deg / width_deg);
-  constexpr double tolerance = 1e-9;  // for thirds and the like, written with some digits
-  if (!(ratio >= 1 && std::abs(ratio * width_deg - angle_deg) <= tolerance * angle_deg)) return {};
-  return static_cast<std::uint64_t>(ratio);
-}
-
-std::optional<Grid> grid_of(std::string_view text) {
-  const std::size_t by = text.find('x');
-  Grid grid;
-  if (by == std::string_view::npos) {
-    const auto width = number<double>(text);
-    if (!width || !(*width >= 1e-3 && *width <= 180)) return {};
-    grid = {times(*width, 360).value_or(0), times(*width, 180).value_or(0)};
-  } else {
-    grid = {number<std::uint64_t>(text.substr(0, by)).value_or(0),
-            number<std::uint64_t>(text.substr(by + 1)).value_or(0)};
+GridSize grid_size(const std::string& text) {
+  const std::string numbers = text.substr(text.find(':') + 1);
+  const std::size_t cross = numbers.find('x');
+  if (cross != std::string::npos) {
+    const std::string lon = numbers.substr(0, cross);
+    const std::string lat = numbers.substr(cross + 1);
+    if (!whole_error(lon, 1, 2 * most_parallels).empty() ||
+        !whole_error(lat, 1, most_parallels).empty()) {
+      refuse(text);
+    }
+    return {std::stoull(lon), std::stoull(lat)};
   }
-  const bool is_empty = grid.num_lon == 0 || grid.num_lat == 0;
-  if (is_empty || grid.num_lon > most_targets / grid.num_lat) return {};
-  return grid;
-}
-
-// The middle of interval i of n; rounded once.
-double middle(std::uint64_t i, std::uint64_t n, double low_deg, double high_deg) {
-  const auto odd = static_cast<double>(2 * i + 1);
-  const auto count = static_cast<double>(n);
-  return (low_deg * 2 * count + odd * (high_deg - low_deg)) / (2 * count);
-}
-
-Targets grid_targets(const std::string& text, const Grid& grid) {
-  Targets targets;
-  targets.table.name = text;
-  targets.table.first_line = 0;
-  targets.table.positions.reserve(grid.num_lat * grid.num_lon);
-  for (std::uint64_t row = 0; row < grid.num_lat; ++row) {
-    const double lat_deg = middle(row, grid.num_lat, -90, 90);
-    for (std::uint64_t column = 0; column < grid.num_lon; ++column)
-      targets.table.positions.push_back({middle(column, grid.num_lon, -180, 180), lat_deg});
+  if (!positive_error(numbers).empty()) refuse(text);
+  const double count = 180 / std::stod(numbers);
+  const double whole = std::round(count);
+  // One ulp of the step, as of 0.1, and the division's.
+  if (!(std::abs(count - whole) <= count * 0x1p-50) || whole < 1 ||
+      whole > static_cast<double>(most_parallels)) {
+    refuse(text);
   }
-  targets.table.sites = unit_vectors(targets.table.positions);
-  targets.shape = {grid.num_lat, grid.num_lon};
-  return targets;
+  const auto num_lat = static_cast<std::uint64_t>(whole);
+  return {2 * num_lat, num_lat};
+}
+
+// The center of cell i of n that divide [-half, half]: numerator and denominator are integers, and one
+// division rounds.
+double center(std::uint64_t i, std::uint64_t n, std::int64_t half) {
+  const auto count = static_cast<std::int64_t>(n);
+  const std::int64_t numerator = (2 * static_cast<std::int64_t>(i) + 1 - count) * half;
+  return static_cast<double>(numerator) / static_cast<double>(count);
+}
+
+std::vector<LonLat> grid_points(const GridSize& size) {
+  std::vector<LonLat> points;
+  points.reserve(size.num_lon * size.num_lat);
+  for (std::uint64_t j = 0; j < size.num_lat; ++j) {
+    for (std::uint64_t i = 0; i < size.num_lon; ++i) {
+      points.push_back({center(i, size.num_lon, 180), center(j, size.num_lat, 90)});
+    }
+  }
+  return points;
 }
 
 }  // namespace
 
-std::string targets_error(const std::string& text) {
-  if (!text.starts_with(grid_prefix)) {
-    return text.empty() || text == "-" ? "a file or grid:DEG is wanted" : "";
-  }
-  if (grid_of(std::string_view(text).substr(grid_prefix.size()))) return {};
-  return "'" + text + "' is not a grid: DEG must divide 180, or be NLONxNLAT; at most 10^9 targets";
-}
-
-Targets read_targets(Job& job, const std::string& text, const ReadOptions& read) {
-  if (text.starts_with(grid_prefix))
-    return grid_targets(text, *grid_of(std::string_view(text).substr(grid_prefix.size())));
+Targets read_targets(const std::string& name, const ReadOptions& read) {
   Targets targets;
-  targets.table = job.read({text, ""}, read);
-  targets.shape = {targets.table.sites.size()};
+  if (name.starts_with("grid:")) {
+    const GridSize size = grid_size(name);
+    targets.side.points = grid_points(size);
+    targets.side.shape = {size.num_lat, size.num_lon};
+    targets.points = unit_vectors(targets.side.points);
+    return targets;
+  }
+  ReadOptions options = read;
+  options.radius.clear();
+  options.keep_columns = false;
+  SiteTable table = read_sites(name, options);
+  targets.side.points = table.is_lonlat() ? std::move(table.positions) : lonlats(table.sites);
+  targets.points = std::move(table.sites);
   return targets;
 }
 

@@ -100,7 +100,7 @@ Weights rows_of_entries(std::span<const std::int64_t> rows, std::span<const std:
                         std::span<const double> values, std::size_t num_rows,
                         std::size_t num_columns);
 
-// The size of a dimension, at least 1. Throws BadValue.
+// The size of a dimension. Throws BadValue, also if it is larger than the file.
 std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name);
 
 }  // namespace rondel::remap

@@ -21,7 +21,8 @@ constexpr const char* method_name = "rondel_method";
 std::string hexadecimal(std::uint64_t hash) {
   std::array<char, 16> digits;
   const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), hash, 16).ptr;
-  return {digits.data(), end};
+  const std::string text(digits.data(), end);
+  return std::string(digits.size() - text.size(), '0') + text;
 }
 
 std::uint64_t hash_of(const io::NetcdfReader& file, const char* name) {
@@ -182,11 +183,15 @@ Weights rows_of_entries(std::span<const std::int64_t> rows, std::span<const std:
 std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name) {
   for (const io::NetcdfDimension& dimension : file.dimensions()) {
     if (dimension.name != name) continue;
-    // No more than the file has bytes, or none would be about most of them.
-    if (dimension.size > no_index) break;
+    // Every format has a value for each point: a larger size is a lie, and would take memory.
+    if (dimension.size > file.num_bytes()) {
+      throw io::BadValue("dimension " + io::in_quotes(name) + " of " +
+                         std::to_string(dimension.size) + " in a file of " +
+                         std::to_string(file.num_bytes()) + " bytes");
+    }
     return static_cast<std::size_t>(dimension.size);
   }
-  throw io::BadValue("no dimension " + io::in_quotes(name) + " of up to 2^32 - 1");
+  throw io::BadValue("no dimension " + io::in_quotes(name));
 }
 
 WeightFile read_weights_netcdf(std::string_view bytes) {

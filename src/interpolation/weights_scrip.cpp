@@ -45,6 +45,8 @@ void write_scrip(io::AtomicFile& file, const WeightFile& content) {
                     content.normalization.empty() ? "none" : content.normalization);
   out.add_attribute("map_method", known_method(content.method));
   out.add_attribute("conventions", "SCRIP");
+  out.add_attribute("source_grid", "source");
+  out.add_attribute("dest_grid", "target");
   add_own_attributes(out, content);
   add_side(out, names_of("src"), content.source, src_size, src_rank);
   add_side(out, names_of("dst"), content.target, dst_size, dst_rank);

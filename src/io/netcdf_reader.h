@@ -31,6 +31,7 @@ class RONDEL_API NetcdfReader {
   // variable is there.
   explicit NetcdfReader(std::string_view bytes);
 
+  [[nodiscard]] std::size_t num_bytes() const { return bytes_.size(); }
   [[nodiscard]] std::span<const NetcdfDimension> dimensions() const { return dimensions_; }
   [[nodiscard]] std::span<const NetcdfAttribute> attributes() const { return attributes_; }
   [[nodiscard]] std::span<const Variable> variables() const { return variables_; }

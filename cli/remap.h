@@ -1,0 +1,47 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// What the commands for values between sites share, and their options.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "rondel/fields.h"
+#include "rondel/interpolate.h"
+
+namespace rondel::cli {
+
+struct ApplyCommandOptions {
+  CommonOptions common;              ///< INPUT: the weights; output and threads
+  std::string values_file;           ///< VALUES
+  std::vector<std::string> columns;  ///< --value
+  ApplyOptions apply;                ///< --fill --most-missing
+};
+
+struct InterpolateOptions {
+  CommonOptions common;              ///< INPUT: the sites
+  std::string target;                ///< --to
+  std::string weights;               ///< --weights; empty: values
+  std::string weight_format;         ///< --weight-format
+  std::vector<std::string> columns;  ///< --value
+  InterpolationOptions interpolation;
+};
+
+/// The targets that --to names: a file of points, or "grid:DEG" or "grid:NLONxNLAT", the centers of the
+/// cells of a grid, from -180 eastward and from the south pole northward, longitudes fastest.
+struct Targets {
+  std::vector<Point> points;
+  WeightSide side;
+};
+/// \throws UsageError for a grid that there cannot be, FileError
+Targets read_targets(const std::string& name, const ReadOptions& read);
+
+ExitStatus run_apply(const ApplyCommandOptions& options);
+ExitStatus run_check_weights(const CommonOptions& options);
+ExitStatus run_interpolate(const InterpolateOptions& options);
+
+}  // namespace rondel::cli

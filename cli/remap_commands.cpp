@@ -1,0 +1,158 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The arguments and the help of the commands for values between sites.
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <memory>
+
+#include "remap.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+std::string share_error(const std::string& text) { return range_error(text, 0, 1); }
+
+void add_values(CLI::App& parser, std::vector<std::string>& columns, const std::string& what) {
+  parser.add_option("--value", columns, what)->allow_extra_args(false)->type_name("COL");
+}
+
+// A word for each of the values of an option.
+template <typename Value>
+void add_word(CLI::App& parser, const std::string& name, Value& target,
+              const std::map<std::string, Value>& choices, const std::string& what) {
+  parser
+      .add_option_function<std::string>(
+          name, [&target, choices](const std::string& text) { target = choices.at(text); }, what)
+      ->check([choices](const std::string& text) {
+        return choices.contains(text) ? std::string() : "'" + text + "' is not a choice";
+      })
+      ->type_name("WORD");
+}
+
+void add_weights_input(CLI::App& parser, CommonOptions& options) {
+  parser
+      .add_option("WEIGHTS", options.input,
+                  "The weights: .nc (ESMF or SCRIP, classic netCDF) or .npz (scipy.sparse)")
+      ->required()
+      ->type_name("");
+  parser
+      .add_option("--input-format", options.input_format,
+                  "Format of WEIGHTS: esmf, scrip or npz (default: by its ending)")
+      ->type_name("FORMAT");
+}
+
+void add_methods(CLI::App& parser, InterpolationOptions& options) {
+  add_word<Method>(parser, "--method", options.method,
+                   {{"nearest", Method::nearest},
+                    {"linear", Method::linear},
+                    {"laplace", Method::laplace},
+                    {"sibson", Method::sibson},
+                    {"hermite", Method::hermite},
+                    {"cubic", Method::cubic}},
+                   "nearest, linear, laplace, sibson (default), hermite or cubic");
+  add_word<Outside>(
+      parser, "--outside", options.outside,
+      {{"nan", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}},
+      "A target in no triangle that the center sees: nan (default), nearest or error");
+  add_word<SharedPlace>(
+      parser, "--duplicates", options.shared_place,
+      {{"first", SharedPlace::first}, {"mean", SharedPlace::mean}, {"error", SharedPlace::error}},
+      "Sites in one place: first (default: the one with the lowest number), mean or error");
+}
+
+}  // namespace
+
+Command add_apply_command(CLI::App& tool) {
+  auto options = std::make_shared<ApplyCommandOptions>();
+  CLI::App* parser = tool.add_subcommand("apply", "Apply a file of weights to values");
+  add_weights_input(*parser, options->common);
+  parser
+      ->add_option("VALUES", options->values_file,
+                   "Values at the sources: .csv .tsv (--value), .npy of the shape (n) or\n"
+                   "(fields, n), or classic .nc: variables whose last dimensions are the sources")
+      ->required()
+      ->type_name("");
+  add_output_option(*parser, options->common,
+                    "Where to write the values at the targets: .csv .tsv .npy .nc")
+      ->required();
+  add_values(*parser, options->columns,
+             "A column, or a variable of .nc (default: all that fit); may be repeated");
+  parser
+      ->add_option("--fill", options->apply.fill,
+                   "The value of targets that have none (default: nan)")
+      ->type_name("VALUE");
+  parser
+      ->add_option("--most-missing", options->apply.most_missing,
+                   "Values may be missing that have up to this share of a target's weights,\n"
+                   "from 0 (default) to 1; the other weights are scaled up")
+      ->check(share_error)
+      ->type_name("SHARE");
+  add_threads_option(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "A table with the columns of longitude and latitude, or x, y, z, must have the points that\n"
+      "the weights were made for, in their order, where the file of weights knows them.\n\n"
+      "Examples:\n"
+      "  rondel apply weights.nc temperature.nc -o on-grid.nc\n"
+      "  rondel apply weights.nc stations.csv --value temperature -o on-grid.csv");
+  return {parser, [options] { return run_apply(*options); }};
+}
+
+Command add_check_weights_command(CLI::App& tool) {
+  auto options = std::make_shared<CommonOptions>();
+  CLI::App* parser = tool.add_subcommand("check-weights", "Check a file of weights");
+  add_weights_input(*parser, *options);
+  add_report_options(*parser, *options);
+  parser->footer(
+      "Wrong are weights that are not finite, a source twice in one row, and rows with entries\n"
+      "whose sum is not 1 to 1e-9, or, where they are normalized by destarea, not the fraction\n"
+      "of the target. Exit status: 0 if nothing is wrong, 1 if something is or the file cannot\n"
+      "be read. Told, but not judged: empty rows, the range, the areas that are given away (with\n"
+      "areas), and the length of u x (sum of w x), u a target and x the sources (with points).\n\n"
+      "Example:\n"
+      "  rondel check-weights weights.nc");
+  return {parser, [options] { return run_check_weights(*options); }};
+}
+
+Command add_interpolate_command(CLI::App& tool) {
+  auto options = std::make_shared<InterpolateOptions>();
+  CLI::App* parser =
+      tool.add_subcommand("interpolate", "Carry values at sites to other points, or make weights");
+  add_input_options(*parser, options->common);
+  parser
+      ->add_option("--to", options->target,
+                   "The targets: a file of points in the formats of INPUT, or the centers of\n"
+                   "the cells of a grid, grid:DEG or grid:NLONxNLAT")
+      ->required()
+      ->type_name("TARGET");
+  add_values(*parser, options->columns,
+             "The column with the values, for GeoJSON a property; may be repeated");
+  add_output_option(*parser, options->common,
+                    "Where to write the values at the targets: .csv .tsv .npy .nc");
+  parser
+      ->add_option("--weights", options->weights,
+                   "Where to write the weights: .nc (ESMF), .npz (scipy.sparse)")
+      ->type_name("FILE");
+  parser
+      ->add_option("--weight-format", options->weight_format,
+                   "Format of the weights: esmf, scrip (for CDO) or npz")
+      ->type_name("FORMAT");
+  add_methods(*parser, options->interpolation);
+  add_build_options(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "A site whose value is missing (empty, nan, NA, null) takes no part in that column, as if\n"
+      "it were not in the file; weights are those of all sites. Grids go from longitude -180\n"
+      "eastward and from the south pole northward; centers have the digits of an exact\n"
+      "division, rounded once. DEG divides 180.\n\n"
+      "Examples:\n"
+      "  rondel interpolate stations.csv --value temperature --to grid:1 -o grid.nc\n"
+      "  rondel interpolate stations.csv --value t --to ships.csv --method linear -o ships.npy\n"
+      "  rondel interpolate stations.csv --to grid:360x180 --weights weights.nc");
+  return {parser, [options] { return run_interpolate(*options); }};
+}
+
+}  // namespace rondel::cli

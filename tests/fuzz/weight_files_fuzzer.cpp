@@ -1,0 +1,60 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// netCDF's classic formats, as files of weights and of fields: any bytes give what they hold, or a
+// FileError of one line.
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "fuzz/fuzz_input.h"
+#include "fuzz/scratch_folder.h"
+#include "rondel/error.h"
+#include "rondel/fields.h"
+#include "rondel/weight_files.h"
+
+namespace rondel::fuzz {
+namespace {
+
+template <typename Read>
+void expect_answer(Read read) {
+  try {
+    read();
+  } catch (const FileError& error) {
+    const std::string what = error.what();
+    require(what.find('\n') == std::string::npos, "a message is one line: " + what);
+  }
+}
+
+void test(std::string_view bytes) {
+  static const ScratchFolder folder;
+  const std::string path = folder.file("fuzzed.nc");
+  std::ofstream(path, std::ios::binary) << bytes;
+  expect_answer([&] {
+    const WeightFile file = read_weights(path);
+    const std::vector<double> in(file.weights.num_columns < 1000 ? file.weights.num_columns : 0);
+    std::vector<double> out(file.weights.num_rows());
+    if (in.size() == file.weights.num_columns) apply(file.weights, in, out);
+    const std::string again = folder.file("again.nc");
+    if (file.weights.num_columns == 0 || file.weights.num_rows() == 0) return;
+    write_weights(again, file);
+    require(read_weights(again).weights.columns == file.weights.columns, "weights come back");
+  });
+  expect_answer([&] {
+    const FieldSet fields = read_fields(path, {}, 4);
+    require(can_write_fields(path), "fields are written as netCDF");
+    for (const FieldArray& array : fields.arrays) {
+      require(array.values.size() == 4 * array.num_fields(), "a field has a value a point");
+    }
+    if (fields.arrays.size() == 1) write_fields(folder.file("again.npy"), fields, {});
+  });
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  rondel::fuzz::test({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
