@@ -15,7 +15,7 @@ namespace rondel::exact {
 
 // result[k] = the unit vector from the center to sites[order[k]], with the properties of
 // exact::unit_vector().
-RONDEL_API void unit_vectors(std::span<const Point> sites, std::span<const Index> order, const Point& center,
-                  exact::SplitPoint* result);
+RONDEL_API void unit_vectors(std::span<const Point> sites, std::span<const Index> order,
+                             const Point& center, exact::SplitPoint* result);
 
 }  // namespace rondel::exact

@@ -20,7 +20,7 @@ constexpr double least_image_of_one = 0.25;
 
 }  // namespace
 
-bool CubicKernel::find_corners(const Place& place) {
+bool CubicKernel::find_corners(const TargetPlace& place) {
   const Index f = place.location.face;
   const topology::Mesh& mesh = ground_.mesh();
   const topology::Face& face = mesh[f];
@@ -76,7 +76,7 @@ void CubicKernel::add(Index v, double weight, const Vec& slope, SlopeRow& row) {
   row.push_back({v, weight, exact::to_point(slope)});
 }
 
-void CubicKernel::add_linear(const Place& place, SlopeRow& row) const {
+void CubicKernel::add_linear(const TargetPlace& place, SlopeRow& row) const {
   double lacking = 0;
   for (const auto& [v, weight] : flat_) {
     const Vec s = step(place.unit, ground_.unit(v));
@@ -86,7 +86,7 @@ void CubicKernel::add_linear(const Place& place, SlopeRow& row) const {
   for (const auto& [v, weight] : flat_) row.push_back({v, weight / divisor, {}});
 }
 
-void CubicKernel::operator()(const Place& place, SlopeRow& row) {
+void CubicKernel::operator()(const TargetPlace& place, SlopeRow& row) {
   flat_.clear();
   linear_(place, flat_);
   if (!find_corners(place) || !weigh(flat_, row)) add_linear(place, row);

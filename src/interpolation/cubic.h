@@ -32,17 +32,17 @@ class CubicKernel {
         has_gradient_(has_gradient),
         normalization_(normalization) {}
 
-  void operator()(const Place& place, SlopeRow& row);
+  void operator()(const TargetPlace& place, SlopeRow& row);
 
  private:
   [[nodiscard]] bool has_gradient(Index v) const {
     return has_gradient_.empty() || has_gradient_[v] != 0;
   }
   // False if one of them has no gradient.
-  bool find_corners(const Place& place);
+  bool find_corners(const TargetPlace& place);
   bool weigh(const Row& flat, SlopeRow& row);
   static void add(Index v, double weight, const Vec& slope, SlopeRow& row);
-  void add_linear(const Place& place, SlopeRow& row) const;
+  void add_linear(const TargetPlace& place, SlopeRow& row) const;
 
   const Ground& ground_;
   LinearKernel linear_;

@@ -31,7 +31,7 @@ class GradientFinder {
   // Whether v has a gradient: the sum of weights() times differences of values from v's.
   bool find(Index v) {
     const exact::SplitPoint& x = ground_.unit(v);
-    const Place place{ground_.point(v), x, {}};
+    const TargetPlace place{ground_.point(v), x, {}};
     neighbors_.clear();
     steps_.clear();
     for (const Index w : rings_.find(v, num_rings_)) {

@@ -19,7 +19,7 @@ bool HermiteKernel::all_have_gradients() const {
 }
 
 // Of two sites on one line through u: by their distances in the plane, |s| / (1 - |s|^2 / 4)^(1/2).
-void HermiteKernel::weigh_on_contour(const Place& place) {
+void HermiteKernel::weigh_on_contour(const TargetPlace& place) {
   const auto distance = [&](Index v) {
     const Vec s = careful_step(ground_, place, v);
     return norm(s) / std::sqrt(1 - dot(s, s) / 4);
@@ -30,14 +30,14 @@ void HermiteKernel::weigh_on_contour(const Place& place) {
   flat_[1].weight = first / (first + second);
 }
 
-void HermiteKernel::add_without_gradients(const Place& place, SlopeRow& row) {
+void HermiteKernel::add_without_gradients(const TargetPlace& place, SlopeRow& row) {
   flat_.clear();
   sibson_(place, flat_);
   if (normalization_ == Normalization::homogeneous) make_homogeneous(ground_, place.unit, flat_);
   for (const auto& [v, weight] : flat_) row.push_back({v, weight, {}});
 }
 
-void HermiteKernel::operator()(const Place& place, SlopeRow& row) {
+void HermiteKernel::operator()(const TargetPlace& place, SlopeRow& row) {
   flat_.clear();
   planar_(place, flat_);
   if (!all_have_gradients()) {

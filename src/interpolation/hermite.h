@@ -34,12 +34,12 @@ class HermiteKernel {
         has_gradient_(has_gradient),
         normalization_(normalization) {}
 
-  void operator()(const Place& place, SlopeRow& row);
+  void operator()(const TargetPlace& place, SlopeRow& row);
 
  private:
   [[nodiscard]] bool all_have_gradients() const;
-  void weigh_on_contour(const Place& place);
-  void add_without_gradients(const Place& place, SlopeRow& row);
+  void weigh_on_contour(const TargetPlace& place);
+  void add_without_gradients(const TargetPlace& place, SlopeRow& row);
 
   const Ground& ground_;
   PlanarSibsonKernel planar_;

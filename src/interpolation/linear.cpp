@@ -83,13 +83,13 @@ Triple canonical(Triple corners) {
 
 }  // namespace
 
-Vec exact_step(const Ground& ground, const Place& place, Index vertex) {
+Vec exact_step(const Ground& ground, const TargetPlace& place, Index vertex) {
   const auto exact =
       dual::exact_projected_difference(place.point, ground.point(vertex), ground.center());
   return exact.length * exact.direction;
 }
 
-void weigh_on_edge(const Ground& ground, const Place& place, Row& row) {
+void weigh_on_edge(const Ground& ground, const TargetPlace& place, Row& row) {
   Index a = place.location.sites[0];
   Index b = place.location.sites[1];
   // Ranks of a ring may begin anywhere.
@@ -110,7 +110,7 @@ void weigh_on_edge(const Ground& ground, const Place& place, Row& row) {
   row.push_back({b, from_a / sum});
 }
 
-Weights3 LinearKernel::careful_weights(const Place& place, const Triple& corners,
+Weights3 LinearKernel::careful_weights(const TargetPlace& place, const Triple& corners,
                                        double largest_step_squared) const {
   const Weights3 wide = wide_determinants(
       place.unit, {ground_.unit(corners[0]), ground_.unit(corners[1]), ground_.unit(corners[2])});
@@ -120,7 +120,7 @@ Weights3 LinearKernel::careful_weights(const Place& place, const Triple& corners
       place.point, ground_.center());
 }
 
-void LinearKernel::operator()(const Place& place, Row& row) const {
+void LinearKernel::operator()(const TargetPlace& place, Row& row) const {
   if (place.location.where == Where::edge) {
     weigh_on_edge(ground_, place, row);
     return;

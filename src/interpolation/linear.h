@@ -36,22 +36,22 @@ inline bool is_split_enough(const Vec& step) {
 
 // The step to a vertex that is not in the place of the target, right to a few units however short it is
 // (above 2^-1022).
-Vec exact_step(const Ground& ground, const Place& place, Index vertex);
-inline Vec careful_step(const Ground& ground, const Place& place, Index vertex) {
+Vec exact_step(const Ground& ground, const TargetPlace& place, Index vertex);
+inline Vec careful_step(const Ground& ground, const TargetPlace& place, Index vertex) {
   const Vec split = step(place.unit, ground.unit(vertex));
   return is_split_enough(split) ? split : exact_step(ground, place, vertex);
 }
 
 // The two weights of a target on an edge, in any dimension.
-void weigh_on_edge(const Ground& ground, const Place& place, Row& row);
+void weigh_on_edge(const Ground& ground, const TargetPlace& place, Row& row);
 
 class LinearKernel {
  public:
   explicit LinearKernel(const Ground& ground) : ground_(ground) {}
-  void operator()(const Place& place, Row& row) const;
+  void operator()(const TargetPlace& place, Row& row) const;
 
  private:
-  [[nodiscard]] Weights3 careful_weights(const Place& place, const Triple& corners,
+  [[nodiscard]] Weights3 careful_weights(const TargetPlace& place, const Triple& corners,
                                          double largest_step_squared) const;
 
   const Ground& ground_;

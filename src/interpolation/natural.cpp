@@ -49,7 +49,7 @@ bool is_on_contour(const Ground& ground, const Location& location) {
 
 // Where the cell is not bounded even in the best arithmetic, the target is as near to an edge of the
 // contour as makes no difference.
-void NaturalKernel::operator()(const Place& place, Row& row) {
+void NaturalKernel::operator()(const TargetPlace& place, Row& row) {
   if (is_on_contour(ground_, place.location)) {
     weigh_on_edge(ground_, place, row);
     return;
@@ -73,7 +73,7 @@ double NaturalKernel::weigh(NaturalCell<T>& cell) {
   return error;
 }
 
-bool NaturalKernel::weigh_in_doubles(const Place& place) {
+bool NaturalKernel::weigh_in_doubles(const TargetPlace& place) {
   const TangentBasis basis(place.unit.hi);
   const Vec u = exact::to_vector(place.unit.hi);
   auto& bisectors = cell_.bisectors();
@@ -87,7 +87,7 @@ bool NaturalKernel::weigh_in_doubles(const Place& place) {
   return weigh(cell_) * double_unit <= most_error;
 }
 
-bool NaturalKernel::weigh_from_split_points(const Place& place) {
+bool NaturalKernel::weigh_from_split_points(const TargetPlace& place) {
   const TangentBasis basis(place.unit.hi);
   const WideVector u = wide(place.unit);
   auto& bisectors = wide_cell_.bisectors();
@@ -101,7 +101,7 @@ bool NaturalKernel::weigh_from_split_points(const Place& place) {
   return weigh(wide_cell_) * unit <= most_error;
 }
 
-bool NaturalKernel::weigh_exactly(const Place& place) {
+bool NaturalKernel::weigh_exactly(const TargetPlace& place) {
   sites_.clear();
   for (const Index v : region_.ring()) sites_.push_back(ground_.point(v));
   return exact_natural_weights(method_, place.point, sites_, ground_.center(), region_.faces(),

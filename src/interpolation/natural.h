@@ -27,15 +27,15 @@ class NaturalKernel {
   NaturalKernel(const Ground& ground, NaturalMethod method)
       : ground_(ground), method_(method), region_(ground) {}
 
-  void operator()(const Place& place, Row& row);
+  void operator()(const TargetPlace& place, Row& row);
 
  private:
   template <class T>
   [[nodiscard]] double weigh(NaturalCell<T>& cell);
   // Whether the error is small enough.
-  [[nodiscard]] bool weigh_in_doubles(const Place& place);
-  [[nodiscard]] bool weigh_from_split_points(const Place& place);
-  [[nodiscard]] bool weigh_exactly(const Place& place);
+  [[nodiscard]] bool weigh_in_doubles(const TargetPlace& place);
+  [[nodiscard]] bool weigh_from_split_points(const TargetPlace& place);
+  [[nodiscard]] bool weigh_exactly(const TargetPlace& place);
   void add_shares(Row& row) const;
 
   const Ground& ground_;

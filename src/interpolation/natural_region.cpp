@@ -8,7 +8,7 @@
 
 namespace rondel::interpolation {
 
-void NaturalRegion::find(const Place& place) {
+void NaturalRegion::find(const TargetPlace& place) {
   const auto horizon = ground_.engine().horizon(place.point, place.location.face, search_);
   const auto first = std::ranges::min_element(horizon, {}, &topology::HorizonEdge::origin);
   ring_.clear();

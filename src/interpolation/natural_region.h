@@ -33,7 +33,7 @@ class NaturalRegion {
   explicit NaturalRegion(const Ground& ground) : ground_(ground) {}
 
   // Of a target that is no vertex.
-  void find(const Place& place);
+  void find(const TargetPlace& place);
   // Of the same target.
   void list_faces();
 

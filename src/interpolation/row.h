@@ -3,7 +3,7 @@
 
 // What a kernel is told of one target and what it answers. A kernel is a method of interpolation:
 //
-//     void operator()(const Place& place, Row& row);
+//     void operator()(const TargetPlace& place, Row& row);
 //
 // 1. It fills an empty row, or leaves it empty where its method has no value.
 // 2. The order of a row depends on the places of the sites alone: vertices have ranks, not indices,
@@ -23,7 +23,7 @@
 namespace rondel::interpolation {
 
 // A target on an edge or in a face.
-struct Place {
+struct TargetPlace {
   Point point;             // as given
   exact::SplitPoint unit;  // u, its direction from the center
   Location location;       // its `sites` are ranks
@@ -45,11 +45,11 @@ struct SlopeShare {
 using SlopeRow = std::vector<SlopeShare>;
 
 template <class K>
-concept Kernel = requires(K& kernel, const Place& place, Row& row) {
+concept Kernel = requires(K& kernel, const TargetPlace& place, Row& row) {
   kernel(place, row);
 };
 template <class K>
-concept SlopeKernel = requires(K& kernel, const Place& place, SlopeRow& row) {
+concept SlopeKernel = requires(K& kernel, const TargetPlace& place, SlopeRow& row) {
   kernel(place, row);
 };
 

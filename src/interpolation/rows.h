@@ -111,7 +111,7 @@ class KernelRows {
   const InterpolationOptions& options_;
   FirstOutside& outside_;
   K kernel_;
-  Place place_;
+  TargetPlace place_;
 };
 
 // make_rows() and make_taker() for each range of targets; taker.expect(target) some time before

@@ -82,7 +82,7 @@ TEST(interpolation_cubic, agrees_with_its_definition) {
     CubicKernel kernel(ground);
     CubicKernel undivided(ground, {}, Normalization::homogeneous);
     int num_checked = 0;
-    for (const Place& place : places_in_faces(ground, scaled(40), random)) {
+    for (const TargetPlace& place : places_in_faces(ground, scaled(40), random)) {
       SlopeRow row;
       kernel(place, row);
       const RealVector u = *normalized(to_real(place.point - ground.center()));
@@ -177,7 +177,7 @@ TEST(interpolation_cubic, undivided_it_reproduces_cubics) {
   }
   CubicKernel kernel(ground, {}, Normalization::homogeneous);
   Random random(11);
-  for (const Place& place : places_in_faces(ground, 300, random)) {
+  for (const TargetPlace& place : places_in_faces(ground, 300, random)) {
     SlopeRow row;
     kernel(place, row);
     const Point u = exact::to_point(exact::to_vector(place.unit.hi));
@@ -215,7 +215,7 @@ std::array<double, 2> f0_errors(std::size_t n, std::uint64_t seed) {
   std::array<double, 2> sums{};
   const std::size_t num_targets = 2000;
   for (std::size_t i = 0; i < num_targets; ++i) {
-    const Place place = place_of(ground, random.direction());
+    const TargetPlace place = place_of(ground, random.direction());
     SlopeRow row;
     kernel(place, row);
     sums[0] += std::pow(sum_of(row, values, exact) - f0(place.point), 2);
@@ -244,7 +244,7 @@ TEST(interpolation_cubic, gives_constants_back_to_4_ulp) {
     const Ground ground(triangulation);
     CubicKernel kernel(ground);
     Random random(15);
-    for (const Place& place : places_in_faces(ground, scaled(100), random)) {
+    for (const TargetPlace& place : places_in_faces(ground, scaled(100), random)) {
       SlopeRow row;
       kernel(place, row);
       ASSERT_NEAR(sum_of_weights(row), 1, 4 * 0x1p-52) << generator.name;
@@ -267,7 +267,7 @@ TEST(interpolation_cubic, is_linear_where_a_corner_has_no_gradient) {
   for (std::uint8_t& has : has_gradient) has = random.below(4) > 0 ? 1 : 0;
   CubicKernel kernel(ground, has_gradient);
   LinearKernel linear(ground);
-  for (const Place& place : places_in_faces(ground, 300, random)) {
+  for (const TargetPlace& place : places_in_faces(ground, 300, random)) {
     SlopeRow row;
     Row flat;
     kernel(place, row);

@@ -34,7 +34,7 @@ TEST(interpolation_hermite, gives_linear_functions_of_space_back) {
       gradients.push_back(slope - dot(slope, x) * x);
     }
     HermiteKernel kernel(ground);
-    for (const Place& place : places_in_faces(ground, scaled(100), random)) {
+    for (const TargetPlace& place : places_in_faces(ground, scaled(100), random)) {
       SlopeRow row;
       kernel(place, row);
       ASSERT_NEAR(sum_of_weights(row), 1, 4 * 0x1p-52) << generator.name;
@@ -55,7 +55,7 @@ TEST(interpolation_hermite, is_sibson_where_a_neighbor_has_no_gradient) {
   HermiteKernel kernel(ground, has_gradient);
   SibsonKernel sibson(ground);
   int num_without = 0;
-  for (const Place& place : places_in_faces(ground, 300, random)) {
+  for (const TargetPlace& place : places_in_faces(ground, 300, random)) {
     SlopeRow row;
     Row flat;
     kernel(place, row);

@@ -30,24 +30,24 @@ namespace {
 using interpolation::Ground;
 using interpolation::NaturalKernel;
 using interpolation::NaturalMethod;
-using interpolation::Place;
 using interpolation::Row;
+using interpolation::TargetPlace;
 
 constexpr double weight_error = 1e-13;
 
 // The place of a target, as interpolation finds it.
-Place place_of(const Ground& ground, const Point& target) {
+TargetPlace place_of(const Ground& ground, const Point& target) {
   query::Cursor cursor;
   cursor.vertex = ground.near(target);
   return {target, exact::unit_vector(target, ground.center()),
           ground.engine().locate(target, cursor)};
 }
 
-bool is_for_kernels(const Place& place) {
+bool is_for_kernels(const TargetPlace& place) {
   return place.location.where == Where::face || place.location.where == Where::edge;
 }
 
-bool is_on_contour(const Ground& ground, const Place& place) {
+bool is_on_contour(const Ground& ground, const TargetPlace& place) {
   if (place.location.where != Where::edge) return false;
   const auto& [a, b, none] = place.location.sites;
   for (std::size_t f = 0; f < ground.mesh().num_slots(); ++f) {
@@ -99,7 +99,7 @@ double largest_difference(const Row& row, const std::vector<double>& expected) {
 
 void compare(const Ground& ground, const test::NaturalOracle& oracle, const Point& target,
              Difference& difference) {
-  const Place place = place_of(ground, target);
+  const TargetPlace place = place_of(ground, target);
   if (!is_for_kernels(place) || is_on_contour(ground, place)) return;
   const auto gnomonic = oracle.weights(target, test::NaturalPlane::gnomonic);
   const auto stereographic = oracle.weights(target, test::NaturalPlane::stereographic);
@@ -283,7 +283,7 @@ TEST(interpolation_natural, the_region_is_that_of_the_query) {
     interpolation::NaturalRegion region(ground);
     test::Random random(5);
     for (const Point& target : test::query_points(set.sites, set.sphere.center, random)) {
-      const Place place = place_of(ground, target);
+      const TargetPlace place = place_of(ground, target);
       if (!is_for_kernels(place)) continue;
       region.find(place);
       region.list_faces();

@@ -21,16 +21,16 @@ inline Point unit_point(const interpolation::Ground& ground, Index v) {
   return exact::to_point(exact::to_vector(ground.unit(v).hi));
 }
 
-inline interpolation::Place place_of(const interpolation::Ground& ground, const Point& p) {
+inline interpolation::TargetPlace place_of(const interpolation::Ground& ground, const Point& p) {
   query::Cursor cursor;
   cursor.vertex = ground.near(p);
   return {p, exact::unit_vector(p, ground.center()), ground.engine().locate(p, cursor)};
 }
 
 // Those of `count` random points over random solid faces that lie in a face or on an edge.
-inline std::vector<interpolation::Place> places_in_faces(const interpolation::Ground& ground,
-                                                         std::size_t count, Random& random) {
-  std::vector<interpolation::Place> places;
+inline std::vector<interpolation::TargetPlace> places_in_faces(const interpolation::Ground& ground,
+                                                               std::size_t count, Random& random) {
+  std::vector<interpolation::TargetPlace> places;
   const auto& mesh = ground.mesh();
   for (std::size_t i = 0; i < count; ++i) {
     const Index f = static_cast<Index>(random.below(mesh.num_slots()));
@@ -42,7 +42,7 @@ inline std::vector<interpolation::Place> places_in_faces(const interpolation::Gr
       rest -= part;
       p = p + part * unit_point(ground, mesh[f].vertex[k]);
     }
-    const interpolation::Place place = place_of(ground, ground.center() + p);
+    const interpolation::TargetPlace place = place_of(ground, ground.center() + p);
     if (place.location.where == Where::face || place.location.where == Where::edge) {
       places.push_back(place);
     }
