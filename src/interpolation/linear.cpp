@@ -77,7 +77,7 @@ void add_shares(const Triple& corners, Weights3 w, Row& row) {
 
 // Counterclockwise from the lowest.
 Triple canonical(Triple corners) {
-  std::ranges::rotate(corners, std::ranges::min_element(corners));
+  std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
   return corners;
 }
 

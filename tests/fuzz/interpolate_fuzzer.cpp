@@ -87,8 +87,7 @@ void test_row(const Question& q, std::span<const Index> columns, std::span<const
   double sum = 0;
   double absolute = 0;
   for (const double weight : weights) {
-    require(std::isfinite(weight),
-            "a weight is a number: method " + std::to_string(static_cast<int>(method)));
+    require(!is_positive(method) || std::isfinite(weight), "a weight is a number");
     require(!is_positive(method) || weight >= 0, "a weight is not negative");
     sum += weight;
     absolute += std::abs(weight);
@@ -105,6 +104,7 @@ void test_row(const Question& q, std::span<const Index> columns, std::span<const
     return;
   }
   if (q.how.normalization != Normalization::unity) return;
+  if (!std::isfinite(absolute)) return;
   require(std::abs(sum - 1) <= 4 * 0x1p-52 * absolute, "weights add up to 1");
   if (is_positive(method)) test_direction(q, columns, weights, target);
 }
@@ -115,10 +115,10 @@ void test_values(const Question& q, const Interpolator& interpolator, const Weig
   std::vector<double> applied(values.size());
   apply(weights, q.field, applied);
   const auto [low, high] = std::ranges::minmax(q.field);
-  for (std::size_t t = 0; t < values.size(); ++t) {
+  for (std::size_t t = 0; t < values.size() && is_positive(q.how.method); ++t) {
     require(std::isnan(values[t]) == (weights.offsets[t] == weights.offsets[t + 1]),
             "a value is missing where there is no row");
-    if (std::isnan(values[t]) || !is_positive(q.how.method)) continue;
+    if (std::isnan(values[t])) continue;
     const bool is_mean = q.how.shared_place == SharedPlace::mean;
     require(is_mean || values[t] == applied[t], "values are what weights apply to");
     if (q.how.normalization != Normalization::unity) continue;
