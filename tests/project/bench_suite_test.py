@@ -19,6 +19,7 @@ ROOT = pathlib.Path(sys.argv.pop(1))
 sys.path.insert(0, str(ROOT / "bench"))
 
 from suite import (  # noqa: E402
+    accuracy,
     against_peers,
     compare,
     environment,
@@ -44,6 +45,19 @@ def results_of(**seconds):
     for name, values in seconds.items():
         results.of[name] = [Outcome({"seconds": s, "sites": 1000}) for s in values]
     return results
+
+
+class Accuracy(unittest.TestCase):
+    def test_means_are_of_squares_and_ratios_of_sets_with_values(self):
+        ours = [{key: 3.0 for key in accuracy.OURS}, {key: 4.0 for key in accuracy.OURS}]
+        cells = accuracy.row("both", ours, [{"cubic": 6.0}, {"cubic": 8.0}])
+        self.assertEqual(cells, ["both", *["3.54e+00"] * 7, "7.07e+00", "2", "2"])
+        cells = accuracy.row("one", ours, [{"cubic": None}, {"cubic": 8.0}])
+        self.assertEqual(cells[-3:], ["8.00e+00, 1 of 2", "2", "2"])
+
+    def test_a_peer_that_fails_has_no_value(self):
+        ours = [{key: 3.0 for key in accuracy.OURS}]
+        self.assertEqual(accuracy.row("none", ours, [{}])[-3:], ["no value", "", ""])
 
 
 class Processes(unittest.TestCase):
