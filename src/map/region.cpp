@@ -110,12 +110,14 @@ class RegionDrawing {
     split_border(all);
     all = separated_loops(std::move(all));
     const auto is_outer = [](const Loop& loop) { return doubled_loop_area(loop) > 0; };
-    const auto holes = std::ranges::stable_partition(all, is_outer);
-    const std::span<Loop> outer(all.begin(), holes.begin());
+    const auto first_hole = std::stable_partition(all.begin(), all.end(), is_outer);
+    const std::span<Loop> outer(all.begin(), first_hole);
     if (outer.empty()) return {};
     std::vector<PolygonWithHoles> found(outer.size());
     const HoleOwners owners(outer);
-    for (Loop& hole : holes) found[owners.owner_of(hole)].rings.push_back(std::move(hole));
+    for (auto hole = first_hole; hole != all.end(); ++hole) {
+      found[owners.owner_of(*hole)].rings.push_back(std::move(*hole));
+    }
     for (std::size_t i = 0; i < outer.size(); ++i) {
       found[i].rings.insert(found[i].rings.begin(), std::move(outer[i]));
       for (Loop& ring : found[i].rings) ring.push_back(ring.front());
