@@ -4,8 +4,8 @@
 // The arguments and the help of the commands for values between sites.
 
 #include <CLI/CLI.hpp>
-#include <map>
 #include <memory>
+#include <unordered_map>
 
 #include "remap.h"
 #include "validate.h"
@@ -22,7 +22,7 @@ void add_values(CLI::App& parser, std::vector<std::string>& columns, const std::
 // A word for each of the values of an option.
 template <typename Value>
 void add_word(CLI::App& parser, const std::string& name, Value& target,
-              const std::map<std::string, Value>& choices, const std::string& what) {
+              const std::unordered_map<std::string, Value>& choices, const std::string& what) {
   parser
       .add_option_function<std::string>(
           name, [&target, choices](const std::string& text) { target = choices.at(text); }, what)
