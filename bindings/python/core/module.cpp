@@ -60,4 +60,5 @@ NB_MODULE(_core, module) {
   rondel::python::add_interpolation(module);
   rondel::python::add_out_of_core(module);
   rondel::python::add_distributed(module);
+  rondel::python::add_weight_files(module);
 }

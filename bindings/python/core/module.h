@@ -23,6 +23,7 @@ void add_globe(nanobind::module_& module);
 void add_interpolation(nanobind::module_& module);
 void add_out_of_core(nanobind::module_& module);
 void add_distributed(nanobind::module_& module);
+void add_weight_files(nanobind::module_& module);
 
 // The options of a build, from what the package passes.
 inline Options make_options(bool is_weighted, const std::array<double, 3>& center,

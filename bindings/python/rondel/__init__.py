@@ -51,7 +51,7 @@ from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where
 from ._voronoi import SphericalVoronoi
-from ._weights import Weights, point_set_hash
+from ._weights import Weights, point_set_hash, read_weights
 
 __version__ = _core.version
 
@@ -78,5 +78,6 @@ __all__ = [
     "lonlat",
     "point_set_hash",
     "power_diagram",
+    "read_weights",
     "unit_vectors",
 ]

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import Any
 
 import numpy as np
@@ -11,10 +12,11 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_floats, as_points, as_threads
-from ._geo import Path
+from ._geo import Path, write_named
 from ._repr import Described, count
 from ._tables import _replaced
 from ._types import ArrayLike, FloatArray, IntArray
+from ._weight_files import weights_to_netcdf
 
 
 def as_fields(values: ArrayLike, num_sites: int, name: str = "values") -> FloatArray:
@@ -247,6 +249,8 @@ class Weights(Described):
             arrays = (file["indptr"], file["indices"], file["data"])
         return cls(*arrays, (rows, columns), sites_hash=hashes[0], targets_hash=hashes[1])
 
+    to_netcdf = weights_to_netcdf
+
     def _facts(self) -> list[tuple[str, str]]:
         rows, columns = self.shape
         return [
@@ -271,6 +275,30 @@ def _as_integers(values: ArrayLike, kind: Any, name: str) -> Any:
     if array.size and not 0 <= array.min() <= array.max() <= np.iinfo(kind).max:
         raise ValueError(f"{name} has numbers that are negative or too large")
     return np.require(array, kind, ["C", "A"]).reshape(-1)
+
+
+def read_weights(path: Path) -> Weights:
+    """Weights of a file of `Weights.to_netcdf` or of another program, of ESMF's or SCRIP's kind.
+
+    Parameters
+    ----------
+    path : path-like
+        Also an .npz file of `scipy.sparse.save_npz`.
+
+    Returns
+    -------
+    Weights
+        Entries may have any order in the file; within a row they keep it.
+
+    Raises
+    ------
+    OSError
+        If the file cannot be read, or holds no weights.
+
+    """
+    found: list[_core.Weights] = []
+    write_named(os.fspath(path), lambda name: found.append(_core.read_weights(name)))
+    return Weights._of(found[0])
 
 
 def point_set_hash(points: ArrayLike) -> int:

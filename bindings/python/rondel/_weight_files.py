@@ -1,0 +1,79 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Files of weights: ESMF's and SCRIP's netCDF, and SciPy's matrices.
+
+The functions that take `self` are methods of `Weights`.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Literal
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_floats, lonlat
+from ._geo import Path, write_named
+from ._types import ArrayLike, FloatArray
+
+
+def weights_to_netcdf(
+    self: Any,
+    path: Path,
+    format: Literal["esmf", "scrip"] = "esmf",
+    *,
+    sites: ArrayLike | None = None,
+    targets: ArrayLike | None = None,
+    method: str = "",
+) -> None:
+    """Writes a file that other programs apply: ESMF's, uxarray, CDO, NCO.
+
+    Parameters
+    ----------
+    path : path-like
+        The file appears when it is complete, and replaces the one that is there.
+    format : {'esmf', 'scrip'}, optional
+        netCDF with the names of ESMF (`row`, `col`, `S`), or with those of SCRIP, which CDO reads.
+    sites : array_like, shape (n, 3), optional
+    targets : array_like, shape (..., 3), optional
+        The places, which the file then has as longitudes and latitudes; targets of shape
+        (nlat, nlon, 3) are a grid there. Only directions from the origin count.
+    method : str, optional
+        What the file says of the method.
+
+    Raises
+    ------
+    ValueError
+        If the points are not those of the weights.
+    OSError
+        If the file cannot be written; then nothing is left of it.
+
+    """
+    if format not in ("esmf", "scrip"):
+        raise ValueError(f"format must be 'esmf' or 'scrip', not {format!r}")
+    rows, columns = self.shape
+    for name, points, count, known in (
+        ("sites", sites, columns, self.sites_hash),
+        ("targets", targets, rows, self.targets_hash),
+    ):
+        if points is None:
+            continue
+        if np.shape(points)[-1:] != (3,) or np.size(points) != 3 * count:
+            raise ValueError(f"{name} must be {count} points, not of shape {np.shape(points)}")
+        if known and not self.is_of(**{name: points}):
+            raise ValueError(f"the {name} are not those of the weights")
+    shape = np.shape(targets)[:-1]
+    degrees = (_degrees(sites), _degrees(targets))
+
+    def write(name: str) -> None:
+        grid = list(shape) if len(shape) > 1 else []
+        _core.write_weights(name, format, self._weights, *degrees, grid, method)
+
+    write_named(os.fspath(path), write)
+
+
+def _degrees(points: ArrayLike | None) -> FloatArray:
+    if points is None:
+        return np.zeros((0, 2))
+    return np.ascontiguousarray(lonlat(as_floats(points, "points").reshape(-1, 3)))

@@ -1,0 +1,82 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Files of weights, as SciPy and other programs read them."""
+
+import os
+
+import clouds
+import numpy as np
+import pytest
+import scipy.io
+import scipy.sparse
+
+import rondel
+
+SITES = clouds.uniform(80)
+TARGETS = clouds.uniform(30, seed=1).reshape(5, 6, 3)
+WEIGHTS = rondel.delaunay(SITES).weights(TARGETS)
+VALUES = np.random.default_rng(0).normal(size=80)
+
+
+@pytest.mark.parametrize("format", ["esmf", "scrip"])
+def test_what_is_written_is_read(tmp_path, format):
+    path = tmp_path / "weights.nc"
+    for options in ({}, {"sites": SITES, "targets": TARGETS, "method": "sibson"}):
+        WEIGHTS.to_netcdf(path, format, **options)
+        found = rondel.read_weights(path)
+        assert found.shape == WEIGHTS.shape
+        assert np.array_equal(found.apply(VALUES), WEIGHTS.apply(VALUES))
+        assert found.is_of(SITES, TARGETS)
+    assert os.listdir(tmp_path) == ["weights.nc"]
+
+
+def test_names_of_esmf(tmp_path):
+    WEIGHTS.to_netcdf(tmp_path / "w.nc", sites=SITES, targets=TARGETS)
+    with scipy.io.netcdf_file(tmp_path / "w.nc", mmap=False) as file:
+        names = ("S", "row", "col", "xc_a", "yc_a", "xc_b", "dst_grid_dims")
+        data, row, col, lon, lat, to_lon, dims = (file.variables[name][:] for name in names)
+    matrix = scipy.sparse.coo_matrix((data, (row - 1, col - 1)), shape=(30, 80))
+    assert np.allclose(matrix @ VALUES, WEIGHTS.apply(VALUES), atol=1e-15)
+    assert np.allclose(rondel.unit_vectors(lon, lat), SITES, atol=1e-14)
+    assert np.allclose(to_lon, rondel.lonlat(TARGETS)[..., 0].ravel())
+    assert dims.tolist() == [6, 5]  # as Fortran counts
+
+
+def test_names_of_scrip(tmp_path):
+    WEIGHTS.to_netcdf(tmp_path / "w.nc", "scrip", sites=SITES, targets=TARGETS)
+    with scipy.io.netcdf_file(tmp_path / "w.nc", mmap=False) as file:
+        names = ("remap_matrix", "dst_address", "src_address")
+        data, row, col = (file.variables[name][:] for name in names)
+    matrix = scipy.sparse.coo_matrix((data[:, 0], (row - 1, col - 1)), shape=(30, 80))
+    assert np.allclose(matrix @ VALUES, WEIGHTS.apply(VALUES), atol=1e-15)
+
+
+def test_matrices_of_scipy(tmp_path):
+    for name in ("theirs.npz", "ours.npz"):
+        if name == "ours.npz":
+            WEIGHTS.save(tmp_path / name)
+        else:
+            scipy.sparse.save_npz(tmp_path / name, WEIGHTS.tocsr())
+        found = rondel.read_weights(tmp_path / name)
+        assert np.array_equal(found.apply(VALUES), WEIGHTS.apply(VALUES))
+
+
+def test_errors(tmp_path):
+    path = tmp_path / "w.nc"
+    for options, message in (
+        ({"format": "netcdf"}, "format must be 'esmf' or 'scrip'"),
+        ({"sites": SITES[::-1]}, "the sites are not those of the weights"),
+        ({"targets": TARGETS + 1}, "the targets are not those of the weights"),
+        ({"sites": SITES[:5]}, "sites must be 80 points"),
+        ({"targets": np.zeros((30, 2))}, "targets must be 30 points"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            WEIGHTS.to_netcdf(path, **options)
+    assert not path.exists()
+    with pytest.raises(FileNotFoundError):
+        rondel.read_weights(path)
+    with pytest.raises(FileNotFoundError):
+        WEIGHTS.to_netcdf(tmp_path / "none" / "w.nc")
+    path.write_bytes(b"CDF?")
+    with pytest.raises(OSError, match=r"w\.nc"):
+        rondel.read_weights(path)
