@@ -48,6 +48,9 @@ class NaturalRegion {
     Index parent;
   };
 
+  // Of a vertex that is there.
+  [[nodiscard]] Index position_between(Index a, Index b, Index vertex) const;
+
   const Ground& ground_;
   query::RegionSearch search_;
   topology::Halfedge root_ = 0;  // the horizon's first edge, seen from inside
