@@ -32,7 +32,7 @@ const Format* find_format(std::span<const Format> formats, const FileName& file)
 // Throws FileError: `out.dat: unknown ending ".dat"; cells are written as .geojson .vtp .npz`,
 // where `what` is "cells are written as".
 [[noreturn]] RONDEL_API void throw_unknown_ending(const FileName& file, std::string_view what,
-                                       std::span<const std::string_view> known);
+                                                  std::span<const std::string_view> known);
 
 // The row of find_format(); where there is none, throw_unknown_ending() lists the endings of all.
 template <typename Format>
