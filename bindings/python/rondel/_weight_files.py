@@ -63,11 +63,11 @@ def weights_to_netcdf(
             raise ValueError(f"{name} must be {count} points, not of shape {np.shape(points)}")
         if known and not self.is_of(**{name: points}):
             raise ValueError(f"the {name} are not those of the weights")
-    shape = np.shape(targets)[:-1]
+    shape: tuple[int, ...] = () if targets is None else np.shape(targets)[:-1]
+    grid = list(shape) if len(shape) > 1 else []
     degrees = (_degrees(sites), _degrees(targets))
 
     def write(name: str) -> None:
-        grid = list(shape) if len(shape) > 1 else []
         _core.write_weights(name, format, self._weights, *degrees, grid, method)
 
     write_named(os.fspath(path), write)
