@@ -65,11 +65,21 @@ void report(Job& job, const InterpolateOptions& options, const InterpolateCounts
   job.report(json.dump(2) + '\n', text);
 }
 
+Triangulation triangulated(Job& job, const InterpolateOptions& options, const SiteTable& table) {
+  Triangulation triangulation = job.triangulate(table);
+  const auto duplicates = triangulation.duplicates();
+  if (options.interpolation.shared_place == SharedPlace::error && !duplicates.empty()) {
+    throw FileError(table.where(duplicates.front().site) + ": the place of " +
+                    table.where(duplicates.front().representative));
+  }
+  return triangulation;
+}
+
 // One triangulation for all columns without gaps, one more for each that has some.
 void interpolate_columns(Job& job, const InterpolateOptions& options, const SiteTable& table,
                          const Targets& targets, InterpolateCounts& counts) {
   FieldSet fields;
-  fields.num_points = targets.points.size();
+  fields.num_points = targets.table.sites.size();
   std::optional<Interpolator> whole;
   for (const std::string& name : options.columns) {
     std::vector<double> values = column_values(table, name, "--value");
@@ -77,13 +87,16 @@ void interpolate_columns(Job& job, const InterpolateOptions& options, const Site
     const bool is_whole = kept.sites.size() == table.sites.size();
     counts.left_out += table.sites.size() - kept.sites.size();
     std::optional<Interpolator> own;
-    if (!is_whole) own.emplace(job.triangulate(kept));
-    if (is_whole && !whole) whole.emplace(job.triangulate(table));
+    if (!is_whole) own.emplace(triangulated(job, options, kept));
+    if (is_whole && !whole) whole.emplace(triangulated(job, options, table));
     FieldArray array;
     array.name = name;
     job.time(Stage::query, [&] {
-      array.values = (is_whole ? *whole : *own)
-                         .values(values, targets.points, options.interpolation, job.execution());
+      const Interpolator& interpolator = is_whole ? *whole : *own;
+      array.values = with_places(targets.table, [&] {
+        return interpolator.values(values, targets.table.sites, options.interpolation,
+                                   job.execution());
+      });
     });
     counts.missing += static_cast<std::size_t>(
         std::ranges::count_if(array.values, [](double value) { return std::isnan(value); }));
@@ -97,11 +110,13 @@ constexpr const char* method_names[] = {"nearest", "linear",  "laplace",
 
 void write_weights_of(Job& job, const InterpolateOptions& options, const SiteTable& table,
                       Targets& targets, InterpolateCounts& counts) {
-  const Triangulation triangulation = job.triangulate(table);
+  const Triangulation triangulation = triangulated(job, options, table);
   const Interpolator interpolator(triangulation);
   WeightFile file;
   job.time(Stage::query, [&] {
-    file.weights = interpolator.weights(targets.points, options.interpolation, job.execution());
+    file.weights = with_places(targets.table, [&] {
+      return interpolator.weights(targets.table.sites, options.interpolation, job.execution());
+    });
   });
   file.method = method_names[static_cast<std::size_t>(options.interpolation.method)];
   file.normalization = "none";
@@ -132,7 +147,7 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   read.keep_columns = has_values;
   const SiteTable table = job.read(common.source(), read);
   Targets targets = read_targets(options.target, common.read);
-  InterpolateCounts counts{table.sites.size(), targets.points.size(), 0, 0};
+  InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0};
   if (has_values) interpolate_columns(job, options, table, targets, counts);
   if (!options.weights.empty()) {
     counts.missing = 0;

@@ -34,7 +34,7 @@ struct InterpolateOptions {
 /// The targets that --to names: a file of points, or "grid:DEG" or "grid:NLONxNLAT", the centers of the
 /// cells of a grid, from -180 eastward and from the south pole northward, longitudes fastest.
 struct Targets {
-  std::vector<Point> points;
+  SiteTable table;  ///< the points, and where they are from
   WeightSide side;
 };
 /// \throws UsageError for a grid that there cannot be, FileError

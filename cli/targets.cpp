@@ -75,15 +75,17 @@ Targets read_targets(const std::string& name, const ReadOptions& read) {
     const GridSize size = grid_size(name);
     targets.side.points = grid_points(size);
     targets.side.shape = {size.num_lat, size.num_lon};
-    targets.points = unit_vectors(targets.side.points);
+    targets.table.name = name;
+    targets.table.first_line = 0;
+    targets.table.sites = unit_vectors(targets.side.points);
     return targets;
   }
   ReadOptions options = read;
   options.radius.clear();
   options.keep_columns = false;
-  SiteTable table = read_sites(name, options);
-  targets.side.points = table.is_lonlat() ? std::move(table.positions) : lonlats(table.sites);
-  targets.points = std::move(table.sites);
+  targets.table = read_sites(name, options);
+  const SiteTable& table = targets.table;
+  targets.side.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
   return targets;
 }
 

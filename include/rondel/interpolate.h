@@ -138,8 +138,8 @@ class RONDEL_API Interpolator {
                                  const Execution& execution = {}) const;
 
   /// Tangent vectors (winds) at the sites, Cartesian, carried to tangent vectors at the targets by
-  /// homogeneous weights: a rigid rotation w x x comes back as w x u, across the poles too (not by
-  /// nearest). Shape (num_fields, targets).
+  /// homogeneous weights: by linear, laplace and sibson a rigid rotation w x x comes back as w x u,
+  /// across the poles too. Shape (num_fields, targets).
   [[nodiscard]] std::vector<Point> vectors(std::span<const Point> field,
                                            std::span<const Point> targets,
                                            const InterpolationOptions& options = {},
