@@ -144,11 +144,12 @@ class PointsOut {
   PointsOut(const WeightSide& side, std::size_t num_points) : side_(side) {
     const std::vector<LonLat>& points = side.points;
     is_grid_ = side.shape.size() == 2 && !points.empty();
-    num_lon_ = is_grid_ ? side.shape[1] : num_points;
+    const std::size_t row = is_grid_ ? side.shape[1] : 1;
     for (std::size_t i = 0; is_grid_ && i < points.size(); ++i) {
-      is_grid_ = points[i].lon_deg == points[i % num_lon_].lon_deg &&
-                 points[i].lat_deg == points[i - i % num_lon_].lat_deg;
+      is_grid_ = points[i].lon_deg == points[i % row].lon_deg &&
+                 points[i].lat_deg == points[i - i % row].lat_deg;
     }
+    num_lon_ = is_grid_ ? row : num_points;
     num_points_ = num_points;
   }
 

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "io/binary.h"
+#include "io/netcdf_reader.h"
 #include "io_support.h"
 #include "rondel/fields.h"
 
@@ -153,6 +154,24 @@ TEST(fields, come_back) {
   const std::vector<std::string> names = {"t_1"};
   EXPECT_EQ(read_fields(directory.file("f.csv"), names, 4).arrays[0].values,
             (std::vector<double>{5, 6, 7, 0.1}));
+}
+
+// Rows of a grid of two dimensions need not be parallels.
+TEST(fields, on_a_curved_grid_have_coordinates_of_each_point) {
+  const TemporaryDirectory directory;
+  FieldSet fields;
+  fields.num_points = 6;
+  fields.arrays = {{"t", {}, {}, {1, 2, 3, 4, 5, 6}, {}}};
+  WeightSide side;
+  side.points = {{0, 1}, {10, 2}, {20, 3}, {1, 11}, {11, 12}, {21, 13}};
+  side.shape = {2, 3};
+  write_fields(directory.file("f.nc"), fields, side);
+  const std::string bytes = read_all(directory.file("f.nc"));
+  const io::NetcdfReader file(bytes);
+  EXPECT_EQ(file.numbers(file.require("lon")), (std::vector<double>{0, 10, 20, 1, 11, 21}));
+  EXPECT_EQ(file.numbers(file.require("lat")), (std::vector<double>{1, 2, 3, 11, 12, 13}));
+  EXPECT_EQ(file.numbers(file.require("t")), fields.arrays[0].values);
+  EXPECT_EQ(file.require("lon").shape, (std::vector<std::uint64_t>{2, 3}));
 }
 
 }  // namespace
