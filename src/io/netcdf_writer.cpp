@@ -17,8 +17,7 @@ constexpr std::uint64_t largest_offset = 0x7fff'ffff;
 // The header as it grows. Counts have the width that the version gives them.
 class HeaderBytes {
  public:
-  explicit HeaderBytes(int version) : version_(version) {
-    bytes_ = "CDF";
+  explicit HeaderBytes(int version) : version_(version), bytes_("CDF") {
     bytes_ += static_cast<char>(version);
   }
 

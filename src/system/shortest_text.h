@@ -6,10 +6,12 @@
 
 #include <string>
 
+#include "rondel/export.h"
+
 namespace rondel::system {
 
 // The shortest text that reads back as this double, as std::to_chars writes it.
-std::string shortest_text(double value);
+RONDEL_API std::string shortest_text(double value);
 
 // What shortest_text() gives, without std::to_chars, whose tables of powers of ten would be a third of
 // a module of WebAssembly: up to 17 attempts, for machines where size counts.
