@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
     gradients.push_back(gradient_of_f0(p));
   }
   const rondel::Interpolator interpolator(rondel::delaunay(sites));
-  std::printf("{\"sites\": %zu, \"targets\": %zu", sites.size(), targets.size());
+  std::printf(R"({"sites": %zu, "targets": %zu)", sites.size(), targets.size());
   const auto print = [&](const char* name, const std::vector<double>& values) {
     std::printf(", \"%s\": %.6e", name, root_mean_square(values, targets));
   };

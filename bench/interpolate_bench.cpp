@@ -83,7 +83,7 @@ class Bench {
   }
 
   void print() {
-    std::printf("{\"sites\": %zu, \"targets\": %zu", n_, num_targets_);
+    std::printf(R"({"sites": %zu, "targets": %zu)", n_, num_targets_);
     for (Series& s : series_) {
       s.seconds.erase(s.seconds.begin());  // the first has waited for memory
       const bool is_of_sites =

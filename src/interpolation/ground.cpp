@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "exact/unit_vectors.h"
+#include "query/ties.h"
 
 namespace rondel::interpolation {
 namespace {
@@ -22,7 +23,7 @@ std::vector<Index> all_ranks(std::size_t size) {
 Ground::Ground(const Triangulation& triangulation)
     : triangulation_(triangulation),
       center_(triangulation.sphere().center),
-      built_(triangulation, {}),
+      built_(triangulation, {}, &query::order_ties_by_place),
       ranks_(all_ranks(built_.num_vertices())),
       engine_(built_.graph(ranks_)) {
   if (model() != Model::projected) return;

@@ -4,8 +4,6 @@
 #include "query/built.h"
 
 #include <algorithm>
-#include <numeric>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -13,7 +11,6 @@
 #include "order/along_the_curve.h"
 #include "order/cube_position.h"
 #include "order/hilbert.h"
-#include "order/place_keys.h"
 #include "predicates/orientation.h"
 #include "predicates/perturbation.h"
 #include "system/gather.h"
@@ -35,48 +32,14 @@ std::vector<Index> vertices_by_index(const Triangulation& triangulation) {
   return vertices;
 }
 
-// Of the sites in a place, the one whose coordinates count.
-class SpeakerOf {
- public:
-  explicit SpeakerOf(const Triangulation& triangulation) {
-    if (triangulation.duplicates().empty()) return;
-    speakers_.resize(triangulation.num_sites());
-    std::iota(speakers_.begin(), speakers_.end(), Index{0});
-    const Sites& sites = triangulation.sites();
-    for (const auto& [site, representative] : triangulation.duplicates()) {
-      Index& speaker = speakers_[representative];
-      if (predicates::is_lexicographically_less(sites[site], sites[speaker])) speaker = site;
-    }
-  }
-  Index operator()(Index name) const { return speakers_.empty() ? name : speakers_[name]; }
-
- private:
-  std::vector<Index> speakers_;
-};
-
-// Orders the indices of equal keys by what else there is to places: until here they are in the order
-// of the input.
-template <class RestOf>
-void order_ties(order::KeyedIndices& sorted, const RestOf& rest_of) {
-  const auto& keys = sorted.keys;
-  for (std::size_t i = 0; i < keys.size();) {
-    std::size_t end = i + 1;
-    while (end < keys.size() && keys[end] == keys[i]) ++end;
-    if (end - i > 1) {
-      std::ranges::sort(std::span(sorted.indices).subspan(i, end - i), {}, rest_of);
-    }
-    i = end;
-  }
-}
-
 }  // namespace
 
-Built::Built(const Triangulation& triangulation, std::span<const Index> ids)
+Built::Built(const Triangulation& triangulation, std::span<const Index> ids, OrderTies order_ties)
     : sites_(triangulation.sites()),
       model_(triangulation.model()),
       center_(triangulation.sphere().center),
       is_ring_(triangulation.dimension() < 2) {
-  list_vertices(triangulation);
+  list_vertices(triangulation, order_ties);
   models::with_model(model_, [&]<class T> {
     const T& model = points_.emplace<T>(sites_.points(), speakers_, center_);
     if (!is_ring_) link_faces(triangulation, model);
@@ -84,14 +47,10 @@ Built::Built(const Triangulation& triangulation, std::span<const Index> ids)
   if (!ids.empty()) rename(ids);
 }
 
-void Built::list_vertices(const Triangulation& triangulation) {
+void Built::list_vertices(const Triangulation& triangulation, OrderTies order_ties) {
   auto sorted = order::along_the_curve(vertices_by_index(triangulation), model_, center_, 1,
                                        [this](Index i) { return sites_[i]; });
-  const SpeakerOf speaker_of(triangulation);
-  order_ties(sorted, [&](Index i) {
-    const Point& p = sites_[speaker_of(i)];
-    return std::tuple(order::place_key(p, model_, center_).low, p.x, p.y, p.z);
-  });
+  if (order_ties != nullptr) order_ties(triangulation, sorted);
   keys_ = std::move(sorted.keys);
   if (is_ring_) {
     names_.assign(triangulation.ring().begin(), triangulation.ring().end());
@@ -103,10 +62,13 @@ void Built::list_vertices(const Triangulation& triangulation) {
   if (is_ring_) {
     for (const Index i : sorted.indices) at_key_.push_back(vertex_of_[i]);
   }
-  speakers_.reserve(names_.size());
-  for (const Index i : names_) speakers_.push_back(speaker_of(i));
+  speakers_ = names_;
   for (const auto& [site, representative] : triangulation.duplicates()) {
-    vertex_of_[site] = vertex_of_[representative];
+    const Index v = vertex_of_[representative];
+    vertex_of_[site] = v;
+    if (v == no_index) continue;
+    Index& speaker = speakers_[v];
+    if (predicates::is_lexicographically_less(sites_[site], sites_[speaker])) speaker = site;
   }
 }
 

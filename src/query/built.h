@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // A finished triangulation, prepared for queries. Vertices get internal names that suit queries:
-// their spatial rank in dimension 2, so that neighbors are close in memory, which depends on places
-// alone; their place in the ring below.
+// their spatial rank in dimension 2, so that neighbors are close in memory; their place in the ring
+// below.
 #pragma once
 
 #include <cstdint>
@@ -13,6 +13,7 @@
 
 #include "models/projected_points.h"
 #include "models/weighted_points.h"
+#include "order/radix_sort.h"
 #include "query/graph.h"
 #include "rondel/export.h"
 #include "rondel/triangulation.h"
@@ -23,9 +24,13 @@ namespace rondel::query {
 // RONDEL_API, here and in engine.h: what rondel::remap uses.
 class RONDEL_API Built {
  public:
+  // Vertices whose keys are equal are in the order of the input, or as this puts them (ties.h).
+  using OrderTies = void (*)(const Triangulation&, order::KeyedIndices&);
+
   // `ids`, if any, are what the sites are called outside, in increasing order; otherwise that is
   // their index.
-  Built(const Triangulation& triangulation, std::span<const Index> ids);
+  Built(const Triangulation& triangulation, std::span<const Index> ids,
+        OrderTies order_ties = nullptr);
   Built(const Built&) = delete;
   Built& operator=(const Built&) = delete;
 
@@ -52,7 +57,7 @@ class RONDEL_API Built {
  private:
   static constexpr Index not_there = no_index - 1;
 
-  void list_vertices(const Triangulation& triangulation);
+  void list_vertices(const Triangulation& triangulation, OrderTies order_ties);
   void rename(std::span<const Index> ids);
   template <class T>
   void link_faces(const Triangulation& triangulation, const T& model);

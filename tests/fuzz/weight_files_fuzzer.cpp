@@ -3,7 +3,11 @@
 
 // netCDF's classic formats, as files of weights and of fields: any bytes give what they hold, or a
 // FileError of one line.
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -27,7 +31,18 @@ void expect_answer(Read read) {
   }
 }
 
+// Three numbers of the input as a point.
+void test_lonlats(std::string_view bytes) {
+  std::array<double, 3> xyz{};
+  std::memcpy(xyz.data(), bytes.data(), std::min(bytes.size(), sizeof xyz));
+  const auto [x, y, z] = xyz;
+  if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(z)) return;
+  const LonLat place = lonlats(std::vector<Point>{{x, y, z}}).front();
+  require(std::abs(place.lon_deg) <= 180 && std::abs(place.lat_deg) <= 90, "a place on the map");
+}
+
 void test(std::string_view bytes) {
+  test_lonlats(bytes);
   static const ScratchFolder folder;
   const std::string path = folder.file("fuzzed.nc");
   std::ofstream(path, std::ios::binary) << bytes;

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "query/ties.h"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "order/place_keys.h"
+#include "predicates/perturbation.h"
+
+namespace rondel::query {
+namespace {
+
+// Of the sites in a place, the one whose coordinates count.
+class SpeakerOf {
+ public:
+  explicit SpeakerOf(const Triangulation& triangulation) {
+    if (triangulation.duplicates().empty()) return;
+    speakers_.resize(triangulation.num_sites());
+    std::iota(speakers_.begin(), speakers_.end(), Index{0});
+    const Sites& sites = triangulation.sites();
+    for (const auto& [site, representative] : triangulation.duplicates()) {
+      Index& speaker = speakers_[representative];
+      if (predicates::is_lexicographically_less(sites[site], sites[speaker])) speaker = site;
+    }
+  }
+  Index operator()(Index name) const { return speakers_.empty() ? name : speakers_[name]; }
+
+ private:
+  std::vector<Index> speakers_;
+};
+
+// Orders the indices of equal keys by what else there is to places: until here they are in the order
+// of the input.
+template <class RestOf>
+void order_ties(order::KeyedIndices& sorted, const RestOf& rest_of) {
+  const auto& keys = sorted.keys;
+  for (std::size_t i = 0; i < keys.size();) {
+    std::size_t end = i + 1;
+    while (end < keys.size() && keys[end] == keys[i]) ++end;
+    if (end - i > 1) {
+      std::ranges::sort(std::span(sorted.indices).subspan(i, end - i), {}, rest_of);
+    }
+    i = end;
+  }
+}
+
+}  // namespace
+
+void order_ties_by_place(const Triangulation& triangulation, order::KeyedIndices& sorted) {
+  const SpeakerOf speaker_of(triangulation);
+  order_ties(sorted, [&](Index i) {
+    const Point& p = triangulation.sites()[speaker_of(i)];
+    return std::tuple(order::place_key(p, triangulation.model(), triangulation.sphere().center).low,
+                      p.x, p.y, p.z);
+  });
+}
+
+}  // namespace rondel::query
