@@ -28,7 +28,7 @@ struct WeightsReport {
   double worst_row = 0;                   // deviation of a sum from 1
   std::optional<double> worst_column;     // deviation of the area that a source gives from its own
   std::optional<double> worst_direction;  // |u x sum of w x|
-  bool is_wrong() const { return bad_rows + not_finite + repeated > 0; }
+  [[nodiscard]] bool is_wrong() const { return bad_rows + not_finite + repeated > 0; }
 };
 
 double length_of_cross(const Point& a, const Point& b) {

@@ -9,7 +9,7 @@
 namespace rondel::interpolation {
 namespace {
 
-constexpr std::array<unsigned, 3> next = {1, 2, 0};
+constexpr std::array<unsigned, 3> next_of = {1, 2, 0};
 constexpr std::array<unsigned, 3> previous = {2, 0, 1};
 
 // Squares of the lengths of sides between which S of one is far from 0 and nothing underflows. The
@@ -57,7 +57,7 @@ struct CubicFace::FaceEdge {
 
 bool CubicFace::weigh(const std::array<double, 3>& l, FaceWeights& result) {
   for (unsigned k = 0; k < 3; ++k) {
-    const Vec d = corners[previous[k]].step - corners[next[k]].step;
+    const Vec d = corners[previous[k]].step - corners[next_of[k]].step;
     squares_[k] = dot(d, d);
     if (!(squares_[k] <= longest_square && squares_[k] >= shortest_square)) return false;
   }
@@ -72,7 +72,7 @@ bool CubicFace::weigh(const std::array<double, 3>& l, FaceWeights& result) {
 // least l.
 void CubicFace::weigh_points(const std::array<double, 3>& l) {
   const auto k = static_cast<unsigned>(std::ranges::min_element(l) - l.begin());
-  const unsigned i = next[k];
+  const unsigned i = next_of[k];
   const unsigned j = previous[k];
   const double s = l[i] - l[k];
   const double t = l[j] - l[k];
@@ -86,7 +86,7 @@ void CubicFace::weigh_points(const std::array<double, 3>& l) {
   std::array<double, 3> of_spokes{};  // of p[x, x, v]
   for (unsigned m = 0; m < 3; ++m) {
     of_spokes[m] = of_center[m] / 3;
-    of_edges_[m] = (of_center[next[m]] + of_center[previous[m]]) / 3;  // of p[x, x', v]
+    of_edges_[m] = (of_center[next_of[m]] + of_center[previous[m]]) / 3;  // of p[x, x', v]
   }
   of_spokes[i] += 3 * s * s * r;
   of_spokes[j] += 3 * t * t * r;
@@ -97,8 +97,8 @@ void CubicFace::weigh_points(const std::array<double, 3>& l) {
   }
   for (unsigned m = 0; m < 3; ++m) {
     of_pairs_[m][m] = of_spokes[m];
-    of_pairs_[m][next[m]] = of_spokes[m] + of_edges_[previous[m]];
-    of_pairs_[m][previous[m]] = of_spokes[m] + of_edges_[next[m]];
+    of_pairs_[m][next_of[m]] = of_spokes[m] + of_edges_[previous[m]];
+    of_pairs_[m][previous[m]] = of_spokes[m] + of_edges_[next_of[m]];
   }
   of_pairs_[i][i] += s * s * s;
   of_pairs_[j][j] += t * t * t;
@@ -107,7 +107,7 @@ void CubicFace::weigh_points(const std::array<double, 3>& l) {
 }
 
 void CubicFace::weigh_edge(unsigned k, FaceWeights& result) {
-  const unsigned i = next[k];
+  const unsigned i = next_of[k];
   const unsigned j = previous[k];
   FaceEdge edge{i,           j,           corners[i].step, corners[j].step - corners[i].step,
                 squares_[k], of_edges_[k]};
@@ -185,7 +185,7 @@ void CubicFace::collect(FaceWeights& result) const {
     double weight = of_pairs_[i][i];
     double radial = 0;
     Vec slope{0, 0, 0};
-    for (const unsigned j : {next[i], previous[i]}) {
+    for (const unsigned j : {next_of[i], previous[i]}) {
       const double square = squares_[3 - i - j];
       const double w = of_pairs_[i][j];
       weight += w * (1 - square / 2);

@@ -29,7 +29,7 @@
 namespace rondel {
 namespace {
 
-using namespace interpolation;
+using namespace interpolation;  // NOLINT(google-build-using-namespace): this file is its face
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 

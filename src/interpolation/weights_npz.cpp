@@ -35,14 +35,14 @@ class NpzArray {
   }
 
   template <typename Out>
-  std::vector<Out> values() const {
+  [[nodiscard]] std::vector<Out> values() const {
     const std::string_view type = std::string_view(header_.dtype).substr(1);
     if (type == "f8") return copied<double, Out>();
     if (type == "f4") return copied<float, Out>();
     return integers<Out>(type);
   }
   template <typename Out>
-  std::vector<Out> integers() const {
+  [[nodiscard]] std::vector<Out> integers() const {
     return integers<Out>(std::string_view(header_.dtype).substr(1));
   }
 
@@ -53,7 +53,7 @@ class NpzArray {
                        " where another one is needed");
   }
   template <typename Out>
-  std::vector<Out> integers(std::string_view type) const {
+  [[nodiscard]] std::vector<Out> integers(std::string_view type) const {
     if (type == "i4") return copied<std::int32_t, Out>();
     if (type == "i8") return copied<std::int64_t, Out>();
     if (type == "u4") return copied<std::uint32_t, Out>();
@@ -61,7 +61,7 @@ class NpzArray {
     refuse();
   }
   template <typename T, typename Out>
-  std::vector<Out> copied() const {
+  [[nodiscard]] std::vector<Out> copied() const {
     std::vector<Out> out(header_.shape[0]);
     const char* data = bytes_.data() + header_.data_offset;
     for (std::size_t i = 0; i < out.size(); ++i) {

@@ -124,6 +124,7 @@ const char* NetcdfReader::place(const Variable& variable, std::uint64_t index) c
 template <typename T, typename Out>
 void NetcdfReader::copy(const Variable& variable, std::vector<Out>& out) const {
   for (std::uint64_t i = 0; i < variable.num_values; ++i) {
+    // NOLINTNEXTLINE(bugprone-signed-char-misuse): a number, no character
     out[i] = static_cast<Out>(load<T>(place(variable, i), std::endian::big));
   }
 }

@@ -26,7 +26,8 @@ double next_value(ByteSource& source) {
   if (which == 0) return std::numeric_limits<double>::quiet_NaN();
   if (which == 1) return source.finite_double();
   if (which == 2 && source.below(16) == 0) return std::numeric_limits<double>::infinity();
-  return source.small() / 64 / 2.0;
+  const auto halves = source.small() / 64;
+  return 0.5 * static_cast<double>(halves);
 }
 
 std::vector<double> next_levels(ByteSource& source) {
