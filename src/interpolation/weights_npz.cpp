@@ -125,10 +125,10 @@ WeightFile read_weights_npz(std::string_view bytes) {
   weights.values = NpzArray(bytes, "data").values<double>();
   if (shape.size() != 2 || shape[0] < 0 || shape[1] < 0 || shape[1] > no_index || offsets.empty() ||
       offsets.size() - 1 != static_cast<std::uint64_t>(shape[0])) {
-    throw io::BadValue("\"shape\" and \"indptr\" do not fit together");
+    throw io::BadValue(R"("shape" and "indptr" do not fit together)");
   }
   if (columns.size() != weights.values.size()) {
-    throw io::BadValue("\"indices\" and \"data\" do not fit together");
+    throw io::BadValue(R"("indices" and "data" do not fit together)");
   }
   weights.num_columns = static_cast<std::size_t>(shape[1]);
   weights.offsets.assign(offsets.begin(), offsets.end());

@@ -90,8 +90,8 @@ class CubicOracle {
       return x_part * x_part * x.value + other_part * other_part * pair(other, x.place) +
              Real(2) * x_part * other_part * pair(x, other.place) + Real(2) * x_part * z_n * normal;
     };
-    const auto equation = [&](const Data& x, const Real& normal, int ix, const Data& other,
-                              int io) {
+    const auto equation = [&](const Data& x, const Real& normal, std::size_t ix, const Data& other,
+                              std::size_t io) {
       const Real left_c = pair(c, x.place) - known_at(x, normal, in[ix], in[io], other, in[2]);
       const Real left_d = pair(*d, x.place) - known_at(x, normal, out[ix], out[io], other, out[2]);
       // left / z_n^2 = 2 (z_o / z_n) X + W

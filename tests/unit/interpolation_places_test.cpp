@@ -176,9 +176,11 @@ TEST(interpolation_places, gradients_of_a_field_are_its_rows) {
   EXPECT_EQ(gradient.num_columns, sites.size());
   EXPECT_EQ(gradient.sites_hash, point_set_hash(sites));
   for (const Duplicate& d : triangulation.duplicates()) {
+    const std::size_t own = d.site;
+    const std::size_t first = d.representative;
     for (std::size_t c = 0; c < 3; ++c) {
-      EXPECT_TRUE(std::ranges::equal(row_of(gradient, 3 * d.site + c).values,
-                                     row_of(gradient, 3 * d.representative + c).values));
+      EXPECT_TRUE(std::ranges::equal(row_of(gradient, 3 * own + c).values,
+                                     row_of(gradient, 3 * first + c).values));
     }
   }
   const Weights none = Interpolator(delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}})).gradient();

@@ -103,7 +103,7 @@ TEST(weight_files, in_any_order_of_entries_are_rows) {
   std::string bytes = read_all(path);
   // The rows of the entries: 1 1 3 4 4 4 becomes 4 3 4 1 1 1.
   const std::int32_t rows[] = {4, 3, 4, 1, 1, 1};
-  for (int k = 0; k < 6; ++k) {
+  for (std::size_t k = 0; k < 6; ++k) {
     io::store(rows[k], bytes.data() + bytes.size() - 48 - 24 + 4 * k, std::endian::big);
   }
   const Weights read = read_weights(directory.with("other.nc", bytes)).weights;
