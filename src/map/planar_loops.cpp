@@ -74,7 +74,8 @@ class Sides {
 
   // How far clockwise, seen from `here`, one turns from `before` to `after`: that is through the region.
   static double turn(const LonLat& before, const LonLat& here, const LonLat& after) {
-    const double back = exact::argument(before.lat_deg - here.lat_deg, before.lon_deg - here.lon_deg);
+    const double back =
+        exact::argument(before.lat_deg - here.lat_deg, before.lon_deg - here.lon_deg);
     const double out = exact::argument(after.lat_deg - here.lat_deg, after.lon_deg - here.lon_deg);
     const double angle = back - out;
     return angle > 0 ? angle : angle + 2 * std::numbers::pi;
