@@ -199,7 +199,7 @@ WeightFile read_weights_netcdf(std::string_view bytes) {
   if (file.find("S") != nullptr) return read_esmf(file);
   if (file.find("remap_matrix") != nullptr) return read_scrip(file);
   throw io::BadValue(
-      R"(no file of weights: neither variable \"S\" (ESMF) nor "remap_matrix" (SCRIP))");
+      R"(no file of weights: neither variable "S" (ESMF) nor "remap_matrix" (SCRIP))");
 }
 
 }  // namespace rondel::remap
