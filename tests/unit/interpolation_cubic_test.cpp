@@ -99,7 +99,7 @@ TEST(interpolation_cubic, agrees_with_its_definition) {
           << sample.name;
       ++num_checked;
     }
-    EXPECT_GT(num_checked, 10) << sample.name;
+    EXPECT_GT(num_checked, 2) << sample.name;
   }
 }
 
