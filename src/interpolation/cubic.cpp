@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "interpolation/unity.h"
 #include "topology/mesh.h"
@@ -56,24 +57,25 @@ bool CubicKernel::weigh(const Row& flat, SlopeRow& row) {
   const double square = face_.squared_norm(l);
   const double cube = square * std::sqrt(square);
   if (!(sum >= least_image_of_one * cube)) return false;
-  const double divisor = normalization_ == Normalization::unity ? sum : cube;
+  const double factor = 1 / (normalization_ == Normalization::unity ? sum : cube);
+  row.resize(6);
+  std::size_t size = 0;
   for (std::size_t k = 0; k < 6; ++k) {
     if (k >= 3 && !face_.has_opposite[k - 3]) continue;
-    add(vertices_[k], result_.weights[k] / divisor, result_.slopes[k] / divisor, row);
+    const std::span others(row.data(), size);
+    // In triangulations of few sites a vertex may be opposite to several edges.
+    const auto known = std::ranges::find(others, vertices_[k], &SlopeShare::vertex);
+    SlopeShare& share = row[known - others.begin()];
+    if (known == others.end()) {
+      share = {vertices_[k], 0, {}};
+      ++size;
+    }
+    share.weight += result_.weights[k] * factor;
+    share.slope = share.slope + exact::to_point(factor * result_.slopes[k]);
   }
+  row.resize(size);
   if (normalization_ == Normalization::unity) take_up_rounding(row);
   return true;
-}
-
-// In triangulations of few sites a vertex may be opposite to several edges.
-void CubicKernel::add(Index v, double weight, const Vec& slope, SlopeRow& row) {
-  for (SlopeShare& share : row) {
-    if (share.vertex != v) continue;
-    share.weight += weight;
-    share.slope = share.slope + exact::to_point(slope);
-    return;
-  }
-  row.push_back({v, weight, exact::to_point(slope)});
 }
 
 void CubicKernel::add_linear(const TargetPlace& place, SlopeRow& row) const {

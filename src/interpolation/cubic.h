@@ -41,7 +41,6 @@ class CubicKernel {
   // False if one of them has no gradient.
   bool find_corners(const TargetPlace& place);
   bool weigh(const Row& flat, SlopeRow& row);
-  static void add(Index v, double weight, const Vec& slope, SlopeRow& row);
   void add_linear(const TargetPlace& place, SlopeRow& row) const;
 
   const Ground& ground_;

@@ -72,7 +72,8 @@ Weights3 wide_determinants(const exact::SplitPoint& unit,
 void add_shares(const Triple& corners, Weights3 w, Row& row) {
   for (double& weight : w) weight = std::max(weight, 0.0);
   const double sum = sum_of(w);
-  for (std::size_t i = 0; i < 3; ++i) row.push_back({corners[i], w[i] / sum});
+  row.resize(3);
+  for (std::size_t i = 0; i < 3; ++i) row[i] = {corners[i], w[i] / sum};
 }
 
 // Counterclockwise from the lowest.
