@@ -12,7 +12,7 @@
 #include "io/atomic_file.h"
 #include "rondel/fields.h"
 
-namespace rondel::remap {
+namespace rondel::interpolation {
 
 struct FieldsToRead {
   std::span<const std::string> names;
@@ -34,4 +34,4 @@ void write_fields_tsv(io::AtomicFile& file, const FieldsToWrite& job);
 void write_fields_npy(io::AtomicFile& file, const FieldsToWrite& job);
 void write_fields_netcdf(io::AtomicFile& file, const FieldsToWrite& job);
 
-}  // namespace rondel::remap
+}  // namespace rondel::interpolation

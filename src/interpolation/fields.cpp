@@ -21,7 +21,7 @@
 #include "system/arithmetic.h"
 
 namespace rondel {
-namespace remap {
+namespace interpolation {
 namespace {
 
 double value_of(std::string_view cell, const std::string& name) {
@@ -191,23 +191,23 @@ void write_fields_npy(io::AtomicFile& file, const FieldsToWrite& job) {
   for (const FieldArray& array : job.fields.arrays) file.write(io::NumberBytes(array.values));
 }
 
-}  // namespace remap
+}  // namespace interpolation
 
 namespace {
 
 struct FieldReader {
   std::string_view ending;
-  FieldSet (*read)(std::string_view, const remap::FieldsToRead&);
+  FieldSet (*read)(std::string_view, const interpolation::FieldsToRead&);
 };
-constexpr std::array<FieldReader, 4> field_readers = {{{".csv", &remap::read_fields_csv},
-                                                       {".tsv", &remap::read_fields_tsv},
-                                                       {".npy", &remap::read_fields_npy},
-                                                       {".nc", &remap::read_fields_netcdf}}};
-using FieldWriter = io::Writer<remap::FieldsToWrite>;
-constexpr std::array<FieldWriter, 4> field_writers = {{{".csv", &remap::write_fields_csv},
-                                                       {".tsv", &remap::write_fields_tsv},
-                                                       {".npy", &remap::write_fields_npy},
-                                                       {".nc", &remap::write_fields_netcdf}}};
+constexpr std::array<FieldReader, 4> field_readers = {{{".csv", &interpolation::read_fields_csv},
+                                                       {".tsv", &interpolation::read_fields_tsv},
+                                                       {".npy", &interpolation::read_fields_npy},
+                                                       {".nc", &interpolation::read_fields_netcdf}}};
+using FieldWriter = io::Writer<interpolation::FieldsToWrite>;
+constexpr std::array<FieldWriter, 4> field_writers = {{{".csv", &interpolation::write_fields_csv},
+                                                       {".tsv", &interpolation::write_fields_tsv},
+                                                       {".npy", &interpolation::write_fields_npy},
+                                                       {".nc", &interpolation::write_fields_netcdf}}};
 
 }  // namespace
 
@@ -242,7 +242,7 @@ void write_fields(const FileName& file, const FieldSet& fields, const WeightSide
                            std::to_string(fields.num_points),
                        0);
   }
-  io::write_whole<remap::FieldsToWrite>(field_writers, file, "fields are written as",
+  io::write_whole<interpolation::FieldsToWrite>(field_writers, file, "fields are written as",
                                         {fields, points});
 }
 

@@ -13,7 +13,7 @@
 #include "io/netcdf_writer.h"
 #include "io/number.h"
 
-namespace rondel::remap {
+namespace rondel::interpolation {
 namespace {
 
 using io::NetcdfType;
@@ -243,4 +243,4 @@ void write_fields_netcdf(io::AtomicFile& file, const FieldsToWrite& job) {
   out.finish();
 }
 
-}  // namespace rondel::remap
+}  // namespace rondel::interpolation

@@ -15,7 +15,7 @@
 #include "io/netcdf_writer.h"
 #include "rondel/weight_files.h"
 
-namespace rondel::remap {
+namespace rondel::interpolation {
 
 // Each writes the whole file. Precondition: the content fits together.
 void write_esmf(io::AtomicFile& file, const WeightFile& content);
@@ -103,4 +103,4 @@ Weights rows_of_entries(std::span<const std::int64_t> rows, std::span<const std:
 // The size of a dimension. Throws BadValue, also if it is larger than the file.
 std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name);
 
-}  // namespace rondel::remap
+}  // namespace rondel::interpolation

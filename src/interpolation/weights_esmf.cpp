@@ -5,7 +5,7 @@
 // https://earthsystemmodeling.org/docs/release/latest/ESMF_refdoc/node3.html
 #include "interpolation/weight_formats.h"
 
-namespace rondel::remap {
+namespace rondel::interpolation {
 namespace {
 
 using io::NetcdfType;
@@ -78,4 +78,4 @@ WeightFile read_esmf(const io::NetcdfReader& file) {
   return content;
 }
 
-}  // namespace rondel::remap
+}  // namespace rondel::interpolation

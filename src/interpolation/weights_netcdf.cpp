@@ -11,7 +11,7 @@
 #include "io/bad_value.h"
 #include "io/number.h"
 
-namespace rondel::remap {
+namespace rondel::interpolation {
 namespace {
 
 constexpr const char* source_hash_name = "rondel_source_hash";
@@ -202,4 +202,4 @@ WeightFile read_weights_netcdf(std::string_view bytes) {
       R"(no file of weights: neither variable "S" (ESMF) nor "remap_matrix" (SCRIP))");
 }
 
-}  // namespace rondel::remap
+}  // namespace rondel::interpolation

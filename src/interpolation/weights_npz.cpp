@@ -14,7 +14,7 @@
 #include "io/zip_file.h"
 #include "io/zip_reader.h"
 
-namespace rondel::remap {
+namespace rondel::interpolation {
 namespace {
 
 // A member of the archive that is an array of one dimension.
@@ -150,4 +150,4 @@ WeightFile read_weights_npz(std::string_view bytes) {
   return content;
 }
 
-}  // namespace rondel::remap
+}  // namespace rondel::interpolation

@@ -7,7 +7,7 @@
 #include "interpolation/weight_formats.h"
 #include "io/bad_value.h"
 
-namespace rondel::remap {
+namespace rondel::interpolation {
 namespace {
 
 SideNames names_of(const std::string& grid) {
@@ -91,4 +91,4 @@ WeightFile read_scrip(const io::NetcdfReader& file) {
   return content;
 }
 
-}  // namespace rondel::remap
+}  // namespace rondel::interpolation

@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Conservative remapping: the means of a field over the cells of one partition from its means over those of
+/// another one (Jones, Mon. Weather Rev. 127, 1999, section 2).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rondel/export.h"
+#include "rondel/partition.h"
+#include "rondel/types.h"
+#include "rondel/weights.h"
+
+namespace rondel {
+
+/// What the sums over a target cell are divided by.
+enum class RemapNorm : std::uint8_t {
+  destarea,  ///< its area: the integral is kept, and where sources are lacking a part of it counts as 0
+  fracarea,  ///< the area that sources cover: constants are kept
+};
+
+struct RemapOptions {
+  /// 1: the field is constant in each source cell. 2: it is linear, with a gradient by least squares over
+  /// the neighbors (cells that share an edge) and the cell's mean kept; the integral is kept by both.
+  unsigned order = 1;
+  RemapNorm norm = RemapNorm::destarea;
+};
+
+struct Remap {
+  /// Rows are targets, columns sources. Targets that no source covers have empty rows, so NaN.
+  Weights weights;
+  std::vector<double> source_areas;      ///< steradians
+  std::vector<double> target_areas;      ///< steradians
+  std::vector<double> source_fractions;  ///< which share of each source the targets cover
+  std::vector<double> target_fractions;  ///< which share of each target the sources cover
+
+  /// The pieces: of entry k of `offsets` and `columns` (as those of `weights` of order 1), its area and
+  /// the integral of x - m over it, where m is the mean of x over the source.
+  std::vector<std::uint64_t> offsets;
+  std::vector<Index> columns;
+  std::vector<double> areas;
+  std::vector<Point> moments;  ///< empty for order 1
+};
+
+/// The overlay of both and the weights that follow from it.
+///
+/// Which edges cross, and where cells are inside of cells, is decided exactly on the corners as they are;
+/// points of intersection are rounded. Equal cells, shared corners and shared edges are like others: the
+/// weights of a partition onto itself are the identity. Pieces not larger than rounding of
+/// their corners may make them are left out. The weights depend on nothing but the cells.
+///
+/// With order 1 and destarea, the sum of areas times weights of a column is that source's area, and
+/// the sum of a row 1, to a few ulp, where the other partition covers it.
+/// \throws InvalidInput if no partition is_cover(), or the order is neither 1 nor 2.
+RONDEL_API Remap remap(const Partition& source, const Partition& target,
+                       const RemapOptions& options = {}, const Execution& execution = {});
+
+/// The target means of order 2 with gradients of your own, by source cell, for which linear
+/// fields come back to rounding. `out` has a value for each target; NaN where no source is.
+/// \throws InvalidInput if sizes do not fit or `remap` is of order 1.
+RONDEL_API void apply_gradients(const Remap& remap, std::span<const double> means,
+                                std::span<const Point> gradients, std::span<double> out);
+
+}  // namespace rondel

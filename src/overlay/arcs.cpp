@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/arcs.h"
+
+#include <algorithm>
+
+#include "exact/exact_sign.h"
+
+namespace rondel::overlay {
+namespace {
+
+// Of three great circles, each through two points, whether the second one meets the first one in its
+// direction before the third does, where both do so within one arc of less than 180 degrees and
+// from right to left: the sign of N.(M x M') with normals N = y x z, M, M' of the three. Where that
+// vanishes, that of its change w.(N x (M x M')) when the first circle is turned (signs.h).
+Sign crossing_order(const Point& y, const Point& z, const Point& p, const Point& q, const Point& r,
+                    const Point& s) {
+  const auto sign_of = [&](const auto& value) {
+    return exact::sign_of_sextic([&](const auto& step) {
+      const Point o{};
+      return value(cross(step(o, y), step(o, z)),
+                   cross(cross(step(o, p), step(o, q)), cross(step(o, r), step(o, s))))
+          .sign();
+    });
+  };
+  Sign sign = sign_of([](const auto& n, const auto& m) { return dot(n, m); });
+  if (sign == Sign::zero)
+    sign = sign_of([](const auto& n, const auto& m) { return cross(n, m).x; });
+  if (sign == Sign::zero)
+    sign = sign_of([](const auto& n, const auto& m) { return cross(n, m).y; });
+  if (sign == Sign::zero)
+    sign = sign_of([](const auto& n, const auto& m) { return cross(n, m).z; });
+  return sign;
+}
+
+}  // namespace
+
+std::span<const Arc> ArcMaker::operator()(Index cell) {
+  arcs_.clear();
+  passages_.clear();
+  arrivals_.clear();
+  visited_.clear();
+  follow_boundary(cell);
+  sort_passages(cells_.shapes[cell] == Shape::convex);
+  follow_inwards();
+  flood();
+  return arcs_;
+}
+
+void ArcMaker::follow_boundary(Index cell) {
+  for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
+    for (Halfedge h = cells_.rings[ring]; h < cells_.rings[ring + 1]; ++h) {
+      const Halfedge next = h + 1 == cells_.rings[ring + 1] ? cells_.rings[ring] : h + 1;
+      const Crossings::EdgeTrace& trace = crossings_.trace(h);
+      const auto crossings = crossings_.of(trace);
+      Index beyond = trace.start;
+      Point from = cells_.origin(h);
+      for (std::size_t k = 0; k < crossings.size(); ++k) {
+        const EdgeCrossing& crossing = crossings[trace.is_backwards ? crossings.size() - 1 - k : k];
+        const Halfedge twin = cover_.twins[crossing.out];
+        const Halfedge out = trace.is_backwards ? twin : crossing.out;
+        const Halfedge in = trace.is_backwards ? crossing.out : twin;
+        arcs_.push_back({beyond, from, crossing.point});
+        passages_.push_back({std::min(out, in), out, h, crossing.point});
+        from = crossing.point;
+        beyond = cover_.cell_of[in];
+      }
+      arcs_.push_back({beyond, from, cells_.origin(next)});
+    }
+  }
+}
+
+// By edges, and along each edge in the direction of its lower halfedge. A convex cell has no edge
+// with two passages but one that comes in by the first and goes out by the second.
+void ArcMaker::sort_passages(bool is_convex) {
+  std::ranges::sort(passages_, [&](const Passage& a, const Passage& b) {
+    if (a.edge != b.edge) return a.edge < b.edge;
+    if (is_convex) return a.out == a.edge && b.out != b.edge;
+    return is_before(a, b);
+  });
+}
+
+bool ArcMaker::is_before(const Passage& a, const Passage& b) const {
+  const auto end = [&](const Passage& passage) {
+    const Index ring_end = *std::ranges::upper_bound(cells_.rings, passage.by);
+    if (passage.by + 1 < ring_end) return passage.by + 1;
+    return *(std::ranges::upper_bound(cells_.rings, passage.by) - 1);
+  };
+  if (a.by == b.by) return false;
+  const Sign sign =
+      crossing_order(cover_.origin(a.edge), cover_.end(a.edge), cells_.origin(a.by),
+                     cells_.origin(end(a)), cells_.origin(b.by), cells_.origin(end(b)));
+  // An edge that is left by its own halfedge is crossed from left to right.
+  const bool is_turned = (a.out == a.edge) != (b.out == b.edge);
+  return sign == (is_turned ? Sign::negative : Sign::positive);
+}
+
+// The parts of edges between passages, or between a passage and an end.
+void ArcMaker::follow_inwards() {
+  for (std::size_t k = 0; k < passages_.size(); ++k) {
+    const Passage& passage = passages_[k];
+    if (passage.out != passage.edge) {  // inside is before it
+      add_edge(passage.edge, cover_.origin(passage.edge), passage.point);
+      arrive(passage.out);
+    } else if (k + 1 < passages_.size() && passages_[k + 1].edge == passage.edge) {
+      add_edge(passage.edge, passage.point, passages_[k + 1].point);
+      ++k;
+    } else {
+      add_edge(passage.edge, passage.point, cover_.end(passage.edge));
+      arrive(passage.out);
+    }
+  }
+}
+
+void ArcMaker::flood() {
+  while (!arrivals_.empty()) {
+    const Halfedge arrived = arrivals_.back();
+    arrivals_.pop_back();
+    const Halfedge first = cover_.twins[arrived];
+    Halfedge h = first;
+    do {
+      const Halfedge edge = std::min(h, cover_.twins[h]);
+      if (!has_passage(edge)) {
+        if (h == edge) add_edge(h, cover_.origin(h), cover_.end(h));
+        arrive(h);
+      }
+      h = cover_.twins[cover_.previous(h)];
+    } while (h != first);
+  }
+}
+
+void ArcMaker::add_edge(Halfedge h, const Point& from, const Point& to) {
+  arcs_.push_back({cover_.cell_of[h], from, to});
+  arcs_.push_back({cover_.cell_of[cover_.twins[h]], to, from});
+}
+
+void ArcMaker::arrive(Halfedge h) {
+  if (visited_.insert(cover_.corners[cover_.next(h)])) arrivals_.push_back(h);
+}
+
+bool ArcMaker::has_passage(Halfedge edge) const {
+  constexpr std::size_t few = 12;
+  if (passages_.size() <= few) {
+    return std::ranges::any_of(passages_,
+                               [edge](const Passage& passage) { return passage.edge == edge; });
+  }
+  return std::ranges::binary_search(passages_, edge, {}, &Passage::edge);
+}
+
+}  // namespace rondel::overlay

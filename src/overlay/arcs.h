@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The boundaries of the pieces into which the cells of a subdivision are cut by those of a cover.
+//
+// The boundary of a cell is a sequence of arcs, each in one cell of the cover (crossings.h). What of the
+// cover's edges lies inside follows without a further decision: an edge that the boundary crosses on
+// its way out of a cell goes inwards in the direction of its halfedge there, to the next crossing or
+// to its end, and from there all other edges go on. The arcs with the cell b of the cover to their
+// left bound the piece of b.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "overlay/crossings.h"
+#include "overlay/subdivision.h"
+#include "query/visited.h"
+#include "rondel/types.h"
+
+namespace rondel::overlay {
+
+// From one point to another along a great circle, with the piece to the left.
+struct Arc {
+  Index beyond;  // the cell of the cover
+  Point from;
+  Point to;
+};
+
+// One for each thread.
+class ArcMaker {
+ public:
+  ArcMaker(const Subdivision& cells, const Subdivision& cover, const Crossings& crossings)
+      : cells_(cells), cover_(cover), crossings_(crossings) {}
+
+  // All arcs of a cell that has a ring: first those of its boundary, in order. The result lives until the
+  // next call.
+  std::span<const Arc> operator()(Index cell);
+
+ private:
+  // Where the boundary leaves a cell of the cover.
+  struct Passage {
+    Halfedge edge;  // the lower one of `out` and its twin
+    Halfedge out;
+    Halfedge by;  // of the cell
+    Point point;
+  };
+
+  void follow_boundary(Index cell);
+  void sort_passages(bool is_convex);
+  [[nodiscard]] bool is_before(const Passage& a, const Passage& b) const;
+  void follow_inwards();
+  void flood();
+  void add_edge(Halfedge h, const Point& from, const Point& to);
+  void arrive(Halfedge h);
+  [[nodiscard]] bool has_passage(Halfedge edge) const;
+
+  const Subdivision& cells_;
+  const Subdivision& cover_;
+  const Crossings& crossings_;
+  std::vector<Arc> arcs_;
+  std::vector<Passage> passages_;
+  std::vector<Halfedge> arrivals_;  // their ends are inside, and wait
+  query::VisitedSet visited_;       // points of the cover
+};
+
+}  // namespace rondel::overlay

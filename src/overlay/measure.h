@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Areas and first moments on the unit sphere, as sums over arcs of great circles.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "exact/argument.h"
+#include "exact/vector.h"
+#include "rondel/types.h"
+
+namespace rondel::overlay {
+
+// The area of the triangle (o, p, q), negative if it is clockwise. With P = p-o and Q = q-o
+//
+//     tan(area / 2) = o.(P x Q) / (1 + o.p + p.q + q.o),    o.p = 1 - |P|^2 / 2 ...
+inline double triangle_area(const Point& o, const Point& p, const Point& q) {
+  const Point to_p = p - o;
+  const Point to_q = q - o;
+  const Point side = to_q - to_p;
+  const double above = dot(o, cross(to_p, to_q));
+  const double below = 4 - (dot(to_p, to_p) + dot(to_q, to_q) + dot(side, side)) / 2;
+  constexpr double small = 0x1p-10;  // t^6 is nothing then
+  if (std::abs(above) < small * below) {
+    const double t = above / below;
+    const double t2 = t * t;
+    return 2 * (t - t * t2 * (1.0 / 3 - t2 * (1.0 / 5)));
+  }
+  return 2 * exact::argument(above, below);
+}
+
+// The arc's share of the first moment, the integral of q over a region: half of that of q x dq along its
+// boundary, so half of the angle times the unit normal.
+inline Point moment_of_arc(const Point& p, const Point& q) {
+  const Point normal = cross(p, q - p);
+  const double square = dot(normal, normal);
+  constexpr double small = 0x1p-14;  // of asin(s) / s - 1, s^8 is nothing then
+  const double cosine = dot(p, q);
+  if (square < small && cosine > 0) {
+    return (0.5 + square * (1.0 / 12 + square * (3.0 / 80 + square * (5.0 / 224)))) * normal;
+  }
+  const double sine = std::sqrt(square);
+  return sine > 0 ? exact::argument(sine, cosine) / (2 * sine) * normal : Point{};
+}
+
+// How long an arc is, or up to sqrt(3) times that.
+inline double rough_length(const Point& p, const Point& q) {
+  return std::abs(q.x - p.x) + std::abs(q.y - p.y) + std::abs(q.z - p.z);
+}
+
+// Triangles with corners much farther from their first one may be ill-defined.
+inline bool is_far(const Point& p, const Point& q) { return dot(p, q) < 0.5; }
+
+struct BorderArc {
+  Point from;
+  Point to;
+};
+struct Measures {
+  double area = 0;
+  Point moment{};
+};
+// Of a region that fits into a hemisphere, by all arcs of its border.
+Measures measures_of(std::span<const BorderArc> border);
+
+}  // namespace rondel::overlay

@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/partition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "exact/vector.h"
+#include "overlay/measure.h"
+#include "overlay/partition_data.h"
+#include "rondel/diagram.h"
+#include "rondel/error.h"
+#include "system/job.h"
+#include "system/parallel.h"
+
+namespace rondel {
+namespace overlay {
+namespace {}  // namespace
+
+PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned threads)
+    : subdivision_(std::move(subdivision)),
+      whole_(whole),
+      areas_(subdivision_.num_cells()),
+      moments_(subdivision_.num_cells()) {
+  const auto measure = [&](std::size_t begin, std::size_t end) {
+    std::vector<BorderArc> border;
+    for (std::size_t c = begin; c < end; ++c) {
+      border.clear();
+      for (Index ring = subdivision_.cells[c]; ring < subdivision_.cells[c + 1]; ++ring) {
+        const Index first = subdivision_.rings[ring];
+        const Index last = subdivision_.rings[ring + 1] - 1;
+        for (Halfedge h = first; h <= last; ++h) {
+          border.push_back(
+              {subdivision_.origin(h), subdivision_.origin(h == last ? first : h + 1)});
+        }
+      }
+      const Measures measures = measures_of(border);
+      areas_[subdivision_.names[c]] = measures.area;
+      moments_[subdivision_.names[c]] = measures.moment;
+    }
+  };
+  system::parallel_for(threads, subdivision_.num_cells(), cells_per_piece, measure);
+  if (whole != no_index) areas_[whole] = 4 * std::numbers::pi;
+}
+
+}  // namespace overlay
+
+namespace {
+
+using overlay::PartitionData;
+using overlay::Subdivision;
+
+CellRings rings_of(Cells cells) {
+  CellRings rings;
+  rings.points = std::move(cells.points);
+  rings.corners = std::move(cells.rings);
+  for (std::size_t i = 0; i + 1 < cells.offsets.size(); ++i) {
+    if (cells.offsets[i + 1] > cells.offsets[i]) rings.rings.push_back(cells.offsets[i + 1]);
+    rings.cells.push_back(rings.rings.size() - 1);
+  }
+  return rings;
+}
+
+std::vector<Point> directions(const Triangulation& triangulation) {
+  std::vector<Point> result;
+  result.reserve(triangulation.num_sites());
+  for (const Point& p : triangulation.sites().points()) {
+    result.push_back(normalized(p - triangulation.sphere().center));
+  }
+  return result;
+}
+
+[[noreturn]] void refuse(std::size_t cell, const std::string& what) {
+  throw InvalidInput("cell " + std::to_string(cell) + " " + what, cell);
+}
+
+void validate(const CellRings& cells) {
+  const auto is_sound = [](const std::vector<std::uint64_t>& offsets, std::size_t size) {
+    return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
+           std::ranges::is_sorted(offsets);
+  };
+  if (cells.rings.empty() || !is_sound(cells.cells, cells.rings.size() - 1) ||
+      !is_sound(cells.rings, cells.corners.size())) {
+    throw InvalidInput("the offsets of cells and rings do not fit", 0);
+  }
+  if (cells.corners.size() >= no_index) throw InvalidInput("there are too many corners", no_index);
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + 1]; ++r) {
+      const std::uint64_t size = cells.rings[r + 1] - cells.rings[r];
+      if (size < 3) refuse(i, "has a ring of " + std::to_string(size) + " corners");
+      for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+        const Index p = cells.corners[k];
+        if (p >= cells.points.size()) refuse(i, "has a corner " + std::to_string(p));
+        constexpr double most = 1e-12;
+        if (!(std::abs(dot(cells.points[p], cells.points[p]) - 1) <= most)) {
+          refuse(i, "has a corner that is no unit vector");
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Partition::Partition(std::shared_ptr<const PartitionData> data) : data_(std::move(data)) {}
+
+Partition::Partition(const CellRings& cells, const Execution& execution) {
+  const system::Call call(execution);
+  validate(cells);
+  data_ = std::make_shared<const PartitionData>(Subdivision(cells, false, execution.threads),
+                                                no_index, execution.threads);
+}
+
+Partition Partition::voronoi(const Triangulation& triangulation, const Execution& execution) {
+  const system::Call call(execution);
+  const bool is_whole = triangulation.num_vertices() == 1;
+  Index whole = no_index;
+  if (is_whole) {
+    std::vector<bool> is_hidden(triangulation.num_sites());
+    for (const auto& [site, representative] : triangulation.duplicates()) is_hidden[site] = true;
+    for (const auto& [site, face] : triangulation.hidden()) is_hidden[site] = true;
+    whole = static_cast<Index>(std::ranges::find(is_hidden, false) - is_hidden.begin());
+  }
+  Subdivision cells(rings_of(rondel::cells(triangulation, execution)), true, execution.threads);
+  return Partition(
+      std::make_shared<const PartitionData>(std::move(cells), whole, execution.threads));
+}
+
+Partition Partition::triangles(const Triangulation& triangulation, const Execution& execution) {
+  CellRings rings;
+  rings.points = directions(triangulation);
+  if (triangulation.dimension() == 2) {
+    for (Index f = 0; f < triangulation.num_faces(); ++f) {
+      if (triangulation.is_ghost(f)) continue;
+      for (const Index v : triangulation.faces()[f]) rings.corners.push_back(v);
+      rings.rings.push_back(rings.corners.size());
+      rings.cells.push_back(rings.rings.size() - 1);
+    }
+  }
+  return Partition(rings, execution);
+}
+
+std::size_t Partition::num_cells() const { return data_->subdivision().num_cells(); }
+std::span<const double> Partition::areas() const { return data_->areas(); }
+bool Partition::is_cover() const { return data_->is_cover(); }
+
+}  // namespace rondel

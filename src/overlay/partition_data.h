@@ -1,0 +1,33 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "overlay/subdivision.h"
+#include "rondel/types.h"
+
+namespace rondel::overlay {
+
+class PartitionData {
+ public:
+  PartitionData(Subdivision subdivision, Index whole, unsigned threads);
+
+  [[nodiscard]] const Subdivision& subdivision() const { return subdivision_; }
+  // The cell that is the whole sphere; no_index: none is.
+  [[nodiscard]] Index whole() const { return whole_; }
+  [[nodiscard]] bool is_cover() const { return whole_ != no_index || subdivision_.is_cover; }
+  // By name.
+  [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
+  [[nodiscard]] const std::vector<Point>& moments() const { return moments_; }
+
+ private:
+  Subdivision subdivision_;
+  Index whole_;
+  std::vector<double> areas_;
+  std::vector<Point> moments_;
+};
+
+}  // namespace rondel::overlay

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The areas and first moments of the pieces into which cells are cut by those of a cover.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "overlay/subdivision.h"
+#include "rondel/types.h"
+#include "system/large_vector.h"
+
+namespace rondel::overlay {
+
+// In compressed rows by the cells' names, columns increasing.
+struct PieceRows {
+  std::vector<std::uint64_t> offsets = {0};
+  LargeVector<Index> columns;
+  LargeVector<double> areas;
+  LargeVector<Point> moments;  // empty unless asked for
+};
+
+// Pieces not larger than what rounding of their corners may be are left out.
+PieceRows pieces(const Subdivision& cells, const Subdivision& cover, bool has_moments,
+                 const Execution& execution);
+
+// With rows and columns exchanged.
+PieceRows transposed(const PieceRows& pieces, std::size_t num_columns);
+
+}  // namespace rondel::overlay

@@ -1,0 +1,221 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/remap.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "exact/vector.h"
+#include "overlay/partition_data.h"
+#include "overlay/pieces.h"
+#include "overlay/slopes_of_cells.h"
+#include "rondel/error.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace {
+
+using overlay::PartitionData;
+using overlay::PieceRows;
+
+// One row, or one column, of whole cells.
+PieceRows whole_cells(const PartitionData& cells, Index whole, std::size_t num_rows) {
+  PieceRows pieces;
+  pieces.offsets.assign(num_rows + 1, 0);
+  for (std::size_t i = 0; i < cells.areas().size(); ++i) {
+    if (!(cells.areas()[i] > 0)) continue;
+    pieces.columns.push_back(static_cast<Index>(i));
+    pieces.areas.push_back(cells.areas()[i]);
+    pieces.moments.push_back(cells.moments()[i]);
+  }
+  for (std::size_t row = whole; row < num_rows; ++row)
+    pieces.offsets[row + 1] = pieces.columns.size();
+  return pieces;
+}
+
+// Rows are targets.
+PieceRows overlay_of(const PartitionData& source, const PartitionData& target, bool has_moments,
+                     const Execution& execution) {
+  const std::size_t num_sources = source.areas().size();
+  const std::size_t num_targets = target.areas().size();
+  if (target.whole() != no_index) return whole_cells(source, target.whole(), num_targets);
+  if (source.whole() != no_index) {
+    return transposed(whole_cells(target, source.whole(), num_sources), num_targets);
+  }
+  if (source.is_cover()) {
+    return pieces(target.subdivision(), source.subdivision(), has_moments, execution);
+  }
+  if (target.is_cover()) {
+    return transposed(pieces(source.subdivision(), target.subdivision(), has_moments, execution),
+                      num_targets);
+  }
+  throw InvalidInput("neither the source nor the target covers the sphere", 0);
+}
+
+// CoveredSums over a partition that covers differ from the areas of cells by rounding alone; the sums
+// are what keeps integrals.
+double covered_or_own(double covered, double own) {
+  constexpr double rounding = 1e-9;
+  return std::abs(covered - own) <= rounding * own ? covered : own;
+}
+
+struct CoveredSums {
+  std::vector<double> of_sources;
+  std::vector<Point> moments_of_sources;
+  std::vector<double> of_targets;
+};
+
+CoveredSums sums_of(const Remap& remap, const PieceRows& pieces, std::size_t num_sources) {
+  CoveredSums sums;
+  sums.of_sources.resize(num_sources);
+  sums.moments_of_sources.resize(pieces.moments.empty() ? 0 : num_sources);
+  sums.of_targets.resize(remap.offsets.size() - 1);
+  for (std::size_t j = 0; j < sums.of_targets.size(); ++j) {
+    for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
+      const Index i = remap.columns[k];
+      sums.of_targets[j] += remap.areas[k];
+      sums.of_sources[i] += remap.areas[k];
+      if (!pieces.moments.empty()) {
+        sums.moments_of_sources[i] = sums.moments_of_sources[i] + pieces.moments[k];
+      }
+    }
+  }
+  return sums;
+}
+
+std::vector<double> fractions(const std::vector<double>& covered,
+                              const std::vector<double>& areas) {
+  std::vector<double> result(areas.size());
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    result[i] = areas[i] > 0 ? covered[i] / areas[i] : 0;
+  }
+  return result;
+}
+
+// Moments around the means of sources. Their sums vanish but for rounding, which gradients would
+// multiply by the inverse of a cell's width: the largest piece of a source takes it up.
+std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& remap,
+                                  const PieceRows& pieces) {
+  std::vector<Point> moments(pieces.moments.size());
+  std::vector<Point> sums(means.size());
+  std::vector<std::uint64_t> largest(means.size(), moments.size());
+  for (std::size_t k = 0; k < moments.size(); ++k) {
+    const Index i = remap.columns[k];
+    moments[k] = pieces.moments[k] - remap.areas[k] * means[i];
+    sums[i] = sums[i] + moments[k];
+    if (largest[i] == moments.size() || remap.areas[k] > remap.areas[largest[i]]) largest[i] = k;
+  }
+  for (std::size_t i = 0; i < means.size(); ++i) {
+    if (largest[i] < moments.size()) moments[largest[i]] = moments[largest[i]] - sums[i];
+  }
+  return moments;
+}
+
+struct Term {
+  Index source;
+  double weight;
+};
+
+// One row of order 2. What is added up for one source is added in the order of the pieces.
+void join(std::vector<Term>& terms, Weights& weights) {
+  std::ranges::stable_sort(terms, {}, &Term::source);
+  for (std::size_t k = 0; k < terms.size();) {
+    const Index source = terms[k].source;
+    double sum = 0;
+    for (; k < terms.size() && terms[k].source == source; ++k) sum += terms[k].weight;
+    weights.columns.push_back(source);
+    weights.values.push_back(sum);
+  }
+}
+
+}  // namespace
+
+Remap remap(const Partition& source, const Partition& target, const RemapOptions& options,
+            const Execution& execution) {
+  const system::Call call(execution);
+  if (options.order != 1 && options.order != 2) {
+    throw InvalidInput("the order is " + std::to_string(options.order) + ", not 1 or 2", 0);
+  }
+  const PartitionData& sources = source.data();
+  const PartitionData& targets = target.data();
+  const bool is_second = options.order == 2;
+  const PieceRows pieces = overlay_of(sources, targets, is_second, execution);
+  Remap result;
+  result.source_areas = sources.areas();
+  result.target_areas = targets.areas();
+  result.offsets = pieces.offsets;
+  result.columns.assign(pieces.columns.begin(), pieces.columns.end());
+  result.areas.assign(pieces.areas.begin(), pieces.areas.end());
+  const std::size_t num_sources = result.source_areas.size();
+  const std::size_t num_targets = result.target_areas.size();
+  const CoveredSums sums = sums_of(result, pieces, num_sources);
+  result.source_fractions = fractions(sums.of_sources, result.source_areas);
+  result.target_fractions = fractions(sums.of_targets, result.target_areas);
+
+  overlay::CellGradients gradients;
+  if (is_second) {
+    std::vector<Point> means(num_sources);
+    std::vector<Point> centers(num_sources);
+    for (std::size_t i = 0; i < num_sources; ++i) {
+      if (sums.of_sources[i] > 0) means[i] = sums.moments_of_sources[i] / sums.of_sources[i];
+      if (result.source_areas[i] > 0) centers[i] = sources.moments()[i] / result.source_areas[i];
+    }
+    result.moments = moments_around(means, result, pieces);
+    gradients = cell_gradients(sources.subdivision(), centers, execution.threads);
+  }
+  Weights& weights = result.weights;
+  weights.num_columns = num_sources;
+  std::vector<Term> terms;
+  for (std::size_t j = 0; j < num_targets; ++j) {
+    const double covered = sums.of_targets[j];
+    const double area = options.norm == RemapNorm::fracarea
+                            ? covered
+                            : covered_or_own(covered, result.target_areas[j]);
+    terms.clear();
+    for (std::uint64_t k = result.offsets[j]; k < result.offsets[j + 1]; ++k) {
+      const Index i = result.columns[k];
+      double own = result.areas[k];
+      if (is_second) {
+        for (std::uint64_t g = gradients.offsets[i]; g < gradients.offsets[i + std::size_t{1}];
+             ++g) {
+          const double weight = dot(result.moments[k], gradients.slopes[g]);
+          if (weight == 0) continue;
+          terms.push_back({gradients.neighbors[g], weight / area});
+          own -= weight;
+        }
+      }
+      terms.push_back({i, own / area});
+    }
+    join(terms, weights);
+    weights.offsets.push_back(weights.columns.size());
+  }
+  return result;
+}
+
+void apply_gradients(const Remap& remap, std::span<const double> means,
+                     std::span<const Point> gradients, std::span<double> out) {
+  const std::size_t num_sources = remap.source_areas.size();
+  if (remap.moments.size() != remap.areas.size()) {
+    throw InvalidInput("the remapping is not of order 2", 0);
+  }
+  if (means.size() != num_sources || gradients.size() != num_sources ||
+      out.size() != remap.target_areas.size()) {
+    throw InvalidInput("the sizes of means, gradients and targets do not fit the remapping", 0);
+  }
+  for (std::size_t j = 0; j < out.size(); ++j) {
+    double sum = 0;
+    double area = 0;
+    for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
+      const Index i = remap.columns[k];
+      sum += remap.areas[k] * means[i] + dot(remap.moments[k], gradients[i]);
+      area += remap.areas[k];
+    }
+    out[j] = area > 0 ? sum / area : std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+}  // namespace rondel

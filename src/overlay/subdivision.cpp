@@ -1,0 +1,293 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/subdivision.h"
+
+#include <algorithm>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "exact/vector.h"
+#include "order/place_keys.h"
+#include "order/radix_sort.h"
+#include "overlay/measure.h"
+#include "predicates/bounds.h"
+#include "rondel/predicates.h"
+#include "system/parallel.h"
+
+namespace rondel::overlay {
+namespace {
+
+bool is_left_turn(const Point& a, const Point& b, const Point& c) {
+  const auto ray = exact::to_vector(a);
+  const auto ab = exact::to_vector(b) - ray;
+  const auto ac = exact::to_vector(c) - ray;
+  const double value = det(ray, ab, ac);
+  constexpr double bound = predicates::orientation_bound;
+  const double squares = dot(ab, ab) * dot(ac, ac);
+  if (squares > 1e-200 && value * value > bound * bound * dot(ray, ray) * squares) return value > 0;
+  return orientation(a, b, c) == Sign::positive;
+}
+
+auto coordinates(const Point& p) { return std::tuple(p.x, p.y, p.z); }
+
+// Sets of points that have become one; the lowest stands for all.
+class MergedPoints {
+ public:
+  explicit MergedPoints(std::size_t size) : parents_(size) {
+    std::iota(parents_.begin(), parents_.end(), Index{0});
+  }
+  [[nodiscard]] Index operator[](Index p) {
+    while (parents_[p] != p) p = parents_[p] = parents_[parents_[p]];
+    return p;
+  }
+  void join(Index p, Index q) {
+    const Index a = (*this)[p];
+    const Index b = (*this)[q];
+    parents_[std::max(a, b)] = std::min(a, b);
+  }
+
+ private:
+  std::vector<Index> parents_;
+};
+
+// The direction of the center of mass, or of any corner.
+Point center_of(const CellRings& input, std::size_t cell) {
+  Point moment{};
+  Point first{1, 0, 0};
+  for (std::uint64_t r = input.cells[cell]; r < input.cells[cell + 1]; ++r) {
+    const std::uint64_t begin = input.rings[r];
+    const std::uint64_t end = input.rings[r + 1];
+    for (std::uint64_t k = begin; k < end; ++k) {
+      const Point& p = input.points[input.corners[k]];
+      if (r == input.cells[cell] && k == begin) first = p;
+      moment = moment + moment_of_arc(p, input.points[input.corners[k + 1 < end ? k + 1 : begin]]);
+    }
+  }
+  return moment == Point{} ? first : normalized(moment);
+}
+
+}  // namespace
+
+Subdivision::Subdivision(const CellRings& input, bool is_rounded, unsigned threads) {
+  order(input, threads);
+  if (is_rounded) merge_disordered();
+  find_twins();
+  find_shapes(threads);
+}
+
+// Rings begin at their corner with the least coordinates, and cells with one key follow their first
+// corners, so that nothing depends on the order of the input but `names`.
+void Subdivision::order(const CellRings& input, unsigned threads) {
+  const std::size_t n = input.num_cells();
+  std::vector<Point> places(n);
+  std::vector<Index> first(n, no_index);  // a position in the input's corners
+  const auto least_corner = [&](std::uint64_t ring) {
+    const auto begin = input.corners.begin() + static_cast<std::ptrdiff_t>(input.rings[ring]);
+    const auto end = input.corners.begin() + static_cast<std::ptrdiff_t>(input.rings[ring + 1]);
+    const auto least = std::ranges::min_element(
+        begin, end, {}, [&](Index p) { return coordinates(input.points[p]); });
+    return static_cast<std::size_t>(least - input.corners.begin());
+  };
+  system::parallel_for(threads, n, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (input.cells[i] < input.cells[i + 1]) {
+        first[i] = static_cast<Index>(least_corner(input.cells[i]));
+      }
+      places[i] = center_of(input, i);
+    }
+  });
+  order::KeyedIndices sorted;
+  sorted.keys.resize(n);
+  sorted.indices.resize(n);
+  std::iota(sorted.indices.begin(), sorted.indices.end(), Index{0});
+  system::parallel_for(threads, n, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+    order::place_keys(std::span(places).subspan(begin, end - begin), Model::projected, {},
+                      std::span(sorted.keys).subspan(begin, end - begin));
+  });
+  order::radix_sort(sorted, order::high_key_bits);
+  const auto first_coordinates = [&](Index i) {
+    return first[i] == no_index ? std::tuple(2.0, 0.0, 0.0)
+                                : coordinates(input.points[input.corners[first[i]]]);
+  };
+  for (std::size_t i = 0; i < n;) {
+    std::size_t end = i + 1;
+    while (end < n && sorted.keys[end] == sorted.keys[i]) ++end;
+    if (end - i > 1) {
+      std::ranges::stable_sort(sorted.indices.begin() + static_cast<std::ptrdiff_t>(i),
+                               sorted.indices.begin() + static_cast<std::ptrdiff_t>(end), {},
+                               first_coordinates);
+    }
+    i = end;
+  }
+  keys = std::move(sorted.keys);
+  names.assign(sorted.indices.begin(), sorted.indices.end());
+
+  std::vector<Index> new_points(input.points.size(), no_index);
+  cells.reserve(n + 1);
+  cells.push_back(0);
+  rings.push_back(0);
+  corners.reserve(input.corners.size());
+  cell_of.reserve(input.corners.size());
+  centers.reserve(n);
+  for (std::size_t c = 0; c < n; ++c) {
+    const Index i = names[c];
+    for (std::uint64_t r = input.cells[i]; r < input.cells[i + 1]; ++r) {
+      const std::size_t begin = input.rings[r];
+      const std::size_t size = input.rings[r + 1] - begin;
+      const std::size_t start = r == input.cells[i] ? first[i] : least_corner(r);
+      for (std::size_t k = 0; k < size; ++k) {
+        const Index p = input.corners[begin + (start - begin + k) % size];
+        if (new_points[p] == no_index) {
+          new_points[p] = static_cast<Index>(points.size());
+          points.push_back(input.points[p]);
+        }
+        corners.push_back(new_points[p]);
+        cell_of.push_back(static_cast<Index>(c));
+      }
+      rings.push_back(static_cast<Index>(corners.size()));
+    }
+    cells.push_back(static_cast<Index>(rings.size() - 1));
+    centers.push_back(places[i]);
+  }
+}
+
+// Each edge must turn counterclockwise around the center of its cell. Where rounding has brought
+// the ends of a short one into another order, or into one place, they become one. Where it has done so
+// with a long one, the cell is narrower than that, and its short edges vanish. A cell that has fewer
+// than three corners left has no ring any more, and what was on both sides of it has become neighbors.
+void Subdivision::merge_disordered() {
+  constexpr double short_length = 0x1p-44;
+  MergedPoints merged(points.size());
+  bool has_any = false;
+  bool has_changed = true;
+  const auto join = [&](Index p, Index q) {
+    merged.join(p, q);
+    has_changed = has_any = true;
+  };
+  const auto is_short = [&](Index p, Index q) {
+    const Point step = points[q] - points[p];
+    return dot(step, step) <= short_length * short_length;
+  };
+  const auto mend = [&](Index cell) {
+    const Index begin = begin_of(cell);
+    const Index end = end_of(cell);
+    bool is_narrow = false;
+    for (const bool is_second_pass : {false, true}) {
+      for (Halfedge h = begin; h < end; ++h) {
+        const Index p = merged[corners[h]];
+        const Index q = merged[corners[h + 1 == end ? begin : h + 1]];
+        if (p == q) continue;
+        const bool is_in_order = is_left_turn(centers[cell], points[p], points[q]);
+        if (is_short(p, q)) {
+          if (!is_in_order || is_second_pass) join(p, q);
+        } else {
+          is_narrow |= !is_in_order;
+        }
+      }
+      if (!is_narrow) return;
+    }
+  };
+  while (has_changed) {
+    has_changed = false;
+    for (Index cell = 0; cell < num_cells(); ++cell) {
+      if (begin_of(cell) < end_of(cell)) mend(cell);
+    }
+  }
+  if (!has_any) return;
+  std::vector<Index> final_points(points.size());
+  for (Index p = 0; p < points.size(); ++p) final_points[p] = merged[p];
+  take_merged(final_points);
+}
+
+// Leaves out the edges whose ends have become one, and rings with fewer than three corners. Each
+// cell has one ring at most.
+void Subdivision::take_merged(std::span<const Index> merged) {
+  Index size = 0;
+  Index num_rings = 0;
+  for (std::size_t c = 0; c < num_cells(); ++c) {
+    const Index begin = rings[cells[c]];
+    const Index end = rings[cells[c + 1]];
+    cells[c] = num_rings;
+    const Index new_begin = size;
+    for (Halfedge h = begin; h < end; ++h) {
+      const Index p = merged[corners[h]];
+      if (size > new_begin && corners[size - 1] == p) continue;
+      corners[size] = p;
+      cell_of[size] = static_cast<Index>(c);
+      ++size;
+    }
+    while (size > new_begin + 1 && corners[size - 1] == corners[new_begin]) --size;
+    if (size < new_begin + 3) {
+      size = new_begin;
+    } else {
+      rings[num_rings++] = new_begin;
+    }
+  }
+  cells[num_cells()] = num_rings;
+  rings[num_rings] = size;
+  rings.resize(num_rings + 1);
+  corners.resize(size);
+  cell_of.resize(size);
+}
+
+void Subdivision::find_twins() {
+  const std::size_t size = corners.size();
+  std::vector<Index> ends(size);
+  for (Index ring = 0; ring + 1 < rings.size(); ++ring) {
+    for (Halfedge h = rings[ring]; h < rings[ring + 1]; ++h) {
+      ends[h] = corners[h + 1 == rings[ring + 1] ? rings[ring] : h + 1];
+    }
+  }
+  // The halfedges of each origin.
+  std::vector<Index> starts(points.size() + 1);
+  for (const Index p : corners) ++starts[p + 1];
+  std::partial_sum(starts.begin(), starts.end(), starts.begin());
+  std::vector<Halfedge> leaving(size);
+  auto next = starts;
+  for (Halfedge h = 0; h < size; ++h) leaving[next[corners[h]]++] = h;
+  twins.assign(size, no_index);
+  for (Halfedge h = 0; h < size; ++h) {
+    if (twins[h] != no_index) continue;
+    for (Index k = starts[ends[h]]; k < starts[ends[h] + 1]; ++k) {
+      const Halfedge g = leaving[k];
+      if (ends[g] != corners[h] || twins[g] != no_index) continue;
+      twins[h] = g;
+      twins[g] = h;
+      break;
+    }
+  }
+}
+
+void Subdivision::find_shapes(unsigned threads) {
+  shapes.resize(num_cells());
+  const auto shape_of = [&](Index cell) {
+    const Index num_rings = cells[cell + 1] - cells[cell];
+    if (num_rings == 0) return Shape::empty;
+    if (num_rings > 1) return Shape::other;
+    const Index begin = begin_of(cell);
+    const Index end = end_of(cell);
+    bool is_convex = true;
+    for (Halfedge h = begin; is_convex && h < end; ++h) {
+      const Point& b = this->end(h);
+      is_convex = is_left_turn(origin(h), b, this->end(next(h))) &&
+                  (h == begin || h + 1 == end || is_left_turn(origin(begin), origin(h), b));
+    }
+    if (is_convex) return Shape::convex;
+    for (Halfedge h = begin; h < end; ++h) {
+      if (!is_left_turn(centers[cell], origin(h), this->end(h))) return Shape::other;
+    }
+    return Shape::star;
+  };
+  system::parallel_for(threads, num_cells(), cells_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t c = begin; c < end; ++c) {
+                           shapes[c] = shape_of(static_cast<Index>(c));
+                         }
+                       });
+  is_cover = !corners.empty() && std::ranges::find(twins, no_index) == twins.end() &&
+             std::ranges::find(shapes, Shape::other) == shapes.end();
+}
+
+}  // namespace rondel::overlay

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Cells, prepared for an overlay: halfedges with their twins, all of it in the spatial order of the cells.
+//
+// A halfedge is a position in `corners`: it runs from its corner to the next one of its ring, and its
+// cell is to its left.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rondel/cell_rings.h"
+#include "rondel/types.h"
+#include "system/large_vector.h"
+
+namespace rondel::overlay {
+
+using Halfedge = Index;
+
+// Of a parallel loop over cells.
+inline constexpr std::size_t cells_per_piece = 4096;
+
+enum class Shape : std::uint8_t {
+  empty,   // no ring
+  convex,  // strictly, one ring
+  star,    // one ring; each halfedge makes a counterclockwise triangle with the cell's center
+  other,
+};
+
+struct Subdivision {
+  // `is_rounded`: corners may have been brought into the wrong order by rounding, and are made one then.
+  Subdivision(const CellRings& cells, bool is_rounded, unsigned threads);
+
+  std::vector<Point> points;  // in the order of their first use
+  LargeVector<Index> cells;   // cell i has the rings cells[i] ... cells[i+1]-1
+  LargeVector<Index> rings;   // ring r the halfedges rings[r] ... rings[r+1]-1
+  LargeVector<Index> corners;
+  LargeVector<Halfedge> twins;  // no_index: nothing is beyond
+  LargeVector<Index> cell_of;
+  LargeVector<Shape> shapes;
+  std::vector<Point> centers;       // of mass
+  LargeVector<Index> names;         // the index of each cell in the input
+  std::vector<std::uint64_t> keys;  // of the cells, increasing: their places along the curve
+  bool is_cover = false;            // every halfedge has a twin, every cell is convex or a star
+
+  [[nodiscard]] std::size_t num_cells() const { return names.size(); }
+  [[nodiscard]] std::size_t num_halfedges() const { return corners.size(); }
+  [[nodiscard]] Index begin_of(Index cell) const { return rings[cells[cell]]; }
+  [[nodiscard]] Index end_of(Index cell) const { return rings[cells[cell + 1]]; }
+  [[nodiscard]] const Point& origin(Halfedge h) const { return points[corners[h]]; }
+
+  // Of cells with one ring.
+  [[nodiscard]] Halfedge next(Halfedge h) const {
+    const Index cell = cell_of[h];
+    return h + 1 == end_of(cell) ? begin_of(cell) : h + 1;
+  }
+  [[nodiscard]] Halfedge previous(Halfedge h) const {
+    const Index cell = cell_of[h];
+    return h == begin_of(cell) ? end_of(cell) - 1 : h - 1;
+  }
+  [[nodiscard]] const Point& end(Halfedge h) const { return origin(next(h)); }
+
+ private:
+  void order(const CellRings& input, unsigned threads);
+  void merge_disordered();
+  void take_merged(std::span<const Index> merged);
+  void find_twins();
+  void find_shapes(unsigned threads);
+};
+
+}  // namespace rondel::overlay

@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Overlays of all generators with themselves and with others: nothing is lost, nothing counted twice.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "overlay_support.h"
+#include "support/query_oracle.h"
+
+namespace rondel::test {
+namespace {
+
+// Cells that are narrower than rounding may lose what others gain.
+void expect_a_cover(const Remap& remap, const std::string& name) {
+  const double sum = std::accumulate(remap.areas.begin(), remap.areas.end(), 0.0);
+  EXPECT_NEAR(sum, 4 * std::numbers::pi, 1e-11) << name;
+  for (const double area : remap.areas) EXPECT_GT(area, 0) << name;
+  for (std::size_t i = 0; i < remap.source_areas.size(); ++i) {
+    const double area = remap.source_areas[i];
+    if (!(area > 1e-9)) continue;
+    EXPECT_NEAR(remap.source_fractions[i], 1, 1e-14 / area + 1e-13) << name << ' ' << i;
+  }
+  for (std::size_t j = 0; j < remap.target_areas.size(); ++j) {
+    const double area = remap.target_areas[j];
+    if (!(area > 1e-9)) continue;
+    EXPECT_NEAR(remap.target_fractions[j], 1, 1e-14 / area + 1e-13) << name << ' ' << j;
+  }
+}
+
+class OverlayHostile : public testing::TestWithParam<std::size_t> {};
+
+TEST_P(OverlayHostile, nothing_is_lost) {
+  const Generator& generator = generators()[GetParam()];
+  if (generator.weighted_only || (generator.has_long_integers && is_shortened())) GTEST_SKIP();
+  const std::size_t n = generator.has_long_integers ? 12 : 120;
+  const SiteSet set = generator.make(n, 5);
+  const SiteSet other_set = generator.make(n + n / 2, 6);
+  const Partition cells = Partition::voronoi(delaunay(set.sites, {.sphere = set.sphere}));
+  const Partition other =
+      Partition::voronoi(delaunay(other_set.sites, {.sphere = other_set.sphere}));
+  const Partition uniform = Partition::voronoi(triangulation_of("uniform", 100, 7));
+  const double area = std::accumulate(cells.areas().begin(), cells.areas().end(), 0.0);
+  if (!cells.is_cover() || !other.is_cover() || std::abs(area - 4 * std::numbers::pi) > 1e-11) {
+    GTEST_SKIP() << "no diagram in doubles";
+  }
+  const std::string name(generator.name);
+  expect_a_cover(remap(cells, cells), name + " with itself");
+  expect_a_cover(remap(cells, other), name + " with another");
+  expect_a_cover(remap(cells, uniform, {.order = 2}), name + " to uniform");
+  expect_a_cover(remap(uniform, cells, {.order = 2}), "uniform to " + name);
+}
+
+INSTANTIATE_TEST_SUITE_P(overlay, OverlayHostile,
+                         testing::Range(std::size_t{0}, generators().size()), [](const auto& test) {
+                           return std::string(generators()[test.param].name);
+                         });
+
+// As one is turned by less than an ulp and more, pieces appear, but no area does.
+TEST(overlay_hostile, turned_by_little) {
+  const SiteSet set = generator("uniform").make(1000, 20);
+  const Partition cells = Partition::voronoi(delaunay(set.sites));
+  for (const double angle : {1e-17, 1e-16, 1e-15, 1e-12, 1e-8}) {
+    std::vector<Point> turned;
+    for (const Point& p : set.sites) {
+      turned.push_back({p.x - angle * p.y, p.y + angle * p.x, p.z});
+    }
+    expect_a_cover(remap(cells, Partition::voronoi(delaunay(turned))), std::to_string(angle));
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test

@@ -1,0 +1,326 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Conservative weights: pieces against clipping in long double, and what they promise.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "overlay_support.h"
+#include "rondel/error.h"
+#include "rondel/remap.h"
+
+namespace rondel::test {
+namespace {
+
+constexpr double ulp = 0x1p-52;
+
+Partition voronoi_of(std::string_view kind, std::size_t n, std::uint64_t seed) {
+  return Partition::voronoi(triangulation_of(kind, n, seed));
+}
+
+// The cell of the sphere's octant with the corners x, y, z, as three others would cut it.
+CellRings octants() {
+  CellRings rings;
+  rings.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}};
+  for (const auto& [a, b] : {std::pair{0, 1}, {1, 3}, {3, 4}, {4, 0}}) {
+    for (const Index c : {static_cast<Index>(a), static_cast<Index>(b), Index{2}}) {
+      rings.corners.push_back(c);
+    }
+    rings.rings.push_back(rings.corners.size());
+    for (const Index c : {static_cast<Index>(b), static_cast<Index>(a), Index{5}}) {
+      rings.corners.push_back(c);
+    }
+    rings.rings.push_back(rings.corners.size());
+  }
+  for (std::size_t i = 1; i < rings.rings.size(); ++i) rings.cells.push_back(i);
+  return rings;
+}
+
+TEST(overlay_remap, pieces_are_those_of_clipping) {
+  const auto first = triangulation_of("uniform", 150, 1);
+  const auto second = triangulation_of("uniform", 200, 2);
+  const Remap remap = rondel::remap(Partition::voronoi(first), Partition::voronoi(second));
+  const Cells sources = cells(first);
+  const Cells targets = cells(second);
+  for (std::size_t i = 0; i < 150; ++i) {
+    for (std::size_t j = 0; j < 200; ++j) {
+      const auto expected = static_cast<double>(area_of_piece(sources, i, targets, j));
+      EXPECT_NEAR(piece_of(remap, i, j), expected, 1e-15) << i << ' ' << j;
+    }
+  }
+}
+
+TEST(overlay_remap, of_octants_is_known) {
+  const Partition source(octants());
+  ASSERT_TRUE(source.is_cover());
+  for (const double area : source.areas()) EXPECT_NEAR(area, std::numbers::pi / 2, 4 * ulp);
+  const Partition target = Partition::voronoi(delaunay(octants().points));
+  const Remap remap = rondel::remap(source, target);
+  ASSERT_EQ(remap.weights.num_rows(), 6U);
+  // The cells of the axes are cut into four parts each.
+  for (std::size_t j = 0; j < 6; ++j) {
+    ASSERT_EQ(remap.weights.offsets[j + 1] - remap.weights.offsets[j], 4U);
+  }
+  for (const double weight : remap.weights.values) EXPECT_NEAR(weight, 0.25, 4 * ulp);
+}
+
+TEST(overlay_remap, sums_of_rows_and_columns) {
+  const Partition source = voronoi_of("uniform", 3000, 3);
+  const Partition target = voronoi_of("clustered", 2000, 4);
+  const Remap remap = rondel::remap(source, target);
+  std::vector<double> columns(source.num_cells());
+  std::vector<double> areas(target.num_cells());
+  for (std::size_t j = 0; j < target.num_cells(); ++j) {
+    if (!(target.areas()[j] > 0)) continue;  // a duplicate
+    double sum = 0;
+    for (auto k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) areas[j] += remap.areas[k];
+    for (auto k = remap.weights.offsets[j]; k < remap.weights.offsets[j + 1]; ++k) {
+      sum += remap.weights.values[k];
+      columns[remap.weights.columns[k]] += remap.weights.values[k] * areas[j];
+    }
+    EXPECT_NEAR(sum, 1, 8 * ulp);
+    EXPECT_NEAR(remap.target_fractions[j], 1, 16 * ulp / std::sqrt(target.areas()[j]));
+  }
+  for (std::size_t i = 0; i < source.num_cells(); ++i) {
+    EXPECT_NEAR(columns[i] / source.areas()[i], 1, 16 * ulp / std::sqrt(source.areas()[i]));
+    EXPECT_NEAR(remap.source_fractions[i], 1, 16 * ulp / std::sqrt(source.areas()[i]));
+  }
+  EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 4 * std::numbers::pi, 1e-13);
+}
+
+TEST(overlay_remap, keeps_integrals_of_any_field) {
+  const Partition source = voronoi_of("uniform", 2000, 5);
+  const Partition target = voronoi_of("uniform", 500, 6);
+  std::mt19937_64 random(1);
+  std::vector<double> field(source.num_cells());
+  for (double& f : field) f = std::uniform_real_distribution(-1.0, 1.0)(random);
+  for (const unsigned order : {1U, 2U}) {
+    const Remap remap = rondel::remap(source, target, {.order = order});
+    std::vector<double> values(target.num_cells());
+    apply(remap.weights, field, values);
+    double integral = 0;
+    double absolute = 0;
+    for (std::size_t k = 0; k < remap.areas.size(); ++k) {
+      integral += remap.areas[k] * field[remap.columns[k]];
+      absolute += remap.areas[k] * std::abs(field[remap.columns[k]]);
+    }
+    double kept = 0;
+    for (std::size_t j = 0; j < target.num_cells(); ++j) {
+      double area = 0;
+      for (auto k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) area += remap.areas[k];
+      kept += area * values[j];
+    }
+    EXPECT_NEAR(kept, integral, 2e-15 * absolute) << order;
+  }
+}
+
+// Means of a linear field over cells are its values at their centers of mass.
+TEST(overlay_remap, linear_fields_with_their_gradients) {
+  const auto first = triangulation_of("uniform", 700, 7);
+  const Partition source = Partition::voronoi(first);
+  const Partition target = voronoi_of("uniform", 900, 8);
+  const Remap remap = rondel::remap(source, target, {.order = 2});
+  const Point g{0.3, -1.7, 0.9};
+  const auto means_of = [&](const Triangulation& t) {
+    const Cells all = cells(t);
+    std::vector<double> result;
+    for (std::size_t i = 0; i < t.num_sites(); ++i) {
+      const LongRing ring = ring_of(all, i);
+      LongVector moment{};
+      for (std::size_t k = 0; k < ring.size(); ++k) {
+        const LongVector n = cross_of(ring[k], ring[(k + 1) % ring.size()]);
+        const long double sine = std::sqrt(dot_of(n, n));
+        const long double half =
+            std::atan2(sine, dot_of(ring[k], ring[(k + 1) % ring.size()])) / (2 * sine);
+        moment = {moment.x + half * n.x, moment.y + half * n.y, moment.z + half * n.z};
+      }
+      const long double area = area_of(ring);
+      result.push_back(
+          static_cast<double>(3 + (g.x * moment.x + g.y * moment.y + g.z * moment.z) / area));
+    }
+    return result;
+  };
+  const std::vector<double> means = means_of(first);
+  const std::vector<double> expected = means_of(triangulation_of("uniform", 900, 8));
+  std::vector<double> values(target.num_cells());
+  apply_gradients(remap, means, std::vector<Point>(source.num_cells(), g), values);
+  for (std::size_t j = 0; j < values.size(); ++j) EXPECT_NEAR(values[j], expected[j], 2e-14);
+  // Gradients by least squares are those of the field to first order.
+  std::vector<double> estimated(target.num_cells());
+  apply(remap.weights, means, estimated);
+  const Remap first_order = rondel::remap(source, target);
+  std::vector<double> constant(target.num_cells());
+  apply(first_order.weights, means, constant);
+  double error = 0;
+  double error_of_constant = 0;
+  for (std::size_t j = 0; j < values.size(); ++j) {
+    error += std::abs(estimated[j] - expected[j]);
+    error_of_constant += std::abs(constant[j] - expected[j]);
+  }
+  EXPECT_LT(error, error_of_constant / 10);
+}
+
+TEST(overlay_remap, onto_itself_is_the_identity) {
+  for (const char* kind : {"uniform", "s_n", "globe_grid", "platonic_solid"}) {
+    const Partition cells = voronoi_of(kind, 500, 9);
+    for (const unsigned order : {1U, 2U}) {
+      const Remap remap = rondel::remap(cells, cells, {.order = order});
+      for (std::size_t j = 0; j < cells.num_cells(); ++j) {
+        if (!(cells.areas()[j] > 0)) continue;
+        for (auto k = remap.weights.offsets[j]; k < remap.weights.offsets[j + 1]; ++k) {
+          EXPECT_EQ(remap.weights.values[k], remap.weights.columns[k] == j ? 1 : 0) << kind;
+        }
+      }
+    }
+  }
+}
+
+TEST(overlay_remap, threads_and_order_of_sites_change_nothing) {
+  const SiteSet set = generator("uniform").make(4000, 10);
+  const Partition target = voronoi_of("uniform", 3000, 11);
+  const Remap one =
+      rondel::remap(Partition::voronoi(delaunay(set.sites)), target, {.order = 2}, {.threads = 1});
+  const Remap many =
+      rondel::remap(Partition::voronoi(delaunay(set.sites)), target, {.order = 2}, {.threads = 4});
+  EXPECT_EQ(one.weights, many.weights);
+  std::vector<Index> order(set.sites.size());
+  std::iota(order.begin(), order.end(), Index{0});
+  std::ranges::shuffle(order, std::mt19937_64(2));
+  std::vector<Point> shuffled;
+  for (const Index i : order) shuffled.push_back(set.sites[i]);
+  const Remap other = rondel::remap(Partition::voronoi(delaunay(shuffled)), target);
+  const Remap same = rondel::remap(Partition::voronoi(delaunay(set.sites)), target);
+  for (std::size_t j = 0; j < target.num_cells(); ++j) {
+    for (auto k = other.offsets[j]; k < other.offsets[j + 1]; ++k) {
+      EXPECT_EQ(other.areas[k], piece_of(same, order[other.columns[k]], j));
+    }
+  }
+}
+
+TEST(overlay_remap, parts_of_the_sphere) {
+  const auto all = triangulation_of("uniform", 800, 12);
+  CellRings half;  // the triangles of the northern half
+  half.points = {all.sites().points().begin(), all.sites().points().end()};
+  for (const Triple& face : all.faces()) {
+    if (std::ranges::any_of(face, [&](Index v) { return half.points[v].z < 0; })) continue;
+    half.corners.insert(half.corners.end(), face.begin(), face.end());
+    half.rings.push_back(half.corners.size());
+    half.cells.push_back(half.rings.size() - 1);
+  }
+  const Partition part(half);
+  EXPECT_FALSE(part.is_cover());
+  const Partition whole = voronoi_of("uniform", 300, 13);
+  const Remap to_whole = rondel::remap(part, whole);
+  const double area = std::accumulate(part.areas().begin(), part.areas().end(), 0.0);
+  EXPECT_NEAR(std::accumulate(to_whole.areas.begin(), to_whole.areas.end(), 0.0), area, 1e-13);
+  const Remap covered = rondel::remap(part, whole, {.norm = RemapNorm::fracarea});
+  bool is_any_empty = false;
+  bool is_any_partial = false;
+  for (std::size_t j = 0; j < whole.num_cells(); ++j) {
+    double sum = 0;
+    double sum_of_covered = 0;
+    for (auto k = to_whole.weights.offsets[j]; k < to_whole.weights.offsets[j + 1]; ++k) {
+      sum += to_whole.weights.values[k];
+      sum_of_covered += covered.weights.values[k];
+    }
+    if (to_whole.target_fractions[j] == 0) {
+      is_any_empty = true;
+      EXPECT_EQ(sum, 0);
+    } else {
+      EXPECT_NEAR(sum, to_whole.target_fractions[j], 1e-11);
+      EXPECT_NEAR(sum_of_covered, 1, 8 * ulp);
+      is_any_partial |= sum < 0.999;
+    }
+  }
+  EXPECT_TRUE(is_any_empty && is_any_partial);
+  EXPECT_THROW((void)rondel::remap(part, part), InvalidInput);
+}
+
+// A ring around a hole, and an island in it.
+TEST(overlay_remap, cells_with_holes) {
+  const auto circle = [](double lat, std::size_t n, bool is_clockwise, CellRings& rings) {
+    for (std::size_t k = 0; k < n; ++k) {
+      const double lon =
+          360.0 * static_cast<double>(is_clockwise ? n - k : k) / static_cast<double>(n);
+      rings.corners.push_back(static_cast<Index>(rings.points.size()));
+      rings.points.push_back(unit_vector_deg(lon + 7, lat));
+    }
+    rings.rings.push_back(rings.corners.size());
+  };
+  CellRings rings;
+  circle(20, 40, false, rings);
+  circle(50, 30, true, rings);
+  circle(70, 20, false, rings);
+  rings.cells.push_back(3);
+  const Partition ring(rings);
+  CellRings parts = rings;
+  parts.cells = {0, 1, 2, 3};  // without its holes, the hole as a cell turned around, the island
+  std::reverse(parts.corners.begin() + 40, parts.corners.begin() + 70);
+  const Partition part(parts);
+  EXPECT_NEAR(ring.areas()[0], part.areas()[0] - part.areas()[1] + part.areas()[2], 1e-14);
+  for (const std::size_t n : {3U, 50U, 5000U}) {
+    const Partition cells = voronoi_of("uniform", n, 14);
+    const Remap of_ring = rondel::remap(ring, cells);
+    const Remap of_parts = rondel::remap(part, cells);
+    EXPECT_NEAR(std::accumulate(of_ring.areas.begin(), of_ring.areas.end(), 0.0), ring.areas()[0],
+                1e-13);
+    for (std::size_t j = 0; j < cells.num_cells(); ++j) {
+      EXPECT_NEAR(piece_of(of_ring, 0, j),
+                  piece_of(of_parts, 0, j) - piece_of(of_parts, 1, j) + piece_of(of_parts, 2, j),
+                  1e-14)
+          << n;
+    }
+  }
+}
+
+TEST(overlay_remap, few_cells) {
+  for (const std::size_t n : {1U, 2U, 3U, 4U}) {
+    for (const std::size_t m : {1U, 2U, 3U, 4U, 40U}) {
+      const Partition source = voronoi_of("uniform", n, 15);
+      const Partition target = voronoi_of("uniform", m, 16);
+      for (const unsigned order : {1U, 2U}) {
+        const Remap remap = rondel::remap(source, target, {.order = order});
+        EXPECT_NEAR(std::accumulate(remap.areas.begin(), remap.areas.end(), 0.0),
+                    4 * std::numbers::pi, 1e-14)
+            << n << ' ' << m;
+      }
+    }
+  }
+}
+
+TEST(overlay_remap, names_what_is_wrong) {
+  const auto message_of = [](const CellRings& cells) -> std::string {
+    try {
+      const Partition partition(cells);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  CellRings rings = octants();
+  rings.points[3].x = -2;
+  EXPECT_EQ(message_of(rings), "cell 2 has a corner that is no unit vector");
+  rings = octants();
+  rings.corners[4] = 6;
+  EXPECT_EQ(message_of(rings), "cell 1 has a corner 6");
+  rings = octants();
+  rings.rings[1] = 2;
+  EXPECT_EQ(message_of(rings), "cell 0 has a ring of 2 corners");
+  rings = octants();
+  rings.cells.back() = 9;
+  EXPECT_EQ(message_of(rings), "the offsets of cells and rings do not fit");
+  const Partition source(octants());
+  EXPECT_THROW((void)remap(source, source, {.order = 3}), InvalidInput);
+  std::vector<double> out(8);
+  EXPECT_THROW(apply_gradients(remap(source, source), out, std::vector<Point>(8), out),
+               InvalidInput);
+}
+
+}  // namespace
+}  // namespace rondel::test

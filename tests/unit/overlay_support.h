@@ -1,0 +1,108 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What tests of the overlay share: partitions, and areas of pieces by clipping one cell by another.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rondel/delaunay.h"
+#include "rondel/diagram.h"
+#include "rondel/partition.h"
+#include "rondel/remap.h"
+#include "support/generators.h"
+
+namespace rondel::test {
+
+struct LongVector {
+  long double x;
+  long double y;
+  long double z;
+};
+inline LongVector long_vector(const Point& p) { return {p.x, p.y, p.z}; }
+inline LongVector cross_of(const LongVector& a, const LongVector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline long double dot_of(const LongVector& a, const LongVector& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline LongVector unit_of(const LongVector& a) {
+  const long double length = std::sqrt(dot_of(a, a));
+  return {a.x / length, a.y / length, a.z / length};
+}
+
+using LongRing = std::vector<LongVector>;
+
+// Sutherland and Hodgman's: what of a convex ring is left of the great circle from a to b.
+inline LongRing clipped(const LongRing& ring, const LongVector& a, const LongVector& b) {
+  const LongVector normal = cross_of(a, b);
+  LongRing result;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const LongVector& p = ring[i];
+    const LongVector& q = ring[(i + 1) % ring.size()];
+    const long double at_p = dot_of(normal, p);
+    const long double at_q = dot_of(normal, q);
+    if (at_p >= 0) result.push_back(p);
+    if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0)) {
+      const long double t = at_p / (at_p - at_q);
+      result.push_back(
+          unit_of({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), p.z + t * (q.z - p.z)}));
+    }
+  }
+  return result;
+}
+
+// The sum of the interior angles' excess would cancel; triangles around the middle do not.
+inline long double area_of(const LongRing& ring) {
+  if (ring.size() < 3) return 0;
+  LongVector middle{};
+  for (const LongVector& p : ring) middle = {middle.x + p.x, middle.y + p.y, middle.z + p.z};
+  middle = unit_of(middle);
+  long double sum = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const LongVector& p = ring[i];
+    const LongVector& q = ring[(i + 1) % ring.size()];
+    const long double volume = dot_of(middle, cross_of(p, q));
+    sum += 2 * std::atan2(volume, 1 + dot_of(middle, p) + dot_of(p, q) + dot_of(q, middle));
+  }
+  return sum;
+}
+
+inline LongRing ring_of(const Cells& cells, std::size_t i) {
+  LongRing ring;
+  for (std::uint64_t k = cells.offsets[i]; k < cells.offsets[i + 1]; ++k) {
+    ring.push_back(long_vector(cells.points[cells.rings[k]]));
+  }
+  return ring;
+}
+
+// Of convex cells.
+inline long double area_of_piece(const Cells& first, std::size_t i, const Cells& second,
+                                 std::size_t j) {
+  LongRing ring = ring_of(first, i);
+  const LongRing other = ring_of(second, j);
+  for (std::size_t k = 0; k < other.size() && ring.size() > 2; ++k) {
+    ring = clipped(ring, other[k], other[(k + 1) % other.size()]);
+  }
+  return area_of(ring);
+}
+
+inline Triangulation triangulation_of(std::string_view kind, std::size_t n, std::uint64_t seed) {
+  const SiteSet set = generator(kind).make(n, seed);
+  return delaunay(set.sites, {.sphere = set.sphere});
+}
+
+// The area of piece (source i, target j).
+inline double piece_of(const Remap& remap, std::size_t i, std::size_t j) {
+  for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
+    if (remap.columns[k] == i) return remap.areas[k];
+  }
+  return 0;
+}
+
+}  // namespace rondel::test
