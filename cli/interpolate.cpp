@@ -13,6 +13,7 @@
 #include "remap.h"
 #include "report.h"
 #include "rondel/delaunay.h"
+#include "rondel/diagram.h"
 
 namespace rondel::cli {
 namespace {
@@ -121,7 +122,9 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const SiteTab
   file.method = method_names[static_cast<std::size_t>(options.interpolation.method)];
   file.normalization = "none";
   file.source.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
+  job.time(Stage::dual, [&] { file.source.areas = areas(triangulation, job.execution()); });
   file.target = std::move(targets.side);
+  add_grid_cells(file.target);
   for (std::size_t r = 0; r < file.weights.num_rows(); ++r) {
     if (file.weights.offsets[r] == file.weights.offsets[r + 1]) ++counts.missing;
   }

@@ -39,6 +39,8 @@ struct Targets {
 };
 /// \throws UsageError for a grid that there cannot be, FileError
 Targets read_targets(const std::string& name, const ReadOptions& read);
+/// Corners and areas of the cells, if the targets are a grid.
+void add_grid_cells(WeightSide& side);
 
 ExitStatus run_apply(const ApplyCommandOptions& options);
 ExitStatus run_check_weights(const CommonOptions& options);

@@ -3,6 +3,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <numbers>
 
 #include "remap.h"
 #include "rondel/delaunay.h"
@@ -48,11 +49,11 @@ GridSize grid_size(const std::string& text) {
   return {2 * num_lat, num_lat};
 }
 
-// The center of cell i of n that divide [-half, half]: numerator and denominator are integers, and one
-// division rounds.
-double center(std::uint64_t i, std::uint64_t n, std::int64_t half) {
+// The place after `halves` of the 2 n halves of the cells that divide [-half, half]: numerator and
+// denominator are integers, and one division rounds.
+double place(std::uint64_t halves, std::uint64_t n, std::int64_t half) {
   const auto count = static_cast<std::int64_t>(n);
-  const std::int64_t numerator = (2 * static_cast<std::int64_t>(i) + 1 - count) * half;
+  const std::int64_t numerator = (static_cast<std::int64_t>(halves) - count) * half;
   return static_cast<double>(numerator) / static_cast<double>(count);
 }
 
@@ -61,10 +62,42 @@ std::vector<LonLat> grid_points(const GridSize& size) {
   points.reserve(size.num_lon * size.num_lat);
   for (std::uint64_t j = 0; j < size.num_lat; ++j) {
     for (std::uint64_t i = 0; i < size.num_lon; ++i) {
-      points.push_back({center(i, size.num_lon, 180), center(j, size.num_lat, 90)});
+      points.push_back({place(2 * i + 1, size.num_lon, 180), place(2 * j + 1, size.num_lat, 90)});
     }
   }
   return points;
+}
+
+std::vector<LonLat> grid_corners(const GridSize& size) {
+  std::vector<LonLat> corners;
+  corners.reserve(4 * size.num_lon * size.num_lat);
+  for (std::uint64_t j = 0; j < size.num_lat; ++j) {
+    const double south = place(2 * j, size.num_lat, 90);
+    const double north = place(2 * j + 2, size.num_lat, 90);
+    for (std::uint64_t i = 0; i < size.num_lon; ++i) {
+      const double west = place(2 * i, size.num_lon, 180);
+      const double east = place(2 * i + 2, size.num_lon, 180);
+      corners.insert(corners.end(), {{west, south}, {east, south}, {east, north}, {west, north}});
+    }
+  }
+  return corners;
+}
+
+// Between the parallels at b - h and b + h: the difference of their sines is 2 cos b sin h, twice the y
+// of the place at longitude h and latitude b.
+std::vector<double> grid_areas(const GridSize& size) {
+  std::vector<LonLat> places;
+  for (std::uint64_t j = 0; j < size.num_lat; ++j) {
+    places.push_back(
+        {place(size.num_lat + 1, size.num_lat, 90), place(2 * j + 1, size.num_lat, 90)});
+  }
+  std::vector<double> areas;
+  areas.reserve(size.num_lon * size.num_lat);
+  const double width = 2 * std::numbers::pi / static_cast<double>(size.num_lon);
+  for (const Point& point : unit_vectors(places)) {
+    areas.insert(areas.end(), size.num_lon, width * 2 * point.y);
+  }
+  return areas;
 }
 
 }  // namespace
@@ -87,6 +120,13 @@ Targets read_targets(const std::string& name, const ReadOptions& read) {
   const SiteTable& table = targets.table;
   targets.side.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
   return targets;
+}
+
+void add_grid_cells(WeightSide& side) {
+  if (side.shape.size() != 2) return;
+  const GridSize size = {side.shape[1], side.shape[0]};
+  side.corners = grid_corners(size);
+  side.areas = grid_areas(size);
 }
 
 }  // namespace rondel::cli

@@ -25,6 +25,7 @@ struct WeightSide {
   std::vector<double> fractions;     ///< the share of a cell that takes part
   std::vector<std::int32_t> mask;    ///< 0: takes no part
   std::vector<std::uint64_t> shape;  ///< of a grid, the last dimension changes fastest: nlat, nlon
+  std::vector<LonLat> corners;       ///< of cells, counterclockwise, as many for each
 };
 
 /// Weights and what a file says beside them.
@@ -46,14 +47,15 @@ struct WeightFile {
 ///
 /// netCDF is one of the classic formats, CDF-5 where a variable has more than 4 GiB.
 /// What is not there gets ESMF's values: areas 0, fractions of sources 0, of targets 1 and 0 where a row
-/// has no entries, masks 1, points none.
+/// has no entries, masks 1, points and corners none. In `esmf`, points that have neither areas nor
+/// corners and are no grid are cells of one corner, as NCO wants corners.
 /// \throws InvalidInput if the weights are not in compressed rows, or an array has not the length of
 ///         its side.
 RONDEL_API void write_weights(const FileName& file, const WeightFile& content);
 
 /// Reads what write_weights() or another program wrote; which netCDF it is, its variables tell. Entries
 /// may have any order: rows are made of them, and within a row they keep that of the file. Areas and
-/// fractions that are all 0, and masks that are all 1, are not there.
+/// fractions that are all 0, masks that are all 1, and cells of one corner are not there.
 RONDEL_API WeightFile read_weights(const FileName& file);
 
 /// Longitudes and latitudes of the rays from the origin through points; longitude 0 at the poles.

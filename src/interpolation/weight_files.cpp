@@ -45,6 +45,10 @@ void require_side(const WeightSide& side, std::size_t size) {
   require_number("areas", side.areas.size(), size);
   require_number("fractions", side.fractions.size(), size);
   require_number("the mask's numbers", side.mask.size(), size);
+  if (side.corners.size() % std::max<std::size_t>(1, size) != 0) {
+    throw InvalidInput(
+        std::to_string(side.corners.size()) + " corners of " + std::to_string(size) + " cells", 0);
+  }
   if (side.shape.empty()) return;
   std::uint64_t product = 1;
   for (const std::uint64_t length : side.shape) {

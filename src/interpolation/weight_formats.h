@@ -71,17 +71,31 @@ void read_own_attributes(const io::NetcdfReader& file, WeightFile& content);
 // What a netCDF file says of a side: the names of the variables.
 struct SideNames {
   std::string lon, lat, area, fraction, mask, dims;
+  std::string corners;  // a dimension
+  std::string corner_lon, corner_lat;
+  // NCO wants ESMF's dimension of corners also where it reads none; CDO wants SCRIP's only with corners.
+  bool needs_corners;
 };
 // Defines them, of a side of `size` points: `cells` and `rank` are dimensions.
 void add_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide& side,
-              std::size_t cells, std::size_t rank);
+              std::size_t size, std::size_t cells, std::size_t rank);
+// The corners that the file has: those of the side, of points that are no cells these themselves.
+inline std::span<const LonLat> written_corners(const SideNames& names, const WeightSide& side) {
+  const bool are_points = names.needs_corners && side.areas.empty() && side.shape.size() < 2;
+  return side.corners.empty() && are_points ? side.points : side.corners;
+}
 // Their values; `fraction` says what the fractions are where there are none.
 template <typename Fraction>
-void write_side(io::NetcdfWriter& out, const WeightSide& side, std::size_t size,
-                Fraction fraction) {
+void write_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide& side,
+                std::size_t size, Fraction fraction) {
   if (!side.points.empty()) {
     out.write_values<double>(size, [&](std::size_t i) { return side.points[i].lon_deg; });
     out.write_values<double>(size, [&](std::size_t i) { return side.points[i].lat_deg; });
+  }
+  const std::span<const LonLat> corners = written_corners(names, side);
+  if (!corners.empty()) {
+    out.write_values<double>(corners.size(), [&](std::size_t i) { return corners[i].lon_deg; });
+    out.write_values<double>(corners.size(), [&](std::size_t i) { return corners[i].lat_deg; });
   }
   write_or<std::int32_t>(out, side.mask, size, 1);
   write_or<double>(out, side.areas, size, 0);

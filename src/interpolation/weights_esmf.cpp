@@ -11,11 +11,13 @@ namespace {
 using io::NetcdfType;
 
 const SideNames& source_names() {
-  static const SideNames names = {"xc_a", "yc_a", "area_a", "frac_a", "mask_a", "src_grid_dims"};
+  static const SideNames names = {"xc_a",          "yc_a", "area_a", "frac_a", "mask_a",
+                                  "src_grid_dims", "nv_a", "xv_a",   "yv_a",   true};
   return names;
 }
 const SideNames& target_names() {
-  static const SideNames names = {"xc_b", "yc_b", "area_b", "frac_b", "mask_b", "dst_grid_dims"};
+  static const SideNames names = {"xc_b",          "yc_b", "area_b", "frac_b", "mask_b",
+                                  "dst_grid_dims", "nv_b", "xv_b",   "yv_b",   true};
   return names;
 }
 
@@ -46,15 +48,15 @@ void write_esmf(io::AtomicFile& file, const WeightFile& content) {
   out.add_attribute("map_method", content.method.empty() ? "unknown" : content.method);
   out.add_attribute("conventions", "NCAR-CSM");
   add_own_attributes(out, content);
-  add_side(out, source_names(), content.source, n_a, src_rank);
-  add_side(out, target_names(), content.target, n_b, dst_rank);
+  add_side(out, source_names(), content.source, num_sources, n_a, src_rank);
+  add_side(out, target_names(), content.target, num_targets, n_b, dst_rank);
   const NetcdfType index = index_type(std::max(num_sources, num_targets));
   out.add_variable(variable("col", index, {n_s}));
   out.add_variable(variable("row", index, {n_s}));
   out.add_variable(variable("S", NetcdfType::float64, {n_s}));
   out.begin();
-  write_side(out, content.source, num_sources, [](std::size_t) { return 0.0; });
-  write_side(out, content.target, num_targets,
+  write_side(out, source_names(), content.source, num_sources, [](std::size_t) { return 0.0; });
+  write_side(out, target_names(), content.target, num_targets,
              [&](std::size_t row) { return fraction_of(weights, row); });
   if (index == NetcdfType::int32) {
     write_entries<std::int32_t>(out, weights);

@@ -63,6 +63,22 @@ std::vector<double> angles_of(const io::NetcdfReader& file, const std::string& n
   return values;
 }
 
+void read_corners(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
+                  WeightSide& side) {
+  if (file.find(names.corner_lon) == nullptr || file.find(names.corner_lat) == nullptr) return;
+  const std::vector<double> lon = angles_of(file, names.corner_lon);
+  const std::vector<double> lat = angles_of(file, names.corner_lat);
+  if (lon.size() <= size) return;
+  if (lon.size() % std::max<std::size_t>(1, size) != 0) {
+    throw io::BadValue("variable " + io::in_quotes(names.corner_lon) + " has " +
+                       std::to_string(lon.size()) + " values for " + std::to_string(size) +
+                       " cells");
+  }
+  require_size(names.corner_lat, lat, lon.size());
+  side.corners.resize(lon.size());
+  for (std::size_t i = 0; i < lon.size(); ++i) side.corners[i] = {lon[i], lat[i]};
+}
+
 }  // namespace
 
 std::vector<std::uint64_t> shape_or(const WeightSide& side, std::size_t size) {
@@ -80,7 +96,7 @@ io::NetcdfVariable variable(std::string name, io::NetcdfType type,
 }
 
 void add_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide& side,
-              std::size_t cells, std::size_t rank) {
+              std::size_t size, std::size_t cells, std::size_t rank) {
   using io::NetcdfType;
   const auto add = [&](const std::string& name, NetcdfType type, const char* units) {
     out.add_variable(variable(name, type, {cells}, {{"units", units}}));
@@ -88,6 +104,16 @@ void add_side(io::NetcdfWriter& out, const SideNames& names, const WeightSide& s
   if (!side.points.empty()) {
     add(names.lon, NetcdfType::float64, "degrees");
     add(names.lat, NetcdfType::float64, "degrees");
+  }
+  const std::span<const LonLat> corners = written_corners(names, side);
+  if (!corners.empty() || names.needs_corners) {
+    const std::size_t of_each =
+        out.add_dimension(names.corners, corners.empty() ? 1 : corners.size() / size);
+    for (const std::string& name : {names.corner_lon, names.corner_lat}) {
+      if (corners.empty()) break;
+      out.add_variable(
+          variable(name, NetcdfType::float64, {cells, of_each}, {{"units", "degrees"}}));
+    }
   }
   add(names.mask, NetcdfType::int32, "unitless");
   add(names.area, NetcdfType::float64, "square radians");
@@ -124,6 +150,7 @@ void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t
     side.points.resize(size);
     for (std::size_t i = 0; i < size; ++i) side.points[i] = {lon[i], lat[i]};
   }
+  read_corners(file, names, size, side);
   side.areas = numbers_of(file, names.area, size);
   side.fractions = numbers_of(file, names.fraction, size);
   if (const auto* const mask = file.find(names.mask)) {

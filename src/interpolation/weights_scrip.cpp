@@ -12,8 +12,11 @@ namespace {
 
 SideNames names_of(const std::string& grid) {
   const std::string start = grid + "_grid_";
-  return {start + "center_lon", start + "center_lat", start + "area",
-          start + "frac",       start + "imask",      start + "dims"};
+  return {start + "center_lon", start + "center_lat",
+          start + "area",       start + "frac",
+          start + "imask",      start + "dims",
+          start + "corners",    start + "corner_lon",
+          start + "corner_lat", false};
 }
 
 // Programs know a few methods by their names; all others are weighted means to them.
@@ -48,15 +51,15 @@ void write_scrip(io::AtomicFile& file, const WeightFile& content) {
   out.add_attribute("source_grid", "source");
   out.add_attribute("dest_grid", "target");
   add_own_attributes(out, content);
-  add_side(out, names_of("src"), content.source, src_size, src_rank);
-  add_side(out, names_of("dst"), content.target, dst_size, dst_rank);
+  add_side(out, names_of("src"), content.source, num_sources, src_size, src_rank);
+  add_side(out, names_of("dst"), content.target, num_targets, dst_size, dst_rank);
   // SCRIP's own integers: CDO refuses others.
   out.add_variable(variable("src_address", index_type(num_sources), {links}));
   out.add_variable(variable("dst_address", index_type(num_targets), {links}));
   out.add_variable(variable("remap_matrix", io::NetcdfType::float64, {links, wgts}));
   out.begin();
-  write_side(out, content.source, num_sources, [](std::size_t) { return 0.0; });
-  write_side(out, content.target, num_targets,
+  write_side(out, names_of("src"), content.source, num_sources, [](std::size_t) { return 0.0; });
+  write_side(out, names_of("dst"), content.target, num_targets,
              [&](std::size_t row) { return fraction_of(weights, row); });
   const auto column = [&](std::size_t k) { return std::int64_t{weights.columns[k]} + 1; };
   if (index_type(num_sources) == io::NetcdfType::int32) {

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Other programs read Rondel's files of weights, and Rondel theirs (weight_clients_test.py TOOL).
+"""Other programs read Rondel's files of weights, and Rondel theirs (weight_clients_test.py TOOL PROGRAM...).
 
-Runs those of ncks, nccopy and cdo that are installed (Debian: nco, netcdf-bin, cdo), and says which are not.
+The programs are ncks, ncremap, nccopy and cdo (Debian: nco, netcdf-bin, cdo). Returns 77 if one is not installed.
 """
 
 import json
@@ -41,13 +41,41 @@ def make(folder):
     return [float(row.split(",")[2]) for row in rows]
 
 
+def sites_with_values(folder):
+    """in.nc: the values at the sites."""
+    run(TOOL, "interpolate", "sites.csv", "--value", "t", "--to", "sites.csv", "--method", "nearest", "-o", "in.nc",
+        folder=folder)
+
+
 def check_ncks(folder, _):
-    """NCO's own check of a map-file: it reads it, and the rows sum up to 1."""
+    """NCO's own check of a map-file: it reads it, the rows sum up to 1, and the areas to the sphere's."""
     text = run("ncks", "--chk_map", "w.nc", folder=folder)
     assert "Sparse-matrix size n_s" in text, text
     for name in ("avg", "min", "max"):
         line = next(line for line in text.splitlines() if line.startswith(f"frac_b {name}"))
         assert abs(float(line.split()[2]) - 1) < 1e-12, line
+    for name in ("area_a", "area_b"):
+        line = next(line for line in text.splitlines() if line.startswith(f"{name} sum/4*pi"))
+        assert abs(float(line.split()[2]) - 1) < 1e-12, line
+
+
+def numbers_of(name, variable, folder):
+    """The values of a variable, as ncks prints them."""
+    return [float(text) for text in run("ncks", "-H", "-C", "-s", "%.17g\n", "-v", variable, name, folder=folder).split()]
+
+
+def check_ncremap(folder, values):
+    """NCO's regridding applies ESMF's kind, and takes the grid's cells from their corners."""
+    sites_with_values(folder)
+    run("ncremap", "-m", "w.nc", "in.nc", "out.nc", folder=folder)
+    got = numbers_of("out.nc", "t", folder)
+    assert len(got) == len(values)
+    assert max(abs(a - b) for a, b in zip(got, values)) <= 1e-12
+    bounds = numbers_of("out.nc", "lat_bnds", folder)
+    assert bounds == [-90 + 5 * (i // 2 + i % 2) for i in range(72)], bounds
+    run(TOOL, "interpolate", "sites.csv", "--to", "sites.csv", "--weights", "points.nc", folder=folder)
+    run("ncremap", "-m", "points.nc", "in.nc", "out.nc", folder=folder)
+    assert numbers_of("out.nc", "t", folder) == numbers_of("in.nc", "t", folder)
 
 
 def check_nccopy(folder, _):
@@ -64,22 +92,28 @@ def check_nccopy(folder, _):
 
 def check_cdo(folder, values):
     """CDO's remap with these weights."""
-    run(TOOL, "interpolate", "sites.csv", "--value", "t", "--to", "sites.csv", "--method", "nearest", "-o", "in.nc",
-        folder=folder)
+    sites_with_values(folder)
     text = run("cdo", "-s", "outputf,%.17g,1", "-remap,grid.txt,scrip.nc", "in.nc", folder=folder)
     got = [float(number) for number in text.split()]
     assert len(got) == len(values)
     assert max(abs(a - b) for a, b in zip(got, values)) <= 1e-12
 
 
+CHECKS = {"ncks": check_ncks, "ncremap": check_ncremap, "nccopy": check_nccopy, "cdo": check_cdo}
+
+
 def main():
+    programs = sys.argv[2:]
+    missing = [program for program in programs if not shutil.which(program)]
+    if missing:
+        print(f"not installed: {' '.join(missing)}; scripts/install-deps test installs ncks, ncremap and nccopy,\n"
+              "scripts/install-deps cdo the last")
+        sys.exit(77)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         values = make(folder)
-        for program, check in (("ncks", check_ncks), ("nccopy", check_nccopy), ("cdo", check_cdo)):
-            if shutil.which(program):
-                check(folder, values)
-            print(f"{program}: {'accepted' if shutil.which(program) else 'not installed'}")
+        for program in programs:
+            CHECKS[program](folder, values)
 
 
 if __name__ == "__main__":

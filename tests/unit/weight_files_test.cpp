@@ -27,6 +27,8 @@ WeightFile example() {
   content.target.points = {{-135, -45}, {45, -45}, {-135, 45}, {45, 45}};
   content.target.shape = {2, 2};
   content.target.mask = {1, 0, 1, 1};
+  content.target.corners = {{-180, -90}, {0, -90}, {-90, 0}, {0, -90}, {180, -90}, {90, 0},
+                            {-180, 90},  {-90, 0}, {0, 90},  {0, 90},  {90, 0},    {180, 90}};
   content.method = "sibson";
   content.normalization = "none";
   return content;
@@ -46,6 +48,8 @@ TEST(weight_files, come_back_from_both_kinds_of_netcdf) {
     EXPECT_TRUE(read.target.areas.empty());
     EXPECT_EQ(read.target.fractions, (std::vector<double>{1, 0, 1, 1}));
     EXPECT_EQ(read.target.points, content.target.points);
+    EXPECT_EQ(read.target.corners, content.target.corners);
+    EXPECT_TRUE(read.source.corners.empty());
     EXPECT_EQ(read.target.shape, content.target.shape);
     EXPECT_TRUE(read.source.shape.empty());
     EXPECT_EQ(read.target.mask, content.target.mask);
@@ -60,6 +64,23 @@ TEST(weight_files, come_back_from_npz_without_hashes) {
   write_weights(directory.file("w.npz"), content);
   content.weights.sites_hash = content.weights.targets_hash = 0;
   EXPECT_EQ(read_weights(directory.file("w.npz")).weights, content.weights);
+}
+
+// What NCO takes of a file with points that are no cells.
+TEST(weight_files, of_esmf_have_points_as_cells_of_one_corner) {
+  const TemporaryDirectory directory;
+  WeightFile content = example();
+  content.source.areas.clear();
+  write_weights(directory.file("w.nc"), content);
+  const std::string bytes = read_all(directory.file("w.nc"));
+  const io::NetcdfReader file(bytes);
+  EXPECT_EQ(file.require("xv_a").shape, (std::vector<std::uint64_t>{3, 1}));
+  EXPECT_EQ(file.numbers(file.require("xv_a")), (std::vector<double>{0, 90, 0}));
+  EXPECT_EQ(file.numbers(file.require("yv_a")), (std::vector<double>{0, 0, 89.5}));
+  EXPECT_EQ(file.require("xv_b").shape, (std::vector<std::uint64_t>{4, 3}));
+  EXPECT_TRUE(read_weights(directory.file("w.nc")).source.corners.empty());
+  content.target.corners.pop_back();
+  EXPECT_THROW(write_weights(directory.file("w.nc"), content), InvalidInput);
 }
 
 TEST(weight_files, may_have_no_entries) {

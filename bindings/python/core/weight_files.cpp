@@ -19,10 +19,12 @@ namespace rondel::python {
 namespace {
 
 // No points where the array has no rows.
-WeightSide side_of(const PairsIn& degrees, std::vector<std::uint64_t> shape) {
+WeightSide side_of(const PairsIn& degrees, const NumbersIn& areas,
+                   std::vector<std::uint64_t> shape) {
   const auto points = rows_of<LonLat>(degrees);
   WeightSide side;
   side.points.assign(points.begin(), points.end());
+  side.areas.assign(areas.data(), areas.data() + areas.size());
   side.shape = std::move(shape);
   return side;
 }
@@ -33,12 +35,13 @@ void add_weight_files(nb::module_& module) {
   module.def(
       "write_weights",
       [](const std::string& path, const std::string& format, const Weights& weights,
-         const PairsIn& sites, const PairsIn& targets, std::vector<std::uint64_t> shape,
+         const PairsIn& sites, const NumbersIn& site_areas, const PairsIn& targets,
+         const NumbersIn& target_areas, std::vector<std::uint64_t> shape,
          const std::string& method) {
         unlocked([&] {
           const WeightFile content{.weights = weights,
-                                   .source = side_of(sites, {}),
-                                   .target = side_of(targets, std::move(shape)),
+                                   .source = side_of(sites, site_areas, {}),
+                                   .target = side_of(targets, target_areas, std::move(shape)),
                                    .method = method,
                                    .normalization = "none"};
           write_weights({path, format}, content);
@@ -46,7 +49,8 @@ void add_weight_files(nb::module_& module) {
         });
       },
       nb::arg("path"), nb::arg("format"), nb::arg("weights"), nb::arg("sites").noconvert(),
-      nb::arg("targets").noconvert(), nb::arg("shape"), nb::arg("method"));
+      nb::arg("site_areas").noconvert(), nb::arg("targets").noconvert(),
+      nb::arg("target_areas").noconvert(), nb::arg("shape"), nb::arg("method"));
   module.def(
       "read_weights",
       [](const std::string& path) { return unlocked([&] { return read_weights(path).weights; }); },

@@ -25,6 +25,8 @@ def weights_to_netcdf(
     *,
     sites: ArrayLike | None = None,
     targets: ArrayLike | None = None,
+    site_areas: ArrayLike | None = None,
+    target_areas: ArrayLike | None = None,
     method: str = "",
 ) -> None:
     """Writes a file that other programs apply: ESMF's, uxarray, CDO, NCO.
@@ -39,6 +41,10 @@ def weights_to_netcdf(
     targets : array_like, shape (..., 3), optional
         The places, which the file then has as longitudes and latitudes; targets of shape
         (nlat, nlon, 3) are a grid there. Only directions from the origin count.
+    site_areas : array_like, shape (n,), optional
+        In steradians, as those of the sites' cells, `Voronoi.areas`.
+    target_areas : array_like, one for each target, optional
+        With both areas other programs compute what the weights conserve.
     method : str, optional
         What the file says of the method.
 
@@ -65,10 +71,10 @@ def weights_to_netcdf(
             raise ValueError(f"the {name} are not those of the weights")
     shape: tuple[int, ...] = () if targets is None else np.shape(targets)[:-1]
     grid = list(shape) if len(shape) > 1 else []
-    degrees = (_degrees(sites), _degrees(targets))
+    sides = (_degrees(sites), _areas(site_areas), _degrees(targets), _areas(target_areas))
 
     def write(name: str) -> None:
-        _core.write_weights(name, format, self._weights, *degrees, grid, method)
+        _core.write_weights(name, format, self._weights, *sides, grid, method)
 
     write_named(os.fspath(path), write)
 
@@ -77,3 +83,9 @@ def _degrees(points: ArrayLike | None) -> FloatArray:
     if points is None:
         return np.zeros((0, 2))
     return np.ascontiguousarray(lonlat(as_floats(points, "points").reshape(-1, 3)))
+
+
+def _areas(areas: ArrayLike | None) -> FloatArray:
+    if areas is None:
+        return np.zeros(0)
+    return np.ascontiguousarray(as_floats(areas, "areas").reshape(-1))

@@ -42,6 +42,18 @@ def test_names_of_esmf(tmp_path):
     assert dims.tolist() == [6, 5]  # as Fortran counts
 
 
+def test_areas(tmp_path):
+    areas = rondel.SphericalVoronoi(SITES).calculate_areas()
+    WEIGHTS.to_netcdf(
+        tmp_path / "w.nc", sites=SITES, site_areas=areas, target_areas=np.ones((5, 6))
+    )
+    with scipy.io.netcdf_file(tmp_path / "w.nc", mmap=False) as file:
+        assert np.array_equal(file.variables["area_a"][:], areas)
+        assert np.array_equal(file.variables["area_b"][:], np.ones(30))
+    with pytest.raises(ValueError, match="areas are 5 instead of 80"):
+        WEIGHTS.to_netcdf(tmp_path / "w.nc", site_areas=areas[:5])
+
+
 def test_names_of_scrip(tmp_path):
     WEIGHTS.to_netcdf(tmp_path / "w.nc", "scrip", sites=SITES, targets=TARGETS)
     with scipy.io.netcdf_file(tmp_path / "w.nc", mmap=False) as file:
