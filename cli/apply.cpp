@@ -2,27 +2,55 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "process.h"
 #include "remap.h"
 #include "report.h"
+#include "rondel/delaunay.h"
 
 namespace rondel::cli {
 namespace {
 
-// A table that has the places of its values must have those of the weights.
-void require_places(const ApplyCommandOptions& options, const Weights& weights) {
-  if (weights.sites_hash == 0) return;
+// How far a place in netCDF may be from its source: longitudes of floats are off by up to 8e-6 degrees.
+constexpr double most_apart_deg = 1e-4;
+constexpr double most_apart = most_apart_deg * std::numbers::pi / 180;
+
+bool is_near(const Point& a, const Point& b) {
+  const double x = a.x - b.x;
+  const double y = a.y - b.y;
+  const double z = a.z - b.z;
+  return x * x + y * y + z * z <= most_apart * most_apart;
+}
+
+// Values that have places must have those of the weights. Tables must have the very numbers, if the
+// hash of the sources is known.
+void require_places(const ApplyCommandOptions& options, const WeightFile& file,
+                    const std::vector<Point>& places, bool is_exact) {
+  const std::uint64_t hash = file.weights.sites_hash;
+  if (hash != 0 && point_set_hash(places) == hash) return;
+  if (hash == 0 || !is_exact) {
+    const std::vector<LonLat>& sources = file.source.points;
+    const auto is_place = [](const LonLat& place) { return std::abs(place.lat_deg) <= 90; };
+    if (sources.size() != places.size() || !std::ranges::all_of(sources, is_place)) return;
+    // Of a table the points may be anywhere on their rays.
+    if (std::ranges::equal(unit_vectors(lonlats(places)), unit_vectors(sources), is_near)) return;
+  }
+  throw FileError(options.values_file + ": its points are not the sources of " +
+                  options.common.input + ", or not in this order");
+}
+
+void require_places_of_table(const ApplyCommandOptions& options, const WeightFile& file) {
+  if (file.weights.sites_hash == 0 && file.source.points.empty()) return;
   SiteTable table;
   try {
     table = read_sites(options.values_file, options.common.read);
   } catch (const FileError&) {
     return;  // it has no places
   }
-  if (point_set_hash(table.sites) == weights.sites_hash) return;
-  throw FileError(table.name + ": its points are not the sources of " + options.common.input +
-                  ", or not in this order");
+  require_places(options, file, table.sites, true);
 }
 
 bool is_table(const std::string& name) { return name.ends_with(".csv") || name.ends_with(".tsv"); }
@@ -44,8 +72,9 @@ ExitStatus run_apply(const ApplyCommandOptions& options) {
   Job job(common);
   WeightFile file = read_weights(common.source());
   const Weights& weights = file.weights;
-  if (is_table(options.values_file)) require_places(options, weights);
+  if (is_table(options.values_file)) require_places_of_table(options, file);
   FieldSet in = read_fields(options.values_file, options.columns, weights.num_columns, common.read);
+  if (!in.points.empty()) require_places(options, file, in.points, false);
   FieldSet out;
   out.num_points = weights.num_rows();
   out.axes = std::move(in.axes);

@@ -93,8 +93,10 @@ Command add_apply_command(CLI::App& tool) {
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
-      "A table with the columns of longitude and latitude, or x, y, z, must have the points that\n"
-      "the weights were made for, in their order, where the file of weights knows them.\n\n"
+      "The values are those of the sources, in their order. Where the file of weights knows the\n"
+      "sources, this is held against a table's columns of longitude and latitude, or x, y, z, and\n"
+      "against the longitudes and latitudes of a netCDF file, to 1e-4 degrees. Of .npy, and of\n"
+      "files without coordinates, only the number of the values is.\n\n"
       "Examples:\n"
       "  rondel apply weights.nc temperature.nc -o on-grid.nc\n"
       "  rondel apply weights.nc stations.csv --value temperature -o on-grid.csv");

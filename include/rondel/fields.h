@@ -37,7 +37,7 @@ struct FieldSet {
   std::size_t num_points = 0;
   std::vector<FieldArray> arrays;
   std::vector<FieldArray> axes;
-  std::vector<Point> points;  ///< of a table with columns of coordinates; else empty
+  std::vector<Point> points;  ///< of netCDF with longitudes and latitudes of the points; else empty
 };
 
 /// Reads values at points:

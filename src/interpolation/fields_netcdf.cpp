@@ -106,6 +106,7 @@ FieldSet read_fields_netcdf(std::string_view bytes, const FieldsToRead& wanted) 
     if (used == 0) return false;
     fields.arrays.push_back(array_of(file, variable, variable.shape.size() - used));
     unpack(variable, fields.arrays.back().values);
+    if (fields.points.empty()) fields.points = field_places(file, variable, used);
     return true;
   };
   for (const std::string& name : wanted.names) {

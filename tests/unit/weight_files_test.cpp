@@ -8,7 +8,9 @@
 
 #include "io/binary.h"
 #include "io/netcdf_reader.h"
+#include "io/netcdf_writer.h"
 #include "io_support.h"
+#include "rondel/delaunay.h"
 #include "rondel/fields.h"
 
 namespace rondel::test {
@@ -175,6 +177,43 @@ TEST(fields, come_back) {
   const std::vector<std::string> names = {"t_1"};
   EXPECT_EQ(read_fields(directory.file("f.csv"), names, 4).arrays[0].values,
             (std::vector<double>{5, 6, 7, 0.1}));
+}
+
+// The points of a netCDF file of one variable of the dimensions (2, 2) and coordinates.
+std::vector<Point> places_of(std::initializer_list<const char*> names,
+                             const std::vector<std::vector<std::size_t>>& dimensions) {
+  const TemporaryDirectory directory;
+  {
+    io::AtomicFile file(directory.file("f.nc"));
+    io::NetcdfWriter out(file);
+    out.add_dimension("y", 2);
+    out.add_dimension("x", 2);
+    std::size_t i = 0;
+    for (const char* name : names) {
+      out.add_variable({name, io::NetcdfType::float32, dimensions[i++], {}});
+    }
+    out.add_variable({"t", io::NetcdfType::float64, {0, 1}, {}});
+    out.begin();
+    for (const auto& of : dimensions) {
+      for (std::size_t k = 0; k < (of.size() == 2 ? 4 : 2); ++k) {
+        out.write(std::span<const float>(std::array{30 * static_cast<float>(k)}));
+      }
+    }
+    out.write(std::span<const double>(std::array<double, 4>{}));
+    out.finish();
+    file.commit();
+  }
+  const std::vector<std::string> values = {"t"};
+  return read_fields(directory.file("f.nc"), values, 4).points;
+}
+
+TEST(fields, of_netcdf_say_where_they_are) {
+  EXPECT_EQ(places_of({"lat", "lon"}, {{0}, {1}}),
+            unit_vectors(std::vector<LonLat>{{0, 0}, {30, 0}, {0, 30}, {30, 30}}));
+  EXPECT_EQ(places_of({"longitude", "lat"}, {{0, 1}, {0, 1}}),
+            unit_vectors(std::vector<LonLat>{{0, 0}, {30, 30}, {60, 60}, {90, 90}}));
+  EXPECT_TRUE(places_of({"lat", "lon", "longitude"}, {{0}, {1}, {1}}).empty()) << "two longitudes";
+  EXPECT_TRUE(places_of({"lat"}, {{0}}).empty());
 }
 
 // Rows of a grid of two dimensions need not be parallels.
