@@ -239,6 +239,15 @@ ExitStatus run_page(const PlotOptions& options) {
   globe.values = values;
   const Triangulation triangulation = job.triangulate(table);
   Diagram both;
+  Isolines lines;
+  if (options.contours > 0) {
+    const std::vector<double> levels = levels_at(options.contours, values, "--contours");
+    job.time(Stage::dual, [&] {
+      lines = with_places(table,
+                          [&] { return isolines(triangulation, values, levels, job.execution()); });
+    });
+    globe.isolines = &lines;
+  }
   job.time(Stage::dual, [&] { both = diagram(triangulation, job.execution()); });
   job.time(Stage::write,
            [&] { write_globe(common.output, table, triangulation, both, globe, job.execution()); });
@@ -261,7 +270,9 @@ void require_values(const PlotOptions& options) {
   if (options.values.empty() && options.contours > 0) {
     throw UsageError("--contours: --values names no column");
   }
-  const bool is_linear = filling(options) == Fill::field || options.contours > 0;
+  const bool is_page = options.common.format() == "html";
+  const bool is_field = filling(options) == Fill::field && !is_page;
+  const bool is_linear = is_field || options.contours > 0;
   if (options.common.build.model == Model::weighted && is_linear) {
     throw UsageError("--values: of weighted sites only --fill cells shows values");
   }
@@ -272,8 +283,8 @@ ExitStatus run_plot(const PlotOptions& options) {
   const auto format = figure_format(options.common.format());
   require_output(options.common, is_page || format.has_value(), ".png .svg .pdf .html");
   require_view(options);
-  if (is_page) return run_page(options);
   require_values(options);
+  if (is_page) return run_page(options);
   CommonOptions common = options.common;
   common.read.keep_columns = !options.values.empty();
   Job job(common);
@@ -412,9 +423,10 @@ Command add_plot_command(CLI::App& tool) {
       "  rondel plot circles.csv --radius radius --circles --show voronoi -o power.pdf\n"
       "  rondel plot stations.csv --values temperature --contours 5 -o warm.png\n"
       "  rondel plot stations.csv -o globe.html\n"
-      "  rondel plot cities.csv --values population -o cities.html");
+      "  rondel plot cities.csv --values population -o cities.html\n"
+      "  rondel plot stations.csv --values temperature --contours 5 -o warm.html");
   return {parser, [options, parser] {
-            for (const char* name : {"--back", "--size", "--line-width", "--contours"}) {
+            for (const char* name : {"--back", "--size", "--line-width"}) {
               if (parser->count(name) > 0) options->only_pictures = name;
             }
             if (options->show == Show::none) options->only_pictures = "--show none";

@@ -12,6 +12,7 @@
 #include <span>
 #include <string>
 
+#include "rondel/contours.h"
 #include "rondel/diagram.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
@@ -38,14 +39,15 @@ struct GlobeOptions {
   std::optional<LonLat> view{};  ///< in the middle of the whole globe; none: the sites, near enough
   double up_deg = 0;             ///< the direction that points up, clockwise from north
   std::string value_name = "Value";
+  const Isolines* isolines = nullptr;  ///< drawn over the cells, as isolines() gives them
   std::span<const double> values{};  ///< one of each site, or empty; what is not finite is no value
 };
 
 /// The page. It carries the sites, the faces, the diagram and the columns of the table, compressed;
 /// of 2,000 sites it has 240 KB, a million sites take 70 MB. Any triangulation has a page,
 /// also one without faces or sites.
-/// \throws InvalidInput if sites, diagram and values are not those of one triangulation, or an option
-///         is not finite.
+/// \throws InvalidInput if sites, diagram and values are not those of one triangulation, the arrays of the
+///         isolines do not fit together, or an option is not finite.
 RONDEL_API std::string globe_page(const SiteTable& table, const Triangulation& triangulation,
                                   const Diagram& diagram, const GlobeOptions& options = {},
                                   const Execution& execution = {});

@@ -107,6 +107,21 @@ bool has_own_rings(const Triangulation& triangulation, const Cells& cells) {
   return triangulation.dimension() < 2 || cells.points.size() != triangulation.num_faces();
 }
 
+// A closed line with its first point at the end once more.
+void add_isolines(const Isolines& lines, std::vector<PageArray>& arrays) {
+  std::vector<Point> points;
+  std::vector<Index> ends;
+  for (std::size_t i = 0; i < lines.num_lines(); ++i) {
+    const std::uint64_t begin = lines.line_offsets[i];
+    const std::uint64_t end = lines.line_offsets[i + 1];
+    for (std::uint64_t k = begin; k < end; ++k) points.push_back(lines.points[k]);
+    if (lines.is_closed[i] != 0 && begin < end) points.push_back(lines.points[begin]);
+    ends.push_back(static_cast<Index>(points.size()));
+  }
+  arrays.push_back(doubles("isolines", points));
+  arrays.push_back(indices("isolineEnds", std::span<const Index>(ends)));
+}
+
 }  // namespace
 
 std::vector<Point> site_directions(const Triangulation& triangulation) {
@@ -148,6 +163,7 @@ std::vector<PageArray> page_arrays(const SiteTable& table, const Triangulation& 
   if (!options.values.empty()) {
     arrays.push_back(page_array("values", "f64", sizeof(double), options.values));
   }
+  if (options.isolines != nullptr) add_isolines(*options.isolines, arrays);
   return arrays;
 }
 

@@ -34,6 +34,7 @@ std::vector<Point> site_directions(const Triangulation& triangulation);
 //              they differ from what the page computes in plain doubles: mostly zeros.
 // ringOffsets, ringPoints   u32, the rings of the cells, unless they are just the faces around each site
 // areas        n, f64;  values  n, f64, if there are any
+// isolines     3 k, f64, their points;  isolineEnds, u32, where each ends; if there are any
 std::vector<PageArray> page_arrays(const SiteTable& table, const Triangulation& triangulation,
                                    const Diagram& diagram, const GlobeOptions& options,
                                    const std::vector<Point>& directions);

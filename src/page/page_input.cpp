@@ -48,6 +48,12 @@ void require_input(const SiteTable& table, const Triangulation& triangulation,
   if (!options.values.empty() && options.values.size() != n) {
     throw InvalidInput("there is not one value for each site", options.values.size());
   }
+  const Isolines* const lines = options.isolines;
+  if (lines != nullptr &&
+      (!are_parts(lines->line_offsets, lines->num_lines() + 1, lines->points.size()) ||
+       lines->line_offsets.front() != 0)) {
+    throw InvalidInput("the arrays of the isolines do not fit together", 0);
+  }
   const LonLat view = options.view.value_or(LonLat{});
   const double all = view.lon_deg + view.lat_deg + options.up_deg + options.graticule_deg;
   if (!std::isfinite(all) || options.graticule_deg < 0) {

@@ -163,6 +163,28 @@ class Pixels(PageTest):
         change = next(x for x in range(400, 800) if sum(row[x]) > 400)
         self.assertLessEqual(abs(change - (400 + radius * math.sqrt(0.5))), 1.5)
 
+    def test_of_isolines(self):
+        values = [1, 3, 3, 1, 2.5, 1.5]  # from 1 at longitude 0 to 3 at 90: 2 is at 45
+        rows = [[*row[:3], value] for row, value in zip(self.OCTAHEDRON, values)]
+        sites = self.table("isolines.csv", rows, "x,y,z,height")
+        options = ["--values", "height", "--view", 45, 0, "--graticule", 0, "--no-sites"]
+        plain = self.page(sites, *options)
+        self.assertTrue(plain.run("document.getElementById('show-isolines').closest('label').hidden"))
+        page = self.page(sites, *options, "--contours", 2)
+        self.assertFalse(page.run("document.getElementById('show-isolines').closest('label').hidden"))
+        page.run("for (const id of ['show-coast', 'show-borders']) document.getElementById(id).click()")
+        for zoom in (1, 300_000):
+            page.run(f"rondelGlobe.zoomBy({zoom} * 250 / rondelGlobe.camera.zoom)")
+            page.wait_until_drawn()
+            with_lines = read(page, "pixels(390, 300, 21)")
+            page.run("document.getElementById('show-isolines').click()")
+            page.wait_until_drawn()
+            without = read(page, "pixels(390, 300, 21)")
+            page.run("document.getElementById('show-isolines').click()")
+            changed = [i for i, (a, b) in enumerate(zip(with_lines, without)) if sum(a) < sum(b) - 100]
+            self.assertTrue(changed, zoom)
+            self.assertLessEqual(max(abs(i - 10) for i in changed), 2)
+
     def test_a_lost_context_comes_back(self):
         page = self.page(self.generated("uniform", 300), "--fill", "area", "--show", "both")
         row = "pixels(0, 300, 800)"

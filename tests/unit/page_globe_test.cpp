@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -128,6 +129,21 @@ TEST(globe_page, of_degenerate_sites_says_what_is_there) {
   expect_carries(made({{1e-200, 0, 0}, {0, 1e200, 0}, {0, 0, 1}, {-1, -1, -1}}));
 }
 
+TEST(globe_page, closes_isolines) {
+  GlobeOptions options;
+  Isolines lines;
+  lines.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}};
+  lines.line_offsets = {0, 3, 5};
+  lines.is_closed = {1, 0};
+  options.isolines = &lines;
+  const std::string page = page_of(made(random_sites(9)), options);
+  lines.points.insert(lines.points.begin() + 3, lines.points.front());
+  const std::vector<double> numbers = array_of_page<double>(page, "isolines");
+  ASSERT_EQ(numbers.size(), 3 * lines.points.size());
+  EXPECT_EQ(std::memcmp(numbers.data(), lines.points.data(), 8 * numbers.size()), 0);
+  EXPECT_EQ(array_of_page<Index>(page, "isolineEnds"), (std::vector<Index>{4, 6}));
+}
+
 TEST(globe_page, has_rings_where_the_faces_around_a_site_are_not_all) {
   const std::string page = page_of(made({{1, 0, 0}, {-1, 0, 0}}));
   EXPECT_EQ(array_of_page<Index>(page, "ringOffsets").size(), 3U);
@@ -208,6 +224,11 @@ TEST(globe_page, refuses_what_does_not_fit_together) {
   options.values = values;
   EXPECT_THROW(page_of(m, options), InvalidInput);
   options.values = {};
+  Isolines lines;
+  lines.is_closed = {0};
+  options.isolines = &lines;
+  EXPECT_THROW(page_of(m, options), InvalidInput);
+  options.isolines = nullptr;
   options.up_deg = std::numeric_limits<double>::infinity();
   EXPECT_THROW(page_of(m, options), InvalidInput);
   Made other = m;

@@ -11,6 +11,7 @@ export function color(hex, alpha = 1) {
 
 // On colored cells, which are the same in both themes.
 const onFill = {
+  isoline: color("#0b1526", 0.85),
   border: color("#0f1f38", 0.5), coast: color("#33405a", 0.75), graticule: color("#0f1f38", 0.18),
   site: color("#0b1526"), hidden: color("#0b1526", 0.3), chosen: color("#e8590c"), pointed: color("#e8590c", 0.55),
 };
@@ -19,13 +20,13 @@ const plainThemes = {
   light: {
     sky: color("#f4f6f9"), glow: color("#9db9dc"), ocean: color("#e3ebf4"), land: color("#f7f5ef"),
     coast: color("#7f8b9a", 0.9), graticule: color("#5a6c84", 0.16), edge: color("#1d4f91", 0.85),
-    border: color("#b4402a", 0.85), circle: color("#7a4bb0", 0.8), site: color("#14233a"),
+    isoline: color("#0a7d52", 0.95), border: color("#b4402a", 0.85), circle: color("#7a4bb0", 0.8), site: color("#14233a"),
     hidden: color("#14233a", 0.3), chosen: color("#e8590c"), pointed: color("#e8590c", 0.55), blank: color("#c9d0da"),
   },
   dark: {
     sky: color("#0b0f17"), glow: color("#3f6fb5"), ocean: color("#131d2e"), land: color("#222d3d"),
     coast: color("#8494aa", 0.85), graticule: color("#a9bdd8", 0.13), edge: color("#5c9ee8", 0.75),
-    border: color("#ff9a76", 0.85), circle: color("#c5a3ff", 0.8), site: color("#e4ecf8"),
+    isoline: color("#5fd3a4", 0.9), border: color("#ff9a76", 0.85), circle: color("#c5a3ff", 0.8), site: color("#e4ecf8"),
     hidden: color("#f1f5fb", 0.3), chosen: color("#ffb84d"), pointed: color("#ffb84d", 0.55), blank: color("#38445a"),
   },
 };

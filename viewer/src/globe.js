@@ -36,7 +36,7 @@ export class Globe {
     this.camera = new Camera();
     this.coast = readCoast(arrays.coast);
     this.canvas.setLand(drawLand(this.coast));
-    this.scene = new Scene(this.canvas, this.camera, this.surface, chunks, this.layers, this.radii, this.coast);
+    this.scene = new Scene(this.canvas, this.camera, this.surface, chunks, this.layers, this.radii, this.coast, arrays.isolines && arrays);
     this.theme = "light";
     this.connect();
   }
@@ -49,6 +49,10 @@ export class Globe {
 
   get hasCircles() {
     return this.radii !== null;
+  }
+
+  get hasIsolines() {
+    return this.scene.isolines !== undefined;
   }
 
   makeLayers(about, arrays) {

@@ -11,6 +11,7 @@ export class Layers {
     this.sites = about.showSites;
     this.circles = about.circles;
     this.coast = about.coast;
+    this.isolines = arrays.isolines !== undefined;
     this.graticule = about.graticule > 0;
     this.graticuleStep = about.graticule > 0 ? about.graticule : 30;
     this.fills = [{ key: "none", name: "None", values: null }];

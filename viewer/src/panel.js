@@ -6,7 +6,7 @@
 import { areaUnit, count, scaleBar, shortNumber } from "./numbers.js";
 import { colorAt } from "./colors.js";
 
-const toggles = ["edges", "borders", "sites", "circles", "coast", "graticule"];
+const toggles = ["edges", "borders", "sites", "circles", "isolines", "coast", "graticule"];
 
 export function summary(about) {
   const kind = about.model === "weighted" ? "Regular triangulation and power diagram" : "Delaunay triangulation and Voronoi diagram";
@@ -35,6 +35,7 @@ export class Panel {
     this.byId("summary").textContent = summary(about);
     for (const name of toggles) this.bindToggle(name);
     this.byId("show-circles").closest("label").hidden = !globe.hasCircles;
+    this.byId("show-isolines").closest("label").hidden = !globe.hasIsolines;
     this.bindFill();
     this.bindTheme();
     this.bindHelp();

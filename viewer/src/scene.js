@@ -6,6 +6,7 @@
 import { edgesOf, bordersOf, circle, graticule } from "./arcs.js";
 import { coastChords } from "./backdrop.js";
 import { Close, mark, outline } from "./close.js";
+import { isolineArcs } from "./isolines.js";
 import { costOf, mostCoarse, mostFull, mostVertices, planViews } from "./plan.js";
 import { makers, Segments } from "./shapes.js";
 import { lonLatOf } from "./vectors.js";
@@ -14,8 +15,8 @@ const mostKept = 8_000_000;  // vertices in buffers
 const patience = 24;  // milliseconds a frame may spend on new buffers
 
 export class Scene {
-  constructor(canvas, camera, surface, chunks, layers, radii, coast) {
-    Object.assign(this, { canvas, camera, surface, chunks, layers, radii, coast });
+  constructor(canvas, camera, surface, chunks, layers, radii, coast, isolines) {
+    Object.assign(this, { canvas, camera, surface, chunks, layers, radii, coast, isolines });
     this.circlesOf = radii && ((site, arc) => circle(this.surface.direction(site), this.radii[site], arc));
     this.chosen = [];  // rings of places to outline, and places to mark
     this.pointed = [];
@@ -50,12 +51,16 @@ export class Scene {
   }
 
   keepBackdrop() {
-    const coast = new Segments([0, 0, 0]);
-    coastChords(this.coast, coast.chord);
-    this.coastLines = { buffer: this.canvas.keep(coast.data), count: coast.count };
-    const net = new Segments([0, 0, 0]);
-    graticule(this.layers.graticuleStep, [0, 0], 180, net.chord);
-    this.netLines = { buffer: this.canvas.keep(net.data), count: net.count };
+    this.coastLines = this.keepLines((lines) => coastChords(this.coast, lines.chord));
+    this.netLines = this.keepLines((lines) => graticule(this.layers.graticuleStep, [0, 0], 180, lines.chord));
+    this.valueLines = this.keepLines((lines) => this.isolines && isolineArcs(this.isolines, lines.arc));
+  }
+
+  // What is drawn as it is until the zoom is large. `trace` gives the lines to a Segments.
+  keepLines(trace) {
+    const lines = new Segments([0, 0, 0]);
+    trace(lines);
+    return { buffer: this.canvas.keep(lines.data), count: lines.count };
   }
 
   // After a change of the values: colors are part of the buffers.
@@ -239,13 +244,12 @@ export class Scene {
     canvas.drawSites(canvas.loose.sites, 0, close.sites.length / 4, null, theme, dotLook(Infinity));
   }
 
-  // Coasts and the net of meridians and parallels, which is finer where the zoom is larger.
+  // Coasts, isolines and the net of meridians and parallels, which is finer where the zoom is larger.
   drawBackdrop(theme) {
     const { canvas, camera, layers } = this;
-    const isClose = camera.zoom > 20_000;
     if (layers.graticule) {
       const step = this.netStep();
-      if (step === layers.graticuleStep && !isClose) {
+      if (step === layers.graticuleStep && isFar(camera)) {
         canvas.drawLines(this.netLines.buffer, this.netLines.count, [0, 0, 0], theme.graticule, 1);
       } else {
         const net = new Close(camera);
@@ -253,13 +257,21 @@ export class Scene {
         this.drawCut(net, theme.graticule, 1);
       }
     }
-    if (layers.coast && isClose) {
-      const coast = new Close(camera);
-      coastChords(this.coast, coast.arc);
-      this.drawCut(coast, theme.coast, 1);
-    } else if (layers.coast) {
-      canvas.drawLines(this.coastLines.buffer, this.coastLines.count, [0, 0, 0], theme.coast, 1);
+    if (layers.coast) this.drawKept(this.coastLines, (close) => coastChords(this.coast, close.arc), theme.coast, 1);
+    if (layers.isolines) {
+      this.drawKept(this.valueLines, (close) => isolineArcs(this.isolines, close.arc), theme.isoline, widestLine);
     }
+  }
+
+  // Lines of keepLines(); where 32 bits are not enough, traced again.
+  drawKept(lines, trace, paint, width) {
+    if (isFar(this.camera)) {
+      this.canvas.drawLines(lines.buffer, lines.count, [0, 0, 0], paint, width);
+      return;
+    }
+    const close = new Close(this.camera);
+    trace(close);
+    this.drawCut(close, paint, width);
   }
 
   // Degrees between meridians: at least 100 pixels, beyond the first step 10, 5, 2, 1, 0.5 ...
@@ -285,6 +297,11 @@ export class Scene {
     for (const { axis, radius } of this.circled) circle(axis, radius, close.arc);
     this.drawCut(close, theme.circle, widestLine);
   }
+}
+
+// Whether 32 bits from the center are fine enough for lines.
+function isFar(camera) {
+  return camera.zoom <= 20_000;
 }
 
 const netSteps = [];
