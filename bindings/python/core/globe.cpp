@@ -48,7 +48,8 @@ SiteTable table_of(const PointsIn& points, const std::vector<TextColumn>& column
 
 nb::bytes page_of(const Triangulation& t, const PointsIn& points, const Diagram& diagram,
                   const std::vector<TextColumn>& columns, const std::optional<ValuesIn>& values,
-                  GlobeOptions options) {
+                  const Isolines* isolines, GlobeOptions options) {
+  options.isolines = isolines;
   if (values) options.values = {values->data(), values->shape(0)};
   options.fill = values ? GlobeFill::values : GlobeFill::none;
   const std::string page =
@@ -65,8 +66,9 @@ void add_globe(nb::module_& module) {
       "globe_page",
       [](const Triangulation& t, const PointsIn& points, const Diagram& diagram,
          const std::vector<TextColumn>& columns, const std::optional<ValuesIn>& values,
-         const std::string& name, const std::string& title, const std::string& show, bool sites,
-         bool circles, const std::optional<std::tuple<double, double>>& view) {
+         const Isolines* isolines, const std::string& name, const std::string& title,
+         const std::string& show, bool sites, bool circles,
+         const std::optional<std::tuple<double, double>>& view) {
         GlobeOptions options;
         options.title = title;
         options.value_name = name;
@@ -74,11 +76,12 @@ void add_globe(nb::module_& module) {
         options.show_sites = sites;
         options.show_circles = circles;
         if (view) options.view = LonLat{std::get<0>(*view), std::get<1>(*view)};
-        return page_of(t, points, diagram, columns, values, options);
+        return page_of(t, points, diagram, columns, values, isolines, options);
       },
       nb::arg("triangulation"), nb::arg("points").noconvert(), nb::arg("diagram"),
-      nb::arg("columns"), nb::arg("values").none(), nb::arg("name"), nb::arg("title"),
-      nb::arg("show"), nb::arg("sites"), nb::arg("circles"), nb::arg("view").none());
+      nb::arg("columns"), nb::arg("values").none(), nb::arg("isolines").none(), nb::arg("name"),
+      nb::arg("title"), nb::arg("show"), nb::arg("sites"), nb::arg("circles"),
+      nb::arg("view").none());
   module.def("write_file", [](const std::string& path, const nb::bytes& content) {
     write_file(path, {content.c_str(), content.size()});
   });

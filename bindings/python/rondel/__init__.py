@@ -34,12 +34,15 @@ DynamicTriangulation
     Sites that come, go and move.
 SphericalInterpolator
     In place of `scipy.interpolate.LinearNDInterpolator`.
+Isolines, Bands
+    Lines of equal value, and the regions between them.
 Weights
     What carries values from sites to targets, as a sparse matrix.
 """
 
 from . import _core
 from ._arrays import lonlat, unit_vectors
+from ._contours import Bands, Isolines
 from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
 from ._diagram import Cells
 from ._dynamic import DynamicTriangulation, Snapshot
@@ -56,11 +59,13 @@ from ._weights import Weights, point_set_hash, read_weights
 __version__ = _core.version
 
 __all__ = [
+    "Bands",
     "Cells",
     "CheckReport",
     "ConvexHull",
     "DynamicTriangulation",
     "InvalidInput",
+    "Isolines",
     "Lists",
     "Location",
     "LonLatTriangles",

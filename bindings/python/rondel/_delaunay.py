@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from . import _core, _geo, _globe, _plot, _tables
+from . import _contours, _core, _geo, _globe, _plot, _tables
 from ._arrays import (
     as_center,
     as_floats,
@@ -315,6 +315,8 @@ class SphericalDelaunay(Mesh, Queries, Interpolation):
     to_parquet = _tables.triangles_to_parquet
     lonlat_triangles = _plot.lonlat_triangles
     plot = _plot.plot_triangles
+    isolines = _contours.isolines
+    bands = _contours.bands
     save_html = _globe.save_html
     view = _globe.view
 

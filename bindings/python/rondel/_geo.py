@@ -60,7 +60,7 @@ def triangles_to_geojson(self: Triangulated, path: Path | io.IOBase | None = Non
     def write(name: str) -> None:
         _core.write_triangles(name, self._triangulation, self.points)
 
-    return _written(path, write)
+    return written(path, write)
 
 
 @overload
@@ -124,10 +124,10 @@ def cells_to_geojson(
             float(tolerance_deg),
         )
 
-    return _written(path, write)
+    return written(path, write)
 
 
-def _written(path: Path | io.IOBase | None, write: Callable[[str], None]) -> Any:
+def written(path: Path | io.IOBase | None, write: Callable[[str], None]) -> Any:
     """What `write` makes: in the file, or parsed."""
     if isinstance(path, (str, os.PathLike)):
         name = os.fspath(path)

@@ -23,6 +23,8 @@ from ._types import ArrayLike, Divided, Triangulated
 if TYPE_CHECKING:
     import IPython.display
 
+    from ._contours import Isolines
+
 Show = Literal["delaunay", "voronoi", "both"]
 
 
@@ -32,6 +34,7 @@ def save_html(
     values: ArrayLike | None = None,
     *,
     name: str = "Value",
+    isolines: Isolines | None = None,
     properties: Mapping[str, Any] | None = None,
     title: str = "Globe",
     show: Show | None = None,
@@ -51,6 +54,8 @@ def save_html(
         A number for each site, shown as the color of its cell, with a color bar; nan for none.
     name : str, optional
         What the values are.
+    isolines : Isolines, optional
+        Lines that are drawn over the cells, of `SphericalDelaunay.isolines`.
     properties : mapping of str to sequence, optional
         What is told of each site that is picked, and can be searched: for each name a value for
         every site.
@@ -82,7 +87,7 @@ def save_html(
     '<!doctype html>'
 
     """
-    text = _page(self, values, name, properties, title, show, sites, circles, view)
+    text = _page(self, values, name, isolines, properties, title, show, sites, circles, view)
     write_named(os.fspath(path), lambda file: _core.write_file(file, text))
 
 
@@ -91,6 +96,7 @@ def view(
     values: ArrayLike | None = None,
     *,
     name: str = "Value",
+    isolines: Isolines | None = None,
     properties: Mapping[str, Any] | None = None,
     title: str = "Globe",
     show: Show | None = None,
@@ -103,7 +109,7 @@ def view(
 
     Parameters
     ----------
-    values, name, properties, title, show, sites, circles, view
+    values, name, isolines, properties, title, show, sites, circles, view
         As of `save_html`.
     height : int, optional
         Of the frame, in pixels.
@@ -120,7 +126,7 @@ def view(
     """
     from IPython.display import HTML
 
-    text = _page(self, values, name, properties, title, show, sites, circles, view)
+    text = _page(self, values, name, isolines, properties, title, show, sites, circles, view)
     style = f"width: 100%; height: {int(height)}px; border: 0"
     srcdoc, label = html.escape(text.decode()), html.escape(title)
     frame = f'<iframe srcdoc="{srcdoc}" title="{label}" style="{style}"></iframe>'
@@ -131,6 +137,7 @@ def _page(
     self: Any,
     values: ArrayLike | None,
     name: str,
+    isolines: Isolines | None,
     properties: Mapping[str, Any] | None,
     title: str,
     show: Show | None,
@@ -158,6 +165,7 @@ def _page(
         diagram,
         columns,
         numbers,
+        None if isolines is None else isolines._found,
         str(name),
         str(title),
         show,

@@ -14,7 +14,7 @@ import numpy as np
 from . import _core
 from ._lonlat import LonLatTriangles, arcs, flat_triangles
 from ._projection import LonLatMap, ProjectedMap
-from ._types import ArrayLike, Divided, Triangulated
+from ._types import ArrayLike, Divided, FloatArray, Triangulated
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -70,12 +70,18 @@ def plot_triangles(
         If Matplotlib is not installed.
 
     """
-    drawn = _make_map(ax, projection)
     rays = self.points - self.center
     ends = (rays / np.linalg.norm(rays, axis=1, keepdims=True))[self.edges]
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
+    ax = draw_arcs(ends, ax, projection, options)
     if sites:
-        drawn.draw_points(self.lonlat[self.vertices])
+        _make_map(ax, projection).draw_points(self.lonlat[self.vertices])
+    return ax
+
+
+def draw_arcs(ends: FloatArray, ax: Any, projection: Any, options: dict[str, Any]) -> Any:
+    """Arcs between unit vectors, shape (k, 2, 3), on axes as `plot_triangles` makes them."""
+    drawn = _make_map(ax, projection)
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
     return drawn.ax
 
 

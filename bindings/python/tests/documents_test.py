@@ -38,6 +38,7 @@ def test_docstrings(name):
     "document",
     [
         "docs/guide/python.md",
+        "docs/guide/contours.md",
         "docs/guide/interpolation.md",
         "docs/guide/distributed.md",
         "docs/guide/scaling.md",

@@ -37,6 +37,8 @@ reveal_type((weights @ points).size)
 reveal_type(tri.interpolate(np.ones(3), points, outside="nearest").size)
 reveal_type(tri.interpolate_winds(points[0], points[1], 0.0, 90.0)[0].size)
 reveal_type(rondel.SphericalInterpolator((points[0], points[1]), np.ones(3))(0.0, 0.0).size)
+reveal_type(tri.isolines(np.ones(3), 0.5).lines(0)[0].size)
+reveal_type(tri.bands(np.ones(3), [0.5]).to_geojson())
 tri.weights(points, method="spline")
 
 path = pathlib.Path("sites.npy")
@@ -75,7 +77,8 @@ def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
     assert revealed == [
         *["int"] * 6,
         "dict[str, Any]",
-        *["int"] * 6,
+        *["int"] * 7,
+        "dict[str, Any]",
         "rondel.out_of_core.Report",
         "rondel.distributed.DistributedTriangulation",
         *["int"] * 4,
