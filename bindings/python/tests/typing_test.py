@@ -63,11 +63,17 @@ rondel.distributed.delaunay(points, "world")
 """
 
 
-def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
+def checker():
+    """mypy, and the folder of the package."""
     api = pytest.importorskip("mypy.api")
     package = pathlib.Path(rondel.__file__).parent
     if not (package / "_core.pyi").exists():
         pytest.skip("needs the target rondel_python_stub")
+    return api, package
+
+
+def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
+    api, package = checker()
     program = tmp_path / "program.py"
     program.write_text(PROGRAM, encoding="utf-8")
     monkeypatch.setenv("MYPYPATH", str(package.parent))
@@ -91,3 +97,12 @@ def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
         "call-arg]",
         "call-overload]",
     ], out
+
+
+def test_the_package_has_the_types_that_it_says(tmp_path):
+    api, package = checker()
+    config = pathlib.Path(__file__).parents[3] / "pyproject.toml"
+    out, _, status = api.run(
+        ["--config-file", str(config), "--cache-dir", str(tmp_path), str(package)]
+    )
+    assert status == 0, out
