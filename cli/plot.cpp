@@ -19,32 +19,14 @@
 #include "globe.h"
 #include "levels.h"
 #include "plot_draw.h"
+#include "plot_options.h"
 #include "plot_page.h"
 #include "rondel/contours.h"
 #include "rondel/diagram.h"
-#include "rondel/globe.h"
 #include "run_pieces.h"
-#include "validate.h"
 
 namespace rondel::cli {
 namespace {
-
-enum class Show { none, delaunay, voronoi, both };
-enum class Fill { none, area, cells, field };
-
-struct PlotOptions {
-  CommonOptions common;
-  FigureStyle style;
-  std::optional<Show> show;  // none: the cells if they are filled, otherwise the triangulation
-  std::optional<Fill> fill;  // none: by values if there are any
-  bool show_circles = false;
-  std::string values;   // --values: a column; empty: none
-  double contours = 0;  // --contours: their step; 0: none
-  std::optional<bool> show_sites;
-  std::vector<double> view;  // LON LAT, or empty
-  double up_deg = 0;
-  std::string only_pictures;  // an option that was given and that pages do not have; empty: none
-};
 
 std::optional<FigureFormat> figure_format(const std::string& name) {
   for (const auto& [known, format] : {std::pair{"png", FigureFormat::png},
@@ -108,10 +90,6 @@ std::vector<Point> vertices(const Triangulation& triangulation, std::vector<Poin
   }
   points.resize(count);
   return points;
-}
-
-Fill filling(const PlotOptions& options) {
-  return options.fill.value_or(options.values.empty() ? Fill::none : Fill::field);
 }
 
 Show shown(const PlotOptions& options) {
@@ -198,63 +176,6 @@ void warn_of_size(const PlotOptions& options, const Figure& figure, FigureFormat
             << " arcs and will be large; a .png is small\n";
 }
 
-GlobeLines lines_of(const PlotOptions& options) {
-  const bool is_filled = options.fill == Fill::area || !options.values.empty();
-  switch (options.show.value_or(is_filled ? Show::voronoi : Show::delaunay)) {
-    case Show::voronoi:
-      return GlobeLines::voronoi;
-    case Show::both:
-      return GlobeLines::both;
-    default:
-      return GlobeLines::delaunay;
-  }
-}
-
-GlobeOptions globe_options(const PlotOptions& options) {
-  GlobeOptions globe;
-  globe.title = title_of(options.common.input);
-  globe.lines = lines_of(options);
-  globe.fill = options.fill == Fill::area ? GlobeFill::area
-               : !options.values.empty()  ? GlobeFill::values
-                                          : GlobeFill::none;
-  globe.show_sites = options.show_sites.value_or(true);
-  globe.show_circles = options.show_circles;
-  globe.graticule_deg = options.style.graticule_deg;
-  if (!options.view.empty()) globe.view = LonLat{options.view[0], options.view[1]};
-  globe.up_deg = options.up_deg;
-  globe.value_name = options.values;
-  return globe;
-}
-
-ExitStatus run_page(const PlotOptions& options) {
-  if (!options.only_pictures.empty())
-    throw UsageError(options.only_pictures + ": a page has no such option");
-  CommonOptions common = options.common;
-  common.read.keep_columns = true;
-  Job job(common);
-  const SiteTable table = job.read();
-  GlobeOptions globe = globe_options(options);
-  std::vector<double> values;
-  if (!options.values.empty()) values = column_values(table, options.values, "--values");
-  globe.values = values;
-  const Triangulation triangulation = job.triangulate(table);
-  Diagram both;
-  Isolines lines;
-  if (options.contours > 0) {
-    const std::vector<double> levels = levels_at(options.contours, values, "--contours");
-    job.time(Stage::dual, [&] {
-      lines = with_places(table,
-                          [&] { return isolines(triangulation, values, levels, job.execution()); });
-    });
-    globe.isolines = &lines;
-  }
-  job.time(Stage::dual, [&] { both = diagram(triangulation, job.execution()); });
-  job.time(Stage::write,
-           [&] { write_globe(common.output, table, triangulation, both, globe, job.execution()); });
-  job.report(triangulation, "the page");
-  return done;
-}
-
 void require_view(const PlotOptions& options) {
   if (!options.view.empty() && std::abs(options.view[1]) > 90) {
     throw UsageError("--view: the latitude is outside [-90, 90]");
@@ -302,98 +223,6 @@ ExitStatus run_plot(const PlotOptions& options) {
   return done;
 }
 
-template <class Value>
-using Choices = std::vector<std::pair<std::string, Value>>;
-
-// An option whose values are words.
-template <class Value, class Target>
-void add_choice(CLI::App& parser, const std::string& name, Target& target,
-                const Choices<Value>& choices, const std::string& help) {
-  const auto find = [choices](const std::string& text) -> std::optional<Value> {
-    for (const auto& [word, value] : choices) {
-      if (word == text) return value;
-    }
-    return std::nullopt;
-  };
-  std::string words;
-  for (const auto& choice : choices) words += (words.empty() ? "" : ", ") + choice.first;
-  parser
-      .add_option_function<std::string>(
-          name, [&target, find](const std::string& text) { target = find(text).value(); }, help)
-      ->check([find, words](const std::string& text) {
-        return find(text) ? std::string() : "'" + text + "' is not one of " + words;
-      })
-      ->type_name("WHAT");
-}
-
-void add_content_options(CLI::App& parser, PlotOptions& options) {
-  add_choice<Show>(parser, "--show", options.show,
-                   {{"none", Show::none},
-                    {"delaunay", Show::delaunay},
-                    {"voronoi", Show::voronoi},
-                    {"both", Show::both}},
-                   "delaunay (default), voronoi (default where cells are filled), both or none\n"
-                   "(default where a field is)");
-  add_choice<Fill>(
-      parser, "--fill", options.fill,
-      {{"none", Fill::none}, {"area", Fill::area}, {"cells", Fill::cells}, {"field", Fill::field}},
-      "area: color the cells by area, dark for small ones; cells: by --values;\n"
-      "field: the values, linear in the triangles (default with --values in\n"
-      "pictures); none (default)");
-  add_choice<bool>(parser, "--back", options.style.show_back, {{"none", false}, {"faint", true}},
-                   "What is behind the globe: faint, or none (default)");
-  parser
-      .add_option("--values", options.values,
-                  "A column of numbers, shown as colors with a color bar")
-      ->type_name("COL");
-  parser
-      .add_option("--contours", options.contours,
-                  "Draw isolines of --values at the multiples of STEP")
-      ->check(positive_error)
-      ->type_name("STEP");
-  parser.add_flag("--circles", options.show_circles,
-                  "Draw the circles for which weighted sites stand, hidden ones paler");
-  const auto show_sites = [&options](bool show) {
-    return [&options, show] { options.show_sites = show; };
-  };
-  CLI::Option* sites = parser.add_flag_callback(
-      "--sites", show_sites(true), "Draw the sites as dots (default without --values)");
-  parser.add_flag_callback("--no-sites", show_sites(false), "Do not draw the sites")
-      ->excludes(sites);
-  parser
-      .add_option("--graticule", options.style.graticule_deg,
-                  "Distance of meridians and parallels: 30 (default), 15, 10, 5, or 0\nfor none")
-      ->check([](const std::string& text) {
-        const bool is_known =
-            text == "0" || text == "5" || text == "10" || text == "15" || text == "30";
-        return is_known ? std::string() : "'" + text + "' is not one of 0, 5, 10, 15, 30";
-      })
-      ->type_name("DEG");
-}
-
-void add_view_options(CLI::App& parser, PlotOptions& options) {
-  parser
-      .add_option("--view", options.view,
-                  "The place that faces the viewer, in degrees (default: the middle of the\n"
-                  "sites, or 0 20 if they are all around)")
-      ->expected(2)
-      ->check(finite_error)
-      ->type_name("LON LAT");
-  parser
-      .add_option("--up", options.up_deg,
-                  "The direction that points up, in degrees clockwise from north (default: 0)")
-      ->check(finite_error)
-      ->type_name("DEG");
-  parser.add_option("--size", options.style.size, "Width and height in pixels (default: 1000)")
-      ->check([](const std::string& text) { return whole_error(text, 16, 20'000); })
-      ->type_name("N");
-  parser
-      .add_option("--line-width", options.style.line_width,
-                  "Width of the arcs in pixels (default: thinner where sites are close)")
-      ->check(positive_error)
-      ->type_name("W");
-}
-
 }  // namespace
 
 Command add_plot_command(CLI::App& tool) {
@@ -405,8 +234,7 @@ Command add_plot_command(CLI::App& tool) {
                     "Where to write the figure, .png .svg .pdf, or a page with a globe to\nturn, "
                     "zoom and point at, .html")
       ->required();
-  add_content_options(*parser, *options);
-  add_view_options(*parser, *options);
+  add_plot_options(*parser, *options);
   add_build_options(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(

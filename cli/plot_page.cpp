@@ -4,10 +4,77 @@
 
 #include <filesystem>
 
-namespace rondel::cli {
+#include "column_values.h"
+#include "levels.h"
+#include "rondel/contours.h"
+#include "rondel/diagram.h"
+#include "rondel/globe.h"
 
+namespace rondel::cli {
+namespace {
+
+// "stations" of "data/stations.csv"; "Sites" of standard input.
 std::string title_of(const std::string& input) {
   return input == "-" ? "Sites" : std::filesystem::path(input).stem().string();
+}
+
+GlobeLines lines_of(const PlotOptions& options) {
+  const bool is_filled = options.fill == Fill::area || !options.values.empty();
+  switch (options.show.value_or(is_filled ? Show::voronoi : Show::delaunay)) {
+    case Show::voronoi:
+      return GlobeLines::voronoi;
+    case Show::both:
+      return GlobeLines::both;
+    default:
+      return GlobeLines::delaunay;
+  }
+}
+
+GlobeOptions globe_options(const PlotOptions& options) {
+  GlobeOptions globe;
+  globe.title = title_of(options.common.input);
+  globe.lines = lines_of(options);
+  globe.fill = options.fill == Fill::area ? GlobeFill::area
+               : !options.values.empty()  ? GlobeFill::values
+                                          : GlobeFill::none;
+  globe.show_sites = options.show_sites.value_or(true);
+  globe.show_circles = options.show_circles;
+  globe.graticule_deg = options.style.graticule_deg;
+  if (!options.view.empty()) globe.view = LonLat{options.view[0], options.view[1]};
+  globe.up_deg = options.up_deg;
+  globe.value_name = options.values;
+  return globe;
+}
+
+}  // namespace
+
+ExitStatus run_page(const PlotOptions& options) {
+  if (!options.only_pictures.empty())
+    throw UsageError(options.only_pictures + ": a page has no such option");
+  CommonOptions common = options.common;
+  common.read.keep_columns = true;
+  Job job(common);
+  const SiteTable table = job.read();
+  GlobeOptions globe = globe_options(options);
+  std::vector<double> values;
+  if (!options.values.empty()) values = column_values(table, options.values, "--values");
+  globe.values = values;
+  const Triangulation triangulation = job.triangulate(table);
+  Diagram both;
+  Isolines lines;
+  if (options.contours > 0) {
+    const std::vector<double> levels = levels_at(options.contours, values, "--contours");
+    job.time(Stage::dual, [&] {
+      lines = with_places(table,
+                          [&] { return isolines(triangulation, values, levels, job.execution()); });
+    });
+    globe.isolines = &lines;
+  }
+  job.time(Stage::dual, [&] { both = diagram(triangulation, job.execution()); });
+  job.time(Stage::write,
+           [&] { write_globe(common.output, table, triangulation, both, globe, job.execution()); });
+  job.report(triangulation, "the page");
+  return done;
 }
 
 }  // namespace rondel::cli

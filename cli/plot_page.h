@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What `rondel plot` needs to make a page.
+/// Pages of `rondel plot`.
 #pragma once
 
-#include <string>
+#include "plot_options.h"
 
 namespace rondel::cli {
 
-/// "stations" of "data/stations.csv"; "Sites" of standard input.
-std::string title_of(const std::string& input);
+/// Makes the page. \pre values and contours have their columns.
+ExitStatus run_page(const PlotOptions& options);
 
 }  // namespace rondel::cli

@@ -1,0 +1,111 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plot_options.h"
+
+#include <utility>
+
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+template <class Value>
+using Choices = std::vector<std::pair<std::string, Value>>;
+
+// An option whose values are words.
+template <class Value, class Target>
+void add_choice(CLI::App& parser, const std::string& name, Target& target,
+                const Choices<Value>& choices, const std::string& help) {
+  const auto find = [choices](const std::string& text) -> std::optional<Value> {
+    for (const auto& [word, value] : choices) {
+      if (word == text) return value;
+    }
+    return std::nullopt;
+  };
+  std::string words;
+  for (const auto& choice : choices) words += (words.empty() ? "" : ", ") + choice.first;
+  parser
+      .add_option_function<std::string>(
+          name, [&target, find](const std::string& text) { target = find(text).value(); }, help)
+      ->check([find, words](const std::string& text) {
+        return find(text) ? std::string() : "'" + text + "' is not one of " + words;
+      })
+      ->type_name("WHAT");
+}
+
+void add_content_options(CLI::App& parser, PlotOptions& options) {
+  add_choice<Show>(parser, "--show", options.show,
+                   {{"none", Show::none},
+                    {"delaunay", Show::delaunay},
+                    {"voronoi", Show::voronoi},
+                    {"both", Show::both}},
+                   "delaunay (default), voronoi (default where cells are filled), both or none\n"
+                   "(default where a field is)");
+  add_choice<Fill>(
+      parser, "--fill", options.fill,
+      {{"none", Fill::none}, {"area", Fill::area}, {"cells", Fill::cells}, {"field", Fill::field}},
+      "area: color the cells by area, dark for small ones; cells: by --values;\n"
+      "field: the values, linear in the triangles (default with --values in\n"
+      "pictures); none (default)");
+  add_choice<bool>(parser, "--back", options.style.show_back, {{"none", false}, {"faint", true}},
+                   "What is behind the globe: faint, or none (default)");
+  parser
+      .add_option("--values", options.values,
+                  "A column of numbers, shown as colors with a color bar")
+      ->type_name("COL");
+  parser
+      .add_option("--contours", options.contours,
+                  "Draw isolines of --values at the multiples of STEP")
+      ->check(positive_error)
+      ->type_name("STEP");
+  parser.add_flag("--circles", options.show_circles,
+                  "Draw the circles for which weighted sites stand, hidden ones paler");
+  const auto show_sites = [&options](bool show) {
+    return [&options, show] { options.show_sites = show; };
+  };
+  CLI::Option* sites = parser.add_flag_callback(
+      "--sites", show_sites(true), "Draw the sites as dots (default without --values)");
+  parser.add_flag_callback("--no-sites", show_sites(false), "Do not draw the sites")
+      ->excludes(sites);
+  parser
+      .add_option("--graticule", options.style.graticule_deg,
+                  "Distance of meridians and parallels: 30 (default), 15, 10, 5, or 0\nfor none")
+      ->check([](const std::string& text) {
+        const bool is_known =
+            text == "0" || text == "5" || text == "10" || text == "15" || text == "30";
+        return is_known ? std::string() : "'" + text + "' is not one of 0, 5, 10, 15, 30";
+      })
+      ->type_name("DEG");
+}
+
+void add_view_options(CLI::App& parser, PlotOptions& options) {
+  parser
+      .add_option("--view", options.view,
+                  "The place that faces the viewer, in degrees (default: the middle of the\n"
+                  "sites, or 0 20 if they are all around)")
+      ->expected(2)
+      ->check(finite_error)
+      ->type_name("LON LAT");
+  parser
+      .add_option("--up", options.up_deg,
+                  "The direction that points up, in degrees clockwise from north (default: 0)")
+      ->check(finite_error)
+      ->type_name("DEG");
+  parser.add_option("--size", options.style.size, "Width and height in pixels (default: 1000)")
+      ->check([](const std::string& text) { return whole_error(text, 16, 20'000); })
+      ->type_name("N");
+  parser
+      .add_option("--line-width", options.style.line_width,
+                  "Width of the arcs in pixels (default: thinner where sites are close)")
+      ->check(positive_error)
+      ->type_name("W");
+}
+
+}  // namespace
+
+void add_plot_options(CLI::App& parser, PlotOptions& options) {
+  add_content_options(parser, options);
+  add_view_options(parser, options);
+}
+
+}  // namespace rondel::cli
