@@ -36,7 +36,8 @@ export class Globe {
     this.camera = new Camera();
     this.coast = readCoast(arrays.coast);
     this.canvas.setLand(drawLand(this.coast));
-    this.scene = new Scene(this.canvas, this.camera, this.surface, chunks, this.layers, this.radii, this.coast, arrays.isolines && arrays);
+    const lines = { coast: this.coast, isolines: arrays.isolines, isolineEnds: arrays.isolineEnds };
+    this.scene = new Scene(this.canvas, this.camera, this.surface, chunks, this.layers, this.radii, lines);
     this.theme = "light";
     this.connect();
   }
@@ -52,7 +53,7 @@ export class Globe {
   }
 
   get hasIsolines() {
-    return this.scene.isolines !== undefined;
+    return this.scene.lines.hasIsolines;
   }
 
   makeLayers(about, arrays) {

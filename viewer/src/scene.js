@@ -3,27 +3,25 @@
 
 // One frame: the parts of the picture, in the order in which they cover each other, and the buffers behind them.
 
-import { edgesOf, bordersOf, circle, graticule } from "./arcs.js";
-import { coastChords } from "./backdrop.js";
+import { edgesOf, bordersOf, circle } from "./arcs.js";
 import { Close, mark, outline } from "./close.js";
-import { isolineArcs } from "./isolines.js";
+import { Lines, widestLine } from "./lines.js";
 import { costOf, mostCoarse, mostFull, mostVertices, planViews } from "./plan.js";
 import { makers, Segments } from "./shapes.js";
-import { lonLatOf } from "./vectors.js";
 
 const mostKept = 8_000_000;  // vertices in buffers
 const patience = 24;  // milliseconds a frame may spend on new buffers
 
 export class Scene {
-  constructor(canvas, camera, surface, chunks, layers, radii, coast, isolines) {
-    Object.assign(this, { canvas, camera, surface, chunks, layers, radii, coast, isolines });
+  constructor(canvas, camera, surface, chunks, layers, radii, lines) {
+    Object.assign(this, { canvas, camera, surface, chunks, layers, radii });
     this.circlesOf = radii && ((site, arc) => circle(this.surface.direction(site), this.radii[site], arc));
     this.chosen = [];  // rings of places to outline, and places to mark
     this.pointed = [];
     this.circled = [];  // circles: {axis, radius}
     this.isSettled = false;
     this.keepSites();
-    this.keepBackdrop();
+    this.lines = new Lines(canvas, camera, layers, lines, this);
   }
 
   // The prefix of a chunk's points is a fair sample of it: they are stored by steps that leave no part out.
@@ -47,20 +45,7 @@ export class Scene {
     for (const chunk of this.chunks) delete chunk.parts;
     this.sitesBuffer = undefined;
     this.keepSites();
-    this.keepBackdrop();
-  }
-
-  keepBackdrop() {
-    this.coastLines = this.keepLines((lines) => coastChords(this.coast, lines.chord));
-    this.netLines = this.keepLines((lines) => graticule(this.layers.graticuleStep, [0, 0], 180, lines.chord));
-    this.valueLines = this.keepLines((lines) => this.isolines && isolineArcs(this.isolines, lines.arc));
-  }
-
-  // What is drawn as it is until the zoom is large. `trace` gives the lines to a Segments.
-  keepLines(trace) {
-    const lines = new Segments([0, 0, 0]);
-    trace(lines);
-    return { buffer: this.canvas.keep(lines.data), count: lines.count };
+    this.lines.keep();
   }
 
   // After a change of the values: colors are part of the buffers.
@@ -142,7 +127,7 @@ export class Scene {
       this.drawCells(ways.full, close.cells, theme);
       this.drawCoarse(ways.coarse, theme);
     }
-    this.drawBackdrop(theme);
+    this.lines.draw(theme);
     for (const name of this.wanted.filter((wanted) => wanted !== "cells")) {
       const paint = { edges: theme.edge, borders: theme.border, circles: theme.circle }[name];
       this.drawLines(name, ways.full, close[name], paint, layers.isFilled ? 0.8 : 1);
@@ -244,46 +229,6 @@ export class Scene {
     canvas.drawSites(canvas.loose.sites, 0, close.sites.length / 4, null, theme, dotLook(Infinity));
   }
 
-  // Coasts, isolines and the net of meridians and parallels, which is finer where the zoom is larger.
-  drawBackdrop(theme) {
-    const { canvas, camera, layers } = this;
-    if (layers.graticule) {
-      const step = this.netStep();
-      if (step === layers.graticuleStep && isFar(camera)) {
-        canvas.drawLines(this.netLines.buffer, this.netLines.count, [0, 0, 0], theme.graticule, 1);
-      } else {
-        const net = new Close(camera);
-        graticule(step, lonLatOf(camera.forward), camera.reach * 60, net.arc);
-        this.drawCut(net, theme.graticule, 1);
-      }
-    }
-    if (layers.coast) this.drawKept(this.coastLines, (close) => coastChords(this.coast, close.arc), theme.coast, 1);
-    if (layers.isolines) {
-      this.drawKept(this.valueLines, (close) => isolineArcs(this.isolines, close.arc), theme.isoline, widestLine);
-    }
-  }
-
-  // Lines of keepLines(); where 32 bits are not enough, traced again.
-  drawKept(lines, trace, paint, width) {
-    if (isFar(this.camera)) {
-      this.canvas.drawLines(lines.buffer, lines.count, [0, 0, 0], paint, width);
-      return;
-    }
-    const close = new Close(this.camera);
-    trace(close);
-    this.drawCut(close, paint, width);
-  }
-
-  // Degrees between meridians: at least 100 pixels, beyond the first step 10, 5, 2, 1, 0.5 ...
-  netStep() {
-    const { zoom } = this.camera;
-    let step = this.layers.graticuleStep;
-    for (const next of netSteps) {
-      if (next < step && (next * Math.PI / 180) * zoom >= 160) step = next;
-    }
-    return step;
-  }
-
   drawChosen(theme) {
     for (const [things, paint, width] of [[this.pointed, theme.pointed, 2], [this.chosen, theme.chosen, 3]]) {
       const close = new Close(this.camera);
@@ -299,18 +244,7 @@ export class Scene {
   }
 }
 
-// Whether 32 bits from the center are fine enough for lines.
-function isFar(camera) {
-  return camera.zoom <= 20_000;
-}
-
-const netSteps = [];
-for (let power = 1; power > -9; --power) {
-  for (const digit of [5, 2, 1]) netSteps.push(digit * 10 ** power);
-}
-
 // Lines and dots get smaller where sites get close, so that dense places do not turn into ink.
-const widestLine = 1.5;
 const widestDot = 3.6;
 
 function lineWidth(pixels) {
