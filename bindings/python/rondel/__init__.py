@@ -41,7 +41,7 @@ Weights
 """
 
 from . import _core
-from ._arrays import lonlat, unit_vectors
+from ._arrays import lonlat, point_set_hash, unit_vectors
 from ._contours import Bands, Isolines
 from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
 from ._diagram import Cells
@@ -54,7 +54,7 @@ from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where
 from ._voronoi import SphericalVoronoi
-from ._weights import Weights, point_set_hash, read_weights
+from ._weights import Weights, read_weights
 
 __version__ = _core.version
 

@@ -189,3 +189,32 @@ def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
         xyz = xyz - np.asarray(origin)
     x, y, z = xyz[..., 0], xyz[..., 1], xyz[..., 2]
     return np.degrees(np.stack([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))], axis=-1))
+
+
+def as_fields(values: ArrayLike, num_sites: int, name: str = "values") -> FloatArray:
+    """Values of shape (..., n) as float64; what is masked is NaN."""
+    if np.ma.isMaskedArray(values):
+        values = np.ma.filled(np.ma.asarray(values).astype(np.float64), np.nan)
+    array = as_floats(values, name)
+    if array.ndim == 0 or array.shape[-1] != num_sites:
+        shape = array.shape
+        hint = "; the sites are the last axis" if num_sites in shape[:-1] else ""
+        raise ValueError(f"{name} must have shape (..., {num_sites}), not {shape}{hint}")
+    return array
+
+
+def point_set_hash(points: ArrayLike) -> int:
+    """A number that depends on points and their order, to tell whether weights are theirs.
+
+    Parameters
+    ----------
+    points : array_like, shape (..., 3)
+
+    Returns
+    -------
+    int
+        Of 64 bits, never 0; the same on every machine.
+
+    """
+    array = as_floats(points, "points")
+    return _core.point_set_hash(as_points(array.reshape(-1, array.shape[-1] if array.ndim else 1)))

@@ -12,12 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_floats, as_threads, frozen
+from ._arrays import as_fields, as_floats, as_threads, frozen
 from ._geo import written
 from ._plot import draw_arcs
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, Triangulated
-from ._weights import as_fields
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

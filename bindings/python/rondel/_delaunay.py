@@ -22,10 +22,10 @@ from ._arrays import (
     lonlat,
 )
 from ._diagram import Diagram
-from ._interpolation import Interpolation
 from ._mesh import Mesh
 from ._queries import Queries
 from ._types import ArrayLike, FloatArray, IntArray, Model, Progress
+from ._winds import VectorInterpolation
 
 
 class Location(NamedTuple):
@@ -50,7 +50,7 @@ class CheckReport(NamedTuple):
         return self.is_valid
 
 
-class SphericalDelaunay(Mesh, Queries, Interpolation):
+class SphericalDelaunay(Mesh, Queries, VectorInterpolation):
     """The Delaunay or regular triangulation of points on or close to a sphere.
 
     Exact for every finite input, and unique: it depends on the set of points alone, not on their

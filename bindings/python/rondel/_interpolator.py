@@ -8,12 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import as_floats, as_points, unit_vectors
+from ._arrays import as_fields, as_floats, as_points, unit_vectors
 from ._delaunay import SphericalDelaunay, delaunay, delaunay_lonlat
 from ._interpolation import METHODS, Method
 from ._repr import Described, count
 from ._types import ArrayLike, FloatArray
-from ._weights import as_fields
 
 
 def _triangulated(points: Any) -> SphericalDelaunay:

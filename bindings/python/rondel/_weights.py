@@ -11,24 +11,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_floats, as_points, as_threads
+from ._arrays import as_fields, as_floats, as_threads, point_set_hash
 from ._geo import Path, write_named
 from ._repr import Described, count
 from ._tables import _replaced
 from ._types import ArrayLike, FloatArray, IntArray
 from ._weight_files import weights_to_netcdf
-
-
-def as_fields(values: ArrayLike, num_sites: int, name: str = "values") -> FloatArray:
-    """Values of shape (..., n) as float64; what is masked is NaN."""
-    if np.ma.isMaskedArray(values):
-        values = np.ma.filled(np.ma.asarray(values).astype(np.float64), np.nan)
-    array = as_floats(values, name)
-    if array.ndim == 0 or array.shape[-1] != num_sites:
-        shape = array.shape
-        hint = "; the sites are the last axis" if num_sites in shape[:-1] else ""
-        raise ValueError(f"{name} must have shape (..., {num_sites}), not {shape}{hint}")
-    return array
 
 
 class Weights(Described):
@@ -299,20 +287,3 @@ def read_weights(path: Path) -> Weights:
     found: list[_core.Weights] = []
     write_named(os.fspath(path), lambda name: found.append(_core.read_weights(name)))
     return Weights._of(found[0])
-
-
-def point_set_hash(points: ArrayLike) -> int:
-    """A number that depends on points and their order, to tell whether weights are theirs.
-
-    Parameters
-    ----------
-    points : array_like, shape (..., 3)
-
-    Returns
-    -------
-    int
-        Of 64 bits, never 0; the same on every machine.
-
-    """
-    array = as_floats(points, "points")
-    return _core.point_set_hash(as_points(array.reshape(-1, array.shape[-1] if array.ndim else 1)))
