@@ -45,7 +45,8 @@ void require_side(const WeightSide& side, std::size_t size) {
   require_number("areas", side.areas.size(), size);
   require_number("fractions", side.fractions.size(), size);
   require_number("the mask's numbers", side.mask.size(), size);
-  if (side.corners.size() % std::max<std::size_t>(1, size) != 0) {
+  const bool has_cells = size > 0 && side.corners.size() % size == 0;
+  if (!side.corners.empty() && !has_cells) {
     throw InvalidInput(
         std::to_string(side.corners.size()) + " corners of " + std::to_string(size) + " cells", 0);
   }

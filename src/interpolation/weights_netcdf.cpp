@@ -69,7 +69,7 @@ void read_corners(const io::NetcdfReader& file, const SideNames& names, std::siz
   const std::vector<double> lon = angles_of(file, names.corner_lon);
   const std::vector<double> lat = angles_of(file, names.corner_lat);
   if (lon.size() <= size) return;
-  if (lon.size() % std::max<std::size_t>(1, size) != 0) {
+  if (size == 0 || lon.size() % size != 0) {
     throw io::BadValue("variable " + io::in_quotes(names.corner_lon) + " has " +
                        std::to_string(lon.size()) + " values for " + std::to_string(size) +
                        " cells");

@@ -83,6 +83,9 @@ TEST(weight_files, of_esmf_have_points_as_cells_of_one_corner) {
   EXPECT_TRUE(read_weights(directory.file("w.nc")).source.corners.empty());
   content.target.corners.pop_back();
   EXPECT_THROW(write_weights(directory.file("w.nc"), content), InvalidInput);
+  WeightFile none;
+  none.target.corners = {{0, 0}};
+  EXPECT_THROW(write_weights(directory.file("w.nc"), none), InvalidInput);
 }
 
 TEST(weight_files, may_have_no_entries) {
