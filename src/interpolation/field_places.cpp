@@ -11,7 +11,7 @@
 #include "interpolation/field_formats.h"
 #include "rondel/delaunay.h"
 
-namespace rondel::remap {
+namespace rondel::interpolation {
 namespace {
 
 using ReadVariable = io::NetcdfReader::Variable;
@@ -94,4 +94,4 @@ std::vector<Point> field_places(const io::NetcdfReader& file, const ReadVariable
   return unit_vectors(places);
 }
 
-}  // namespace rondel::remap
+}  // namespace rondel::interpolation
