@@ -55,7 +55,7 @@ const ReadVariable* coordinate(const io::NetcdfReader& file, const ReadVariable&
   return count == 1 ? found : nullptr;
 }
 
-std::vector<double> degrees(const io::NetcdfReader& file, const ReadVariable& variable) {
+std::vector<double> degrees_of(const io::NetcdfReader& file, const ReadVariable& variable) {
   std::vector<double> values = file.numbers(variable);
   if (io::netcdf_text(variable.attributes, "units").starts_with("rad")) {
     for (double& value : values) value *= 180 / std::numbers::pi;
@@ -78,15 +78,15 @@ std::vector<Point> field_places(const io::NetcdfReader& file, const ReadVariable
   const ReadVariable* lon = coordinate(file, values, longitude_names, own);
   const ReadVariable* lat = coordinate(file, values, latitude_names, own);
   if (lon != nullptr && lat != nullptr) {
-    const std::vector<double> x = degrees(file, *lon);
-    const std::vector<double> y = degrees(file, *lat);
+    const std::vector<double> x = degrees_of(file, *lon);
+    const std::vector<double> y = degrees_of(file, *lat);
     for (std::size_t i = 0; i < x.size(); ++i) places.push_back({x[i], y[i]});
   } else if (own.size() == 2) {
     lon = coordinate(file, values, longitude_names, {own[1]});
     lat = coordinate(file, values, latitude_names, {own[0]});
     if (lon == nullptr || lat == nullptr) return {};
-    const std::vector<double> x = degrees(file, *lon);
-    for (const double y : degrees(file, *lat)) {
+    const std::vector<double> x = degrees_of(file, *lon);
+    for (const double y : degrees_of(file, *lat)) {
       for (const double of_row : x) places.push_back({of_row, y});
     }
   }
