@@ -199,15 +199,17 @@ struct FieldReader {
   std::string_view ending;
   FieldSet (*read)(std::string_view, const interpolation::FieldsToRead&);
 };
-constexpr std::array<FieldReader, 4> field_readers = {{{".csv", &interpolation::read_fields_csv},
-                                                       {".tsv", &interpolation::read_fields_tsv},
-                                                       {".npy", &interpolation::read_fields_npy},
-                                                       {".nc", &interpolation::read_fields_netcdf}}};
+constexpr std::array<FieldReader, 4> field_readers = {
+    {{".csv", &interpolation::read_fields_csv},
+     {".tsv", &interpolation::read_fields_tsv},
+     {".npy", &interpolation::read_fields_npy},
+     {".nc", &interpolation::read_fields_netcdf}}};
 using FieldWriter = io::Writer<interpolation::FieldsToWrite>;
-constexpr std::array<FieldWriter, 4> field_writers = {{{".csv", &interpolation::write_fields_csv},
-                                                       {".tsv", &interpolation::write_fields_tsv},
-                                                       {".npy", &interpolation::write_fields_npy},
-                                                       {".nc", &interpolation::write_fields_netcdf}}};
+constexpr std::array<FieldWriter, 4> field_writers = {
+    {{".csv", &interpolation::write_fields_csv},
+     {".tsv", &interpolation::write_fields_tsv},
+     {".npy", &interpolation::write_fields_npy},
+     {".nc", &interpolation::write_fields_netcdf}}};
 
 }  // namespace
 
@@ -243,7 +245,7 @@ void write_fields(const FileName& file, const FieldSet& fields, const WeightSide
                        0);
   }
   io::write_whole<interpolation::FieldsToWrite>(field_writers, file, "fields are written as",
-                                        {fields, points});
+                                                {fields, points});
 }
 
 }  // namespace rondel

@@ -4,6 +4,7 @@
 #include "interpolation/gradient.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "exact/vector.h"
@@ -42,7 +43,9 @@ class GradientFinder {
     }
     return fit_.find(exact::to_vector(x.hi), steps_, weights_) &&
            std::ranges::all_of(weights_, [](const Vec& weight) {
-             return largest_coordinate(weight) <= largest_gradient_weight;
+             return std::abs(weight.x) <= largest_gradient_weight &&
+                    std::abs(weight.y) <= largest_gradient_weight &&
+                    std::abs(weight.z) <= largest_gradient_weight;
            });
   }
   [[nodiscard]] const std::vector<Index>& neighbors() const { return neighbors_; }

@@ -203,7 +203,7 @@ Weights Interpolator::weights(std::span<const Point> targets, const Interpolatio
     gradients = impl_->gradient_rows(options.gradient, execution.threads);
   }
   impl_->for_each_row(targets, options, execution, gradients.get(),
-                      [&] { return WeightsTaker(rows, gradients.get()); });
+                      [&] { return WeightsTaker(rows, gradients.get(), options.normalization); });
   Weights weights = rows.joined(targets.size(), execution.threads);
   if (options.hashes) {
     weights.sites_hash = impl_->sites_hash();

@@ -107,8 +107,9 @@ void weigh_on_edge(const Ground& ground, const TargetPlace& place, Row& row) {
     from_b = exact::length_of(cross(u, exact_step(ground, place, b)));
   }
   const double sum = from_a + from_b;
-  row.push_back({a, from_b / sum});
-  row.push_back({b, from_a / sum});
+  const double share = sum > 0 ? from_b / sum : 0.5;  // both may be below the range of doubles
+  row.push_back({a, share});
+  row.push_back({b, sum > 0 ? from_a / sum : 0.5});
 }
 
 Weights3 LinearKernel::careful_weights(const TargetPlace& place, const Triple& corners,

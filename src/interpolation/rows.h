@@ -93,12 +93,29 @@ class KernelRows {
       row.push_back({place_.location.sites[0], 1});
       return;
     }
-    if (place_.location.where != Where::outside) kernel_(place_, row);
+    if (place_.location.where != Where::outside) {
+      kernel_(place_, row);
+      if constexpr (!Kernel<K>) make_finite(row);
+    }
     if (options_.normalization == Normalization::homogeneous) make_homogeneous(ground_, u, row);
     if (row.empty()) answer_outside(target, p, cursor, row);
   }
 
  private:
+  // Of sites that are as close as numbers can be, products of slopes may leave the range of doubles:
+  // linear there.
+  void make_finite(SlopeRow& row) const {
+    double sum = 0;
+    for (const SlopeShare& share : row) {
+      sum += share.weight + (share.slope.x + share.slope.y + share.slope.z);
+    }
+    if (std::isfinite(sum)) return;
+    row.clear();
+    Row flat;
+    LinearKernel{ground_}(place_, flat);
+    for (const auto& [vertex, weight] : flat) row.push_back({vertex, weight, {}});
+  }
+
   void answer_outside(Index target, const Point& p, query::Cursor& cursor, RowType& row) {
     if (options_.outside == Outside::nearest) {
       row.push_back({ground_.engine().nearest(p, cursor), 1});

@@ -103,10 +103,8 @@ Weights gradient_weights(const Ground& ground, const GradientRows& rows) {
 // What is added up for one vertex is added in the order of the row.
 const Row& SlopeJoiner::operator()(const SlopeRow& row) {
   shares_.clear();
-  double sum = 0;
   for (const auto& [vertex, weight, slope] : row) {
     shares_.push_back({vertex, weight});
-    sum += weight;
     if (slope == Point{}) continue;
     for (std::uint64_t k = gradients_->offsets[vertex];
          k < gradients_->offsets[vertex + std::size_t{1}]; ++k) {
@@ -114,7 +112,7 @@ const Row& SlopeJoiner::operator()(const SlopeRow& row) {
     }
   }
   merge();
-  if (sum == 1) take_up_rounding(joined_);
+  if (normalization_ == Normalization::unity && !joined_.empty()) take_up_rounding(joined_);
   return joined_;
 }
 

@@ -48,7 +48,8 @@ class PlaceGradients {
 class SlopeJoiner {
  public:
   // None: for rows without slopes.
-  explicit SlopeJoiner(const GradientRows* gradients) : gradients_(gradients) {}
+  SlopeJoiner(const GradientRows* gradients, Normalization normalization)
+      : gradients_(gradients), normalization_(normalization) {}
   // The result lives until the next call.
   const Row& operator()(const SlopeRow& row);
 
@@ -56,6 +57,7 @@ class SlopeJoiner {
   void merge();
 
   const GradientRows* gradients_;
+  Normalization normalization_;
   Row shares_;
   Row joined_;
 };

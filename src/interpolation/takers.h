@@ -95,8 +95,8 @@ class VectorsTaker {
 class WeightsTaker {
  public:
   // `gradients`: of rows with slopes.
-  WeightsTaker(CollectedRows& rows, const GradientRows* gradients)
-      : rows_(rows), join_(gradients) {}
+  WeightsTaker(CollectedRows& rows, const GradientRows* gradients, Normalization normalization)
+      : rows_(rows), join_(gradients, normalization) {}
 
   void expect(Index /*target*/) const {}
   void take(Index target, const exact::SplitPoint& /*u*/, const Row& row) {

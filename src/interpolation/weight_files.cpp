@@ -19,19 +19,21 @@ namespace rondel {
 namespace {
 
 using WeightWriter = io::Writer<WeightFile>;
-constexpr std::array<WeightWriter, 4> weight_writers = {{{".nc", &interpolation::write_esmf},
-                                                         {".npz", &interpolation::write_weights_npz},
-                                                         {".esmf", &interpolation::write_esmf},
-                                                         {".scrip", &interpolation::write_scrip}}};
+constexpr std::array<WeightWriter, 4> weight_writers = {
+    {{".nc", &interpolation::write_esmf},
+     {".npz", &interpolation::write_weights_npz},
+     {".esmf", &interpolation::write_esmf},
+     {".scrip", &interpolation::write_scrip}}};
 
 struct WeightReader {
   std::string_view ending;
   WeightFile (*read)(std::string_view);
 };
-constexpr std::array<WeightReader, 4> weight_readers = {{{".nc", &interpolation::read_weights_netcdf},
-                                                         {".npz", &interpolation::read_weights_npz},
-                                                         {".esmf", &interpolation::read_weights_netcdf},
-                                                         {".scrip", &interpolation::read_weights_netcdf}}};
+constexpr std::array<WeightReader, 4> weight_readers = {
+    {{".nc", &interpolation::read_weights_netcdf},
+     {".npz", &interpolation::read_weights_npz},
+     {".esmf", &interpolation::read_weights_netcdf},
+     {".scrip", &interpolation::read_weights_netcdf}}};
 
 void require_number(const char* what, std::size_t length, std::size_t wanted) {
   if (length == 0 || length == wanted) return;
