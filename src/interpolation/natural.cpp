@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "interpolation/linear.h"
+#include "interpolation/unity.h"
 
 namespace rondel::interpolation {
 namespace {
@@ -119,6 +120,8 @@ void NaturalKernel::add_shares(Row& row) const {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (shares_[i] > 0) row.push_back({ring[i], shares_[i] / sum});
   }
+  constexpr std::size_t many = 16;  // terms, whose sum along the row may be several ulp off
+  if (row.size() > many) take_up_rounding(row);
 }
 
 }  // namespace rondel::interpolation
