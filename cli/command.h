@@ -152,6 +152,7 @@ Command add_voronoi_command(CLI::App& tool);
 Command add_hull_command(CLI::App& tool);
 Command add_check_command(CLI::App& tool);
 Command add_contours_command(CLI::App& tool);  // contours.cpp
+Command add_graph_command(CLI::App& tool);     // graph.cpp
 Command add_plot_command(CLI::App& tool);      // plot.cpp
 Command add_generate_command(CLI::App& tool);
 Command add_info_command(CLI::App& tool);

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
@@ -27,10 +28,12 @@ using UnitVectors = std::span<const Point>;
 // 1. Sides are within the tolerance (radians) of the arcs.
 // 2. An arc gives the same positions, bit by bit, to the regions on both sides of it.
 // Precondition: the region is connected, the rings are simple and meet at most in points.
-std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings, double tolerance);
+RONDEL_API std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings,
+                                                         double tolerance);
 
 // A line, cut at the antimeridian and at the poles: each part has two positions or more. A closed line, of
 // three points or more, that meets neither is one part whose last position is the first.
-std::vector<std::vector<LonLat>> line_parts(UnitVectors line, bool is_closed, double tolerance);
+RONDEL_API std::vector<std::vector<LonLat>> line_parts(UnitVectors line, bool is_closed,
+                                                       double tolerance);
 
 }  // namespace rondel::map

@@ -1,0 +1,306 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Why edges of solid faces are enough, and for caps the two corners across an edge
+// (docs/theory/graphs.md). For the shortest tree, sort the edges that Urquhart's graph leaves.
+#include "rondel/graphs.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <numeric>
+#include <string>
+
+#include "query/visited.h"
+#include "readings/chords.h"
+#include "rondel/diagram.h"
+#include "rondel/error.h"
+#include "system/job.h"
+#include "system/parallel.h"
+
+namespace rondel {
+namespace {
+
+using readings::Chords;
+using Edge = std::array<Index, 2>;
+
+constexpr std::size_t edges_per_piece = 1024;
+
+// An edge and the corners across it, no_index where there is no solid face.
+struct Candidate {
+  Edge edge{};
+  std::array<Index, 2> across = {no_index, no_index};
+};
+
+std::vector<Candidate> face_candidates(const Triangulation& triangulation) {
+  const auto faces = triangulation.faces();
+  const auto neighbors = triangulation.neighbors();
+  std::vector<Candidate> found;
+  found.reserve(3 * faces.size() / 2);
+  for (Index f = 0; f < faces.size(); ++f) {
+    if (triangulation.is_ghost(f)) continue;
+    for (unsigned i = 0; i < 3; ++i) {
+      const Index g = neighbors[f][i];
+      const bool is_shared = !triangulation.is_ghost(g);
+      const Index a = faces[f][(i + 1) % 3];
+      const Index b = faces[f][(i + 2) % 3];
+      if (is_shared && b < a) continue;
+      Candidate candidate{{std::min(a, b), std::max(a, b)}, {faces[f][i], no_index}};
+      if (is_shared) {
+        for (const Index c : faces[g]) {
+          if (c != a && c != b) candidate.across[1] = c;
+        }
+      }
+      found.push_back(candidate);
+    }
+  }
+  return found;
+}
+
+// The arcs around a great circle whose points are all at less than 180 degrees: the cap of such an arc
+// has no other vertex.
+std::vector<Candidate> ring_candidates(const Triangulation& triangulation, const Chords& chords) {
+  const auto ring = triangulation.ring();
+  std::vector<Candidate> found;
+  const std::size_t count = ring.size() < 3 ? ring.size() / 2 : ring.size();
+  for (std::size_t j = 0; j < count; ++j) {
+    const Index a = ring[j];
+    const Index b = ring[(j + 1) % ring.size()];
+    const Index next = ring[(j + 2) % ring.size()];
+    if (ring.size() > 2 && chords.is_in_cap(a, b, next)) continue;
+    found.push_back({{std::min(a, b), std::max(a, b)}, {no_index, no_index}});
+  }
+  return found;
+}
+
+// Of each candidate whether it stays; those that do not are erased.
+template <class Stays>
+void keep_if(std::vector<Candidate>& candidates, const Execution& execution, const Stays& stays) {
+  std::vector<std::uint8_t> is_kept(candidates.size());
+  system::parallel_for(execution.threads, candidates.size(), edges_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         auto test = stays();
+                         for (std::size_t i = begin; i < end; ++i) is_kept[i] = test(candidates[i]);
+                       });
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (is_kept[i] != 0) candidates[size++] = candidates[i];
+  }
+  candidates.resize(size);
+}
+
+// Whether a corner across keeps the edge from being the longest one of its face.
+bool is_in_urquhart(const Chords& chords, const Candidate& candidate) {
+  const auto [a, b] = candidate.edge;
+  return std::ranges::none_of(candidate.across, [&, a = a, b = b](Index c) {
+    return c != no_index && chords.is_shorter(a, c, a, b) && chords.is_shorter(b, c, a, b);
+  });
+}
+
+bool is_in_gabriel(const Chords& chords, const Candidate& candidate) {
+  const auto [a, b] = candidate.edge;
+  return std::ranges::none_of(candidate.across, [&, a = a, b = b](Index c) {
+    return c != no_index && chords.is_in_cap(a, b, c);
+  });
+}
+
+// The neighbors of each vertex.
+class Adjacency {
+ public:
+  Adjacency(std::size_t num_sites, std::span<const Edge> edges) : offsets_(num_sites + 1) {
+    for (const auto& [a, b] : edges) {
+      ++offsets_[a];
+      ++offsets_[b];
+    }
+    std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
+    ends_.resize(offsets_.back());
+    for (const auto& [a, b] : edges) {
+      ends_[--offsets_[a]] = b;
+      ends_[--offsets_[b]] = a;
+    }
+  }
+  [[nodiscard]] std::span<const Index> operator[](Index v) const {
+    return {ends_.data() + offsets_[v], ends_.data() + offsets_[v + 1]};
+  }
+
+ private:
+  std::vector<std::size_t> offsets_;
+  std::vector<Index> ends_;
+};
+
+// Looks for a vertex nearer to both ends of an edge than these are to each other. The vertices nearer to
+// one end are connected by edges (query/graph.h), and so are found from it; from both ends by turns, as
+// there may be many around the one.
+class LuneSearch {
+ public:
+  LuneSearch(const Chords& chords, const Adjacency& adjacency)
+      : chords_(chords), adjacency_(adjacency) {}
+
+  bool is_empty(const Edge& edge) {
+    const auto [a, b] = edge;
+    from_a_.start(a);
+    from_b_.start(b);
+    while (true) {
+      if (step(from_a_, a, b)) return false;
+      if (from_a_.is_at_end()) return true;
+      if (step(from_b_, b, a)) return false;
+      if (from_b_.is_at_end()) return true;
+    }
+  }
+
+ private:
+  struct Front {
+    query::VisitedSet visited;
+    std::vector<Index> queue;
+    std::size_t next = 0;
+
+    void start(Index v) {
+      visited.clear();
+      queue.assign(1, v);
+      visited.insert(v);
+      next = 0;
+    }
+    [[nodiscard]] bool is_at_end() const { return next == queue.size(); }
+  };
+
+  // Whether a neighbor of the next vertex is nearer to both; those nearer to `from` are queued.
+  bool step(Front& front, Index from, Index to) const {
+    for (const Index c : adjacency_[front.queue[front.next++]]) {
+      if (c == to || !front.visited.insert(c) || !chords_.is_shorter(from, c, from, to)) continue;
+      if (chords_.is_shorter(to, c, from, to)) return true;
+      front.queue.push_back(c);
+    }
+    return false;
+  }
+
+  const Chords& chords_;
+  const Adjacency& adjacency_;
+  Front from_a_;
+  Front from_b_;
+};
+
+// Joined sets of sites, each known by one of them.
+class Components {
+ public:
+  explicit Components(std::size_t size) : parents_(size) {
+    std::iota(parents_.begin(), parents_.end(), 0U);
+  }
+
+  // Whether a and b were apart.
+  bool join(Index a, Index b) {
+    a = root_of(a);
+    b = root_of(b);
+    parents_[std::max(a, b)] = std::min(a, b);
+    return a != b;
+  }
+
+ private:
+  Index root_of(Index v) {
+    while (parents_[v] != v) {
+      parents_[v] = parents_[parents_[v]];
+      v = parents_[v];
+    }
+    return v;
+  }
+
+  std::vector<Index> parents_;
+};
+
+// Kruskal's tree of some candidates that have it.
+void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<Candidate>& candidates) {
+  struct Keyed {
+    exact::DoubleDouble square;
+    Candidate candidate;
+  };
+  std::vector<Keyed> keyed;
+  keyed.reserve(candidates.size());
+  for (const Candidate& c : candidates) {
+    keyed.push_back({chords.squared(c.edge[0], c.edge[1]), c});
+  }
+  std::ranges::sort(keyed, [&](const Keyed& x, const Keyed& y) {
+    const Edge& e = x.candidate.edge;
+    const Edge& f = y.candidate.edge;
+    const Sign sign = chords.compare(e[0], e[1], x.square, f[0], f[1], y.square);
+    return sign != Sign::zero ? sign == Sign::negative : e < f;
+  });
+  Components components(num_sites);
+  candidates.clear();
+  for (const Keyed& k : keyed) {
+    if (components.join(k.candidate.edge[0], k.candidate.edge[1])) {
+      candidates.push_back(k.candidate);
+    }
+  }
+}
+
+void keep_kind(const Triangulation& triangulation, const Chords& chords, GraphKind kind,
+               std::vector<Candidate>& candidates, const Execution& execution) {
+  if (kind == GraphKind::delaunay) return;
+  if (kind == GraphKind::gabriel) {
+    keep_if(candidates, execution,
+            [&] { return [&](const Candidate& c) { return is_in_gabriel(chords, c); }; });
+    return;
+  }
+  keep_if(candidates, execution,
+          [&] { return [&](const Candidate& c) { return is_in_urquhart(chords, c); }; });
+  if (kind == GraphKind::relative) {
+    const Adjacency adjacency(triangulation.num_sites(), edges(triangulation));
+    keep_if(candidates, execution, [&] {
+      return [search = LuneSearch(chords, adjacency)](const Candidate& c) mutable {
+        return search.is_empty(c.edge);
+      };
+    });
+  }
+  if (kind == GraphKind::spanning_tree) keep_tree(chords, triangulation.num_sites(), candidates);
+}
+
+}  // namespace
+
+SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
+                     const Execution& execution) {
+  const system::Call call(execution);
+  if (triangulation.model() == Model::weighted) {
+    throw InvalidInput("weighted sites have no graphs of distances", 0);
+  }
+  const Chords chords(triangulation, execution);
+  std::vector<Candidate> candidates = triangulation.dimension() < 2
+                                          ? ring_candidates(triangulation, chords)
+                                          : face_candidates(triangulation);
+  keep_kind(triangulation, chords, kind, candidates, execution);
+  std::ranges::sort(candidates, {}, &Candidate::edge);
+  SiteGraph graph;
+  graph.edges.resize(candidates.size());
+  graph.lengths.resize(candidates.size());
+  system::parallel_for(execution.threads, candidates.size(), edges_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           const Edge edge = candidates[i].edge;
+                           graph.edges[i] = edge;
+                           graph.lengths[i] = chords.angle(edge[0], edge[1]);
+                         }
+                       });
+  return graph;
+}
+
+EdgeIndex edge_index(const SiteGraph& graph, EdgeDirections directions) {
+  struct Arc {
+    Edge ends;
+    double length;
+  };
+  std::vector<Arc> arcs;
+  for (std::size_t i = 0; i < graph.edges.size(); ++i) {
+    const auto [a, b] = graph.edges[i];
+    arcs.push_back({{a, b}, graph.lengths[i]});
+    if (directions == EdgeDirections::both) arcs.push_back({{b, a}, graph.lengths[i]});
+  }
+  std::ranges::sort(arcs, {}, &Arc::ends);
+  EdgeIndex result;
+  result.ends.resize(2 * arcs.size());
+  result.lengths.resize(arcs.size());
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    result.ends[i] = arcs[i].ends[0];
+    result.ends[arcs.size() + i] = arcs[i].ends[1];
+    result.lengths[i] = arcs[i].length;
+  }
+  return result;
+}
+
+}  // namespace rondel

@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/outlines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "readings/face_circles.h"
+#include "rondel/error.h"
+#include "rondel/query.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace {
+
+void require_no_weights(const Triangulation& triangulation) {
+  if (triangulation.model() == Model::weighted) {
+    throw InvalidInput("the circles of weighted faces are not empty", 0);
+  }
+}
+
+// The border of a set of faces, ring by ring.
+class Tracer {
+ public:
+  Tracer(const Triangulation& triangulation, std::span<const std::uint8_t> is_in)
+      : faces_(triangulation.faces()),
+        neighbors_(triangulation.neighbors()),
+        is_in_(is_in),
+        is_done_(3 * faces_.size()),
+        place_(triangulation.num_sites(), no_index) {}
+
+  Outline trace() {
+    std::vector<std::uint8_t> is_found(faces_.size());
+    std::vector<Index> part;
+    for (Index first = 0; first < faces_.size(); ++first) {
+      if (is_in_[first] == 0 || is_found[first] != 0) continue;
+      part.assign(1, first);
+      is_found[first] = 1;
+      for (std::size_t next = 0; next < part.size(); ++next) {
+        for (const Index g : neighbors_[part[next]]) {
+          if (is_in_[g] == 0 || is_found[g] != 0) continue;
+          is_found[g] = 1;
+          part.push_back(g);
+        }
+      }
+      std::ranges::sort(part);
+      append_polygon(part);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  // An edge of a face, opposite to a corner.
+  struct Side {
+    Index face;
+    unsigned corner;
+  };
+
+  [[nodiscard]] Index across(const Side& side) const { return neighbors_[side.face][side.corner]; }
+  [[nodiscard]] bool is_border(const Side& side) const { return is_in_[across(side)] == 0; }
+  [[nodiscard]] Index begin_of(const Side& side) const {
+    return faces_[side.face][(side.corner + 1) % 3];
+  }
+
+  // The next side of the border, around the faces of the set that meet in the end of this one.
+  [[nodiscard]] Side next(Side side) const {
+    const Index end = faces_[side.face][(side.corner + 2) % 3];
+    side.corner = (side.corner + 1) % 3;
+    while (!is_border(side)) {
+      const Index g = across(side);
+      const auto place =
+          static_cast<unsigned>(std::ranges::find(faces_[g], end) - faces_[g].begin());
+      side = {g, (place + 2) % 3};
+    }
+    return side;
+  }
+
+  void append_polygon(std::span<const Index> part) {
+    for (const Index f : part) {
+      for (unsigned i = 0; i < 3; ++i) {
+        const Side side{f, i};
+        if (is_border(side) && is_done_[3 * std::size_t{f} + i] == 0) append_rings(side);
+      }
+    }
+    out_.polygon_offsets.push_back(out_.ring_offsets.size() - 1);
+  }
+
+  // The line along the border falls apart into rings where it comes back to a site.
+  void append_rings(const Side& first) {
+    std::vector<Index> line;
+    Side side = first;
+    do {
+      is_done_[3 * std::size_t{side.face} + side.corner] = 1;
+      const Index site = begin_of(side);
+      if (place_[site] != no_index) {
+        const auto begin = static_cast<std::ptrdiff_t>(place_[site]);
+        append_ring(std::span(line).subspan(place_[site]));
+        line.erase(line.begin() + begin, line.end());
+      }
+      place_[site] = static_cast<Index>(line.size());
+      line.push_back(site);
+      side = next(side);
+    } while (side.face != first.face || side.corner != first.corner);
+    append_ring(line);
+  }
+
+  void append_ring(std::span<const Index> ring) {
+    for (const Index site : ring) place_[site] = no_index;
+    out_.sites.insert(out_.sites.end(), ring.begin(), ring.end());
+    out_.ring_offsets.push_back(out_.sites.size());
+  }
+
+  std::span<const Triple> faces_;
+  std::span<const Triple> neighbors_;
+  std::span<const std::uint8_t> is_in_;
+  std::vector<std::uint8_t> is_done_;  // of the sides
+  std::vector<Index> place_;           // of a site in the line
+  Outline out_;
+};
+
+}  // namespace
+
+Outline hull_polygon(const Triangulation& triangulation) {
+  std::vector<std::uint8_t> is_in(triangulation.num_faces(), 1);
+  for (const Index f : triangulation.ghost_faces()) is_in[f] = 0;
+  return Tracer(triangulation, is_in).trace();
+}
+
+Outline alpha_shape(const Triangulation& triangulation, double radius, const Execution& execution) {
+  const system::Call call(execution);
+  require_no_weights(triangulation);
+  if (!(radius >= 0)) throw InvalidInput("the radius is negative or not a number", 0);
+  const readings::FaceCircles circles = readings::face_circles(triangulation, execution);
+  std::vector<std::uint8_t> is_in(triangulation.num_faces());
+  for (Index f = 0; f < is_in.size(); ++f) {
+    const bool is_small = circles.radii[circles.first_face[f]] <= radius;
+    is_in[f] = static_cast<std::uint8_t>(is_small && !triangulation.is_ghost(f));
+  }
+  return Tracer(triangulation, is_in).trace();
+}
+
+std::vector<EmptyCircle> largest_empty_circles(const Triangulation& triangulation, std::size_t k,
+                                               CircleCenters centers, const Execution& execution) {
+  const system::Call call(execution);
+  require_no_weights(triangulation);
+  std::vector<EmptyCircle> found;
+  if (triangulation.dimension() < 2 || k == 0) return found;
+  const readings::FaceCircles circles = readings::face_circles(triangulation, execution);
+  const bool is_limited = centers == CircleCenters::inside && triangulation.num_ghost_faces() > 0;
+  std::vector<Index> order;
+  for (Index f = 0; f < triangulation.num_faces(); ++f) {
+    if (circles.first_face[f] != f || (is_limited && triangulation.is_ghost(f))) continue;
+    order.push_back(f);
+  }
+  std::ranges::sort(order, [&](Index f, Index g) {
+    return circles.radii[f] != circles.radii[g] ? circles.radii[f] > circles.radii[g] : f < g;
+  });
+  const Locator locator(is_limited ? triangulation : Triangulation());
+  const Point& origin = triangulation.sphere().center;
+  for (const Index f : order) {
+    const Point& u = circles.centers[f];
+    if (is_limited &&
+        locator.locate({origin.x + u.x, origin.y + u.y, origin.z + u.z}).where == Where::outside) {
+      continue;
+    }
+    found.push_back({u, circles.radii[f], triangulation.faces()[f]});
+    if (found.size() == k) break;
+  }
+  return found;
+}
+
+}  // namespace rondel

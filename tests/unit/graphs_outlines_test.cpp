@@ -1,0 +1,207 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Hulls, alpha shapes and empty circles against faces and sites one by one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/outlines.h"
+#include "rondel/predicates.h"
+#include "rondel/query.h"
+#include "support/generators.h"
+
+namespace rondel::test {
+namespace {
+
+using std::numbers::pi;
+using Side = std::array<Index, 2>;
+
+template <class Visit>
+void for_each_case(const Visit& visit) {
+  for (const Generator& generator : generators()) {
+    if (generator.weighted_only || generator.has_long_integers) continue;
+    for (const std::size_t n : {1U, 3U, 9U, 60U}) {
+      SCOPED_TRACE(std::string(generator.name) + " " + std::to_string(n));
+      const SiteSet set = generator.make(n, 5);
+      visit(delaunay(set.sites, {.sphere = set.sphere}));
+    }
+  }
+}
+
+// The sides between a set of faces and the other faces.
+template <class IsIn>
+std::multiset<Side> border_of(const Triangulation& t, const IsIn& is_in) {
+  std::multiset<Side> sides;
+  for (Index f = 0; f < t.num_faces(); ++f) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!is_in(f) || is_in(t.neighbors()[f][i])) continue;
+      sides.insert({t.faces()[f][(i + 1) % 3], t.faces()[f][(i + 2) % 3]});
+    }
+  }
+  return sides;
+}
+
+std::multiset<Side> sides_of(const Outline& outline) {
+  std::multiset<Side> sides;
+  for (std::size_t r = 0; r + 1 < outline.ring_offsets.size(); ++r) {
+    const auto begin = outline.ring_offsets[r];
+    const auto size = outline.ring_offsets[r + 1] - begin;
+    EXPECT_GE(size, 3U);
+    std::set<Index> corners;
+    for (std::size_t i = 0; i < size; ++i) {
+      const Index a = outline.sites[begin + i];
+      EXPECT_TRUE(corners.insert(a).second);
+      sides.insert({a, outline.sites[begin + (i + 1) % size]});
+    }
+  }
+  return sides;
+}
+
+// How many sets of faces that hang together by edges.
+template <class IsIn>
+std::size_t num_parts(const Triangulation& t, const IsIn& is_in) {
+  std::vector<bool> is_found(t.num_faces());
+  std::size_t parts = 0;
+  for (Index first = 0; first < t.num_faces(); ++first) {
+    if (!is_in(first) || is_found[first]) continue;
+    ++parts;
+    std::vector<Index> stack{first};
+    is_found[first] = true;
+    while (!stack.empty()) {
+      const Index f = stack.back();
+      stack.pop_back();
+      for (const Index g : t.neighbors()[f]) {
+        if (!is_in(g) || is_found[g]) continue;
+        is_found[g] = true;
+        stack.push_back(g);
+      }
+    }
+  }
+  return parts;
+}
+
+TEST(hull_polygon, is_the_border_of_the_solid_faces) {
+  for_each_case([](const Triangulation& t) {
+    const Outline hull = hull_polygon(t);
+    EXPECT_EQ(hull.num_polygons(), t.dimension() == 2 ? 1U : 0U);
+    EXPECT_EQ(sides_of(hull), border_of(t, [&](Index f) { return !t.is_ghost(f); }));
+    // To the left of each side, or on its great circle, are all sites: it is convex.
+    for (const Side& side : sides_of(hull)) {
+      for (const Point& p : t.sites().points()) {
+        EXPECT_NE(orientation(t.sites()[side[0]], t.sites()[side[1]], p, t.sphere()),
+                  Sign::negative);
+      }
+    }
+  });
+}
+
+TEST(hull_polygon, is_the_sphere_around_the_center) {
+  const SiteSet set = generator("uniform").make(100, 1);
+  const Outline hull = hull_polygon(delaunay(set.sites));
+  EXPECT_EQ(hull.polygon_offsets, (std::vector<std::uint64_t>{0, 0}));
+  EXPECT_TRUE(hull.sites.empty());
+}
+
+TEST(alpha_shape, is_the_border_of_the_faces_with_small_circles) {
+  for_each_case([](const Triangulation& t) {
+    const std::vector<EmptyCircle> circles =
+        largest_empty_circles(t, t.num_faces(), CircleCenters::anywhere);
+    // Between the radii of two circles.
+    for (std::size_t i = 0; i + 1 < circles.size(); i += 1 + circles.size() / 5) {
+      const double radius = (circles[i].radius + circles[i + 1].radius) / 2;
+      if (!(circles[i + 1].radius <= radius && radius < circles[i].radius)) continue;
+      const auto is_in = [&](Index f) {
+        if (t.is_ghost(f)) return false;
+        const Triple& c = t.faces()[f];
+        // Of one of the larger circles?
+        return std::none_of(circles.begin(), circles.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                            [&](const EmptyCircle& circle) {
+                              const auto& s = circle.sites;
+                              return std::ranges::all_of(c, [&](Index p) {
+                                return side_of_circle(t.sites()[s[0]], t.sites()[s[1]],
+                                                      t.sites()[s[2]], t.sites()[p],
+                                                      Model::projected, t.sphere()) == Sign::zero;
+                              });
+                            });
+      };
+      const Outline shape = alpha_shape(t, radius);
+      EXPECT_EQ(sides_of(shape), border_of(t, is_in));
+      EXPECT_EQ(shape.num_polygons(), num_parts(t, is_in));
+    }
+    const Outline hull = hull_polygon(t);
+    EXPECT_EQ(alpha_shape(t, pi).sites, hull.sites);
+    EXPECT_EQ(alpha_shape(t, std::numeric_limits<double>::infinity()).sites, hull.sites);
+  });
+}
+
+TEST(alpha_shape, has_a_hole_and_meets_itself_in_sites) {
+  // The faces of a bipyramid around a missing pole, and two triangles that share a corner.
+  std::vector<Point> sites;
+  for (int i = 0; i < 12; ++i) {
+    sites.push_back(unit_vector_deg(30 * i, 70));
+    sites.push_back(unit_vector_deg(30 * i + 15, 62));
+  }
+  const Outline ring = alpha_shape(delaunay(sites), 0.18);
+  EXPECT_EQ(ring.num_polygons(), 1U);
+  EXPECT_EQ(ring.ring_offsets.size(), 3U);
+  const std::vector<Point> bow_tie = {unit_vector_deg(0, 0), unit_vector_deg(3, 1),
+                                      unit_vector_deg(3, -1), unit_vector_deg(-3, 1),
+                                      unit_vector_deg(-3, -1)};
+  const Outline two = alpha_shape(delaunay(bow_tie), 0.03);
+  EXPECT_EQ(two.num_polygons(), 2U);
+  EXPECT_EQ(two.sites.size(), 6U);
+}
+
+TEST(alpha_shape, refuses_radii_that_are_none_and_weights) {
+  const std::vector<Point> sites = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}};
+  const Triangulation t = delaunay(sites);
+  EXPECT_THROW((void)alpha_shape(t, -1), InvalidInput);
+  EXPECT_THROW((void)alpha_shape(t, std::nan("")), InvalidInput);
+  const Triangulation weighted = delaunay(sites, {.model = Model::weighted});
+  EXPECT_THROW((void)alpha_shape(weighted, 1), InvalidInput);
+  EXPECT_THROW((void)largest_empty_circles(weighted, 1), InvalidInput);
+}
+
+TEST(empty_circles, touch_their_sites_and_have_none_inside) {
+  for_each_case([](const Triangulation& t) {
+    const auto circles = largest_empty_circles(t, t.num_faces(), CircleCenters::anywhere);
+    const Locator locator(t);
+    const Point o = t.sphere().center;
+    if (std::hypot(o.x, o.y, o.z) > 1) return;  // the centers' rays are rounded
+    for (const EmptyCircle& circle : circles) {
+      const Point p{o.x + circle.center.x, o.y + circle.center.y, o.z + circle.center.z};
+      EXPECT_NEAR(locator.distance(p, circle.sites[0]), circle.radius, 1e-13);
+      EXPECT_NEAR(locator.distance(p, locator.nearest(p)), circle.radius, 1e-13);
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(circles, std::ranges::greater{}, &EmptyCircle::radius));
+  });
+}
+
+TEST(empty_circles, of_a_cube_are_six_and_those_inside_a_hull_less) {
+  std::vector<Point> cube;
+  for (int i = 0; i < 8; ++i)
+    cube.push_back({i & 1 ? 1. : -1., i & 2 ? 1. : -1., i & 4 ? 1. : -1.});
+  const auto circles = largest_empty_circles(delaunay(cube), 100);
+  ASSERT_EQ(circles.size(), 6U);
+  EXPECT_NEAR(circles[0].radius, std::acos(1 / std::sqrt(3)), 1e-15);
+  EXPECT_EQ(largest_empty_circles(delaunay(cube), 2).size(), 2U);
+  // The center of a triangle with an obtuse angle is outside of it.
+  const Triangulation obtuse = delaunay(
+      std::vector<Point>{unit_vector_deg(0, 0), unit_vector_deg(10, 0), unit_vector_deg(5, 1)});
+  EXPECT_TRUE(largest_empty_circles(obtuse, 5).empty());
+  ASSERT_EQ(largest_empty_circles(obtuse, 5, CircleCenters::anywhere).size(), 1U);
+  EXPECT_GT(largest_empty_circles(obtuse, 5, CircleCenters::anywhere)[0].radius, pi / 2);
+}
+
+}  // namespace
+}  // namespace rondel::test
