@@ -34,7 +34,7 @@ std::optional<GraphKind> graph_kind(const std::string& name) {
   return std::nullopt;
 }
 
-std::string kind_error(const std::string& name) {
+std::string reading_error(const std::string& name) {
   if (graph_kind(name) || name == "hull" || name == "alpha" || name == "circles") return {};
   return "'" + name + "' is not a choice";
 }
@@ -114,7 +114,7 @@ Command add_graph_command(CLI::App& tool) {
       ->add_option("--kind", options->kind,
                    "delaunay, urquhart, gabriel, relative, mst, hull, alpha or circles")
       ->required()
-      ->check(kind_error)
+      ->check(reading_error)
       ->type_name("WORD");
   parser
       ->add_option("--radius-deg", options->radius_deg,

@@ -58,6 +58,7 @@ NB_MODULE(_core, module) {
   rondel::python::add_dynamic(module);
   rondel::python::add_files(module);
   rondel::python::add_globe(module);
+  rondel::python::add_graphs(module);
   rondel::python::add_interpolation(module);
   rondel::python::add_out_of_core(module);
   rondel::python::add_distributed(module);

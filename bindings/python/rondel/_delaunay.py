@@ -22,6 +22,7 @@ from ._arrays import (
     lonlat,
 )
 from ._diagram import Diagram
+from ._graphs import Graphs
 from ._mesh import Mesh
 from ._queries import Queries
 from ._types import ArrayLike, FloatArray, IntArray, Model, Progress
@@ -50,7 +51,7 @@ class CheckReport(NamedTuple):
         return self.is_valid
 
 
-class SphericalDelaunay(Mesh, Queries, VectorInterpolation):
+class SphericalDelaunay(Mesh, Queries, VectorInterpolation, Graphs):
     """The Delaunay or regular triangulation of points on or close to a sphere.
 
     Exact for every finite input, and unique: it depends on the set of points alone, not on their
