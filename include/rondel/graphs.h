@@ -16,7 +16,7 @@
 
 namespace rondel {
 
-/// Each has the edges of those below it. |ab| is the angle between the rays of two sites.
+/// spanning_tree is part of relative, relative of gabriel and of urquhart, all of delaunay. |ab| is the angle between the rays of two sites.
 enum class GraphKind : std::uint8_t {
   delaunay,  ///< the edges of solid faces
   urquhart,  ///< of these, all but those longer than both other edges of one of their solid faces

@@ -26,15 +26,15 @@ using Edge = std::array<Index, 2>;
 constexpr std::size_t edges_per_piece = 1024;
 
 // An edge and the corners across it, no_index where there is no solid face.
-struct Candidate {
+struct NearPair {
   Edge edge{};
   std::array<Index, 2> across = {no_index, no_index};
 };
 
-std::vector<Candidate> face_candidates(const Triangulation& triangulation) {
+std::vector<NearPair> face_candidates(const Triangulation& triangulation) {
   const auto faces = triangulation.faces();
   const auto neighbors = triangulation.neighbors();
-  std::vector<Candidate> found;
+  std::vector<NearPair> found;
   found.reserve(3 * faces.size() / 2);
   for (Index f = 0; f < faces.size(); ++f) {
     if (triangulation.is_ghost(f)) continue;
@@ -44,7 +44,7 @@ std::vector<Candidate> face_candidates(const Triangulation& triangulation) {
       const Index a = faces[f][(i + 1) % 3];
       const Index b = faces[f][(i + 2) % 3];
       if (is_shared && b < a) continue;
-      Candidate candidate{{std::min(a, b), std::max(a, b)}, {faces[f][i], no_index}};
+      NearPair candidate{{std::min(a, b), std::max(a, b)}, {faces[f][i], no_index}};
       if (is_shared) {
         for (const Index c : faces[g]) {
           if (c != a && c != b) candidate.across[1] = c;
@@ -58,9 +58,9 @@ std::vector<Candidate> face_candidates(const Triangulation& triangulation) {
 
 // The arcs around a great circle whose points are all at less than 180 degrees: the cap of such an arc
 // has no other vertex.
-std::vector<Candidate> ring_candidates(const Triangulation& triangulation, const Chords& chords) {
+std::vector<NearPair> ring_candidates(const Triangulation& triangulation, const Chords& chords) {
   const auto ring = triangulation.ring();
-  std::vector<Candidate> found;
+  std::vector<NearPair> found;
   const std::size_t count = ring.size() < 3 ? ring.size() / 2 : ring.size();
   for (std::size_t j = 0; j < count; ++j) {
     const Index a = ring[j];
@@ -74,7 +74,7 @@ std::vector<Candidate> ring_candidates(const Triangulation& triangulation, const
 
 // Of each candidate whether it stays; those that do not are erased.
 template <class Stays>
-void keep_if(std::vector<Candidate>& candidates, const Execution& execution, const Stays& stays) {
+void keep_if(std::vector<NearPair>& candidates, const Execution& execution, const Stays& stays) {
   std::vector<std::uint8_t> is_kept(candidates.size());
   system::parallel_for(execution.threads, candidates.size(), edges_per_piece,
                        [&](std::size_t begin, std::size_t end) {
@@ -89,14 +89,14 @@ void keep_if(std::vector<Candidate>& candidates, const Execution& execution, con
 }
 
 // Whether a corner across keeps the edge from being the longest one of its face.
-bool is_in_urquhart(const Chords& chords, const Candidate& candidate) {
+bool is_in_urquhart(const Chords& chords, const NearPair& candidate) {
   const auto [a, b] = candidate.edge;
   return std::ranges::none_of(candidate.across, [&, a = a, b = b](Index c) {
     return c != no_index && chords.is_shorter(a, c, a, b) && chords.is_shorter(b, c, a, b);
   });
 }
 
-bool is_in_gabriel(const Chords& chords, const Candidate& candidate) {
+bool is_in_gabriel(const Chords& chords, const NearPair& candidate) {
   const auto [a, b] = candidate.edge;
   return std::ranges::none_of(candidate.across, [&, a = a, b = b](Index c) {
     return c != no_index && chords.is_in_cap(a, b, c);
@@ -206,14 +206,14 @@ class Components {
 };
 
 // Kruskal's tree of some candidates that have it.
-void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<Candidate>& candidates) {
+void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<NearPair>& candidates) {
   struct Keyed {
     exact::DoubleDouble square;
-    Candidate candidate;
+    NearPair candidate;
   };
   std::vector<Keyed> keyed;
   keyed.reserve(candidates.size());
-  for (const Candidate& c : candidates) {
+  for (const NearPair& c : candidates) {
     keyed.push_back({chords.squared(c.edge[0], c.edge[1]), c});
   }
   std::ranges::sort(keyed, [&](const Keyed& x, const Keyed& y) {
@@ -232,19 +232,19 @@ void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<Candidat
 }
 
 void keep_kind(const Triangulation& triangulation, const Chords& chords, GraphKind kind,
-               std::vector<Candidate>& candidates, const Execution& execution) {
+               std::vector<NearPair>& candidates, const Execution& execution) {
   if (kind == GraphKind::delaunay) return;
   if (kind == GraphKind::gabriel) {
     keep_if(candidates, execution,
-            [&] { return [&](const Candidate& c) { return is_in_gabriel(chords, c); }; });
+            [&] { return [&](const NearPair& c) { return is_in_gabriel(chords, c); }; });
     return;
   }
   keep_if(candidates, execution,
-          [&] { return [&](const Candidate& c) { return is_in_urquhart(chords, c); }; });
+          [&] { return [&](const NearPair& c) { return is_in_urquhart(chords, c); }; });
   if (kind == GraphKind::relative) {
     const Adjacency adjacency(triangulation.num_sites(), edges(triangulation));
     keep_if(candidates, execution, [&] {
-      return [search = LuneSearch(chords, adjacency)](const Candidate& c) mutable {
+      return [search = LuneSearch(chords, adjacency)](const NearPair& c) mutable {
         return search.is_empty(c.edge);
       };
     });
@@ -261,11 +261,11 @@ SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
     throw InvalidInput("weighted sites have no graphs of distances", 0);
   }
   const Chords chords(triangulation, execution);
-  std::vector<Candidate> candidates = triangulation.dimension() < 2
-                                          ? ring_candidates(triangulation, chords)
-                                          : face_candidates(triangulation);
+  std::vector<NearPair> candidates = triangulation.dimension() < 2
+                                         ? ring_candidates(triangulation, chords)
+                                         : face_candidates(triangulation);
   keep_kind(triangulation, chords, kind, candidates, execution);
-  std::ranges::sort(candidates, {}, &Candidate::edge);
+  std::ranges::sort(candidates, {}, &NearPair::edge);
   SiteGraph graph;
   graph.edges.resize(candidates.size());
   graph.lengths.resize(candidates.size());

@@ -53,19 +53,21 @@ class Tracer {
 
  private:
   // An edge of a face, opposite to a corner.
-  struct Side {
+  struct FaceSide {
     Index face;
     unsigned corner;
   };
 
-  [[nodiscard]] Index across(const Side& side) const { return neighbors_[side.face][side.corner]; }
-  [[nodiscard]] bool is_border(const Side& side) const { return is_in_[across(side)] == 0; }
-  [[nodiscard]] Index begin_of(const Side& side) const {
+  [[nodiscard]] Index across(const FaceSide& side) const {
+    return neighbors_[side.face][side.corner];
+  }
+  [[nodiscard]] bool is_border(const FaceSide& side) const { return is_in_[across(side)] == 0; }
+  [[nodiscard]] Index begin_of(const FaceSide& side) const {
     return faces_[side.face][(side.corner + 1) % 3];
   }
 
   // The next side of the border, around the faces of the set that meet in the end of this one.
-  [[nodiscard]] Side next(Side side) const {
+  [[nodiscard]] FaceSide next(FaceSide side) const {
     const Index end = faces_[side.face][(side.corner + 2) % 3];
     side.corner = (side.corner + 1) % 3;
     while (!is_border(side)) {
@@ -80,7 +82,7 @@ class Tracer {
   void append_polygon(std::span<const Index> part) {
     for (const Index f : part) {
       for (unsigned i = 0; i < 3; ++i) {
-        const Side side{f, i};
+        const FaceSide side{f, i};
         if (is_border(side) && is_done_[3 * std::size_t{f} + i] == 0) append_rings(side);
       }
     }
@@ -88,9 +90,9 @@ class Tracer {
   }
 
   // The line along the border falls apart into rings where it comes back to a site.
-  void append_rings(const Side& first) {
+  void append_rings(const FaceSide& first) {
     std::vector<Index> line;
-    Side side = first;
+    FaceSide side = first;
     do {
       is_done_[3 * std::size_t{side.face} + side.corner] = 1;
       const Index site = begin_of(side);

@@ -39,6 +39,7 @@ def test_docstrings(name):
     [
         "docs/guide/python.md",
         "docs/guide/contours.md",
+        "docs/guide/graphs.md",
         "docs/guide/interpolation.md",
         "docs/guide/distributed.md",
         "docs/guide/scaling.md",
