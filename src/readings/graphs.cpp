@@ -8,7 +8,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <numeric>
-#include <string>
+#include <span>
+#include <utility>
 
 #include "query/visited.h"
 #include "readings/chords.h"
@@ -252,6 +253,22 @@ void keep_kind(const Triangulation& triangulation, const Chords& chords, GraphKi
   if (kind == GraphKind::spanning_tree) keep_tree(chords, triangulation.num_sites(), candidates);
 }
 
+// One counting sort by the lower end, then the few edges of each site.
+void sort_by_edge(std::size_t num_sites, std::vector<NearPair>& candidates) {
+  std::vector<std::size_t> ends(num_sites + 1);
+  for (const NearPair& c : candidates) ++ends[c.edge[0] + 1];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<NearPair> sorted(candidates.size());
+  // ends[a] moves from the first place of a's edges to the first place after them.
+  for (const NearPair& c : candidates) sorted[ends[c.edge[0]]++] = c;
+  std::size_t begin = 0;
+  for (const std::size_t end : ends) {
+    std::ranges::sort(std::span(sorted).subspan(begin, end - begin), {}, &NearPair::edge);
+    begin = end;
+  }
+  candidates = std::move(sorted);
+}
+
 }  // namespace
 
 SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
@@ -265,7 +282,7 @@ SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
                                          ? ring_candidates(triangulation, chords)
                                          : face_candidates(triangulation);
   keep_kind(triangulation, chords, kind, candidates, execution);
-  std::ranges::sort(candidates, {}, &NearPair::edge);
+  sort_by_edge(triangulation.num_sites(), candidates);
   SiteGraph graph;
   graph.edges.resize(candidates.size());
   graph.lengths.resize(candidates.size());
