@@ -18,7 +18,9 @@ CHORDS = scipy.spatial.distance.squareform(scipy.spatial.distance.pdist(SITES))
 def test_the_tree_is_as_long_as_that_of_all_pairs():
     tree = scipy.sparse.csgraph.minimum_spanning_tree(CHORDS)
     edges, lengths = TRI.graph("mst")
-    assert sorted(map(tuple, np.sort(np.transpose(tree.nonzero()), axis=1))) == list(map(tuple, edges))
+    assert sorted(map(tuple, np.sort(np.transpose(tree.nonzero()), axis=1))) == list(
+        map(tuple, edges)
+    )
     assert lengths == pytest.approx(2 * np.arcsin(CHORDS[edges[:, 0], edges[:, 1]] / 2), rel=1e-12)
 
 
@@ -29,7 +31,9 @@ def test_edges_are_those_of_all_pairs(kind):
         for b in range(a + 1, 80):
             others = [c for c in range(80) if c not in (a, b)]
             if kind == "gabriel":
-                taken = any(CHORDS[a, c] ** 2 + CHORDS[b, c] ** 2 <= CHORDS[a, b] ** 2 for c in others)
+                taken = any(
+                    CHORDS[a, c] ** 2 + CHORDS[b, c] ** 2 <= CHORDS[a, b] ** 2 for c in others
+                )
             else:
                 taken = any(max(CHORDS[a, c], CHORDS[b, c]) < CHORDS[a, b] for c in others)
             if not taken:
