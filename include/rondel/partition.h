@@ -15,11 +15,13 @@
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel::overlay {
-class PartitionData;
-}  // namespace rondel::overlay
-
 namespace rondel {
+
+class Partition;
+namespace overlay {
+class PartitionData;
+const PartitionData& data_of(const Partition& partition);
+}  // namespace overlay
 
 /// Cells, prepared once to be laid over others. Copies share the memory; any thread may read.
 class RONDEL_API Partition {
@@ -42,10 +44,8 @@ class RONDEL_API Partition {
   /// edges. Of two partitions that are laid over each other, one must.
   [[nodiscard]] bool is_cover() const;
 
-  /// For the library.
-  [[nodiscard]] const overlay::PartitionData& data() const { return *data_; }
-
  private:
+  friend const overlay::PartitionData& overlay::data_of(const Partition& partition);
   explicit Partition(std::shared_ptr<const overlay::PartitionData> data);
   std::shared_ptr<const overlay::PartitionData> data_;
 };

@@ -65,7 +65,7 @@ bool CubicKernel::weigh(const Row& flat, SlopeRow& row) {
     const std::span others(row.data(), size);
     // In triangulations of few sites a vertex may be opposite to several edges.
     const auto known = std::ranges::find(others, vertices_[k], &SlopeShare::vertex);
-    SlopeShare& share = row[known - others.begin()];
+    SlopeShare& share = row[static_cast<std::size_t>(known - others.begin())];
     if (known == others.end()) {
       share = {vertices_[k], 0, {}};
       ++size;

@@ -36,7 +36,7 @@ Sign crossing_order(const Point& y, const Point& z, const Point& p, const Point&
 
 }  // namespace
 
-std::span<const Arc> ArcMaker::operator()(Index cell) {
+std::span<const PieceArc> ArcMaker::operator()(Index cell) {
   arcs_.clear();
   passages_.clear();
   arrivals_.clear();

@@ -21,7 +21,7 @@
 namespace rondel::overlay {
 
 // From one point to another along a great circle, with the piece to the left.
-struct Arc {
+struct PieceArc {
   Index beyond;  // the cell of the cover
   Point from;
   Point to;
@@ -35,7 +35,7 @@ class ArcMaker {
 
   // All arcs of a cell that has a ring: first those of its boundary, in order. The result lives until the
   // next call.
-  std::span<const Arc> operator()(Index cell);
+  std::span<const PieceArc> operator()(Index cell);
 
  private:
   // Where the boundary leaves a cell of the cover.
@@ -58,7 +58,7 @@ class ArcMaker {
   const Subdivision& cells_;
   const Subdivision& cover_;
   const Crossings& crossings_;
-  std::vector<Arc> arcs_;
+  std::vector<PieceArc> arcs_;
   std::vector<Passage> passages_;
   std::vector<Halfedge> arrivals_;  // their ends are inside, and wait
   query::VisitedSet visited_;       // points of the cover

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -14,6 +15,7 @@
 #include "overlay/partition_data.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
+#include "rondel/predicates.h"
 #include "system/job.h"
 #include "system/parallel.h"
 
@@ -45,7 +47,13 @@ PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned thre
   };
   system::parallel_for(threads, subdivision_.num_cells(), cells_per_piece, measure);
   if (whole != no_index) areas_[whole] = 4 * std::numbers::pi;
+  // Cells that turn counterclockwise and close around all edges cover the sphere once or several times.
+  const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
+  is_cover_ = whole != no_index ||
+              (subdivision_.is_closed && std::abs(total - 4 * std::numbers::pi) < std::numbers::pi);
 }
+
+const PartitionData& data_of(const Partition& partition) { return *partition.data_; }
 
 }  // namespace overlay
 
@@ -78,6 +86,13 @@ std::vector<Point> directions(const Triangulation& triangulation) {
   throw InvalidInput("cell " + std::to_string(cell) + " " + what, cell);
 }
 
+bool is_arc(const Point& p, const Point& q) {
+  constexpr double surely = 1e-20;
+  const Point normal = cross(p, q - p);
+  return dot(normal, normal) > surely ||
+         (!is_same_site(p, q) && !is_same_site(p, Point{-q.x, -q.y, -q.z}));
+}
+
 void validate(const CellRings& cells) {
   const auto is_sound = [](const std::vector<std::uint64_t>& offsets, std::size_t size) {
     return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
@@ -98,6 +113,12 @@ void validate(const CellRings& cells) {
         constexpr double most = 1e-12;
         if (!(std::abs(dot(cells.points[p], cells.points[p]) - 1) <= most)) {
           refuse(i, "has a corner that is no unit vector");
+        }
+      }
+      for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+        const std::uint64_t next = k + 1 < cells.rings[r + 1] ? k + 1 : cells.rings[r];
+        if (!is_arc(cells.points[cells.corners[k]], cells.points[cells.corners[next]])) {
+          refuse(i, "has a side of 0 or 180 degrees");
         }
       }
     }

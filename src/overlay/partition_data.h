@@ -18,7 +18,7 @@ class PartitionData {
   [[nodiscard]] const Subdivision& subdivision() const { return subdivision_; }
   // The cell that is the whole sphere; no_index: none is.
   [[nodiscard]] Index whole() const { return whole_; }
-  [[nodiscard]] bool is_cover() const { return whole_ != no_index || subdivision_.is_cover; }
+  [[nodiscard]] bool is_cover() const { return is_cover_; }
   // By name.
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
   [[nodiscard]] const std::vector<Point>& moments() const { return moments_; }
@@ -26,6 +26,7 @@ class PartitionData {
  private:
   Subdivision subdivision_;
   Index whole_;
+  bool is_cover_ = false;
   std::vector<double> areas_;
   std::vector<Point> moments_;
 };

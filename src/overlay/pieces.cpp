@@ -41,7 +41,7 @@ class PieceMaker {
   // Of a cell that has a ring, in the order of the columns.
   std::span<const MeasuredPiece> operator()(Index cell) {
     pieces_.clear();
-    const std::span<const Arc> arcs = arcs_(cell);
+    const std::span<const PieceArc> arcs = arcs_(cell);
     add(arcs);
     for (MeasuredPiece& piece : pieces_) {
       if (piece.is_large) measure_large(arcs, piece);
@@ -53,21 +53,21 @@ class PieceMaker {
   }
 
  private:
-  void add(std::span<const Arc> arcs) {
+  void add(std::span<const PieceArc> arcs) {
     constexpr std::size_t many = 128;
     if (arcs.size() > many) {
       sorted_.assign(arcs.begin(), arcs.end());
-      std::ranges::stable_sort(sorted_, {}, &Arc::beyond);
+      std::ranges::stable_sort(sorted_, {}, &PieceArc::beyond);
       arcs = sorted_;
     }
     std::size_t last = 0;
-    for (const Arc& arc : arcs) {
+    for (const PieceArc& arc : arcs) {
       if (pieces_.empty() || pieces_[last].beyond != arc.beyond)
         last = find(arc, arcs.size() > many);
       add(arc, pieces_[last]);
     }
   }
-  std::size_t find(const Arc& arc, bool is_sorted) {
+  std::size_t find(const PieceArc& arc, bool is_sorted) {
     if (!is_sorted) {
       for (std::size_t k = 0; k < pieces_.size(); ++k) {
         if (pieces_[k].beyond == arc.beyond) return k;
@@ -76,7 +76,7 @@ class PieceMaker {
     pieces_.push_back({arc.beyond, arc.from});
     return pieces_.size() - 1;
   }
-  void add(const Arc& arc, MeasuredPiece& piece) const {
+  void add(const PieceArc& arc, MeasuredPiece& piece) const {
     piece.is_large |= is_far(piece.origin, arc.from);
     if (arc.from != piece.origin && arc.to != piece.origin) {
       piece.area += triangle_area(piece.origin, arc.from, arc.to);
@@ -96,9 +96,9 @@ class PieceMaker {
     }
   }
 
-  void measure_large(std::span<const Arc> arcs, MeasuredPiece& piece) {
+  void measure_large(std::span<const PieceArc> arcs, MeasuredPiece& piece) {
     border_.clear();
-    for (const Arc& arc : arcs) {
+    for (const PieceArc& arc : arcs) {
       if (arc.beyond == piece.beyond) border_.push_back({arc.from, arc.to});
     }
     piece.area = measures_of(border_).area;
@@ -107,7 +107,7 @@ class PieceMaker {
   const Subdivision& cover_;
   ArcMaker arcs_;
   bool has_moments_;
-  std::vector<Arc> sorted_;
+  std::vector<PieceArc> sorted_;
   std::vector<BorderArc> border_;
   std::vector<MeasuredPiece> pieces_;
 };

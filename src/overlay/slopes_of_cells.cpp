@@ -43,7 +43,7 @@ CellGradients cell_gradients(const Subdivision& cells, std::span<const Point> ce
       if (twin != no_index) neighbors.push_back(cells.names[cells.cell_of[twin]]);
     }
     std::ranges::sort(neighbors);
-    neighbors.erase(std::ranges::unique(neighbors).begin(), neighbors.end());
+    neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
     std::erase(neighbors, cells.names[c]);
     return neighbors;
   };

@@ -286,8 +286,8 @@ void Subdivision::find_shapes(unsigned threads) {
                            shapes[c] = shape_of(static_cast<Index>(c));
                          }
                        });
-  is_cover = !corners.empty() && std::ranges::find(twins, no_index) == twins.end() &&
-             std::ranges::find(shapes, Shape::other) == shapes.end();
+  is_closed = !corners.empty() && std::ranges::find(twins, no_index) == twins.end() &&
+              std::ranges::find(shapes, Shape::other) == shapes.end();
 }
 
 }  // namespace rondel::overlay

@@ -43,7 +43,7 @@ struct Subdivision {
   std::vector<Point> centers;       // of mass
   LargeVector<Index> names;         // the index of each cell in the input
   std::vector<std::uint64_t> keys;  // of the cells, increasing: their places along the curve
-  bool is_cover = false;            // every halfedge has a twin, every cell is convex or a star
+  bool is_closed = false;           // every halfedge has a twin, every cell is convex or a star
 
   [[nodiscard]] std::size_t num_cells() const { return names.size(); }
   [[nodiscard]] std::size_t num_halfedges() const { return corners.size(); }
