@@ -15,13 +15,11 @@
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 
-namespace rondel {
-
-class Partition;
-namespace overlay {
+namespace rondel::overlay {
 class PartitionData;
-const PartitionData& data_of(const Partition& partition);
-}  // namespace overlay
+}  // namespace rondel::overlay
+
+namespace rondel {
 
 /// Cells, prepared once to be laid over others. Copies share the memory; any thread may read.
 class RONDEL_API Partition {
@@ -45,7 +43,7 @@ class RONDEL_API Partition {
   [[nodiscard]] bool is_cover() const;
 
  private:
-  friend const overlay::PartitionData& overlay::data_of(const Partition& partition);
+  friend class overlay::PartitionData;
   explicit Partition(std::shared_ptr<const overlay::PartitionData> data);
   std::shared_ptr<const overlay::PartitionData> data_;
 };

@@ -53,8 +53,6 @@ PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned thre
               (subdivision_.is_closed && std::abs(total - 4 * std::numbers::pi) < std::numbers::pi);
 }
 
-const PartitionData& data_of(const Partition& partition) { return *partition.data_; }
-
 }  // namespace overlay
 
 namespace {

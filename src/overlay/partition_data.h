@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "overlay/subdivision.h"
+#include "rondel/partition.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -14,6 +15,10 @@ namespace rondel::overlay {
 class PartitionData {
  public:
   PartitionData(Subdivision subdivision, Index whole, unsigned threads);
+
+  [[nodiscard]] static const PartitionData& of(const Partition& partition) {
+    return *partition.data_;
+  }
 
   [[nodiscard]] const Subdivision& subdivision() const { return subdivision_; }
   // The cell that is the whole sphere; no_index: none is.

@@ -19,7 +19,6 @@
 namespace rondel {
 namespace {
 
-using overlay::data_of;
 using overlay::PartitionData;
 using overlay::PieceRows;
 
@@ -141,8 +140,8 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
   if (options.order != 1 && options.order != 2) {
     throw InvalidInput("the order is " + std::to_string(options.order) + ", not 1 or 2", 0);
   }
-  const PartitionData& sources = data_of(source);
-  const PartitionData& targets = data_of(target);
+  const PartitionData& sources = PartitionData::of(source);
+  const PartitionData& targets = PartitionData::of(target);
   const bool is_second = options.order == 2;
   const PieceRows pieces = overlay_of(sources, targets, is_second, execution);
   Remap result;

@@ -70,9 +70,12 @@ void test_diagrams(const Partition& source, const Partition& target) {
   }
   const Remap same = remap(source, source, covered);
   for (std::size_t j = 0; j < source.num_cells(); ++j) {
-    if (same.offsets[j] == same.offsets[j + 1]) continue;
-    require(same.offsets[j + 1] - same.offsets[j] == 1 && same.columns[same.offsets[j]] == j,
-            "a partition onto itself is the identity");
+    if (!(source.areas()[j] > 1e-24)) continue;  // no wider than rounding
+    double others = 0;  // where edges are as good as parallel, more than rounding of corners
+    for (auto k = same.offsets[j]; k < same.offsets[j + 1]; ++k) {
+      if (same.columns[k] != j) others += same.areas[k];
+    }
+    require(others < 1e-14, "a partition onto itself is the identity");
   }
 }
 
