@@ -46,10 +46,10 @@ void run(std::size_t n, unsigned threads, std::uint64_t seed) {
     if (size == 0) std::abort();
   }
   const auto edges = static_cast<double>(3 * n - 6);
-  std::printf("{\"sites\": %zu, \"threads\": %u, \"ns_per_edge\": {", n, threads);
+  std::printf(R"({"sites": %zu, "threads": %u, "ns_per_edge": {)", n, threads);
   const char* comma = "";
   const auto print = [&](const char* name, std::vector<double> times) {
-    std::printf("%s\"%s\": %.1f", comma, name,
+    std::printf(R"(%s"%s": %.1f)", comma, name,
                 rondel::bench::median(std::move(times)) / edges * 1e9);
     comma = ", ";
   };

@@ -68,49 +68,22 @@ Point center_of(const CellRings& input, std::size_t cell) {
   return moment == Point{} ? first : normalized(moment);
 }
 
-}  // namespace
-
-Subdivision::Subdivision(const CellRings& input, bool is_rounded, unsigned threads) {
-  order(input, threads);
-  if (is_rounded) merge_disordered();
-  find_twins();
-  find_shapes(threads);
+// Of a ring, the position of its corner with the least coordinates.
+std::size_t least_corner(const CellRings& input, std::uint64_t ring) {
+  const auto begin = input.corners.begin() + static_cast<std::ptrdiff_t>(input.rings[ring]);
+  const auto end = input.corners.begin() + static_cast<std::ptrdiff_t>(input.rings[ring + 1]);
+  const auto least = std::ranges::min_element(
+      begin, end, {}, [&](Index p) { return coordinates(input.points[p]); });
+  return static_cast<std::size_t>(least - input.corners.begin());
 }
 
-// Rings begin at their corner with the least coordinates, and cells with one key follow their first
-// corners, so that nothing depends on the order of the input but `names`.
-void Subdivision::order(const CellRings& input, unsigned threads) {
-  const std::size_t n = input.num_cells();
-  std::vector<Point> places(n);
-  std::vector<Index> first(n, no_index);  // a position in the input's corners
-  const auto least_corner = [&](std::uint64_t ring) {
-    const auto begin = input.corners.begin() + static_cast<std::ptrdiff_t>(input.rings[ring]);
-    const auto end = input.corners.begin() + static_cast<std::ptrdiff_t>(input.rings[ring + 1]);
-    const auto least = std::ranges::min_element(
-        begin, end, {}, [&](Index p) { return coordinates(input.points[p]); });
-    return static_cast<std::size_t>(least - input.corners.begin());
-  };
-  system::parallel_for(threads, n, cells_per_piece, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (input.cells[i] < input.cells[i + 1]) {
-        first[i] = static_cast<Index>(least_corner(input.cells[i]));
-      }
-      places[i] = center_of(input, i);
-    }
-  });
-  order::KeyedIndices sorted;
-  sorted.keys.resize(n);
-  sorted.indices.resize(n);
-  std::iota(sorted.indices.begin(), sorted.indices.end(), Index{0});
-  system::parallel_for(threads, n, cells_per_piece, [&](std::size_t begin, std::size_t end) {
-    order::place_keys(std::span(places).subspan(begin, end - begin), Model::projected, {},
-                      std::span(sorted.keys).subspan(begin, end - begin));
-  });
-  order::radix_sort(sorted, order::high_key_bits);
+// Sorts the cells of each key by their first corners.
+void sort_equals(const CellRings& input, order::KeyedIndices& sorted) {
   const auto first_coordinates = [&](Index i) {
-    return first[i] == no_index ? std::tuple(2.0, 0.0, 0.0)
-                                : coordinates(input.points[input.corners[first[i]]]);
+    if (input.cells[i] == input.cells[i + 1]) return std::tuple(2.0, 0.0, 0.0);
+    return coordinates(input.points[input.corners[least_corner(input, input.cells[i])]]);
   };
+  const std::size_t n = sorted.keys.size();
   for (std::size_t i = 0; i < n;) {
     std::size_t end = i + 1;
     while (end < n && sorted.keys[end] == sorted.keys[i]) ++end;
@@ -121,22 +94,53 @@ void Subdivision::order(const CellRings& input, unsigned threads) {
     }
     i = end;
   }
+}
+
+}  // namespace
+
+Subdivision::Subdivision(const CellRings& input, bool is_rounded, unsigned threads) {
+  sort_cells(input, threads);
+  take_rings(input);
+  if (is_rounded) merge_disordered();
+  find_twins();
+  find_shapes(threads);
+}
+
+void Subdivision::sort_cells(const CellRings& input, unsigned threads) {
+  const std::size_t n = input.num_cells();
+  order::KeyedIndices sorted;
+  sorted.keys.resize(n);
+  sorted.indices.resize(n);
+  std::iota(sorted.indices.begin(), sorted.indices.end(), Index{0});
+  std::vector<Point> places(n);
+  system::parallel_for(threads, n, cells_per_piece, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) places[i] = center_of(input, i);
+    order::place_keys(std::span(places).subspan(begin, end - begin), Model::projected, {},
+                      std::span(sorted.keys).subspan(begin, end - begin));
+  });
+  order::radix_sort(sorted, order::high_key_bits);
+  sort_equals(input, sorted);
   keys = std::move(sorted.keys);
   names.assign(sorted.indices.begin(), sorted.indices.end());
+  centers.reserve(n);
+  for (const Index i : names) centers.push_back(places[i]);
+}
 
+// Rings begin at their corner with the least coordinates, so that nothing depends on the order of the
+// input but `names`.
+void Subdivision::take_rings(const CellRings& input) {
   std::vector<Index> new_points(input.points.size(), no_index);
-  cells.reserve(n + 1);
+  cells.reserve(num_cells() + 1);
   cells.push_back(0);
   rings.push_back(0);
   corners.reserve(input.corners.size());
   cell_of.reserve(input.corners.size());
-  centers.reserve(n);
-  for (std::size_t c = 0; c < n; ++c) {
+  for (std::size_t c = 0; c < num_cells(); ++c) {
     const Index i = names[c];
     for (std::uint64_t r = input.cells[i]; r < input.cells[i + 1]; ++r) {
       const std::size_t begin = input.rings[r];
       const std::size_t size = input.rings[r + 1] - begin;
-      const std::size_t start = r == input.cells[i] ? first[i] : least_corner(r);
+      const std::size_t start = least_corner(input, r);
       for (std::size_t k = 0; k < size; ++k) {
         const Index p = input.corners[begin + (start - begin + k) % size];
         if (new_points[p] == no_index) {
@@ -149,7 +153,6 @@ void Subdivision::order(const CellRings& input, unsigned threads) {
       rings.push_back(static_cast<Index>(corners.size()));
     }
     cells.push_back(static_cast<Index>(rings.size() - 1));
-    centers.push_back(places[i]);
   }
 }
 

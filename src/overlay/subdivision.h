@@ -31,7 +31,7 @@ enum class Shape : std::uint8_t {
 
 struct Subdivision {
   // `is_rounded`: corners may have been brought into the wrong order by rounding, and are made one then.
-  Subdivision(const CellRings& cells, bool is_rounded, unsigned threads);
+  Subdivision(const CellRings& input, bool is_rounded, unsigned threads);
 
   std::vector<Point> points;  // in the order of their first use
   LargeVector<Index> cells;   // cell i has the rings cells[i] ... cells[i+1]-1
@@ -63,7 +63,8 @@ struct Subdivision {
   [[nodiscard]] const Point& end(Halfedge h) const { return origin(next(h)); }
 
  private:
-  void order(const CellRings& input, unsigned threads);
+  void sort_cells(const CellRings& input, unsigned threads);
+  void take_rings(const CellRings& input);
   void merge_disordered();
   void take_merged(std::span<const Index> merged);
   void find_twins();
