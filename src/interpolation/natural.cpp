@@ -120,8 +120,14 @@ void NaturalKernel::add_shares(Row& row) const {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     if (shares_[i] > 0) row.push_back({ring[i], shares_[i] / sum});
   }
-  constexpr std::size_t many = 16;  // terms, whose sum along the row may be several ulp off
-  if (row.size() > many) take_up_rounding(row);
+  // The sum of more terms may be several ulp off where it is taken along the row; of still more, rounding
+  // to multiples of one number would be felt in their mean.
+  constexpr std::size_t few = 16;
+  constexpr std::size_t many = 1 << 14;
+  if (row.size() > few && row.size() < many) {
+    round_to_exact_sums(row);
+    take_up_rounding(row);
+  }
 }
 
 }  // namespace rondel::interpolation

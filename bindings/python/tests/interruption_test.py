@@ -70,7 +70,7 @@ def test_an_interrupt_ends_the_reading_of_what_was_written(alarm):
         alarm(0.01)
 
     with pytest.raises(KeyboardInterrupt):
-        _geo._written(None, write)
+        _geo.written(None, write)
 
 
 def test_an_interrupt_ends_the_work_early(alarm):
