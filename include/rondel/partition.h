@@ -38,6 +38,8 @@ class RONDEL_API Partition {
   [[nodiscard]] std::size_t num_cells() const;
   /// In steradians, by cell, from its corners.
   [[nodiscard]] std::span<const double> areas() const;
+  /// The cells, by index. Those of voronoi() have no corners in the wrong order.
+  [[nodiscard]] CellRings rings() const;
   /// Whether the cells cover the sphere, each with one ring, convex or nearly so, and share their
   /// edges. Of two partitions that are laid over each other, one must.
   [[nodiscard]] bool is_cover() const;

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
-#include <nlohmann/json.hpp>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "io/cell_formats.h"
 #include "io/geojson_geometry.h"
+#include "io/geojson_properties.h"
 #include "io/number.h"
 #include "io/parallel_write.h"
 #include "map/cell_map.h"
@@ -16,36 +15,6 @@
 
 namespace rondel::io {
 namespace {
-
-std::string json_string(std::string_view text) { return nlohmann::json(text).dump(); }
-
-// `,"name":` for each column, with names that differ.
-std::vector<std::string> property_keys(const std::vector<Column>& columns) {
-  std::set<std::string> taken{"site", "area"};
-  std::vector<std::string> keys;
-  for (const Column& column : columns) {
-    std::string name = column.name;
-    while (!taken.insert(name).second) name += '_';
-    std::string key = ",";
-    key += json_string(name);
-    key += ':';
-    keys.push_back(std::move(key));
-  }
-  return keys;
-}
-
-void append_value(std::string& out, const Column& column, std::size_t row) {
-  const std::uint64_t start = row == 0 ? 0 : column.ends[row - 1];
-  const std::string_view text =
-      std::string_view(column.text).substr(start, column.ends[row] - start);
-  if (text.empty()) {
-    out += "null";
-  } else if (column.is_numeric) {
-    out += text;
-  } else {
-    out += json_string(text);
-  }
-}
 
 // A foreign member (RFC 7946, section 6.1): each hidden site with the corners of the face above it.
 std::string hidden_member(const Triangulation& triangulation) {
@@ -72,7 +41,7 @@ std::string hidden_member(const Triangulation& triangulation) {
 void write_cells_geojson(AtomicFile& file, const CellsToWrite& cells) {
   constexpr std::size_t grain = 512;
   const std::vector<Column>& columns = cells.table.columns;
-  const std::vector<std::string> keys = property_keys(columns);
+  const std::vector<std::string> keys = property_keys(columns, {"site", "area"});
   const std::size_t n = cells.table.sites.size();
   const map::CellMap cell_map(cells.triangulation, cells.diagram.cells, cells.tolerance_deg,
                               cells.execution);

@@ -14,6 +14,8 @@
 
 #include "io/cell_formats.h"
 #include "io/ending.h"
+#include "io/flat_arrays.h"
+#include "io/geojson_geometry.h"
 #include "io/number.h"
 #include "io/number_text.h"
 #include "map/arc.h"
@@ -38,32 +40,6 @@ struct BandsToWrite {
   double tolerance;  // radians
   const Execution& execution;
 };
-
-// [[lon,lat],...]
-void append_positions(std::string& out, std::span<const LonLat> positions) {
-  out += '[';
-  for (const LonLat& position : positions) {
-    std::array<char, std::size_t{2} * number_room> text;
-    char* end = text.data();
-    *end++ = '[';
-    end = write_number(end, position.lon_deg);
-    *end++ = ',';
-    end = write_number(end, position.lat_deg);
-    *end++ = ']';
-    *end++ = ',';
-    out.append(text.data(), end);
-  }
-  out.back() = ']';
-}
-
-void append_polygon(std::string& out, const map::PolygonWithHoles& polygon) {
-  out += '[';
-  for (const std::vector<LonLat>& ring : polygon.rings) {
-    append_positions(out, ring);
-    out += ',';
-  }
-  out.back() = ']';
-}
 
 // The texts one after the other; each has a comma behind it, the last one none.
 std::string joined(std::span<const std::string> texts) {
@@ -188,21 +164,6 @@ void write_bands_geojson(AtomicFile& file, const BandsToWrite& job) {
   file.write("\n]}\n");
 }
 
-bool are_offsets(const std::vector<std::uint64_t>& offsets, std::size_t num_rows, std::size_t end) {
-  return offsets.size() == num_rows + 1 && offsets.front() == 0 && offsets.back() == end &&
-         std::ranges::is_sorted(offsets);
-}
-
-bool are_unit_vectors(const std::vector<Point>& points) {
-  return std::ranges::all_of(points, [](const Point& p) {
-    return std::abs(p.x * p.x + p.y * p.y + p.z * p.z - 1) < 1e-6;
-  });
-}
-
-void require(bool is_right, const std::string& what) {
-  if (!is_right) throw InvalidInput("the arrays of the " + what + " do not fit together", 0);
-}
-
 using IsolineWriter = Writer<IsolinesToWrite>;
 using BandWriter = Writer<BandsToWrite>;
 constexpr std::array<IsolineWriter, 1> isoline_writers = {{{".geojson", &write_isolines_geojson}}};
@@ -217,10 +178,10 @@ void write_isolines(const FileName& file, const Isolines& isolines, double toler
                     const Execution& execution) {
   const system::Call call(execution);
   const std::size_t num_lines = isolines.is_closed.size();
-  io::require(io::are_offsets(isolines.level_offsets, isolines.levels.size(), num_lines) &&
-                  io::are_offsets(isolines.line_offsets, num_lines, isolines.points.size()) &&
-                  io::are_unit_vectors(isolines.points),
-              "isolines");
+  io::require_fit(io::are_offsets(isolines.level_offsets, isolines.levels.size(), num_lines) &&
+                      io::are_offsets(isolines.line_offsets, num_lines, isolines.points.size()) &&
+                      io::are_unit_vectors(isolines.points),
+                  "isolines");
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
   io::write_whole<io::IsolinesToWrite>(io::isoline_writers, file, "isolines are written as",
                                        {isolines, tolerance, execution});
@@ -229,7 +190,7 @@ void write_isolines(const FileName& file, const Isolines& isolines, double toler
 void write_bands(const FileName& file, const Bands& bands, double tolerance_deg,
                  const Execution& execution) {
   const system::Call call(execution);
-  io::require(
+  io::require_fit(
       !bands.polygon_offsets.empty() && !bands.ring_offsets.empty() &&
           io::are_offsets(bands.band_offsets, bands.num_bands(), bands.num_polygons()) &&
           io::are_offsets(bands.polygon_offsets, bands.num_polygons(),

@@ -7,11 +7,10 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
-#include <numbers>
 #include <utility>
 
-#include "exact/argument.h"
 #include "map/planar_loops.h"
+#include "map/ring_area.h"
 #include "map/trace.h"
 
 namespace rondel::map {
@@ -48,22 +47,6 @@ struct Chain {
   BorderPlace start;
   BorderPlace end;
 };
-
-// The area to the left of a ring (Oosterom, Strackee 1983), from -2 pi to 2 pi, by triangles at its first point:
-// of a small ring it has the right sign however thin the ring is.
-double area_on_left(std::span<const Point> ring) {
-  double area = 0;
-  const Point& a = ring.front();
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    const Point& b = ring[i];
-    const Point& c = ring[i + 1];
-    const double sine = dot(a, cross(b - a, c - a));
-    const double cosine = 1 + dot(a, b) + dot(b, c) + dot(c, a);
-    const double half = exact::argument(std::abs(sine), cosine);
-    area += sine < 0 ? -2 * half : 2 * half;
-  }
-  return std::remainder(area, 4 * std::numbers::pi);
-}
 
 // Snapped to the poles and the antimeridian, and without points that are where the one before is.
 std::vector<Point> cleaned(UnitVectors line, bool is_closed) {

@@ -17,23 +17,39 @@
 namespace rondel::overlay {
 namespace {
 
-// Where the two are as good as parallel, rounding may find a point that is on the line but not on the edge:
-// then the edge's nearer end is on both.
+// Whether a point of the edge's circle is on the edge.
+bool is_within(const CoverEdge& edge, const Point& p) {
+  const Point& y = edge.start();
+  const Point& z = edge.end();
+  const double cosine = dot(y, z);
+  return dot(p, z - cosine * y) >= 0 && dot(p, y - cosine * z) >= 0;
+}
+
+// A common end is where the two meet. Where they are as good as parallel, rounding may find a point that is on
+// the line but not on the edge: then the edge's nearer end is on both.
 Point crossing_point(const TracedLine& line, const CoverEdge& edge) {
   constexpr double least_sine = 0x1p-20;
-  const double of_start = edge.distance(line.from());
-  const double of_end = edge.distance(line.to());
+  const Point& from = line.from();
+  const Point& to = line.to();
+  const Point& y = edge.start();
+  const Point& z = edge.end();
+  if (from == y || from == z) return from;
+  if (to == y || to == z) return to;
+  const double of_start = edge.distance(from);
+  const double of_end = edge.distance(to);
   const double drop = of_start - of_end;
   double part = of_start / drop;
   if (!(part >= 0)) part = 0;  // both vanish
   if (part > 1) part = 1;
-  const Point p = exact::to_point(normalized(exact::to_vector(line.from()) + part * line.step()));
+  const Point p = exact::to_point(normalized(exact::to_vector(from) + part * line.step()));
   if (drop * drop > least_sine * least_sine * edge.squared_length() * dot(line.step(), line.step()))
     return p;
-  const Point& y = edge.start();
-  const Point& z = edge.end();
-  const double cosine = dot(y, z);
-  if (!(dot(p, z - cosine * y) < 0 || dot(p, y - cosine * z) < 0)) return p;
+  if (orientation(y, z, from) == Sign::zero && orientation(y, z, to) == Sign::zero) {
+    if (is_within(edge, from)) return from;
+    if (is_within(edge, to)) return to;
+  } else if (is_within(edge, p)) {
+    return p;
+  }
   return dot(p, y) > dot(p, z) ? y : z;
 }
 

@@ -10,6 +10,7 @@
 
 #include "exact/argument.h"
 #include "exact/vector.h"
+#include "predicates/bounds.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -50,6 +51,10 @@ inline Point moment_of_arc(const Point& p, const Point& q) {
 inline double rough_length(const Point& p, const Point& q) {
   return std::abs(q.x - p.x) + std::abs(q.y - p.y) + std::abs(q.z - p.z);
 }
+
+// Corners are off by 2u from their edges, or some 10u where those are as good as parallel, so areas by that
+// times the border.
+constexpr double area_of_rounding(double length) { return 16 * predicates::unit_roundoff * length; }
 
 // Triangles with corners much farther from their first one may be ill-defined.
 inline bool is_far(const Point& p, const Point& q) { return dot(p, q) < 0.5; }

@@ -165,6 +165,22 @@ Partition Partition::triangles(const Triangulation& triangulation, const Executi
 
 std::size_t Partition::num_cells() const { return data_->subdivision().num_cells(); }
 std::span<const double> Partition::areas() const { return data_->areas(); }
+CellRings Partition::rings() const {
+  const Subdivision& cells = data_->subdivision();
+  CellRings result;
+  result.points = cells.points;
+  std::vector<Index> places(num_cells());
+  for (Index c = 0; c < places.size(); ++c) places[cells.names[c]] = c;
+  for (const Index c : places) {
+    for (Index ring = cells.cells[c]; ring < cells.cells[c + 1]; ++ring) {
+      result.corners.insert(result.corners.end(), cells.corners.begin() + cells.rings[ring],
+                            cells.corners.begin() + cells.rings[ring + 1]);
+      result.rings.push_back(result.corners.size());
+    }
+    result.cells.push_back(result.rings.size() - 1);
+  }
+  return result;
+}
 bool Partition::is_cover() const { return data_->is_cover(); }
 
 }  // namespace rondel

@@ -9,7 +9,6 @@
 #include "overlay/arcs.h"
 #include "overlay/crossings.h"
 #include "overlay/measure.h"
-#include "predicates/bounds.h"
 #include "system/parallel.h"
 #include "system/stage_progress.h"
 
@@ -27,10 +26,8 @@ struct MeasuredPiece {
   Point moment{};
 };
 
-// Corners are off by 2u from their edges, or some 10u where those are as good as parallel, so areas by that
-// times the border.
 bool is_rounding(const MeasuredPiece& piece) {
-  return piece.area <= 16 * predicates::unit_roundoff * piece.length;
+  return piece.area <= area_of_rounding(piece.length);
 }
 
 class PieceMaker {

@@ -1,4 +1,4 @@
-#SPDX - FileCopyrightText : The Rondel authors
-#SPDX - License - Identifier : Apache - 2.0
-rondel_add_test(overlay_test overlay_hostile_test.cpp overlay_remap_test.cpp LIBS rondel_remap
-                    rondel_test_support)
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+rondel_add_test(overlay_test overlay_hostile_test.cpp overlay_regions_test.cpp
+  overlay_remap_test.cpp LIBS rondel_remap rondel_test_support)

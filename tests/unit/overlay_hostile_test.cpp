@@ -11,6 +11,7 @@
 #include <string>
 
 #include "overlay_support.h"
+#include "rondel/regions.h"
 #include "support/query_oracle.h"
 
 namespace rondel::test {
@@ -30,6 +31,22 @@ void expect_a_cover(const Remap& remap, const std::string& name) {
     const double area = remap.target_areas[j];
     if (!(area > 1e-9)) continue;
     EXPECT_NEAR(remap.target_fractions[j], 1, 1e-14 / area + 1e-13) << name << ' ' << j;
+  }
+}
+
+// The area of the pieces as polygons is that of the cells, and so is that of what is joined of them.
+void expect_whole_polygons(const Partition& cells, const Partition& other,
+                           const std::string& name) {
+  const RegionPieces pieces = intersection(cells, other);
+  const CellRings joined = dissolve(pieces.rings, pieces.cells, cells.num_cells());
+  const std::vector<double> of_pieces = areas(pieces.rings);
+  const std::vector<double> of_joined = areas(joined);
+  std::vector<double> sums(cells.num_cells());
+  for (std::size_t k = 0; k < pieces.num_pieces(); ++k) sums[pieces.cells[k]] += of_pieces[k];
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    if (cells.areas()[i] > 12) continue;  // nearly the sphere
+    EXPECT_NEAR(sums[i], cells.areas()[i], 1e-13) << name << ' ' << i;
+    EXPECT_NEAR(of_joined[i], cells.areas()[i], 1e-13) << name << ' ' << i;
   }
 }
 
@@ -54,6 +71,8 @@ TEST_P(OverlayHostile, nothing_is_lost) {
   expect_a_cover(remap(cells, other), name + " with another");
   expect_a_cover(remap(cells, uniform, {.order = 2}), name + " to uniform");
   expect_a_cover(remap(uniform, cells, {.order = 2}), "uniform to " + name);
+  expect_whole_polygons(cells, cells, name + " with itself");
+  expect_whole_polygons(cells, other, name + " with another");
 }
 
 INSTANTIATE_TEST_SUITE_P(overlay, OverlayHostile,

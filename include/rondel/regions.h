@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Cells of regions: what lies in a country, on land, within a border; and cells joined by group.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "rondel/cell_rings.h"
+#include "rondel/export.h"
+#include "rondel/io.h"
+#include "rondel/partition.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// What cells have in common with regions. Piece k is that of `cells[k]` and `regions[k]`; pieces are
+/// sorted by both.
+struct RegionPieces {
+  CellRings rings;
+  std::vector<Index> cells;
+  std::vector<Index> regions;
+
+  [[nodiscard]] std::size_t num_pieces() const { return cells.size(); }
+};
+
+/// The pieces of the overlay of cells and regions, as polygons.
+///
+/// 1. Which edges cross is decided as remap() decides it; corners where they do are rounded.
+/// 2. Rings are simple and meet at most in points; a ring begins at its corner with the least coordinates.
+///    Where two pieces meet, both have the same corners, bit by bit.
+/// 3. Rings without area but rounding are left out.
+/// 4. The result depends on the cells and their order alone, not on the number of threads.
+/// \throws InvalidInput if neither partition is_cover().
+RONDEL_API RegionPieces intersection(const Partition& cells, const Partition& regions,
+                                     const Execution& execution = {});
+
+/// The part of each cell that lies in any of the regions: the pieces of intersection(), joined to their
+/// cell. A cell of which nothing is left has no rings. Regions that share a border have to name the same
+/// corners along it; otherwise it stays visible.
+/// \throws InvalidInput as intersection().
+RONDEL_API CellRings clip(const Partition& cells, const Partition& regions,
+                          const Execution& execution = {});
+
+/// Cells joined by group: cell i becomes a part of `groups[i]`, or of nothing if that is no_index. Edges
+/// that two cells of one group have in common vanish; those between groups are the same for both, bit by bit. What covers the sphere has no border,
+/// and so no rings.
+/// \throws InvalidInput if there is not one group a cell, or one is neither below num_groups nor no_index (its
+///         index).
+RONDEL_API CellRings dissolve(const CellRings& cells, std::span<const Index> groups,
+                              std::size_t num_groups, const Execution& execution = {});
+
+/// The area of each cell in steradians, whatever its size and form.
+RONDEL_API std::vector<double> areas(const CellRings& cells);
+
+/// Writes a feature for each cell that has rings: a Polygon or MultiPolygon, cut at the antimeridian and
+/// the poles. Its properties are `area` (steradians) and the columns, of which each has a value a cell.
+/// The file is .geojson (RFC 7946), arcs are densified as write_cells() does it.
+/// \throws InvalidInput if columns or offsets do not fit.
+RONDEL_API void write_regions(const FileName& file, const CellRings& cells,
+                              std::span<const Column> columns = {}, double tolerance_deg = 0.01,
+                              const Execution& execution = {});
+
+}  // namespace rondel

@@ -1,0 +1,24 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Columns as properties of features.
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "rondel/io.h"
+
+namespace rondel::io {
+
+// `,"name":` for each column, with names that differ from each other and from those that are taken.
+std::vector<std::string> property_keys(std::span<const Column> columns,
+                                       std::set<std::string> taken);
+
+// null for an empty one.
+void append_value(std::string& out, const Column& column, std::size_t row);
+
+}  // namespace rondel::io

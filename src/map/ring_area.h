@@ -1,0 +1,18 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#pragma once
+
+#include <span>
+
+#include "rondel/export.h"
+#include "rondel/types.h"
+
+namespace rondel::map {
+
+// The area to the left of a ring (Oosterom, Strackee 1983), from -2 pi to 2 pi, by triangles at its first point:
+// of a small ring it has the right sign however thin the ring is. Of a large one they are triangles at its center of
+// mass, as no point may be opposite.
+RONDEL_API double area_on_left(std::span<const Point> ring);
+
+}  // namespace rondel::map

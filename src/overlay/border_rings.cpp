@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/border_rings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "exact/argument.h"
+#include "exact/vector.h"
+#include "map/ring_area.h"
+#include "overlay/measure.h"
+#include "rondel/error.h"
+#include "system/parallel.h"
+
+namespace rondel::overlay {
+namespace {
+
+constexpr std::size_t keys_per_block = 256;
+
+bool is_before(const Point& a, const Point& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+// Between positions in the list of points.
+struct Link {
+  Index from;
+  Index to;
+  friend auto operator<=>(const Link&, const Link&) = default;
+};
+
+// Points by name, and the links of each key.
+struct Named {
+  std::vector<Point> points;
+  std::vector<std::uint64_t> offsets;
+  std::vector<Link> links;
+};
+
+Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
+  Named result;
+  result.points.reserve(2 * arcs.size());
+  for (const KeyedArc& arc : arcs) {
+    result.points.push_back(arc.from);
+    result.points.push_back(arc.to);
+  }
+  std::ranges::sort(result.points, is_before);
+  result.points.erase(std::unique(result.points.begin(), result.points.end()), result.points.end());
+  if (result.points.size() >= no_index) throw InvalidInput("there are too many corners", no_index);
+  const auto name_of = [&](const Point& p) {
+    return static_cast<Index>(std::ranges::lower_bound(result.points, p, is_before) -
+                              result.points.begin());
+  };
+  result.offsets.assign(num_keys + 1, 0);
+  for (const KeyedArc& arc : arcs) ++result.offsets[arc.key + std::size_t{1}];
+  for (std::size_t k = 0; k < num_keys; ++k) result.offsets[k + 1] += result.offsets[k];
+  std::vector<std::uint64_t> next(result.offsets.begin(), result.offsets.end() - 1);
+  result.links.resize(arcs.size());
+  for (const KeyedArc& arc : arcs)
+    result.links[next[arc.key]++] = {name_of(arc.from), name_of(arc.to)};
+  return result;
+}
+
+// Leaves out links to themselves, and as many of each pair as run the other way. The rest is sorted.
+void cancel(std::vector<Link>& links) {
+  std::erase_if(links, [](const Link& link) { return link.from == link.to; });
+  const auto ends = [](const Link& link) { return std::minmax(link.from, link.to); };
+  std::ranges::sort(links, [&](const Link& a, const Link& b) {
+    return std::tuple<std::pair<Index, Index>, Index>(ends(a), a.from) <
+           std::tuple<std::pair<Index, Index>, Index>(ends(b), b.from);
+  });
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < links.size();) {
+    std::size_t end = k;
+    std::size_t num_upwards = 0;
+    while (end < links.size() && ends(links[end]) == ends(links[k])) {
+      if (links[end].from < links[end].to) ++num_upwards;
+      ++end;
+    }
+    const auto [low, high] = ends(links[k]);
+    const std::size_t num_downwards = end - k - num_upwards;
+    const Link left = num_upwards > num_downwards ? Link{low, high} : Link{high, low};
+    const std::size_t num_left =
+        std::max(num_upwards, num_downwards) - std::min(num_upwards, num_downwards);
+    for (std::size_t i = 0; i < num_left; ++i) links[kept++] = left;
+    k = end;
+  }
+  links.resize(kept);
+  std::ranges::sort(links);
+}
+
+// The angle by which the direction to q from p is clockwise of that to `back`, from 0 to 2 pi.
+double clockwise_angle(const Point& p, const Point& back, const Point& q) {
+  const Point to_back = back - p;
+  const Point to_q = q - p;
+  const double sine = dot(p, cross(to_q, to_back));
+  const double cosine = dot(to_back, to_q) - dot(p, to_back) * dot(p, to_q);
+  const double angle = exact::argument(std::abs(sine), cosine);
+  return sine < 0 ? 2 * std::numbers::pi - angle : angle;
+}
+
+class RingMaker {
+ public:
+  explicit RingMaker(const std::vector<Point>& points) : points_(points) {}
+
+  // The rings of one region, in order. Precondition: as many links end in a point as begin there.
+  std::vector<std::vector<Index>> operator()(std::vector<Link> links) {
+    cancel(links);
+    links_ = std::move(links);
+    is_used_.assign(links_.size(), false);
+    rings_.clear();
+    for (std::size_t k = 0; k < links_.size(); ++k) {
+      if (!is_used_[k]) follow(k);
+    }
+    std::erase_if(rings_, [&](const std::vector<Index>& ring) { return is_rounding(ring); });
+    for (std::vector<Index>& ring : rings_) {
+      std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
+    }
+    std::ranges::sort(rings_);
+    return std::move(rings_);
+  }
+
+ private:
+  // From a link on until it comes back; whatever it meets again on its way is a ring of its own.
+  void follow(std::size_t first) {
+    path_.clear();
+    std::size_t k = first;
+    for (;;) {
+      is_used_[k] = true;
+      path_.push_back(links_[k].from);
+      const Index at = links_[k].to;
+      if (at == path_.front()) {
+        cut(path_.begin());
+        return;
+      }
+      if (is_crowded(at)) cut(std::ranges::find(path_, at));
+      k = next_after(links_[k]);
+      if (k == links_.size()) return;
+    }
+  }
+  void cut(std::vector<Index>::iterator begin) {
+    if (std::distance(begin, path_.end()) > 2) rings_.emplace_back(begin, path_.end());
+    path_.erase(begin, path_.end());
+  }
+
+  [[nodiscard]] std::size_t first_link_from(Index p) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(links_, p, {}, &Link::from) -
+                                    links_.begin());
+  }
+  [[nodiscard]] bool is_crowded(Index p) const {
+    const std::size_t k = first_link_from(p);
+    return k + 1 < links_.size() && links_[k + 1].from == p;
+  }
+  // The one that keeps to the region that is left of the link: the first one clockwise of the way back.
+  [[nodiscard]] std::size_t next_after(const Link& link) const {
+    std::size_t best = links_.size();
+    double least = 0;
+    for (std::size_t k = first_link_from(link.to); k < links_.size() && links_[k].from == link.to;
+         ++k) {
+      if (is_used_[k]) continue;
+      const double angle =
+          clockwise_angle(points_[link.to], points_[link.from], points_[links_[k].to]);
+      if (best == links_.size() || angle < least) {
+        best = k;
+        least = angle;
+      }
+    }
+    return best;
+  }
+
+  [[nodiscard]] bool is_rounding(const std::vector<Index>& ring) {
+    double length = 0;
+    border_.clear();
+    for (const Index p : ring) {
+      if (!border_.empty()) length += rough_length(border_.back(), points_[p]);
+      border_.push_back(points_[p]);
+    }
+    length += rough_length(border_.back(), border_.front());
+    return std::abs(map::area_on_left(border_)) <= area_of_rounding(length);
+  }
+
+  const std::vector<Point>& points_;
+  std::vector<Link> links_;
+  std::vector<bool> is_used_;
+  std::vector<Index> path_;
+  std::vector<Point> border_;
+  std::vector<std::vector<Index>> rings_;
+};
+
+}  // namespace
+
+CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, unsigned threads) {
+  Named all = named(arcs, num_keys);
+  std::vector<std::vector<std::vector<Index>>> rings(num_keys);
+  system::parallel_for(threads, num_keys, keys_per_block, [&](std::size_t begin, std::size_t end) {
+    RingMaker make(all.points);
+    for (std::size_t key = begin; key < end; ++key) {
+      const auto from = all.links.begin() + static_cast<std::ptrdiff_t>(all.offsets[key]);
+      const auto to = all.links.begin() + static_cast<std::ptrdiff_t>(all.offsets[key + 1]);
+      rings[key] = make({from, to});
+    }
+  });
+  CellRings result;
+  std::vector<Index> new_names(all.points.size(), no_index);
+  for (const auto& of_key : rings) {
+    for (const std::vector<Index>& ring : of_key) {
+      for (const Index p : ring) new_names[p] = 0;
+      result.corners.insert(result.corners.end(), ring.begin(), ring.end());
+      result.rings.push_back(result.corners.size());
+    }
+    result.cells.push_back(result.rings.size() - 1);
+  }
+  for (std::size_t p = 0; p < all.points.size(); ++p) {
+    if (new_names[p] == no_index) continue;
+    new_names[p] = static_cast<Index>(result.points.size());
+    result.points.push_back(all.points[p]);
+  }
+  for (Index& corner : result.corners) corner = new_names[corner];
+  return result;
+}
+
+}  // namespace rondel::overlay

@@ -1,0 +1,201 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Cells cut by regions and joined by group: areas against those of remap(), borders that are shared by two.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <random>
+#include <string>
+#include <tuple>
+
+#include "overlay_support.h"
+#include "rondel/error.h"
+#include "rondel/regions.h"
+#include "rondel/remap.h"
+
+namespace rondel::test {
+namespace {
+
+using Coordinates = std::tuple<double, double, double>;
+Coordinates coordinates(const Point& p) { return {p.x, p.y, p.z}; }
+
+// How often each side occurs, by its ends; the way back counts as -1.
+std::map<std::pair<Coordinates, Coordinates>, int> sides_of(const CellRings& cells) {
+  std::map<std::pair<Coordinates, Coordinates>, int> sides;
+  for (std::size_t r = 0; r + 1 < cells.rings.size(); ++r) {
+    for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+      const std::uint64_t next = k + 1 < cells.rings[r + 1] ? k + 1 : cells.rings[r];
+      const Coordinates from = coordinates(cells.points[cells.corners[k]]);
+      const Coordinates to = coordinates(cells.points[cells.corners[next]]);
+      ++sides[{from, to}];
+      --sides[{to, from}];
+    }
+  }
+  return sides;
+}
+
+bool is_closed(const CellRings& cells) {
+  return std::ranges::all_of(sides_of(cells), [](const auto& side) { return side.second == 0; });
+}
+
+void expect_simple_rings(const CellRings& cells) {
+  for (std::size_t r = 0; r + 1 < cells.rings.size(); ++r) {
+    std::vector<Index> ring(
+        cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r]),
+        cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r + 1]));
+    EXPECT_GE(ring.size(), 3U);
+    EXPECT_EQ(std::ranges::min_element(ring), ring.begin());
+    std::ranges::sort(ring);
+    EXPECT_EQ(std::ranges::adjacent_find(ring), ring.end());
+  }
+}
+
+std::vector<Index> random_groups(std::size_t n, Index num_groups, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Index> groups(n);
+  for (Index& group : groups) group = static_cast<Index>(random() % (num_groups + 1U));
+  for (Index& group : groups) {
+    if (group == num_groups) group = no_index;
+  }
+  return groups;
+}
+
+// Regions with holes and of many parts, some of the sphere in none.
+CellRings random_regions(std::size_t n, Index num_groups, std::uint64_t seed) {
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", n, seed));
+  return dissolve(cells.rings(), random_groups(n, num_groups, seed), num_groups);
+}
+
+double sum(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(overlay_regions, pieces_have_the_areas_of_the_overlay) {
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", 900, 1));
+  const Partition regions(random_regions(400, 3, 2));
+  const RegionPieces pieces = intersection(cells, regions);
+  const std::vector<double> found = areas(pieces.rings);
+  const Remap remap = rondel::remap(cells, regions);
+  ASSERT_EQ(pieces.num_pieces(), remap.areas.size());
+  for (std::size_t k = 0; k < found.size(); ++k) {
+    EXPECT_NEAR(found[k], piece_of(remap, pieces.cells[k], pieces.regions[k]), 1e-15);
+  }
+  expect_simple_rings(pieces.rings);
+}
+
+TEST(overlay_regions, pieces_of_covers_leave_no_gap) {
+  const Partition cells = Partition::voronoi(triangulation_of("clustered", 2000, 3));
+  const Partition others = Partition::voronoi(triangulation_of("uniform", 500, 4));
+  const RegionPieces pieces = intersection(cells, others);
+  EXPECT_TRUE(is_closed(pieces.rings));
+  EXPECT_NEAR(sum(areas(pieces.rings)), 4 * std::numbers::pi, 1e-13);
+}
+
+TEST(overlay_regions, what_is_joined_again_is_what_was_cut) {
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", 700, 5));
+  const Partition others = Partition::voronoi(triangulation_of("uniform", 300, 6));
+  const CellRings whole = clip(cells, others);
+  const std::vector<double> found = areas(whole);
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    EXPECT_EQ(whole.cells[i + 1] - whole.cells[i], 1U);
+    EXPECT_NEAR(found[i], cells.areas()[i], 1e-15);
+  }
+  const RegionPieces pieces = intersection(cells, others);
+  const CellRings joined = dissolve(pieces.rings, pieces.cells, cells.num_cells());
+  EXPECT_EQ(joined.corners, whole.corners);
+  EXPECT_EQ(joined.rings, whole.rings);
+  EXPECT_TRUE(joined.points == whole.points);
+}
+
+TEST(overlay_regions, clipped_cells_have_the_area_of_the_regions) {
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", 3000, 7));
+  const CellRings regions = random_regions(500, 4, 8);
+  const CellRings clipped = clip(cells, Partition(regions));
+  EXPECT_NEAR(sum(areas(clipped)), sum(areas(regions)), 1e-13);
+  expect_simple_rings(clipped);
+  // Both ways around.
+  const CellRings exchanged = clip(Partition(regions), cells);
+  const auto expected = areas(regions);
+  const auto found = areas(exchanged);
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(found[i], expected[i], 1e-13);
+}
+
+TEST(overlay_regions, a_partition_clipped_to_itself_is_itself) {
+  const Partition cells = Partition::voronoi(triangulation_of("globe_grid", 600, 9));
+  const CellRings same = clip(cells, cells);
+  EXPECT_TRUE(is_closed(same));
+  const CellRings rings = cells.rings();
+  const CellRings expected = dissolve(
+      rings,
+      [&] {
+        std::vector<Index> groups(rings.num_cells());
+        std::iota(groups.begin(), groups.end(), Index{0});
+        return groups;
+      }(),
+      rings.num_cells());
+  EXPECT_EQ(same.corners, expected.corners);
+  EXPECT_EQ(same.rings, expected.rings);
+  EXPECT_TRUE(same.points == expected.points);
+}
+
+TEST(overlay_regions, dissolved_cells_share_their_borders) {
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", 5000, 10));
+  std::vector<Index> groups = random_groups(cells.num_cells(), 5, 11);
+  std::ranges::replace(groups, no_index, Index{0});
+  const CellRings joined = dissolve(cells.rings(), groups, 5);
+  EXPECT_TRUE(is_closed(joined));
+  expect_simple_rings(joined);
+  std::vector<double> expected(5);
+  for (std::size_t i = 0; i < groups.size(); ++i) expected[groups[i]] += cells.areas()[i];
+  const std::vector<double> found = areas(joined);
+  for (std::size_t g = 0; g < 5; ++g) EXPECT_NEAR(found[g], expected[g], 1e-12);
+}
+
+TEST(overlay_regions, of_everything_nothing_is_left) {
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", 100, 12));
+  const CellRings all = dissolve(cells.rings(), std::vector<Index>(100, 0), 1);
+  EXPECT_EQ(all.cells, (std::vector<std::uint64_t>{0, 0}));  // no border is left
+  const CellRings none = dissolve(cells.rings(), std::vector<Index>(100, no_index), 1);
+  EXPECT_TRUE(none.points.empty());
+}
+
+TEST(overlay_regions, threads_and_orders_make_no_difference) {
+  const auto triangulation = triangulation_of("uniform", 3000, 13);
+  const Partition cells = Partition::voronoi(triangulation);
+  const Partition regions(random_regions(300, 2, 14));
+  const CellRings one = clip(cells, regions, {.threads = 1});
+  const CellRings four = clip(cells, regions, {.threads = 4});
+  EXPECT_EQ(one.corners, four.corners);
+  EXPECT_TRUE(one.points == four.points);
+}
+
+TEST(overlay_regions, one_site_has_all_of_the_regions) {
+  const Partition cell = Partition::voronoi(delaunay(std::vector<Point>{{0, 0, 1}}));
+  const CellRings regions = random_regions(50, 2, 15);
+  const CellRings clipped = clip(cell, Partition(regions));
+  EXPECT_NEAR(areas(clipped)[0], sum(areas(regions)), 1e-13);
+}
+
+TEST(overlay_regions, bad_groups_are_refused) {
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", 10, 16));
+  const CellRings rings = cells.rings();
+  EXPECT_THROW(dissolve(rings, std::vector<Index>(9, 0), 1), InvalidInput);
+  std::vector<Index> groups(10, 0);
+  groups[7] = 1;
+  try {
+    (void)dissolve(rings, groups, 1);
+    ADD_FAILURE();
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "cell 7 is of group 1 of 1");
+    EXPECT_EQ(error.index(), 7U);
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test
