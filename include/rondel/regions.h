@@ -33,7 +33,8 @@ struct RegionPieces {
 /// 2. Rings are simple and meet at most in points; a ring begins at its corner with the least coordinates.
 ///    Where two pieces meet, both have the same corners, bit by bit.
 /// 3. Rings without area but rounding are left out.
-/// 4. The result depends on the cells and their order alone, not on the number of threads.
+/// 4. A piece that is the whole sphere has no border, and so no rings.
+/// 5. The result depends on the cells and their order alone, not on the number of threads.
 /// \throws InvalidInput if neither partition is_cover().
 RONDEL_API RegionPieces intersection(const Partition& cells, const Partition& regions,
                                      const Execution& execution = {});

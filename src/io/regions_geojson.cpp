@@ -80,6 +80,7 @@ DrawnRegions draw(const RegionsToWrite& job, double tolerance) {
       bool is_crossed = false;
       for (const std::vector<std::size_t>& part : map::connected_rings(cell.rings())) {
         std::vector<map::UnitVectors> rings;
+        rings.reserve(part.size());
         for (const std::size_t r : part) rings.push_back(cell.rings()[r]);
         for (map::PolygonWithHoles& polygon : map::region_polygons(rings, tolerance)) {
           is_crossed = is_crossed || map::have_crossing_lines(polygon.rings);

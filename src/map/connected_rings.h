@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "rondel/export.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
@@ -19,7 +18,7 @@ namespace rondel::map {
 // 2. Any other one is a hole: of the smallest part that it is inside of, or of the one that is around all
 //    parts.
 // Precondition: the rings are simple and meet at most in points.
-RONDEL_API std::vector<std::vector<std::size_t>> connected_rings(
+std::vector<std::vector<std::size_t>> connected_rings(
     std::span<const std::span<const Point>> rings);
 
 }  // namespace rondel::map

@@ -26,17 +26,17 @@ bool is_before(const Point& a, const Point& b) {
 }
 
 // Between positions in the list of points.
-struct Link {
+struct NamedSide {
   Index from;
   Index to;
-  friend auto operator<=>(const Link&, const Link&) = default;
+  friend auto operator<=>(const NamedSide&, const NamedSide&) = default;
 };
 
 // Points by name, and the links of each key.
 struct Named {
   std::vector<Point> points;
   std::vector<std::uint64_t> offsets;
-  std::vector<Link> links;
+  std::vector<NamedSide> links;
 };
 
 Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
@@ -64,10 +64,10 @@ Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
 }
 
 // Leaves out links to themselves, and as many of each pair as run the other way. The rest is sorted.
-void cancel(std::vector<Link>& links) {
-  std::erase_if(links, [](const Link& link) { return link.from == link.to; });
-  const auto ends = [](const Link& link) { return std::minmax(link.from, link.to); };
-  std::ranges::sort(links, [&](const Link& a, const Link& b) {
+void cancel(std::vector<NamedSide>& links) {
+  std::erase_if(links, [](const NamedSide& link) { return link.from == link.to; });
+  const auto ends = [](const NamedSide& link) { return std::minmax(link.from, link.to); };
+  std::ranges::sort(links, [&](const NamedSide& a, const NamedSide& b) {
     return std::tuple<std::pair<Index, Index>, Index>(ends(a), a.from) <
            std::tuple<std::pair<Index, Index>, Index>(ends(b), b.from);
   });
@@ -81,7 +81,8 @@ void cancel(std::vector<Link>& links) {
     }
     const auto [low, high] = ends(links[k]);
     const std::size_t num_downwards = end - k - num_upwards;
-    const Link left = num_upwards > num_downwards ? Link{low, high} : Link{high, low};
+    const NamedSide left =
+        num_upwards > num_downwards ? NamedSide{low, high} : NamedSide{high, low};
     const std::size_t num_left =
         std::max(num_upwards, num_downwards) - std::min(num_upwards, num_downwards);
     for (std::size_t i = 0; i < num_left; ++i) links[kept++] = left;
@@ -106,7 +107,7 @@ class RingMaker {
   explicit RingMaker(const std::vector<Point>& points) : points_(points) {}
 
   // The rings of one region, in order. Precondition: as many links end in a point as begin there.
-  std::vector<std::vector<Index>> operator()(std::vector<Link> links) {
+  std::vector<std::vector<Index>> operator()(std::vector<NamedSide> links) {
     cancel(links);
     links_ = std::move(links);
     is_used_.assign(links_.size(), false);
@@ -146,7 +147,7 @@ class RingMaker {
   }
 
   [[nodiscard]] std::size_t first_link_from(Index p) const {
-    return static_cast<std::size_t>(std::ranges::lower_bound(links_, p, {}, &Link::from) -
+    return static_cast<std::size_t>(std::ranges::lower_bound(links_, p, {}, &NamedSide::from) -
                                     links_.begin());
   }
   [[nodiscard]] bool is_crowded(Index p) const {
@@ -154,7 +155,7 @@ class RingMaker {
     return k + 1 < links_.size() && links_[k + 1].from == p;
   }
   // The one that keeps to the region that is left of the link: the first one clockwise of the way back.
-  [[nodiscard]] std::size_t next_after(const Link& link) const {
+  [[nodiscard]] std::size_t next_after(const NamedSide& link) const {
     std::size_t best = links_.size();
     double least = 0;
     for (std::size_t k = first_link_from(link.to); k < links_.size() && links_[k].from == link.to;
@@ -182,7 +183,7 @@ class RingMaker {
   }
 
   const std::vector<Point>& points_;
-  std::vector<Link> links_;
+  std::vector<NamedSide> links_;
   std::vector<bool> is_used_;
   std::vector<Index> path_;
   std::vector<Point> border_;

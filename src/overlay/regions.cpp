@@ -114,6 +114,7 @@ RegionPieces intersection(const Partition& cells, const Partition& regions,
       overlay_of(PartitionData::of(cells), PartitionData::of(regions), execution);
   using Pair = std::pair<Index, Index>;
   std::vector<Pair> pairs;
+  pairs.reserve(arcs.size());
   for (const NamedArc& arc : arcs) pairs.emplace_back(arc.cell, arc.beyond);
   std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());

@@ -5,14 +5,19 @@
 // of any cells.
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
+#include <string>
 #include <vector>
 
 #include "fuzz/fuzz_input.h"
+#include "fuzz/scratch_folder.h"
+#include "fuzz/table_input.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
+#include "rondel/regions.h"
 #include "rondel/remap.h"
 
 namespace rondel::fuzz {
@@ -79,6 +84,64 @@ void test_diagrams(const Partition& source, const Partition& target) {
   }
 }
 
+// Every ring of a file is closed and on the map, and there is a feature for each piece.
+void test_file(const RegionPieces& pieces) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("regions.geojson");
+  write_regions(path, pieces.rings, {}, 5);
+  const auto document = nlohmann::json::parse(content(path));
+  require(document["features"].size() == pieces.num_pieces(), "a feature for each piece");
+  for (const auto& feature : document["features"]) {
+    const auto& geometry = feature["geometry"];
+    if (geometry.is_null()) continue;
+    const auto polygons = geometry["type"] == "Polygon"
+                              ? nlohmann::json::array({geometry["coordinates"]})
+                              : geometry["coordinates"];
+    for (const auto& polygon : polygons) {
+      for (const auto& ring : polygon) {
+        require(ring.size() > 3 && ring.front() == ring.back(), "rings are closed");
+        for (const auto& position : ring) {
+          require(std::abs(position[0].get<double>()) <= 180 &&
+                      std::abs(position[1].get<double>()) <= 90,
+                  "positions are on the map");
+        }
+      }
+    }
+  }
+}
+
+// Whether no cell is the whole sphere, which has no border, and nothing is lost.
+bool has_borders(const Partition& cells) {
+  constexpr double nearly_whole = 12;
+  return cells.is_cover() && std::abs(sum_of(cells.areas()) - 4 * std::numbers::pi) < 1e-9 &&
+         std::ranges::all_of(cells.areas(), [](double area) { return area < nearly_whole; });
+}
+
+// Of diagrams, too: the pieces as polygons.
+void test_regions(const Partition& cells, const Partition& others, Index num_groups) {
+  const double whole = 4 * std::numbers::pi;
+  if (!has_borders(cells) || !has_borders(others)) return;
+  const RegionPieces pieces = intersection(cells, others);
+  require(std::abs(sum_of(areas(pieces.rings)) - whole) < 1e-8, "polygons cover the sphere");
+  if (num_groups == 1) test_file(pieces);
+  const CellRings joined = dissolve(pieces.rings, pieces.cells, cells.num_cells());
+  require(std::abs(sum_of(areas(joined)) - whole) < 1e-8, "and so they do joined");
+  const CellRings clipped = clip(cells, others);
+  const std::vector<double> by_pieces = areas(joined);
+  const std::vector<double> by_cells = areas(clipped);
+  for (std::size_t i = 0; i < by_cells.size(); ++i) {
+    require(std::abs(by_pieces[i] - by_cells[i]) < 1e-9, "to join pieces is to clip cells");
+  }
+  std::vector<Index> groups(cells.num_cells());
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    groups[i] = i % (num_groups + 1) == num_groups ? no_index : static_cast<Index>(i % num_groups);
+  }
+  const CellRings regions = dissolve(cells.rings(), groups, num_groups);
+  const CellRings inside = clip(others, Partition(regions));
+  require(std::abs(sum_of(areas(inside)) - sum_of(areas(regions))) < 1e-8,
+          "what is clipped has the area of the regions");
+}
+
 // Cells with any corners, some of them of a diagram.
 CellRings next_rings(ByteSource& source, const Triangulation& t) {
   CellRings rings;
@@ -113,6 +176,7 @@ void test_any_cells(const CellRings& rings, const Partition& target) {
             "an area for each cell");
     const Remap there = remap(cells, target, {.norm = RemapNorm::fracarea});
     require(there.weights.num_columns == cells.num_cells(), "columns are sources");
+    require(clip(target, cells).num_cells() == target.num_cells(), "a part of each cell");
   } catch (const InvalidInput&) {  // says what is wrong
   }
 }
@@ -136,6 +200,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Partition cells = Partition::voronoi(t);
     const Partition others = Partition::voronoi(delaunay(second, options));
     fuzz::test_diagrams(cells, others);
+    fuzz::test_regions(cells, others, static_cast<Index>(1 + source.below(3)));
     const Partition triangles = Partition::triangles(t);
     if (others.is_cover()) {
       const Remap of_triangles = remap(triangles, others);

@@ -15,7 +15,7 @@ import tempfile
 
 from commands import run
 
-ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "contours": [], "hull": [], "nearest": [], "out_of_core": [], "remap": [],
+ARGUMENTS = {"quick": [], "cell_areas": ["data/stations.csv"], "circles": [], "contours": [], "hull": [], "nearest": [], "out_of_core": [], "regions": [], "remap": [],
              "editing": [], "stop": [], "c_interface": []}
 
 

@@ -14,45 +14,10 @@
 #include "rondel/error.h"
 #include "unit/cells_planar.h"
 #include "unit/contours_support.h"
+#include "unit/geojson_rings.h"
 
 namespace rondel::test {
 namespace {
-
-nlohmann::json read_json(const std::string& path) {
-  std::ifstream file(path);
-  return nlohmann::json::parse(file);
-}
-
-Ring ring_of(const nlohmann::json& coordinates) {
-  Ring ring;
-  for (const auto& position : coordinates) {
-    ring.push_back({position[0].get<double>(), position[1].get<double>()});
-  }
-  return ring;
-}
-
-// The rings of all polygons of a document; checks their orientation, and where they are.
-std::vector<Ring> checked_rings(const nlohmann::json& document, std::string_view name) {
-  std::vector<Ring> rings;
-  for (const auto& feature : document["features"]) {
-    if (feature["geometry"].is_null()) continue;
-    EXPECT_EQ(feature["geometry"]["type"], "MultiPolygon");
-    for (const auto& polygon : feature["geometry"]["coordinates"]) {
-      for (std::size_t i = 0; i < polygon.size(); ++i) {
-        const Ring ring = ring_of(polygon[i]);
-        EXPECT_GE(ring.size(), 4U);
-        EXPECT_EQ(ring.front(), ring.back()) << name;
-        EXPECT_GT(i == 0 ? planar_area(ring) : -planar_area(ring), 0) << name << " ring " << i;
-        for (const LonLat& p : ring) {
-          EXPECT_LE(std::abs(p.lon_deg), 180);
-          EXPECT_LE(std::abs(p.lat_deg), 90);
-        }
-        rings.push_back(ring);
-      }
-    }
-  }
-  return rings;
-}
 
 TEST(write_bands, covers_the_map_once_for_every_generator) {
   const std::string path = testing::TempDir() + "rondel_bands.geojson";

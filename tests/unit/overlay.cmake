@@ -1,4 +1,9 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-rondel_add_test(overlay_test overlay_hostile_test.cpp overlay_regions_test.cpp
-  overlay_remap_test.cpp LIBS rondel_remap rondel_test_support)
+rondel_add_test(overlay_test
+  overlay_hostile_test.cpp
+  overlay_regions_test.cpp
+  overlay_remap_test.cpp
+  overlay_rings_test.cpp
+  overlay_written_test.cpp
+  LIBS rondel_remap rondel_test_support nlohmann_json::nlohmann_json)

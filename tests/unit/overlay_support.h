@@ -16,6 +16,7 @@
 #include "rondel/partition.h"
 #include "rondel/remap.h"
 #include "support/generators.h"
+#include "support/random.h"
 
 namespace rondel::test {
 
@@ -103,6 +104,18 @@ inline double piece_of(const Remap& remap, std::size_t i, std::size_t j) {
     if (remap.columns[k] == i) return remap.areas[k];
   }
   return 0;
+}
+
+// A group for each cell; with gaps some are in none.
+inline std::vector<Index> random_groups(std::size_t n, Index num_groups, std::uint64_t seed,
+                                        bool has_gaps = false) {
+  Random random(seed);
+  std::vector<Index> groups(n);
+  for (Index& group : groups) {
+    group = static_cast<Index>(random.below(num_groups + (has_gaps ? 1U : 0U)));
+    if (group == num_groups) group = no_index;
+  }
+  return groups;
 }
 
 }  // namespace rondel::test

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "exact/vector.h"
+#include "map/connected_rings.h"
+#include "map/ring_area.h"
+
+namespace rondel::test {
+namespace {
+
+using Parts = std::vector<std::vector<std::size_t>>;
+using PointRing = std::vector<Point>;
+
+// Counterclockwise around the z axis, turned by `tilt` about the y axis.
+PointRing circle(double radius, double tilt = 0, int corners = 12) {
+  PointRing ring;
+  for (int k = 0; k < corners; ++k) {
+    const double angle = 2 * std::numbers::pi * k / corners + 0.1;
+    const Point p = {std::sin(radius) * std::cos(angle), std::sin(radius) * std::sin(angle),
+                     std::cos(radius)};
+    ring.push_back({std::cos(tilt) * p.x + std::sin(tilt) * p.z, p.y,
+                    std::cos(tilt) * p.z - std::sin(tilt) * p.x});
+  }
+  return ring;
+}
+PointRing hole(double radius, double tilt = 0) {
+  PointRing ring = circle(radius, tilt);
+  std::ranges::reverse(ring);
+  return ring;
+}
+
+Parts parts_of(const std::vector<PointRing>& rings) {
+  const std::vector<std::span<const Point>> spans(rings.begin(), rings.end());
+  Parts parts = map::connected_rings(spans);
+  for (auto& part : parts) std::ranges::sort(part);
+  std::ranges::sort(parts);
+  return parts;
+}
+
+TEST(overlay_rings, islands_in_lakes) {
+  EXPECT_EQ(parts_of({circle(0.5), hole(0.3), circle(0.2), hole(0.1)}), (Parts{{0, 1}, {2, 3}}));
+  EXPECT_EQ(parts_of({hole(0.1), circle(0.2), hole(0.3), circle(0.5)}), (Parts{{0, 1}, {2, 3}}));
+  EXPECT_EQ(parts_of({circle(1.2), hole(0.2, 0.8), hole(0.2, -0.8), circle(0.1, 0.8)}),
+            (Parts{{0, 1, 2}, {3}}));
+}
+
+TEST(overlay_rings, what_is_around_all) {
+  // An ocean with two continents, one of which has a lake.
+  EXPECT_EQ(parts_of({hole(0.5), hole(0.4, 2), circle(0.1, 2)}), (Parts{{0, 1}, {2}}));
+  // More than a hemisphere, with a hole.
+  EXPECT_EQ(parts_of({circle(2.5), hole(0.2, 1)}), (Parts{{0, 1}}));
+  EXPECT_EQ(parts_of({}), Parts{});
+}
+
+TEST(overlay_rings, areas_on_the_left) {
+  const double small = map::area_on_left(circle(1e-3, 1));
+  const double octagon =
+      12 * 0.5 * std::sin(2 * std::numbers::pi / 12);  // times the squared radius
+  EXPECT_NEAR(small, octagon * 1e-6, 1e-12);
+  for (const double radius : {0.3, 1.0, 1.5, 1.57, 2.0, 2.9}) {
+    // Gauss, Bonnet: 2 pi less the turns at the corners.
+    const PointRing ring = circle(radius);
+    double turns = 0;
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const Point& p = ring[k];
+      const Point& q = ring[(k + 1) % ring.size()];
+      const Point& r = ring[(k + 2) % ring.size()];
+      const Point before = cross(p, q);
+      const Point behind = cross(q, r);
+      turns += std::atan2(dot(q, cross(before, behind)), dot(before, behind));
+    }
+    const double expected = std::remainder(2 * std::numbers::pi - turns, 4 * std::numbers::pi);
+    EXPECT_NEAR(map::area_on_left(ring), expected, 1e-13) << radius;
+  }
+  // A lune of two halves of great circles.
+  const PointRing lune = {{0, 0, 1}, {0, 1, 0}, {0, 0, -1}, {1, 0, 0}};
+  EXPECT_NEAR(std::abs(map::area_on_left(lune)), std::numbers::pi, 1e-14);
+}
+
+}  // namespace
+}  // namespace rondel::test
