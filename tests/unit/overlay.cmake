@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(overlay_test
   overlay_hostile_test.cpp
+  overlay_polygons_test.cpp
   overlay_regions_test.cpp
   overlay_remap_test.cpp
   overlay_rings_test.cpp

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Polygons of GeoJSON as cells: areas between parallels and meridians are known.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "overlay_support.h"
+#include "rondel/error.h"
+#include "rondel/polygon_files.h"
+#include "rondel/regions.h"
+
+namespace rondel::test {
+namespace {
+
+constexpr double radians = std::numbers::pi / 180;
+
+std::string written(const std::string& text) {
+  std::string path = testing::TempDir() + "rondel_polygons.geojson";
+  std::ofstream(path) << text;
+  return path;
+}
+
+PolygonTable table_of(const std::string& geometry, const PolygonOptions& options = {}) {
+  return read_polygons(written(geometry), options);
+}
+
+// [[w,s],[e,s],[e,n],[w,n],[w,s]]
+std::string box(double w, double s, double e, double n) {
+  const auto position = [](double lon, double lat) {
+    return "[" + std::to_string(lon) + "," + std::to_string(lat) + "]";
+  };
+  return "[" + position(w, s) + "," + position(e, s) + "," + position(e, n) + "," + position(w, n) +
+         "," + position(w, s) + "]";
+}
+std::string polygon(const std::string& rings) {
+  return R"({"type":"Polygon","coordinates":[)" + rings + "]}";
+}
+double area_of_box(double w, double s, double e, double n) {
+  return (e - w) * radians * (std::sin(n * radians) - std::sin(s * radians));
+}
+
+std::size_t num_rings(const PolygonTable& table) { return table.cells.rings.size() - 1; }
+
+TEST(overlay_polygons, sides_are_parallels) {
+  const PolygonTable table = table_of(polygon(box(10, 40, 50, 60)));
+  ASSERT_EQ(table.cells.num_cells(), 1U);
+  EXPECT_NEAR(areas(table.cells)[0], area_of_box(10, 40, 50, 60), 2e-6);
+  const PolygonTable fine = table_of(polygon(box(10, 40, 50, 60)), {.tolerance_deg = 1e-7});
+  EXPECT_NEAR(areas(fine.cells)[0], area_of_box(10, 40, 50, 60), 2e-9);
+}
+
+TEST(overlay_polygons, sides_are_geodesics_if_asked_for) {
+  const PolygonTable table =
+      table_of(polygon(box(170, -10, 190, 10)), {.edges = PolygonEdges::geodesic});
+  EXPECT_EQ(table.cells.corners.size(), 4U);
+  EXPECT_GT(areas(table.cells)[0], area_of_box(170, -10, 190, 10) + 1e-4);
+  const PolygonTable across =
+      table_of(polygon("[[170,-10],[-170,-10],[-170,10],[170,10],[170,-10]]"),
+               {.edges = PolygonEdges::geodesic});
+  EXPECT_EQ(across.cells.corners, table.cells.corners);
+  EXPECT_TRUE(across.cells.points == table.cells.points);
+}
+
+TEST(overlay_polygons, holes_and_directions) {
+  const std::string outer = box(0, 0, 30, 30);
+  const std::string hole = box(10, 10, 20, 20);
+  const PolygonTable table = table_of(polygon(outer + "," + hole));
+  EXPECT_EQ(num_rings(table), 2U);
+  EXPECT_NEAR(areas(table.cells)[0], area_of_box(0, 0, 30, 30) - area_of_box(10, 10, 20, 20), 3e-6);
+  const PolygonTable turned = table_of(polygon("[[0,0],[0,30],[30,30],[30,0],[0,0]]," + hole));
+  EXPECT_EQ(turned.cells.corners, table.cells.corners);
+  EXPECT_TRUE(turned.cells.points == table.cells.points);
+}
+
+TEST(overlay_polygons, what_the_antimeridian_cuts_is_whole_again) {
+  const PolygonTable table =
+      table_of(R"({"type":"MultiPolygon","coordinates":[[)" + box(170, -20, 180, 20) + "],[" +
+               box(-180, -20, -170, 20) + "]]}");
+  EXPECT_EQ(num_rings(table), 1U);
+  EXPECT_NEAR(areas(table.cells)[0], area_of_box(170, -20, 190, 20), 3e-6);
+}
+
+TEST(overlay_polygons, poles_are_points) {
+  // A cap around the south pole, as maps have it.
+  const PolygonTable cap = table_of(polygon(box(-180, -90, 180, -70)));
+  EXPECT_EQ(num_rings(cap), 1U);
+  EXPECT_NEAR(areas(cap.cells)[0], area_of_box(-180, -90, 180, -70), 3e-6);
+  // All but that.
+  const PolygonTable rest = table_of(polygon(box(-180, -70, 180, 90)));
+  EXPECT_EQ(num_rings(rest), 1U);
+  EXPECT_NEAR(areas(rest.cells)[0], area_of_box(-180, -70, 180, 90), 3e-6);
+  const PolygonTable belt = table_of(polygon(box(-180, -10, 180, 10)));
+  EXPECT_EQ(num_rings(belt), 2U);
+  EXPECT_NEAR(areas(belt.cells)[0], area_of_box(-180, -10, 180, 10), 1e-5);
+}
+
+TEST(overlay_polygons, neighbors_share_corners) {
+  const std::string features =
+      R"({"type":"FeatureCollection","features":[)"
+      R"({"type":"Feature","properties":{"name":"a","n":1},"geometry":)" +
+      polygon(box(0, 0, 40, 50)) + R"(},{"type":"Feature","properties":{"name":"b"},"geometry":)" +
+      polygon(box(0, 50, 40, 60)) + R"(},{"type":"Feature","properties":null,"geometry":null}]})";
+  const PolygonTable table = table_of(features);
+  ASSERT_EQ(table.cells.num_cells(), 3U);
+  EXPECT_EQ(table.cells.cells[2], table.cells.cells[3]);
+  const CellRings joined = dissolve(table.cells, std::vector<Index>{0, 0, no_index}, 1);
+  EXPECT_EQ(joined.rings.size(), 2U);
+  EXPECT_NEAR(areas(joined)[0], area_of_box(0, 0, 40, 60), 1e-5);
+  ASSERT_EQ(table.columns.size(), 2U);
+  EXPECT_EQ(table.columns[1].name, "name");
+  EXPECT_EQ(table.columns[1].text, "ab");
+  EXPECT_EQ(table.columns[0].ends, (std::vector<std::uint64_t>{1, 1, 1}));
+}
+
+TEST(overlay_polygons, cells_are_clipped_to_them) {
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", 500, 2));
+  const PolygonTable table = table_of(polygon(box(150, -60, 200, 70)));
+  const CellRings clipped = clip(cells, Partition(table.cells));
+  double sum = 0;
+  for (const double area : areas(clipped)) sum += area;
+  EXPECT_NEAR(sum, areas(table.cells)[0], 1e-13);
+}
+
+std::string message_of(const std::string& text) {
+  try {
+    (void)table_of(text);
+  } catch (const FileError& error) {
+    const std::string message = error.what();
+    return message.substr(message.rfind("geojson:") + 8);
+  }
+  return "";
+}
+
+TEST(overlay_polygons, messages_say_where) {
+  EXPECT_EQ(message_of(R"({"type":"Point","coordinates":[1,2]})"),
+            R"(1: type "Point" where a Polygon is needed)");
+  EXPECT_EQ(message_of(polygon("[[0,0],[1,1],[0,0]]")), "1: a ring of 3 positions");
+  EXPECT_EQ(message_of(polygon("[[0,0],[1,1],[0,1],[0,2]]")), "1: a ring that is not closed");
+  EXPECT_EQ(message_of("{\"type\":\"FeatureCollection\",\"features\":[\n"
+                       R"({"type":"Feature","geometry":)" +
+                       polygon("[[0,0],[1,91],[0,1],[0,0]]") + "}]}"),
+            "2: feature 0: latitude 91 is outside [-90, 90]");
+  EXPECT_EQ(message_of(""), " the file is empty");
+  EXPECT_THROW((void)table_of("{}", {.tolerance_deg = 0}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rondel::test
