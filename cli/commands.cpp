@@ -145,6 +145,29 @@ Command add_voronoi_command(CLI::App& tool) {
                    "GeoJSON: how far a line may be from its great circle (default: 0.01)")
       ->check(positive_error)
       ->type_name("DEG");
+  parser
+      ->add_option(
+          "--clip", options->clip,
+          "Keep what lies in the polygons of this file (.geojson), as of land or countries")
+      ->type_name("FILE");
+  parser
+      ->add_option_function<std::string>(
+          "--edges",
+          [options](const std::string& text) {
+            options->edges = text == "geodesic" ? PolygonEdges::geodesic : PolygonEdges::lonlat;
+          },
+          "What joins positions of --clip: lonlat (default; straight in longitude and\n"
+          "latitude, RFC 7946) or geodesic (great circles)")
+      ->check([](const std::string& text) {
+        return text == "lonlat" || text == "geodesic" ? std::string()
+                                                      : "'" + text + "' is not a choice";
+      })
+      ->type_name("WORD");
+  parser
+      ->add_option("--group", options->group,
+                   "Join the cells of all sites with the same text in this column; sites without\n"
+                   "a text are left out")
+      ->type_name("COL");
   add_build_options(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
@@ -152,6 +175,7 @@ Command add_voronoi_command(CLI::App& tool) {
       "which only circles and other weighted sites may be, have no cell.\n\n"
       "Examples:\n"
       "  rondel voronoi stations.csv -o cells.geojson\n"
+      "  rondel voronoi stations.csv --clip land.geojson --group country -o countries.geojson\n"
       "  rondel voronoi circles.csv --radius radius -o power-cells.geojson");
   return {parser, [options] { return run_voronoi(*options); }};
 }

@@ -11,6 +11,7 @@
 
 #include "command.h"
 #include "inputs/kinds.h"
+#include "rondel/polygon_files.h"
 
 namespace rondel::cli {
 
@@ -28,6 +29,9 @@ struct DelaunayOptions {
 struct VoronoiOptions {
   CommonOptions common;
   double tolerance_deg = 0.01;
+  std::string clip;  ///< --clip; empty: whole cells
+  PolygonEdges edges = PolygonEdges::lonlat;
+  std::string group;  ///< --group; empty: a cell a site
 };
 
 struct HullCommandOptions {

@@ -58,7 +58,7 @@ class GeoJsonItems::CursorIterator {
 };
 
 // The members of the root have depth 1, the elements of their arrays depth 2.
-void GeoJsonItems::read(const Listener& listener) {
+void GeoJsonItems::read(const ItemListener& listener) {
   const char* const end = bytes_.data() + bytes_.size();
   cursor_.position = bytes_.data();
   JsonTreeBuilder builder({[this](std::size_t depth, const std::string& list) {
@@ -79,7 +79,7 @@ void GeoJsonItems::read(const Listener& listener) {
 }
 
 void GeoJsonItems::on_item(const std::string& list, const JsonTree& item,
-                           const Listener& listener) {
+                           const ItemListener& listener) {
   const bool is_feature = list == "features";
   at_item(is_feature ? "feature" : "geometry", num_items_,
           [&] { is_feature ? visit_feature(item, listener) : listener.on_geometry(item, {}); });
@@ -87,7 +87,7 @@ void GeoJsonItems::on_item(const std::string& list, const JsonTree& item,
   item_line_ = 0;
 }
 
-void GeoJsonItems::on_root(const JsonTree& root, const Listener& listener) {
+void GeoJsonItems::on_root(const JsonTree& root, const ItemListener& listener) {
   item_line_ = 1;
   const std::string type = geojson_type(root);
   const bool is_features = type == "FeatureCollection";
@@ -104,7 +104,7 @@ void GeoJsonItems::on_root(const JsonTree& root, const Listener& listener) {
   }
 }
 
-void GeoJsonItems::visit_feature(const JsonTree& feature, const Listener& listener) {
+void GeoJsonItems::visit_feature(const JsonTree& feature, const ItemListener& listener) {
   const std::string type = geojson_type(feature);
   if (type != "Feature") throw BadValue("type " + in_quotes(type) + " where a Feature is needed");
   if (!feature.members.contains("geometry")) throw BadValue("no geometry");

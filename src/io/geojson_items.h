@@ -26,7 +26,7 @@ std::string unquoted(const JsonTree& value);
 
 class GeoJsonItems {
  public:
-  struct Listener {
+  struct ItemListener {
     // Of a feature, or a bare one, which has no properties.
     std::function<void(const JsonTree& geometry, const JsonTree& properties)> on_geometry;
     // Of a feature without a place.
@@ -36,7 +36,7 @@ class GeoJsonItems {
   explicit GeoJsonItems(std::string_view bytes) : bytes_(bytes) {}
 
   // Throws BadValue; line() then tells where. The members of a collection at the root are items, each.
-  void read(const Listener& listener);
+  void read(const ItemListener& listener);
   [[nodiscard]] std::uint64_t line() const { return item_line_ != 0 ? item_line_ : cursor_.line; }
   // How far it has come.
   [[nodiscard]] std::size_t num_bytes_read() const {
@@ -53,9 +53,9 @@ class GeoJsonItems {
   [[nodiscard]] static bool is_item(std::size_t depth, const std::string& list) {
     return depth == 2 && (list == "features" || list == "geometries");
   }
-  void on_item(const std::string& list, const JsonTree& item, const Listener& listener);
-  void on_root(const JsonTree& root, const Listener& listener);
-  static void visit_feature(const JsonTree& feature, const Listener& listener);
+  void on_item(const std::string& list, const JsonTree& item, const ItemListener& listener);
+  void on_root(const JsonTree& root, const ItemListener& listener);
+  static void visit_feature(const JsonTree& feature, const ItemListener& listener);
 
   std::string_view bytes_;
   TextPosition cursor_{};        // of the parser
