@@ -21,7 +21,8 @@ namespace {
 constexpr double radians = std::numbers::pi / 180;
 
 std::string written(const std::string& text) {
-  std::string path = testing::TempDir() + "rondel_polygons.geojson";
+  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
+  std::string path = testing::TempDir() + "rondel_polygons_" + test + ".geojson";
   std::ofstream(path) << text;
   return path;
 }
