@@ -18,7 +18,7 @@
 namespace rondel::test {
 namespace {
 
-constexpr double radians = std::numbers::pi / 180;
+constexpr double one_degree = std::numbers::pi / 180;
 
 std::string written(const std::string& text) {
   const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
@@ -43,7 +43,7 @@ std::string polygon(const std::string& rings) {
   return R"({"type":"Polygon","coordinates":[)" + rings + "]}";
 }
 double area_of_box(double w, double s, double e, double n) {
-  return (e - w) * radians * (std::sin(n * radians) - std::sin(s * radians));
+  return (e - w) * one_degree * (std::sin(n * one_degree) - std::sin(s * one_degree));
 }
 
 std::size_t num_rings(const PolygonTable& table) { return table.cells.rings.size() - 1; }
