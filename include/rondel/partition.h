@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Partitions of the sphere, or of parts of it, into cells with sides on great circles.
+/// Partitions of the sphere, or of parts of it, into cells: with sides on great circles, or between meridians
+/// and parallels.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,6 +23,19 @@ class PartitionData;
 
 namespace rondel {
 
+/// A grid in longitude and latitude, by its lines. Cell `row * (lon_deg.size() - 1) + column` is between parallels row
+/// and row + 1 and meridians column and column + 1.
+struct LonLatGrid {
+  std::vector<double> lon_deg;  ///< meridians, increasing, by 360 degrees at most
+  std::vector<double> lat_deg;  ///< parallels, increasing or decreasing
+};
+
+/// What the northern and southern sides of a grid's cells are.
+enum class GridSides : std::uint8_t {
+  parallels,      ///< circles of latitude, as in most models
+  great_circles,  ///< the shortest ways between the corners, as ESMF's conservative method takes them
+};
+
 /// Cells, prepared once to be laid over others. Copies share the memory; any thread may read.
 class RONDEL_API Partition {
  public:
@@ -30,6 +45,12 @@ class RONDEL_API Partition {
   static Partition voronoi(const Triangulation& triangulation, const Execution& execution = {});
   /// The solid faces, in dimension 2; none in others.
   static Partition triangles(const Triangulation& triangulation, const Execution& execution = {});
+  /// The cells of a grid. With parallels, areas in the overlay are those between parallels and arcs
+  /// themselves, not of polygons near them; such a partition has no rings(), and regions.h refuses it.
+  /// \throws InvalidInput with the line that is out of order or no longitude or latitude; with
+  ///         great circles also with a cell that is 180 degrees wide.
+  static Partition lonlat_grid(const LonLatGrid& grid, GridSides sides = GridSides::parallels,
+                               const Execution& execution = {});
   /// Any cells.
   /// \throws InvalidInput with the cell that has an index out of range, a ring of less than three corners,
   /// or a corner that is no unit vector.
@@ -41,7 +62,8 @@ class RONDEL_API Partition {
   /// The cells, by index. Those of voronoi() have no corners in the wrong order.
   [[nodiscard]] CellRings rings() const;
   /// Whether the cells cover the sphere, each with one ring, convex or nearly so, and share their
-  /// edges. Of two partitions that are laid over each other, one must.
+  /// edges; or whether they are a grid of parallels that does. Of two partitions that are laid over each other, one
+  /// must, or be any grid of parallels.
   [[nodiscard]] bool is_cover() const;
 
  private:

@@ -21,7 +21,6 @@
 
 namespace rondel {
 namespace overlay {
-namespace {}  // namespace
 
 PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned threads)
     : subdivision_(std::move(subdivision)),
@@ -51,6 +50,19 @@ PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned thre
   const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
   is_cover_ = whole != no_index ||
               (subdivision_.is_closed && std::abs(total - 4 * std::numbers::pi) < std::numbers::pi);
+}
+
+PartitionData::PartitionData(Graticule grid)
+    : subdivision_({}, false, 1),
+      grid_(std::move(grid)),
+      whole_(no_index),
+      is_cover_(grid_->is_cover()),
+      areas_(grid_->areas()),
+      moments_(grid_->moments()) {}
+
+void require_arcs(const PartitionData& cells) {
+  if (cells.grid() == nullptr) return;
+  throw InvalidInput("cells between parallels have no sides on great circles", 0);
 }
 
 }  // namespace overlay
@@ -163,9 +175,17 @@ Partition Partition::triangles(const Triangulation& triangulation, const Executi
   return Partition(rings, execution);
 }
 
-std::size_t Partition::num_cells() const { return data_->subdivision().num_cells(); }
+Partition Partition::lonlat_grid(const LonLatGrid& grid, GridSides sides,
+                                 const Execution& execution) {
+  const system::Call call(execution);
+  if (sides == GridSides::great_circles) return Partition(overlay::rings_of(grid), execution);
+  return Partition(std::make_shared<const PartitionData>(overlay::Graticule(grid)));
+}
+
+std::size_t Partition::num_cells() const { return data_->areas().size(); }
 std::span<const double> Partition::areas() const { return data_->areas(); }
 CellRings Partition::rings() const {
+  overlay::require_arcs(*data_);
   const Subdivision& cells = data_->subdivision();
   CellRings result;
   result.points = cells.points;

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
+#include "overlay/graticule.h"
 #include "overlay/subdivision.h"
 #include "rondel/partition.h"
 #include "rondel/types.h"
@@ -15,11 +17,15 @@ namespace rondel::overlay {
 class PartitionData {
  public:
   PartitionData(Subdivision subdivision, Index whole, unsigned threads);
+  explicit PartitionData(Graticule grid);
 
   [[nodiscard]] static const PartitionData& of(const Partition& partition) {
     return *partition.data_;
   }
 
+  // Null unless the cells are between meridians and parallels.
+  [[nodiscard]] const Graticule* grid() const { return grid_ ? &*grid_ : nullptr; }
+  // Without a cell if there is a grid.
   [[nodiscard]] const Subdivision& subdivision() const { return subdivision_; }
   // The cell that is the whole sphere; no_index: none is.
   [[nodiscard]] Index whole() const { return whole_; }
@@ -30,10 +36,14 @@ class PartitionData {
 
  private:
   Subdivision subdivision_;
+  std::optional<Graticule> grid_;
   Index whole_;
   bool is_cover_ = false;
   std::vector<double> areas_;
   std::vector<Point> moments_;
 };
+
+// Throws InvalidInput if the cells are those of a grid.
+void require_arcs(const PartitionData& cells);
 
 }  // namespace rondel::overlay

@@ -8,14 +8,11 @@
 
 #include "overlay/arcs.h"
 #include "overlay/crossings.h"
+#include "overlay/gathered_rows.h"
 #include "overlay/measure.h"
-#include "system/parallel.h"
-#include "system/stage_progress.h"
 
 namespace rondel::overlay {
 namespace {
-
-constexpr std::size_t cells_per_block = 1024;
 
 struct MeasuredPiece {
   Index beyond;
@@ -45,9 +42,11 @@ class PieceMaker {
       if (piece.is_large) measure_large(arcs, piece);
     }
     drop_rounding();
-    std::ranges::sort(pieces_, {},
-                      [&](const MeasuredPiece& piece) { return cover_.names[piece.beyond]; });
+    std::ranges::sort(pieces_, {}, [&](const MeasuredPiece& piece) { return column(piece); });
     return pieces_;
+  }
+  [[nodiscard]] Index column(const MeasuredPiece& piece) const {
+    return cover_.names[piece.beyond];
   }
 
  private:
@@ -110,64 +109,13 @@ class PieceMaker {
   std::vector<MeasuredPiece> pieces_;
 };
 
-struct RowBlock {
-  std::vector<Index> counts;  // of each cell
-  std::vector<Index> columns;
-  std::vector<double> areas;
-  std::vector<Point> moments;
-};
-
 }  // namespace
 
 PieceRows pieces(const Subdivision& cells, const Subdivision& cover, bool has_moments,
                  const Execution& execution) {
   const Crossings crossings(cells, cover, execution);
-  const std::size_t n = cells.num_cells();
-  std::vector<RowBlock> blocks(system::num_pieces(n, cells_per_block));
-  PieceRows result;
-  result.offsets.assign(n + 1, 0);
-  system::StageProgress progress(execution.progress, "cut", blocks.size());
-  system::parallel_for(execution.threads, n, cells_per_block,
-                       [&](std::size_t begin, std::size_t end) {
-                         RowBlock& block = blocks[begin / cells_per_block];
-                         PieceMaker make(cells, cover, crossings, has_moments);
-                         for (std::size_t c = begin; c < end; ++c) {
-                           const auto cell = static_cast<Index>(c);
-                           std::span<const MeasuredPiece> row;
-                           if (cells.shapes[c] != Shape::empty) row = make(cell);
-                           for (const MeasuredPiece& piece : row) {
-                             block.columns.push_back(cover.names[piece.beyond]);
-                             block.areas.push_back(piece.area);
-                             if (has_moments) block.moments.push_back(piece.moment);
-                           }
-                           block.counts.push_back(static_cast<Index>(row.size()));
-                           result.offsets[cells.names[c] + std::size_t{1}] = row.size();
-                         }
-                         progress.step();
-                       });
-  for (std::size_t i = 0; i < n; ++i) result.offsets[i + 1] += result.offsets[i];
-  result.columns.resize(result.offsets[n]);
-  result.areas.resize(result.offsets[n]);
-  if (has_moments) result.moments.resize(result.offsets[n]);
-  system::parallel_for(
-      execution.threads, n, cells_per_block, [&](std::size_t begin, std::size_t end) {
-        RowBlock block = std::move(blocks[begin / cells_per_block]);
-        std::size_t from = 0;
-        for (std::size_t c = begin; c < end; ++c) {
-          const std::size_t to = result.offsets[cells.names[c]];
-          const std::size_t size = block.counts[c - begin];
-          std::copy_n(block.columns.begin() + static_cast<std::ptrdiff_t>(from), size,
-                      result.columns.begin() + static_cast<std::ptrdiff_t>(to));
-          std::copy_n(block.areas.begin() + static_cast<std::ptrdiff_t>(from), size,
-                      result.areas.begin() + static_cast<std::ptrdiff_t>(to));
-          if (has_moments) {
-            std::copy_n(block.moments.begin() + static_cast<std::ptrdiff_t>(from), size,
-                        result.moments.begin() + static_cast<std::ptrdiff_t>(to));
-          }
-          from += size;
-        }
-      });
-  return result;
+  return gathered_rows(cells, has_moments, execution,
+                       [&] { return PieceMaker(cells, cover, crossings, has_moments); });
 }
 
 PieceRows transposed(const PieceRows& pieces, std::size_t num_columns) {

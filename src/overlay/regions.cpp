@@ -80,6 +80,8 @@ void exchange(std::vector<NamedArc>& arcs) {
 // `beyond` are the regions.
 std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData& regions,
                                  const Execution& execution) {
+  overlay::require_arcs(cells);
+  overlay::require_arcs(regions);
   std::vector<NamedArc> arcs;
   if (cells.whole() != no_index) {
     arcs = arcs_within(regions.subdivision(), cells.whole());

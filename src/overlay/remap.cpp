@@ -9,7 +9,9 @@
 #include <string>
 #include <utility>
 
+#include "exact/eft.h"
 #include "exact/vector.h"
+#include "overlay/graticule_pieces.h"
 #include "overlay/partition_data.h"
 #include "overlay/pieces.h"
 #include "overlay/slopes_of_cells.h"
@@ -46,6 +48,13 @@ PieceRows overlay_of(const PartitionData& source, const PartitionData& target, b
   if (source.whole() != no_index) {
     return transposed(whole_cells(target, source.whole(), num_sources), num_targets);
   }
+  if (target.grid() != nullptr && source.grid() != nullptr) {
+    return pieces(*target.grid(), *source.grid(), has_moments);
+  }
+  if (source.grid() != nullptr) return pieces(target, *source.grid(), has_moments, execution);
+  if (target.grid() != nullptr) {
+    return transposed(pieces(source, *target.grid(), has_moments, execution), num_targets);
+  }
   if (source.is_cover()) {
     return pieces(target.subdivision(), source.subdivision(), has_moments, execution);
   }
@@ -69,21 +78,30 @@ struct CoveredSums {
   std::vector<double> of_targets;
 };
 
+// A sum and its error so far: a cell may have a thousand pieces.
+void add(double term, exact::DoubleDouble& sum) {
+  const exact::DoubleDouble next = exact::two_sum(sum.hi, term);
+  sum = {next.hi, sum.lo + next.lo};
+}
+
 CoveredSums sums_of(const Remap& remap, const PieceRows& pieces, std::size_t num_sources) {
   CoveredSums sums;
-  sums.of_sources.resize(num_sources);
+  std::vector<exact::DoubleDouble> of_sources(num_sources);
   sums.moments_of_sources.resize(pieces.moments.empty() ? 0 : num_sources);
   sums.of_targets.resize(remap.offsets.size() - 1);
   for (std::size_t j = 0; j < sums.of_targets.size(); ++j) {
+    exact::DoubleDouble of_target{};
     for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
       const Index i = remap.columns[k];
-      sums.of_targets[j] += remap.areas[k];
-      sums.of_sources[i] += remap.areas[k];
+      add(remap.areas[k], of_target);
+      add(remap.areas[k], of_sources[i]);
       if (!pieces.moments.empty()) {
         sums.moments_of_sources[i] = sums.moments_of_sources[i] + pieces.moments[k];
       }
     }
+    sums.of_targets[j] = of_target.hi + of_target.lo;
   }
+  for (const exact::DoubleDouble& sum : of_sources) sums.of_sources.push_back(sum.hi + sum.lo);
   return sums;
 }
 
@@ -165,7 +183,7 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
       if (result.source_areas[i] > 0) centers[i] = sources.moments()[i] / result.source_areas[i];
     }
     result.moments = moments_around(means, result, pieces);
-    gradients = cell_gradients(sources.subdivision(), centers, execution.threads);
+    gradients = cell_gradients(sources, centers, execution.threads);
   }
   Weights& weights = result.weights;
   weights.num_columns = num_sources;

@@ -29,34 +29,55 @@ std::pair<Point, Point> tangents(const Point& n) {
   return {u, cross(n, u)};
 }
 
-}  // namespace
+// The cells that share an edge with others, by name.
+class NeighborLists {
+ public:
+  explicit NeighborLists(const PartitionData& cells) : cells_(cells) {}
 
-CellGradients cell_gradients(const Subdivision& cells, std::span<const Point> centers,
-                             unsigned threads) {
-  const std::size_t n = cells.num_cells();
-  CellGradients result;
-  result.offsets.assign(n + 1, 0);
-  const auto neighbors_of = [&](Index c) {
+  // Of cells in spatial order, where there is one.
+  [[nodiscard]] Index name(std::size_t c) const {
+    return cells_.grid() != nullptr ? static_cast<Index>(c) : cells_.subdivision().names[c];
+  }
+  [[nodiscard]] std::vector<Index> operator()(Index c) const {
     std::vector<Index> neighbors;
-    for (Halfedge h = cells.begin_of(c); h < cells.end_of(c); ++h) {
-      const Halfedge twin = cells.twins[h];
-      if (twin != no_index) neighbors.push_back(cells.names[cells.cell_of[twin]]);
+    if (cells_.grid() != nullptr) {
+      cells_.grid()->append_neighbors(c, neighbors);
+    } else {
+      const Subdivision& cells = cells_.subdivision();
+      for (Halfedge h = cells.begin_of(c); h < cells.end_of(c); ++h) {
+        const Halfedge twin = cells.twins[h];
+        if (twin != no_index) neighbors.push_back(cells.names[cells.cell_of[twin]]);
+      }
     }
     std::ranges::sort(neighbors);
     neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
-    std::erase(neighbors, cells.names[c]);
+    std::erase(neighbors, name(c));
     return neighbors;
-  };
+  }
+
+ private:
+  const PartitionData& cells_;
+};
+
+}  // namespace
+
+CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> centers,
+                             unsigned threads) {
+  const NeighborLists neighbors_of(cells);
+  const std::size_t n = centers.size();
+  CellGradients result;
+  result.offsets.assign(n + 1, 0);
   system::parallel_for(threads, n, cells_per_piece, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = begin; c < end; ++c) {
-      result.offsets[cells.names[c] + std::size_t{1}] = neighbors_of(static_cast<Index>(c)).size();
+      result.offsets[neighbors_of.name(c) + std::size_t{1}] =
+          neighbors_of(static_cast<Index>(c)).size();
     }
   });
   for (std::size_t i = 0; i < n; ++i) result.offsets[i + 1] += result.offsets[i];
   result.neighbors.resize(result.offsets[n]);
   result.slopes.resize(result.offsets[n]);
   const auto fit = [&](Index c) {
-    const Index name = cells.names[c];
+    const Index name = neighbors_of.name(c);
     const Point& center = centers[name];
     const auto [u, v] = tangents(normalized(center));
     std::vector<Sample> samples;

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "overlay/subdivision.h"
+#include "overlay/partition_data.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -22,7 +22,7 @@ struct CellGradients {
 
 // Least squares over the cells that share an edge, weighted by the inverse squares of distances, in the
 // tangent plane of the center of mass; none where these do not determine it. `centers` by name.
-CellGradients cell_gradients(const Subdivision& cells, std::span<const Point> centers,
+CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> centers,
                              unsigned threads);
 
 }  // namespace rondel::overlay

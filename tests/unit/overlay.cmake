@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(overlay_test
+  overlay_grid_test.cpp
   overlay_hostile_test.cpp
   overlay_polygons_test.cpp
   overlay_regions_test.cpp

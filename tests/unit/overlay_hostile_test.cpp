@@ -10,7 +10,7 @@
 #include <numeric>
 #include <string>
 
-#include "overlay_support.h"
+#include "overlay_grid_oracle.h"
 #include "rondel/regions.h"
 #include "support/query_oracle.h"
 
@@ -71,6 +71,11 @@ TEST_P(OverlayHostile, nothing_is_lost) {
   expect_a_cover(remap(cells, other), name + " with another");
   expect_a_cover(remap(cells, uniform, {.order = 2}), name + " to uniform");
   expect_a_cover(remap(uniform, cells, {.order = 2}), "uniform to " + name);
+  for (const std::size_t num_lon : {1U, 4U, 90U}) {
+    const Partition grid = Partition::lonlat_grid(regular_grid(num_lon, num_lon * 3));
+    expect_a_cover(remap(cells, grid, {.order = 2}), name + " to a grid");
+    expect_a_cover(remap(grid, cells, {.order = 2}), "grid to " + name);
+  }
   expect_whole_polygons(cells, cells, name + " with itself");
   expect_whole_polygons(cells, other, name + " with another");
 }

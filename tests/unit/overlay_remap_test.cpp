@@ -18,8 +18,6 @@
 namespace rondel::test {
 namespace {
 
-constexpr double ulp = 0x1p-52;
-
 Partition voronoi_of(std::string_view kind, std::size_t n, std::uint64_t seed) {
   return Partition::voronoi(triangulation_of(kind, n, seed));
 }

@@ -20,6 +20,8 @@
 
 namespace rondel::test {
 
+inline constexpr double ulp = 0x1p-52;
+
 struct LongVector {
   long double x;
   long double y;

@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/graticule.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "exact/argument.h"
+#include "exact/degrees.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+
+namespace rondel::overlay {
+namespace {
+
+constexpr double radians_per_degree = std::numbers::pi / 180;
+
+bool goes_around(const std::vector<double>& lon) {
+  return std::abs(lon.back() - lon.front() - 360) <= same_line_degrees;
+}
+
+void validate(const LonLatGrid& grid) {
+  const std::vector<double>& lon = grid.lon_deg;
+  const std::vector<double>& lat = grid.lat_deg;
+  if (lon.size() < 2 || lat.size() < 2) {
+    throw InvalidInput("a grid of " + std::to_string(lon.size()) + " meridians and " +
+                           std::to_string(lat.size()) + " parallels has no cell",
+                       0);
+  }
+  const auto refuse = [](const char* what, std::size_t k, double value, const char* why) {
+    throw InvalidInput(
+        std::string(what) + " " + std::to_string(k) + ", " + std::to_string(value) + ", " + why, k);
+  };
+  constexpr double most_degrees = 1080;
+  for (std::size_t k = 0; k < lon.size(); ++k) {
+    if (!(std::abs(lon[k]) <= most_degrees)) refuse("meridian", k, lon[k], "is no longitude");
+    if (k > 0 && !(lon[k] > lon[k - 1])) refuse("meridian", k, lon[k], "is not east of the last");
+    if (!(lon[k] - lon[0] <= 360 + same_line_degrees)) {
+      refuse("meridian", k, lon[k], "is more than once around the globe");
+    }
+  }
+  const bool is_southward = lat[1] < lat[0];
+  for (std::size_t k = 0; k < lat.size(); ++k) {
+    if (!(std::abs(lat[k]) <= 90)) refuse("parallel", k, lat[k], "is no latitude");
+    if (k > 0 && !(is_southward ? lat[k] < lat[k - 1] : lat[k] > lat[k - 1])) {
+      refuse("parallel", k, lat[k], "is not in order");
+    }
+  }
+  if ((lon.size() - 1) >= no_index / (lat.size() - 1)) {
+    throw InvalidInput("the grid has too many cells", no_index);
+  }
+}
+
+Point on_equator(double lon_deg) {
+  const exact::SineCosine angle = exact::sine_cosine_of_degrees(lon_deg);
+  return {angle.cosine, angle.sine, 0};
+}
+
+}  // namespace
+
+Graticule::Graticule(const LonLatGrid& grid) {
+  validate(grid);
+  num_columns_of_grid_ = static_cast<Index>(grid.lon_deg.size() - 1);
+  num_rows_of_grid_ = static_cast<Index>(grid.lat_deg.size() - 1);
+  take_columns(grid.lon_deg);
+  take_rows(grid.lat_deg);
+}
+
+void Graticule::take_columns(std::vector<double> lon) {
+  is_around_ = goes_around(lon);
+  if (is_around_) lon.back() = lon.front() + 360;
+  for (std::size_t k = 0; k + 1 < lon.size(); ++k) {
+    columns_.push_back({on_equator(lon[k]), (lon[k] - lon[0]) * radians_per_degree,
+                        (lon[k + 1] - lon[k]) * radians_per_degree, static_cast<Index>(k), lon[k],
+                        lon[k + 1]});
+  }
+  if (is_around_) return;
+  const double gap = 360 - (lon.back() - lon.front());
+  columns_.push_back({on_equator(lon.back()), (lon.back() - lon[0]) * radians_per_degree,
+                      gap * radians_per_degree, no_index, lon.back(), lon.front() + 360});
+}
+
+void Graticule::take_rows(std::vector<double> lat) {
+  is_southward_ = lat.front() > lat.back();
+  if (is_southward_) std::ranges::reverse(lat);
+  latitudes_ = lat;
+  first_row_ = lat.front() > -90 ? 1 : 0;
+  if (lat.front() > -90) lat.insert(lat.begin(), -90);
+  if (lat.back() < 90) lat.push_back(90);
+  for (const double latitude : lat) {
+    const exact::SineCosine angle = exact::sine_cosine_of_degrees(latitude);
+    parallels_.push_back({angle.sine, angle.cosine});
+  }
+}
+
+Index Graticule::cell(Index column, Index row) const {
+  const Index lon = columns_[column].of_grid;
+  if (lon == no_index || row < first_row_ || row >= first_row_ + num_rows_of_grid_) return no_index;
+  const Index northward = row - first_row_;
+  const Index lat = is_southward_ ? num_rows_of_grid_ - 1 - northward : northward;
+  return lat * num_columns_of_grid_ + lon;
+}
+
+Point Graticule::meridian(Index column, double offset) const {
+  if (offset == 0) return columns_[column].west;
+  if (offset == columns_[column].width) return eastern_meridian(column);
+  const Point& west = columns_[column].west;
+  const exact::SineCosine turn = exact::sine_cosine_of_degrees(offset / radians_per_degree);
+  return {west.x * turn.cosine - west.y * turn.sine, west.x * turn.sine + west.y * turn.cosine, 0};
+}
+
+std::vector<double> Graticule::areas() const {
+  std::vector<double> result(num_cells());
+  for (Index c = 0; c < num_columns_of_grid_; ++c) {
+    for (Index r = first_row_; r < first_row_ + num_rows_of_grid_; ++r) {
+      result[cell(c, r)] = area(c, r);
+    }
+  }
+  return result;
+}
+
+std::vector<Point> Graticule::moments() const {
+  std::vector<Point> result(num_cells());
+  for (Index c = 0; c < num_columns_of_grid_; ++c) {
+    const Point run = meridian(c, columns_[c].width) - columns_[c].west;
+    for (Index r = first_row_; r < first_row_ + num_rows_of_grid_; ++r) {
+      result[cell(c, r)] = moment_of_row(parallels_[r], parallels_[r + 1], columns_[c].width, run);
+    }
+  }
+  return result;
+}
+
+void Graticule::append_neighbors(Index cell, std::vector<Index>& neighbors) const {
+  const Index n = num_columns_of_grid_;
+  const Index column = cell % n;
+  const auto append = [&](Index neighbor) { neighbors.push_back(neighbor); };
+  if (cell >= n) append(cell - n);
+  if (column > 0 || is_around_) append(column > 0 ? cell - 1 : cell + n - 1);
+  if (column + 1 < n || is_around_) append(column + 1 < n ? cell + 1 : cell + 1 - n);
+  if (num_cells() - cell > n) append(cell + n);
+}
+
+// The integral of sqrt(1 - s^2) over s is (phi + s sqrt(1 - s^2)) / 2, with s = sin(phi).
+Point moment_of_row(const Graticule::Parallel& south, const Graticule::Parallel& north,
+                    double width, const Point& run) {
+  const double height = exact::argument(north.sine * south.cosine - north.cosine * south.sine,
+                                        north.cosine * south.cosine + north.sine * south.sine);
+  const double inward = (height + (north.sine * north.cosine - south.sine * south.cosine)) / 2;
+  return {inward * run.y, -inward * run.x,
+          width * (north.sine - south.sine) * (north.sine + south.sine) / 2};
+}
+
+CellRings rings_of(const LonLatGrid& grid) {
+  validate(grid);
+  const std::size_t num_columns = grid.lon_deg.size() - 1;
+  const bool is_around = goes_around(grid.lon_deg);
+  const bool is_southward = grid.lat_deg[1] < grid.lat_deg[0];
+  const std::size_t num_meridians = is_around ? num_columns : num_columns + 1;
+  CellRings rings;
+  std::vector<Index> firsts;  // of the points on each parallel
+  for (const double lat : grid.lat_deg) {
+    firsts.push_back(static_cast<Index>(rings.points.size()));
+    for (std::size_t k = 0; k < (std::abs(lat) == 90 ? 1 : num_meridians); ++k) {
+      rings.points.push_back(unit_vector({grid.lon_deg[k], lat}));
+    }
+  }
+  const auto corner = [&](std::size_t row, std::size_t k) {
+    const bool is_pole = std::abs(grid.lat_deg[row]) == 90;
+    return firsts[row] + (is_pole ? 0 : static_cast<Index>(k % num_meridians));
+  };
+  for (std::size_t row = 0; row + 1 < grid.lat_deg.size(); ++row) {
+    const std::size_t south = is_southward ? row + 1 : row;
+    const std::size_t north = is_southward ? row : row + 1;
+    for (std::size_t k = 0; k < num_columns; ++k) {
+      std::vector<Index> ring = {corner(south, k), corner(south, k + 1), corner(north, k + 1),
+                                 corner(north, k)};
+      ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+      if (ring.front() == ring.back()) ring.pop_back();
+      rings.corners.insert(rings.corners.end(), ring.begin(), ring.end());
+      rings.rings.push_back(rings.corners.size());
+      rings.cells.push_back(rings.rings.size() - 1);
+    }
+  }
+  return rings;
+}
+
+}  // namespace rondel::overlay

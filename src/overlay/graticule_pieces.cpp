@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/graticule_pieces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "overlay/gathered_rows.h"
+#include "overlay/graticule_walk.h"
+#include "predicates/bounds.h"
+#include "system/parallel.h"
+
+namespace rondel::overlay {
+namespace {
+
+struct GridPiece {
+  Index cell;
+  double area;
+  double size;  // sum of the absolute values that were summed
+  Point moment;
+};
+
+// What the strips of one cell say of one column: of each row, how much of its width is north of the arcs seen so far.
+struct Fill {
+  double width = 0;
+  double size = 0;
+  Point run{};
+};
+
+class GridPieceMaker {
+ public:
+  GridPieceMaker(const PartitionData& cells, const Graticule& grid,
+                 std::span<const GraticulePlace> places, bool has_moments)
+      : cells_(cells),
+        grid_(grid),
+        places_(places),
+        walk_(grid, has_moments),
+        has_moments_(has_moments) {}
+
+  std::span<const GridPiece> operator()(Index cell) {
+    const Subdivision& subdivision = cells_.subdivision();
+    strips_.clear();
+    for (Index ring = subdivision.cells[cell]; ring < subdivision.cells[cell + 1]; ++ring) {
+      const Index first = subdivision.rings[ring];
+      const Index end = subdivision.rings[ring + 1];
+      for (Halfedge h = first; h < end; ++h) {
+        walk_.append(places_[subdivision.corners[h]],
+                     places_[subdivision.corners[h + 1 < end ? h + 1 : first]], strips_);
+      }
+    }
+    pieces_.clear();
+    const Index name = subdivision.names[cell];
+    const double area = cells_.areas()[name];
+    if (strips_.empty()) return pieces_;
+    const bool has_pole = has_north_pole(area);
+    if (is_within_one() && !has_pole) {
+      const Index there = grid_.cell(strips_[0].column, strips_[0].row);
+      if (there != no_index) pieces_.push_back({there, area, 0, cells_.moments()[name]});
+      return pieces_;
+    }
+    std::ranges::stable_sort(strips_, [](const Strip& a, const Strip& b) {
+      return a.column != b.column ? a.column < b.column : a.row > b.row;
+    });
+    std::size_t next = 0;
+    for (Index column = 0; column < grid_.columns().size(); ++column) {
+      if (!has_pole) {
+        if (next == strips_.size()) break;
+        column = strips_[next].column;
+      }
+      next = add_column(column, next, has_pole);
+    }
+    drop_rounding();
+    std::ranges::sort(pieces_, {}, &GridPiece::cell);
+    return pieces_;
+  }
+  [[nodiscard]] Index column(const GridPiece& piece) const { return piece.cell; }
+
+ private:
+  // What is south of the arcs differs from the cell's area by the sphere's if the pole is in the cell.
+  [[nodiscard]] bool has_north_pole(double area) const {
+    double south = 0;
+    for (const Strip& strip : strips_) {
+      south += strip.area + strip.width * (1 + grid_.parallel(strip.row).sine);
+    }
+    return area - south > 2 * std::numbers::pi;
+  }
+
+  // And not around the southern pole.
+  [[nodiscard]] bool is_within_one() const {
+    double width = 0;
+    for (const Strip& strip : strips_) {
+      if (strip.column != strips_[0].column || strip.row != strips_[0].row) return false;
+      width += strip.width;
+    }
+    return std::abs(width) < 1;
+  }
+
+  // From strip `next` on, those of the column. Returns the one behind them.
+  std::size_t add_column(Index column, std::size_t next, bool has_pole) {
+    Fill fill;
+    if (has_pole) fill = filled(column);
+    std::size_t end = next;
+    while (end < strips_.size() && strips_[end].column == column) ++end;
+    const double rounding = 2 * predicates::unit_roundoff * static_cast<double>(end - next + 2);
+    Index row = has_pole ? grid_.num_rows() - 1 : strips_[next].row;
+    for (;; --row) {
+      GridPiece piece = row_of(column, row, fill);
+      Fill below = fill;
+      for (; next < end && strips_[next].row == row; ++next) {
+        const Strip& strip = strips_[next];
+        piece.area += strip.area;
+        piece.size += std::abs(strip.area);
+        piece.moment = piece.moment + strip.moment;
+        below.width += strip.width;
+        below.size += std::abs(strip.width);
+        below.run = below.run + strip.run;
+      }
+      if (piece.cell != no_index) pieces_.push_back(piece);
+      fill = below;
+      if (std::abs(fill.width) <= rounding * fill.size) fill = {};
+      if (std::abs(fill.width - grid_.columns()[column].width) <= rounding * fill.size) {
+        fill = filled(column);
+      }
+      if (row == 0 || (next == end && fill.width == 0)) return end;
+      if (fill.width == 0) row = strips_[next].row + 1;
+    }
+  }
+
+  [[nodiscard]] Fill filled(Index column) const {
+    const double width = grid_.columns()[column].width;
+    return {width, width, grid_.eastern_meridian(column) - grid_.columns()[column].west};
+  }
+
+  // The part of a row that is filled all the way down.
+  [[nodiscard]] GridPiece row_of(Index column, Index row, const Fill& fill) const {
+    const Graticule::Parallel& south = grid_.parallel(row);
+    const Graticule::Parallel& north = grid_.parallel(row + 1);
+    const double height = north.sine - south.sine;
+    GridPiece piece{grid_.cell(column, row), fill.width * height, fill.size * height, {}};
+    if (has_moments_ && fill.width != 0) {
+      piece.moment = moment_of_row(south, north, fill.width, fill.run);
+    }
+    return piece;
+  }
+
+  // But a cell that is no larger keeps its largest piece.
+  void drop_rounding() {
+    const auto is_rounding = [](const GridPiece& piece) {
+      return piece.area <= 16 * predicates::unit_roundoff * piece.size;
+    };
+    if (pieces_.empty()) return;
+    if (std::ranges::all_of(pieces_, is_rounding)) {
+      const GridPiece largest = *std::ranges::max_element(pieces_, {}, &GridPiece::area);
+      pieces_.clear();
+      if (largest.area > 0) pieces_.push_back(largest);
+    } else {
+      std::erase_if(pieces_, is_rounding);
+    }
+  }
+
+  const PartitionData& cells_;
+  const Graticule& grid_;
+  std::span<const GraticulePlace> places_;
+  GraticuleWalk walk_;
+  bool has_moments_;
+  std::vector<Strip> strips_;
+  std::vector<GridPiece> pieces_;
+};
+
+}  // namespace
+
+PieceRows pieces(const PartitionData& cells, const Graticule& grid, bool has_moments,
+                 const Execution& execution) {
+  const Subdivision& subdivision = cells.subdivision();
+  std::vector<GraticulePlace> places(subdivision.points.size());
+  const GraticuleWalk walk(grid, has_moments);
+  system::parallel_for(execution.threads, places.size(), cells_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           places[i] = walk.place_of(subdivision.points[i]);
+                         }
+                       });
+  return gathered_rows(subdivision, has_moments, execution,
+                       [&] { return GridPieceMaker(cells, grid, places, has_moments); });
+}
+
+}  // namespace rondel::overlay

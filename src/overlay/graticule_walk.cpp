@@ -1,0 +1,262 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/graticule_walk.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "exact/argument.h"
+#include "exact/degrees.h"
+#include "overlay/measure.h"
+
+namespace rondel::overlay {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Positive if x is east of the meridian that meets the equator in m, by less than 180 degrees.
+double side(const Point& m, const Point& x) { return m.x * x.y - m.y * x.x; }
+
+double along(const Point& m, const Point& x) { return m.x * x.x + m.y * x.y; }
+
+double radius_of(const Point& x) { return std::sqrt(x.x * x.x + x.y * x.y); }
+
+// Of tan(h) for h up to 1/8.
+double small_tangent(double h) {
+  const double u = h * h;
+  return h * (1 + u * (1.0 / 3 +
+                       u * (2.0 / 15 +
+                            u * (17.0 / 315 +
+                                 u * (62.0 / 2835 +
+                                      u * (1382.0 / 155925 + u * (21844.0 / 6081075 +
+                                                                  u * (929569.0 / 638512875))))))));
+}
+
+// atan(t) / t - 1 of t^2 = u up to 1/63.
+double small_arc_tangent(double u) {
+  return -u * (1.0 / 3 -
+               u * (1.0 / 5 -
+                    u * (1.0 / 7 -
+                         u * (1.0 / 9 -
+                              u * (1.0 / 11 - u * (1.0 / 13 - u * (1.0 / 15 - u * (1.0 / 17))))))));
+}
+
+// 2 atan(k tan(width / 2)) - k width.
+double bulge(double width, double k) {
+  constexpr double small = 0.25;
+  if (width <= small) {
+    const double t = small_tangent(width / 2);
+    const double u = t * t;
+    return 2 * k * t * (small_arc_tangent(k * k * u) - small_arc_tangent(u));
+  }
+  const exact::SineCosine half = exact::sine_cosine_of_degrees(width * (90 / pi));
+  return 2 * exact::argument(k * half.sine, half.cosine) - k * width;
+}
+
+// Between the arc from p to q, which spans `width` of longitude, and a parallel. That between the arc and the equator
+// is 2 atan(k tan(width / 2)) with k = (sin p + sin q) / (1 + cos(p - q)), latitudes.
+double area_above(const Graticule::Parallel& parallel, const GraticulePlace& p,
+                  const GraticulePlace& q) {
+  const double width = q.offset - p.offset;
+  const double dz = q.point.z - p.point.z;
+  const double dr = q.radius - p.radius;
+  const double bend = (dz * dz + dr * dr) / 2;  // 1 - cos(p - q)
+  const double rise =
+      ((p.point.z - parallel.sine) + (q.point.z - parallel.sine) + parallel.sine * bend) /
+      (2 - bend);
+  return width * rise + bulge(width, parallel.sine + rise);
+}
+
+Point meridian_of(const Graticule& grid, const GraticulePlace& place) {
+  if (place.radius > 0) return {place.point.x / place.radius, place.point.y / place.radius, 0};
+  return grid.meridian(place.column, place.offset);
+}
+
+// Half of the integral of q x dq northward along the meridian.
+Point moment_of_meridian(const Graticule::Parallel& south, const GraticulePlace& north,
+                         const Point& meridian) {
+  const double height = exact::argument(north.point.z * south.cosine - north.radius * south.sine,
+                                        north.radius * south.cosine + north.point.z * south.sine);
+  return {height / 2 * meridian.y, -height / 2 * meridian.x, 0};
+}
+
+}  // namespace
+
+GraticulePlace GraticuleWalk::place_of(const Point& point) const {
+  const auto& columns = grid_.columns();
+  GraticulePlace place{point, radius_of(point)};
+  const Point& first = columns.front().west;
+  double turn = exact::argument(side(first, point), along(first, point));
+  if (turn < 0) turn += 2 * pi;
+  const auto next =
+      std::ranges::upper_bound(columns, turn, {}, [](const auto& column) { return column.start; });
+  place.column = static_cast<Index>(std::max<std::ptrdiff_t>(next - columns.begin(), 1) - 1);
+  const Graticule::Lune& column = columns[place.column];
+  place.offset = exact::argument(side(column.west, point), along(column.west, point));
+  if (turn - column.start - place.offset > pi) place.offset += 2 * pi;
+  if (turn - column.start - place.offset < -pi) place.offset -= 2 * pi;
+  place.offset = std::clamp(place.offset, 0.0, column.width);
+  return place;
+}
+
+Index GraticuleWalk::row_of(double sine) const {
+  Index low = 0;
+  Index high = grid_.num_rows();
+  while (high - low > 1) {
+    const Index middle = low + (high - low) / 2;
+    (grid_.parallel(middle).sine <= sine ? low : high) = middle;
+  }
+  return low;
+}
+
+void GraticuleWalk::append(const GraticulePlace& from, const GraticulePlace& to,
+                           std::vector<Strip>& strips) const {
+  const auto key = [](const Point& p) { return std::tie(p.x, p.y, p.z); };
+  const bool is_swapped = key(to.point) < key(from.point);
+  const GraticulePlace* west = is_swapped ? &to : &from;
+  const GraticulePlace* east = is_swapped ? &from : &to;
+  double turned = turn(*east) - turn(*west);
+  if (turned > pi) turned -= 2 * pi;
+  if (turned <= -pi) turned += 2 * pi;
+  if (turned == 0) return;
+  bool is_west = turned < 0;
+  // Near a pole, or through it, where longitudes do not tell on which side.
+  if (std::abs(turned) > pi / 2) is_west = side(west->point, east->point) < 0;
+  if (is_west) std::swap(west, east);
+  const Out out{is_west != is_swapped ? 1.0 : -1.0, strips};
+  GraticulePlace extreme;
+  if (has_extreme(*west, *east, extreme)) {
+    append_columns(*west, extreme, out);
+    append_columns(extreme, *east, out);
+  } else {
+    append_columns(*west, *east, out);
+  }
+}
+
+// The northernmost or southernmost point of the arc, if it is in another row than both ends.
+bool GraticuleWalk::has_extreme(const GraticulePlace& from, const GraticulePlace& to,
+                                GraticulePlace& extreme) const {
+  const Point normal = cross(from.point, to.point - from.point);
+  const double rise_from = side(normal, from.point);
+  const double rise_to = side(normal, to.point);
+  if (!(rise_from > 0 && rise_to < 0) && !(rise_from < 0 && rise_to > 0)) return false;
+  const Point point = normalized(std::abs(rise_to) * from.point + std::abs(rise_from) * to.point);
+  const auto [south, north] = std::minmax(from.point.z, to.point.z);
+  const Index row = row_of(point.z);
+  if (row >= row_of(south) && row <= row_of(north)) return false;
+  extreme = place_of(point);
+  const auto east_of = [&](const GraticulePlace& place) {
+    const double turned = turn(place) - turn(from);
+    return turned < -1 ? turned + 2 * pi : turned;
+  };
+  const double turned = east_of(extreme);
+  const GraticulePlace* const end = turned <= 0 ? &from : turned >= east_of(to) ? &to : nullptr;
+  if (end != nullptr) {
+    extreme.column = end->column;
+    extreme.offset = end->offset;
+  }
+  return true;
+}
+
+void GraticuleWalk::append_columns(const GraticulePlace& from, const GraticulePlace& to,
+                                   const Out& out) const {
+  const auto num_columns = static_cast<Index>(grid_.columns().size());
+  const bool is_wrapped = turn(to) < turn(from);
+  if (!is_wrapped && to.column < from.column) return;  // no width but rounding's
+  Index steps = to.column - from.column + (is_wrapped ? num_columns : 0);
+  GraticulePlace last = from;
+  for (; steps > 0; --steps) {
+    const Point& border = grid_.eastern_meridian(last.column);
+    const double east = std::max(side(border, to.point), 0.0);
+    const double west = std::max(-side(border, from.point), 0.0);
+    GraticulePlace next = last;
+    if (east > 0 || west > 0) {
+      next.point = normalized(east * from.point + west * to.point);
+      next.radius = radius_of(next.point);
+    }
+    next.offset = grid_.columns()[last.column].width;
+    append_rows(last, next, out);
+    last = next;
+    last.column = last.column + 1 < num_columns ? last.column + 1 : 0;
+    last.offset = 0;
+  }
+  append_rows(last, to, out);
+}
+
+void GraticuleWalk::append_rows(const GraticulePlace& from, const GraticulePlace& to,
+                                const Out& out) const {
+  if (!(from.offset < to.offset)) return;
+  Index row = row_of(from.point.z);
+  const Index last_row = row_of(to.point.z);
+  GraticulePlace last = from;
+  while (row != last_row) {
+    const bool is_north = last_row > row;
+    const GraticulePlace next = on_parallel(last, to, grid_.parallel(is_north ? row + 1 : row));
+    append_strip(last, next, row, out);
+    last = next;
+    row = is_north ? row + 1 : row - 1;
+  }
+  append_strip(last, to, row, out);
+}
+
+// Newton's method along the chord, within what is known to hold the place.
+GraticulePlace GraticuleWalk::on_parallel(const GraticulePlace& from, const GraticulePlace& to,
+                                          const Graticule::Parallel& parallel) const {
+  const Point chord = to.point - from.point;
+  const double square = dot(chord, chord);
+  const bool is_north = chord.z > 0;
+  double low = 0;
+  double high = 1;
+  double t = (parallel.sine - from.point.z) / chord.z;
+  constexpr int most_steps = 60;
+  for (int step = 0; step < most_steps; ++step) {
+    if (!(t > low && t < high)) t = (low + high) / 2;
+    const double length = std::sqrt(1 - t * (1 - t) * square);
+    const double above = from.point.z + t * chord.z - parallel.sine * length;
+    const double slope = chord.z + parallel.sine * (1 - 2 * t) * square / (2 * length);
+    if (above == 0) break;
+    ((above > 0) == is_north ? high : low) = t;
+    const double next = t - above / slope;
+    if (std::abs(next - t) <= 0x1p-53 || high - low <= 0x1p-53) break;
+    t = next;
+  }
+  GraticulePlace place = from;
+  place.point = normalized(from.point + t * chord);
+  const Point& west = grid_.columns()[from.column].west;
+  double offset = exact::argument(side(west, place.point), along(west, place.point));
+  if (offset < from.offset - 1) offset += 2 * pi;
+  place.offset = std::clamp(offset, from.offset, to.offset);
+  place.point.z = parallel.sine;
+  place.radius = parallel.cosine;
+  return place;
+}
+
+void GraticuleWalk::append_strip(const GraticulePlace& from, const GraticulePlace& to, Index row,
+                                 const Out& out) const {
+  const Graticule::Parallel& parallel = grid_.parallel(row);
+  Strip strip{from.column, row};
+  strip.width = out.sign * (to.offset - from.offset);
+  if (strip.width == 0) return;
+  strip.area = out.sign * area_above(parallel, from, to);
+  if (has_moments_) {
+    const Point west = meridian_of(grid_, from);
+    const Point east = meridian_of(grid_, to);
+    const Point run = east - west;
+    const double out_of_plane = parallel.sine * parallel.cosine / 2;
+    const double upward = parallel.cosine * parallel.cosine / 2;
+    strip.run = out.sign * run;
+    strip.moment =
+        out.sign *
+        (Point{-out_of_plane * run.y, out_of_plane * run.x, upward * (to.offset - from.offset)} +
+         (moment_of_meridian(parallel, to, east) - moment_of_meridian(parallel, from, west)) -
+         moment_of_arc(from.point, to.point));
+  }
+  out.strips.push_back(strip);
+}
+
+}  // namespace rondel::overlay

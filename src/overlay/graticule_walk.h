@@ -1,0 +1,68 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Arcs of great circles, cut by the meridians and parallels of a grid.
+//
+// Nothing is decided here that rounding could get wrong: points have rounded places, arcs are what joins these
+// places, and what is summed of them is continuous in the places. An arc gives the same numbers both ways.
+#pragma once
+
+#include <vector>
+
+#include "overlay/graticule.h"
+#include "rondel/types.h"
+
+namespace rondel::overlay {
+
+struct GraticulePlace {
+  Point point;
+  double radius = 0;  // distance from the axis
+  Index column = 0;
+  double offset = 0;  // radians east of the column's western meridian
+};
+
+// What is between the part of an arc in a row of a column and the row's southern parallel; negative for arcs that
+// run east, whose cell is to the north.
+struct Strip {
+  Index column = 0;
+  Index row = 0;
+  double area = 0;
+  double width = 0;  // radians
+  Point run{};       // difference of its ends' meridians on the equator
+  Point moment{};
+};
+
+class GraticuleWalk {
+ public:
+  GraticuleWalk(const Graticule& grid, bool has_moments) : grid_(grid), has_moments_(has_moments) {}
+
+  [[nodiscard]] GraticulePlace place_of(const Point& point) const;
+
+  // Appends the strips of the arc from one place to the other.
+  void append(const GraticulePlace& from, const GraticulePlace& to,
+              std::vector<Strip>& strips) const;
+
+ private:
+  struct Out {
+    double sign;
+    std::vector<Strip>& strips;
+  };
+  [[nodiscard]] double turn(const GraticulePlace& place) const {
+    return grid_.columns()[place.column].start + place.offset;
+  }
+  [[nodiscard]] Index row_of(double sine) const;
+  [[nodiscard]] bool has_extreme(const GraticulePlace& from, const GraticulePlace& to,
+                                 GraticulePlace& extreme) const;
+  [[nodiscard]] GraticulePlace on_parallel(const GraticulePlace& from, const GraticulePlace& to,
+                                           const Graticule::Parallel& parallel) const;
+  // From west to east.
+  void append_columns(const GraticulePlace& from, const GraticulePlace& to, const Out& out) const;
+  void append_rows(const GraticulePlace& from, const GraticulePlace& to, const Out& out) const;
+  void append_strip(const GraticulePlace& from, const GraticulePlace& to, Index row,
+                    const Out& out) const;
+
+  const Graticule& grid_;
+  bool has_moments_;
+};
+
+}  // namespace rondel::overlay

@@ -1,0 +1,280 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Cells between meridians and parallels under other cells: against quadrature in long double, closed forms, and sums.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "overlay_grid_oracle.h"
+#include "rondel/error.h"
+#include "rondel/regions.h"
+
+namespace rondel::test {
+namespace {
+
+// The largest difference of a piece and its integral.
+double worst_piece(const Triangulation& sites, const LonLatGrid& grid) {
+  const Remap remap = rondel::remap(Partition::voronoi(sites), Partition::lonlat_grid(grid));
+  const Cells all = cells(sites);
+  std::vector<LongRing> sources;
+  for (std::size_t i = 0; i < sites.num_sites(); ++i) {
+    // A side between two roundings of one corner has no direction.
+    LongRing ring = ring_of(all, i);
+    const auto is_same = [](const LongVector& p, const LongVector& q) {
+      const LongVector d{p.x - q.x, p.y - q.y, p.z - q.z};
+      return dot_of(d, d) < 1e-28L;
+    };
+    ring.erase(std::unique(ring.begin(), ring.end(), is_same), ring.end());
+    if (ring.size() > 1 && is_same(ring.front(), ring.back())) ring.pop_back();
+    sources.push_back(ring);
+  }
+  double worst = 0;
+  for (std::size_t j = 0; j + 1 < remap.offsets.size(); ++j) {
+    for (std::size_t i = 0; i < sites.num_sites(); ++i) {
+      const long double expected = area_in(sources[i], box_of(grid, j));
+      worst = std::max(worst, std::abs(piece_of(remap, i, j) - static_cast<double>(expected)));
+    }
+  }
+  return worst;
+}
+
+TEST(overlay_grid, pieces_are_integrals_over_longitude) {
+  const auto sites = triangulation_of("uniform", 60, 5);
+  EXPECT_LT(worst_piece(sites, regular_grid(9, 6, -170)), 2e-15);
+  EXPECT_LT(worst_piece(sites, regular_grid(1, 5)), 5e-15);
+  EXPECT_LT(worst_piece(sites, regular_grid(2, 3, 33)), 5e-15);
+  EXPECT_LT(worst_piece(sites, regular_grid(24, 1)), 5e-15);
+  // Southward, from 350 to 370 degrees and from 0 to 60 north; and a band around the globe.
+  EXPECT_LT(worst_piece(sites, {{350, 355, 370}, {60, 40, 30, 29.5, 0}}), 2e-15);
+  EXPECT_LT(worst_piece(sites, {{-30, 100, 310, 330}, {-89, -88, 12}}), 5e-15);
+}
+
+// Corners on meridians, parallels and poles, and sides along meridians and through poles.
+TEST(overlay_grid, pieces_of_cells_in_line_with_the_grid) {
+  for (const char* kind : {"globe_grid", "platonic_solid"}) {
+    const auto sites = triangulation_of(kind, 40, 3);
+    EXPECT_LT(worst_piece(sites, regular_grid(8, 4)), 5e-15) << kind;
+    EXPECT_LT(worst_piece(sites, regular_grid(12, 12, 0)), 5e-15) << kind;
+  }
+}
+
+void expect_sums(const Remap& remap, const Partition& source, const Partition& target) {
+  for (std::size_t i = 0; i < source.num_cells(); ++i) {
+    const double area = source.areas()[i];
+    if (!(area > 0)) continue;
+    EXPECT_NEAR(remap.source_fractions[i], 1, 16 * ulp / std::sqrt(area)) << i;
+  }
+  for (std::size_t j = 0; j < target.num_cells(); ++j) {
+    const double area = target.areas()[j];
+    long double sum = 0;
+    for (auto k = remap.weights.offsets[j]; k < remap.weights.offsets[j + 1]; ++k) {
+      sum += remap.weights.values[k];
+    }
+    if (!(area > 0)) continue;
+    EXPECT_NEAR(remap.target_fractions[j], 1, 16 * ulp / std::sqrt(area)) << j;
+    EXPECT_NEAR(static_cast<double>(sum - 1), 0, 8 * ulp) << j;
+  }
+}
+
+TEST(overlay_grid, sums_of_rows_and_columns) {
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", 3000, 6));
+  const Partition fine = Partition::lonlat_grid(regular_grid(180, 90));
+  const Partition coarse = Partition::lonlat_grid(regular_grid(20, 10, 7));
+  for (const Partition& grid : {fine, coarse}) {
+    ASSERT_TRUE(grid.is_cover());
+    EXPECT_NEAR(
+        static_cast<double>(std::accumulate(grid.areas().begin(), grid.areas().end(), 0.0L)),
+        4 * std::numbers::pi, 1e-14);
+    for (const unsigned order : {1U, 2U}) {
+      expect_sums(remap(cells, grid, {.order = order}), cells, grid);
+      expect_sums(remap(grid, cells, {.order = order}), grid, cells);
+    }
+  }
+  expect_sums(remap(fine, coarse, {.order = 2}), fine, coarse);
+  expect_sums(remap(coarse, fine, {.order = 2}), coarse, fine);
+}
+
+// What the one side's pieces are does not depend on which is the source.
+TEST(overlay_grid, sides_may_be_exchanged) {
+  const Partition cells = Partition::voronoi(triangulation_of("clustered", 400, 8));
+  const Partition grid = Partition::lonlat_grid(regular_grid(30, 20));
+  const Remap there = remap(cells, grid);
+  const Remap back = remap(grid, cells);
+  ASSERT_EQ(there.areas.size(), back.areas.size());
+  for (std::size_t j = 0; j < grid.num_cells(); ++j) {
+    for (auto k = there.offsets[j]; k < there.offsets[j + 1]; ++k) {
+      EXPECT_EQ(there.areas[k], piece_of(back, j, there.columns[k]));
+    }
+  }
+}
+
+// The mean of x over the cells of a convex partition, and over boxes.
+std::vector<LongVector> centers_of(const Triangulation& sites) {
+  const Cells all = cells(sites);
+  std::vector<LongVector> centers;
+  for (std::size_t i = 0; i < sites.num_sites(); ++i) {
+    const LongRing ring = ring_of(all, i);
+    LongVector moment{};
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const LongVector n = cross_of(ring[k], ring[(k + 1) % ring.size()]);
+      const long double sine = std::sqrt(dot_of(n, n));
+      const long double half =
+          std::atan2(sine, dot_of(ring[k], ring[(k + 1) % ring.size()])) / (2 * sine);
+      moment = {moment.x + half * n.x, moment.y + half * n.y, moment.z + half * n.z};
+    }
+    const long double area = area_of(ring);
+    centers.push_back({moment.x / area, moment.y / area, moment.z / area});
+  }
+  return centers;
+}
+std::vector<LongVector> centers_of(const LonLatGrid& grid) {
+  std::vector<LongVector> centers;
+  for (std::size_t j = 0; j < (grid.lon_deg.size() - 1) * (grid.lat_deg.size() - 1); ++j) {
+    const LonLatBox box = box_of(grid, j);
+    const auto primitive = [](long double lat) {
+      return (lat + std::sin(lat) * std::cos(lat)) / 2;
+    };
+    const long double height = std::sin(box.north) - std::sin(box.south);
+    const long double inward = (primitive(box.north) - primitive(box.south)) / height;
+    const long double width = box.east - box.west;
+    centers.push_back({inward * (std::sin(box.east) - std::sin(box.west)) / width,
+                       inward * (std::cos(box.west) - std::cos(box.east)) / width,
+                       (std::sin(box.north) + std::sin(box.south)) / 2});
+  }
+  return centers;
+}
+
+// Means of a linear field over cells are its values at their centers of mass.
+TEST(overlay_grid, linear_fields_with_their_gradients) {
+  const Point g{0.3, -1.7, 0.9};
+  const auto field = [&](const std::vector<LongVector>& centers) {
+    std::vector<double> means;
+    for (const LongVector& c : centers) {
+      means.push_back(static_cast<double>(3 + g.x * c.x + g.y * c.y + g.z * c.z));
+    }
+    return means;
+  };
+  const auto sites = triangulation_of("uniform", 700, 7);
+  const LonLatGrid lines = regular_grid(36, 18, 5);
+  const LonLatGrid other_lines = regular_grid(20, 24, -7.5);
+  const auto check = [&](const Partition& source, const std::vector<double>& means,
+                         const Partition& target, const std::vector<double>& expected) {
+    const Remap remap = rondel::remap(source, target, {.order = 2});
+    std::vector<double> values(expected.size());
+    apply_gradients(remap, means, std::vector<Point>(means.size(), g), values);
+    std::vector<double> estimated(expected.size());
+    std::vector<double> constant(expected.size());
+    apply(remap.weights, means, estimated);
+    apply(rondel::remap(source, target).weights, means, constant);
+    double error = 0;
+    double error_of_constant = 0;
+    for (std::size_t j = 0; j < values.size(); ++j) {
+      EXPECT_NEAR(values[j], expected[j], 2e-14) << j;
+      error += std::abs(estimated[j] - expected[j]);
+      error_of_constant += std::abs(constant[j] - expected[j]);
+    }
+    EXPECT_LT(error, error_of_constant / 5);
+  };
+  const Partition voronoi = Partition::voronoi(sites);
+  const Partition grid = Partition::lonlat_grid(lines);
+  check(voronoi, field(centers_of(sites)), grid, field(centers_of(lines)));
+  check(grid, field(centers_of(lines)), voronoi, field(centers_of(sites)));
+  check(grid, field(centers_of(lines)), Partition::lonlat_grid(other_lines),
+        field(centers_of(other_lines)));
+}
+
+TEST(overlay_grid, onto_itself_is_the_identity) {
+  for (const LonLatGrid& lines :
+       {regular_grid(36, 18), regular_grid(7, 11, 12.3), LonLatGrid{{0.1, 0.2, 0.7}, {3, 2, -1}}}) {
+    const Partition grid = Partition::lonlat_grid(lines);
+    for (const unsigned order : {1U, 2U}) {
+      const Remap self = remap(grid, grid, {.order = order});
+      for (std::size_t j = 0; j < grid.num_cells(); ++j) {
+        EXPECT_EQ(piece_of(self, j, j), grid.areas()[j]);
+        for (auto k = self.weights.offsets[j]; k < self.weights.offsets[j + 1]; ++k) {
+          EXPECT_EQ(self.weights.values[k], self.weights.columns[k] == j ? 1 : 0);
+        }
+      }
+    }
+  }
+}
+
+// The same lines, turned around the globe, southward, and with a rounded meridian.
+TEST(overlay_grid, of_the_same_lines_written_differently) {
+  const LonLatGrid lines = regular_grid(10, 6, -180);
+  LonLatGrid other = regular_grid(10, 6, 0);
+  for (double& lon : other.lon_deg) lon += lon == 72 ? 1e-13 : 0;
+  std::ranges::reverse(other.lat_deg);
+  const Remap remap = rondel::remap(Partition::lonlat_grid(lines), Partition::lonlat_grid(other));
+  for (std::size_t j = 0; j < 60; ++j) {
+    ASSERT_EQ(remap.weights.offsets[j + 1] - remap.weights.offsets[j], 1U);
+    EXPECT_EQ(remap.weights.columns[j], (5 - j / 10) * 10 + (j % 10 + 5) % 10);
+    EXPECT_EQ(remap.weights.values[j], 1);
+  }
+}
+
+TEST(overlay_grid, great_circles_are_sides_on_request) {
+  const LonLatGrid lines = regular_grid(12, 6);
+  const Partition arcs = Partition::lonlat_grid(lines, GridSides::great_circles);
+  ASSERT_TRUE(arcs.is_cover());
+  const Partition parallels = Partition::lonlat_grid(lines);
+  // North of the equator an arc is north of its parallel.
+  const CellRings rings = arcs.rings();
+  for (std::size_t i = 0; i < 72; ++i) {
+    LongRing ring;
+    for (std::uint64_t k = rings.rings[i]; k < rings.rings[i + 1]; ++k) {
+      ring.push_back(long_vector(rings.points[rings.corners[k]]));
+    }
+    EXPECT_NEAR(arcs.areas()[i], static_cast<double>(area_of(ring)), 1e-15);
+    const bool is_smaller = i < 24 || i >= 48;
+    EXPECT_EQ(arcs.areas()[i] < parallels.areas()[i], is_smaller) << i;
+  }
+  EXPECT_THROW((void)Partition::lonlat_grid(regular_grid(2, 2), GridSides::great_circles),
+               InvalidInput);
+  const Remap remap = rondel::remap(arcs, parallels);
+  EXPECT_NEAR(std::accumulate(remap.areas.begin(), remap.areas.end(), 0.0), 4 * std::numbers::pi,
+              1e-13);
+}
+
+TEST(overlay_grid, of_few_cells) {
+  for (const std::size_t n : {1U, 2U, 3U, 4U}) {
+    const Partition cells = Partition::voronoi(triangulation_of("uniform", n, 15));
+    for (const std::size_t num_lon : {1U, 2U, 5U}) {
+      const Partition grid = Partition::lonlat_grid(regular_grid(num_lon, 4));
+      for (const Remap& remap : {rondel::remap(cells, grid), rondel::remap(grid, cells)}) {
+        EXPECT_NEAR(std::accumulate(remap.areas.begin(), remap.areas.end(), 0.0),
+                    4 * std::numbers::pi, 1e-13)
+            << n << ' ' << num_lon;
+      }
+    }
+  }
+}
+
+TEST(overlay_grid, names_what_is_wrong) {
+  const auto message_of = [](const LonLatGrid& grid) -> std::string {
+    try {
+      (void)Partition::lonlat_grid(grid);
+    } catch (const InvalidInput& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(message_of({{0}, {0, 1}}), "a grid of 1 meridians and 2 parallels has no cell");
+  EXPECT_EQ(message_of({{0, 1, 1}, {0, 1}}), "meridian 2, 1.000000, is not east of the last");
+  EXPECT_EQ(message_of({{0, 361}, {0, 1}}),
+            "meridian 1, 361.000000, is more than once around the globe");
+  EXPECT_EQ(message_of({{0, NAN}, {0, 1}}), "meridian 1, nan, is no longitude");
+  EXPECT_EQ(message_of({{0, 1}, {0, 91}}), "parallel 1, 91.000000, is no latitude");
+  EXPECT_EQ(message_of({{0, 1}, {0, -1, 2}}), "parallel 2, 2.000000, is not in order");
+  const Partition grid = Partition::lonlat_grid(regular_grid(4, 2));
+  EXPECT_THROW((void)grid.rings(), InvalidInput);
+  EXPECT_THROW((void)intersection(grid, grid), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rondel::test
