@@ -161,5 +161,6 @@ Command add_nearest_command(CLI::App& tool);
 Command add_interpolate_command(CLI::App& tool);    // remap_commands.cpp
 Command add_apply_command(CLI::App& tool);          // remap_commands.cpp
 Command add_check_weights_command(CLI::App& tool);  // remap_commands.cpp
+Command add_remap_command(CLI::App& tool);          // remap_commands.cpp
 
 }  // namespace rondel::cli

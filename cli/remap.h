@@ -12,6 +12,9 @@
 #include "command.h"
 #include "rondel/fields.h"
 #include "rondel/interpolate.h"
+#include "rondel/partition.h"
+#include "rondel/polygon_files.h"
+#include "rondel/remap.h"
 
 namespace rondel::cli {
 
@@ -41,9 +44,20 @@ struct Targets {
 Targets read_targets(const std::string& name, const ReadOptions& read);
 /// Corners and areas of the cells, if the targets are a grid.
 void add_grid_cells(WeightSide& side);
+/// The lines of "grid:DEG" or "grid:NLONxNLAT". \throws UsageError
+LonLatGrid lonlat_grid(const std::string& name);
+
+struct RemapCommandOptions {
+  CommonOptions common;  ///< INPUT: the source's cells; OUTPUT: the weights
+  std::string target;    ///< --to
+  RemapOptions remap;    ///< --order --norm
+  GridSides sides = GridSides::parallels;
+  PolygonEdges edges = PolygonEdges::lonlat;
+};
 
 ExitStatus run_apply(const ApplyCommandOptions& options);
 ExitStatus run_check_weights(const CommonOptions& options);
 ExitStatus run_interpolate(const InterpolateOptions& options);
+ExitStatus run_remap(const RemapCommandOptions& options);
 
 }  // namespace rondel::cli

@@ -157,4 +157,49 @@ Command add_interpolate_command(CLI::App& tool) {
   return {parser, [options] { return run_interpolate(*options); }};
 }
 
+Command add_remap_command(CLI::App& tool) {
+  auto options = std::make_shared<RemapCommandOptions>();
+  CLI::App* parser = tool.add_subcommand("remap", "Make conservative weights between cells");
+  add_input_options(*parser, options->common);
+  parser
+      ->add_option("--to", options->target,
+                   "The targets, in the same forms as INPUT: .nc with the cells of a model or a\n"
+                   "grid, grid:DEG or grid:NLONxNLAT, .geojson with polygons, or a file of sites,\n"
+                   "whose Voronoi cells they are")
+      ->required()
+      ->type_name("CELLS");
+  add_output_option(*parser, options->common,
+                    "Where to write the weights: .nc (ESMF; --format scrip for CDO), .npz (SciPy)")
+      ->required();
+  add_word<unsigned>(
+      *parser, "--order", options->remap.order, {{"1", 1U}, {"2", 2U}},
+      "1 (default): the field is constant in each source; 2: it has a gradient there");
+  add_word<RemapNorm>(
+      *parser, "--norm", options->remap.norm,
+      {{"destarea", RemapNorm::destarea}, {"fracarea", RemapNorm::fracarea}},
+      "What sums are divided by: destarea (default: the target's area, so integrals are\n"
+      "kept) or fracarea (the part that sources cover, so constants are)");
+  add_word<GridSides>(
+      *parser, "--sides", options->sides,
+      {{"parallels", GridSides::parallels}, {"great-circles", GridSides::great_circles}},
+      "What cells of grids have in the north and south: parallels (default) or\n"
+      "great-circles (ESMF's)");
+  add_word<PolygonEdges>(
+      *parser, "--edges", options->edges,
+      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
+      "What joins positions of polygons: lonlat (default; straight in longitude and\n"
+      "latitude, RFC 7946) or geodesic (great circles)");
+  add_build_options(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "netCDF may be UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF, in a classic format\n"
+      "(nccopy -k cdf5 makes one). Cells that the file masks take no part. One of the two has to\n"
+      "cover the globe, or be a grid along longitudes and latitudes.\n\n"
+      "Examples:\n"
+      "  rondel remap ocean.nc --to grid:1 -o weights.nc\n"
+      "  rondel remap stations.csv --to countries.geojson --norm fracarea -o weights.npz\n"
+      "  rondel remap grid:0.25 --to icon.nc --order 2 -o weights.nc --format scrip");
+  return {parser, [options] { return run_remap(*options); }};
+}
+
 }  // namespace rondel::cli

@@ -20,7 +20,7 @@ struct GridSize {
 };
 
 [[noreturn]] void refuse(const std::string& text) {
-  throw UsageError("--to: '" + text +
+  throw UsageError("'" + text +
                    "' is no grid; grid:DEG divides 180 degrees into equal parts, grid:NLONxNLAT "
                    "has so many cells");
 }
@@ -120,6 +120,18 @@ Targets read_targets(const std::string& name, const ReadOptions& read) {
   const SiteTable& table = targets.table;
   targets.side.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
   return targets;
+}
+
+LonLatGrid lonlat_grid(const std::string& name) {
+  const GridSize size = grid_size(name);
+  LonLatGrid grid;
+  for (std::uint64_t i = 0; i <= size.num_lon; ++i) {
+    grid.lon_deg.push_back(place(2 * i, size.num_lon, 180));
+  }
+  for (std::uint64_t j = 0; j <= size.num_lat; ++j) {
+    grid.lat_deg.push_back(place(2 * j, size.num_lat, 90));
+  }
+  return grid;
 }
 
 void add_grid_cells(WeightSide& side) {

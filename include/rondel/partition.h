@@ -59,6 +59,8 @@ class RONDEL_API Partition {
   [[nodiscard]] std::size_t num_cells() const;
   /// In steradians, by cell, from its corners.
   [[nodiscard]] std::span<const double> areas() const;
+  /// Where the centers of mass are seen from the center of the sphere, by cell; (0, 0, 0) of an empty one.
+  [[nodiscard]] std::vector<Point> centers() const;
   /// The cells, by index. Those of voronoi() have no corners in the wrong order.
   [[nodiscard]] CellRings rings() const;
   /// Whether the cells cover the sphere, each with one ring, convex or nearly so, and share their

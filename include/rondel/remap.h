@@ -28,13 +28,17 @@ struct RemapOptions {
   /// the neighbors (cells that share an edge) and the cell's mean kept; the integral is kept by both.
   unsigned order = 1;
   RemapNorm norm = RemapNorm::destarea;
+  /// 0 by cell: it takes no part, as if it were no cell of its partition. Empty: all take part.
+  std::vector<std::int32_t> source_mask = {};
+  std::vector<std::int32_t> target_mask = {};
 };
 
 struct Remap {
   /// Rows are targets, columns sources. Targets that no source covers have empty rows, so NaN.
   Weights weights;
-  std::vector<double> source_areas;      ///< steradians
-  std::vector<double> target_areas;      ///< steradians
+  /// Steradians: those of the partition, or, where they differ by rounding alone, the sums of the pieces.
+  std::vector<double> source_areas;
+  std::vector<double> target_areas;      ///< the same
   std::vector<double> source_fractions;  ///< which share of each source the targets cover
   std::vector<double> target_fractions;  ///< which share of each target the sources cover
 
@@ -49,13 +53,15 @@ struct Remap {
 /// The overlay of both and the weights that follow from it.
 ///
 /// Which edges cross, and where cells are inside of cells, is decided exactly on the corners as they are;
-/// points of intersection are rounded. Equal cells, shared corners and shared edges are like others: the
+/// points of intersection are rounded. With a grid of parallels nothing needs to be decided: what is summed is
+/// continuous in the corners. Equal cells, shared corners and shared edges are like others: the
 /// weights of a partition onto itself are the identity. Pieces not larger than rounding of
 /// their corners may make them are left out. The weights depend on nothing but the cells.
 ///
 /// With order 1 and destarea, the sum of areas times weights of a column is that source's area, and
 /// the sum of a row 1, to a few ulp, where the other partition covers it.
-/// \throws InvalidInput if no partition is_cover(), or the order is neither 1 nor 2.
+/// \throws InvalidInput if no partition is_cover() and none is a grid of parallels, the order is neither 1 nor 2, or a
+///         mask has another length than its partition.
 RONDEL_API Remap remap(const Partition& source, const Partition& target,
                        const RemapOptions& options = {}, const Execution& execution = {});
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <numbers>
 
 #include "interpolation/weight_formats.h"
 #include "io/bad_value.h"
@@ -53,21 +52,11 @@ std::vector<double> numbers_of(const io::NetcdfReader& file, const std::string& 
   return values;
 }
 
-// Degrees, unless the units say otherwise.
-std::vector<double> angles_of(const io::NetcdfReader& file, const std::string& name) {
-  const io::NetcdfReader::Variable& variable = file.require(name);
-  std::vector<double> values = file.numbers(variable);
-  if (io::netcdf_text(variable.attributes, "units").starts_with("rad")) {
-    for (double& value : values) value *= 180 / std::numbers::pi;
-  }
-  return values;
-}
-
 void read_corners(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
                   WeightSide& side) {
   if (file.find(names.corner_lon) == nullptr || file.find(names.corner_lat) == nullptr) return;
-  const std::vector<double> lon = angles_of(file, names.corner_lon);
-  const std::vector<double> lat = angles_of(file, names.corner_lat);
+  const std::vector<double> lon = file.degrees(file.require(names.corner_lon));
+  const std::vector<double> lat = file.degrees(file.require(names.corner_lat));
   if (lon.size() <= size) return;
   if (size == 0 || lon.size() % size != 0) {
     throw io::BadValue("variable " + io::in_quotes(names.corner_lon) + " has " +
@@ -143,8 +132,8 @@ void read_own_attributes(const io::NetcdfReader& file, WeightFile& content) {
 void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
                WeightSide& side) {
   if (file.find(names.lon) != nullptr && file.find(names.lat) != nullptr) {
-    const std::vector<double> lon = angles_of(file, names.lon);
-    const std::vector<double> lat = angles_of(file, names.lat);
+    const std::vector<double> lon = file.degrees(file.require(names.lon));
+    const std::vector<double> lat = file.degrees(file.require(names.lat));
     require_size(names.lon, lon, size);
     require_size(names.lat, lat, size);
     side.points.resize(size);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <numbers>
 
 #include "io/bad_value.h"
 #include "io/binary.h"
@@ -141,6 +142,14 @@ std::vector<double> NetcdfReader::numbers(const Variable& variable) const {
   }
   const std::vector<std::int64_t> whole = integers(variable);
   return {whole.begin(), whole.end()};
+}
+
+std::vector<double> NetcdfReader::degrees(const Variable& variable) const {
+  std::vector<double> values = numbers(variable);
+  if (netcdf_text(variable.attributes, "units").starts_with("rad")) {
+    for (double& value : values) value *= 180 / std::numbers::pi;
+  }
+  return values;
 }
 
 std::vector<std::int64_t> NetcdfReader::integers(const Variable& variable) const {

@@ -42,6 +42,8 @@ class RONDEL_API NetcdfReader {
 
   // All values as doubles. Throws BadValue if they are a text.
   [[nodiscard]] std::vector<double> numbers(const Variable& variable) const;
+  // The same in degrees: as they are, unless the units begin with "rad".
+  [[nodiscard]] std::vector<double> degrees(const Variable& variable) const;
   // The same as integers. Throws BadValue if they are a text, are floating, or are beyond 2^63.
   [[nodiscard]] std::vector<std::int64_t> integers(const Variable& variable) const;
 

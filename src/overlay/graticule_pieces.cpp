@@ -12,6 +12,7 @@
 
 #include "overlay/gathered_rows.h"
 #include "overlay/graticule_walk.h"
+#include "overlay/measure.h"
 #include "predicates/bounds.h"
 #include "system/parallel.h"
 
@@ -21,7 +22,7 @@ namespace {
 struct GridPiece {
   Index cell;
   double area;
-  double size;  // sum of the absolute values that were summed
+  double length;  // of its border, roughly
   Point moment;
 };
 
@@ -106,7 +107,7 @@ class GridPieceMaker {
     if (has_pole) fill = filled(column);
     std::size_t end = next;
     while (end < strips_.size() && strips_[end].column == column) ++end;
-    const double rounding = 2 * predicates::unit_roundoff * static_cast<double>(end - next + 2);
+    const double summands = static_cast<double>(end - next + 2);
     Index row = has_pole ? grid_.num_rows() - 1 : strips_[next].row;
     for (;; --row) {
       GridPiece piece = row_of(column, row, fill);
@@ -114,7 +115,7 @@ class GridPieceMaker {
       for (; next < end && strips_[next].row == row; ++next) {
         const Strip& strip = strips_[next];
         piece.area += strip.area;
-        piece.size += std::abs(strip.area);
+        piece.length += strip.length;
         piece.moment = piece.moment + strip.moment;
         below.width += strip.width;
         below.size += std::abs(strip.width);
@@ -122,10 +123,10 @@ class GridPieceMaker {
       }
       if (piece.cell != no_index) pieces_.push_back(piece);
       fill = below;
-      if (std::abs(fill.width) <= rounding * fill.size) fill = {};
-      if (std::abs(fill.width - grid_.columns()[column].width) <= rounding * fill.size) {
-        fill = filled(column);
-      }
+      // Longitudes are off by some u, and sums of n by n u.
+      const double rounding = predicates::unit_roundoff * (16 + 4 * summands * fill.size);
+      if (std::abs(fill.width) <= rounding) fill = {};
+      if (std::abs(fill.width - grid_.columns()[column].width) <= rounding) fill = filled(column);
       if (row == 0 || (next == end && fill.width == 0)) return end;
       if (fill.width == 0) row = strips_[next].row + 1;
     }
@@ -141,8 +142,10 @@ class GridPieceMaker {
     const Graticule::Parallel& south = grid_.parallel(row);
     const Graticule::Parallel& north = grid_.parallel(row + 1);
     const double height = north.sine - south.sine;
-    GridPiece piece{grid_.cell(column, row), fill.width * height, fill.size * height, {}};
-    if (has_moments_ && fill.width != 0) {
+    GridPiece piece{grid_.cell(column, row), fill.width * height, 0, {}};
+    if (fill.width == 0) return piece;
+    piece.length = fill.size + height;
+    if (has_moments_) {
       piece.moment = moment_of_row(south, north, fill.width, fill.run);
     }
     return piece;
@@ -151,7 +154,7 @@ class GridPieceMaker {
   // But a cell that is no larger keeps its largest piece.
   void drop_rounding() {
     const auto is_rounding = [](const GridPiece& piece) {
-      return piece.area <= 16 * predicates::unit_roundoff * piece.size;
+      return piece.area <= area_of_rounding(piece.length);
     };
     if (pieces_.empty()) return;
     if (std::ranges::all_of(pieces_, is_rounding)) {

@@ -242,6 +242,7 @@ void GraticuleWalk::append_strip(const GraticulePlace& from, const GraticulePlac
   Strip strip{from.column, row};
   strip.width = out.sign * (to.offset - from.offset);
   if (strip.width == 0) return;
+  strip.length = rough_length(from.point, to.point);
   strip.area = out.sign * area_above(parallel, from, to);
   if (has_moments_) {
     const Point west = meridian_of(grid_, from);

@@ -27,8 +27,9 @@ struct Strip {
   Index column = 0;
   Index row = 0;
   double area = 0;
-  double width = 0;  // radians
-  Point run{};       // difference of its ends' meridians on the equator
+  double width = 0;   // radians
+  double length = 0;  // of the arc, roughly
+  Point run{};        // difference of its ends' meridians on the equator
   Point moment{};
 };
 

@@ -184,6 +184,12 @@ Partition Partition::lonlat_grid(const LonLatGrid& grid, GridSides sides,
 
 std::size_t Partition::num_cells() const { return data_->areas().size(); }
 std::span<const double> Partition::areas() const { return data_->areas(); }
+std::vector<Point> Partition::centers() const {
+  std::vector<Point> centers;
+  centers.reserve(num_cells());
+  for (const Point& moment : data_->moments()) centers.push_back(normalized(moment));
+  return centers;
+}
 CellRings Partition::rings() const {
   overlay::require_arcs(*data_);
   const Subdivision& cells = data_->subdivision();

@@ -65,11 +65,38 @@ PieceRows overlay_of(const PartitionData& source, const PartitionData& target, b
   throw InvalidInput("neither the source nor the target covers the sphere", 0);
 }
 
-// CoveredSums over a partition that covers differ from the areas of cells by rounding alone; the sums
-// are what keeps integrals.
-double covered_or_own(double covered, double own) {
-  constexpr double rounding = 1e-9;
-  return std::abs(covered - own) <= rounding * own ? covered : own;
+// Leaves out what is of a cell that takes no part.
+void drop_masked(const RemapOptions& options, PieceRows& pieces) {
+  if (options.source_mask.empty() && options.target_mask.empty()) return;
+  const auto is_out = [](const std::vector<std::int32_t>& mask, std::size_t cell) {
+    return !mask.empty() && mask[cell] == 0;
+  };
+  std::uint64_t kept = 0;
+  std::uint64_t begin = 0;
+  for (std::size_t j = 0; j + 1 < pieces.offsets.size(); ++j) {
+    const std::uint64_t end = pieces.offsets[j + 1];
+    for (std::uint64_t k = begin; k < end; ++k) {
+      if (is_out(options.target_mask, j) || is_out(options.source_mask, pieces.columns[k]))
+        continue;
+      pieces.columns[kept] = pieces.columns[k];
+      pieces.areas[kept] = pieces.areas[k];
+      if (!pieces.moments.empty()) pieces.moments[kept] = pieces.moments[k];
+      ++kept;
+    }
+    begin = end;
+    pieces.offsets[j + 1] = kept;
+  }
+  pieces.columns.resize(kept);
+  pieces.areas.resize(kept);
+  if (!pieces.moments.empty()) pieces.moments.resize(kept);
+}
+
+void require_mask(const char* name, const std::vector<std::int32_t>& mask, std::size_t num_cells) {
+  if (mask.empty() || mask.size() == num_cells) return;
+  throw InvalidInput(std::string("the mask of the ") + name + " has " +
+                         std::to_string(mask.size()) + " values for " + std::to_string(num_cells) +
+                         " cells",
+                     0);
 }
 
 struct CoveredSums {
@@ -103,6 +130,15 @@ CoveredSums sums_of(const Remap& remap, const PieceRows& pieces, std::size_t num
   }
   for (const exact::DoubleDouble& sum : of_sources) sums.of_sources.push_back(sum.hi + sum.lo);
   return sums;
+}
+
+// What pieces sum up to differs by rounding alone from the area of a cell that is covered, and is what keeps integrals.
+std::vector<double> areas_of(const std::vector<double>& covered, std::vector<double> areas) {
+  constexpr double rounding = 1e-9;
+  for (std::size_t i = 0; i < areas.size(); ++i) {
+    if (std::abs(covered[i] - areas[i]) <= rounding * areas[i]) areas[i] = covered[i];
+  }
+  return areas;
 }
 
 std::vector<double> fractions(const std::vector<double>& covered,
@@ -161,16 +197,19 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
   const PartitionData& sources = PartitionData::of(source);
   const PartitionData& targets = PartitionData::of(target);
   const bool is_second = options.order == 2;
-  const PieceRows pieces = overlay_of(sources, targets, is_second, execution);
+  require_mask("source", options.source_mask, source.num_cells());
+  require_mask("target", options.target_mask, target.num_cells());
+  PieceRows pieces = overlay_of(sources, targets, is_second, execution);
+  drop_masked(options, pieces);
   Remap result;
-  result.source_areas = sources.areas();
-  result.target_areas = targets.areas();
   result.offsets = pieces.offsets;
   result.columns.assign(pieces.columns.begin(), pieces.columns.end());
   result.areas.assign(pieces.areas.begin(), pieces.areas.end());
-  const std::size_t num_sources = result.source_areas.size();
-  const std::size_t num_targets = result.target_areas.size();
+  const std::size_t num_sources = source.num_cells();
+  const std::size_t num_targets = target.num_cells();
   const CoveredSums sums = sums_of(result, pieces, num_sources);
+  result.source_areas = areas_of(sums.of_sources, sources.areas());
+  result.target_areas = areas_of(sums.of_targets, targets.areas());
   result.source_fractions = fractions(sums.of_sources, result.source_areas);
   result.target_fractions = fractions(sums.of_targets, result.target_areas);
 
@@ -180,19 +219,17 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
     std::vector<Point> centers(num_sources);
     for (std::size_t i = 0; i < num_sources; ++i) {
       if (sums.of_sources[i] > 0) means[i] = sums.moments_of_sources[i] / sums.of_sources[i];
-      if (result.source_areas[i] > 0) centers[i] = sources.moments()[i] / result.source_areas[i];
+      if (sources.areas()[i] > 0) centers[i] = sources.moments()[i] / sources.areas()[i];
     }
     result.moments = moments_around(means, result, pieces);
-    gradients = cell_gradients(sources, centers, execution.threads);
+    gradients = cell_gradients(sources, centers, options.source_mask, execution.threads);
   }
   Weights& weights = result.weights;
   weights.num_columns = num_sources;
   std::vector<Term> terms;
   for (std::size_t j = 0; j < num_targets; ++j) {
-    const double covered = sums.of_targets[j];
-    const double area = options.norm == RemapNorm::fracarea
-                            ? covered
-                            : covered_or_own(covered, result.target_areas[j]);
+    const double area =
+        options.norm == RemapNorm::fracarea ? sums.of_targets[j] : result.target_areas[j];
     terms.clear();
     for (std::uint64_t k = result.offsets[j]; k < result.offsets[j + 1]; ++k) {
       const Index i = result.columns[k];

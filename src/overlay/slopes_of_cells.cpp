@@ -32,7 +32,8 @@ std::pair<Point, Point> tangents(const Point& n) {
 // The cells that share an edge with others, by name.
 class NeighborLists {
  public:
-  explicit NeighborLists(const PartitionData& cells) : cells_(cells) {}
+  NeighborLists(const PartitionData& cells, std::span<const std::int32_t> mask)
+      : cells_(cells), mask_(mask) {}
 
   // Of cells in spatial order, where there is one.
   [[nodiscard]] Index name(std::size_t c) const {
@@ -51,19 +52,22 @@ class NeighborLists {
     }
     std::ranges::sort(neighbors);
     neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
-    std::erase(neighbors, name(c));
+    std::erase_if(neighbors, [&](Index neighbor) {
+      return neighbor == name(c) || (!mask_.empty() && mask_[neighbor] == 0);
+    });
     return neighbors;
   }
 
  private:
   const PartitionData& cells_;
+  std::span<const std::int32_t> mask_;
 };
 
 }  // namespace
 
 CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> centers,
-                             unsigned threads) {
-  const NeighborLists neighbors_of(cells);
+                             std::span<const std::int32_t> mask, unsigned threads) {
+  const NeighborLists neighbors_of(cells, mask);
   const std::size_t n = centers.size();
   CellGradients result;
   result.offsets.assign(n + 1, 0);

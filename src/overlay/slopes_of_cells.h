@@ -21,8 +21,9 @@ struct CellGradients {
 };
 
 // Least squares over the cells that share an edge, weighted by the inverse squares of distances, in the
-// tangent plane of the center of mass; none where these do not determine it. `centers` by name.
+// tangent plane of the center of mass; none where these do not determine it. `centers` and `mask` by name; where there
+// is a mask, cells of 0 are no neighbors.
 CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> centers,
-                             unsigned threads);
+                             std::span<const std::int32_t> mask, unsigned threads);
 
 }  // namespace rondel::overlay

@@ -292,6 +292,34 @@ TEST(overlay_remap, few_cells) {
   }
 }
 
+TEST(overlay_remap, masked_cells_take_no_part) {
+  const Partition source = voronoi_of("uniform", 300, 17);
+  const Partition target = voronoi_of("uniform", 200, 18);
+  const Remap all = rondel::remap(source, target);
+  RemapOptions options;
+  for (std::size_t i = 0; i < 300; ++i) options.source_mask.push_back(i % 3 == 0 ? 0 : 1);
+  for (std::size_t j = 0; j < 200; ++j) options.target_mask.push_back(j % 5 == 0 ? 0 : 7);
+  for (const unsigned order : {1U, 2U}) {
+    options.order = order;
+    const Remap masked = rondel::remap(source, target, options);
+    for (const Index column : masked.weights.columns) EXPECT_NE(column % 3, 0U);
+    for (std::size_t j = 0; j < 200; ++j) {
+      if (j % 5 == 0) {
+        EXPECT_EQ(masked.weights.offsets[j], masked.weights.offsets[j + 1]);
+      }
+      double covered = 0;
+      for (std::size_t i = 0; i < 300; ++i) {
+        const bool is_in = i % 3 != 0 && j % 5 != 0;
+        EXPECT_EQ(piece_of(masked, i, j), is_in ? piece_of(all, i, j) : 0);
+        covered += piece_of(masked, i, j);
+      }
+      EXPECT_NEAR(masked.target_fractions[j], covered / target.areas()[j], 1e-14);
+    }
+  }
+  options.source_mask.pop_back();
+  EXPECT_THROW((void)rondel::remap(source, target, options), InvalidInput);
+}
+
 TEST(overlay_remap, names_what_is_wrong) {
   const auto message_of = [](const CellRings& cells) -> std::string {
     try {

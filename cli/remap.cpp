@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/remap.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <utility>
+
+#include "process.h"
+#include "remap.h"
+#include "report.h"
+#include "rondel/mesh_files.h"
+#include "rondel/weight_files.h"
+
+namespace rondel::cli {
+namespace {
+
+// One side: its cells, and what the file of weights says of it.
+struct CellSide {
+  Partition partition;
+  WeightSide side;
+};
+
+// The corners of cells with one ring and not many of them, the last one repeated where others have more.
+std::vector<LonLat> corners_of(const CellRings& cells) {
+  constexpr std::size_t most_corners = 16;
+  std::size_t most = 0;
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    if (cells.cells[i + 1] != cells.cells[i] + 1) return {};
+    const std::uint64_t ring = cells.cells[i];
+    most = std::max<std::size_t>(most, cells.rings[ring + 1] - cells.rings[ring]);
+  }
+  if (most > most_corners) return {};
+  const std::vector<LonLat> places = lonlats(cells.points);
+  std::vector<LonLat> corners;
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    const std::span<const Index> ring =
+        std::span(cells.corners)
+            .subspan(cells.rings[cells.cells[i]],
+                     cells.rings[cells.cells[i] + 1] - cells.rings[cells.cells[i]]);
+    for (std::size_t k = 0; k < most; ++k) {
+      corners.push_back(places[ring[std::min(k, ring.size() - 1)]]);
+    }
+  }
+  return corners;
+}
+
+CellSide side_of_grid(const std::string& name, const RemapCommandOptions& options, const Job& job) {
+  WeightSide side = read_targets(name, {}).side;
+  add_grid_cells(side);
+  try {
+    return {Partition::lonlat_grid(lonlat_grid(name), options.sides, job.execution()),
+            std::move(side)};
+  } catch (const InvalidInput& error) {
+    throw UsageError(name + ": " + error.what());
+  }
+}
+
+CellSide side_of_mesh(const FileName& file, const RemapCommandOptions& options, const Job& job) {
+  CellTable table = read_cells(file);
+  Partition partition = partition_of(table, options.sides, job.execution());
+  WeightSide side;
+  side.points = table.centers.empty() ? lonlats(partition.centers()) : std::move(table.centers);
+  side.mask = std::move(table.mask);
+  side.shape = std::move(table.shape);
+  if (!table.grid) {
+    side.corners = corners_of(table.cells);
+  } else {
+    for (std::size_t j = 0; j + 1 < table.grid->lat_deg.size(); ++j) {
+      for (std::size_t i = 0; i + 1 < table.grid->lon_deg.size(); ++i) {
+        const auto [south, north] = std::minmax(table.grid->lat_deg[j], table.grid->lat_deg[j + 1]);
+        const double west = table.grid->lon_deg[i];
+        const double east = table.grid->lon_deg[i + 1];
+        side.corners.insert(side.corners.end(),
+                            {{west, south}, {east, south}, {east, north}, {west, north}});
+      }
+    }
+  }
+  return {std::move(partition), std::move(side)};
+}
+
+CellSide side_of_polygons(const FileName& file, const RemapCommandOptions& options,
+                          const Job& job) {
+  const PolygonTable table = read_polygons(file, {.edges = options.edges}, job.execution());
+  try {
+    Partition partition(table.cells, job.execution());
+    WeightSide side;
+    side.points = lonlats(partition.centers());
+    return {std::move(partition), std::move(side)};
+  } catch (const InvalidInput& error) {
+    throw FileError(table.name + ": " + error.what());
+  }
+}
+
+CellSide side_of_sites(const FileName& file, const RemapCommandOptions& options, Job& job) {
+  ReadOptions read = options.common.read;
+  read.keep_columns = false;
+  const SiteTable table = job.read(file, read);
+  const Triangulation triangulation = job.triangulate(table);
+  WeightSide side;
+  side.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
+  return {Partition::voronoi(triangulation, job.execution()), std::move(side)};
+}
+
+CellSide side_of(const FileName& file, const RemapCommandOptions& options, Job& job) {
+  CommonOptions named;
+  named.output = file.path;
+  named.output_format = file.format;
+  const std::string format = named.format();
+  if (file.path.starts_with("grid:")) return side_of_grid(file.path, options, job);
+  if (format == "nc") return side_of_mesh(file, options, job);
+  if (format == "geojson" || format == "json") return side_of_polygons(file, options, job);
+  return side_of_sites(file, options, job);
+}
+
+void report(Job& job, const WeightFile& file, const std::string& output) {
+  std::size_t empty = 0;
+  const Weights& weights = file.weights;
+  for (std::size_t r = 0; r < weights.num_rows(); ++r) {
+    if (weights.offsets[r] == weights.offsets[r + 1]) ++empty;
+  }
+  const Seconds seconds = job.seconds();
+  const nlohmann::ordered_json json = {{"sources", weights.num_columns},
+                                       {"targets", weights.num_rows()},
+                                       {"weights", weights.values.size()},
+                                       {"missing", empty},
+                                       {"seconds",
+                                        {{"read", seconds.read},
+                                         {"cells", seconds.dual},
+                                         {"remap", seconds.query},
+                                         {"write", seconds.write},
+                                         {"total", seconds.total}}},
+                                       {"peak_memory_bytes", peak_memory_bytes()}};
+  job.report(json.dump(2) + '\n', count(weights.num_columns, "cell", "cells") + " to " +
+                                      count(weights.num_rows(), "cell", "cells") + ", " +
+                                      count(weights.values.size(), "weight", "weights") +
+                                      "; targets without source: " + std::to_string(empty) +
+                                      "\nwrote the weights to " + output + '\n');
+}
+
+}  // namespace
+
+ExitStatus run_remap(const RemapCommandOptions& options) {
+  const CommonOptions& common = options.common;
+  const std::string format = common.format();
+  require_output(common, format == "nc" || format == "npz" || format == "esmf" || format == "scrip",
+                 ".nc .npz");
+  Job job(common);
+  std::optional<CellSide> source;
+  std::optional<CellSide> target;
+  job.time(Stage::dual, [&] {
+    source = side_of(common.source(), options, job);
+    target = side_of({options.target, ""}, options, job);
+  });
+  RemapOptions remap_options = options.remap;
+  remap_options.source_mask = source->side.mask;
+  remap_options.target_mask = target->side.mask;
+  WeightFile file;
+  job.time(Stage::query, [&] {
+    Remap remap =
+        rondel::remap(source->partition, target->partition, remap_options, job.execution());
+    file.weights = std::move(remap.weights);
+    file.source = std::move(source->side);
+    file.target = std::move(target->side);
+    file.source.areas = std::move(remap.source_areas);
+    file.target.areas = std::move(remap.target_areas);
+    file.source.fractions = std::move(remap.source_fractions);
+    file.target.fractions = std::move(remap.target_fractions);
+  });
+  file.method = "Conservative remapping";
+  file.normalization = options.remap.norm == RemapNorm::destarea ? "destarea" : "fracarea";
+  job.time(Stage::write, [&] { write_weights(common.target(), file); });
+  report(job, file, common.output);
+  return done;
+}
+
+}  // namespace rondel::cli

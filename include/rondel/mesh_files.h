@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// The cells of models' files: unstructured meshes and grids in longitude and latitude (target rondel::remap).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rondel/cell_rings.h"
+#include "rondel/export.h"
+#include "rondel/io.h"
+#include "rondel/partition.h"
+#include "rondel/types.h"
+
+namespace rondel {
+
+/// The cells of a file: in `cells`, or, if it has coordinates along lines, in `grid`.
+struct CellTable {
+  std::string name;        ///< the file, for messages
+  std::string convention;  ///< "UGRID", "SCRIP", "ESMF", "MPAS", "ICON" or "CF"
+  CellRings cells;
+  std::optional<LonLatGrid> grid;
+  std::vector<LonLat> centers;       ///< as the file has them; empty: it has none
+  std::vector<std::int32_t> mask;    ///< 0: the cell takes no part; empty: all do
+  std::vector<std::uint64_t> shape;  ///< of a grid, the last dimension changes fastest: nlat, nlon
+
+  [[nodiscard]] RONDEL_API std::size_t num_cells() const;
+};
+
+/// Reads netCDF in one of the classic formats; which convention it follows, its variables and attributes tell:
+///
+/// | convention | cells |
+/// | --- | --- |
+/// | UGRID | the faces of the first mesh_topology of dimension 2 |
+/// | SCRIP | grid_corner_lon, grid_corner_lat; the mask grid_imask |
+/// | ESMF | elementConn of nodeCoords, with polybreak_value; the mask elementMask |
+/// | MPAS | verticesOnCell of lonVertex, latVertex |
+/// | ICON | vertex_of_cell of vlon, vlat |
+/// | CF | coordinates of units degrees_east and degrees_north: along one dimension each, with bounds or between them; or of the same dimensions, with bounds |
+///
+/// 1. Coordinates are degrees, unless the units begin with "rad".
+/// 2. Corners nearer than 1e-10 radians to each other are one, in single precision 1e-6: the same
+///    corner may be 0 and 2 pi. A corner that repeats the one before it is left out; cells with
+///    less than three corners have no ring. Rings that are clockwise are turned around.
+/// 3. Coordinates along lines and without bounds: cells end half way between them, the first and the last one as far
+///    beyond as before, or at the pole if that is less than a cell away.
+/// \throws FileError for what cannot be read, with the file, and the cell or node.
+RONDEL_API CellTable read_cells(const FileName& file);
+
+/// The partition that the cells are. \throws FileError with the file's name for cells that Partition refuses.
+RONDEL_API Partition partition_of(const CellTable& table, GridSides sides = GridSides::parallels,
+                                  const Execution& execution = {});
+
+}  // namespace rondel

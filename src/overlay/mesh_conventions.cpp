@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Unstructured meshes of netCDF files:
+//
+// 1. UGRID: https://ugrid-conventions.github.io/ugrid-conventions
+// 2. SCRIP's grids: Jones, SCRIP user's guide, 1998, section 2.2.1
+// 3. ESMF's unstructured grids: ESMF reference manual, section 12.8.2 ("ESMF Unstructured Grid File Format")
+// 4. MPAS: Mesh Specification, https://mpas-dev.github.io/files/documents/MPAS-MeshSpec.pdf
+// 5. ICON: grid files of the ICON grid generator
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
+
+#include "io/bad_value.h"
+#include "overlay/mesh_formats.h"
+
+namespace rondel::overlay {
+namespace {
+
+using io::BadValue;
+using io::NetcdfReader;
+
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+// Longitudes first, unless the variables say otherwise.
+std::pair<const MeshVariable*, const MeshVariable*> coordinates_of(const NetcdfReader& file,
+                                                                   const MeshVariable& of,
+                                                                   const char* attribute) {
+  const std::vector<std::string> names = words_of(io::netcdf_text(of.attributes, attribute));
+  if (names.size() < 2) return {nullptr, nullptr};
+  const MeshVariable* lon = &file.require(names[0]);
+  const MeshVariable* lat = &file.require(names[1]);
+  if (is_latitude(*lon) || is_longitude(*lat)) std::swap(lon, lat);
+  return {lon, lat};
+}
+
+const MeshVariable& require_rank(const MeshVariable& variable, std::size_t rank) {
+  if (variable.shape.size() == rank) return variable;
+  throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
+                 std::to_string(variable.shape.size()) + " dimensions instead of " +
+                 std::to_string(rank));
+}
+
+// One variable with both coordinates of each place, as ESMF has them.
+std::vector<LonLat> pairs_of(const NetcdfReader& file, const MeshVariable& variable) {
+  if (require_rank(variable, 2).shape[1] != 2) {
+    throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
+                   std::to_string(variable.shape[1]) + " coordinates instead of 2");
+  }
+  const std::vector<double> values = file.degrees(variable);
+  std::vector<LonLat> places;
+  for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
+    places.push_back(
+        require_position(io::in_quotes(variable.name), i / 2, values[i], values[i + 1]));
+  }
+  return places;
+}
+
+}  // namespace
+
+std::optional<MeshContent> read_ugrid(const NetcdfReader& file) {
+  const auto is_topology = [](const MeshVariable& variable) {
+    return io::netcdf_text(variable.attributes, "cf_role") == "mesh_topology" &&
+           number_or(variable, "topology_dimension", 2) == 2;
+  };
+  const auto topology = std::ranges::find_if(file.variables(), is_topology);
+  if (topology == file.variables().end()) return std::nullopt;
+  const auto [lon, lat] = coordinates_of(file, *topology, "node_coordinates");
+  if (lon == nullptr) {
+    throw BadValue("variable " + io::in_quotes(topology->name) + " names no node_coordinates");
+  }
+  MeshContent mesh;
+  mesh.convention = "UGRID";
+  mesh.nodes = positions_of(file, *lon, *lat);
+  mesh.is_single = lon->type == io::NetcdfType::float32;
+  const MeshVariable& faces = require_rank(
+      file.require(io::netcdf_text(topology->attributes, "face_node_connectivity")), 2);
+  const std::string dimension = io::netcdf_text(topology->attributes, "face_dimension");
+  const bool is_transposed = !dimension.empty() &&
+                             file.dimensions()[faces.dimensions[1]].name == dimension &&
+                             file.dimensions()[faces.dimensions[0]].name != dimension;
+  const std::uint64_t num_cells = faces.shape[is_transposed ? 1 : 0];
+  const std::uint64_t of_each = faces.shape[is_transposed ? 0 : 1];
+  const double first = number_or(faces, "start_index", 0);
+  take_connectivity(file, {faces, num_cells, of_each, is_transposed, first, first}, {}, mesh);
+  const auto [center_lon, center_lat] = coordinates_of(file, *topology, "face_coordinates");
+  take_centers(file, center_lon, center_lat, mesh);
+  return mesh;
+}
+
+std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file) {
+  const MeshVariable* const lon = file.find("grid_corner_lon");
+  const MeshVariable* const lat = file.find("grid_corner_lat");
+  if (lon == nullptr || lat == nullptr) return std::nullopt;
+  MeshContent mesh;
+  mesh.convention = "SCRIP";
+  take_corners(file, *lon, *lat, require_rank(*lon, 2).shape[0], mesh);
+  take_mask(file, "grid_imask", mesh);
+  take_centers(file, file.find("grid_center_lon"), file.find("grid_center_lat"), mesh);
+  if (const MeshVariable* const dims = file.find("grid_dims")) {
+    std::uint64_t product = 1;
+    for (const std::int64_t length : file.integers(*dims)) {
+      if (length < 1 || __builtin_mul_overflow(product, length, &product)) product = 0;
+      mesh.shape.insert(mesh.shape.begin(), static_cast<std::uint64_t>(length));
+    }
+    if (product != mesh.cells.size() - 1 || mesh.shape.size() < 2) mesh.shape.clear();
+  }
+  return mesh;
+}
+
+std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file) {
+  const MeshVariable* const nodes = file.find("nodeCoords");
+  const MeshVariable* const elements = file.find("elementConn");
+  if (nodes == nullptr || elements == nullptr) return std::nullopt;
+  MeshContent mesh;
+  mesh.convention = "ESMF";
+  mesh.nodes = pairs_of(file, *nodes);
+  mesh.is_single = nodes->type == io::NetcdfType::float32;
+  const std::vector<double> counts = file.numbers(file.require("numElementConn"));
+  const double first = number_or(*elements, "start_index", 1);
+  const double no_break = first;
+  const double break_value = number_or(*elements, "polybreak_value", no_break);
+  if (require_rank(*elements, 2).shape[0] != counts.size()) {
+    throw BadValue("variable 'elementConn' has " + std::to_string(elements->shape[0]) +
+                   " rows instead of " + std::to_string(counts.size()));
+  }
+  take_connectivity(file,
+                    {*elements, elements->shape[0], elements->shape[1], false, first, break_value},
+                    counts, mesh);
+  take_mask(file, "elementMask", mesh);
+  if (const MeshVariable* const centers = file.find("centerCoords")) {
+    mesh.centers = pairs_of(file, *centers);
+    if (mesh.centers.size() != counts.size()) mesh.centers.clear();
+  }
+  return mesh;
+}
+
+std::optional<MeshContent> read_mpas(const NetcdfReader& file) {
+  const MeshVariable* const vertices = file.find("verticesOnCell");
+  if (vertices == nullptr) return std::nullopt;
+  if (io::netcdf_text(file.attributes(), "on_a_sphere").starts_with("NO")) {
+    throw BadValue("the mesh is in the plane: on_a_sphere is NO");
+  }
+  const MeshVariable& lon = file.require("lonVertex");
+  MeshContent mesh;
+  mesh.convention = "MPAS";
+  mesh.nodes = positions_of(file, lon, file.require("latVertex"));
+  mesh.is_single = lon.type == io::NetcdfType::float32;
+  const std::vector<double> counts = file.numbers(file.require("nEdgesOnCell"));
+  require_rank(*vertices, 2);
+  if (counts.size() != vertices->shape[0]) {
+    throw BadValue("variable 'nEdgesOnCell' has " + std::to_string(counts.size()) +
+                   " values instead of " + std::to_string(vertices->shape[0]));
+  }
+  take_connectivity(file, {*vertices, vertices->shape[0], vertices->shape[1], false, 1, 1}, counts,
+                    mesh);
+  take_centers(file, file.find("lonCell"), file.find("latCell"), mesh);
+  return mesh;
+}
+
+std::optional<MeshContent> read_icon(const NetcdfReader& file) {
+  const MeshVariable* const vertices = file.find("vertex_of_cell");
+  const MeshVariable* const lon = file.find("vlon");
+  const MeshVariable* const lat = file.find("vlat");
+  if (vertices == nullptr || lon == nullptr || lat == nullptr) return std::nullopt;
+  MeshContent mesh;
+  mesh.convention = "ICON";
+  mesh.nodes = positions_of(file, *lon, *lat);
+  mesh.is_single = lon->type == io::NetcdfType::float32;
+  require_rank(*vertices, 2);
+  take_connectivity(file, {*vertices, vertices->shape[1], vertices->shape[0], true, 1, 1}, {},
+                    mesh);
+  take_centers(file, file.find("clon"), file.find("clat"), mesh);
+  return mesh;
+}
+
+}  // namespace rondel::overlay

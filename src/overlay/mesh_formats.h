@@ -1,0 +1,74 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The conventions by which netCDF holds cells, one function each.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/netcdf_reader.h"
+#include "rondel/partition.h"
+#include "rondel/types.h"
+
+namespace rondel::overlay {
+
+// Cells as files have them: corners may be repeated, and rings go either way around.
+struct MeshContent {
+  std::string convention;
+  std::vector<LonLat> nodes;
+  bool is_single = false;  // the nodes have single precision
+  std::vector<std::uint64_t> cells = {0};
+  std::vector<std::uint64_t> rings = {0};
+  std::vector<Index> corners;  // nodes
+  std::optional<LonLatGrid> grid;
+  std::vector<LonLat> centers;
+  std::vector<std::int32_t> mask;
+  std::vector<std::uint64_t> shape;
+
+  void end_ring() { rings.push_back(corners.size()); }
+  void end_cell() { cells.push_back(rings.size() - 1); }
+};
+
+// Each is nothing if the file does not follow the convention. Throws BadValue.
+std::optional<MeshContent> read_ugrid(const io::NetcdfReader& file);
+std::optional<MeshContent> read_scrip_grid(const io::NetcdfReader& file);
+std::optional<MeshContent> read_esmf_mesh(const io::NetcdfReader& file);
+std::optional<MeshContent> read_mpas(const io::NetcdfReader& file);
+std::optional<MeshContent> read_icon(const io::NetcdfReader& file);
+std::optional<MeshContent> read_cf_grid(const io::NetcdfReader& file);
+
+using MeshVariable = io::NetcdfReader::Variable;
+
+// Two variables of degrees as positions. Throws BadValue if they are not of one length.
+std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshVariable& lon,
+                                 const MeshVariable& lat);
+// Throws BadValue with i and the names of the variables if there is no such place.
+LonLat require_position(const std::string& names, std::size_t i, double lon, double lat);
+// Of cells that have corners of their own, `of_each` each.
+void take_corners(const io::NetcdfReader& file, const MeshVariable& lon, const MeshVariable& lat,
+                  std::uint64_t num_cells, MeshContent& mesh);
+// Which nodes are corners: `of_each` entries a cell, `counts` of which are in use, if there are counts.
+struct Connectivity {
+  const MeshVariable& variable;
+  std::uint64_t num_cells;
+  std::uint64_t of_each;
+  bool is_transposed;      // the cells change fastest
+  double first;            // the number of the first node
+  double break_value = 0;  // begins a ring; `first` or more: none does
+};
+void take_connectivity(const io::NetcdfReader& file, const Connectivity& connectivity,
+                       const std::vector<double>& counts, MeshContent& mesh);
+// 0 and not 0, of the number of cells.
+void take_mask(const io::NetcdfReader& file, std::string_view name, MeshContent& mesh);
+void take_centers(const io::NetcdfReader& file, const MeshVariable* lon, const MeshVariable* lat,
+                  MeshContent& mesh);
+// The first number of an attribute, or `otherwise`.
+double number_or(const MeshVariable& variable, std::string_view name, double otherwise);
+bool is_longitude(const MeshVariable& variable);
+bool is_latitude(const MeshVariable& variable);
+
+}  // namespace rondel::overlay
