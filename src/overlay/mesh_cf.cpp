@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "io/bad_value.h"
+#include "io/number.h"
 #include "overlay/mesh_formats.h"
 
 namespace rondel::overlay {
@@ -164,8 +165,12 @@ std::optional<MeshContent> read_cf_grid(const NetcdfReader& file) {
   mesh.grid = LonLatGrid{meridians_of(file, pair), parallels_of(file, pair)};
   mesh.shape = {pair.lat->num_values, pair.lon->num_values};
   const std::vector<double> lons = file.degrees(*pair.lon);
-  for (const double lat : file.degrees(*pair.lat)) {
-    for (const double lon : lons) mesh.centers.push_back({lon, std::clamp(lat, -90.0, 90.0)});
+  const std::vector<double> lats = file.degrees(*pair.lat);
+  const std::string name = io::in_quotes(pair.lat->name);
+  for (std::size_t j = 0; j < lats.size(); ++j) {
+    for (const double lon : lons) {
+      mesh.centers.push_back(require_position(name, j, lon, lats[j]));
+    }
   }
   return mesh;
 }

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "io/bad_value.h"
+#include "io/number.h"
 #include "overlay/mesh_formats.h"
 
 namespace rondel::overlay {
@@ -130,8 +131,9 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file) {
   const double no_break = first;
   const double break_value = number_or(*elements, "polybreak_value", no_break);
   if (require_rank(*elements, 2).shape[0] != counts.size()) {
-    throw BadValue("variable 'elementConn' has " + std::to_string(elements->shape[0]) +
-                   " rows instead of " + std::to_string(counts.size()));
+    throw BadValue("variable " + io::in_quotes(elements->name) + " has " +
+                   std::to_string(elements->shape[0]) + " rows instead of " +
+                   std::to_string(counts.size()));
   }
   take_connectivity(file,
                     {*elements, elements->shape[0], elements->shape[1], false, first, break_value},
@@ -158,8 +160,9 @@ std::optional<MeshContent> read_mpas(const NetcdfReader& file) {
   const std::vector<double> counts = file.numbers(file.require("nEdgesOnCell"));
   require_rank(*vertices, 2);
   if (counts.size() != vertices->shape[0]) {
-    throw BadValue("variable 'nEdgesOnCell' has " + std::to_string(counts.size()) +
-                   " values instead of " + std::to_string(vertices->shape[0]));
+    throw BadValue("variable " + io::in_quotes("nEdgesOnCell") + " has " +
+                   std::to_string(counts.size()) + " values instead of " +
+                   std::to_string(vertices->shape[0]));
   }
   take_connectivity(file, {*vertices, vertices->shape[0], vertices->shape[1], false, 1, 1}, counts,
                     mesh);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "io/bad_value.h"
+#include "io/number.h"
 #include "overlay/mesh_formats.h"
 
 namespace rondel::overlay {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// netCDF's classic formats, as files of weights and of fields: any bytes give what they hold, or a
+// netCDF's classic formats, as files of weights, of fields and of cells: any bytes give what they hold, or a
 // FileError of one line.
 #include <algorithm>
 #include <array>
@@ -16,6 +16,7 @@
 #include "fuzz/scratch_folder.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
+#include "rondel/mesh_files.h"
 #include "rondel/weight_files.h"
 
 namespace rondel::fuzz {
@@ -55,6 +56,13 @@ void test(std::string_view bytes) {
     if (file.weights.num_columns == 0 || file.weights.num_rows() == 0) return;
     write_weights(again, file);
     require(read_weights(again).weights.columns == file.weights.columns, "weights come back");
+  });
+  expect_answer([&] {
+    const CellTable table = read_cells(path);
+    require(table.mask.empty() || table.mask.size() == table.num_cells(), "a mask has all cells");
+    const Partition partition = partition_of(table);
+    require(partition.num_cells() == table.num_cells(), "cells are kept");
+    require(partition.centers().size() == table.num_cells(), "a cell has a center");
   });
   expect_answer([&] {
     const FieldSet fields = read_fields(path, {}, 4);

@@ -1,0 +1,341 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// One diagram in all conventions of meshes, grids with and without bounds, and what is wrong in files.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+
+#include "mesh_writer.h"
+#include "overlay_support.h"
+#include "rondel/error.h"
+#include "rondel/mesh_files.h"
+#include "rondel/weight_files.h"
+
+namespace rondel::test {
+namespace {
+
+constexpr std::size_t num_sites = 50;
+
+struct MeshOfDiagram {
+  std::vector<double> lon, lat;  // of the corners, degrees
+  std::vector<std::vector<std::size_t>> rings;
+  std::size_t most = 0;
+  std::vector<double> areas;
+
+  explicit MeshOfDiagram(std::uint64_t seed) {
+    const auto sites = triangulation_of("uniform", num_sites, seed);
+    const Cells all = cells(sites);
+    for (const LonLat& place : lonlats(all.points)) {
+      lon.push_back(place.lon_deg);
+      lat.push_back(place.lat_deg);
+    }
+    for (std::size_t i = 0; i < num_sites; ++i) {
+      rings.emplace_back(all.rings.begin() + static_cast<std::ptrdiff_t>(all.offsets[i]),
+                         all.rings.begin() + static_cast<std::ptrdiff_t>(all.offsets[i + 1]));
+      most = std::max(most, rings.back().size());
+    }
+    const Partition partition = Partition::voronoi(sites);
+    areas = {partition.areas().begin(), partition.areas().end()};
+  }
+
+  // Entry k of cell i, or `missing`.
+  [[nodiscard]] std::vector<double> corners(
+      const std::function<double(std::size_t)>& value,
+      const std::function<double(const std::vector<std::size_t>&)>& missing) const {
+    std::vector<double> result;
+    for (const auto& ring : rings) {
+      for (std::size_t k = 0; k < most; ++k) {
+        result.push_back(k < ring.size() ? value(ring[k]) : missing(ring));
+      }
+    }
+    return result;
+  }
+  [[nodiscard]] std::vector<double> counts() const {
+    std::vector<double> result;
+    for (const auto& ring : rings) result.push_back(static_cast<double>(ring.size()));
+    return result;
+  }
+};
+
+std::string path_of_test() {
+  return testing::TempDir() + "rondel_mesh_" +
+         testing::UnitTest::GetInstance()->current_test_info()->name() + ".nc";
+}
+
+CellTable table_of(const MeshWriter& writer) {
+  writer.write(path_of_test());
+  return read_cells(path_of_test());
+}
+
+std::vector<double> scaled_by(std::vector<double> values, double factor) {
+  for (double& value : values) value *= factor;
+  return values;
+}
+
+std::vector<double> transposed_of(const std::vector<double>& values, std::size_t num_columns) {
+  std::vector<double> result;
+  for (std::size_t k = 0; k < num_columns; ++k) {
+    for (std::size_t i = k; i < values.size(); i += num_columns) result.push_back(values[i]);
+  }
+  return result;
+}
+
+void expect_diagram(const CellTable& table, const MeshOfDiagram& mesh, const char* convention,
+                    double tolerance = 1e-13) {
+  EXPECT_EQ(table.convention, convention);
+  ASSERT_EQ(table.num_cells(), num_sites);
+  const Partition partition = partition_of(table);
+  EXPECT_TRUE(partition.is_cover());
+  for (std::size_t i = 0; i < num_sites; ++i) {
+    EXPECT_NEAR(partition.areas()[i], mesh.areas[i], tolerance);
+  }
+}
+
+double counted_from_1(std::size_t node) { return static_cast<double>(node + 1); }
+
+TEST(overlay_mesh_files, ugrid) {
+  const MeshOfDiagram mesh(1);
+  for (const bool is_transposed : {false, true}) {
+    for (const double first : {0.0, 1.0}) {
+      MeshWriter file;
+      const MeshWriter::Dimensions nodes = {{"node", mesh.lon.size()}};
+      file.add_whole("mesh", {}, {0},
+                     {{"cf_role", "mesh_topology"},
+                      {"node_coordinates", "node_y node_x"},
+                      {"face_dimension", "face"},
+                      {"face_node_connectivity", "face_nodes"}},
+                     {{"topology_dimension", 2}});
+      file.add("node_x", nodes, mesh.lon, {{"units", "degrees_east"}});
+      file.add("node_y", nodes, mesh.lat, {{"units", "degrees_north"}});
+      const std::vector<double> entries =
+          mesh.corners([&](std::size_t node) { return static_cast<double>(node) + first; },
+                       [](const auto&) { return -999; });
+      const MeshWriter::Numbers numbers = {{"start_index", first}, {"_FillValue", -999}};
+      if (is_transposed) {
+        file.add_whole("face_nodes", {{"corner", mesh.most}, {"face", num_sites}},
+                       transposed_of(entries, mesh.most), {}, numbers);
+      } else {
+        file.add_whole("face_nodes", {{"face", num_sites}, {"corner", mesh.most}}, entries, {},
+                       numbers);
+      }
+      expect_diagram(table_of(file), mesh, "UGRID");
+    }
+  }
+}
+
+TEST(overlay_mesh_files, scrip) {
+  const MeshOfDiagram mesh(2);
+  MeshWriter file;
+  const MeshWriter::Dimensions corners = {{"grid_size", num_sites}, {"grid_corners", mesh.most}};
+  const auto last = [](const std::vector<double>& values) {
+    return [&](const std::vector<std::size_t>& ring) { return values[ring.back()]; };
+  };
+  // Radians, and every longitude once around for one of its cells.
+  std::vector<double> lon =
+      mesh.corners([&](std::size_t node) { return mesh.lon[node]; }, last(mesh.lon));
+  for (std::size_t k = 0; k < lon.size(); k += 3) lon[k] += 360;
+  const std::vector<double> lat =
+      mesh.corners([&](std::size_t node) { return mesh.lat[node]; }, last(mesh.lat));
+  constexpr double degree = std::numbers::pi / 180;
+  file.add("grid_corner_lon", corners, scaled_by(lon, degree), {{"units", "radians"}});
+  file.add("grid_corner_lat", corners, scaled_by(lat, degree), {{"units", "radians"}});
+  std::vector<double> mask(num_sites, 1);
+  mask[7] = 0;
+  file.add_whole("grid_imask", {{"grid_size", num_sites}}, mask);
+  file.add_whole("grid_dims", {{"grid_rank", 2}}, {10, 5});
+  const CellTable table = table_of(file);
+  expect_diagram(table, mesh, "SCRIP");
+  EXPECT_EQ(table.shape, (std::vector<std::uint64_t>{5, 10}));
+  ASSERT_EQ(table.mask.size(), num_sites);
+  for (std::size_t i = 0; i < num_sites; ++i) EXPECT_EQ(table.mask[i], i == 7 ? 0 : 1);
+}
+
+TEST(overlay_mesh_files, esmf) {
+  const MeshOfDiagram mesh(3);
+  MeshWriter file;
+  std::vector<double> pairs;
+  for (std::size_t i = 0; i < mesh.lon.size(); ++i) {
+    pairs.insert(pairs.end(), {mesh.lon[i], mesh.lat[i]});
+  }
+  file.add("nodeCoords", {{"nodeCount", mesh.lon.size()}, {"coordDim", 2}}, pairs,
+           {{"units", "degrees"}});
+  file.add_whole("elementConn", {{"elementCount", num_sites}, {"maxNodePElement", mesh.most}},
+                 mesh.corners(counted_from_1, [](const auto&) { return -1; }), {},
+                 {{"_FillValue", -1}});
+  file.add_whole("numElementConn", {{"elementCount", num_sites}}, mesh.counts());
+  expect_diagram(table_of(file), mesh, "ESMF");
+}
+
+// Two triangles as one element, the second clockwise.
+TEST(overlay_mesh_files, esmf_elements_in_parts) {
+  MeshWriter file;
+  file.add("nodeCoords", {{"nodeCount", 6}, {"coordDim", 2}},
+           {0, 0, 10, 0, 0, 10, 50, 0, 50, 10, 60, 0});
+  file.add_whole("elementConn", {{"elementCount", 1}, {"maxNodePElement", 7}},
+                 {1, 2, 3, -8, 4, 5, 6}, {}, {{"polybreak_value", -8}});
+  file.add_whole("numElementConn", {{"elementCount", 1}}, {7});
+  const CellTable table = table_of(file);
+  EXPECT_EQ(table.cells.cells, (std::vector<std::uint64_t>{0, 2}));
+  EXPECT_EQ(table.cells.corners, (std::vector<Index>{0, 1, 2, 5, 4, 3}));
+}
+
+TEST(overlay_mesh_files, mpas) {
+  const MeshOfDiagram mesh(4);
+  MeshWriter file;
+  constexpr double degree = std::numbers::pi / 180;
+  const MeshWriter::Dimensions vertices = {{"nVertices", mesh.lon.size()}};
+  file.add_attribute("on_a_sphere", "YES");
+  file.add("lonVertex", vertices, scaled_by(mesh.lon, degree), {{"units", "rad"}});
+  file.add("latVertex", vertices, scaled_by(mesh.lat, degree), {{"units", "rad"}});
+  file.add_whole("verticesOnCell", {{"nCells", num_sites}, {"maxEdges", mesh.most}},
+                 mesh.corners(counted_from_1, [](const auto&) { return 0; }));
+  file.add_whole("nEdgesOnCell", {{"nCells", num_sites}}, mesh.counts());
+  expect_diagram(table_of(file), mesh, "MPAS");
+}
+
+// In single precision.
+TEST(overlay_mesh_files, icon) {
+  const MeshOfDiagram mesh(5);
+  MeshWriter file;
+  constexpr double degree = std::numbers::pi / 180;
+  const MeshWriter::Dimensions vertices = {{"vertex", mesh.lon.size()}};
+  const auto single = io::NetcdfType::float32;
+  file.add("vlon", vertices, scaled_by(mesh.lon, degree), {{"units", "radian"}}, {}, single);
+  file.add("vlat", vertices, scaled_by(mesh.lat, degree), {{"units", "radian"}}, {}, single);
+  file.add_whole(
+      "vertex_of_cell", {{"nv", mesh.most}, {"cell", num_sites}},
+      transposed_of(mesh.corners(counted_from_1, [](const auto&) { return 0; }), mesh.most));
+  expect_diagram(table_of(file), mesh, "ICON", 2e-6);
+}
+
+TEST(overlay_mesh_files, cf_cells_with_bounds) {
+  const MeshOfDiagram mesh(6);
+  MeshWriter file;
+  const MeshWriter::Dimensions cell = {{"cell", num_sites}};
+  const MeshWriter::Dimensions corners = {{"cell", num_sites}, {"nv", mesh.most}};
+  file.add("clon", cell, std::vector<double>(num_sites),
+           {{"units", "degrees_east"}, {"bounds", "clon_bnds"}});
+  file.add("clat", cell, std::vector<double>(num_sites),
+           {{"units", "degrees_north"}, {"bounds", "clat_bnds"}});
+  for (const auto& [name, values] : {std::pair{"clon_bnds", &mesh.lon}, {"clat_bnds", &mesh.lat}}) {
+    file.add(name, corners,
+             mesh.corners([&v = *values](std::size_t node) { return v[node]; },
+                          [&v = *values](const auto& ring) { return v[ring.back()]; }));
+  }
+  expect_diagram(table_of(file), mesh, "CF");
+}
+
+CellTable lonlat_table(const std::vector<double>& lon, const std::vector<double>& lat,
+                       const std::vector<double>& lon_bounds = {},
+                       const std::vector<double>& lat_bounds = {}) {
+  MeshWriter file;
+  const MeshWriter::Texts east = {{"units", "degrees_east"}};
+  const MeshWriter::Texts north = {{"units", "degrees_north"}};
+  const auto with_bounds = [](MeshWriter::Texts texts, const char* name) {
+    texts.emplace_back("bounds", name);
+    return texts;
+  };
+  file.add("lon", {{"lon", lon.size()}}, lon,
+           lon_bounds.empty() ? east : with_bounds(east, "lon_bnds"));
+  file.add("lat", {{"lat", lat.size()}}, lat,
+           lat_bounds.empty() ? north : with_bounds(north, "lat_bnds"));
+  if (!lon_bounds.empty()) file.add("lon_bnds", {{"lon", lon.size()}, {"two", 2}}, lon_bounds);
+  if (!lat_bounds.empty()) file.add("lat_bnds", {{"lat", lat.size()}, {"two", 2}}, lat_bounds);
+  return table_of(file);
+}
+
+using Doubles = std::vector<double>;
+
+TEST(overlay_mesh_files, cf_lines_between_coordinates) {
+  // From north to south, as a Gaussian grid; across the antimeridian.
+  const CellTable table = lonlat_table({0, 90, 180, -90}, {60, 20, -20, -60});
+  ASSERT_TRUE(table.grid.has_value());
+  EXPECT_EQ(table.grid->lon_deg, (Doubles{-45, 45, 135, 225, 315}));
+  EXPECT_EQ(table.grid->lat_deg, (Doubles{90, 40, 0, -40, -90}));
+  EXPECT_EQ(table.shape, (std::vector<std::uint64_t>{4, 4}));
+  EXPECT_EQ(table.centers[5], (LonLat{90, 20}));
+  EXPECT_TRUE(partition_of(table).is_cover());
+  EXPECT_FALSE(partition_of(table, GridSides::great_circles).areas().empty());
+  // A region, and rows with the poles as coordinates.
+  EXPECT_EQ(lonlat_table({5, 6, 7}, {50, 52}).grid->lat_deg, (Doubles{49, 51, 53}));
+  EXPECT_EQ(lonlat_table({5, 6, 7}, {50, 52}).grid->lon_deg, (Doubles{4.5, 5.5, 6.5, 7.5}));
+  EXPECT_EQ(lonlat_table({0, 180}, {-90, 0, 90}).grid->lat_deg, (Doubles{-90, -45, 45, 90}));
+}
+
+TEST(overlay_mesh_files, cf_lines_of_bounds) {
+  // The second bounds are turned around the globe; latitudes go south, their bounds north.
+  const CellTable table =
+      lonlat_table({10, 30, 60}, {5, -5}, {0, 20, 380, 400, 40, 80}, {0, 10, -9, 0});
+  EXPECT_EQ(table.grid->lon_deg, (Doubles{0, 20, 40, 80}));
+  EXPECT_EQ(table.grid->lat_deg, (Doubles{10, 0, -9}));
+  // Around the globe but for rounding to single precision.
+  EXPECT_EQ(lonlat_table({60, 180, 300}, {0}, {0, 120, 120, 240, 240, 359.99999}, {-90, 90})
+                .grid->lon_deg.back(),
+            360);
+}
+
+std::string refusal_of(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const FileError& error) {
+    const std::string what = error.what();
+    return what.substr(what.find(".nc: ") + 5);
+  }
+  return "";
+}
+
+TEST(overlay_mesh_files, names_what_is_wrong) {
+  EXPECT_EQ(refusal_of([] {
+              (void)lonlat_table({1}, {2, 3});
+            }),
+            "one longitude without bounds has no width");
+  EXPECT_EQ(refusal_of([] {
+              (void)lonlat_table({1, 2}, {2, 3}, {0, 1, 2, 3});
+            }),
+            "bounds \"lon_bnds\" leave a gap before cell 1");
+  EXPECT_EQ(refusal_of([] {
+              (void)lonlat_table({1, NAN}, {2, 3});
+            }),
+            "value 1 of \"lon\" is not finite");
+  EXPECT_EQ(refusal_of([] {
+              (void)partition_of(lonlat_table({1, 2}, {80, 99}));
+            }).substr(0, 10),
+            "parallel 1");
+  const auto ugrid = [](const Doubles& lat, const Doubles& nodes) {
+    MeshWriter file;
+    file.add_whole("mesh", {}, {0},
+                   {{"cf_role", "mesh_topology"},
+                    {"node_coordinates", "x y"},
+                    {"face_node_connectivity", "faces"}});
+    file.add("x", {{"node", 3}}, {0, 1, 0});
+    file.add("y", {{"node", 3}}, lat);
+    file.add_whole("faces", {{"face", nodes.size() / 3}, {"corner", 3}}, nodes);
+    return partition_of(table_of(file)).num_cells();
+  };
+  EXPECT_EQ(ugrid({0, 0, 1}, {0, 1, 2}), 1U);
+  EXPECT_EQ(refusal_of([&] {
+              (void)ugrid({0, 0, 1}, {0, 1, 2, 0, 1, 3});
+            }),
+            "cell 1 has a corner 3 of 3 nodes");
+  EXPECT_EQ(refusal_of([&] {
+              (void)ugrid({0, 95, 1}, {0, 1, 2});
+            }),
+            "value 1 of \"x\" and \"y\", 1.000000 and 95.000000 degrees, is no place");
+  MeshWriter plane;
+  plane.add_attribute("on_a_sphere", "NO");
+  plane.add_whole("verticesOnCell", {{"nCells", 1}, {"maxEdges", 3}}, {1, 2, 3});
+  EXPECT_EQ(refusal_of([&] { (void)table_of(plane); }),
+            "the mesh is in the plane: on_a_sphere is NO");
+  MeshWriter none;
+  none.add("height", {{"x", 1}}, {0});
+  EXPECT_EQ(refusal_of([&] { (void)table_of(none); }).substr(0, 19), "it has no cells: it");
+  EXPECT_THROW((void)read_cells(FileName{"grid.csv"}), FileError);
+}
+
+}  // namespace
+}  // namespace rondel::test
