@@ -4,69 +4,83 @@
 #include "overlay/same_nodes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <unordered_map>
 
 namespace rondel::overlay {
 namespace {
 
-struct Cube {
-  std::int64_t x;
-  std::int64_t y;
-  std::int64_t z;
-  bool operator==(const Cube&) const = default;
-};
-
-struct CubeHash {
-  std::size_t operator()(const Cube& cube) const {
-    constexpr std::uint64_t factor = 0x9e37'79b9'7f4a'7c15;
-    std::uint64_t hash = 0;
-    for (const std::int64_t k : {cube.x, cube.y, cube.z}) {
-      hash = (hash ^ static_cast<std::uint64_t>(k)) * factor;
-      hash ^= hash >> 32U;
-    }
-    return hash;
+std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z) {
+  constexpr std::uint64_t factor = 0x9e37'79b9'7f4a'7c15;
+  std::uint64_t hash = 0;
+  for (const std::int64_t k : {x, y, z}) {
+    hash = (hash ^ static_cast<std::uint64_t>(k)) * factor;
+    hash ^= hash >> 32U;
   }
-};
+  return hash;
+}
 
-}  // namespace
+// Points by the cubes they are in, cubes much wider than the distance, so that a point looks into one, and rarely into a
+// neighbor of it.
+class NearPoints {
+ public:
+  NearPoints(std::span<const Point> points, double distance)
+      : points_(points),
+        distance_(distance),
+        slots_(std::bit_ceil(2 * points.size() + 1), no_index) {}
 
-// Points that have none are kept in cubes much wider than the distance, so that a point looks into one cube, and rarely
-// into a neighbor of it.
-std::vector<Index> same_nodes(std::span<const Point> points, double distance) {
-  const double width = 16 * distance;
-  const auto place = [&](double coordinate) {
-    return static_cast<std::int64_t>(std::floor(coordinate / width));
-  };
-  std::unordered_map<Cube, std::vector<Index>, CubeHash> cubes;
-  cubes.reserve(points.size());
-  const auto is_same = [&](const Point& p, const Point& q) {
-    return std::abs(p.x - q.x) <= distance && std::abs(p.y - q.y) <= distance &&
-           std::abs(p.z - q.z) <= distance;
-  };
-  const auto first_near = [&](const Point& p) {
+  // The first point near to it; no_index: there is none.
+  [[nodiscard]] Index find(const Point& p) const {
     Index first = no_index;
-    for (auto x = place(p.x - distance); x <= place(p.x + distance); ++x) {
-      for (auto y = place(p.y - distance); y <= place(p.y + distance); ++y) {
-        for (auto z = place(p.z - distance); z <= place(p.z + distance); ++z) {
-          const auto cube = cubes.find({x, y, z});
-          if (cube == cubes.end()) continue;
-          for (const Index i : cube->second) {
-            if (is_same(points[i], p)) first = std::min(first, i);
+    for (auto x = place(p.x - distance_); x <= place(p.x + distance_); ++x) {
+      for (auto y = place(p.y - distance_); y <= place(p.y + distance_); ++y) {
+        for (auto z = place(p.z - distance_); z <= place(p.z + distance_); ++z) {
+          for (std::size_t s = slot(x, y, z); slots_[s] != no_index; s = next(s)) {
+            if (is_near(points_[slots_[s]], p)) first = std::min(first, slots_[s]);
           }
         }
       }
     }
     return first;
-  };
+  }
+  void insert(Index i) {
+    const Point& p = points_[i];
+    std::size_t s = slot(place(p.x), place(p.y), place(p.z));
+    while (slots_[s] != no_index) s = next(s);
+    slots_[s] = i;
+  }
+
+ private:
+  [[nodiscard]] std::int64_t place(double coordinate) const {
+    return static_cast<std::int64_t>(std::floor(coordinate / (16 * distance_)));
+  }
+  [[nodiscard]] std::size_t slot(std::int64_t x, std::int64_t y, std::int64_t z) const {
+    return hash_of(x, y, z) & (slots_.size() - 1);
+  }
+  [[nodiscard]] std::size_t next(std::size_t slot) const {
+    return (slot + 1) & (slots_.size() - 1);
+  }
+  [[nodiscard]] bool is_near(const Point& p, const Point& q) const {
+    return std::abs(p.x - q.x) <= distance_ && std::abs(p.y - q.y) <= distance_ &&
+           std::abs(p.z - q.z) <= distance_;
+  }
+
+  std::span<const Point> points_;
+  double distance_;
+  std::vector<Index> slots_;
+};
+
+}  // namespace
+
+std::vector<Index> same_nodes(std::span<const Point> points, double distance) {
+  NearPoints known(points, distance);
   std::vector<Index> result(points.size());
   for (Index i = 0; i < points.size(); ++i) {
-    const Point& p = points[i];
-    const Index first = first_near(p);
+    const Index first = known.find(points[i]);
     result[i] = first == no_index ? i : first;
-    if (first == no_index) cubes[{place(p.x), place(p.y), place(p.z)}].push_back(i);
+    if (first == no_index) known.insert(i);
   }
   return result;
 }

@@ -57,11 +57,17 @@ def check_ncks(folder, _):
     for name in ("area_a", "area_b"):
         line = next(line for line in text.splitlines() if line.startswith(f"{name} sum/4*pi"))
         assert abs(float(line.split()[2]) - 1) < 1e-12, line
+    run(TOOL, "remap", "sites.csv", "--to", "grid:5", "-o", "cells.nc", folder=folder)
+    text = run("ncks", "--chk_map", "cells.nc", folder=folder)
+    for name in ("frac_a avg", "frac_a min", "frac_a max", "frac_b min", "frac_b max", "area_a sum/4*pi",
+                 "area_b sum/4*pi"):
+        line = next(line for line in text.splitlines() if line.startswith(name))
+        assert abs(float(line.split()[2]) - 1) < 1e-12, line
 
 
-def numbers_of(name, variable, folder):
+def numbers_of(name, variable, folder, form="%.17g"):
     """The values of a variable, as ncks prints them."""
-    return [float(text) for text in run("ncks", "-H", "-C", "-s", "%.17g\n", "-v", variable, name, folder=folder).split()]
+    return [float(text) for text in run("ncks", "-H", "-C", "-s", form + "\n", "-v", variable, name, folder=folder).split()]
 
 
 def check_ncremap(folder, values):
@@ -97,6 +103,41 @@ def check_cdo(folder, values):
     got = [float(number) for number in text.split()]
     assert len(got) == len(values)
     assert max(abs(a - b) for a, b in zip(got, values)) <= 1e-12
+    check_conservative(folder)
+
+
+def entries_of(name, folder):
+    """The matrix of a SCRIP file, by target and source."""
+    rows = numbers_of(name, "dst_address", folder, "%d")
+    columns = numbers_of(name, "src_address", folder, "%d")
+    values = numbers_of(name, "remap_matrix", folder)
+    return {(row, column): value for row, column, value in zip(rows, columns, values)}
+
+
+def check_conservative(folder):
+    """CDO's conservative weights, which it computes with cells between parallels too, from its own files of cells."""
+    run("cdo", "-s", "-f", "nc", "-const,1,global_9", "grid.nc", folder=folder)
+    run("cdo", "-s", "-f", "nc", "-setgridtype,unstructured", "-const,1,gme12", "hexagons.nc", folder=folder)
+    for source, target in (("hexagons", "grid"), ("grid", "hexagons")):
+        run("cdo", "-s", f"gencon,{target}.nc", f"{source}.nc", "cdo.nc", folder=folder)
+        run(TOOL, "remap", f"{source}.nc", "--to", f"{target}.nc", "--norm", "fracarea", "-o", "own.nc",
+            "--format", "scrip", folder=folder)
+        theirs = entries_of("cdo.nc", folder)
+        ours = entries_of("own.nc", folder)
+        assert len(ours) > 1400
+        for entry in theirs.keys() | ours.keys():
+            difference = abs(theirs.get(entry, 0) - ours.get(entry, 0))
+            assert difference <= 1e-11, (source, entry, difference)
+    # And CDO applies ours.
+    run("cdo", "-s", "-f", "nc", "-setgridtype,unstructured", "-random,gme12,7", "random.nc", folder=folder)
+    run(TOOL, "remap", "hexagons.nc", "--to", "grid.nc", "--order", "2", "-o", "own.nc", "--format", "scrip",
+        folder=folder)
+    text = run("cdo", "-s", "outputf,%.17g,1", "-remap,grid.nc,own.nc", "random.nc", folder=folder)
+    run(TOOL, "apply", "own.nc", "random.nc", "--input-format", "scrip", "-o", "out.csv", folder=folder)
+    rows = (folder / "out.csv").read_text(encoding="utf-8").splitlines()[1:]
+    values = [float(row.split(",")[2]) for row in rows]
+    assert len(values) == len(text.split()) == 40 * 20
+    assert max(abs(float(a) - b) for a, b in zip(text.split(), values)) <= 1e-6  # CDO's file has single precision
 
 
 CHECKS = {"ncks": check_ncks, "ncremap": check_ncremap, "nccopy": check_nccopy, "cdo": check_cdo}
