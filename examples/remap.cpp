@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Rain over the Voronoi cells of one set of sites, carried to those of another.
+// Rain over the Voronoi cells of one set of sites, carried to those of another, and onto a grid.
 
 #include "rondel/remap.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <exception>
 #include <vector>
@@ -43,11 +44,26 @@ void carry_rain() {
   }
 }
 
+// Onto a grid of 30 degrees, whose cells are between meridians and parallels.
+void carry_to_grid() {
+  rondel::LonLatGrid lines;
+  for (int k = 0; k <= 12; ++k) lines.lon_deg.push_back(-180 + 30 * k);
+  for (int k = 0; k <= 6; ++k) lines.lat_deg.push_back(-90 + 30 * k);
+  const auto cells = rondel::Partition::voronoi(rondel::delaunay(spiral(500)));
+  const auto grid = rondel::Partition::lonlat_grid(lines);
+  const rondel::Remap remap = rondel::remap(cells, grid);
+  double least = 1;
+  for (const double fraction : remap.target_fractions) least = std::min(least, fraction);
+  std::printf("grid: %d pieces, every cell covered to %.12f\n",
+              static_cast<int>(remap.areas.size()), least);
+}
+
 }  // namespace
 
 int main() {
   try {
     carry_rain();
+    carry_to_grid();
   } catch (const std::exception& error) {
     std::fprintf(stderr, "remap: %s\n", error.what());
     return 1;

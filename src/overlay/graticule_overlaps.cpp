@@ -122,6 +122,7 @@ struct BoxPiece {
 // Columns that go around the globe may share two parts with one.
 void append_row(const std::vector<BoxPiece>& row, bool has_moments, PieceRows& result) {
   for (const BoxPiece& piece : row) {
+    if (!(piece.area > 0)) continue;  // a row at a pole, say, that is thinner than rounding
     const bool is_same =
         result.columns.size() > result.offsets.back() && result.columns.back() == piece.cell;
     if (is_same) {

@@ -125,10 +125,20 @@ void GraticuleWalk::append(const GraticulePlace& from, const GraticulePlace& to,
   if (turned <= -pi) turned += 2 * pi;
   if (turned == 0) return;
   bool is_west = turned < 0;
+  const bool has_pole = west->radius == 0 || east->radius == 0;
   // Near a pole, or through it, where longitudes do not tell on which side.
-  if (std::abs(turned) > pi / 2) is_west = side(west->point, east->point) < 0;
+  if (!has_pole && std::abs(turned) > pi / 2) is_west = side(west->point, east->point) < 0;
   if (is_west) std::swap(west, east);
   const Out out{is_west != is_swapped ? 1.0 : -1.0, strips};
+  // A pole has a longitude, too. An arc to it is a meridian, whose strips are empty, and a turn in the pole.
+  if (has_pole) {
+    const bool is_first = west->radius == 0;
+    GraticulePlace turned_to = is_first ? *east : *west;
+    turned_to.point = is_first ? west->point : east->point;
+    turned_to.radius = 0;
+    append_columns(is_first ? *west : turned_to, is_first ? turned_to : *east, out);
+    return;
+  }
   GraticulePlace extreme;
   if (has_extreme(*west, *east, extreme)) {
     append_columns(*west, extreme, out);

@@ -62,7 +62,8 @@ PieceRows overlay_of(const PartitionData& source, const PartitionData& target, b
     return transposed(pieces(source.subdivision(), target.subdivision(), has_moments, execution),
                       num_targets);
   }
-  throw InvalidInput("neither the source nor the target covers the sphere", 0);
+  throw InvalidInput(
+      "neither the source nor the target covers the sphere or is a grid of parallels", 0);
 }
 
 // Leaves out what is of a cell that takes no part.

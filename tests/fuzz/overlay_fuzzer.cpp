@@ -84,6 +84,48 @@ void test_diagrams(const Partition& source, const Partition& target) {
   }
 }
 
+// Lines at multiples of a few degrees, or anywhere.
+std::vector<double> next_lines(ByteSource& source, double first, double last) {
+  std::vector<double> lines = {first};
+  const std::size_t count = 1 + source.below(8);
+  for (std::size_t k = 1; k <= count && lines.back() < last; ++k) {
+    const double step = source.below(3) == 0 ? source.byte() * 0.37 + 1e-13
+                                             : static_cast<double>(source.below(5)) * 30;
+    if (step > 0) lines.push_back(std::min(last, lines.back() + step));
+  }
+  if (lines.back() < last && source.below(2) == 0) lines.push_back(last);
+  if (lines.size() == 1) lines.push_back(last);
+  return lines;
+}
+
+// What a grid has of the sphere is what the diagram's pieces have of it.
+void test_grid(const Partition& cells, ByteSource& source) {
+  LonLatGrid lines;
+  const double west = static_cast<double>(source.below(25)) * 30 - 360;
+  lines.lon_deg = next_lines(source, west, west + 360);
+  lines.lat_deg = next_lines(source, source.below(2) == 0 ? -90 : -37.5, 90);
+  if (source.below(2) == 0) std::ranges::reverse(lines.lat_deg);
+  const Partition grid = Partition::lonlat_grid(lines);
+  const bool is_sound =
+      cells.is_cover() && std::abs(sum_of(cells.areas()) - 4 * std::numbers::pi) < 1e-9;
+  if (!is_sound) return;
+  const RemapOptions covered{.order = 2, .norm = RemapNorm::fracarea};
+  const Remap there = remap(cells, grid, covered);
+  const Remap back = remap(grid, cells, covered);
+  test_arrays(there, cells, grid);
+  test_arrays(back, grid, cells);
+  require(std::abs(sum_of(there.areas) - sum_of(grid.areas())) < 1e-9, "pieces cover the grid");
+  require(std::abs(sum_of(back.areas) - sum_of(grid.areas())) < 1e-9, "and so they do back");
+  // Lines nearer than 2e-11 degrees to each other are one where grids meet.
+  const auto is_narrow = [](const std::vector<double>& all) {
+    return std::ranges::adjacent_find(
+               all, [](double a, double b) { return std::abs(a - b) < 1e-10; }) != all.end();
+  };
+  if (is_narrow(lines.lon_deg) || is_narrow(lines.lat_deg)) return;
+  const Remap same = remap(grid, grid);
+  require(same.columns.size() == grid.num_cells(), "a grid onto itself is the identity");
+}
+
 // Every ring of a file is closed and on the map, and there is a feature for each piece.
 void test_file(const RegionPieces& pieces) {
   const ScratchFolder folder;
@@ -201,6 +243,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Partition others = Partition::voronoi(delaunay(second, options));
     fuzz::test_diagrams(cells, others);
     fuzz::test_regions(cells, others, static_cast<Index>(1 + source.below(3)));
+    fuzz::test_grid(cells, source);
     const Partition triangles = Partition::triangles(t);
     if (others.is_cover()) {
       const Remap of_triangles = remap(triangles, others);

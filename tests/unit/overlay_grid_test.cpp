@@ -241,6 +241,32 @@ TEST(overlay_grid, great_circles_are_sides_on_request) {
               1e-13);
 }
 
+// Hemispheres whose border is along meridians, with both poles as corners or not.
+TEST(overlay_grid, borders_through_the_poles) {
+  const Partition grid = Partition::lonlat_grid(regular_grid(8, 4));
+  for (const double lon : {0.0, 45.0, 90.0, 135.0, -45.0, 180.0}) {
+    CellRings halves;
+    for (const auto& [east, lat] : {std::pair{0.0, 0.0}, {0, 90}, {180, 0}, {0, -90}}) {
+      halves.points.push_back(unit_vector_deg(lon + east, lat));
+    }
+    halves.corners = {0, 1, 2, 3, 0, 3, 2, 1};
+    halves.rings = {0, 4, 8};
+    halves.cells = {0, 1, 2};
+    const Partition cells(halves);
+    for (const unsigned order : {1U, 2U}) {
+      const Remap remap = rondel::remap(cells, grid, {.order = order});
+      for (std::size_t j = 0; j < 32; ++j) {
+        const auto west = static_cast<double>(j % 8) * 45 - 180;
+        // The half to the left of the way from lon over the northern pole is to the west of lon.
+        const bool is_first = std::sin((west + 22.5 - lon) * std::numbers::pi / 180) < 0;
+        EXPECT_NEAR(piece_of(remap, is_first ? 0 : 1, j), grid.areas()[j], 1e-15)
+            << lon << ' ' << j;
+        EXPECT_EQ(piece_of(remap, is_first ? 1 : 0, j), 0) << lon << ' ' << j;
+      }
+    }
+  }
+}
+
 TEST(overlay_grid, of_few_cells) {
   for (const std::size_t n : {1U, 2U, 3U, 4U}) {
     const Partition cells = Partition::voronoi(triangulation_of("uniform", n, 15));
