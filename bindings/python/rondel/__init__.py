@@ -10,6 +10,8 @@ power_diagram
     The cells of circles.
 convex_hull
     The hull of any points in space.
+remap
+    Conservative weights between the cells of two partitions.
 interpolate
     Values at longitudes and latitudes, from values at others.
 unit_vectors, lonlat
@@ -34,6 +36,8 @@ DynamicTriangulation
     Sites that come, go and move.
 SphericalInterpolator
     In place of `scipy.interpolate.LinearNDInterpolator`.
+Partition
+    Cells of diagrams, grids, models and polygons, for `remap`.
 Isolines, Bands
     Lines of equal value, and the regions between them.
 Weights
@@ -50,9 +54,11 @@ from ._errors import InvalidInput
 from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
+from ._partition import Partition
 from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where
+from ._remap import Remap, remap
 from ._voronoi import SphericalVoronoi
 from ._weights import Weights, read_weights
 
@@ -69,7 +75,9 @@ __all__ = [
     "Lists",
     "Location",
     "LonLatTriangles",
+    "Partition",
     "PowerDiagram",
+    "Remap",
     "Snapshot",
     "SphericalDelaunay",
     "SphericalInterpolator",
@@ -84,5 +92,6 @@ __all__ = [
     "point_set_hash",
     "power_diagram",
     "read_weights",
+    "remap",
     "unit_vectors",
 ]

@@ -1,0 +1,152 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/remap.h"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "module.h"
+#include "rondel/mesh_files.h"
+#include "rondel/partition.h"
+#include "rondel/polygon_files.h"
+
+namespace rondel::python {
+namespace {
+
+using RingsOut = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>,
+                            ArrayOut<double>>;
+// The weights; areas of sources and of targets; fractions of both.
+using RemapOut =
+    std::tuple<Weights, ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, ArrayOut<double>>;
+
+std::vector<std::uint64_t> offsets_of(const OffsetsIn& offsets) {
+  const auto numbers = rows_of<std::uint64_t>(offsets);
+  return {numbers.begin(), numbers.end()};
+}
+
+CellRings rings_of(const OffsetsIn& cells, const OffsetsIn& rings, const IndicesIn& corners,
+                   const PointsIn& points) {
+  const auto indices = rows_of<Index>(corners);
+  const auto places = points_of(points);
+  return {.cells = offsets_of(cells),
+          .rings = offsets_of(rings),
+          .corners = {indices.begin(), indices.end()},
+          .points = {places.begin(), places.end()}};
+}
+
+RingsOut rings_out(const Partition& partition) {
+  CellRings rings = unlocked([&] { return partition.rings(); });
+  return {offsets_out(std::move(rings.cells)), offsets_out(std::move(rings.rings)),
+          indices_out(std::move(rings.corners)), points_out(std::move(rings.points))};
+}
+
+GridSides sides_of(bool are_arcs) {
+  return are_arcs ? GridSides::great_circles : GridSides::parallels;
+}
+
+nb::tuple read_partition(const std::string& path, bool are_arcs, unsigned threads) {
+  auto [partition, mask, shape] = unlocked([&] {
+    CellTable table = read_cells(path);
+    return std::tuple(partition_of(table, sides_of(are_arcs), {.threads = threads}),
+                      std::move(table.mask), std::move(table.shape));
+  });
+  nb::list lengths;
+  for (const std::uint64_t length : shape) lengths.append(length);
+  return nb::make_tuple(std::move(partition), to_array<std::int32_t>(std::move(mask)),
+                        nb::tuple(lengths));
+}
+
+Partition read_polygon_partition(const std::string& path, bool is_geodesic, unsigned threads) {
+  return unlocked([&] {
+    const PolygonEdges edges = is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat;
+    return Partition(read_polygons(path, {.edges = edges}, {.threads = threads}).cells,
+                     {.threads = threads});
+  });
+}
+
+std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
+  return {mask.data(), mask.data() + mask.size()};
+}
+
+RemapOut remap_of(const Partition& source, const Partition& target, unsigned order,
+                  bool is_fracarea, const IndicesIn& source_mask, const IndicesIn& target_mask,
+                  unsigned threads, const nb::object& listener) {
+  const RemapOptions options{
+      .order = order,
+      .norm = is_fracarea ? RemapNorm::fracarea : RemapNorm::destarea,
+      .source_mask = mask_of(source_mask),
+      .target_mask = mask_of(target_mask),
+  };
+  Remap found = watched(
+      source.num_cells() + target.num_cells(), threads, listener,
+      [&](const Execution& execution) { return remap(source, target, options, execution); });
+  return {std::move(found.weights), to_array<double>(std::move(found.source_areas)),
+          to_array<double>(std::move(found.target_areas)),
+          to_array<double>(std::move(found.source_fractions)),
+          to_array<double>(std::move(found.target_fractions))};
+}
+
+}  // namespace
+
+void add_remap(nb::module_& module) {
+  nb::class_<Partition>(module, "Partition")
+      .def_static(
+          "voronoi",
+          [](const Triangulation& t, unsigned threads) {
+            return unlocked([&] { return Partition::voronoi(t, {.threads = threads}); });
+          },
+          nb::arg("triangulation"), nb::arg("threads"))
+      .def_static(
+          "triangles",
+          [](const Triangulation& t, unsigned threads) {
+            return unlocked([&] { return Partition::triangles(t, {.threads = threads}); });
+          },
+          nb::arg("triangulation"), nb::arg("threads"))
+      .def_static(
+          "lonlat_grid",
+          [](const NumbersIn& lon, const NumbersIn& lat, bool are_arcs, unsigned threads) {
+            const LonLatGrid grid{{lon.data(), lon.data() + lon.size()},
+                                  {lat.data(), lat.data() + lat.size()}};
+            return unlocked([&] {
+              return Partition::lonlat_grid(grid, sides_of(are_arcs), {.threads = threads});
+            });
+          },
+          nb::arg("lon").noconvert(), nb::arg("lat").noconvert(), nb::arg("are_arcs"),
+          nb::arg("threads"))
+      .def_static(
+          "from_rings",
+          [](const OffsetsIn& cells, const OffsetsIn& rings, const IndicesIn& corners,
+             const PointsIn& points, unsigned threads) {
+            const CellRings all = rings_of(cells, rings, corners, points);
+            return unlocked([&] { return Partition(all, {.threads = threads}); });
+          },
+          nb::arg("cells").noconvert(), nb::arg("rings").noconvert(),
+          nb::arg("corners").noconvert(), nb::arg("points").noconvert(), nb::arg("threads"))
+      .def_prop_ro("num_cells", &Partition::num_cells)
+      .def_prop_ro("is_cover", &Partition::is_cover)
+      .def_prop_ro("areas",
+                   [](const nb::object& self) {
+                     return array_of<double>(self, nb::cast<const Partition&>(self).areas());
+                   })
+      .def("centers", [](const Partition& self) { return points_out(self.centers()); })
+      .def("rings", &rings_out);
+  module.def("read_partition", &read_partition, nb::arg("path"), nb::arg("are_arcs"),
+             nb::arg("threads"));
+  module.def("read_polygon_partition", &read_polygon_partition, nb::arg("path"),
+             nb::arg("is_geodesic"), nb::arg("threads"));
+  module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::arg("order"),
+             nb::arg("is_fracarea"), nb::arg("source_mask").noconvert(),
+             nb::arg("target_mask").noconvert(), nb::arg("threads"), nb::arg("progress").none());
+}
+
+}  // namespace rondel::python

@@ -1,0 +1,279 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Partitions of the sphere into cells, prepared to be laid over each other."""
+
+from __future__ import annotations
+
+import os
+from typing import Any, Literal, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _core
+from ._arrays import as_floats, as_indices, as_points, as_threads
+from ._geo import Path, write_named
+from ._repr import Described, count
+from ._types import ArrayLike, BoolArray, FloatArray, IntArray
+
+Sides: TypeAlias = Literal["parallels", "great_circles"]
+Edges: TypeAlias = Literal["lonlat", "geodesic"]
+
+
+class Partition(Described):
+    """Cells on the sphere: of a diagram, a triangulation, a grid, a model's mesh, or polygons.
+
+    Made once by one of the class methods, and laid over others by `remap`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rondel
+    >>> grid = rondel.Partition.lonlat_grid(np.linspace(-180, 180, 37), np.linspace(-90, 90, 19))
+    >>> grid
+    <rondel.Partition: 648 cells, a cover of the sphere>
+    >>> grid.shape
+    (18, 36)
+
+    """
+
+    _partition: _core.Partition
+    _mask: IntArray
+    _shape: tuple[int, ...]
+
+    @classmethod
+    def _of(
+        cls,
+        partition: _core.Partition,
+        mask: IntArray | None = None,
+        shape: tuple[int, ...] = (),
+    ) -> Partition:
+        self = cls.__new__(cls)
+        self._partition = partition
+        self._mask = np.zeros(0, np.int32) if mask is None else mask
+        self._shape = shape
+        return self
+
+    @classmethod
+    def voronoi(cls, sites: Any, *, threads: int | None = None) -> Partition:
+        """The Voronoi cells of sites, or power cells.
+
+        Parameters
+        ----------
+        sites : SphericalDelaunay, SphericalVoronoi or PowerDiagram
+        threads : int, optional
+
+        Returns
+        -------
+        Partition
+            Cell i is that of site i; duplicates and hidden sites have empty ones. Corners are
+            circumcenters rounded to doubles.
+
+        """
+        return cls._of(_core.Partition.voronoi(_triangulation_of(sites), as_threads(threads)))
+
+    @classmethod
+    def triangles(cls, sites: Any, *, threads: int | None = None) -> Partition:
+        """The faces that are no ghosts, in their order.
+
+        Parameters
+        ----------
+        sites : SphericalDelaunay, SphericalVoronoi or PowerDiagram
+        threads : int, optional
+
+        """
+        return cls._of(_core.Partition.triangles(_triangulation_of(sites), as_threads(threads)))
+
+    @classmethod
+    def lonlat_grid(
+        cls,
+        lon: ArrayLike,
+        lat: ArrayLike,
+        *,
+        sides: Sides = "parallels",
+        threads: int | None = None,
+    ) -> Partition:
+        """The cells of a grid, by its lines.
+
+        Parameters
+        ----------
+        lon : array_like, shape (nlon + 1,)
+            The meridians in degrees, increasing by 360 at most.
+        lat : array_like, shape (nlat + 1,)
+            The parallels in degrees, increasing or decreasing.
+        sides : {'parallels', 'great_circles'}, optional
+            The northern and southern sides of cells: parallels, or the shortest ways between the
+            corners, as ESMF has them.
+        threads : int, optional
+
+        Returns
+        -------
+        Partition
+            Of shape (nlat, nlon); the cells of a row follow each other.
+
+        Raises
+        ------
+        InvalidInput
+            If a line is out of order, or no longitude or latitude.
+
+        """
+        lines = [np.atleast_1d(as_floats(lon, "lon")), np.atleast_1d(as_floats(lat, "lat"))]
+        for name, values in zip(("lon", "lat"), lines, strict=True):
+            if values.ndim != 1:
+                raise ValueError(f"{name} must have shape (n,), not {values.shape}")
+        made = _core.Partition.lonlat_grid(*lines, _are_arcs(sides), as_threads(threads))
+        return cls._of(made, shape=(len(lines[1]) - 1, len(lines[0]) - 1))
+
+    @classmethod
+    def polygons(
+        cls,
+        cells: ArrayLike,
+        rings: ArrayLike,
+        corners: ArrayLike,
+        points: ArrayLike,
+        *,
+        threads: int | None = None,
+    ) -> Partition:
+        """Any cells, with holes and in several parts.
+
+        Parameters
+        ----------
+        cells : array_like of int, shape (n + 1,)
+            Cell i has the rings ``cells[i]`` to ``cells[i + 1] - 1``.
+        rings : array_like of int, shape (r + 1,)
+            Ring j has the corners ``corners[rings[j]:rings[j + 1]]``, the first not repeated.
+        corners : array_like of int, shape (k,)
+            Rows of `points`. The inside is to the left: outer rings are counterclockwise, seen
+            from outside, holes clockwise. Sides are shorter arcs of great circles.
+        points : array_like, shape (p, 3)
+            Unit vectors. Cells that share a side name the same two.
+        threads : int, optional
+
+        Raises
+        ------
+        InvalidInput
+            With the cell that has an index out of range, a ring of less than three corners, or a
+            corner that is no unit vector.
+
+        """
+        offsets = [np.require(as_indices(array, name), np.int64, ["C", "A"])
+                   for array, name in ((cells, "cells"), (rings, "rings"))]
+        return cls._of(
+            _core.Partition.from_rings(
+                *offsets, as_indices(corners, "corners"), as_points(points), as_threads(threads)
+            )
+        )
+
+    @classmethod
+    def read(
+        cls,
+        path: Path,
+        *,
+        sides: Sides = "parallels",
+        edges: Edges = "lonlat",
+        threads: int | None = None,
+    ) -> Partition:
+        """The cells of a file.
+
+        Parameters
+        ----------
+        path : path-like
+            ``.nc``: UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF, in one of netCDF's classic
+            formats. ``.geojson``: polygons, a feature a cell.
+        sides : {'parallels', 'great_circles'}, optional
+            As in `lonlat_grid`, for coordinates along lines.
+        edges : {'lonlat', 'geodesic'}, optional
+            What joins positions of polygons: straight lines in longitude and latitude (RFC 7946),
+            or great circles.
+        threads : int, optional
+
+        Raises
+        ------
+        OSError
+            If the file cannot be read, with what is wrong in it.
+
+        """
+        if edges not in ("lonlat", "geodesic"):
+            raise ValueError(f"edges must be 'lonlat' or 'geodesic', not {edges!r}")
+        name = os.fspath(path)
+        count_of_threads = as_threads(threads)
+        made: list[Partition] = []
+
+        def read(name: str) -> None:
+            if name.lower().endswith((".geojson", ".json")):
+                is_geodesic = edges == "geodesic"
+                made.append(cls._of(_core.read_polygon_partition(name, is_geodesic, count_of_threads)))
+            else:
+                made.append(cls._of(*_core.read_partition(name, _are_arcs(sides), count_of_threads)))
+
+        write_named(name, read)
+        return made[0]
+
+    @property
+    def num_cells(self) -> int:
+        """int: the number of cells."""
+        return self._partition.num_cells
+
+    @property
+    def areas(self) -> FloatArray:
+        """Ndarray of float64, shape (n,): steradians, read-only."""
+        return self._partition.areas
+
+    @property
+    def centers(self) -> FloatArray:
+        """Ndarray of float64, shape (n, 3): the directions of the centers of mass; of empty cells
+        (0, 0, 0).
+        """
+        return self._partition.centers()
+
+    @property
+    def is_cover(self) -> bool:
+        """bool: whether the cells cover the sphere and share their sides. Of two partitions that are
+        laid over each other one must, or be a grid of parallels.
+        """
+        return self._partition.is_cover
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """Tuple of int: of a grid, (nlat, nlon); else (n,)."""
+        return tuple(self._shape) or (self.num_cells,)
+
+    @property
+    def mask(self) -> BoolArray:
+        """Ndarray of bool, shape (n,): which cells take part, as their file says."""
+        return self._mask != 0 if len(self._mask) else np.ones(self.num_cells, bool)
+
+    @property
+    def rings(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], IntArray, FloatArray]:
+        """Tuple: `cells`, `rings`, `corners` and `points` as `polygons` takes them.
+
+        Raises
+        ------
+        InvalidInput
+            If the cells are those of a grid of parallels, which are no polygons.
+
+        """
+        return self._partition.rings()
+
+    def _facts(self) -> list[tuple[str, str]]:
+        facts = [("cells", count(self.num_cells, "cell"))]
+        if self.is_cover:
+            facts.append(("cover", "a cover of the sphere"))
+        masked = int(np.count_nonzero(self._mask == 0))
+        if masked:
+            facts.append(("mask", f"{masked:,} masked"))
+        return facts
+
+
+def _triangulation_of(sites: Any) -> _core.Triangulation:
+    for owner in (sites, getattr(sites, "delaunay", None)):
+        triangulation = getattr(owner, "_triangulation", None)
+        if isinstance(triangulation, _core.Triangulation):
+            return triangulation
+    raise TypeError(f"sites must be a triangulation or a diagram, not {type(sites).__name__}")
+
+
+def _are_arcs(sides: str) -> bool:
+    if sides not in ("parallels", "great_circles"):
+        raise ValueError(f"sides must be 'parallels' or 'great_circles', not {sides!r}")
+    return sides == "great_circles"

@@ -1,0 +1,122 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Partitions and conservative weights, against closed forms and the laws of conservation."""
+
+import json
+
+import clouds
+import numpy as np
+import pytest
+
+import rondel
+
+TRI = rondel.delaunay(clouds.uniform(300, 3))
+CELLS = rondel.Partition.voronoi(TRI)
+LON = np.linspace(-180, 180, 25)
+LAT = np.linspace(-90, 90, 13)
+GRID = rondel.Partition.lonlat_grid(LON, LAT)
+
+
+def test_partitions_are_those_of_their_owners():
+    voronoi = rondel.SphericalVoronoi(TRI.points)
+    for owner in (TRI, voronoi):
+        assert np.allclose(rondel.Partition.voronoi(owner).areas, voronoi.areas, atol=1e-14)
+    assert CELLS.is_cover
+    assert CELLS.shape == (300,)
+    assert rondel.Partition.triangles(TRI).num_cells == np.count_nonzero(~TRI.ghost)
+    with pytest.raises(TypeError, match="not ndarray"):
+        rondel.Partition.voronoi(TRI.points)
+    assert np.allclose(np.linalg.norm(CELLS.centers, axis=1), 1)
+
+
+def test_a_grid_has_the_areas_between_its_lines():
+    assert GRID.shape == (12, 24)
+    expected = np.outer(np.diff(np.sin(np.radians(LAT))), np.diff(np.radians(LON)))
+    assert np.allclose(GRID.areas.reshape(GRID.shape), expected, rtol=1e-13)
+    arcs = rondel.Partition.lonlat_grid(LON, LAT, sides="great_circles")
+    assert arcs.is_cover
+    assert abs(arcs.areas.sum() - 4 * np.pi) < 1e-13
+    assert not np.allclose(arcs.areas, GRID.areas, rtol=1e-4)
+    with pytest.raises(rondel.InvalidInput, match="polygons|great circles"):
+        _ = GRID.rings
+
+
+@pytest.mark.parametrize("order", [1, 2])
+@pytest.mark.parametrize(("source", "target"), [(CELLS, GRID), (GRID, CELLS), (GRID, GRID)])
+def test_integrals_and_constants_are_kept(source, target, order):
+    found = rondel.remap(source, target, order=order)
+    values = np.random.default_rng(1).normal(size=(3, source.num_cells))
+    carried = found.weights.apply(values)
+    before = values @ found.source_areas
+    assert np.allclose(carried @ found.target_areas, before, atol=1e-13)
+    assert np.allclose(found.weights.apply(np.ones(source.num_cells)), 1, atol=1e-13)
+    assert np.allclose(found.source_fractions, 1, atol=1e-12)
+    assert np.allclose(found.target_fractions, 1, atol=1e-12)
+    if source is target:
+        assert np.array_equal(found.weights.tocsr().toarray(), np.eye(source.num_cells))
+        assert np.array_equal(carried, values)
+
+
+def test_rings_come_back():
+    again = rondel.Partition.polygons(*CELLS.rings)
+    assert np.array_equal(again.areas, CELLS.areas)
+    with pytest.raises(rondel.InvalidInput, match="cell 0 has a ring of 2 corners"):
+        rondel.Partition.polygons([0, 1], [0, 2], [0, 1], np.eye(3))
+
+
+def test_masks():
+    mask = np.arange(300) % 2 == 0
+    found = rondel.remap(CELLS, GRID, source_mask=mask)
+    assert set(found.weights.indices) == set(np.flatnonzero(mask))
+    assert np.allclose(found.target_fractions @ GRID.areas, CELLS.areas[mask].sum())
+    with pytest.raises(rondel.InvalidInput, match="mask of the source has 2 values"):
+        rondel.remap(CELLS, GRID, source_mask=[True, False])
+
+
+def test_files(tmp_path):
+    box = [[[10, 20], [40, 20], [40, 50], [10, 50], [10, 20]]]
+    geometry = {"type": "Polygon", "coordinates": box}
+    (tmp_path / "box.geojson").write_text(json.dumps(geometry), "utf-8")
+    polygons = rondel.Partition.read(tmp_path / "box.geojson")
+    assert polygons.num_cells == 1
+    assert not polygons.is_cover
+    height = np.sin(np.radians(50)) - np.sin(np.radians(20))
+    assert abs(polygons.areas[0] - np.radians(30) * height) < 1e-6
+    found = rondel.remap(polygons, GRID, norm="fracarea")
+    assert np.isnan(found.weights.apply([5.0])[0])
+    assert np.nanmax(found.weights.apply([5.0])) == 5
+    arcs = rondel.Partition.read(tmp_path / "box.geojson", edges="geodesic")
+    assert arcs.areas[0] != polygons.areas[0]
+    with pytest.raises(FileNotFoundError):
+        rondel.Partition.read(tmp_path / "none.nc")
+
+
+def test_meshes_of_xarray(tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("scipy")
+    middles = [(lines[1:] + lines[:-1]) / 2 for lines in (LAT, LON)]
+    grid = xarray.Dataset(
+        coords={
+            "lat": ("lat", middles[0], {"units": "degrees_north"}),
+            "lon": ("lon", middles[1], {"units": "degrees_east"}),
+        }
+    )
+    grid.to_netcdf(tmp_path / "grid.nc", engine="scipy")
+    read = rondel.Partition.read(tmp_path / "grid.nc")
+    assert read.shape == GRID.shape
+    assert np.array_equal(read.areas, GRID.areas)
+    assert read.mask.all()
+
+
+def test_what_is_refused():
+    with pytest.raises(ValueError, match="norm must be"):
+        rondel.remap(CELLS, GRID, norm="none")
+    with pytest.raises(ValueError, match="order must be 1 or 2"):
+        rondel.remap(CELLS, GRID, order=3)
+    with pytest.raises(ValueError, match="sides must be"):
+        rondel.Partition.lonlat_grid(LON, LAT, sides="straight")
+    with pytest.raises(rondel.InvalidInput, match="meridian 1"):
+        rondel.Partition.lonlat_grid([0, 0], LAT)
+    part = rondel.Partition.polygons([0, 1], [0, 3], [0, 1, 2], np.eye(3))
+    with pytest.raises(rondel.InvalidInput, match="neither"):
+        rondel.remap(part, part)
