@@ -267,6 +267,25 @@ TEST(overlay_grid, borders_through_the_poles) {
   }
 }
 
+// A side from one meridian of the grid over the pole to the opposite one.
+TEST(overlay_grid, sides_over_the_pole) {
+  CellRings triangle;
+  for (const auto& [lon, lat] : {std::pair{180.0, 0.0}, {0, 70}, {70, 0}}) {
+    triangle.points.push_back(unit_vector_deg(lon, lat));
+  }
+  triangle.corners = {0, 1, 2};
+  triangle.rings = {0, 3};
+  triangle.cells = {0, 1};
+  const Partition cell(triangle);
+  for (const std::size_t num_lon : {1U, 2U, 4U, 12U}) {
+    for (const double west : {-180.0, -170.0, 0.0}) {
+      const Remap remap =
+          rondel::remap(cell, Partition::lonlat_grid(regular_grid(num_lon, 5, west)), {.order = 2});
+      EXPECT_NEAR(remap.source_fractions[0], 1, 1e-14) << num_lon << ' ' << west;
+    }
+  }
+}
+
 TEST(overlay_grid, of_few_cells) {
   for (const std::size_t n : {1U, 2U, 3U, 4U}) {
     const Partition cells = Partition::voronoi(triangulation_of("uniform", n, 15));

@@ -156,8 +156,10 @@ class Partition(Described):
             corner that is no unit vector.
 
         """
-        offsets = [np.require(as_indices(array, name), np.int64, ["C", "A"])
-                   for array, name in ((cells, "cells"), (rings, "rings"))]
+        offsets = [
+            np.require(as_indices(array, name), np.int64, ["C", "A"])
+            for array, name in ((cells, "cells"), (rings, "rings"))
+        ]
         return cls._of(
             _core.Partition.from_rings(
                 *offsets, as_indices(corners, "corners"), as_points(points), as_threads(threads)
@@ -202,9 +204,13 @@ class Partition(Described):
         def read(name: str) -> None:
             if name.lower().endswith((".geojson", ".json")):
                 is_geodesic = edges == "geodesic"
-                made.append(cls._of(_core.read_polygon_partition(name, is_geodesic, count_of_threads)))
+                made.append(
+                    cls._of(_core.read_polygon_partition(name, is_geodesic, count_of_threads))
+                )
             else:
-                made.append(cls._of(*_core.read_partition(name, _are_arcs(sides), count_of_threads)))
+                made.append(
+                    cls._of(*_core.read_partition(name, _are_arcs(sides), count_of_threads))
+                )
 
         write_named(name, read)
         return made[0]
@@ -228,8 +234,8 @@ class Partition(Described):
 
     @property
     def is_cover(self) -> bool:
-        """bool: whether the cells cover the sphere and share their sides. Of two partitions that are
-        laid over each other one must, or be a grid of parallels.
+        """bool: whether the cells cover the sphere and share their sides. Of two partitions that
+        are laid over each other one must, or be a grid of parallels.
         """
         return self._partition.is_cover
 

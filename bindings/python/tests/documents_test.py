@@ -41,6 +41,7 @@ def test_docstrings(name):
         "docs/guide/contours.md",
         "docs/guide/graphs.md",
         "docs/guide/interpolation.md",
+        "docs/guide/remapping.md",
         "docs/guide/distributed.md",
         "docs/guide/scaling.md",
         "README.md",
