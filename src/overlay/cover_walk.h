@@ -18,7 +18,7 @@ class CoverWalk {
   // halfedge by which a cell is left, in order.
   template <class Cross>
   Index operator()(const TracedLine& line, Index cell, const Cross& cross) const {
-    if (cover_.num_halfedges() == 0) return cell;
+    if (cover_.num_halfedges() == 0 || line.is_point()) return cell;
     Halfedge in = no_index;  // the halfedge by which the cell was entered
     for (;;) {
       const Halfedge out = cover_.shapes[cell] == Shape::convex ? way_out(line, cell, in)

@@ -15,6 +15,7 @@
 #include "exact/vector.h"
 #include "predicates/bounds.h"
 #include "predicates/rung.h"
+#include "rondel/predicates.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -47,6 +48,12 @@ class TracedLine {
       return value > 0;
     }
     return turned_point_sign(p_, q_, y) == Sign::positive;
+  }
+
+  // Whether both points are on one ray from the center: no point is to the left then.
+  [[nodiscard]] bool is_point() const {
+    constexpr double surely_not = 1e-24;
+    return dot(normal_, normal_) < surely_not && is_same_site(p_, q_);
   }
 
   [[nodiscard]] const Point& from() const { return p_; }

@@ -85,6 +85,17 @@ INSTANTIATE_TEST_SUITE_P(overlay, OverlayHostile,
                            return std::string(generators()[test.param].name);
                          });
 
+// The middle of a cell, from which corners are looked for, is a corner of the other diagram but for its length, an ulp.
+TEST(overlay_hostile, corners_in_the_middle_of_cells) {
+  const std::vector<Point> sites = {{0, 0, 1}, {-3, 0, 0}, {0, 0, -1}, {0, -3, 0}};
+  const std::vector<Point> others = {{0, -3, 0}, {-0.1875, 0, 0}, {3, 0, 0},
+                                     {0, 0, -3}, {-1, -1, -1},    {0, 0, 1}};
+  const Partition cells = Partition::voronoi(delaunay(sites));
+  const Partition other = Partition::voronoi(delaunay(others));
+  expect_a_cover(remap(cells, other), "there");
+  expect_a_cover(remap(other, cells), "back");
+}
+
 // As one is turned by less than an ulp and more, pieces appear, but no area does.
 TEST(overlay_hostile, turned_by_little) {
   const SiteSet set = generator("uniform").make(1000, 20);
