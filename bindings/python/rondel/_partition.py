@@ -117,12 +117,11 @@ class Partition(Described):
             If a line is out of order, or no longitude or latitude.
 
         """
-        lines = [np.atleast_1d(as_floats(lon, "lon")), np.atleast_1d(as_floats(lat, "lat"))]
-        for name, values in zip(("lon", "lat"), lines, strict=True):
-            if values.ndim != 1:
-                raise ValueError(f"{name} must have shape (n,), not {values.shape}")
-        made = _core.Partition.lonlat_grid(*lines, _are_arcs(sides), as_threads(threads))
-        return cls._of(made, shape=(len(lines[1]) - 1, len(lines[0]) - 1))
+        meridians, parallels = _as_lines(lon, "lon"), _as_lines(lat, "lat")
+        made = _core.Partition.lonlat_grid(
+            meridians, parallels, _are_arcs(sides), as_threads(threads)
+        )
+        return cls._of(made, shape=(len(parallels) - 1, len(meridians) - 1))
 
     @classmethod
     def polygons(
@@ -156,13 +155,13 @@ class Partition(Described):
             corner that is no unit vector.
 
         """
-        offsets = [
-            np.require(as_indices(array, name), np.int64, ["C", "A"])
-            for array, name in ((cells, "cells"), (rings, "rings"))
-        ]
         return cls._of(
             _core.Partition.from_rings(
-                *offsets, as_indices(corners, "corners"), as_points(points), as_threads(threads)
+                as_indices(cells, "cells").astype(np.int64),
+                as_indices(rings, "rings").astype(np.int64),
+                as_indices(corners, "corners"),
+                as_points(points),
+                as_threads(threads),
             )
         )
 
@@ -269,6 +268,13 @@ class Partition(Described):
         if masked:
             facts.append(("mask", f"{masked:,} masked"))
         return facts
+
+
+def _as_lines(values: ArrayLike, name: str) -> FloatArray:
+    lines = np.atleast_1d(as_floats(values, name))
+    if lines.ndim != 1:
+        raise ValueError(f"{name} must have shape (n,), not {lines.shape}")
+    return lines
 
 
 def _triangulation_of(sites: Any) -> _core.Triangulation:
