@@ -61,7 +61,8 @@ class GridPieceMaker {
     const bool has_pole = has_north_pole(area);
     if (is_within_one() && !has_pole) {
       const Index there = grid_.cell(strips_[0].column, strips_[0].row);
-      if (there != no_index && area > 0) pieces_.push_back({there, area, 0, cells_.moments()[name]});
+      if (there != no_index && area > 0)
+        pieces_.push_back({there, area, 0, cells_.moments()[name]});
       return pieces_;
     }
     std::ranges::stable_sort(strips_, [](const Strip& a, const Strip& b) {

@@ -188,7 +188,8 @@ void GraticuleWalk::append_columns(const GraticulePlace& from, const GraticulePl
     if (east > 0 || west > 0) {
       next.point = normalized(east * from.point + west * to.point);
       next.radius = radius_of(next.point);
-    } else if (!(along(border, from.point) > 0)) {  // the arc has come through a pole to this meridian
+    } else if (!(along(border, from.point) >
+                 0)) {  // the arc has come through a pole to this meridian
       next.point = to.point;
       next.radius = to.radius;
     }

@@ -302,7 +302,9 @@ TEST(overlay_mesh_files, names_what_is_wrong) {
               (void)lonlat_table({1, NAN}, {2, 3});
             }),
             "value 1 of \"lon\" is not finite");
-  EXPECT_EQ(refusal_of([] { (void)lonlat_table({1, 2}, {80, 99}); }),
+  EXPECT_EQ(refusal_of([] {
+              (void)lonlat_table({1, 2}, {80, 99});
+            }),
             "value 1 of \"lat\", 1.000000 and 99.000000 degrees, is no place");
   const auto ugrid = [](const Doubles& lat, const Doubles& nodes) {
     MeshWriter file;
