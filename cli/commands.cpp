@@ -11,6 +11,7 @@
 #include "inputs/kinds.h"
 #include "run.h"
 #include "validate.h"
+#include "words.h"
 
 namespace rondel::cli {
 namespace {
@@ -150,19 +151,11 @@ Command add_voronoi_command(CLI::App& tool) {
           "--clip", options->clip,
           "Keep what lies in the polygons of this file (.geojson), as of land or countries")
       ->type_name("FILE");
-  parser
-      ->add_option_function<std::string>(
-          "--edges",
-          [options](const std::string& text) {
-            options->edges = text == "geodesic" ? PolygonEdges::geodesic : PolygonEdges::lonlat;
-          },
-          "What joins positions of --clip: lonlat (default; straight in longitude and\n"
-          "latitude, RFC 7946) or geodesic (great circles)")
-      ->check([](const std::string& text) {
-        return text == "lonlat" || text == "geodesic" ? std::string()
-                                                      : "'" + text + "' is not a choice";
-      })
-      ->type_name("WORD");
+  add_word<PolygonEdges>(
+      *parser, "--edges", options->edges,
+      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
+      "What joins positions of --clip: lonlat (default; straight in longitude and\n"
+      "latitude, RFC 7946) or geodesic (great circles)");
   parser
       ->add_option("--group", options->group,
                    "Join the cells of all sites with the same text in this column; sites without\n"

@@ -24,7 +24,7 @@ struct CellSide {
 };
 
 // The corners of cells with one ring and not many of them, the last one repeated where others have more.
-std::vector<LonLat> corners_of(const CellRings& cells) {
+std::vector<LonLat> corners_of_rings(const CellRings& cells) {
   constexpr std::size_t most_corners = 16;
   std::size_t most = 0;
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
@@ -65,19 +65,7 @@ CellSide side_of_mesh(const FileName& file, const RemapCommandOptions& options, 
   side.points = table.centers.empty() ? lonlats(partition.centers()) : std::move(table.centers);
   side.mask = std::move(table.mask);
   side.shape = std::move(table.shape);
-  if (!table.grid) {
-    side.corners = corners_of(table.cells);
-  } else {
-    for (std::size_t j = 0; j + 1 < table.grid->lat_deg.size(); ++j) {
-      for (std::size_t i = 0; i + 1 < table.grid->lon_deg.size(); ++i) {
-        const auto [south, north] = std::minmax(table.grid->lat_deg[j], table.grid->lat_deg[j + 1]);
-        const double west = table.grid->lon_deg[i];
-        const double east = table.grid->lon_deg[i + 1];
-        side.corners.insert(side.corners.end(),
-                            {{west, south}, {east, south}, {east, north}, {west, north}});
-      }
-    }
-  }
+  side.corners = table.grid ? corners_of(*table.grid) : corners_of_rings(table.cells);
   return {std::move(partition), std::move(side)};
 }
 

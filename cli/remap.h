@@ -46,6 +46,8 @@ Targets read_targets(const std::string& name, const ReadOptions& read);
 void add_grid_cells(WeightSide& side);
 /// The lines of "grid:DEG" or "grid:NLONxNLAT". \throws UsageError
 LonLatGrid lonlat_grid(const std::string& name);
+/// Four of each cell, counterclockwise.
+std::vector<LonLat> corners_of(const LonLatGrid& grid);
 
 struct RemapCommandOptions {
   CommonOptions common;  ///< INPUT: the source's cells; OUTPUT: the weights

@@ -5,10 +5,10 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <unordered_map>
 
 #include "remap.h"
 #include "validate.h"
+#include "words.h"
 
 namespace rondel::cli {
 namespace {
@@ -17,19 +17,6 @@ std::string share_error(const std::string& text) { return range_error(text, 0, 1
 
 void add_values(CLI::App& parser, std::vector<std::string>& columns, const std::string& what) {
   parser.add_option("--value", columns, what)->allow_extra_args(false)->type_name("COL");
-}
-
-// A word for each of the values of an option.
-template <typename Value>
-void add_word(CLI::App& parser, const std::string& name, Value& target,
-              const std::unordered_map<std::string, Value>& choices, const std::string& what) {
-  parser
-      .add_option_function<std::string>(
-          name, [&target, choices](const std::string& text) { target = choices.at(text); }, what)
-      ->check([choices](const std::string& text) {
-        return choices.contains(text) ? std::string() : "'" + text + "' is not a choice";
-      })
-      ->type_name("WORD");
 }
 
 void add_weights_input(CLI::App& parser, CommonOptions& options) {

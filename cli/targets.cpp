@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -68,19 +69,15 @@ std::vector<LonLat> grid_points(const GridSize& size) {
   return points;
 }
 
-std::vector<LonLat> grid_corners(const GridSize& size) {
-  std::vector<LonLat> corners;
-  corners.reserve(4 * size.num_lon * size.num_lat);
-  for (std::uint64_t j = 0; j < size.num_lat; ++j) {
-    const double south = place(2 * j, size.num_lat, 90);
-    const double north = place(2 * j + 2, size.num_lat, 90);
-    for (std::uint64_t i = 0; i < size.num_lon; ++i) {
-      const double west = place(2 * i, size.num_lon, 180);
-      const double east = place(2 * i + 2, size.num_lon, 180);
-      corners.insert(corners.end(), {{west, south}, {east, south}, {east, north}, {west, north}});
-    }
+LonLatGrid lines_of(const GridSize& size) {
+  LonLatGrid grid;
+  for (std::uint64_t i = 0; i <= size.num_lon; ++i) {
+    grid.lon_deg.push_back(place(2 * i, size.num_lon, 180));
   }
-  return corners;
+  for (std::uint64_t j = 0; j <= size.num_lat; ++j) {
+    grid.lat_deg.push_back(place(2 * j, size.num_lat, 90));
+  }
+  return grid;
 }
 
 // Between the parallels at b - h and b + h: the difference of their sines is 2 cos b sin h, twice the y
@@ -122,22 +119,25 @@ Targets read_targets(const std::string& name, const ReadOptions& read) {
   return targets;
 }
 
-LonLatGrid lonlat_grid(const std::string& name) {
-  const GridSize size = grid_size(name);
-  LonLatGrid grid;
-  for (std::uint64_t i = 0; i <= size.num_lon; ++i) {
-    grid.lon_deg.push_back(place(2 * i, size.num_lon, 180));
+LonLatGrid lonlat_grid(const std::string& name) { return lines_of(grid_size(name)); }
+
+std::vector<LonLat> corners_of(const LonLatGrid& grid) {
+  std::vector<LonLat> corners;
+  for (std::size_t j = 0; j + 1 < grid.lat_deg.size(); ++j) {
+    const auto [south, north] = std::minmax(grid.lat_deg[j], grid.lat_deg[j + 1]);
+    for (std::size_t i = 0; i + 1 < grid.lon_deg.size(); ++i) {
+      const double west = grid.lon_deg[i];
+      const double east = grid.lon_deg[i + 1];
+      corners.insert(corners.end(), {{west, south}, {east, south}, {east, north}, {west, north}});
+    }
   }
-  for (std::uint64_t j = 0; j <= size.num_lat; ++j) {
-    grid.lat_deg.push_back(place(2 * j, size.num_lat, 90));
-  }
-  return grid;
+  return corners;
 }
 
 void add_grid_cells(WeightSide& side) {
   if (side.shape.size() != 2) return;
   const GridSize size = {side.shape[1], side.shape[0]};
-  side.corners = grid_corners(size);
+  side.corners = corners_of(lines_of(size));
   side.areas = grid_areas(size);
 }
 

@@ -76,7 +76,7 @@ class GridPieceMaker {
       }
       next = add_column(column, next, has_pole);
     }
-    drop_rounding();
+    drop_rounding(pieces_);
     std::ranges::sort(pieces_, {}, &GridPiece::cell);
     return pieces_;
   }
@@ -150,21 +150,6 @@ class GridPieceMaker {
       piece.moment = moment_of_row(south, north, fill.width, fill.run);
     }
     return piece;
-  }
-
-  // But a cell that is no larger keeps its largest piece.
-  void drop_rounding() {
-    const auto is_rounding = [](const GridPiece& piece) {
-      return piece.area <= area_of_rounding(piece.length);
-    };
-    if (pieces_.empty()) return;
-    if (std::ranges::all_of(pieces_, is_rounding)) {
-      const GridPiece largest = *std::ranges::max_element(pieces_, {}, &GridPiece::area);
-      pieces_.clear();
-      if (largest.area > 0) pieces_.push_back(largest);
-    } else {
-      std::erase_if(pieces_, is_rounding);
-    }
   }
 
   const PartitionData& cells_;

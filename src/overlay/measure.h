@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <vector>
 
 #include "exact/argument.h"
 #include "exact/vector.h"
@@ -55,6 +56,23 @@ inline double rough_length(const Point& p, const Point& q) {
 // Corners are off by 2u from their edges, or some 10u where those are as good as parallel, so areas by that
 // times the border.
 constexpr double area_of_rounding(double length) { return 16 * predicates::unit_roundoff * length; }
+
+// Leaves out the pieces of a cell whose area is not larger than rounding of their corners may be, by their areas and
+// lengths. But a cell that is no larger keeps its largest piece.
+template <class Piece>
+void drop_rounding(std::vector<Piece>& pieces) {
+  const auto is_rounding = [](const Piece& piece) {
+    return piece.area <= area_of_rounding(piece.length);
+  };
+  if (pieces.empty()) return;
+  if (std::ranges::all_of(pieces, is_rounding)) {
+    const Piece largest = *std::ranges::max_element(pieces, {}, &Piece::area);
+    pieces.clear();
+    if (largest.area > 0) pieces.push_back(largest);
+  } else {
+    std::erase_if(pieces, is_rounding);
+  }
+}
 
 // Triangles with corners much farther from their first one may be ill-defined.
 inline bool is_far(const Point& p, const Point& q) { return dot(p, q) < 0.5; }

@@ -81,8 +81,7 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file) {
   }
   MeshContent mesh;
   mesh.convention = "UGRID";
-  mesh.nodes = positions_of(file, *lon, *lat);
-  mesh.is_single = lon->type == io::NetcdfType::float32;
+  take_nodes(file, *lon, *lat, mesh);
   const MeshVariable& faces = require_rank(
       file.require(io::netcdf_text(topology->attributes, "face_node_connectivity")), 2);
   const std::string dimension = io::netcdf_text(topology->attributes, "face_dimension");
@@ -152,11 +151,9 @@ std::optional<MeshContent> read_mpas(const NetcdfReader& file) {
   if (io::netcdf_text(file.attributes(), "on_a_sphere").starts_with("NO")) {
     throw BadValue("the mesh is in the plane: on_a_sphere is NO");
   }
-  const MeshVariable& lon = file.require("lonVertex");
   MeshContent mesh;
   mesh.convention = "MPAS";
-  mesh.nodes = positions_of(file, lon, file.require("latVertex"));
-  mesh.is_single = lon.type == io::NetcdfType::float32;
+  take_nodes(file, file.require("lonVertex"), file.require("latVertex"), mesh);
   const std::vector<double> counts = file.numbers(file.require("nEdgesOnCell"));
   require_rank(*vertices, 2);
   if (counts.size() != vertices->shape[0]) {
@@ -177,8 +174,7 @@ std::optional<MeshContent> read_icon(const NetcdfReader& file) {
   if (vertices == nullptr || lon == nullptr || lat == nullptr) return std::nullopt;
   MeshContent mesh;
   mesh.convention = "ICON";
-  mesh.nodes = positions_of(file, *lon, *lat);
-  mesh.is_single = lon->type == io::NetcdfType::float32;
+  take_nodes(file, *lon, *lat, mesh);
   require_rank(*vertices, 2);
   take_connectivity(file, {*vertices, vertices->shape[1], vertices->shape[0], true, 1, 1}, {},
                     mesh);

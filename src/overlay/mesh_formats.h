@@ -46,6 +46,8 @@ using MeshVariable = io::NetcdfReader::Variable;
 // Two variables of degrees as positions. Throws BadValue if they are not of one length.
 std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshVariable& lon,
                                  const MeshVariable& lat);
+void take_nodes(const io::NetcdfReader& file, const MeshVariable& lon, const MeshVariable& lat,
+                MeshContent& mesh);
 // Throws BadValue with i and the names of the variables if there is no such place.
 LonLat require_position(const std::string& names, std::size_t i, double lon, double lat);
 // Of cells that have corners of their own, `of_each` each.

@@ -54,6 +54,12 @@ LonLat require_position(const std::string& names, std::size_t i, double lon, dou
   return {lon, std::clamp(lat, -90.0, 90.0)};
 }
 
+void take_nodes(const io::NetcdfReader& file, const MeshVariable& lon, const MeshVariable& lat,
+                MeshContent& mesh) {
+  mesh.nodes = positions_of(file, lon, lat);
+  mesh.is_single = lon.type == io::NetcdfType::float32;
+}
+
 void take_corners(const io::NetcdfReader& file, const MeshVariable& lon, const MeshVariable& lat,
                   std::uint64_t num_cells, MeshContent& mesh) {
   if (num_cells == 0 || lon.num_values % num_cells != 0 || lon.num_values >= no_index) {
@@ -61,8 +67,7 @@ void take_corners(const io::NetcdfReader& file, const MeshVariable& lon, const M
                    std::to_string(lon.num_values) + " values for " + std::to_string(num_cells) +
                    " cells");
   }
-  mesh.nodes = positions_of(file, lon, lat);
-  mesh.is_single = lon.type == io::NetcdfType::float32;
+  take_nodes(file, lon, lat, mesh);
   const std::uint64_t of_each = lon.num_values / num_cells;
   for (std::uint64_t i = 0; i < num_cells; ++i) {
     for (std::uint64_t k = 0; k < of_each; ++k) {

@@ -23,10 +23,6 @@ struct MeasuredPiece {
   Point moment{};
 };
 
-bool is_rounding(const MeasuredPiece& piece) {
-  return piece.area <= area_of_rounding(piece.length);
-}
-
 class PieceMaker {
  public:
   PieceMaker(const Subdivision& cells, const Subdivision& cover, const Crossings& crossings,
@@ -41,7 +37,7 @@ class PieceMaker {
     for (MeasuredPiece& piece : pieces_) {
       if (piece.is_large) measure_large(arcs, piece);
     }
-    drop_rounding();
+    drop_rounding(pieces_);
     std::ranges::sort(pieces_, {}, [&](const MeasuredPiece& piece) { return column(piece); });
     return pieces_;
   }
@@ -80,17 +76,6 @@ class PieceMaker {
     }
     piece.length += rough_length(arc.from, arc.to);
     if (has_moments_) piece.moment = piece.moment + moment_of_arc(arc.from, arc.to);
-  }
-
-  // But a cell that is no larger keeps its largest piece.
-  void drop_rounding() {
-    if (std::ranges::all_of(pieces_, is_rounding)) {
-      const MeasuredPiece largest = *std::ranges::max_element(pieces_, {}, &MeasuredPiece::area);
-      pieces_.clear();
-      if (largest.area > 0) pieces_.push_back(largest);
-    } else {
-      std::erase_if(pieces_, is_rounding);
-    }
   }
 
   void measure_large(std::span<const PieceArc> arcs, MeasuredPiece& piece) {

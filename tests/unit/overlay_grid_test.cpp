@@ -113,26 +113,8 @@ TEST(overlay_grid, sides_may_be_exchanged) {
   }
 }
 
-// The mean of x over the cells of a convex partition, and over boxes.
-std::vector<LongVector> centers_of(const Triangulation& sites) {
-  const Cells all = cells(sites);
-  std::vector<LongVector> centers;
-  for (std::size_t i = 0; i < sites.num_sites(); ++i) {
-    const LongRing ring = ring_of(all, i);
-    LongVector moment{};
-    for (std::size_t k = 0; k < ring.size(); ++k) {
-      const LongVector n = cross_of(ring[k], ring[(k + 1) % ring.size()]);
-      const long double sine = std::sqrt(dot_of(n, n));
-      const long double half =
-          std::atan2(sine, dot_of(ring[k], ring[(k + 1) % ring.size()])) / (2 * sine);
-      moment = {moment.x + half * n.x, moment.y + half * n.y, moment.z + half * n.z};
-    }
-    const long double area = area_of(ring);
-    centers.push_back({moment.x / area, moment.y / area, moment.z / area});
-  }
-  return centers;
-}
-std::vector<LongVector> centers_of(const LonLatGrid& grid) {
+// The mean of x over boxes.
+std::vector<LongVector> box_centers(const LonLatGrid& grid) {
   std::vector<LongVector> centers;
   for (std::size_t j = 0; j < (grid.lon_deg.size() - 1) * (grid.lat_deg.size() - 1); ++j) {
     const LonLatBox box = box_of(grid, j);
@@ -182,10 +164,10 @@ TEST(overlay_grid, linear_fields_with_their_gradients) {
   };
   const Partition voronoi = Partition::voronoi(sites);
   const Partition grid = Partition::lonlat_grid(lines);
-  check(voronoi, field(centers_of(sites)), grid, field(centers_of(lines)));
-  check(grid, field(centers_of(lines)), voronoi, field(centers_of(sites)));
-  check(grid, field(centers_of(lines)), Partition::lonlat_grid(other_lines),
-        field(centers_of(other_lines)));
+  check(voronoi, field(centers_of(sites)), grid, field(box_centers(lines)));
+  check(grid, field(box_centers(lines)), voronoi, field(centers_of(sites)));
+  check(grid, field(box_centers(lines)), Partition::lonlat_grid(other_lines),
+        field(box_centers(other_lines)));
 }
 
 TEST(overlay_grid, onto_itself_is_the_identity) {

@@ -84,6 +84,26 @@ inline LongRing ring_of(const Cells& cells, std::size_t i) {
   return ring;
 }
 
+// The mean of x over the cells of a convex partition.
+inline std::vector<LongVector> centers_of(const Triangulation& sites) {
+  const Cells all = cells(sites);
+  std::vector<LongVector> centers;
+  for (std::size_t i = 0; i < sites.num_sites(); ++i) {
+    const LongRing ring = ring_of(all, i);
+    LongVector moment{};
+    for (std::size_t k = 0; k < ring.size(); ++k) {
+      const LongVector n = cross_of(ring[k], ring[(k + 1) % ring.size()]);
+      const long double sine = std::sqrt(dot_of(n, n));
+      const long double half =
+          std::atan2(sine, dot_of(ring[k], ring[(k + 1) % ring.size()])) / (2 * sine);
+      moment = {moment.x + half * n.x, moment.y + half * n.y, moment.z + half * n.z};
+    }
+    const long double area = area_of(ring);
+    centers.push_back({moment.x / area, moment.y / area, moment.z / area});
+  }
+  return centers;
+}
+
 // Of convex cells.
 inline long double area_of_piece(const Cells& first, std::size_t i, const Cells& second,
                                  std::size_t j) {

@@ -1,0 +1,27 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Options whose values are words.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <unordered_map>
+
+namespace rondel::cli {
+
+/// A word for each of the values of an option.
+template <typename Value>
+void add_word(CLI::App& parser, const std::string& name, Value& target,
+              const std::unordered_map<std::string, Value>& choices, const std::string& what) {
+  parser
+      .add_option_function<std::string>(
+          name, [&target, choices](const std::string& text) { target = choices.at(text); }, what)
+      ->check([choices](const std::string& text) {
+        return choices.contains(text) ? std::string() : "'" + text + "' is not a choice";
+      })
+      ->type_name("WORD");
+}
+
+}  // namespace rondel::cli
