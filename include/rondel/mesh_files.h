@@ -5,8 +5,10 @@
 /// The cells of models' files: unstructured meshes and grids in longitude and latitude (target rondel::remap).
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +32,16 @@ struct CellTable {
 
   [[nodiscard]] RONDEL_API std::size_t num_cells() const;
 };
+
+/// The grid whose cells have these centers, by rule 3 of read_cells(). Longitudes increase but for whole turns.
+/// \throws InvalidInput for less than two, or what is not finite (its index).
+RONDEL_API LonLatGrid grid_around(std::span<const double> lon_deg, std::span<const double> lat_deg);
+
+/// Cells by the positions of their corners, `of_each` a cell, as CF's bounds have them. As in read_cells(), corners
+/// nearer than 1e-10 radians to each other are one.
+/// \throws InvalidInput if `of_each` is 0 or does not divide their number, or with the cell that has a corner at
+/// no place.
+RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each);
 
 /// Reads netCDF in one of the classic formats; which convention it follows, its variables and attributes tell:
 ///

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -47,8 +48,8 @@ RONDEL_API CellRings clip(const Partition& cells, const Partition& regions,
                           const Execution& execution = {});
 
 /// Cells joined by group: cell i becomes a part of `groups[i]`, or of nothing if that is no_index. Edges
-/// that two cells of one group have in common vanish; those between groups are the same for both, bit by bit. What covers the sphere has no border,
-/// and so no rings.
+/// that two cells of one group have in common vanish; those between groups are the same for both, bit by bit. What
+/// covers the sphere has no border, and so no rings.
 /// \throws InvalidInput if there is not one group a cell, or one is neither below num_groups nor no_index (its
 ///         index).
 RONDEL_API CellRings dissolve(const CellRings& cells, std::span<const Index> groups,
@@ -56,6 +57,21 @@ RONDEL_API CellRings dissolve(const CellRings& cells, std::span<const Index> gro
 
 /// The area of each cell in steradians, whatever its size and form.
 RONDEL_API std::vector<double> areas(const CellRings& cells);
+
+/// Cells as polygons with holes in longitude and latitude, in flat arrays: the polygons of write_regions().
+struct LonLatRegions {
+  std::vector<LonLat> positions;  ///< of all rings; the last one of a ring is its first
+  /// Ring k: `positions[rings[k]] ... positions[rings[k+1]-1]`; outer rings counterclockwise, holes clockwise.
+  std::vector<std::uint64_t> rings = {0};
+  std::vector<std::uint64_t> polygons = {
+      0};                     ///< polygon j: rings from `polygons[j]` on, the outer one first
+  std::vector<Index> owners;  ///< the cell of each polygon, never decreasing
+};
+
+/// Polygons within [-180, 180] x [-90, 90], cut at the antimeridian and the poles (target rondel::io).
+/// \throws InvalidInput if offsets do not fit, or the tolerance is not positive.
+RONDEL_API LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg = 0.01,
+                                         const Execution& execution = {});
 
 /// Writes a feature for each cell that has rings: a Polygon or MultiPolygon, cut at the antimeridian and
 /// the poles. Its properties are `area` (steradians) and the columns, of which each has a value a cell.

@@ -36,10 +36,14 @@ struct RegionsToWrite {
   const Execution& execution;
 };
 
+using Polygons = std::vector<map::PolygonWithHoles>;
+
 struct DrawnRegions {
-  std::vector<std::string> geometries;
+  std::vector<Polygons> cells;
   std::size_t num_crossed = 0;  // how many have lines that cross, which their arcs do not
 };
+
+constexpr std::size_t grain = 16;
 
 // The points of the rings of a cell.
 class RingsOfCell {
@@ -67,37 +71,34 @@ double area_of(std::span<const map::UnitVectors> rings) {
 }
 
 DrawnRegions draw(const RegionsToWrite& job, double tolerance) {
-  constexpr std::size_t grain = 16;
-  const std::size_t n = job.cells.num_cells();
   DrawnRegions drawn;
-  drawn.geometries.resize(n);
+  drawn.cells.resize(job.cells.num_cells());
   std::atomic<std::size_t> num_crossed = 0;
-  system::parallel_for(job.execution.threads, n, grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const RingsOfCell cell(job.cells, i);
-      if (cell.rings().empty()) continue;
-      std::vector<map::PolygonWithHoles> polygons;
-      bool is_crossed = false;
-      for (const std::vector<std::size_t>& part : map::connected_rings(cell.rings())) {
-        std::vector<map::UnitVectors> rings;
-        rings.reserve(part.size());
-        for (const std::size_t r : part) rings.push_back(cell.rings()[r]);
-        for (map::PolygonWithHoles& polygon : map::region_polygons(rings, tolerance)) {
-          is_crossed = is_crossed || map::have_crossing_lines(polygon.rings);
-          polygons.push_back(std::move(polygon));
+  system::parallel_for(
+      job.execution.threads, drawn.cells.size(), grain, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+          const RingsOfCell cell(job.cells, i);
+          if (cell.rings().empty()) continue;
+          bool is_crossed = false;
+          for (const std::vector<std::size_t>& part : map::connected_rings(cell.rings())) {
+            std::vector<map::UnitVectors> rings;
+            rings.reserve(part.size());
+            for (const std::size_t r : part) rings.push_back(cell.rings()[r]);
+            for (map::PolygonWithHoles& polygon : map::region_polygons(rings, tolerance)) {
+              is_crossed = is_crossed || map::have_crossing_lines(polygon.rings);
+              drawn.cells[i].push_back(std::move(polygon));
+            }
+          }
+          if (is_crossed) ++num_crossed;
         }
-      }
-      if (is_crossed) ++num_crossed;
-      append_geometry(drawn.geometries[i], polygons);
-    }
-  });
+      });
   drawn.num_crossed = num_crossed;
   return drawn;
 }
 
 // Arcs that are closer together than the tolerance may cross when they are drawn. Then all are drawn
 // closer to what they are, as long as that helps: of all cells, as neighbors share their arcs.
-std::vector<std::string> draw_uncrossed(const RegionsToWrite& job) {
+std::vector<Polygons> draw_uncrossed(const RegionsToWrite& job) {
   constexpr int most_attempts = 6;
   double tolerance = job.tolerance;
   DrawnRegions best = draw(job, tolerance);
@@ -107,11 +108,19 @@ std::vector<std::string> draw_uncrossed(const RegionsToWrite& job) {
     if (drawn.num_crossed >= best.num_crossed) break;
     best = std::move(drawn);
   }
-  return std::move(best.geometries);
+  return std::move(best.cells);
 }
 
 void write_regions_geojson(AtomicFile& file, const RegionsToWrite& job) {
-  const std::vector<std::string> geometries = draw_uncrossed(job);
+  const std::vector<Polygons> drawn = draw_uncrossed(job);
+  std::vector<std::string> geometries(drawn.size());
+  system::parallel_for(job.execution.threads, drawn.size(), grain,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           if (job.cells.cells[i] == job.cells.cells[i + 1]) continue;
+                           append_geometry(geometries[i], drawn[i]);
+                         }
+                       });
   const std::vector<std::string> keys = property_keys(job.columns, {"area"});
   file.write(R"({"type":"FeatureCollection","features":[)");
   const char* separator = "\n";
@@ -138,20 +147,44 @@ bool is_complete(const Column& column, std::size_t num_rows) {
 constexpr std::array<Writer<RegionsToWrite>, 1> region_writers = {
     {{".geojson", &write_regions_geojson}}};
 
+void require_rings(const CellRings& cells) {
+  require_fit(
+      !cells.rings.empty() && are_offsets(cells.cells, cells.rings.size() - 1) &&
+          are_offsets(cells.rings, cells.corners.size()) &&
+          std::ranges::all_of(cells.corners, [&](Index p) { return p < cells.points.size(); }) &&
+          are_unit_vectors(cells.points),
+      "cells");
+}
+
 }  // namespace
 }  // namespace rondel::io
 
 namespace rondel {
 
+LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg,
+                              const Execution& execution) {
+  const system::Call call(execution);
+  io::require_rings(cells);
+  const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
+  const std::vector<io::Polygons> drawn = io::draw_uncrossed({cells, {}, tolerance, execution});
+  LonLatRegions all;
+  for (std::size_t i = 0; i < drawn.size(); ++i) {
+    for (const map::PolygonWithHoles& polygon : drawn[i]) {
+      for (const std::vector<LonLat>& ring : polygon.rings) {
+        all.positions.insert(all.positions.end(), ring.begin(), ring.end());
+        all.rings.push_back(all.positions.size());
+      }
+      all.polygons.push_back(all.rings.size() - 1);
+      all.owners.push_back(static_cast<Index>(i));
+    }
+  }
+  return all;
+}
+
 void write_regions(const FileName& file, const CellRings& cells, std::span<const Column> columns,
                    double tolerance_deg, const Execution& execution) {
   const system::Call call(execution);
-  io::require_fit(
-      !cells.rings.empty() && io::are_offsets(cells.cells, cells.rings.size() - 1) &&
-          io::are_offsets(cells.rings, cells.corners.size()) &&
-          std::ranges::all_of(cells.corners, [&](Index p) { return p < cells.points.size(); }) &&
-          io::are_unit_vectors(cells.points),
-      "cells");
+  io::require_rings(cells);
   io::require_fit(std::ranges::all_of(columns,
                                       [&](const Column& column) {
                                         return io::is_complete(column, cells.num_cells());

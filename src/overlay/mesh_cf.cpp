@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "io/bad_value.h"
 #include "io/number.h"
 #include "overlay/mesh_formats.h"
+#include "rondel/error.h"
+#include "rondel/mesh_files.h"
+#include "system/arithmetic.h"
 
 namespace rondel::overlay {
 namespace {
@@ -92,6 +96,35 @@ std::vector<double> lines_of_bounds(const MeshVariable& variable, std::vector<do
   return lines;
 }
 
+// So that a grid around the globe has no gap of rounding.
+void close(std::vector<double>& meridians) {
+  const double gap = 360 - (meridians.back() - meridians.front());
+  if (std::abs(gap) <= rounding_share * (meridians[1] - meridians[0])) {
+    meridians.back() = meridians.front() + 360;
+  }
+}
+
+std::vector<double> meridians_between(std::vector<double> values) {
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    values[i] += std::ceil((values[i - 1] - values[i]) / 360) * 360;
+  }
+  std::vector<double> lines = lines_between(values);
+  close(lines);
+  return lines;
+}
+
+std::vector<double> parallels_between(const std::vector<double>& values) {
+  std::vector<double> lines = lines_between(values);
+  const auto to_pole = [](double line, double width) {
+    return 90 - std::abs(line) < std::abs(width) ? std::copysign(90, line) : line;
+  };
+  const std::size_t n = lines.size();
+  const double last_width = lines[n - 1] - lines[n - 2];
+  lines[0] = to_pole(lines[0], lines[1] - lines[0]);
+  lines[n - 1] = to_pole(lines[n - 1], last_width);
+  return lines;
+}
+
 void require_two(const MeshVariable& bounds, const MeshVariable& of) {
   if (bounds.num_values == 2 * of.num_values) return;
   throw BadValue("variable " + io::in_quotes(bounds.name) + " has " +
@@ -108,23 +141,17 @@ void require_finite(const MeshVariable& variable, const std::vector<double>& val
 }
 
 std::vector<double> meridians_of(const NetcdfReader& file, const CoordinatePair& pair) {
-  std::vector<double> lines;
-  if (pair.lon_bounds != nullptr) {
-    require_two(*pair.lon_bounds, *pair.lon);
-    const std::vector<double> bounds = file.degrees(*pair.lon_bounds);
-    require_finite(*pair.lon_bounds, bounds);
-    lines = lines_of_bounds(*pair.lon_bounds, bounds, true);
-  } else {
-    std::vector<double> values = file.degrees(*pair.lon);
+  if (pair.lon_bounds == nullptr) {
+    const std::vector<double> values = file.degrees(*pair.lon);
     require_finite(*pair.lon, values);
     if (values.size() < 2) throw BadValue("one longitude without bounds has no width");
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      values[i] += std::ceil((values[i - 1] - values[i]) / 360) * 360;
-    }
-    lines = lines_between(values);
+    return meridians_between(values);
   }
-  const double gap = 360 - (lines.back() - lines.front());
-  if (std::abs(gap) <= rounding_share * (lines[1] - lines[0])) lines.back() = lines.front() + 360;
+  require_two(*pair.lon_bounds, *pair.lon);
+  const std::vector<double> bounds = file.degrees(*pair.lon_bounds);
+  require_finite(*pair.lon_bounds, bounds);
+  std::vector<double> lines = lines_of_bounds(*pair.lon_bounds, bounds, true);
+  close(lines);
   return lines;
 }
 
@@ -138,15 +165,7 @@ std::vector<double> parallels_of(const NetcdfReader& file, const CoordinatePair&
   const std::vector<double> values = file.degrees(*pair.lat);
   require_finite(*pair.lat, values);
   if (values.size() < 2) throw BadValue("one latitude without bounds has no width");
-  std::vector<double> lines = lines_between(values);
-  const auto to_pole = [](double line, double width) {
-    return 90 - std::abs(line) < std::abs(width) ? std::copysign(90, line) : line;
-  };
-  const std::size_t n = lines.size();
-  const double last_width = lines[n - 1] - lines[n - 2];
-  lines[0] = to_pole(lines[0], lines[1] - lines[0]);
-  lines[n - 1] = to_pole(lines[n - 1], last_width);
-  return lines;
+  return parallels_between(values);
 }
 
 }  // namespace
@@ -176,3 +195,23 @@ std::optional<MeshContent> read_cf_grid(const NetcdfReader& file) {
 }
 
 }  // namespace rondel::overlay
+
+namespace rondel {
+
+LonLatGrid grid_around(std::span<const double> lon_deg, std::span<const double> lat_deg) {
+  const system::ArithmeticScope arithmetic;
+  if (lon_deg.size() < 2 || lat_deg.size() < 2) {
+    throw InvalidInput("one longitude or latitude has no width", 0);
+  }
+  for (const std::span<const double> values : {lon_deg, lat_deg}) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (std::isfinite(values[i])) continue;
+      const char* const name = values.data() == lon_deg.data() ? "longitude " : "latitude ";
+      throw InvalidInput(name + std::to_string(i) + " is not finite", i);
+    }
+  }
+  return {overlay::meridians_between({lon_deg.begin(), lon_deg.end()}),
+          overlay::parallels_between({lat_deg.begin(), lat_deg.end()})};
+}
+
+}  // namespace rondel

@@ -4,7 +4,9 @@
 #include "rondel/mesh_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <string>
 #include <utility>
 
 #include "io/bad_value.h"
@@ -31,37 +33,90 @@ overlay::MeshContent read_mesh(const io::NetcdfReader& file) {
       "of CF");
 }
 
+constexpr double same_place = 1e-10;  // radians
+constexpr double same_single_place = 1e-6;
+
 // Rings with the inside to the left, without corners that repeat the one before.
+class RingsOfNodes {
+ public:
+  // Precondition: nodes are places.
+  RingsOfNodes(std::span<const LonLat> nodes, double distance) {
+    overlay::DistinctPositions distinct = overlay::distinct_positions(nodes);
+    made_.points = unit_vectors(distinct.positions);
+    const std::vector<Index> same = overlay::same_nodes(made_.points, distance);
+    for (Index& number : distinct.numbers) number = same[number];
+    corner_of_ = std::move(distinct.numbers);
+  }
+
+  void add_corner(Index node) {
+    const Index corner = corner_of_[node];
+    if (ring_.empty() || corner != ring_.back()) ring_.push_back(corner);
+  }
+  void end_ring() {
+    while (ring_.size() > 1 && ring_.back() == ring_.front()) ring_.pop_back();
+    if (ring_.size() >= 3) {
+      points_.clear();
+      for (const Index corner : ring_) points_.push_back(made_.points[corner]);
+      if (map::area_on_left(points_) < 0) std::ranges::reverse(ring_);
+      made_.corners.insert(made_.corners.end(), ring_.begin(), ring_.end());
+      made_.rings.push_back(made_.corners.size());
+    }
+    ring_.clear();
+  }
+  void end_cell() { made_.cells.push_back(made_.rings.size() - 1); }
+  CellRings take() && { return std::move(made_); }
+
+ private:
+  CellRings made_;
+  std::vector<Index> corner_of_;  // by node
+  std::vector<Index> ring_;
+  std::vector<Point> points_;
+};
+
 CellRings cells_of(const overlay::MeshContent& mesh) {
-  CellRings result;
-  result.points = unit_vectors(mesh.nodes);
-  const std::vector<Index> same = overlay::same_nodes(result.points, mesh.is_single ? 1e-6 : 1e-10);
-  std::vector<Index> ring;
-  std::vector<Point> points;
+  RingsOfNodes maker(mesh.nodes, mesh.is_single ? same_single_place : same_place);
   for (std::size_t i = 0; i + 1 < mesh.cells.size(); ++i) {
     for (std::uint64_t r = mesh.cells[i]; r < mesh.cells[i + 1]; ++r) {
-      ring.clear();
       for (std::uint64_t k = mesh.rings[r]; k < mesh.rings[r + 1]; ++k) {
-        const Index corner = same[mesh.corners[k]];
-        if (ring.empty() || corner != ring.back()) ring.push_back(corner);
+        maker.add_corner(mesh.corners[k]);
       }
-      while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
-      if (ring.size() < 3) continue;
-      points.clear();
-      for (const Index corner : ring) points.push_back(result.points[corner]);
-      if (map::area_on_left(points) < 0) std::ranges::reverse(ring);
-      result.corners.insert(result.corners.end(), ring.begin(), ring.end());
-      result.rings.push_back(result.corners.size());
+      maker.end_ring();
     }
-    result.cells.push_back(result.rings.size() - 1);
+    maker.end_cell();
   }
-  return result;
+  return std::move(maker).take();
 }
 
 }  // namespace
 
 std::size_t CellTable::num_cells() const {
   return grid ? (grid->lon_deg.size() - 1) * (grid->lat_deg.size() - 1) : cells.num_cells();
+}
+
+CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each) {
+  const system::ArithmeticScope arithmetic;
+  if (of_each == 0 || corners.size() % of_each != 0) {
+    throw InvalidInput(std::to_string(corners.size()) + " corners are none of cells with " +
+                           std::to_string(of_each) + " each",
+                       corners.size());
+  }
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const auto [lon, lat] = corners[k];
+    if (std::isfinite(lon) && std::abs(lat) <= 90) continue;
+    throw InvalidInput("cell " + std::to_string(k / of_each) + " has a corner at longitude " +
+                           std::to_string(lon) + " and latitude " + std::to_string(lat) +
+                           ", which is no place",
+                       k / of_each);
+  }
+  RingsOfNodes maker(corners, same_place);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    maker.add_corner(static_cast<Index>(k));
+    if ((k + 1) % of_each == 0) {
+      maker.end_ring();
+      maker.end_cell();
+    }
+  }
+  return std::move(maker).take();
 }
 
 CellTable read_cells(const FileName& file) {

@@ -72,7 +72,30 @@ class NearPoints {
   std::vector<Index> slots_;
 };
 
+std::uint64_t hash_of(const LonLat& position) {
+  return hash_of(std::bit_cast<std::int64_t>(position.lon_deg),
+                 std::bit_cast<std::int64_t>(position.lat_deg), 0);
+}
+
 }  // namespace
+
+DistinctPositions distinct_positions(std::span<const LonLat> positions) {
+  DistinctPositions result;
+  result.numbers.reserve(positions.size());
+  std::vector<Index> slots(std::bit_ceil(2 * positions.size() + 1), no_index);
+  for (const LonLat& position : positions) {
+    std::size_t slot = hash_of(position) & (slots.size() - 1);
+    while (slots[slot] != no_index && !(result.positions[slots[slot]] == position)) {
+      slot = (slot + 1) & (slots.size() - 1);
+    }
+    if (slots[slot] == no_index) {
+      slots[slot] = static_cast<Index>(result.positions.size());
+      result.positions.push_back(position);
+    }
+    result.numbers.push_back(slots[slot]);
+  }
+  return result;
+}
 
 std::vector<Index> same_nodes(std::span<const Point> points, double distance) {
   NearPoints known(points, distance);

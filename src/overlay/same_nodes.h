@@ -14,4 +14,11 @@ namespace rondel::overlay {
 // point itself.
 std::vector<Index> same_nodes(std::span<const Point> points, double distance);
 
+// The positions that differ in a bit, in the order in which they come, and which of them each one is.
+struct DistinctPositions {
+  std::vector<LonLat> positions;
+  std::vector<Index> numbers;
+};
+DistinctPositions distinct_positions(std::span<const LonLat> positions);
+
 }  // namespace rondel::overlay

@@ -131,6 +131,10 @@ void test_file(const RegionPieces& pieces) {
   const ScratchFolder folder;
   const std::string path = folder.file("regions.geojson");
   write_regions(path, pieces.rings, {}, 5);
+  const LonLatRegions drawn = region_polygons(pieces.rings, 5);
+  require(drawn.rings.back() == drawn.positions.size(), "rings have all positions");
+  require(drawn.polygons.back() + 1 == drawn.rings.size(), "and polygons all rings");
+  require(drawn.owners.size() + 1 == drawn.polygons.size(), "each polygon has an owner");
   const auto document = nlohmann::json::parse(content(path));
   require(document["features"].size() == pieces.num_pieces(), "a feature for each piece");
   for (const auto& feature : document["features"]) {

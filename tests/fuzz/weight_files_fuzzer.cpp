@@ -42,8 +42,35 @@ void test_lonlats(std::string_view bytes) {
   require(std::abs(place.lon_deg) <= 180 && std::abs(place.lat_deg) <= 90, "a place on the map");
 }
 
+// The input as corners of cells, and as axes of a grid.
+void test_corners(std::string_view bytes) {
+  constexpr std::size_t most = 64;
+  std::vector<double> numbers(std::min(bytes.size() / sizeof(double), most) / 2 * 2);
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(double));
+  if (numbers.empty()) return;
+  std::vector<LonLat> corners;
+  for (std::size_t i = 0; i < numbers.size(); i += 2)
+    corners.push_back({numbers[i], numbers[i + 1]});
+  const std::size_t of_each = 1 + static_cast<unsigned char>(bytes.front()) % 6;
+  try {
+    const CellRings cells = cells_of_corners(corners, of_each);
+    require(cells.num_cells() == corners.size() / of_each, "corners make their cells");
+    require(Partition(cells).num_cells() == cells.num_cells(), "which are a partition");
+  } catch (const InvalidInput&) {
+  }
+  try {
+    const std::span<const double> axes = numbers;
+    const LonLatGrid grid =
+        grid_around(axes.first(numbers.size() / 2), axes.last(numbers.size() / 2));
+    require(grid.lon_deg.size() == numbers.size() / 2 + 1, "lines on both sides of each");
+    static_cast<void>(Partition::lonlat_grid(grid));
+  } catch (const InvalidInput&) {
+  }
+}
+
 void test(std::string_view bytes) {
   test_lonlats(bytes);
+  test_corners(bytes);
   static const ScratchFolder folder;
   const std::string path = folder.file("fuzzed.nc");
   std::ofstream(path, std::ios::binary) << bytes;

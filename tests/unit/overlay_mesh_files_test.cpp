@@ -289,6 +289,52 @@ std::string refusal_of(const std::function<void()>& read) {
   return "";
 }
 
+TEST(overlay_mesh_files, cells_of_corners_find_equal_ones) {
+  const MeshOfDiagram mesh(4);
+  std::vector<LonLat> corners;
+  for (const auto& ring : mesh.rings) {
+    for (std::size_t k = 0; k < mesh.most; ++k) {
+      const std::size_t node = ring[std::min(k, ring.size() - 1)];
+      // A turn, and less than rounding of files, makes no other corner.
+      const double turn = k % 2 == 0 ? 360 : 0;
+      corners.push_back({mesh.lon[node] + turn, mesh.lat[node]});
+    }
+  }
+  const Partition cells(cells_of_corners(corners, mesh.most));
+  EXPECT_TRUE(cells.is_cover());
+  ASSERT_EQ(cells.num_cells(), num_sites);
+  for (std::size_t i = 0; i < num_sites; ++i) {
+    EXPECT_NEAR(cells.areas()[i], mesh.areas[i], 1e-12) << i;
+  }
+  EXPECT_THROW(cells_of_corners(corners, 0), InvalidInput);
+  EXPECT_THROW(cells_of_corners(corners, corners.size() - 1), InvalidInput);
+  corners[2 * mesh.most + 1].lat_deg = 91;
+  try {
+    static_cast<void>(cells_of_corners(corners, mesh.most));
+    FAIL() << "no place";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.index(), 2U);
+  }
+}
+
+TEST(overlay_mesh_files, a_grid_around_its_centers) {
+  using Numbers = std::vector<double>;
+  const LonLatGrid grid = grid_around(Numbers{350, 355, 0, 10}, Numbers{80, 85, 89});
+  EXPECT_EQ(grid.lon_deg, (Numbers{347.5, 352.5, 357.5, 365, 375}));
+  EXPECT_EQ(grid.lat_deg, (Numbers{77.5, 82.5, 87, 90}));
+  const auto index_of_error = [](const Numbers& lon, const Numbers& lat) {
+    try {
+      static_cast<void>(grid_around(lon, lat));
+    } catch (const InvalidInput& error) {
+      return error.index();
+    }
+    return std::size_t{99};
+  };
+  EXPECT_EQ(index_of_error({1, 2}, {1}), 0U);
+  EXPECT_EQ(index_of_error({1, 2, NAN}, {1, 2}), 2U);
+  EXPECT_EQ(index_of_error({1, 2}, {1, INFINITY}), 1U);
+}
+
 TEST(overlay_mesh_files, names_what_is_wrong) {
   EXPECT_EQ(refusal_of([] {
               (void)lonlat_table({1}, {2, 3});

@@ -38,6 +38,46 @@ TEST(overlay_written, groups_cover_the_map_once) {
   }
 }
 
+TEST(overlay_written, arrays_have_the_polygons_of_the_file) {
+  const std::string path = testing::TempDir() + "rondel_arrays.geojson";
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", 300, 9));
+  const CellRings joined = dissolve(cells.rings(), random_groups(300, 3, 9), 3);
+  write_regions(path, joined);
+  const LonLatRegions drawn = region_polygons(joined);
+  ASSERT_EQ(drawn.owners.size() + 1, drawn.polygons.size());
+  EXPECT_TRUE(std::ranges::is_sorted(drawn.owners));
+  std::size_t polygon = 0;
+  std::size_t num_holes = 0;
+  const auto document = read_json(path);
+  ASSERT_EQ(document["features"].size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto& geometry = document["features"][i]["geometry"];
+    const auto parts = geometry["type"] == "Polygon"
+                           ? nlohmann::json::array({geometry["coordinates"]})
+                           : geometry["coordinates"];
+    for (const auto& part : parts) {
+      ASSERT_LT(polygon, drawn.owners.size());
+      EXPECT_EQ(drawn.owners[polygon], i);
+      ASSERT_EQ(part.size(), drawn.polygons[polygon + 1] - drawn.polygons[polygon]);
+      for (std::size_t r = 0; r < part.size(); ++r) {
+        const std::uint64_t ring = drawn.polygons[polygon] + r;
+        const std::uint64_t begin = drawn.rings[ring];
+        ASSERT_EQ(part[r].size(), drawn.rings[ring + 1] - begin);
+        for (std::size_t k = 0; k < part[r].size(); ++k) {
+          EXPECT_EQ(part[r][k][0].get<double>(), drawn.positions[begin + k].lon_deg);
+          EXPECT_EQ(part[r][k][1].get<double>(), drawn.positions[begin + k].lat_deg);
+        }
+      }
+      num_holes += part.size() - 1;
+      ++polygon;
+    }
+  }
+  EXPECT_EQ(polygon, drawn.owners.size());
+  EXPECT_GT(num_holes, 0U);
+  EXPECT_THROW(region_polygons(joined, 0), InvalidInput);
+  EXPECT_TRUE(region_polygons({}).owners.empty());
+}
+
 TEST(overlay_written, pieces_cover_the_map_once) {
   const std::string path = testing::TempDir() + "rondel_pieces.geojson";
   const Partition cells = Partition::voronoi(triangulation_of("clustered", 500, 3));

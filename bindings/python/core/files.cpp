@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "columns.h"
 #include "interrupt.h"
 #include "module.h"
 #include "rondel/io.h"
@@ -22,22 +23,13 @@
 namespace rondel::python {
 namespace {
 
-// Name and cells, which are JSON, or empty for null.
-using ColumnIn = std::tuple<std::string, std::vector<std::string>>;
 using PolygonsOut = std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>>;
 
 SiteTable make_table(const PointsIn& points, const std::vector<ColumnIn>& columns) {
   SiteTable table;
   const std::span<const Point> sites = points_of(points);
   table.sites.assign(sites.begin(), sites.end());
-  for (const auto& [name, cells] : columns) {
-    Column column{.name = name, .is_numeric = true, .text = {}, .ends = {}};
-    for (const std::string& cell : cells) {
-      column.text += cell;
-      column.ends.push_back(column.text.size());
-    }
-    table.columns.push_back(std::move(column));
-  }
+  table.columns = make_columns(columns);
   return table;
 }
 

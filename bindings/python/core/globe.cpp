@@ -17,13 +17,13 @@
 #include <vector>
 
 #include "arrays.h"
+#include "columns.h"
 #include "interrupt.h"
 #include "module.h"
 
 namespace rondel::python {
 namespace {
 
-using TextColumn = std::tuple<std::string, std::vector<std::string>>;
 using ValuesIn = nb::ndarray<const double, nb::ndim<1>, nb::c_contig, nb::device::cpu>;
 
 GlobeLines lines_of(const std::string& show) {
@@ -31,23 +31,16 @@ GlobeLines lines_of(const std::string& show) {
   return show == "voronoi" ? GlobeLines::voronoi : GlobeLines::both;
 }
 
-SiteTable table_of(const PointsIn& points, const std::vector<TextColumn>& columns) {
+SiteTable table_of(const PointsIn& points, const std::vector<ColumnIn>& columns) {
   SiteTable table;
   const std::span<const Point> sites = points_of(points);
   table.sites.assign(sites.begin(), sites.end());
-  for (const auto& [name, cells] : columns) {
-    Column column{.name = name, .is_numeric = false, .text = {}, .ends = {}};
-    for (const std::string& cell : cells) {
-      column.text += cell;
-      column.ends.push_back(column.text.size());
-    }
-    table.columns.push_back(std::move(column));
-  }
+  table.columns = make_columns(columns, false);
   return table;
 }
 
 nb::bytes page_of(const Triangulation& t, const PointsIn& points, const Diagram& diagram,
-                  const std::vector<TextColumn>& columns, const std::optional<ValuesIn>& values,
+                  const std::vector<ColumnIn>& columns, const std::optional<ValuesIn>& values,
                   const Isolines* isolines, GlobeOptions options) {
   options.isolines = isolines;
   if (values) options.values = {values->data(), values->shape(0)};
@@ -65,7 +58,7 @@ void add_globe(nb::module_& module) {
   module.def(
       "globe_page",
       [](const Triangulation& t, const PointsIn& points, const Diagram& diagram,
-         const std::vector<TextColumn>& columns, const std::optional<ValuesIn>& values,
+         const std::vector<ColumnIn>& columns, const std::optional<ValuesIn>& values,
          const Isolines* isolines, const std::string& name, const std::string& title,
          const std::string& show, bool sites, bool circles,
          const std::optional<std::tuple<double, double>>& view) {

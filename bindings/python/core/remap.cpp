@@ -74,6 +74,22 @@ Partition read_polygon_partition(const std::string& path, bool is_geodesic, unsi
   });
 }
 
+std::vector<double> numbers_of(const NumbersIn& array) {
+  return {array.data(), array.data() + array.size()};
+}
+
+std::tuple<ArrayOut<double>, ArrayOut<double>> lines_around(const NumbersIn& lon,
+                                                            const NumbersIn& lat) {
+  LonLatGrid grid = grid_around(numbers_of(lon), numbers_of(lat));
+  return {to_array<double>(std::move(grid.lon_deg)), to_array<double>(std::move(grid.lat_deg))};
+}
+
+Partition corner_partition(const PairsIn& corners, std::size_t of_each, unsigned threads) {
+  return unlocked([&] {
+    return Partition(cells_of_corners(rows_of<LonLat>(corners), of_each), {.threads = threads});
+  });
+}
+
 std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
   return {mask.data(), mask.data() + mask.size()};
 }
@@ -115,8 +131,7 @@ void add_remap(nb::module_& module) {
       .def_static(
           "lonlat_grid",
           [](const NumbersIn& lon, const NumbersIn& lat, bool are_arcs, unsigned threads) {
-            const LonLatGrid grid{{lon.data(), lon.data() + lon.size()},
-                                  {lat.data(), lat.data() + lat.size()}};
+            const LonLatGrid grid{numbers_of(lon), numbers_of(lat)};
             return unlocked([&] {
               return Partition::lonlat_grid(grid, sides_of(are_arcs), {.threads = threads});
             });
@@ -142,6 +157,9 @@ void add_remap(nb::module_& module) {
       .def("rings", &rings_out);
   module.def("read_partition", &read_partition, nb::arg("path"), nb::arg("are_arcs"),
              nb::arg("threads"));
+  module.def("lines_around", &lines_around, nb::arg("lon").noconvert(), nb::arg("lat").noconvert());
+  module.def("corner_partition", &corner_partition, nb::arg("corners").noconvert(),
+             nb::arg("of_each"), nb::arg("threads"));
   module.def("read_polygon_partition", &read_polygon_partition, nb::arg("path"),
              nb::arg("is_geodesic"), nb::arg("threads"));
   module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::arg("order"),

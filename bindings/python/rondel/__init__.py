@@ -38,6 +38,10 @@ SphericalInterpolator
     In place of `scipy.interpolate.LinearNDInterpolator`.
 Partition
     Cells of diagrams, grids, models and polygons, for `remap`.
+Regridder
+    In place of `xesmf.Regridder`.
+Regions
+    Cells that were clipped by polygons, or joined.
 Isolines, Bands
     Lines of equal value, and the regions between them.
 Weights
@@ -58,6 +62,8 @@ from ._partition import Partition
 from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where
+from ._regions import Regions
+from ._regridder import Regridder
 from ._remap import Remap, remap
 from ._voronoi import SphericalVoronoi
 from ._weights import Weights, read_weights
@@ -77,6 +83,8 @@ __all__ = [
     "LonLatTriangles",
     "Partition",
     "PowerDiagram",
+    "Regions",
+    "Regridder",
     "Remap",
     "Snapshot",
     "SphericalDelaunay",

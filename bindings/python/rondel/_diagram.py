@@ -10,7 +10,7 @@ from typing import Any, ClassVar, Generic, NamedTuple, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from . import _core, _geo, _globe, _plot, _tables
+from . import _core, _geo, _globe, _plot, _regions, _tables
 from ._arrays import ORIGIN, frozen
 from ._dimensions import FlatMesh
 from ._repr import Described
@@ -208,6 +208,8 @@ class Diagram(Described, Generic[Delaunay]):
 
     to_geojson = _geo.cells_to_geojson
     to_geopandas = _geo.cells_to_geopandas
+    clip = _regions.clip_cells
+    dissolve = _regions.dissolve_cells
     to_xarray = _geo.cells_to_xarray
     to_netcdf = _tables.cells_to_netcdf
     to_parquet = _tables.cells_to_parquet

@@ -221,19 +221,24 @@ def cells_to_geopandas(
 
 
 def _frame(columns: dict[str, Any], polygons: Any, rows: Any) -> geopandas.GeoDataFrame:
+    """The same for polygons of one ring each."""
+    positions, offsets, owners = polygons
+    return polygon_frame(columns, (positions, offsets, np.arange(len(offsets)), owners), rows)
+
+
+def polygon_frame(columns: dict[str, Any], polygons: Any, rows: Any) -> geopandas.GeoDataFrame:
     """A GeoDataFrame with a row for each owner of polygons, and for those that have none."""
     import geopandas
     import shapely
 
-    positions, offsets, owners = polygons
-    every = np.arange(len(offsets))
-    rings = shapely.from_ragged_array(shapely.GeometryType.POLYGON, positions, (offsets, every))
+    positions, rings, parts, owners = polygons
+    made = shapely.from_ragged_array(shapely.GeometryType.POLYGON, positions, (rings, parts))
     row = np.searchsorted(rows, owners)
     is_single = np.bincount(row, minlength=len(rows))[row] == 1
     geometry = np.full(len(rows), None)
-    geometry[row[is_single]] = rings[is_single]
+    geometry[row[is_single]] = made[is_single]
     several, part = np.unique(row[~is_single], return_inverse=True)
-    geometry[several] = shapely.multipolygons(rings[~is_single], indices=part)
+    geometry[several] = shapely.multipolygons(made[~is_single], indices=part)
     return geopandas.GeoDataFrame(columns, geometry=geometry, index=rows, crs="EPSG:4326")
 
 

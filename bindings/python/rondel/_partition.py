@@ -11,13 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_floats, as_indices, as_points, as_threads
+from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads
 from ._geo import Path, write_named
+from ._geometries import Edges, polygons_of, read_polygons
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 
 Sides: TypeAlias = Literal["parallels", "great_circles"]
-Edges: TypeAlias = Literal["lonlat", "geodesic"]
 
 
 class Partition(Described):
@@ -124,6 +124,30 @@ class Partition(Described):
         return cls._of(made, shape=(len(parallels) - 1, len(meridians) - 1))
 
     @classmethod
+    def lonlat_centers(
+        cls,
+        lon: ArrayLike,
+        lat: ArrayLike,
+        *,
+        sides: Sides = "parallels",
+        threads: int | None = None,
+    ) -> Partition:
+        """The cells of a grid, by its axes: they end half way between these.
+
+        Parameters
+        ----------
+        lon : array_like, shape (nlon,)
+            Degrees, increasing but for whole turns; two or more.
+        lat : array_like, shape (nlat,)
+            Degrees. The first and the last cell end at a pole that is less than a cell away.
+        sides, threads
+            As in `lonlat_grid`.
+
+        """
+        lines = _core.lines_around(_as_lines(lon, "lon"), _as_lines(lat, "lat"))
+        return cls.lonlat_grid(*lines, sides=sides, threads=threads)
+
+    @classmethod
     def polygons(
         cls,
         cells: ArrayLike,
@@ -194,25 +218,70 @@ class Partition(Described):
             If the file cannot be read, with what is wrong in it.
 
         """
-        if edges not in ("lonlat", "geodesic"):
-            raise ValueError(f"edges must be 'lonlat' or 'geodesic', not {edges!r}")
         name = os.fspath(path)
         count_of_threads = as_threads(threads)
+        if name.lower().endswith((".geojson", ".json")):
+            return cls._of(read_polygons(name, edges, count_of_threads))
         made: list[Partition] = []
 
         def read(name: str) -> None:
-            if name.lower().endswith((".geojson", ".json")):
-                is_geodesic = edges == "geodesic"
-                made.append(
-                    cls._of(_core.read_polygon_partition(name, is_geodesic, count_of_threads))
-                )
-            else:
-                made.append(
-                    cls._of(*_core.read_partition(name, _are_arcs(sides), count_of_threads))
-                )
+            made.append(cls._of(*_core.read_partition(name, _are_arcs(sides), count_of_threads)))
 
         write_named(name, read)
         return made[0]
+
+    @classmethod
+    def from_geometries(
+        cls, geometries: Any, *, edges: Edges = "lonlat", threads: int | None = None
+    ) -> Partition:
+        """Polygons of other libraries, with holes and in several parts; each is a cell.
+
+        Parameters
+        ----------
+        geometries : GeoDataFrame, GeoSeries, sequence or mapping
+            Of GeoPandas; a sequence of geometries of shapely; a mapping of GeoJSON, or whatever
+            has `__geo_interface__`; arrays and tables of GeoArrow. A projected
+            `crs` is undone.
+        edges : {'lonlat', 'geodesic'}, optional
+            As in `read`.
+        threads : int, optional
+
+        Raises
+        ------
+        ValueError
+            If a geometry is no polygon, or no place on the sphere.
+
+        """
+        return cls._of(polygons_of(geometries, edges, as_threads(threads)))
+
+    @classmethod
+    def corners(cls, lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None) -> Partition:
+        """Cells by the positions of their corners, as CF's bounds have them.
+
+        Parameters
+        ----------
+        lon, lat : array_like, shape (n, k) or (..., n, m, k)
+            The corners of each cell in degrees, in either direction around it. Those within 1e-10
+            radians are one; cells with fewer corners repeat some.
+        threads : int, optional
+
+        Returns
+        -------
+        Partition
+            Of the shape of `lon` without its last axis. Sides are great circles.
+
+        Raises
+        ------
+        InvalidInput
+            With the cell whose corner is no place.
+
+        """
+        degrees = as_lonlat(lon, lat)
+        shape = np.shape(lon)
+        if len(shape) < 2:
+            raise ValueError(f"lon must have shape (..., k), not {shape}")
+        made = _core.corner_partition(degrees, shape[-1], as_threads(threads))
+        return cls._of(made, shape=shape[:-1] if len(shape) > 2 else ())
 
     @property
     def num_cells(self) -> int:

@@ -49,15 +49,15 @@ def _json_cell(value: Any) -> str:
     """One value of a sequence of any."""
     if isinstance(value, np.generic) and value.dtype.kind in "iubfM":
         return json_cells(np.array([value]))[0]
-    if value is None or _is_missing(value):
+    if value is None or is_missing(value):
         return ""
     if isinstance(value, float) and not math.isfinite(value):
         return ""
     return json.dumps(value, ensure_ascii=False, allow_nan=False, default=_as_text)
 
 
-def _is_missing(value: Any) -> bool:
-    """Whether it is pandas' NaT or NA, which are not equal to themselves."""
+def is_missing(value: Any) -> bool:
+    """Whether it is pandas' NaT or NA, which cannot be compared."""
     return type(value).__name__ in ("NaTType", "NAType")
 
 

@@ -27,7 +27,7 @@ def modules():
 
 @pytest.mark.parametrize("name", modules())
 def test_docstrings(name):
-    if name == "rondel.xarray":
+    if name in ("rondel.xarray", "rondel._places"):
         pytest.importorskip("xarray")
     if name != "rondel._core":
         failed, _ = doctest.testmod(__import__(name, fromlist=["_"]), optionflags=OPTIONS)
@@ -42,6 +42,7 @@ def test_docstrings(name):
         "docs/guide/graphs.md",
         "docs/guide/interpolation.md",
         "docs/guide/remapping.md",
+        "docs/guide/regions.md",
         "docs/guide/distributed.md",
         "docs/guide/scaling.md",
         "README.md",

@@ -1,0 +1,86 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/regions.h"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "columns.h"
+#include "interrupt.h"
+#include "module.h"
+#include "rondel/partition.h"
+
+namespace rondel::python {
+namespace {
+
+// Positions, and where rings and polygons begin; the owner of each polygon.
+using RegionsOut = std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int64_t>,
+                              ArrayOut<std::int32_t>>;
+
+RegionsOut polygons_of(const CellRings& rings, double tolerance_deg, unsigned threads) {
+  LonLatRegions found = watched_quietly(
+      rings.corners.size(), threads,
+      [&](const Execution& execution) { return region_polygons(rings, tolerance_deg, execution); });
+  return {to_array<double>(std::move(found.positions)), offsets_out(std::move(found.rings)),
+          offsets_out(std::move(found.polygons)), indices_out(std::move(found.owners))};
+}
+
+}  // namespace
+
+void add_regions(nb::module_& module) {
+  nb::class_<CellRings>(module, "CellRings")
+      .def_prop_ro("num_cells", &CellRings::num_cells)
+      .def("areas",
+           [](const CellRings& self) {
+             return to_array<double>(unlocked([&] { return areas(self); }));
+           })
+      .def(
+          "partition",
+          [](const CellRings& self, unsigned threads) {
+            return unlocked([&] { return Partition(self, {.threads = threads}); });
+          },
+          nb::arg("threads"))
+      .def(
+          "dissolve",
+          [](const CellRings& self, const IndicesIn& groups, std::size_t num_groups,
+             unsigned threads, const nb::object& listener) {
+            return watched(self.corners.size(), threads, listener, [&](const Execution& execution) {
+              return dissolve(self, rows_of<Index>(groups), num_groups, execution);
+            });
+          },
+          nb::arg("groups").noconvert(), nb::arg("num_groups"), nb::arg("threads"),
+          nb::arg("progress").none())
+      .def("polygons", &polygons_of, nb::arg("tolerance_deg"), nb::arg("threads"))
+      .def(
+          "write",
+          [](const CellRings& self, const std::string& path, const std::vector<ColumnIn>& columns,
+             double tolerance_deg) {
+            run_watched(self.corners.size(), 0, nb::none(), [&](const Execution& execution) {
+              write_regions(path, self, make_columns(columns), tolerance_deg, execution);
+            });
+          },
+          nb::arg("path"), nb::arg("columns"), nb::arg("tolerance_deg"));
+  module.def(
+      "clip",
+      [](const Partition& cells, const Partition& regions, unsigned threads,
+         const nb::object& listener) {
+        return watched(cells.num_cells(), threads, listener,
+                       [&](const Execution& execution) { return clip(cells, regions, execution); });
+      },
+      nb::arg("cells"), nb::arg("regions"), nb::arg("threads"), nb::arg("progress").none());
+  module.def(
+      "cell_rings",
+      [](const Partition& partition) { return unlocked([&] { return partition.rings(); }); },
+      nb::arg("partition"));
+}
+
+}  // namespace rondel::python

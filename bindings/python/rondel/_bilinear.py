@@ -1,0 +1,118 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Bilinear weights in longitude and latitude, for fields on the axes of a grid."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ._arrays import as_floats, point_set_hash, unit_vectors
+from ._types import ArrayLike, FloatArray
+from ._weights import Weights
+
+
+def bilinear_weights(
+    lon: ArrayLike, lat: ArrayLike, to_lon: ArrayLike, to_lat: ArrayLike
+) -> Weights:
+    """Bilinear in the rectangles between four places of a grid; around the globe if it is.
+
+    Beyond the last row of a grid that goes around the globe the mean of that row is at the pole.
+
+    Parameters
+    ----------
+    lon, lat : array_like, shape (nlon,), (nlat,)
+        The axes in degrees, each increasing or decreasing.
+    to_lon, to_lat : array_like, shape (m,)
+        Where values are wanted, in degrees.
+
+    Returns
+    -------
+    Weights
+        Columns are the places of the grid, latitude by latitude. Targets outside have no entry.
+
+    """
+    lons, lats = _axis(lon, "lon", period=360.0), _axis(lat, "lat")
+    x, y = as_floats(to_lon, "to_lon"), as_floats(to_lat, "to_lat")
+    west, east, across, is_in = _between_meridians(lons, x)
+    around = _is_around(lons)
+    south, along = _between(lats, y)
+    inside = (along >= 0) & (along <= 1) & is_in
+    nlon, rows = len(lons), np.arange(len(x))
+    parts = [
+        (rows[inside], (south + row)[inside] * nlon + column[inside], (u * v)[inside])
+        for row, v in ((0, 1 - along), (1, along))
+        for column, u in ((west, 1 - across), (east, across))
+    ]
+    if around:
+        for beyond, last in ((along < 0, np.argmin(lats)), (along > 1, np.argmax(lats))):
+            beyond = beyond & (np.abs(y) > np.abs(lats[last])) & (np.sign(y) == np.sign(lats[last]))
+            parts += _to_pole(rows, beyond, y, lats[last], last * nlon, nlon, (west, east, across))
+    row, column, weight = (np.concatenate(part) for part in zip(*parts, strict=True))
+    used = weight != 0
+    order = np.argsort(row[used], kind="stable")
+    offsets = np.zeros(len(x) + 1, np.int64)
+    np.cumsum(np.bincount(row[used], minlength=len(x)), out=offsets[1:])
+    return Weights(
+        offsets,
+        column[used][order],
+        weight[used][order],
+        (len(x), nlon * len(lats)),
+        sites_hash=point_set_hash(unit_vectors(lons, lats[:, None])),
+        targets_hash=point_set_hash(unit_vectors(x, y)),
+    )
+
+
+def _axis(values: ArrayLike, name: str, period: float | None = None) -> FloatArray:
+    axis = as_floats(values, name)
+    if period is not None:
+        axis = np.unwrap(axis, period=period)
+    steps = np.diff(axis)
+    if axis.ndim != 1 or len(axis) < 2 or not (np.all(steps > 0) or np.all(steps < 0)):
+        raise ValueError(f"{name} must be an axis: two numbers or more, increasing or decreasing")
+    return axis
+
+
+def _is_around(lons: FloatArray) -> bool:
+    widest = np.abs(np.diff(lons)).max()
+    return bool(360 - abs(lons[-1] - lons[0]) <= 1.5 * widest)
+
+
+# The row before each value, and how far it is from there to the next one, in steps.
+def _between(axis: FloatArray, values: FloatArray) -> tuple[Any, FloatArray]:
+    sign = 1 if axis[1] > axis[0] else -1
+    first = np.searchsorted(sign * axis, sign * values, side="right") - 1
+    first = np.clip(first, 0, len(axis) - 2)
+    return first, (values - axis[first]) / (axis[first + 1] - axis[first])
+
+
+# The columns on both sides of each longitude, the share of the second, and whether it is between.
+def _between_meridians(lons: FloatArray, x: FloatArray) -> tuple[Any, Any, FloatArray, Any]:
+    low = lons.min()
+    axis = lons
+    if _is_around(lons):
+        axis = np.append(lons, lons[0] + np.copysign(360, lons[1] - lons[0]))
+        low = axis.min()
+    wrapped = low + np.mod(x - low, 360)
+    wrapped = np.where(wrapped > axis.max(), wrapped - 360, wrapped)
+    west, across = _between(axis, wrapped)
+    return west, (west + 1) % len(lons), across, (across >= 0) & (across <= 1)
+
+
+def _to_pole(
+    rows: Any, beyond: Any, y: FloatArray, last: float, begin: Any, nlon: int, columns: Any
+) -> list[Any]:
+    """Linear from the last row to its mean, which is at the pole."""
+    west, east, across = (of_all[beyond] for of_all in columns)
+    to_pole = (np.abs(y[beyond]) - abs(last)) / (90 - abs(last))
+    mean = np.broadcast_to((to_pole / nlon)[:, None], (len(west), nlon))
+    return [
+        (rows[beyond], begin + west, (1 - to_pole) * (1 - across)),
+        (rows[beyond], begin + east, (1 - to_pole) * across),
+        (
+            np.repeat(rows[beyond], nlon),
+            np.tile(begin + np.arange(nlon), len(west)),
+            mean.reshape(-1),
+        ),
+    ]

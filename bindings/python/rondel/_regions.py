@@ -1,0 +1,288 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Cells of regions: clipped by polygons, and joined by group."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Hashable, Sequence
+from typing import TYPE_CHECKING, Any, overload
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_threads
+from ._geo import Path, Properties, polygon_frame, written
+from ._geometries import Edges, is_file, polygons_of
+from ._partition import Partition
+from ._properties import checked_properties, is_missing, json_cells
+from ._repr import Described, count
+from ._types import ArrayLike, Divided, FloatArray, Progress
+
+if TYPE_CHECKING:
+    import geopandas
+
+
+class Regions(Described):
+    """Polygons with holes on the sphere: cells that were clipped, or joined.
+
+    `SphericalVoronoi.clip`, `dissolve` and those of `PowerDiagram` make them.
+
+    Attributes
+    ----------
+    labels : ndarray
+        What each region is: of clipped cells the site, of joined ones the group.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> cells = rondel.SphericalVoronoi([[0, 0, 1], [0, 0, -1], [1, 0, 0], [-1, 0, 0], [0, 1, 0],
+    ...                                  [0, -1, 0]])
+    >>> box = {"type": "Polygon", "coordinates": [[[0, -9], [9, -9], [9, 9], [0, 9], [0, -9]]]}
+    >>> cells.clip(box)
+    <rondel.Regions: 6 regions, 5 empty>
+    >>> halves = cells.dissolve(["polar", "polar", "side", "side", "side", "side"])
+    >>> halves.labels.tolist(), (3 * halves.areas / 3.141592653589793).round(9).tolist()
+    (['polar', 'side'], [4.0, 8.0])
+
+    """
+
+    labels: np.ndarray[Any, Any]
+    _rings: _core.CellRings
+    _kind: str
+
+    @classmethod
+    def _of(cls, rings: _core.CellRings, labels: Any, kind: str) -> Regions:
+        self = cls.__new__(cls)
+        self._rings = rings
+        self.labels = labels
+        self._kind = kind
+        return self
+
+    def __len__(self) -> int:
+        return self._rings.num_cells
+
+    @property
+    def areas(self) -> FloatArray:
+        """Ndarray of float64, shape (n,): steradians; 0 where nothing is left. Times the squared
+        radius of the Earth, 6371.0088 km (its mean, WGS 84), they are square kilometers.
+        """
+        return self._rings.areas()
+
+    def partition(self, *, threads: int | None = None) -> Partition:
+        """The regions as cells, to be laid over others by `remap`."""
+        return Partition._of(self._rings.partition(as_threads(threads)))
+
+    def dissolve(
+        self, groups: ArrayLike, *, threads: int | None = None, progress: Progress = None
+    ) -> Regions:
+        """Regions joined by group.
+
+        Parameters
+        ----------
+        groups : sequence, shape (n,)
+            As in `SphericalVoronoi.dissolve`.
+        threads : int, optional
+        progress : callable, optional
+
+        """
+        numbers, labels = _numbered(groups, len(self))
+        joined = self._rings.dissolve(numbers, len(labels), as_threads(threads), progress)
+        return Regions._of(joined, labels, "group")
+
+    @overload
+    def to_geojson(
+        self,
+        path: None = None,
+        *,
+        properties: Properties | None = None,
+        tolerance_deg: float = 0.01,
+    ) -> dict[str, Any]: ...
+    @overload
+    def to_geojson(
+        self,
+        path: Path | io.IOBase,
+        *,
+        properties: Properties | None = None,
+        tolerance_deg: float = 0.01,
+    ) -> None: ...
+    def to_geojson(
+        self,
+        path: Path | io.IOBase | None = None,
+        *,
+        properties: Properties | None = None,
+        tolerance_deg: float = 0.01,
+    ) -> Any:
+        """The regions as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, with holes.
+
+        A feature for each region that has an area, with the properties `area` (steradians) and
+        `site` or `group`.
+
+        Parameters
+        ----------
+        path : path-like or file object, optional
+            Where to write the text; otherwise it is returned, parsed.
+        properties : mapping of str to sequence, optional
+            More properties: for each a value for every region.
+        tolerance_deg : float, optional
+            How far the straight lines of a polygon may be from its arcs, in degrees.
+
+        Returns
+        -------
+        dict or None
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written; then nothing is left of it.
+
+        """
+        values = checked_properties(properties, (self._kind, "area"), len(self))
+        named = {self._kind: self.labels, **values}
+        columns = [(name, json_cells(column)) for name, column in named.items()]
+        tolerance = float(tolerance_deg)
+        return written(path, lambda name: self._rings.write(name, columns, tolerance))
+
+    def to_geopandas(
+        self, *, properties: Properties | None = None, tolerance_deg: float = 0.01
+    ) -> geopandas.GeoDataFrame:
+        """The regions as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
+
+        Its `to_file` and `to_parquet` write GeoPackage, FlatGeobuf, shapefiles and GeoParquet.
+
+        Parameters
+        ----------
+        properties : mapping of str to sequence, optional
+            More columns: for each a value for every region.
+        tolerance_deg : float, optional
+            How far the straight lines of a polygon may be from its arcs, in degrees.
+
+        Returns
+        -------
+        geopandas.GeoDataFrame
+            A row for each region that has an area, with the columns `site` or `group`, and `area`
+            (steradians). The index is the number of the region.
+
+        Raises
+        ------
+        ImportError
+            If GeoPandas is not installed.
+
+        """
+        import pandas
+
+        given = checked_properties(properties, (self._kind, "area", "geometry"), len(self))
+        polygons = self._rings.polygons(float(tolerance_deg), 0)
+        rows = np.unique(polygons[3])
+        columns: dict[str, Any] = {self._kind: self.labels[rows], "area": self.areas[rows]}
+        for name, values in given.items():
+            columns[name] = pandas.Series(values).array[rows]
+        return polygon_frame(columns, polygons, rows)
+
+    @property
+    def __geo_interface__(self) -> dict[str, Any]:
+        return self.to_geojson()
+
+    def _facts(self) -> list[tuple[str, str]]:
+        empty = int(np.count_nonzero(self.areas == 0))
+        facts = [("regions", count(len(self), "region"))]
+        if empty:
+            facts.append(("empty", f"{empty:,} empty"))
+        return facts
+
+
+def clip_cells(
+    self: Divided,
+    regions: Any,
+    *,
+    edges: Edges = "lonlat",
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Regions:
+    """The parts of the cells that lie in regions: on land, in a country, within a border.
+
+    Parameters
+    ----------
+    regions : path-like, geometries or Partition
+        A file of GeoJSON; a GeoDataFrame or GeoSeries; a geometry of shapely, a mapping of
+        GeoJSON, whatever has `__geo_interface__`, or a sequence of these; or a partition.
+    edges : {'lonlat', 'geodesic'}, optional
+        What joins positions of polygons: straight lines in longitude and latitude (RFC 7946), or
+        great circles.
+    threads : int, optional
+    progress : callable, optional
+
+    Returns
+    -------
+    Regions
+        One for each site, empty where nothing is left. Which lines cross is decided exactly;
+        where two parts meet they have the same corners, bit by bit.
+
+    Raises
+    ------
+    ValueError
+        If a geometry is no polygon, or no place on the sphere.
+    OSError
+        If the file cannot be read.
+
+    """
+    cells = Partition.voronoi(self, threads=threads)
+    found = _core.clip(
+        cells._partition,
+        _as_partition(regions, edges, threads)._partition,
+        as_threads(threads),
+        progress,
+    )
+    return Regions._of(found, np.arange(len(self.points)), "site")
+
+
+def dissolve_cells(
+    self: Divided, groups: ArrayLike, *, threads: int | None = None, progress: Progress = None
+) -> Regions:
+    """The cells joined by group: by country, office, nearest airport.
+
+    Parameters
+    ----------
+    groups : sequence, shape (n,)
+        The group of each site: numbers, texts, or what else has a hash. None, NaN and NA: none.
+    threads : int, optional
+    progress : callable, optional
+
+    Returns
+    -------
+    Regions
+        One for each group, in the order in which they come; `labels` are the groups. Two that
+        meet have the same corners there, bit by bit.
+
+    """
+    numbers, labels = _numbered(groups, len(self.points))
+    rings = _core.cell_rings(Partition.voronoi(self, threads=threads)._partition)
+    joined = rings.dissolve(numbers, len(labels), as_threads(threads), progress)
+    return Regions._of(joined, labels, "group")
+
+
+def _as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:
+    if isinstance(regions, Partition):
+        return regions
+    if is_file(regions):
+        return Partition.read(regions, edges=edges, threads=threads)
+    return Partition._of(polygons_of(regions, edges, as_threads(threads)))
+
+
+# The groups as numbers, -1 for none, and what each of them is.
+def _numbered(groups: Any, num_cells: int) -> tuple[Any, np.ndarray[Any, Any]]:
+    values: Sequence[Hashable] = groups.tolist() if hasattr(groups, "tolist") else list(groups)
+    if len(values) != num_cells:
+        raise ValueError(f"there are {len(values)} groups for {num_cells} cells")
+    known: dict[Hashable, int] = {}
+    numbers = np.full(num_cells, -1, np.int32)
+    for i, value in enumerate(values):
+        if value is None or is_missing(value) or value != value:
+            continue
+        numbers[i] = known.setdefault(value, len(known))
+    labels = np.empty(len(known), object)
+    labels[:] = list(known)
+    if known and len({type(value) for value in known}) == 1:
+        plain = np.array(list(known))
+        labels = plain if plain.ndim == 1 else labels
+    return numbers, labels

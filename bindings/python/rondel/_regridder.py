@@ -1,0 +1,330 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fields of models from one grid to another, in the manner of xESMF."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+
+import numpy as np
+
+from ._bilinear import bilinear_weights
+from ._delaunay import SphericalDelaunay, delaunay_lonlat
+from ._geo import Path
+from ._remap import remap
+from ._repr import Described, count
+from ._types import BoolArray, Progress
+from ._weights import Weights, read_weights
+
+if TYPE_CHECKING:
+    from ._places import Places
+
+RegridMethod: TypeAlias = Literal[
+    "bilinear",
+    "conservative",
+    "conservative_normed",
+    "conservative_2nd",
+    "nearest_s2d",
+    "nearest_d2s",
+    "linear",
+    "laplace",
+    "sibson",
+    "hermite",
+    "cubic",
+]
+_CONSERVATIVE: dict[str, tuple[int, Literal["destarea", "fracarea"]]] = {
+    "conservative": (1, "destarea"),
+    "conservative_normed": (1, "fracarea"),
+    "conservative_2nd": (2, "destarea"),
+}
+_INTERPOLATING = ("linear", "laplace", "sibson", "hermite", "cubic")
+_METHODS = ("bilinear", *_CONSERVATIVE, "nearest_s2d", "nearest_d2s", *_INTERPOLATING)
+_NEEDLESS = ("periodic", "ignore_degenerate", "parallel")
+
+
+class Regridder(Described):
+    """Carries fields from one grid to another; in place of `xesmf.Regridder`.
+
+    Needs xarray. Grids are Datasets as those of xESMF or of the CF conventions, dictionaries of
+    arrays, tuples (lon, lat) of axes, or partitions, which any mesh can be.
+
+    Parameters
+    ----------
+    ds_in, ds_out : Dataset, DataArray, dict, tuple or Partition
+        With longitudes and latitudes in degrees, found by their attributes or names: axes of a
+        grid, curvilinear, or of points. Conservative methods take the cells: by `lon_b` and
+        `lat_b`, or the coordinates' attribute `bounds`; of axes without these, half way between. A
+        variable `mask` is 0 where places take no part.
+    method : str
+        'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' and
+        'nearest_d2s' as in ESMF; or 'linear', 'laplace', 'sibson', 'hermite' and 'cubic' as in
+        `SphericalDelaunay.weights`. 'bilinear' is, but for axes of a grid, 'linear'.
+    locstream_in, locstream_out : bool, optional
+        Whether a dictionary or tuple has places of points and not axes.
+    extrap_method : {None, 'nearest_s2d'}, optional
+        What targets get that no source covers.
+    unmapped_to_nan : bool, optional
+        Whether targets without a value are NaN, or else 0.
+    weights : path-like or Weights, optional
+        Those of `to_netcdf` of a former one, with the same grids.
+    threads : int, optional
+    progress : callable, optional
+    **needless
+        `periodic`, `ignore_degenerate` and `parallel` change nothing here.
+
+    Attributes
+    ----------
+    weights : Weights
+    method : str
+    shape_in, shape_out : tuple of int
+
+    Notes
+    -----
+    Different from xESMF, on purpose: the sphere is periodic and has its poles, whatever is said;
+    cells of axes end at meridians and parallels (ESMF's at great circles); missing values are never
+    zeros, and unmapped targets are NaN.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rondel
+    >>> fine = {"lon": np.arange(0.5, 360), "lat": np.arange(-89.5, 90)}
+    >>> coarse = {"lon": np.arange(5, 360, 10), "lat": np.arange(-85, 90, 10)}
+    >>> regridder = rondel.Regridder(fine, coarse, "conservative")  # doctest: +SKIP
+    >>> regridder(np.ones((12, 180, 360))).shape  # doctest: +SKIP
+    (12, 18, 36)
+
+    """
+
+    def __init__(
+        self,
+        ds_in: Any,
+        ds_out: Any,
+        method: RegridMethod,
+        locstream_in: bool = False,
+        locstream_out: bool = False,
+        *,
+        extrap_method: Literal["nearest_s2d"] | None = None,
+        unmapped_to_nan: bool = True,
+        weights: Path | Weights | None = None,
+        threads: int | None = None,
+        progress: Progress = None,
+        **needless: Any,
+    ) -> None:
+        from ._places import Places
+
+        if method not in _METHODS:
+            raise ValueError(f"method must be one of {', '.join(_METHODS)}, not {method!r}")
+        if extrap_method not in (None, "nearest_s2d"):
+            raise ValueError(f"extrap_method must be None or 'nearest_s2d', not {extrap_method!r}")
+        for name in needless:
+            if name not in _NEEDLESS:
+                raise TypeError(f"Regridder() got an unexpected keyword argument {name!r}")
+        self.method = method
+        self._source = Places(ds_in, are_points=locstream_in)
+        self._target = Places(ds_out, are_points=locstream_out)
+        self._fill = np.nan if unmapped_to_nan else 0.0
+        shape = (self._target.lon.size, self._source.lon.size)
+        if weights is None:
+            made = _made(self._source, self._target, method, threads, progress)
+            if extrap_method is not None:
+                made = _filled(made, self._source, self._target)
+        else:
+            made = weights if isinstance(weights, Weights) else read_weights(weights)
+            if made.shape != shape:
+                raise ValueError(f"the weights have shape {made.shape}, the grids {shape}")
+        self.weights = made
+
+    @property
+    def shape_in(self) -> tuple[int, ...]:
+        """Tuple of int: of the source; the last axes of fields."""
+        return self._source.shape
+
+    @property
+    def shape_out(self) -> tuple[int, ...]:
+        """Tuple of int: of the target."""
+        return self._target.shape
+
+    def __call__(
+        self, data: Any, *, keep_attrs: bool = False, skipna: bool = False, na_thres: float = 1.0
+    ) -> Any:
+        """Fields on the other grid.
+
+        Parameters
+        ----------
+        data : array_like, DataArray or Dataset
+            Arrays have the source's shape as their last axes; others its dimensions, or as many
+            of that shape as their last.
+        keep_attrs : bool, optional
+        skipna : bool, optional
+            Whether missing values are left out, or else make a target missing.
+        na_thres : float, optional
+            With `skipna`: the share of missing values from which on a target is missing.
+
+        Returns
+        -------
+        ndarray, DataArray or Dataset
+            As the source. Arrays of Dask stay lazy.
+
+        Raises
+        ------
+        ValueError
+            If the data have another shape.
+
+        """
+        import xarray
+
+        from ._places import carried
+
+        options: Any = {"skipna": skipna, "most_missing": na_thres, "fill": self._fill}
+        dims = self._source.dims
+        if isinstance(data, xarray.Dataset):
+            return carried(
+                data, self.weights, self._source, self._target, keep_attrs=keep_attrs, **options
+            )
+        is_labeled = isinstance(data, xarray.DataArray)
+        if not is_labeled and not hasattr(data, "__dask_graph__"):
+            data = np.ma.asanyarray(data) if np.ma.isMaskedArray(data) else np.asarray(data)
+        self._require_shape(data, is_labeled)
+        if not is_labeled or not set(dims) <= set(data.dims):
+            leading = data.dims[: -len(dims)] if is_labeled else None
+            if leading is None:
+                leading = tuple(f"axis_{k}" for k in range(data.ndim - len(dims)))
+                data = _labeled(data, (*leading, *dims))
+            else:
+                data = data.rename(dict(zip(data.dims[-len(dims) :], dims, strict=True)))
+        found = carried(
+            data, self.weights, self._source, self._target, keep_attrs=keep_attrs, **options
+        )
+        return found if is_labeled else found.data
+
+    def _require_shape(self, data: Any, is_labeled: bool) -> None:
+        wanted, dims = self._source.shape, self._source.dims
+        shape = tuple(data.shape[-len(wanted) :])
+        if is_labeled and set(dims) <= set(data.dims):
+            shape = tuple(data.sizes[name] for name in dims)
+        if shape != wanted:
+            raise ValueError(f"data must have shape (..., {str(wanted)[1:]}, not {data.shape}")
+
+    def to_netcdf(self, path: Path) -> None:
+        """Writes the weights as a file that ESMF, CDO and `weights` know.
+
+        Parameters
+        ----------
+        path : path-like
+            Ends in .nc. The file appears when it is complete, and replaces the one that is there.
+
+        """
+        self.weights.to_netcdf(os.fspath(path))
+
+    def _facts(self) -> list[tuple[str, str]]:
+        def text(shape: tuple[int, ...]) -> str:
+            return " x ".join(f"{length:,}" for length in shape)
+
+        return [
+            ("shapes", f"{text(self.shape_in)} to {text(self.shape_out)}"),
+            ("method", self.method),
+            ("entries", count(len(self.weights.data), "weight")),
+        ]
+
+
+def _labeled(data: Any, dims: tuple[Any, ...]) -> Any:
+    import xarray
+
+    if np.ma.isMaskedArray(data):
+        data = np.ma.filled(data.astype(np.float64), np.nan)
+    return xarray.DataArray(data, dims=dims)
+
+
+def _made(
+    source: Places, target: Places, method: str, threads: int | None, progress: Progress
+) -> Weights:
+    if method in _CONSERVATIVE:
+        order, norm = _CONSERVATIVE[method]
+        return remap(
+            source.cells(threads),
+            target.cells(threads),
+            order=order,
+            norm=norm,
+            source_mask=source.mask(),
+            target_mask=target.mask(),
+            threads=threads,
+            progress=progress,
+        ).weights
+    if method == "nearest_s2d":
+        made = _nearest(source, target)
+    elif method == "nearest_d2s":
+        made = _transposed(_nearest(target, source), source.mask())
+    else:
+        if method == "bilinear" and source.are_axes:
+            made = bilinear_weights(*source.axes, target.lon.reshape(-1), target.lat.reshape(-1))
+        else:
+            kind: Any = "linear" if method == "bilinear" else method
+            tri = delaunay_lonlat(source.lon, source.lat, threads=threads)
+            made = tri.weights(target.points(), kind, threads=threads, progress=progress)
+        mask = source.mask()
+        if mask is not None:
+            needs = np.add.reduceat(np.append(~mask[made.indices], False), made.indptr[:-1]) > 0
+            made = _with_rows(made, needs & (np.diff(made.indptr) > 0))
+    mask = target.mask()
+    return made if mask is None else _with_rows(made, ~mask)
+
+
+def _triangulated(places: Places, mask: BoolArray | None) -> tuple[SphericalDelaunay, Any]:
+    """The places that take part, and their numbers among all."""
+    numbers = np.arange(places.lon.size) if mask is None else np.flatnonzero(mask)
+    lon, lat = places.lon.reshape(-1)[numbers], places.lat.reshape(-1)[numbers]
+    return delaunay_lonlat(lon, lat), numbers
+
+
+def _nearest(source: Places, target: Places) -> Weights:
+    """For each target the nearest source that takes part; no row if none does."""
+    tri, numbers = _triangulated(source, source.mask())
+    count_of_targets = target.lon.size
+    shape = (count_of_targets, source.lon.size)
+    if len(numbers) == 0:
+        return Weights(np.zeros(count_of_targets + 1, np.int64), [], [], shape)
+    made = tri.weights(target.points(), "nearest")
+    return Weights(made.indptr, numbers[made.indices], made.data, shape)
+
+
+def _transposed(weights: Weights, mask: BoolArray | None) -> Weights:
+    """Each source that takes part gives its value to its nearest target, which has their sum."""
+    row = np.repeat(np.arange(weights.shape[0]), np.diff(weights.indptr))
+    used = np.ones(len(row), bool) if mask is None else mask[row]
+    order = np.argsort(weights.indices[used], kind="stable")
+    offsets = np.zeros(weights.shape[1] + 1, np.int64)
+    np.cumsum(np.bincount(weights.indices[used], minlength=weights.shape[1]), out=offsets[1:])
+    shape = (weights.shape[1], weights.shape[0])
+    return Weights(offsets, row[used][order], np.ones(len(order)), shape)
+
+
+def _filled(weights: Weights, source: Places, target: Places) -> Weights:
+    """The nearest source where a target has nothing, but for those that take no part."""
+    empty = np.diff(weights.indptr) == 0
+    mask = target.mask()
+    return _with_rows(weights, empty if mask is None else empty & mask, _nearest(source, target))
+
+
+def _with_rows(weights: Weights, rows: BoolArray, others: Weights | None = None) -> Weights:
+    """With some rows of others, or empty."""
+    taken = [(weights, ~rows)] if others is None else [(weights, ~rows), (others, rows)]
+    parts = []
+    for matrix, which in taken:
+        sizes = np.diff(matrix.indptr)
+        used = np.repeat(which, sizes)
+        row = np.repeat(np.arange(len(sizes)), sizes)[used]
+        parts.append((row, matrix.indices[used], matrix.data[used]))
+    row, column, weight = (np.concatenate(part) for part in zip(*parts, strict=True))
+    order = np.argsort(row, kind="stable")
+    offsets = np.zeros(len(rows) + 1, np.int64)
+    np.cumsum(np.bincount(row, minlength=len(rows)), out=offsets[1:])
+    return Weights(
+        offsets,
+        column[order],
+        weight[order],
+        weights.shape,
+        sites_hash=weights.sites_hash,
+        targets_hash=weights.targets_hash,
+    )

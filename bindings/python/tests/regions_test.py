@@ -1,0 +1,212 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Clipped and joined cells, against closed forms, and as GDAL, GEOS and GeoArrow see them."""
+
+import itertools
+import json
+
+import clouds
+import numpy as np
+import pytest
+
+import rondel
+
+CELLS = rondel.SphericalVoronoi(clouds.uniform(200, 5))
+ISLAND = {
+    "type": "Polygon",
+    "coordinates": [
+        [[160, -20], [-160, -20], [-160, 30], [160, 30], [160, -20]],
+        [[170, -5], [170, 5], [175, 5], [175, -5], [170, -5]],
+    ],
+}
+# Cut at the antimeridian, as RFC 7946 wants it.
+ISLANDS = {
+    "type": "MultiPolygon",
+    "coordinates": [
+        [
+            [[160, -20], [180, -20], [180, 30], [160, 30], [160, -20]],
+            [[170, -5], [170, 5], [175, 5], [175, -5], [170, -5]],
+        ],
+        [[[-180, -20], [-160, -20], [-160, 30], [-180, 30], [-180, -20]]],
+    ],
+}
+
+
+def between(west, east, south, north):
+    return np.radians(east - west) * (np.sin(np.radians(north)) - np.sin(np.radians(south)))
+
+
+WITHIN = 1e-5  # parallels are arcs within 1e-4 degrees of them
+AREA = between(160, 200, -20, 30) - between(170, 175, -5, 5)
+
+
+def test_clipped_cells_fill_the_region():
+    clipped = CELLS.clip(ISLANDS)
+    assert len(clipped) == 200
+    assert np.array_equal(clipped.labels, np.arange(200))
+    assert np.isclose(clipped.areas.sum(), AREA, rtol=WITHIN)
+    assert np.all(clipped.areas <= CELLS.areas + 1e-14)
+    region = rondel.Partition.from_geometries([ISLANDS])
+    assert np.isclose(clipped.areas.sum(), region.areas[0], rtol=1e-13)
+    geodesic = CELLS.clip(ISLANDS, edges="geodesic")
+    assert abs(geodesic.areas.sum() / clipped.areas.sum() - 1) > 1e-3
+    assert np.isclose(CELLS.clip(region).areas.sum(), AREA, rtol=WITHIN)
+
+
+def test_clipped_cells_are_dissolved_without_slivers():
+    joined = CELLS.clip(ISLANDS).dissolve(CELLS.points[:, 2] > 0)
+    assert sorted(joined.labels.tolist()) == [False, True]
+    assert np.isclose(joined.areas.sum(), AREA, rtol=WITHIN)
+    rings, corners = joined.partition().rings[1:3]
+    points = joined.partition().rings[3]
+    sides = set()
+    for begin, end in itertools.pairwise(rings):
+        ring = [points[k].tobytes() for k in corners[begin:end]]
+        sides |= set(zip(ring, ring[1:] + ring[:1], strict=True))
+    common = [side for side in sides if side[::-1] in sides]
+    assert len(common) > 4
+    whole = joined.dissolve(["all", "all"])
+    assert whole.labels.tolist() == ["all"]
+    assert np.isclose(whole.areas[0], joined.areas.sum(), rtol=1e-13)
+    assert len(whole.partition().rings[1]) - 1 == 2  # the border and the hole
+
+
+def test_groups_are_labels():
+    groups = [None if i % 3 == 0 else "odd" if i % 2 else "even" for i in range(200)]
+    joined = CELLS.dissolve(groups)
+    assert joined.labels.tolist() == ["odd", "even"]
+    mask = np.array([g == "odd" for g in groups])
+    assert np.isclose(joined.areas[0], CELLS.areas[mask].sum(), rtol=1e-13)
+    numbers = CELLS.dissolve(np.where(np.arange(200) < 150, 7.5, np.nan))
+    assert numbers.labels.tolist() == [7.5]
+    assert np.isclose(numbers.areas[0], CELLS.areas[:150].sum(), rtol=1e-13)
+    with pytest.raises(ValueError, match="3 groups for 200 cells"):
+        CELLS.dissolve([1, 2, 3])
+    everything = CELLS.dissolve(np.zeros(200, int))
+    assert len(everything) == 1  # the whole sphere has no border
+    assert repr(everything) == "<rondel.Regions: 1 region, 1 empty>"
+
+
+def test_duplicates_and_power_cells():
+    points = np.vstack([CELLS.points[:50], CELLS.points[:2]])
+    merged = rondel.SphericalVoronoi(points, duplicates="merge")
+    assert merged.clip(ISLANDS).areas[50:].tolist() == [0, 0]
+    radii = np.linspace(0, 20, 200)
+    power = rondel.power_diagram(CELLS.points, radii)
+    assert np.isclose(power.clip(ISLANDS).areas.sum(), AREA, rtol=WITHIN)
+
+
+def test_geojson(tmp_path):
+    clipped = CELLS.clip(ISLANDS)
+    found = clipped.to_geojson(properties={"name": [f"site {i}" for i in range(200)]})
+    assert found == json.loads(json.dumps(found))
+    assert len(found["features"]) == np.count_nonzero(clipped.areas)
+    for feature in found["features"]:
+        properties = feature["properties"]
+        assert properties["name"] == f"site {properties['site']}"
+        assert properties["area"] == clipped.areas[properties["site"]]
+    clipped.to_geojson(tmp_path / "cells.geojson")
+    again = rondel.Partition.read(tmp_path / "cells.geojson", edges="geodesic")
+    assert np.isclose(again.areas.sum(), AREA, rtol=1e-5)
+    with pytest.raises(ValueError, match="'area' is taken"):
+        clipped.to_geojson(properties={"area": range(200)})
+    with pytest.raises(ValueError, match="tolerance"):
+        clipped.to_geojson(tolerance_deg=0)
+    assert list(tmp_path.iterdir()) == [tmp_path / "cells.geojson"]
+    assert clipped.__geo_interface__["type"] == "FeatureCollection"
+
+
+@pytest.mark.parametrize(
+    ("ending", "driver"), [("gpkg", "GPKG"), ("fgb", "FlatGeobuf"), ("shp", None)]
+)
+def test_files_of_gdal(tmp_path, ending, driver):
+    geopandas = pytest.importorskip("geopandas")
+    frame = CELLS.clip(ISLANDS).to_geopandas(properties={"z": CELLS.points[:, 2]})
+    path = tmp_path / f"cells.{ending}"
+    frame.to_file(path, driver=driver)
+    found = geopandas.read_file(path)
+    found = found.set_index("site").loc[frame["site"]]
+    assert np.allclose(found["area"], frame["area"], rtol=1e-9)
+    assert np.allclose(found["z"], frame["z"])
+    assert found.crs == "EPSG:4326"
+    assert np.all(found.geometry.is_valid)
+    areas = [table.set_crs(None, allow_override=True).geometry.area for table in (found, frame)]
+    assert np.allclose(*areas)
+
+
+def test_geoparquet(tmp_path):
+    geopandas = pytest.importorskip("geopandas")
+    pytest.importorskip("pyarrow.parquet")
+    frame = CELLS.dissolve(np.arange(200) % 5).to_geopandas()
+    frame.to_parquet(tmp_path / "cells.parquet")
+    found = geopandas.read_parquet(tmp_path / "cells.parquet")
+    assert found.geometry.to_wkb().tolist() == frame.geometry.to_wkb().tolist()
+    assert np.all(found.geometry.is_valid)
+
+
+def test_frames_have_the_polygons_of_geojson():
+    geopandas = pytest.importorskip("geopandas")
+    clipped = CELLS.clip(ISLANDS)
+    frame = clipped.to_geopandas().set_crs(None, allow_override=True)
+    expected = geopandas.GeoDataFrame.from_features(clipped.to_geojson()["features"])
+    assert frame["site"].tolist() == expected["site"].tolist()
+    assert frame.geometry.to_wkt().tolist() == expected.geometry.to_wkt().tolist()
+    # The plane's areas of cells that share their sides sum to the region's, drawn.
+    assert np.isclose(frame.geometry.area.sum(), 40 * 50 - 5 * 10, rtol=1e-5)
+    assert np.isclose(frame.geometry.union_all().area, 40 * 50 - 5 * 10, rtol=1e-5)
+
+
+def test_geometries_of_other_libraries():
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    boxes = [shapely.box(0, -9, 9, 9), None, shapely.box(100, 20, 130, 40)]
+    expected = [between(0, 9, -9, 9), 0, between(100, 130, 20, 40)]
+    series = geopandas.GeoSeries(boxes, crs="EPSG:4326")
+    frame = geopandas.GeoDataFrame({"name": list("abc")}, geometry=series)
+    given = [
+        boxes,
+        np.array(boxes),
+        series,
+        frame,
+        series.to_crs("EPSG:3857"),
+        series.__geo_interface__,
+        frame.to_arrow(geometry_encoding="geoarrow"),
+        series.to_arrow(geometry_encoding="geoarrow"),
+    ]
+    for geometries in given:
+        areas = rondel.Partition.from_geometries(geometries).areas
+        assert np.allclose(areas, expected, rtol=WITHIN)
+    assert np.isclose(CELLS.clip(boxes[0]).areas.sum(), expected[0], rtol=WITHIN)
+
+
+def test_what_is_no_polygon_is_refused(tmp_path):
+    with pytest.raises(ValueError, match=r'^geometries: .*type "Point" where a Polygon is needed'):
+        CELLS.clip({"type": "Point", "coordinates": [1, 2]})
+    with pytest.raises(TypeError, match="int is no geometry"):
+        CELLS.clip([1])
+    with pytest.raises(TypeError, match="not int"):
+        CELLS.clip(1)
+    with pytest.raises(ValueError, match="latitude"):
+        CELLS.clip({"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 99], [0, 0]]]})
+    with pytest.raises(FileNotFoundError):
+        CELLS.clip(tmp_path / "nowhere.geojson")
+    with pytest.raises(ValueError, match="edges must be"):
+        CELLS.clip(ISLANDS, edges="straight")
+
+
+def test_partitions_of_corners():
+    lon, lat = np.meshgrid(np.arange(0, 360, 30), np.arange(-60, 60, 30))
+    west, south = lon[..., None], lat[..., None]
+    lons = np.concatenate([west, west + 30, west + 30, west], axis=-1)
+    lats = np.concatenate([south, south, south + 30, south + 30], axis=-1)
+    cells = rondel.Partition.corners(lons, lats)
+    assert cells.shape == (4, 12)
+    turned = rondel.Partition.corners(lons[..., ::-1], lats[..., ::-1])
+    assert np.array_equal(turned.areas, cells.areas)
+    # 360 degrees are 0: neighbors across the date line share their corners.
+    assert len(cells.rings[3]) == 5 * 12
+    with pytest.raises(rondel.InvalidInput, match=r"cell 1 has a corner at .* no place") as error:
+        rondel.Partition.corners([[0, 1, 2], [0, np.nan, 2]], [[0, 1, 0], [0, 1, 0]])
+    assert error.value.index == 1
+    with pytest.raises(ValueError, match="must have shape"):
+        rondel.Partition.corners([0, 1, 2], [0, 1, 2])
