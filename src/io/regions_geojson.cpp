@@ -43,7 +43,7 @@ struct DrawnRegions {
   std::size_t num_crossed = 0;  // how many have lines that cross, which their arcs do not
 };
 
-constexpr std::size_t grain = 16;
+constexpr std::size_t cells_per_task = 16;
 
 // The points of the rings of a cell.
 class RingsOfCell {
@@ -75,7 +75,8 @@ DrawnRegions draw(const RegionsToWrite& job, double tolerance) {
   drawn.cells.resize(job.cells.num_cells());
   std::atomic<std::size_t> num_crossed = 0;
   system::parallel_for(
-      job.execution.threads, drawn.cells.size(), grain, [&](std::size_t begin, std::size_t end) {
+      job.execution.threads, drawn.cells.size(), cells_per_task,
+      [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
           const RingsOfCell cell(job.cells, i);
           if (cell.rings().empty()) continue;
@@ -114,7 +115,7 @@ std::vector<Polygons> draw_uncrossed(const RegionsToWrite& job) {
 void write_regions_geojson(AtomicFile& file, const RegionsToWrite& job) {
   const std::vector<Polygons> drawn = draw_uncrossed(job);
   std::vector<std::string> geometries(drawn.size());
-  system::parallel_for(job.execution.threads, drawn.size(), grain,
+  system::parallel_for(job.execution.threads, drawn.size(), cells_per_task,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t i = begin; i < end; ++i) {
                            if (job.cells.cells[i] == job.cells.cells[i + 1]) continue;
