@@ -52,7 +52,7 @@ void ArcMaker::follow_boundary(Index cell) {
   for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
     for (Halfedge h = cells_.rings[ring]; h < cells_.rings[ring + 1]; ++h) {
       const Halfedge next = h + 1 == cells_.rings[ring + 1] ? cells_.rings[ring] : h + 1;
-      const Crossings::EdgeTrace& trace = crossings_.trace(h);
+      const Crossings::EdgeTrace& trace = crossings_.trace_of(h);
       const auto crossings = crossings_.of(trace);
       Index beyond = trace.start;
       Point from = cells_.origin(h);
@@ -61,12 +61,12 @@ void ArcMaker::follow_boundary(Index cell) {
         const Halfedge twin = cover_.twins[crossing.out];
         const Halfedge out = trace.is_backwards ? twin : crossing.out;
         const Halfedge in = trace.is_backwards ? crossing.out : twin;
-        arcs_.push_back({beyond, from, crossing.point});
+        arcs_.push_back({beyond, no_index, from, crossing.point});
         passages_.push_back({std::min(out, in), out, h, crossing.point});
         from = crossing.point;
         beyond = cover_.cell_of[in];
       }
-      arcs_.push_back({beyond, from, cells_.origin(next)});
+      arcs_.push_back({beyond, no_index, from, cells_.origin(next)});
     }
   }
 }
@@ -131,8 +131,7 @@ void ArcMaker::flood() {
 }
 
 void ArcMaker::add_edge(Halfedge h, const Point& from, const Point& to) {
-  arcs_.push_back({cover_.cell_of[h], from, to});
-  arcs_.push_back({cover_.cell_of[cover_.twins[h]], to, from});
+  arcs_.push_back({cover_.cell_of[h], cover_.cell_of[cover_.twins[h]], from, to});
 }
 
 void ArcMaker::arrive(Halfedge h) {

@@ -7,7 +7,7 @@
 // cover's edges lies inside follows without a further decision: an edge that the boundary crosses on
 // its way out of a cell goes inwards in the direction of its halfedge there, to the next crossing or
 // to its end, and from there all other edges go on. The arcs with the cell b of the cover to their
-// left bound the piece of b.
+// left bound the piece of b; edges of the cover bound two.
 #pragma once
 
 #include <span>
@@ -20,18 +20,19 @@
 
 namespace rondel::overlay {
 
-// From one point to another along a great circle, with the piece to the left.
+// From one point to another along a great circle.
 struct PieceArc {
-  Index beyond;  // the cell of the cover
+  Index left;   // the cell of the cover
+  Index right;  // the same of an edge of the cover; no_index of the cell's boundary
   Point from;
   Point to;
 };
 
-// One for each thread.
+// Of the cells [first_cell, end_cell).
 class ArcMaker {
  public:
-  ArcMaker(const Subdivision& cells, const Subdivision& cover, const Crossings& crossings)
-      : cells_(cells), cover_(cover), crossings_(crossings) {}
+  ArcMaker(const Subdivision& cells, const Subdivision& cover, Index first_cell, Index end_cell)
+      : cells_(cells), cover_(cover), crossings_(cells, cover, first_cell, end_cell) {}
 
   // All arcs of a cell that has a ring: first those of its boundary, in order. The result lives until the
   // next call.
@@ -57,7 +58,7 @@ class ArcMaker {
 
   const Subdivision& cells_;
   const Subdivision& cover_;
-  const Crossings& crossings_;
+  Crossings crossings_;
   std::vector<PieceArc> arcs_;
   std::vector<Passage> passages_;
   std::vector<Halfedge> arrivals_;  // their ends are inside, and wait

@@ -3,6 +3,7 @@
 
 #include "overlay/crossings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -11,8 +12,6 @@
 #include "overlay/cover_walk.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
-#include "system/parallel.h"
-#include "system/stage_progress.h"
 
 namespace rondel::overlay {
 namespace {
@@ -128,51 +127,46 @@ class Walker {
 
 }  // namespace
 
-Crossings::Crossings(const Subdivision& cells, const Subdivision& cover, const Execution& execution)
-    : cells_(cells), known_(cells.points.size()) {
-  const std::size_t num_blocks = system::num_pieces(cells.num_cells(), cells_per_block);
-  blocks_.resize(num_blocks);
-  for (auto& cell : known_) cell.store(no_index, std::memory_order_relaxed);
-  traces_.resize(cells.num_halfedges());
-  system::StageProgress progress(execution.progress, "trace", num_blocks);
-  system::parallel_for(execution.threads, num_blocks, 1,
-                       [&](std::size_t begin, std::size_t /*end*/) {
-                         trace_block(begin, cover);
-                         progress.step();
-                       });
-}
-
-void Crossings::trace_block(std::size_t block, const Subdivision& cover) {
-  const std::size_t first_cell = block * cells_per_block;
-  const std::size_t end_cell = std::min(first_cell + cells_per_block, cells_.num_cells());
-  const Halfedge first = cells_.begin_of(static_cast<Index>(first_cell));
-  const Halfedge end = cells_.rings[cells_.cells[end_cell]];
-  if (first == end) return;
-  auto& crossings = blocks_[block];
-  Walker walker(cover, base_near(cover, cells_.origin(first)));
-  for (Index ring = cells_.cells[first_cell]; ring < cells_.cells[end_cell]; ++ring) {
-    for (Halfedge h = cells_.rings[ring]; h < cells_.rings[ring + 1]; ++h) {
-      const Halfedge twin = cells_.twins[h];
-      if (twin < h) continue;
-      const Halfedge next = h + 1 == cells_.rings[ring + 1] ? cells_.rings[ring] : h + 1;
-      const TracedLine line(cells_.origin(h), cells_.origin(next));
-      const Index known = known_[cells_.corners[h]].load(std::memory_order_relaxed);
-      if (known != no_index) {
-        walker.jump_to(line.from(), known);
+// An edge is traced from its lower halfedge on, whoever traces it, so that all find the same points.
+Crossings::Crossings(const Subdivision& cells, const Subdivision& cover, Index first_cell,
+                     Index end_cell)
+    : first_(cells.begin_of(first_cell)) {
+  const Halfedge end = cells.begins[end_cell];
+  if (first_ == end) return;
+  traces_.resize(end - first_);
+  // The cover's cells at points that no cell before has: points are numbered as cells come to have them.
+  const auto corners = std::span(cells.corners).subspan(first_, end - first_);
+  const Index points_end = *std::ranges::max_element(corners) + 1;
+  const Index points_begin = points_end - std::min(points_end, end - first_);
+  std::vector<Index> known(points_end - points_begin, no_index);
+  const auto know = [&](Index p, Index cell) {
+    if (p >= points_begin) known[p - points_begin] = cell;
+  };
+  Walker walker(cover, base_near(cover, cells.origin(first_)));
+  for (Index ring = cells.cells[first_cell]; ring < cells.cells[end_cell]; ++ring) {
+    for (Halfedge h = cells.rings[ring]; h < cells.rings[ring + 1]; ++h) {
+      const Halfedge twin = cells.twins[h];
+      if (twin < h && twin >= first_) continue;
+      const Halfedge next = h + 1 == cells.rings[ring + 1] ? cells.rings[ring] : h + 1;
+      const bool is_backwards = twin < h;
+      const Index p = cells.corners[is_backwards ? next : h];
+      const Index q = cells.corners[is_backwards ? h : next];
+      const TracedLine line(cells.points[p], cells.points[q]);
+      if (p >= points_begin && known[p - points_begin] != no_index) {
+        walker.jump_to(line.from(), known[p - points_begin]);
       } else {
         walker.go_to(line.from());
-        known_[cells_.corners[h]].store(walker.cell(), std::memory_order_relaxed);
+        know(p, walker.cell());
       }
       const Index start = walker.cell();
-      const auto begin = static_cast<Index>(crossings.size());
+      const auto first = static_cast<Index>(crossings_.size());
       walker.along(line, [&](Halfedge out, const CoverEdge& edge) {
-        crossings.push_back({out, crossing_point(line, edge)});
+        crossings_.push_back({out, crossing_point(line, edge)});
       });
-      known_[cells_.corners[next]].store(walker.cell(), std::memory_order_relaxed);
-      const Index count = static_cast<Index>(crossings.size()) - begin;
-      const auto number = static_cast<Index>(block);
-      traces_[h] = {start, number, begin, count, false};
-      if (twin != no_index) traces_[twin] = {walker.cell(), number, begin, count, true};
+      know(q, walker.cell());
+      const Index count = static_cast<Index>(crossings_.size()) - first;
+      traces_[h - first_] = {is_backwards ? walker.cell() : start, first, count, is_backwards};
+      if (twin > h && twin < end) traces_[twin - first_] = {walker.cell(), first, count, true};
     }
   }
 }

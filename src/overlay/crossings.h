@@ -4,14 +4,12 @@
 // Where the edges of cells cross those of a cover.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 #include "overlay/subdivision.h"
 #include "rondel/types.h"
-#include "system/large_vector.h"
 
 namespace rondel::overlay {
 
@@ -21,32 +19,27 @@ struct EdgeCrossing {
   Point point;   // rounded
 };
 
+// Of the edges of some cells, [first_cell, end_cell), whichever others they are together with.
 class Crossings {
  public:
-  Crossings(const Subdivision& cells, const Subdivision& cover, const Execution& execution);
+  Crossings(const Subdivision& cells, const Subdivision& cover, Index first_cell, Index end_cell);
 
-  // Of a halfedge.
   struct EdgeTrace {
     Index start;  // the cover's cell at its origin
-    Index block;
     Index first;
     Index count;
     bool is_backwards;  // the crossings are those of its twin
   };
-  [[nodiscard]] const EdgeTrace& trace(Halfedge h) const { return traces_[h]; }
+  // Of a halfedge of these cells.
+  [[nodiscard]] const EdgeTrace& trace_of(Halfedge h) const { return traces_[h - first_]; }
   [[nodiscard]] std::span<const EdgeCrossing> of(const EdgeTrace& trace) const {
-    return std::span(blocks_[trace.block]).subspan(trace.first, trace.count);
+    return std::span(crossings_).subspan(trace.first, trace.count);
   }
 
  private:
-  static constexpr std::size_t cells_per_block = 1024;
-  void trace_block(std::size_t block, const Subdivision& cover);
-
-  const Subdivision& cells_;
-  // By points of the cells: the cover's cells, as far as known. Whoever finds one finds the same.
-  std::vector<std::atomic<Index>> known_;
-  std::vector<std::vector<EdgeCrossing>> blocks_;  // of so many cells
-  LargeVector<EdgeTrace> traces_;
+  Halfedge first_;
+  std::vector<EdgeTrace> traces_;
+  std::vector<EdgeCrossing> crossings_;
 };
 
 }  // namespace rondel::overlay

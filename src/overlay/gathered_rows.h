@@ -14,7 +14,7 @@
 
 namespace rondel::overlay {
 
-// make() makes what a thread needs; of it operator()(cell) gives pieces, with `area` and `moment`, in the order of
+// make(first, end) makes what the work on these cells needs; of it operator()(cell) gives pieces, with `area` and `moment`, in the order of
 // column(piece), of a cell that has a ring.
 template <class Make>
 PieceRows gathered_rows(const Subdivision& cells, bool has_moments, const Execution& execution,
@@ -34,7 +34,7 @@ PieceRows gathered_rows(const Subdivision& cells, bool has_moments, const Execut
   system::parallel_for(execution.threads, n, cells_per_block,
                        [&](std::size_t begin, std::size_t end) {
                          RowBlock& block = blocks[begin / cells_per_block];
-                         auto maker = make();
+                         auto maker = make(static_cast<Index>(begin), static_cast<Index>(end));
                          for (std::size_t c = begin; c < end; ++c) {
                            const auto cell = static_cast<Index>(c);
                            Index count = 0;

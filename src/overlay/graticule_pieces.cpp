@@ -174,8 +174,9 @@ PieceRows pieces(const PartitionData& cells, const Graticule& grid, bool has_mom
                            places[i] = walk.place_of(subdivision.points[i]);
                          }
                        });
-  return gathered_rows(subdivision, has_moments, execution,
-                       [&] { return GridPieceMaker(cells, grid, places, has_moments); });
+  return gathered_rows(subdivision, has_moments, execution, [&](Index /*first*/, Index /*end*/) {
+    return GridPieceMaker(cells, grid, places, has_moments);
+  });
 }
 
 }  // namespace rondel::overlay

@@ -14,18 +14,17 @@ Measures measures_of(std::span<const BorderArc> border) {
   if (border.empty()) return result;
   Point origin = border.front().from;
   bool is_large = false;
-  double length = 0;
   for (const auto& [from, to] : border) {
     result.moment = result.moment + moment_of_arc(from, to);
-    length += rough_length(from, to);
+    result.length += rough_length(from, to);
     is_large |= is_far(origin, from);
   }
   if (is_large) {
-    if (norm(result.moment) <= 4 * predicates::unit_roundoff * length) return result;
+    if (norm(result.moment) <= 4 * predicates::unit_roundoff * result.length) return result;
     origin = normalized(result.moment);
   }
   for (const auto& [from, to] : border) {
-    if (from != origin && to != origin) result.area += triangle_area(origin, from, to);
+    if (from != origin && to != origin) result.area += Triangle(origin, from, to).area();
   }
   return result;
 }

@@ -16,23 +16,35 @@
 
 namespace rondel::overlay {
 
-// The area of the triangle (o, p, q), negative if it is clockwise. With P = p-o and Q = q-o
+// The triangle (o, p, q). With P = p-o and S = q-p
 //
-//     tan(area / 2) = o.(P x Q) / (1 + o.p + p.q + q.o),    o.p = 1 - |P|^2 / 2 ...
-inline double triangle_area(const Point& o, const Point& p, const Point& q) {
-  const Point to_p = p - o;
-  const Point to_q = q - o;
-  const Point side = to_q - to_p;
-  const double above = dot(o, cross(to_p, to_q));
-  const double below = 4 - (dot(to_p, to_p) + dot(to_q, to_q) + dot(side, side)) / 2;
-  constexpr double small = 0x1p-10;  // t^6 is nothing then
-  if (std::abs(above) < small * below) {
-    const double t = above / below;
-    const double t2 = t * t;
-    return 2 * (t - t * t2 * (1.0 / 3 - t2 * (1.0 / 5)));
+//     tan(area / 2) = o.(P x S) / (1 + o.p + p.q + q.o),    o.p = 1 - |P|^2 / 2 ...
+class Triangle {
+ public:
+  Triangle(const Point& o, const Point& p, const Point& q) {
+    const Point to_p = p - o;
+    const Point to_q = q - o;
+    const Point side = q - p;
+    above_ = dot(o, cross(to_p, side));
+    below_ = 4 - (dot(to_p, to_p) + dot(to_q, to_q) + dot(side, side)) / 2;
   }
-  return 2 * exact::argument(above, below);
-}
+  // Negative if it is clockwise.
+  [[nodiscard]] double area() const {
+    constexpr double small = 0x1p-10;  // t^6 is nothing then
+    if (std::abs(above_) < small * below_) {
+      const double t = above_ / below_;
+      const double t2 = t * t;
+      return 2 * (t - t * t2 * (1.0 / 3 - t2 * (1.0 / 5)));
+    }
+    return 2 * exact::argument(above_, below_);
+  }
+  // Whether sides are longer than a radian or so: its area may be ill-defined.
+  [[nodiscard]] bool is_large() const { return below_ < 2.5; }
+
+ private:
+  double above_;
+  double below_;
+};
 
 // The arc's share of the first moment, the integral of q over a region: half of that of q x dq along its
 // boundary, so half of the angle times the unit normal.
@@ -83,6 +95,7 @@ struct BorderArc {
 };
 struct Measures {
   double area = 0;
+  double length = 0;  // roughly
   Point moment{};
 };
 // Of a region that fits into a hemisphere, by all arcs of its border.

@@ -16,26 +16,24 @@ namespace {
 
 struct MeasuredPiece {
   Index beyond;
-  Point origin;
   double area = 0;
   double length = 0;  // of its boundary, roughly
-  bool is_large = false;
   Point moment{};
 };
 
 class PieceMaker {
  public:
-  PieceMaker(const Subdivision& cells, const Subdivision& cover, const Crossings& crossings,
+  PieceMaker(const Subdivision& cells, const Subdivision& cover, Index first_cell, Index end_cell,
              bool has_moments)
-      : cover_(cover), arcs_(cells, cover, crossings), has_moments_(has_moments) {}
-
+      : cover_(cover), arcs_(cells, cover, first_cell, end_cell), has_moments_(has_moments) {}
   // Of a cell that has a ring, in the order of the columns.
   std::span<const MeasuredPiece> operator()(Index cell) {
+    constexpr std::size_t many = 128;
     pieces_.clear();
     const std::span<const PieceArc> arcs = arcs_(cell);
-    add(arcs);
-    for (MeasuredPiece& piece : pieces_) {
-      if (piece.is_large) measure_large(arcs, piece);
+    if (arcs.size() > many || !add_all(arcs)) {
+      pieces_.clear();
+      add_by_piece(arcs);
     }
     drop_rounding(pieces_);
     std::ranges::sort(pieces_, {}, [&](const MeasuredPiece& piece) { return column(piece); });
@@ -46,50 +44,64 @@ class PieceMaker {
   }
 
  private:
-  void add(std::span<const PieceArc> arcs) {
-    constexpr std::size_t many = 128;
-    if (arcs.size() > many) {
-      sorted_.assign(arcs.begin(), arcs.end());
-      std::ranges::stable_sort(sorted_, {}, &PieceArc::beyond);
-      arcs = sorted_;
-    }
+  // Triangles of each arc and the first corner, which count for both sides of an edge. Corners are rounded by
+  // more than a triangle is, if it is not large: whether none is.
+  bool add_all(std::span<const PieceArc> arcs) {
+    const Point& origin = arcs.front().from;
     std::size_t last = 0;
     for (const PieceArc& arc : arcs) {
-      if (pieces_.empty() || pieces_[last].beyond != arc.beyond)
-        last = find(arc, arcs.size() > many);
-      add(arc, pieces_[last]);
+      const Triangle triangle(origin, arc.from, arc.to);
+      if (triangle.is_large()) return false;
+      MeasuredPiece share{no_index, triangle.area(), rough_length(arc.from, arc.to)};
+      if (has_moments_) share.moment = moment_of_arc(arc.from, arc.to);
+      if (pieces_.empty() || pieces_[last].beyond != arc.left) last = find(arc.left);
+      MeasuredPiece& left = pieces_[last];
+      left.area += share.area;
+      left.length += share.length;
+      left.moment = left.moment + share.moment;
+      if (arc.right == no_index) continue;
+      MeasuredPiece& right = pieces_[find(arc.right)];
+      right.area -= share.area;
+      right.length += share.length;
+      right.moment = right.moment - share.moment;
     }
+    return true;
   }
-  std::size_t find(const PieceArc& arc, bool is_sorted) {
-    if (!is_sorted) {
-      for (std::size_t k = 0; k < pieces_.size(); ++k) {
-        if (pieces_[k].beyond == arc.beyond) return k;
-      }
+  std::size_t find(Index beyond) {
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      if (pieces_[k].beyond == beyond) return k;
     }
-    pieces_.push_back({arc.beyond, arc.from});
+    pieces_.push_back({beyond});
     return pieces_.size() - 1;
   }
-  void add(const PieceArc& arc, MeasuredPiece& piece) const {
-    piece.is_large |= is_far(piece.origin, arc.from);
-    if (arc.from != piece.origin && arc.to != piece.origin) {
-      piece.area += triangle_area(piece.origin, arc.from, arc.to);
-    }
-    piece.length += rough_length(arc.from, arc.to);
-    if (has_moments_) piece.moment = piece.moment + moment_of_arc(arc.from, arc.to);
-  }
 
-  void measure_large(std::span<const PieceArc> arcs, MeasuredPiece& piece) {
-    border_.clear();
+  // The same for each piece by itself.
+  void add_by_piece(std::span<const PieceArc> arcs) {
+    sides_.clear();
     for (const PieceArc& arc : arcs) {
-      if (arc.beyond == piece.beyond) border_.push_back({arc.from, arc.to});
+      sides_.push_back({arc.left, {arc.from, arc.to}});
+      if (arc.right != no_index) sides_.push_back({arc.right, {arc.to, arc.from}});
     }
-    piece.area = measures_of(border_).area;
+    std::ranges::stable_sort(sides_, {}, &Side::beyond);
+    for (std::size_t k = 0; k < sides_.size();) {
+      border_.clear();
+      const Index beyond = sides_[k].beyond;
+      for (; k < sides_.size() && sides_[k].beyond == beyond; ++k) {
+        border_.push_back(sides_[k].arc);
+      }
+      const auto [area, length, moment] = measures_of(border_);
+      pieces_.push_back({beyond, area, length, moment});
+    }
   }
+  struct Side {
+    Index beyond;
+    BorderArc arc;
+  };
 
   const Subdivision& cover_;
   ArcMaker arcs_;
   bool has_moments_;
-  std::vector<PieceArc> sorted_;
+  std::vector<Side> sides_;
   std::vector<BorderArc> border_;
   std::vector<MeasuredPiece> pieces_;
 };
@@ -98,9 +110,9 @@ class PieceMaker {
 
 PieceRows pieces(const Subdivision& cells, const Subdivision& cover, bool has_moments,
                  const Execution& execution) {
-  const Crossings crossings(cells, cover, execution);
-  return gathered_rows(cells, has_moments, execution,
-                       [&] { return PieceMaker(cells, cover, crossings, has_moments); });
+  return gathered_rows(cells, has_moments, execution, [&](Index first, Index end) {
+    return PieceMaker(cells, cover, first, end, has_moments);
+  });
 }
 
 PieceRows transposed(const PieceRows& pieces, std::size_t num_columns) {

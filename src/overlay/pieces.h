@@ -9,16 +9,15 @@
 
 #include "overlay/subdivision.h"
 #include "rondel/types.h"
-#include "system/large_vector.h"
 
 namespace rondel::overlay {
 
 // In compressed rows by the cells' names, columns increasing.
 struct PieceRows {
   std::vector<std::uint64_t> offsets = {0};
-  LargeVector<Index> columns;
-  LargeVector<double> areas;
-  LargeVector<Point> moments;  // empty unless asked for
+  std::vector<Index> columns;
+  std::vector<double> areas;
+  std::vector<Point> moments;  // empty unless asked for
 };
 
 // Pieces not larger than what rounding of their corners may be are left out.

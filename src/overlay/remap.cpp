@@ -112,10 +112,11 @@ void add(double term, exact::DoubleDouble& sum) {
   sum = {next.hi, sum.lo + next.lo};
 }
 
-CoveredSums sums_of(const Remap& remap, const PieceRows& pieces, std::size_t num_sources) {
+CoveredSums sums_of(const Remap& remap, const std::vector<Point>& moments,
+                    std::size_t num_sources) {
   CoveredSums sums;
   std::vector<exact::DoubleDouble> of_sources(num_sources);
-  sums.moments_of_sources.resize(pieces.moments.empty() ? 0 : num_sources);
+  sums.moments_of_sources.resize(moments.empty() ? 0 : num_sources);
   sums.of_targets.resize(remap.offsets.size() - 1);
   for (std::size_t j = 0; j < sums.of_targets.size(); ++j) {
     exact::DoubleDouble of_target{};
@@ -123,8 +124,8 @@ CoveredSums sums_of(const Remap& remap, const PieceRows& pieces, std::size_t num
       const Index i = remap.columns[k];
       add(remap.areas[k], of_target);
       add(remap.areas[k], of_sources[i]);
-      if (!pieces.moments.empty()) {
-        sums.moments_of_sources[i] = sums.moments_of_sources[i] + pieces.moments[k];
+      if (!moments.empty()) {
+        sums.moments_of_sources[i] = sums.moments_of_sources[i] + moments[k];
       }
     }
     sums.of_targets[j] = of_target.hi + of_target.lo;
@@ -154,13 +155,12 @@ std::vector<double> fractions(const std::vector<double>& covered,
 // Moments around the means of sources. Their sums vanish but for rounding, which gradients would
 // multiply by the inverse of a cell's width: the largest piece of a source takes it up.
 std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& remap,
-                                  const PieceRows& pieces) {
-  std::vector<Point> moments(pieces.moments.size());
+                                  std::vector<Point> moments) {
   std::vector<Point> sums(means.size());
   std::vector<std::uint64_t> largest(means.size(), moments.size());
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const Index i = remap.columns[k];
-    moments[k] = pieces.moments[k] - remap.areas[k] * means[i];
+    moments[k] = moments[k] - remap.areas[k] * means[i];
     sums[i] = sums[i] + moments[k];
     if (largest[i] == moments.size() || remap.areas[k] > remap.areas[largest[i]]) largest[i] = k;
   }
@@ -187,6 +187,43 @@ void join(std::vector<Term>& terms, Weights& weights) {
   }
 }
 
+// The columns of a row are different, and increase.
+Weights mean_weights(const Remap& remap, const std::vector<double>& target_areas) {
+  Weights weights;
+  weights.offsets = remap.offsets;
+  weights.columns = remap.columns;
+  weights.values.reserve(remap.areas.size());
+  for (std::size_t j = 0; j < target_areas.size(); ++j) {
+    for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
+      weights.values.push_back(remap.areas[k] / target_areas[j]);
+    }
+  }
+  return weights;
+}
+
+Weights linear_weights(const Remap& remap, const overlay::CellGradients& gradients,
+                       const std::vector<double>& target_areas) {
+  Weights weights;
+  std::vector<Term> terms;
+  for (std::size_t j = 0; j < target_areas.size(); ++j) {
+    terms.clear();
+    for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
+      const Index i = remap.columns[k];
+      double own = remap.areas[k];
+      for (std::uint64_t g = gradients.offsets[i]; g < gradients.offsets[i + std::size_t{1}]; ++g) {
+        const double weight = dot(remap.moments[k], gradients.slopes[g]);
+        if (weight == 0) continue;
+        terms.push_back({gradients.neighbors[g], weight / target_areas[j]});
+        own -= weight;
+      }
+      terms.push_back({i, own / target_areas[j]});
+    }
+    join(terms, weights);
+    weights.offsets.push_back(weights.columns.size());
+  }
+  return weights;
+}
+
 }  // namespace
 
 Remap remap(const Partition& source, const Partition& target, const RemapOptions& options,
@@ -203,12 +240,11 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
   PieceRows pieces = overlay_of(sources, targets, is_second, execution);
   drop_masked(options, pieces);
   Remap result;
-  result.offsets = pieces.offsets;
-  result.columns.assign(pieces.columns.begin(), pieces.columns.end());
-  result.areas.assign(pieces.areas.begin(), pieces.areas.end());
+  result.offsets = std::move(pieces.offsets);
+  result.columns = std::move(pieces.columns);
+  result.areas = std::move(pieces.areas);
   const std::size_t num_sources = source.num_cells();
-  const std::size_t num_targets = target.num_cells();
-  const CoveredSums sums = sums_of(result, pieces, num_sources);
+  const CoveredSums sums = sums_of(result, pieces.moments, num_sources);
   result.source_areas = areas_of(sums.of_sources, sources.areas());
   result.target_areas = areas_of(sums.of_targets, targets.areas());
   result.source_fractions = fractions(sums.of_sources, result.source_areas);
@@ -222,33 +258,14 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
       if (sums.of_sources[i] > 0) means[i] = sums.moments_of_sources[i] / sums.of_sources[i];
       if (sources.areas()[i] > 0) centers[i] = sources.moments()[i] / sources.areas()[i];
     }
-    result.moments = moments_around(means, result, pieces);
+    result.moments = moments_around(means, result, std::move(pieces.moments));
     gradients = cell_gradients(sources, centers, options.source_mask, execution.threads);
   }
-  Weights& weights = result.weights;
-  weights.num_columns = num_sources;
-  std::vector<Term> terms;
-  for (std::size_t j = 0; j < num_targets; ++j) {
-    const double area =
-        options.norm == RemapNorm::fracarea ? sums.of_targets[j] : result.target_areas[j];
-    terms.clear();
-    for (std::uint64_t k = result.offsets[j]; k < result.offsets[j + 1]; ++k) {
-      const Index i = result.columns[k];
-      double own = result.areas[k];
-      if (is_second) {
-        for (std::uint64_t g = gradients.offsets[i]; g < gradients.offsets[i + std::size_t{1}];
-             ++g) {
-          const double weight = dot(result.moments[k], gradients.slopes[g]);
-          if (weight == 0) continue;
-          terms.push_back({gradients.neighbors[g], weight / area});
-          own -= weight;
-        }
-      }
-      terms.push_back({i, own / area});
-    }
-    join(terms, weights);
-    weights.offsets.push_back(weights.columns.size());
-  }
+  const std::vector<double>& areas =
+      options.norm == RemapNorm::fracarea ? sums.of_targets : result.target_areas;
+  result.weights =
+      is_second ? linear_weights(result, gradients, areas) : mean_weights(result, areas);
+  result.weights.num_columns = num_sources;
   return result;
 }
 

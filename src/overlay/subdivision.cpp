@@ -101,6 +101,7 @@ void sort_equals(const CellRings& input, order::KeyedIndices& sorted) {
 Subdivision::Subdivision(const CellRings& input, bool is_rounded, unsigned threads) {
   sort_cells(input, threads);
   take_rings(input);
+  find_begins();
   if (is_rounded) merge_disordered();
   find_twins();
   find_shapes(threads);
@@ -233,6 +234,12 @@ void Subdivision::take_merged(std::span<const Index> merged) {
   rings.resize(num_rings + 1);
   corners.resize(size);
   cell_of.resize(size);
+  find_begins();
+}
+
+void Subdivision::find_begins() {
+  begins.resize(cells.size());
+  for (std::size_t c = 0; c < cells.size(); ++c) begins[c] = rings[cells[c]];
 }
 
 void Subdivision::find_twins() {

@@ -36,6 +36,7 @@ struct Subdivision {
   std::vector<Point> points;  // in the order of their first use
   LargeVector<Index> cells;   // cell i has the rings cells[i] ... cells[i+1]-1
   LargeVector<Index> rings;   // ring r the halfedges rings[r] ... rings[r+1]-1
+  LargeVector<Index> begins;  // the halfedges of cell i are begins[i] ... begins[i+1]-1
   LargeVector<Index> corners;
   LargeVector<Halfedge> twins;  // no_index: nothing is beyond
   LargeVector<Index> cell_of;
@@ -47,8 +48,8 @@ struct Subdivision {
 
   [[nodiscard]] std::size_t num_cells() const { return names.size(); }
   [[nodiscard]] std::size_t num_halfedges() const { return corners.size(); }
-  [[nodiscard]] Index begin_of(Index cell) const { return rings[cells[cell]]; }
-  [[nodiscard]] Index end_of(Index cell) const { return rings[cells[cell + 1]]; }
+  [[nodiscard]] Index begin_of(Index cell) const { return begins[cell]; }
+  [[nodiscard]] Index end_of(Index cell) const { return begins[cell + 1]; }
   [[nodiscard]] const Point& origin(Halfedge h) const { return points[corners[h]]; }
 
   // Of cells with one ring.
@@ -67,6 +68,7 @@ struct Subdivision {
   void take_rings(const CellRings& input);
   void merge_disordered();
   void take_merged(std::span<const Index> merged);
+  void find_begins();
   void find_twins();
   void find_shapes(unsigned threads);
 };
