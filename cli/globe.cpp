@@ -92,6 +92,19 @@ void trace_limb(Pen& pen, const Point& from, const Point& to) {
   }
 }
 
+// Whether a convex region without a corner in front is all that is in front: then the middle is to the left of its
+// edges. A region that is none has an edge with the middle to its right, or is as small as rounding. The chords of
+// its edges may turn either way, as the arcs bend towards the limb.
+bool is_all_in_front(std::span<const Point> corners) {
+  constexpr double rounding = 1e-12;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point& a = corners[i];
+    const Point& b = corners[(i + 1) % corners.size()];
+    if (a.x * b.y - a.y * b.x < -rounding) return false;
+  }
+  return signed_area(corners) > static_cast<double>(corners.size()) * rounding;
+}
+
 }  // namespace
 
 View::View(const LonLat& center, double up_deg) : forward_(unit_vector(center)) {
@@ -159,8 +172,7 @@ bool trace_region(Pen& pen, std::span<const Point> corners, double tolerance) {
   const auto first = std::find_if(corners.begin(), corners.end(),
                                   [](const Point& corner) { return corner.z > 0; });
   if (first == corners.end()) {
-    // Nothing of it is visible, or it is the visible hemisphere itself.
-    if (signed_area(corners) <= 0) return false;
+    if (!is_all_in_front(corners)) return false;
     pen.move_to({1, 0});
     trace_ellipse(pen, limb, 0, 2 * pi, {1, 0});
     return true;
