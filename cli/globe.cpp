@@ -148,6 +148,16 @@ void trace_arc(Pen& pen, const Point& a, const Point& b, Side side, double toler
   trace_shorter_arc(pen, part->first, part->second, tolerance);
 }
 
+void trace_line(Pen& pen, std::span<const Point> points, Side side, double tolerance) {
+  bool is_joined = false;  // the pen is at points[i]
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const auto part = visible_part(points[i], points[i + 1], side);
+    if (part && !is_joined) pen.move_to(spot(part->first));
+    if (part) trace_shorter_arc(pen, part->first, part->second, tolerance);
+    is_joined = part && part->second == points[i + 1];
+  }
+}
+
 void trace_circle(Pen& pen, const Point& axis, double radius_deg, Side side) {
   const double radius = radius_deg * pi / 180;
   const double sign = side == Side::front ? 1 : -1;
