@@ -139,7 +139,7 @@ Command add_voronoi_command(CLI::App& tool) {
   add_output_option(
       *parser, options->common,
       "Where to write the cells: .geojson (a feature per cell, with its area and the\n"
-      "input's columns), .vtp .npz")
+      "input's columns), .vtp .npz; with GDAL installed .gpkg .fgb .parquet")
       ->required();
   parser
       ->add_option("--tolerance", options->tolerance_deg,
@@ -178,6 +178,8 @@ Command add_voronoi_command(CLI::App& tool) {
   parser->footer(
       "Areas are in steradians; --earth-radius adds square kilometres. Hidden sites, which\n"
       "only circles and other weighted sites may be, have no cell.\n\n"
+      "GeoPackage, FlatGeobuf and GeoParquet are written by GDAL (libgdal 3.0 or newer), which\n"
+      "is looked for where the system has its libraries, or where RONDEL_GDAL says.\n\n"
       "Examples:\n"
       "  rondel voronoi stations.csv -o cells.geojson\n"
       "  rondel voronoi stations.csv --clip land.geojson --group country -o countries.geojson\n"

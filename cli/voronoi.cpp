@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // rondel voronoi: whole cells.
+#include "region_files.h"
 #include "rondel/diagram.h"
 #include "run.h"
 #include "voronoi_regions.h"
@@ -10,8 +11,10 @@ namespace rondel::cli {
 
 ExitStatus run_voronoi(const VoronoiOptions& options) {
   CommonOptions common = options.common;
-  require_output(common, can_write_cells(common.target()), ".geojson .vtp .npz");
-  common.read.keep_columns = common.format() == "geojson";  // only GeoJSON has properties
+  const bool is_by_gdal = is_format_of_gdal(common.format());
+  require_output(common, is_by_gdal || can_write_cells(common.target()),
+                 ".geojson .vtp .npz .gpkg .fgb .parquet");
+  common.read.keep_columns = is_by_gdal || common.format() == "geojson";  // these have properties
   if (makes_regions(options)) {
     VoronoiOptions regions = options;
     regions.common = common;

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "region_files.h"
 #include "report.h"
 #include "rondel/delaunay.h"
 #include "rondel/feature_cells.h"
@@ -108,8 +109,15 @@ CellRings clipped_to(const VoronoiOptions& options, const Partition& cells,
 
 void write(Job& job, const VoronoiOptions& options, const CellRings& cells,
            const std::vector<Column>& columns) {
+  const std::string format = options.common.format();
   job.time(Stage::write, [&] {
-    write_regions(options.common.target(), cells, columns, options.tolerance_deg, job.execution());
+    if (is_format_of_gdal(format)) {
+      write_regions_by_gdal(options.common.output, format, cells, columns, options.tolerance_deg,
+                            job.execution());
+    } else {
+      write_regions(options.common.target(), cells, columns, options.tolerance_deg,
+                    job.execution());
+    }
   });
 }
 
@@ -190,14 +198,17 @@ ExitStatus write_cells_of_features(const VoronoiOptions& options) {
 
 bool makes_regions(const VoronoiOptions& options) {
   return !options.clip.empty() || !options.group.empty() || options.densify_km > 0 ||
-         options.earth_radius_km > 0;
+         options.earth_radius_km > 0 || is_format_of_gdal(options.common.format());
 }
 
 ExitStatus write_voronoi_regions(const VoronoiOptions& options) {
   const CommonOptions& common = options.common;
-  if (common.format() != "geojson") {
-    throw UsageError("--clip, --group, --densify and --earth-radius write .geojson, not '" +
-                     common.output + "'");
+  if (is_format_of_gdal(common.format())) {
+    require_gdal(common.output, common.format());
+  } else if (common.format() != "geojson") {
+    throw UsageError(
+        "--clip, --group, --densify and --earth-radius write .geojson .gpkg .fgb .parquet, not '" +
+        common.output + "'");
   }
   return options.densify_km > 0 ? write_cells_of_features(options) : write_cells_of_sites(options);
 }
