@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Cells of the demo's stations on the land and in the countries of data/: areas, borders, validity."""
+"""Cells of the stations on the land and in the countries of data/: areas, borders, validity."""
 
 import collections
 import csv
