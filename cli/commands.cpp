@@ -139,7 +139,7 @@ Command add_voronoi_command(CLI::App& tool) {
   add_output_option(
       *parser, options->common,
       "Where to write the cells: .geojson (a feature per cell, with its area and the\n"
-      "input's columns), .vtp .npz")
+      "input's columns), .vtp .npz; with GDAL installed .gpkg .fgb .parquet")
       ->required();
   parser
       ->add_option("--tolerance", options->tolerance_deg,
@@ -154,21 +154,36 @@ Command add_voronoi_command(CLI::App& tool) {
   add_word<PolygonEdges>(
       *parser, "--edges", options->edges,
       {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
-      "What joins positions of --clip: lonlat (default; straight in longitude and\n"
-      "latitude, RFC 7946) or geodesic (great circles)");
+      "What joins positions of --clip and --densify: lonlat (default; straight in\n"
+      "longitude and latitude, RFC 7946) or geodesic (great circles)");
   parser
       ->add_option("--group", options->group,
                    "Join the cells of all sites with the same text in this column; sites without\n"
                    "a text are left out")
       ->type_name("COL");
+  parser
+      ->add_option("--densify", options->densify_km,
+                   "INPUT has lines and polygons (.geojson): a cell for each feature, of the\n"
+                   "places from which no other is nearer by more than KM")
+      ->check(positive_error)
+      ->type_name("KM");
+  parser
+      ->add_option("--earth-radius", options->earth_radius_km,
+                   "Adds areas on a sphere of this radius, 'area_km2' (the Earth's mean radius\n"
+                   "is 6371.0088, which --densify supposes)")
+      ->check(positive_error)
+      ->type_name("KM");
   add_build_options(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
-      "Areas are in steradians; on Earth, times 6371^2 for square kilometres. Hidden sites,\n"
-      "which only circles and other weighted sites may be, have no cell.\n\n"
+      "Areas are in steradians; --earth-radius adds square kilometres. Hidden sites, which\n"
+      "only circles and other weighted sites may be, have no cell.\n\n"
+      "GeoPackage, FlatGeobuf and GeoParquet are written by GDAL (libgdal 3.0 or newer), which\n"
+      "is looked for where the system has its libraries, or where RONDEL_GDAL says.\n\n"
       "Examples:\n"
       "  rondel voronoi stations.csv -o cells.geojson\n"
       "  rondel voronoi stations.csv --clip land.geojson --group country -o countries.geojson\n"
+      "  rondel voronoi rivers.geojson --densify 0.5 --earth-radius 6371.0088 -o basins.geojson\n"
       "  rondel voronoi circles.csv --radius radius -o power-cells.geojson");
   return {parser, [options] { return run_voronoi(*options); }};
 }

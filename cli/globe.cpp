@@ -92,6 +92,19 @@ void trace_limb(Pen& pen, const Point& from, const Point& to) {
   }
 }
 
+// Whether a convex region without a corner in front is all that is in front: then the middle is to the left of its
+// edges. A region that is none has an edge with the middle to its right, or is as small as rounding. The chords of
+// its edges may turn either way, as the arcs bend towards the limb.
+bool is_all_in_front(std::span<const Point> corners) {
+  constexpr double rounding = 1e-12;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Point& a = corners[i];
+    const Point& b = corners[(i + 1) % corners.size()];
+    if (a.x * b.y - a.y * b.x < -rounding) return false;
+  }
+  return signed_area(corners) > static_cast<double>(corners.size()) * rounding;
+}
+
 }  // namespace
 
 View::View(const LonLat& center, double up_deg) : forward_(unit_vector(center)) {
@@ -135,6 +148,16 @@ void trace_arc(Pen& pen, const Point& a, const Point& b, Side side, double toler
   trace_shorter_arc(pen, part->first, part->second, tolerance);
 }
 
+void trace_line(Pen& pen, std::span<const Point> points, Side side, double tolerance) {
+  bool is_joined = false;  // the pen is at points[i]
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const auto part = visible_part(points[i], points[i + 1], side);
+    if (part && !is_joined) pen.move_to(spot(part->first));
+    if (part) trace_shorter_arc(pen, part->first, part->second, tolerance);
+    is_joined = part && part->second == points[i + 1];
+  }
+}
+
 void trace_circle(Pen& pen, const Point& axis, double radius_deg, Side side) {
   const double radius = radius_deg * pi / 180;
   const double sign = side == Side::front ? 1 : -1;
@@ -159,8 +182,7 @@ bool trace_region(Pen& pen, std::span<const Point> corners, double tolerance) {
   const auto first = std::find_if(corners.begin(), corners.end(),
                                   [](const Point& corner) { return corner.z > 0; });
   if (first == corners.end()) {
-    // Nothing of it is visible, or it is the visible hemisphere itself.
-    if (signed_area(corners) <= 0) return false;
+    if (!is_all_in_front(corners)) return false;
     pen.move_to({1, 0});
     trace_ellipse(pen, limb, 0, 2 * pi, {1, 0});
     return true;

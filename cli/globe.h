@@ -90,6 +90,10 @@ std::optional<std::pair<Point, Point>> visible_part(const Point& a, const Point&
 /// the projected arc, or within 1e-6 if that is more.
 void trace_arc(Pen& pen, const Point& a, const Point& b, Side side, double tolerance);
 
+/// Traces a line of shorter arcs from point to point, its parts on that side each without a break.
+/// \pre as visible_part() of neighbors.
+void trace_line(Pen& pen, std::span<const Point> points, Side side, double tolerance);
+
 /// Traces the visible parts of the circle of radius `radius_deg` (90: a great circle)
 /// around `axis`, a unit vector in the view frame.
 void trace_circle(Pen& pen, const Point& axis, double radius_deg, Side side);

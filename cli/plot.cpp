@@ -23,6 +23,7 @@
 #include "plot_page.h"
 #include "rondel/contours.h"
 #include "rondel/diagram.h"
+#include "rondel/globe.h"
 #include "run_pieces.h"
 
 namespace rondel::cli {
@@ -130,6 +131,10 @@ Figure make_figure(const PlotOptions& options, const Triangulation& triangulatio
   std::vector<Point> sites = directions(table.sites, triangulation.sphere().center);
   figure.view = options.view.empty() ? default_view(sites, options.up_deg)
                                      : View({options.view[0], options.view[1]}, options.up_deg);
+  if (options.show_coast.value_or(table.is_lonlat())) {
+    const CoastLines coast = coast_lines();
+    figure.coast = seen(coast.positions, coast.offsets, figure.view);
+  }
   if (options.show_circles) {
     figure.circles = real_circles(table, triangulation, sites);
     for (Circle& circle : figure.circles) circle.axis = figure.view.turn(circle.axis);

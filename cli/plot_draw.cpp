@@ -20,7 +20,6 @@ constexpr Color globe_dark{0.860, 0.890, 0.920};
 constexpr Color clear_light{1, 1, 1, 0.10};
 constexpr Color clear_dark{0.05, 0.10, 0.20, 0.17};
 constexpr Color limb_color{0.36, 0.42, 0.48};
-constexpr Color graticule_color{0.40, 0.48, 0.55, 0.38};
 constexpr Color triangulation_color{0.090, 0.200, 0.430};
 constexpr Color diagram_color{0.850, 0.270, 0.080};
 constexpr Color diagram_on_fill_color{0.060, 0.130, 0.220, 0.55};
@@ -87,21 +86,6 @@ void draw_circles(Canvas& canvas, std::span<const Circle> circles, Side side, do
       canvas.stroke(blend(color, white, paleness), width);
     }
   }
-}
-
-void draw_graticule(Canvas& canvas, const Figure& figure) {
-  const int step = figure.style.graticule_deg;
-  if (step == 0) return;
-  const Point north = figure.view.turn({0, 0, 1});
-  for (int lon = 0; lon < 180; lon += step) {
-    // The plane of the meridians lon and lon + 180 is normal to the direction 90 degrees east.
-    const Point normal = figure.view.turn(unit_vector({lon + 90.0, 0}));
-    trace_circle(canvas, normal, 90, Side::front);
-  }
-  for (int colatitude = step; colatitude < 180; colatitude += step) {
-    trace_circle(canvas, north, colatitude, Side::front);
-  }
-  canvas.stroke(graticule_color, 0.7 * figure.style.size / 1000);
 }
 
 // Maps a cell's area to the scale from 0 to 1: logarithmic, between the 2nd and 98th percentile.
@@ -328,7 +312,8 @@ std::string draw(const Figure& figure, FigureFormat format, bool as_pixels, unsi
     }
   }
   if (figure.field) draw_field(canvas, figure, threads);
-  draw_graticule(canvas, figure);
+  draw_coast(canvas, figure.coast, figure.style.size);
+  draw_graticule(canvas, figure.view, figure.style.graticule_deg, figure.style.size);
   draw_arcs(canvas, figure.isolines, Side::front, isoline_color,
             figure.style.line_width > 0 ? figure.style.line_width : 1.2 * figure.style.size / 1000);
   if (as_pixels) {

@@ -13,6 +13,7 @@
 #include "plot_canvas.h"
 #include "plot_circles.h"
 #include "plot_field.h"
+#include "plot_ground.h"
 #include "rondel/types.h"
 
 namespace rondel::cli {
@@ -43,6 +44,7 @@ struct FilledCells {
 struct Figure {
   FigureStyle style;
   View view{LonLat{}};
+  LineLayer coast;
   std::vector<Point> sites;  ///< the vertices, in the view frame
   double spacing = 0;        ///< of the sites, see median_spacing()
   ArcLayer triangulation;

@@ -67,6 +67,9 @@ void add_content_options(CLI::App& parser, PlotOptions& options) {
       "--sites", show_sites(true), "Draw the sites as dots (default without --values)");
   parser.add_flag_callback("--no-sites", show_sites(false), "Do not draw the sites")
       ->excludes(sites);
+  add_choice<bool>(parser, "--coast", options.show_coast, {{"none", false}, {"110m", true}},
+                   "Coasts at 1:110 million under the drawing (default where sites are\n"
+                   "longitudes and latitudes, and in pages), or none");
   parser
       .add_option("--graticule", options.style.graticule_deg,
                   "Distance of meridians and parallels: 30 (default), 15, 10, 5, or 0\nfor none")

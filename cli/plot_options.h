@@ -27,7 +27,8 @@ struct PlotOptions {
   std::string values;   ///< --values: a column; empty: none
   double contours = 0;  ///< --contours: their step; 0: none
   std::optional<bool> show_sites;
-  std::vector<double> view;  ///< LON LAT, or empty
+  std::optional<bool> show_coast;  ///< none: under longitudes and latitudes, and in pages
+  std::vector<double> view;        ///< LON LAT, or empty
   double up_deg = 0;
   std::string only_pictures;  ///< an option that was given and that pages do not have; empty: none
 };

@@ -39,6 +39,7 @@ GlobeOptions globe_options(const PlotOptions& options) {
                                           : GlobeFill::none;
   globe.show_sites = options.show_sites.value_or(true);
   globe.show_circles = options.show_circles;
+  globe.show_coast = options.show_coast.value_or(true);
   globe.graticule_deg = options.style.graticule_deg;
   if (!options.view.empty()) globe.view = LonLat{options.view[0], options.view[1]};
   globe.up_deg = options.up_deg;

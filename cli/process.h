@@ -23,4 +23,10 @@ bool has_terminal();
 /// The largest resident size of this process so far.
 std::uint64_t peak_memory_bytes();
 
+/// A library that the system finds by its name or path; nullptr if there is none. It stays loaded.
+void* open_library(const char* name);
+
+/// What a library calls so; nullptr if it has no such name.
+void* symbol_of(void* library, const char* name);
+
 }  // namespace rondel::cli

@@ -31,7 +31,9 @@ struct VoronoiOptions {
   double tolerance_deg = 0.01;
   std::string clip;  ///< --clip; empty: whole cells
   PolygonEdges edges = PolygonEdges::lonlat;
-  std::string group;  ///< --group; empty: a cell a site
+  std::string group;           ///< --group; empty: a cell a site
+  double densify_km = 0;       ///< --densify; 0: the input has sites, otherwise lines and polygons
+  double earth_radius_km = 0;  ///< --earth-radius; 0: not given, and no areas in square kilometres
 };
 
 struct HullCommandOptions {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "rondel/contours.h"
 #include "rondel/diagram.h"
@@ -20,6 +21,17 @@
 #include "rondel/types.h"
 
 namespace rondel {
+
+/// Coasts as lines of longitude and latitude: line k is `positions[offsets[k]] ... positions[offsets[k+1]-1]`.
+/// Longitudes go on beyond 180 degrees where a line does.
+struct CoastLines {
+  std::vector<LonLat> positions;
+  std::vector<std::uint64_t> offsets = {0};
+};
+
+/// The coasts of Natural Earth at 1:110 million, which globes show: 126 closed lines, in hundredths of a degree.
+/// The last position of a line is its first, or, around the south pole, a turn away from it.
+RONDEL_API CoastLines coast_lines();
 
 /// Which lines a globe shows at first.
 enum class GlobeLines : std::uint8_t { delaunay, voronoi, both };

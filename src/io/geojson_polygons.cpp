@@ -21,8 +21,8 @@ constexpr std::array<PolygonFormat, 2> polygon_formats = {{{".geojson"}, {".json
 
 class PolygonReader {
  public:
-  PolygonReader(std::string_view bytes, PolygonFeatures& features)
-      : items_(bytes), features_(features), columns_(features.columns) {}
+  PolygonReader(std::string_view bytes, FeatureKinds kinds, PolygonFeatures& features)
+      : items_(bytes), kinds_(kinds), features_(features), columns_(features.columns) {}
 
   void read() {
     items_.read({[this](const JsonTree& geometry, const JsonTree& properties) {
@@ -38,24 +38,57 @@ class PolygonReader {
   void begin(const JsonTree& properties) {
     columns_.add(properties, features_.rings.size());
     features_.rings.emplace_back();
-    features_.lines.push_back(line());
+    features_.lines.emplace_back();
   }
 
   void add_geometry(const JsonTree& geometry, bool may_be_collection) {
     const std::string type = geojson_type(geometry);
     if (type == "Polygon") return add_polygon(geometry.member("coordinates"));
     if (type == "MultiPolygon") {
-      const JsonTree& polygons = geometry.member("coordinates");
-      if (!polygons.is_array()) throw BadValue("MultiPolygon without an array of coordinates");
-      for (const JsonTree& polygon : polygons.items) add_polygon(polygon);
+      for (const JsonTree& polygon : parts_of(geometry, type)) add_polygon(polygon);
       return;
     }
+    if (kinds_ == FeatureKinds::all && add_line(geometry, type)) return;
     if (type != "GeometryCollection" || !may_be_collection) {
-      throw BadValue("type " + in_quotes(type) + " where a Polygon is needed");
+      throw BadValue("type " + in_quotes(type) + " where a " +
+                     (kinds_ == FeatureKinds::all ? "geometry" : "Polygon") + " is needed");
     }
     const JsonTree& members = geometry.member("geometries");
     if (!members.is_array()) throw BadValue("GeometryCollection without members");
     for (const JsonTree& part : members.items) add_geometry(part, false);
+  }
+
+  static const std::vector<JsonTree>& parts_of(const JsonTree& geometry, const std::string& type) {
+    const JsonTree& parts = geometry.member("coordinates");
+    if (!parts.is_array()) throw BadValue(type + " without an array of coordinates");
+    return parts.items;
+  }
+
+  // Whether it is one or more lines or points.
+  bool add_line(const JsonTree& geometry, const std::string& type) {
+    auto& lines = features_.lines.back();
+    if (type == "Point") {
+      lines.push_back({position_of(geometry.member("coordinates"))});
+    } else if (type == "MultiPoint") {
+      for (const JsonTree& point : parts_of(geometry, type)) lines.push_back({position_of(point)});
+    } else if (type == "LineString") {
+      lines.push_back(line_of(geometry.member("coordinates")));
+    } else if (type == "MultiLineString") {
+      for (const JsonTree& line : parts_of(geometry, type)) lines.push_back(line_of(line));
+    } else {
+      return false;
+    }
+    return true;
+  }
+
+  static std::vector<LonLat> line_of(const JsonTree& line) {
+    if (!line.is_array()) throw BadValue("a line that is no array");
+    if (line.items.size() < 2) {
+      throw BadValue("a line of " + std::to_string(line.items.size()) + " positions");
+    }
+    std::vector<LonLat> positions;
+    for (const JsonTree& item : line.items) positions.push_back(position_of(item));
+    return positions;
   }
 
   void add_polygon(const JsonTree& polygon) {
@@ -89,20 +122,21 @@ class PolygonReader {
   }
 
   GeoJsonItems items_;
+  FeatureKinds kinds_;
   PolygonFeatures& features_;
   PropertyColumns columns_;
 };
 
 }  // namespace
 
-PolygonFeatures read_polygon_features(const FileName& file) {
+PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds kinds) {
   FileBytes bytes(file.path);
   PolygonFeatures features;
   features.name = bytes.name();
   (void)require_format<PolygonFormat>(polygon_formats, file, "polygons are read from");
   if (bytes.head().empty()) throw FileError(features.name + ": the file is empty");
   in_file(features.name, [&] {
-    PolygonReader reader(bytes.text(), features);
+    PolygonReader reader(bytes.text(), kinds, features);
     at_line_of(reader, [&] { reader.read(); });
   });
   return features;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Polygons of GeoJSON (RFC 7946) as the file has them.
+// Polygons of GeoJSON (RFC 7946) as the file has them, and lines and points where these are wanted.
 #pragma once
 
 #include <cstdint>
@@ -23,12 +23,14 @@ struct LonLatRing {
 struct PolygonFeatures {
   std::string name;  // of the file, for messages
   std::vector<std::vector<LonLatRing>> rings;
-  std::vector<std::uint64_t> lines;
+  std::vector<std::vector<std::vector<LonLat>>> lines;  // a point is a line of one position
   std::vector<Column> columns;
 };
 
-// Polygons, MultiPolygons, and collections of those. A feature without a place has no rings.
+enum class FeatureKinds : std::uint8_t { polygons, all };
+
+// Polygons, MultiPolygons, and collections of those, or of all kinds. A feature without a place has no rings.
 // Throws FileError.
-RONDEL_API PolygonFeatures read_polygon_features(const FileName& file);
+RONDEL_API PolygonFeatures read_polygon_features(const FileName& file, FeatureKinds kinds);
 
 }  // namespace rondel::io

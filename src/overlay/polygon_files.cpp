@@ -15,6 +15,7 @@
 #include "overlay/border_rings.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/feature_cells.h"
 #include "rondel/types.h"
 #include "system/job.h"
 
@@ -95,16 +96,17 @@ std::vector<Point> corners_of(const io::LonLatRing& ring, const PolygonOptions& 
   return corners;
 }
 
-}  // namespace
-
-PolygonTable read_polygons(const FileName& file, const PolygonOptions& options,
-                           const Execution& execution) {
-  const system::Call call(execution);
+io::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
+                                const PolygonOptions& options) {
   if (!(options.tolerance_deg > 0)) {
     throw InvalidInput(
         "the tolerance " + std::to_string(options.tolerance_deg) + " is not positive", 0);
   }
-  io::PolygonFeatures features = io::read_polygon_features(file);
+  return io::read_polygon_features(file, kinds);
+}
+
+CellRings cells_of_features(const io::PolygonFeatures& features, const PolygonOptions& options,
+                            const Execution& execution) {
   std::vector<overlay::KeyedArc> arcs;
   for (std::size_t i = 0; i < features.rings.size(); ++i) {
     for (const io::LonLatRing& ring : features.rings[i]) {
@@ -115,8 +117,46 @@ PolygonTable read_polygons(const FileName& file, const PolygonOptions& options,
       }
     }
   }
-  return {std::move(features.name),
-          overlay::rings_around(arcs, features.rings.size(), execution.threads),
+  return overlay::rings_around(arcs, features.rings.size(), execution.threads);
+}
+
+FeatureLines lines_of_features(const io::PolygonFeatures& features, const PolygonOptions& options) {
+  FeatureLines all;
+  const LineDivider divider(options.tolerance_deg * radians_per_degree);
+  for (const auto& lines : features.lines) {
+    for (const std::vector<LonLat>& line : lines) {
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+        if (options.edges == PolygonEdges::geodesic) {
+          all.points.push_back(unit_vector(line[k]));
+        } else {
+          divider.append(line[k], line[k + 1], all.points);
+        }
+      }
+      all.points.push_back(unit_vector(line.back()));
+      all.lines.push_back(all.points.size());
+    }
+    all.features.push_back(all.lines.size() - 1);
+  }
+  return all;
+}
+
+}  // namespace
+
+PolygonTable read_polygons(const FileName& file, const PolygonOptions& options,
+                           const Execution& execution) {
+  const system::Call call(execution);
+  io::PolygonFeatures features = features_of(file, io::FeatureKinds::polygons, options);
+  CellRings cells = cells_of_features(features, options, execution);
+  return {std::move(features.name), std::move(cells), std::move(features.columns)};
+}
+
+FeatureTable read_features(const FileName& file, const PolygonOptions& options,
+                           const Execution& execution) {
+  const system::Call call(execution);
+  io::PolygonFeatures features = features_of(file, io::FeatureKinds::all, options);
+  FeatureLines lines = lines_of_features(features, options);
+  CellRings polygons = cells_of_features(features, options, execution);
+  return {std::move(features.name), std::move(lines), std::move(polygons),
           std::move(features.columns)};
 }
 

@@ -11,8 +11,8 @@
 #include <span>
 #include <utility>
 
-#include "query/visited.h"
 #include "readings/chords.h"
+#include "readings/lunes.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
 #include "system/job.h"
@@ -104,81 +104,6 @@ bool is_in_gabriel(const Chords& chords, const NearPair& candidate) {
   });
 }
 
-// The neighbors of each vertex.
-class Adjacency {
- public:
-  Adjacency(std::size_t num_sites, std::span<const Edge> edges) : offsets_(num_sites + 1) {
-    for (const auto& [a, b] : edges) {
-      ++offsets_[a];
-      ++offsets_[b];
-    }
-    std::partial_sum(offsets_.begin(), offsets_.end(), offsets_.begin());
-    ends_.resize(offsets_.back());
-    for (const auto& [a, b] : edges) {
-      ends_[--offsets_[a]] = b;
-      ends_[--offsets_[b]] = a;
-    }
-  }
-  [[nodiscard]] std::span<const Index> operator[](Index v) const {
-    return {ends_.data() + offsets_[v], ends_.data() + offsets_[v + 1]};
-  }
-
- private:
-  std::vector<std::size_t> offsets_;
-  std::vector<Index> ends_;
-};
-
-// Looks for a vertex nearer to both ends of an edge than these are to each other. The vertices nearer to
-// one end are connected by edges (query/graph.h), and so are found from it; from both ends by turns, as
-// there may be many around the one.
-class LuneSearch {
- public:
-  LuneSearch(const Chords& chords, const Adjacency& adjacency)
-      : chords_(chords), adjacency_(adjacency) {}
-
-  bool is_empty(const Edge& edge) {
-    const auto [a, b] = edge;
-    from_a_.start(a);
-    from_b_.start(b);
-    while (true) {
-      if (step(from_a_, a, b)) return false;
-      if (from_a_.is_at_end()) return true;
-      if (step(from_b_, b, a)) return false;
-      if (from_b_.is_at_end()) return true;
-    }
-  }
-
- private:
-  struct Front {
-    query::VisitedSet visited;
-    std::vector<Index> queue;
-    std::size_t next = 0;
-
-    void start(Index v) {
-      visited.clear();
-      queue.assign(1, v);
-      visited.insert(v);
-      next = 0;
-    }
-    [[nodiscard]] bool is_at_end() const { return next == queue.size(); }
-  };
-
-  // Whether a neighbor of the next vertex is nearer to both; those nearer to `from` are queued.
-  bool step(Front& front, Index from, Index to) const {
-    for (const Index c : adjacency_[front.queue[front.next++]]) {
-      if (c == to || !front.visited.insert(c) || !chords_.is_shorter(from, c, from, to)) continue;
-      if (chords_.is_shorter(to, c, from, to)) return true;
-      front.queue.push_back(c);
-    }
-    return false;
-  }
-
-  const Chords& chords_;
-  const Adjacency& adjacency_;
-  Front from_a_;
-  Front from_b_;
-};
-
 // Joined sets of sites, each known by one of them.
 class Components {
  public:
@@ -243,9 +168,9 @@ void keep_kind(const Triangulation& triangulation, const Chords& chords, GraphKi
   keep_if(candidates, execution,
           [&] { return [&](const NearPair& c) { return is_in_urquhart(chords, c); }; });
   if (kind == GraphKind::relative) {
-    const Adjacency adjacency(triangulation.num_sites(), edges(triangulation));
+    const readings::Adjacency adjacency(triangulation.num_sites(), edges(triangulation));
     keep_if(candidates, execution, [&] {
-      return [search = LuneSearch(chords, adjacency)](const NearPair& c) mutable {
+      return [search = readings::LuneSearch(chords, adjacency)](const NearPair& c) mutable {
         return search.is_empty(c.edge);
       };
     });

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// read_polygons on files of any bytes: cells whose arrays fit, or a message of one line that begins with the
-// file's name; the cells have an area, and can be clipped to.
+// read_polygons and read_features on files of any bytes: cells whose arrays fit, or a message of one line that begins
+// with the file's name; the cells have an area, and can be clipped to; the features have sites and cells.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -11,6 +11,7 @@
 #include "fuzz/table_input.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/feature_cells.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 
@@ -39,6 +40,31 @@ void test_cells(const PolygonTable& table) {
   }
 }
 
+void test_features(const FeatureTable& table) {
+  require(table.polygons.num_cells() == table.lines.num_features(), "a cell for each feature");
+  require(table.lines.lines.back() == table.lines.points.size(), "offsets of lines fit");
+  constexpr double tolerance = 0.3;
+  try {
+    const FeatureSites found = feature_sites(table.lines, tolerance);
+    require(found.sites.size() == found.features.size(), "a feature for each site");
+    const CellRings cells = feature_cells(table.lines, table.polygons, tolerance);
+    require(cells.num_cells() == table.lines.num_features(), "a cell for each feature");
+  } catch (const InvalidInput&) {  // antipodes, or polygons that cross themselves
+  }
+}
+
+// A message of one line that begins with the file's name, or an answer.
+template <class Read>
+void test_reader(const std::string& path, const Read& read) {
+  try {
+    read();
+  } catch (const FileError& error) {
+    const std::string what = error.what();
+    require(what.starts_with(path + ":") && what.find('\n') == std::string::npos,
+            "a message of one line starts with the file: " + what);
+  }
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
@@ -48,13 +74,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string path = folder.file("polygons.geojson");
   write_file(path, std::string(reinterpret_cast<const char*>(data), size));
   for (const PolygonEdges edges : {PolygonEdges::lonlat, PolygonEdges::geodesic}) {
-    try {
-      fuzz::test_cells(read_polygons(path, {.edges = edges, .tolerance_deg = 1}));
-    } catch (const FileError& error) {
-      const std::string what = error.what();
-      fuzz::require(what.starts_with(path + ":") && what.find('\n') == std::string::npos,
-                    "a message of one line starts with the file: " + what);
-    }
+    const PolygonOptions options = {.edges = edges, .tolerance_deg = 1};
+    fuzz::test_reader(path, [&] { fuzz::test_cells(read_polygons(path, options)); });
+    fuzz::test_reader(path, [&] { fuzz::test_features(read_features(path, options)); });
   }
   return 0;
 }

@@ -4,6 +4,7 @@ find_package(nlohmann_json 3.11 REQUIRED)
 find_package(ZLIB REQUIRED)
 
 rondel_add_test(page_test
+  page_coast_test.cpp
   page_globe_test.cpp
   page_packed_test.cpp
   LIBS rondel_globe nlohmann_json::nlohmann_json ZLIB::ZLIB)

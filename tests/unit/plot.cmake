@@ -9,6 +9,7 @@ rondel_add_test(unit_plot
   plot_draw_test.cpp
   plot_field_test.cpp
   plot_globe_test.cpp
+  plot_ground_test.cpp
   plot_pixels_test.cpp
   plot_region_test.cpp
   LIBS rondel_plot rondel_test_support)

@@ -75,6 +75,11 @@ void add_globe(nb::module_& module) {
       nb::arg("columns"), nb::arg("values").none(), nb::arg("isolines").none(), nb::arg("name"),
       nb::arg("title"), nb::arg("show"), nb::arg("sites"), nb::arg("circles"),
       nb::arg("view").none());
+  module.def("coast_lines", [] {
+    CoastLines coast = coast_lines();
+    return std::tuple(to_array<double>(std::move(coast.positions)),
+                      offsets_out(std::move(coast.offsets)));
+  });
   module.def("write_file", [](const std::string& path, const nb::bytes& content) {
     write_file(path, {content.c_str(), content.size()});
   });

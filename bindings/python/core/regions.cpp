@@ -17,6 +17,7 @@
 #include "columns.h"
 #include "interrupt.h"
 #include "module.h"
+#include "rondel/feature_cells.h"
 #include "rondel/partition.h"
 
 namespace rondel::python {
@@ -77,6 +78,19 @@ void add_regions(nb::module_& module) {
                        [&](const Execution& execution) { return clip(cells, regions, execution); });
       },
       nb::arg("cells"), nb::arg("regions"), nb::arg("threads"), nb::arg("progress").none());
+  module.def(
+      "feature_cells",
+      [](const std::string& path, double tolerance, bool is_geodesic, unsigned threads,
+         const nb::object& listener) {
+        const PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic
+                                                          : PolygonEdges::lonlat};
+        return watched(0, threads, listener, [&](const Execution& execution) {
+          const FeatureTable table = read_features(path, options, execution);
+          return feature_cells(table.lines, table.polygons, tolerance, execution);
+        });
+      },
+      nb::arg("path"), nb::arg("tolerance"), nb::arg("is_geodesic"), nb::arg("threads"),
+      nb::arg("progress").none());
   module.def(
       "cell_rings",
       [](const Partition& partition) { return unlocked([&] { return partition.rings(); }); },

@@ -10,6 +10,8 @@ power_diagram
     The cells of circles.
 convex_hull
     The hull of any points in space.
+feature_cells
+    The cells of lines and polygons: which of them is nearest.
 remap
     Conservative weights between the cells of two partitions.
 interpolate
@@ -62,7 +64,7 @@ from ._partition import Partition
 from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where
-from ._regions import Regions
+from ._regions import Regions, feature_cells
 from ._regridder import Regridder
 from ._remap import Remap, remap
 from ._voronoi import SphericalVoronoi
@@ -95,6 +97,7 @@ __all__ = [
     "convex_hull",
     "delaunay",
     "delaunay_lonlat",
+    "feature_cells",
     "interpolate",
     "lonlat",
     "point_set_hash",

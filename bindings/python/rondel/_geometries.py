@@ -8,7 +8,7 @@ import json
 import os
 import pathlib
 import tempfile
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal, TypeAlias
 
 from . import _core
@@ -19,25 +19,42 @@ Edges: TypeAlias = Literal["lonlat", "geodesic"]
 
 def read_polygons(name: str, edges: Edges, threads: int) -> _core.Partition:
     """The polygons of a file of GeoJSON."""
-    if edges not in ("lonlat", "geodesic"):
-        raise ValueError(f"edges must be 'lonlat' or 'geodesic', not {edges!r}")
-    made: list[_core.Partition] = []
-
-    def read(name: str) -> None:
-        made.append(_core.read_polygon_partition(name, edges == "geodesic", threads))
-
-    write_named(name, read)
-    return made[0]
+    is_geodesic = _is_geodesic(edges)
+    return _read(name, lambda file: _core.read_polygon_partition(file, is_geodesic, threads))
 
 
 def polygons_of(geometries: Any, edges: Edges, threads: int) -> _core.Partition:
     """The polygons of objects: a cell for each of them."""
+    return _of_objects(geometries, lambda name: read_polygons(name, edges, threads))
+
+
+def features_of(features: Any, edges: Edges, read: Callable[[str, bool], Any]) -> Any:
+    """What is read of a file of GeoJSON, or of objects: `read` gets a file and the edges."""
+    is_geodesic = _is_geodesic(edges)
+    if is_file(features):
+        return _read(os.fspath(features), lambda file: read(file, is_geodesic))
+    return _of_objects(features, lambda file: read(file, is_geodesic))
+
+
+def _is_geodesic(edges: Edges) -> bool:
+    if edges not in ("lonlat", "geodesic"):
+        raise ValueError(f"edges must be 'lonlat' or 'geodesic', not {edges!r}")
+    return edges == "geodesic"
+
+
+def _read(name: str, read: Callable[[str], Any]) -> Any:
+    made: list[Any] = []
+    write_named(name, lambda file: made.append(read(file)))
+    return made[0]
+
+
+def _of_objects(geometries: Any, read: Callable[[str], Any]) -> Any:
     text = json.dumps(_collection(geometries))
     with tempfile.TemporaryDirectory() as folder:
         name = str(pathlib.Path(folder) / "geometries.geojson")
         pathlib.Path(name).write_text(text, "utf-8")
         try:
-            return read_polygons(name, edges, threads)
+            return read(name)
         except OSError as error:
             problem = str(error).partition(name)[2].lstrip("0123456789: ")
             raise ValueError(f"geometries: {problem}") from None

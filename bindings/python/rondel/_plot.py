@@ -45,6 +45,7 @@ def plot_triangles(
     *,
     projection: Any = None,
     sites: bool = True,
+    coast: bool | None = None,
     **options: Any,
 ) -> Axes:
     """Draws the edges as arcs of great circles, and the sites.
@@ -57,6 +58,9 @@ def plot_triangles(
         Of new axes; by default Robinson.
     sites : bool, optional
         Whether to draw the sites.
+    coast : bool, optional
+        Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below; by default
+        where sites were given as longitudes and latitudes.
     **options
         For `matplotlib.collections.LineCollection`.
 
@@ -72,10 +76,12 @@ def plot_triangles(
     """
     rays = self.points - self.center
     ends = (rays / np.linalg.norm(rays, axis=1, keepdims=True))[self.edges]
-    ax = draw_arcs(ends, ax, projection, options)
+    drawn = _make_map(ax, projection)
+    _draw_coast(self, drawn, coast)
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
     if sites:
-        _make_map(ax, projection).draw_points(self.lonlat[self.vertices])
-    return ax
+        drawn.draw_points(self.lonlat[self.vertices])
+    return drawn.ax
 
 
 def draw_arcs(ends: FloatArray, ax: Any, projection: Any, options: dict[str, Any]) -> Any:
@@ -92,6 +98,7 @@ def plot_cells(
     *,
     projection: Any = None,
     sites: bool = True,
+    coast: bool | None = None,
     cmap: Any = None,
     vmin: float | None = None,
     vmax: float | None = None,
@@ -109,6 +116,9 @@ def plot_cells(
         Of new axes; by default Robinson.
     sites : bool, optional
         Whether to draw the sites.
+    coast : bool, optional
+        Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below the borders; by
+        default where sites were given as longitudes and latitudes.
     cmap, vmin, vmax
         Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
         ``colorbar`` takes.
@@ -132,11 +142,25 @@ def plot_cells(
             vmin = known.min() if vmin is None else vmin
             vmax = known.max() if vmax is None else vmax
         cells.set_clim(vmin, vmax)
+    _draw_coast(self.delaunay, drawn, coast)
     ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
     drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
     if sites:
         drawn.draw_points(self.delaunay.lonlat[self.delaunay.vertices])
     return drawn.ax
+
+
+def _draw_coast(self: Triangulated, drawn: LonLatMap, coast: bool | None) -> None:
+    """The coasts, if they are wanted, or by default if sites have longitudes and latitudes."""
+    if self._degrees is not None if coast is None else coast:
+        degrees, offsets = _core.coast_lines()
+        points = _core.unit_vectors(degrees)
+        is_last = np.zeros(len(points), bool)
+        is_last[offsets[1:] - 1] = True
+        first = np.flatnonzero(~is_last)
+        drawn.draw_lines(
+            arcs(points[first], points[first + 1]), {"colors": "0.45", "linewidths": 0.5}
+        )
 
 
 def _line_options(options: dict[str, Any]) -> dict[str, Any]:

@@ -13,7 +13,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_threads
 from ._geo import Path, Properties, polygon_frame, written
-from ._geometries import Edges, is_file, polygons_of
+from ._geometries import Edges, features_of, is_file, polygons_of
 from ._partition import Partition
 from ._properties import checked_properties, is_missing, json_cells
 from ._repr import Described, count
@@ -23,15 +23,20 @@ if TYPE_CHECKING:
     import geopandas
 
 
+EARTH_RADIUS_KM = 6371.0088  # the mean of WGS 84, (2 a + b) / 3
+AREA_NAMES = ("area", "area_km2")
+
+
 class Regions(Described):
     """Polygons with holes on the sphere: cells that were clipped, or joined.
 
-    `SphericalVoronoi.clip`, `dissolve` and those of `PowerDiagram` make them.
+    `SphericalVoronoi.clip`, `dissolve` and those of `PowerDiagram` make them, and `feature_cells`.
 
     Attributes
     ----------
     labels : ndarray
-        What each region is: of clipped cells the site, of joined ones the group.
+        What each region is: of clipped cells the site, of joined ones the group, of those of lines
+        and polygons the feature.
 
     Examples
     --------
@@ -64,10 +69,12 @@ class Regions(Described):
 
     @property
     def areas(self) -> FloatArray:
-        """Ndarray of float64, shape (n,): steradians; 0 where nothing is left. Times the squared
-        radius of the Earth, 6371.0088 km (its mean, WGS 84), they are square kilometers.
-        """
+        """Ndarray of float64, shape (n,): steradians; 0 where nothing is left."""
         return self._rings.areas()
+
+    def areas_km2(self, radius_km: float = EARTH_RADIUS_KM) -> FloatArray:
+        """The areas on a sphere of this radius, by default the Earth's mean one (WGS 84)."""
+        return self.areas * float(radius_km) ** 2
 
     def partition(self, *, threads: int | None = None) -> Partition:
         """The regions as cells, to be laid over others by `remap`."""
@@ -97,6 +104,7 @@ class Regions(Described):
         *,
         properties: Properties | None = None,
         tolerance_deg: float = 0.01,
+        radius_km: float | None = None,
     ) -> dict[str, Any]: ...
     @overload
     def to_geojson(
@@ -105,6 +113,7 @@ class Regions(Described):
         *,
         properties: Properties | None = None,
         tolerance_deg: float = 0.01,
+        radius_km: float | None = None,
     ) -> None: ...
     def to_geojson(
         self,
@@ -112,11 +121,12 @@ class Regions(Described):
         *,
         properties: Properties | None = None,
         tolerance_deg: float = 0.01,
+        radius_km: float | None = None,
     ) -> Any:
         """The regions as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, with holes.
 
         A feature for each region that has an area, with the properties `area` (steradians) and
-        `site` or `group`.
+        `site`, `group` or `feature`.
 
         Parameters
         ----------
@@ -126,6 +136,8 @@ class Regions(Described):
             More properties: for each a value for every region.
         tolerance_deg : float, optional
             How far the straight lines of a polygon may be from its arcs, in degrees.
+        radius_km : float, optional
+            Adds areas on a sphere of this radius, `area_km2`; the Earth's mean radius is 6371.0088.
 
         Returns
         -------
@@ -137,14 +149,20 @@ class Regions(Described):
             If the file cannot be written; then nothing is left of it.
 
         """
-        values = checked_properties(properties, (self._kind, "area"), len(self))
+        values = checked_properties(properties, (self._kind, *AREA_NAMES), len(self))
         named = {self._kind: self.labels, **values}
+        if radius_km is not None:
+            named["area_km2"] = self.areas_km2(radius_km)
         columns = [(name, json_cells(column)) for name, column in named.items()]
         tolerance = float(tolerance_deg)
         return written(path, lambda name: self._rings.write(name, columns, tolerance))
 
     def to_geopandas(
-        self, *, properties: Properties | None = None, tolerance_deg: float = 0.01
+        self,
+        *,
+        properties: Properties | None = None,
+        tolerance_deg: float = 0.01,
+        radius_km: float | None = None,
     ) -> geopandas.GeoDataFrame:
         """The regions as a GeoDataFrame in longitudes and latitudes (EPSG:4326).
 
@@ -156,12 +174,14 @@ class Regions(Described):
             More columns: for each a value for every region.
         tolerance_deg : float, optional
             How far the straight lines of a polygon may be from its arcs, in degrees.
+        radius_km : float, optional
+            Adds areas on a sphere of this radius, `area_km2`; the Earth's mean radius is 6371.0088.
 
         Returns
         -------
         geopandas.GeoDataFrame
-            A row for each region that has an area, with the columns `site` or `group`, and `area`
-            (steradians). The index is the number of the region.
+            A row for each region that has an area, with the columns `site`, `group` or `feature`,
+            and `area` (steradians). The index is the number of the region.
 
         Raises
         ------
@@ -171,10 +191,12 @@ class Regions(Described):
         """
         import pandas
 
-        given = checked_properties(properties, (self._kind, "area", "geometry"), len(self))
+        given = checked_properties(properties, (self._kind, *AREA_NAMES, "geometry"), len(self))
         polygons = self._rings.polygons(float(tolerance_deg), 0)
         rows = np.unique(polygons[3])
         columns: dict[str, Any] = {self._kind: self.labels[rows], "area": self.areas[rows]}
+        if radius_km is not None:
+            columns["area_km2"] = self.areas_km2(radius_km)[rows]
         for name, values in given.items():
             columns[name] = pandas.Series(values).array[rows]
         return polygon_frame(columns, polygons, rows)
@@ -259,6 +281,66 @@ def dissolve_cells(
     rings = _core.cell_rings(Partition.voronoi(self, threads=threads)._partition)
     joined = rings.dissolve(numbers, len(labels), as_threads(threads), progress)
     return Regions._of(joined, labels, "group")
+
+
+def feature_cells(
+    features: Any,
+    tolerance_km: float,
+    *,
+    radius_km: float = EARTH_RADIUS_KM,
+    edges: Edges = "lonlat",
+    threads: int | None = None,
+    progress: Progress = None,
+) -> Regions:
+    """The Voronoi cells of lines, polygons and points: to which of them places are nearest.
+
+    Parameters
+    ----------
+    features : path-like or geometries
+        A file of GeoJSON; a GeoDataFrame or GeoSeries; geometries of shapely, mappings of GeoJSON,
+        or whatever has `__geo_interface__`.
+    tolerance_km : float
+        A place belongs to a feature that is at most so much farther than the nearest one. What is
+        in a polygon belongs to it, exactly.
+    radius_km : float, optional
+        Of the sphere on which that is measured.
+    edges : {'lonlat', 'geodesic'}, optional
+        What joins positions: straight lines in longitude and latitude (RFC 7946), or great circles.
+    threads : int, optional
+    progress : callable, optional
+
+    Returns
+    -------
+    Regions
+        One for each feature; `labels` are their numbers. A single one has no border.
+
+    Raises
+    ------
+    ValueError
+        If something is no geometry, or the tolerance is not positive.
+    OSError
+        If the file cannot be read.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> meridian = {"type": "LineString", "coordinates": [[0, -60], [0, 60]]}
+    >>> place = {"type": "Point", "coordinates": [180, 0]}
+    >>> rondel.feature_cells([meridian, place], 5).areas_km2().round(-5).tolist()
+    [340000000.0, 170000000.0]
+
+    """
+    tolerance = float(tolerance_km) / float(radius_km)
+    if not tolerance > 0:
+        raise ValueError(f"tolerance_km / radius_km must be positive, not {tolerance}")
+    found = features_of(
+        features,
+        edges,
+        lambda name, is_geodesic: _core.feature_cells(
+            name, tolerance, is_geodesic, as_threads(threads), progress
+        ),
+    )
+    return Regions._of(found, np.arange(found.num_cells), "feature")
 
 
 def _as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:

@@ -53,7 +53,7 @@ def test_a_patch_has_no_ghosts_on_the_map():
 def lines_of(ax):
     from matplotlib.collections import LineCollection
 
-    (lines,) = (c for c in ax.collections if isinstance(c, LineCollection))
+    *_, lines = (c for c in ax.collections if isinstance(c, LineCollection))
     return [path.vertices for path in lines.get_paths()]
 
 
@@ -74,6 +74,32 @@ def test_lines_do_not_cross_the_map(ax, make):
     assert len(lines) >= len(tri.edges)
     assert all(np.abs(np.diff(line[:, 0])).max() <= 180 for line in lines)
     assert all(np.abs(line[:, 0]).max() <= 180 for line in lines)
+
+
+def num_line_collections(ax):
+    from matplotlib.collections import LineCollection
+
+    return sum(isinstance(c, LineCollection) for c in ax.collections)
+
+
+@pytest.mark.parametrize("coast", [None, True, False])
+def test_coasts_are_below_longitudes_and_latitudes(ax, coast):
+    of_degrees = [rondel.delaunay_lonlat(LON, LAT), rondel.SphericalVoronoi.from_lonlat(LON, LAT)]
+    of_points = [rondel.delaunay(clouds.cube()), rondel.SphericalVoronoi(clouds.cube())]
+    for what, is_default in [(thing, True) for thing in of_degrees] + [
+        (thing, False) for thing in of_points
+    ]:
+        ax.clear()
+        what.plot(ax=ax, coast=coast)
+        assert num_line_collections(ax) == 1 + (is_default if coast is None else coast)
+
+
+def test_coasts_are_where_they_are(ax):
+    rondel.delaunay_lonlat(LON, LAT).plot(ax)
+    coast = np.concatenate([path.vertices for path in ax.collections[0].get_paths()])
+    assert np.abs(coast[:, 0]).max() <= 180
+    assert np.hypot(coast[:, 0] + 32.6, coast[:, 1] - 83.6).min() < 3  # Greenland's north
+    assert np.hypot(coast[:, 0] + 140, coast[:, 1] + 30).min() > 15  # the Pacific
 
 
 def test_cells_are_drawn_with_their_values(ax):

@@ -96,6 +96,72 @@ def test_duplicates_and_power_cells():
     assert np.isclose(power.clip(ISLANDS).areas.sum(), AREA, rtol=WITHIN)
 
 
+SHAPES = [
+    {"type": "LineString", "coordinates": [[-40, 0], [40, 0]]},
+    {"type": "MultiLineString", "coordinates": [[[170, 20], [190, 20]], [[170, 30], [170, 40]]]},
+    {"type": "Point", "coordinates": [0, 90]},
+    {"type": "Polygon", "coordinates": [[[80, -60], [100, -60], [100, -40], [80, -40], [80, -60]]]},
+]
+
+
+def test_cells_of_lines_and_polygons(tmp_path):
+    """No line is nearer to a place than the feature that has it, but for the tolerance."""
+    geometry = pytest.importorskip("shapely.geometry")
+    cells = rondel.feature_cells(SHAPES, 30)
+    assert len(cells) == 4
+    assert cells.labels.tolist() == [0, 1, 2, 3]
+    assert np.isclose(cells.areas.sum(), 4 * np.pi, rtol=1e-12)
+    assert np.isclose(cells.areas_km2().sum(), 4 * np.pi * 6371.0088**2, rtol=1e-12)
+    polygons = {f["properties"]["feature"]: f for f in cells.to_geojson()["features"]}
+    shapes = [geometry.shape(polygons[i]["geometry"]) for i in range(4)]
+    samples = []
+    for shape in SHAPES:
+        line = geometry.shape(shape)
+        line = line.boundary if shape["type"] == "Polygon" else line
+        if shape["type"] == "Point":
+            degrees = np.array(shape["coordinates"], float)[None]
+        else:
+            steps = np.linspace(0, 1, 4001)
+            parts = getattr(line, "geoms", [line])
+            degrees = np.concatenate(
+                [[p.coords[0] for p in part.interpolate(steps, normalized=True)] for part in parts]
+            )
+        samples.append(rondel.unit_vectors(*degrees.T))
+    places = clouds.uniform(400, 8)
+    where = [geometry.Point(p) for p in rondel.lonlat(places)]
+    nearest = np.array([(places @ s.T).max(axis=1) for s in samples])
+    distances = np.arccos(np.minimum(nearest, 1)) * 6371.0088
+    distances[3, [shapes_contain(SHAPES[3], p) for p in where]] = 0
+    for k, place in enumerate(where):
+        (owner,) = [i for i in range(4) if shapes[i].contains(place)] or [None]
+        if owner is not None:
+            assert distances[owner, k] <= distances[:, k].min() + 30 + 1  # of the samples
+    path = tmp_path / "features.geojson"
+    path.write_text(json.dumps({"type": "GeometryCollection", "geometries": SHAPES}), "utf-8")
+    again = rondel.feature_cells(path, 30)
+    assert again.areas.tolist() == cells.areas.tolist()
+    with pytest.raises(ValueError, match="must be positive"):
+        rondel.feature_cells(SHAPES, 0)
+    with pytest.raises(ValueError, match="where a geometry is needed"):
+        rondel.feature_cells([{"type": "Circle", "coordinates": [1, 2]}], 1)
+
+
+def shapes_contain(shape, place):
+    return pytest.importorskip("shapely.geometry").shape(shape).contains(place)
+
+
+def test_areas_in_square_kilometers():
+    clipped = CELLS.clip(ISLANDS)
+    for feature in clipped.to_geojson(radius_km=1000)["features"]:
+        properties = feature["properties"]
+        assert np.isclose(properties["area_km2"], properties["area"] * 1e6, rtol=1e-15)
+    with pytest.raises(ValueError, match="'area_km2' is taken"):
+        clipped.to_geojson(properties={"area_km2": range(200)})
+    pytest.importorskip("geopandas")
+    frame = clipped.to_geopandas(radius_km=6371.0088)
+    assert np.allclose(frame["area_km2"], clipped.areas_km2()[frame["site"]], rtol=1e-15)
+
+
 def test_geojson(tmp_path):
     clipped = CELLS.clip(ISLANDS)
     found = clipped.to_geojson(properties={"name": [f"site {i}" for i in range(200)]})

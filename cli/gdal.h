@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// GDAL, loaded when a file is to be written that only it can write: `rondel` needs it neither to be built nor to run.
+/// These are functions of its C interface, whose binary form is the same since GDAL 3.0.
+#pragma once
+
+#include <string>
+
+namespace rondel::cli {
+
+/// Names of GDAL's opaque handles; what belongs to what is in its documentation.
+using GdalHandle = void*;
+
+struct Gdal {
+  void (*all_register)();
+  const char* (*version_info)(const char*);
+  void (*push_error_handler)(void*);
+  void* quiet_error_handler;
+  const char* (*last_error)();
+  void (*set_config_option)(const char*, const char*);
+  GdalHandle (*driver_by_name)(const char*);
+  GdalHandle (*create)(GdalHandle, const char*, int, int, int, int, char**);
+  int (*start_transaction)(GdalHandle, int);
+  int (*commit_transaction)(GdalHandle);
+  void (*close)(GdalHandle);
+  GdalHandle (*new_reference)(const char*);
+  int (*set_well_known_reference)(GdalHandle, const char*);
+  void (*set_axis_mapping)(GdalHandle, int);
+  void (*destroy_reference)(GdalHandle);
+  GdalHandle (*create_layer)(GdalHandle, const char*, GdalHandle, int, char**);
+  GdalHandle (*create_field)(const char*, int);
+  int (*add_field)(GdalHandle, GdalHandle, int);
+  void (*destroy_field)(GdalHandle);
+  GdalHandle (*definition)(GdalHandle);
+  GdalHandle (*create_feature)(GdalHandle);
+  void (*set_integer)(GdalHandle, int, long long);
+  void (*set_double)(GdalHandle, int, double);
+  void (*set_text)(GdalHandle, int, const char*);
+  int (*geometry_of_wkb)(const void*, GdalHandle, GdalHandle*, int);
+  int (*give_geometry)(GdalHandle, GdalHandle);
+  int (*add_feature)(GdalHandle, GdalHandle);
+  void (*destroy_feature)(GdalHandle);
+  unsigned char* (*take_bytes)(const char*, unsigned long long*, int);
+  void (*free_bytes)(void*);
+};
+
+/// The library that the variable RONDEL_GDAL names, or the newest that the system finds, with its drivers. Keeps quiet
+/// about errors, which last_error() tells. \throws FileError, which begins with `path`, if there is none.
+const Gdal& load_gdal(const std::string& path);
+
+}  // namespace rondel::cli

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "plot_ground.h"
+
+#include "rondel/delaunay.h"
+
+namespace rondel::cli {
+namespace {
+
+constexpr Color graticule_color{0.40, 0.48, 0.55, 0.38};
+constexpr Color coast_color{0.20, 0.25, 0.35, 0.75};
+
+}  // namespace
+
+LineLayer seen(std::span<const LonLat> positions, std::span<const std::uint64_t> offsets,
+               const View& view) {
+  LineLayer layer;
+  for (const LonLat& position : positions) layer.points.push_back(view.turn(unit_vector(position)));
+  layer.offsets.assign(offsets.begin(), offsets.end());
+  return layer;
+}
+
+void draw_coast(Canvas& canvas, const LineLayer& coast, int size) {
+  const double tolerance = 0.02 / canvas.radius();
+  for (std::size_t line = 0; line + 1 < coast.offsets.size(); ++line) {
+    const auto first = static_cast<std::size_t>(coast.offsets[line]);
+    const auto past = static_cast<std::size_t>(coast.offsets[line + 1]);
+    trace_line(canvas, std::span(coast.points).subspan(first, past - first), Side::front,
+               tolerance);
+  }
+  canvas.stroke(coast_color, 0.9 * size / 1000);
+}
+
+void draw_graticule(Canvas& canvas, const View& view, int step, int size) {
+  if (step == 0) return;
+  const Point north = view.turn({0, 0, 1});
+  for (int lon = 0; lon < 180; lon += step) {
+    // The plane of the meridians lon and lon + 180 is normal to the direction 90 degrees east.
+    const Point normal = view.turn(unit_vector({lon + 90.0, 0}));
+    trace_circle(canvas, normal, 90, Side::front);
+  }
+  for (int colatitude = step; colatitude < 180; colatitude += step) {
+    trace_circle(canvas, north, colatitude, Side::front);
+  }
+  canvas.stroke(graticule_color, 0.7 * size / 1000);
+}
+
+}  // namespace rondel::cli

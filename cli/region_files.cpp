@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// GDAL writes into its memory, so that the file appears whole or not at all.
+#include "region_files.h"
+
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "gdal.h"
+#include "rondel/error.h"
+#include "rondel/regions.h"
+
+namespace rondel::cli {
+namespace {
+
+struct GdalFormat {
+  const char* ending;
+  const char* driver;
+};
+constexpr std::array<GdalFormat, 3> gdal_formats = {
+    {{"gpkg", "GPKG"}, {"fgb", "FlatGeobuf"}, {"parquet", "Parquet"}}};
+
+// Of GDAL's enumerations.
+constexpr int type_multi_polygon = 6, type_polygon = 3;
+constexpr int field_real = 2, field_text = 4, field_integer = 12;
+constexpr int traditional_axes = 0;  // longitude first
+
+const GdalFormat* format_of(const std::string& format) {
+  for (const GdalFormat& known : gdal_formats) {
+    if (format == known.ending) return &known;
+  }
+  return nullptr;
+}
+
+// Well-known binary, in this machine's order of bytes.
+class WkbWriter {
+ public:
+  void begin(int type) {
+    const unsigned char order = std::endian::native == std::endian::little ? 1 : 0;
+    append(&order, 1);
+    add_number(static_cast<std::uint32_t>(type));
+  }
+  void add_number(std::uint32_t number) { append(&number, sizeof number); }
+  void add_position(const LonLat& position) {
+    append(&position.lon_deg, sizeof(double));
+    append(&position.lat_deg, sizeof(double));
+  }
+  [[nodiscard]] const std::vector<unsigned char>& bytes() const { return bytes_; }
+
+ private:
+  void append(const void* data, std::size_t size) {
+    const auto* const first = static_cast<const unsigned char*>(data);
+    bytes_.insert(bytes_.end(), first, first + size);
+  }
+
+  std::vector<unsigned char> bytes_;
+};
+
+// The polygons [first, past) as one MultiPolygon.
+std::vector<unsigned char> wkb_of(const LonLatRegions& regions, std::size_t first,
+                                  std::size_t past) {
+  WkbWriter wkb;
+  wkb.begin(type_multi_polygon);
+  wkb.add_number(static_cast<std::uint32_t>(past - first));
+  for (std::size_t p = first; p < past; ++p) {
+    wkb.begin(type_polygon);
+    wkb.add_number(static_cast<std::uint32_t>(regions.polygons[p + 1] - regions.polygons[p]));
+    for (std::uint64_t r = regions.polygons[p]; r < regions.polygons[p + 1]; ++r) {
+      wkb.add_number(static_cast<std::uint32_t>(regions.rings[r + 1] - regions.rings[r]));
+      for (std::uint64_t k = regions.rings[r]; k < regions.rings[r + 1]; ++k) {
+        wkb.add_position(regions.positions[k]);
+      }
+    }
+  }
+  return wkb.bytes();
+}
+
+std::string_view cell_of(const Column& column, std::size_t row) {
+  const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
+  return std::string_view(column.text).substr(begin, column.ends[row] - begin);
+}
+
+template <class Number>
+std::optional<Number> number_in(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+int field_type(const Column& column) {
+  if (!column.is_numeric) return field_text;
+  for (std::size_t row = 0; row < column.ends.size(); ++row) {
+    const std::string_view text = cell_of(column, row);
+    if (!text.empty() && !number_in<std::int64_t>(text)) return field_real;
+  }
+  return field_integer;
+}
+
+// A dataset in GDAL's memory. What fails is told with the path of the file that it becomes.
+class GdalFile {
+ public:
+  GdalFile(const std::string& path, const GdalFormat& format)
+      : gdal_(load_gdal(path)), path_(path), name_(std::string("/vsimem/rondel.") + format.ending) {
+    gdal_.set_config_option("OGR_CURRENT_DATE", "1970-01-01T00:00:00.000Z");  // the same bytes
+    dataset_ = gdal_.create(driver(path, format), name_.c_str(), 0, 0, 0, 0, nullptr);
+    require(dataset_ != nullptr);
+  }
+  ~GdalFile() {
+    if (dataset_ != nullptr) gdal_.close(dataset_);
+    gdal_.free_bytes(gdal_.take_bytes(name_.c_str(), nullptr, 1));
+  }
+  GdalFile(const GdalFile&) = delete;
+  GdalFile& operator=(const GdalFile&) = delete;
+
+  static GdalHandle driver(const std::string& path, const GdalFormat& format) {
+    const Gdal& gdal = load_gdal(path);
+    if (GdalHandle const found = gdal.driver_by_name(format.driver)) return found;
+    throw FileError(path + ": GDAL " + gdal.version_info("RELEASE_NAME") + " has no driver '" +
+                    format.driver +
+                    "'; in Python, Regions.to_geopandas().to_parquet() writes such files");
+  }
+
+  void make_layer(const std::string& layer_name, std::span<const Column> columns) {
+    GdalHandle const reference = gdal_.new_reference(nullptr);
+    gdal_.set_well_known_reference(reference, "WGS84");
+    gdal_.set_axis_mapping(reference, traditional_axes);
+    layer_ =
+        gdal_.create_layer(dataset_, layer_name.c_str(), reference, type_multi_polygon, nullptr);
+    gdal_.destroy_reference(reference);
+    require(layer_ != nullptr);
+    add_field("area", field_real);
+    for (const Column& column : columns) {
+      types_.push_back(field_type(column));
+      add_field(column.name.c_str(), types_.back());
+    }
+    gdal_.start_transaction(dataset_, 0);  // faster, where there are any
+  }
+
+  void add(std::size_t row, double area, std::span<const Column> columns,
+           const std::vector<unsigned char>& wkb) {
+    GdalHandle geometry = nullptr;
+    require(gdal_.geometry_of_wkb(wkb.data(), nullptr, &geometry, static_cast<int>(wkb.size())) ==
+            0);
+    GdalHandle const feature = gdal_.create_feature(gdal_.definition(layer_));
+    gdal_.give_geometry(feature, geometry);
+    gdal_.set_double(feature, 0, area);
+    for (std::size_t k = 0; k < columns.size(); ++k) set(feature, k, cell_of(columns[k], row));
+    const int error = gdal_.add_feature(layer_, feature);
+    gdal_.destroy_feature(feature);
+    require(error == 0);
+  }
+
+  std::string finish() {
+    gdal_.commit_transaction(dataset_);
+    gdal_.close(std::exchange(dataset_, nullptr));
+    unsigned long long size = 0;
+    const unsigned char* const bytes = gdal_.take_bytes(name_.c_str(), &size, 0);
+    require(bytes != nullptr);
+    return {reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(size)};
+  }
+
+ private:
+  void require(bool is_done) const {
+    if (!is_done) throw FileError(path_ + ": GDAL: " + gdal_.last_error());
+  }
+
+  void add_field(const char* field_name, int type) {
+    GdalHandle const field = gdal_.create_field(field_name, type);
+    const int error = gdal_.add_field(layer_, field, 1);
+    gdal_.destroy_field(field);
+    require(error == 0);
+  }
+
+  void set(GdalHandle feature, std::size_t k, std::string_view text) const {
+    if (text.empty()) return;
+    const int field = static_cast<int>(k) + 1;
+    if (types_[k] == field_integer) {
+      gdal_.set_integer(feature, field, number_in<std::int64_t>(text).value_or(0));
+    } else if (types_[k] == field_real) {
+      gdal_.set_double(feature, field, number_in<double>(text).value_or(std::nan("")));
+    } else {
+      gdal_.set_text(feature, field, std::string(text).c_str());
+    }
+  }
+
+  const Gdal& gdal_;
+  std::string path_;
+  std::string name_;
+  GdalHandle dataset_ = nullptr;
+  GdalHandle layer_ = nullptr;
+  std::vector<int> types_;
+};
+
+}  // namespace
+
+bool is_format_of_gdal(const std::string& format) { return format_of(format) != nullptr; }
+
+void require_gdal(const std::string& path, const std::string& format) {
+  (void)GdalFile::driver(path, *format_of(format));
+}
+
+void write_regions_by_gdal(const std::string& path, const std::string& format,
+                           const CellRings& cells, std::span<const Column> columns,
+                           double tolerance_deg, const Execution& execution) {
+  const LonLatRegions regions = region_polygons(cells, tolerance_deg, execution);
+  const std::vector<double> found = areas(cells);
+  GdalFile file(path, *format_of(format));
+  const std::string stem = std::filesystem::path(path).stem().string();
+  file.make_layer(path == "-" ? "cells" : stem, columns);
+  for (std::size_t p = 0; p < regions.owners.size();) {
+    const std::size_t first = p;
+    const Index owner = regions.owners[p];
+    while (p < regions.owners.size() && regions.owners[p] == owner) ++p;
+    file.add(owner, found[owner], columns, wkb_of(regions, first, p));
+  }
+  write_file(path, file.finish());
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,29 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Regions as files of GDAL: GeoPackage (.gpkg), FlatGeobuf (.fgb), GeoParquet (.parquet).
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "rondel/cell_rings.h"
+#include "rondel/io.h"
+
+namespace rondel::cli {
+
+/// Whether GDAL is needed for a format, "gpkg".
+bool is_format_of_gdal(const std::string& format);
+
+/// \throws FileError, before any work, if GDAL is not there, or cannot write the format.
+void require_gdal(const std::string& path, const std::string& format);
+
+/// What write_regions() writes as GeoJSON: a feature for each cell that has rings, with `area` and the columns. All or
+/// nothing; "-" is standard output. Columns of numbers are integers where all of them are.
+/// \throws FileError
+void write_regions_by_gdal(const std::string& path, const std::string& format,
+                           const CellRings& cells, std::span<const Column> columns,
+                           double tolerance_deg, const Execution& execution);
+
+}  // namespace rondel::cli

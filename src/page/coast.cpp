@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// coast_lines: what data/coast.txt says, whose lines are a first position and steps.
+#include <charconv>
+#include <cstdint>
+#include <string_view>
+
+#include "page/page_text.h"
+#include "rondel/globe.h"
+
+namespace rondel {
+
+CoastLines coast_lines() {
+  const std::string_view text = page::coast_text();
+  CoastLines coast;
+  std::int32_t sums[2] = {0, 0}, step = 0;  // hundredths of degrees
+  std::size_t count = 0;                    // of numbers in the line
+  for (const char* at = text.data(); at != text.data() + text.size(); ++at) {
+    at = std::from_chars(at, text.data() + text.size(), step).ptr;
+    sums[count % 2] += step;
+    if (++count % 2 == 0) coast.positions.push_back({sums[0] / 100.0, sums[1] / 100.0});
+    if (*at != '\n') continue;
+    coast.offsets.push_back(coast.positions.size());
+    sums[0] = sums[1] = 0;
+    count = 0;
+  }
+  return coast;
+}
+
+}  // namespace rondel

@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Cells of sites along lines and the borders of polygons, joined by feature. What is inside of a polygon is cut out
+// of them and joined to its feature.
+#include "rondel/feature_cells.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/partition.h"
+#include "rondel/regions.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace {
+
+void append_ring_points(const CellRings& cells, std::uint64_t ring, std::vector<Point>& points) {
+  for (std::uint64_t k = cells.rings[ring]; k < cells.rings[ring + 1]; ++k) {
+    points.push_back(cells.points[cells.corners[k]]);
+  }
+}
+
+// The lines of each feature, and the borders of its polygons as closed ones.
+FeatureLines with_borders(const FeatureLines& lines, const CellRings& polygons) {
+  FeatureLines all;
+  for (std::size_t f = 0; f < lines.num_features(); ++f) {
+    for (std::uint64_t l = lines.features[f]; l < lines.features[f + 1]; ++l) {
+      for (std::uint64_t k = lines.lines[l]; k < lines.lines[l + 1]; ++k) {
+        all.points.push_back(lines.points[k]);
+      }
+      all.lines.push_back(all.points.size());
+    }
+    for (std::uint64_t r = polygons.cells[f]; r < polygons.cells[f + 1]; ++r) {
+      const std::size_t first = all.points.size();
+      append_ring_points(polygons, r, all.points);
+      all.points.push_back(Point(all.points[first]));
+      all.lines.push_back(all.points.size());
+    }
+    all.features.push_back(all.lines.size() - 1);
+  }
+  return all;
+}
+
+// The cells, and one more that is all that is in none of them, if there is any.
+CellRings with_outside(CellRings cells, const Execution& execution) {
+  const std::size_t n = cells.num_cells();
+  const CellRings all = dissolve(cells, std::vector<Index>(n, 0), 1, execution);
+  for (std::size_t r = 0; r + 1 < all.rings.size(); ++r) {
+    for (std::uint64_t k = all.rings[r + 1]; k-- > all.rings[r];) {
+      cells.corners.push_back(static_cast<Index>(cells.points.size()) + all.corners[k]);
+    }
+    cells.rings.push_back(cells.corners.size());
+  }
+  cells.points.insert(cells.points.end(), all.points.begin(), all.points.end());
+  cells.cells.push_back(cells.rings.size() - 1);
+  return cells;
+}
+
+}  // namespace
+
+CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
+                        const Execution& execution) {
+  const system::Call call(execution);
+  const std::size_t n = lines.num_features();
+  const bool has_polygons = !polygons.corners.empty();
+  if (has_polygons && polygons.num_cells() != n) {
+    throw InvalidInput("there are " + std::to_string(polygons.num_cells()) + " cells for " +
+                           std::to_string(n) + " features",
+                       polygons.num_cells());
+  }
+  const Partition areas(polygons, execution);  // refuses what is no cell
+  const FeatureSites found =
+      feature_sites(has_polygons ? with_borders(lines, polygons) : lines, tolerance, execution);
+  const Partition cells =
+      Partition::voronoi(delaunay(Sites::view(found.sites), {}, execution), execution);
+  if (!has_polygons) return dissolve(cells.rings(), found.features, n, execution);
+  const RegionPieces pieces =
+      intersection(cells, Partition(with_outside(polygons, execution), execution), execution);
+  std::vector<Index> groups(pieces.num_pieces());
+  for (std::size_t k = 0; k < groups.size(); ++k) {
+    const bool is_outside = pieces.regions[k] == n;
+    groups[k] = is_outside ? found.features[pieces.cells[k]] : pieces.regions[k];
+  }
+  return dissolve(pieces.rings, groups, n, execution);
+}
+
+}  // namespace rondel

@@ -1,0 +1,154 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Lines are halved until every piece is short enough for the tolerance t. Why that suffices:
+//
+//            x         Let q be nearest to p in a piece of half-length h of feature F, at distance d, but belong to a
+//           /|         site of feature G, which is nearer than the piece's ends: at most sqrt(d^2 + h^2) away (on the
+//         /  | d       sphere it is less than in the plane). So G is at most e = sqrt(d^2 + h^2) - d farther than F,
+//       /    |         and e <= h. Let G be D from p: D <= 2 d + e, and as e (2 d + e) = h^2, e <= h^2 / D.
+//     o------p--o      So e <= t if h <= t or h^2 <= t D: h <= H(D) = max(t, sqrt(t D)).
+//        h
+// D is not known, but d1, how far the middle m of the piece is from the nearest *site* of another feature. Let the
+// other feature be D from m, in a piece of half-length h'. That piece is tested as well: h' <= H(D + h), as D + h is a
+// bound for what it knows of its distance. So d1 <= D + h' <= D + H(D + h), which bounds D from below, and D - h is a
+// bound for all p in the piece. With u = D + h and K = d1 + h that is u + H(u) >= K, and the test h^2 <= t (u - 2 h).
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "exact/argument.h"
+#include "exact/vector.h"
+#include "readings/other_features.h"
+#include "rondel/error.h"
+#include "rondel/feature_cells.h"
+#include "system/job.h"
+
+namespace rondel {
+namespace {
+
+// Points of lines; `is_joined` to the next one, or the last of its line.
+struct LinePoints {
+  std::vector<Point> points;
+  std::vector<Index> features;
+  std::vector<std::uint8_t> is_joined;
+
+  void add(const Point& point, Index feature, bool joined) {
+    points.push_back(point);
+    features.push_back(feature);
+    is_joined.push_back(joined ? 1 : 0);
+  }
+};
+
+struct PieceMiddle {
+  std::size_t first;  // point of the piece
+  double half;        // of its length
+};
+
+double angle_of(const Point& a, const Point& b) {
+  const Point difference = a - b;
+  const Point sum = a + b;
+  return 2 * exact::argument(std::sqrt(dot(difference, difference)), std::sqrt(dot(sum, sum)));
+}
+
+bool is_short_enough(double half, double to_other_site, double tolerance) {
+  if (half <= tolerance) return true;
+  const double sum = to_other_site + half;
+  const double root = (std::sqrt(tolerance + 4 * sum) - std::sqrt(tolerance)) / 2;
+  double bound = root * root;
+  if (bound < tolerance) bound = sum - tolerance;
+  return half * half <= tolerance * (bound - 2 * half);
+}
+
+void require_lines(const FeatureLines& lines) {
+  const auto fits = [](std::span<const std::uint64_t> offsets, std::size_t size) {
+    return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
+           std::ranges::is_sorted(offsets);
+  };
+  if (lines.lines.empty() || !fits(lines.features, lines.lines.size() - 1) ||
+      !fits(lines.lines, lines.points.size())) {
+    throw InvalidInput("the offsets of the lines do not fit", 0);
+  }
+  for (std::size_t i = 0; i < lines.points.size(); ++i) {
+    constexpr double rounding = 1e-9;
+    const double square = dot(lines.points[i], lines.points[i]);
+    if (!(std::abs(square - 1) <= rounding)) {
+      throw InvalidInput("point " + std::to_string(i) + " is no unit vector", i);
+    }
+  }
+}
+
+LinePoints points_of_lines(const FeatureLines& lines) {
+  LinePoints all;
+  for (std::size_t f = 0; f < lines.num_features(); ++f) {
+    for (std::uint64_t l = lines.features[f]; l < lines.features[f + 1]; ++l) {
+      for (std::uint64_t k = lines.lines[l]; k < lines.lines[l + 1]; ++k) {
+        const bool is_last = k + 1 == lines.lines[l + 1];
+        if (!is_last && lines.points[k] == lines.points[k + 1]) continue;
+        if (!is_last && lines.points[k] + lines.points[k + 1] == Point{}) {
+          throw InvalidInput("points " + std::to_string(k) + " and " + std::to_string(k + 1) +
+                                 " of a line are antipodes",
+                             k);
+        }
+        all.add(lines.points[k], static_cast<Index>(f), !is_last);
+      }
+    }
+  }
+  return all;
+}
+
+// The points with the middles of pieces that are too long, none if there is none such.
+LinePoints halved(const LinePoints& all, double tolerance, const Execution& execution) {
+  std::vector<PieceMiddle> pieces;
+  std::vector<Point> middles;
+  std::vector<Index> features;
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    if (all.is_joined[i] == 0) continue;
+    const Point middle = normalized(all.points[i] + all.points[i + 1]);
+    const double half = angle_of(middle, all.points[i]);
+    if (half <= tolerance || middle == all.points[i] || middle == all.points[i + 1]) continue;
+    pieces.push_back({i, half});
+    middles.push_back(middle);
+    features.push_back(all.features[i]);
+  }
+  const std::vector<double> distances =
+      readings::distances_to_others({all.points, all.features}, middles, features, execution);
+  LinePoints result;
+  std::size_t at = 0;
+  bool is_changed = false;
+  for (std::size_t i = 0; i < all.points.size(); ++i) {
+    result.add(all.points[i], all.features[i], all.is_joined[i] != 0);
+    if (at == pieces.size() || pieces[at].first != i) continue;
+    if (!is_short_enough(pieces[at].half, distances[at], tolerance)) {
+      result.add(middles[at], features[at], true);
+      is_changed = true;
+    }
+    ++at;
+  }
+  return is_changed ? result : LinePoints();
+}
+
+}  // namespace
+
+FeatureSites feature_sites(const FeatureLines& lines, double tolerance,
+                           const Execution& execution) {
+  const system::Call call(execution);
+  require_lines(lines);
+  if (!(tolerance > 0)) throw InvalidInput("the tolerance is not positive", 0);
+  LinePoints all = points_of_lines(lines);
+  while (true) {
+    if (all.points.size() >= std::numeric_limits<Index>::max() / 2) {
+      throw InvalidInput("with this tolerance there are too many sites", all.points.size());
+    }
+    LinePoints next = halved(all, tolerance, execution);
+    if (next.points.empty()) break;
+    all = std::move(next);
+  }
+  return {std::move(all.points), std::move(all.features)};
+}
+
+}  // namespace rondel

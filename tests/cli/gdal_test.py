@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Cells as GeoPackage and FlatGeobuf: what GDAL reads of them is what GeoJSON has.
+
+The library is that of pyogrio's wheel; without it ctest says "Skipped".
+"""
+
+import importlib.util
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+if any(importlib.util.find_spec(name) is None for name in ("pyogrio", "geopandas")):
+    sys.exit(77)
+import geopandas
+import numpy as np
+import pyogrio
+
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+DATA = pathlib.Path(__file__).resolve().parents[2] / "data"
+WHEEL = pathlib.Path(pyogrio.__file__).parent
+LIBRARIES = sorted(WHEEL.parent.glob("pyogrio.libs/libgdal*"))
+if not LIBRARIES:
+    sys.exit(77)
+ENVIRONMENT = {**os.environ, "RONDEL_GDAL": str(LIBRARIES[0])}
+
+
+class FilesOfGdal(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def voronoi(self, *arguments):
+        return subprocess.run([TOOL, "voronoi", *arguments, "--quiet"], cwd=self.folder, env=ENVIRONMENT,
+                              text=True, capture_output=True, check=False)
+
+    def written(self, name, *arguments):
+        done = self.voronoi(*arguments, "-o", name)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return geopandas.read_file(self.folder / name)
+
+    def test_hold_what_geojson_holds(self):
+        """Bit by bit; of 5,634 stations, three of which share a place with another, on land."""
+        options = (DATA / "stations.csv", "--clip", DATA / "land-110m.geojson", "--earth-radius", "6371.0088")
+        expected = self.written("cells.geojson", *options).set_index("site").sort_index()
+        self.assertGreater(len(expected), 5000)
+        for name in ("cells.gpkg", "cells.fgb"):
+            found = self.written(name, *options).set_index("site").sort_index()
+            self.assertEqual(found.crs, "EPSG:4326")
+            self.assertTrue(found.geometry.is_valid.all())
+            for column in ("area", "area_km2", "id", "name", "longitude", "latitude"):
+                self.assertTrue((found[column] == expected[column]).all(), column)
+                self.assertEqual(found[column].dtype, expected[column].dtype)
+            for ours, theirs in zip(found.geometry, expected.geometry):
+                parts = getattr(theirs, "geoms", [theirs])
+                self.assertTrue(all(p.equals_exact(q, 0) for p, q in zip(ours.geoms, parts)))
+                self.assertEqual(len(ours.geoms), len(parts))
+
+    def test_are_the_same_bytes_again(self):
+        for name in ("cells.gpkg", "cells.fgb"):
+            self.written(name, DATA / "stations.csv")
+            first = (self.folder / name).read_bytes()
+            self.written(name, DATA / "stations.csv")
+            self.assertEqual((self.folder / name).read_bytes(), first)
+
+    def test_groups_have_their_column(self):
+        rows = "lon,lat,kind,zone\n" + "".join(
+            f"{lon},{lat},{'wet' if lon < 0 else 'dry'},{'' if lat == 60 else lat + 0.5}\n"
+            for lon in range(-170, 180, 20) for lat in range(-60, 61, 30))
+        (self.folder / "sites.csv").write_text(rows, encoding="utf-8")
+        found = self.written("kinds.fgb", "sites.csv", "--group", "kind")
+        self.assertEqual(sorted(found["kind"]), ["dry", "wet"])
+        self.assertAlmostEqual(found["area"].sum(), 4 * np.pi, 12)
+        cells = self.written("cells.gpkg", "sites.csv").set_index("site").sort_index()
+        self.assertTrue(np.isnan(cells["zone"][4]))  # no text, no value
+        self.assertEqual(cells["zone"][0], -59.5)
+        self.assertEqual(cells["lon"].dtype, np.int64 if cells["lon"].dtype.kind == "i" else np.int32)
+
+    def test_what_cannot_be_written_is_told_in_one_line(self):
+        for name in ("nowhere/cells.fgb", "nowhere/cells.gpkg"):
+            done = self.voronoi(DATA / "stations.csv", "-o", name)
+            self.assertEqual((done.returncode, done.stderr), (1, f"rondel: {name}: No such file or directory\n"))
+        if "Parquet" not in pyogrio.list_drivers():
+            done = self.voronoi(DATA / "stations.csv", "-o", "cells.parquet")
+            self.assertEqual(done.returncode, 1)
+            self.assertRegex(done.stderr, r"\Arondel: cells.parquet: GDAL [0-9.]+ has no driver 'Parquet'; .*\n\Z")
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Cells of lines and polygons, against the distances of random places from all arcs.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/feature_cells.h"
+#include "rondel/query.h"
+#include "rondel/regions.h"
+
+namespace rondel::test {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+using Vector = Point;
+
+double inner(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vector outer(const Vector& a, const Vector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+double norm(const Vector& a) { return std::sqrt(inner(a, a)); }
+double angle(const Vector& a, const Vector& b) {
+  return std::atan2(norm(outer(a, b)), inner(a, b));
+}
+
+// From a place to the shorter arc between a and b, by the foot on its great circle.
+double distance_to_arc(const Point& q, const Point& a, const Point& b) {
+  const double ends = std::min(angle(q, a), angle(q, b));
+  const Vector normal = outer(a, b);
+  const double length = norm(normal);
+  if (length == 0) return ends;
+  const double height = inner(q, normal) / length;
+  const Vector foot = {q.x - height * normal.x / length, q.y - height * normal.y / length,
+                       q.z - height * normal.z / length};
+  const bool is_between = inner(outer(a, foot), normal) >= 0 && inner(outer(foot, b), normal) >= 0;
+  return is_between ? std::asin(std::min(1.0, std::abs(height))) : ends;
+}
+
+double distance_to_feature(const Point& q, const FeatureLines& lines, std::size_t feature) {
+  double least = std::numeric_limits<double>::infinity();
+  for (auto l = lines.features[feature]; l < lines.features[feature + 1]; ++l) {
+    const auto first = lines.lines[l];
+    const auto last = lines.lines[l + 1] - 1;
+    if (first == last) least = std::min(least, angle(q, lines.points[first]));
+    for (auto k = first; k < last; ++k) {
+      least = std::min(least, distance_to_arc(q, lines.points[k], lines.points[k + 1]));
+    }
+  }
+  return least;
+}
+
+class RandomPlaces {
+ public:
+  explicit RandomPlaces(unsigned seed) : engine_(seed) {}
+  Point next() {
+    const Vector v = {normal_(engine_), normal_(engine_), normal_(engine_)};
+    const double length = norm(v);
+    return {v.x / length, v.y / length, v.z / length};
+  }
+  Point near(const Point& p, double step) {
+    const Point q = next();
+    const Vector v = {p.x + step * q.x, p.y + step * q.y, p.z + step * q.z};
+    const double length = norm(v);
+    return {v.x / length, v.y / length, v.z / length};
+  }
+
+ private:
+  std::mt19937_64 engine_;
+  std::normal_distribution<> normal_;
+};
+
+// Random walks, some of them points, some that start where another one does.
+FeatureLines random_lines(unsigned seed, int count, int length, double step) {
+  RandomPlaces random(seed);
+  FeatureLines lines;
+  Point start = random.next();
+  for (int f = 0; f < count; ++f) {
+    if (f % 3 != 2) start = random.next();
+    Point at = start;
+    const int steps = f % 5 == 4 ? 0 : length;
+    for (int k = 0; k <= steps; ++k) {
+      lines.points.push_back(at);
+      at = random.near(at, step);
+    }
+    lines.lines.push_back(lines.points.size());
+    lines.features.push_back(lines.lines.size() - 1);
+  }
+  return lines;
+}
+
+// How much farther the feature of the nearest site is than the nearest one, at most.
+double largest_excess(const FeatureLines& lines, const FeatureSites& found, int num_places) {
+  const Locator locator(delaunay(found.sites));
+  RandomPlaces random(77);
+  double largest = 0;
+  for (int i = 0; i < num_places; ++i) {
+    // Half of them where lines are near.
+    const Point& site = found.sites[static_cast<std::size_t>(i) * 7919 % found.sites.size()];
+    const Point q = i % 2 == 0 ? random.next() : random.near(site, 0.02);
+    const std::size_t given = found.features[locator.nearest(q)];
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t f = 0; f < lines.num_features(); ++f) {
+      least = std::min(least, distance_to_feature(q, lines, f));
+    }
+    largest = std::max(largest, distance_to_feature(q, lines, given) - least);
+  }
+  return largest;
+}
+
+TEST(feature_sites, no_feature_is_farther_than_the_nearest_by_more_than_the_tolerance) {
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    const FeatureLines lines = random_lines(seed, 40, 6, 0.15);
+    std::size_t before = 0;
+    for (const double tolerance : {0.02, 0.004, 0.0005}) {
+      const FeatureSites found = feature_sites(lines, tolerance);
+      EXPECT_LE(largest_excess(lines, found, 3'000), tolerance * (1 + 1e-9));
+      EXPECT_GT(found.sites.size(), before);
+      before = found.sites.size();
+      EXPECT_TRUE(std::ranges::is_sorted(found.features));
+    }
+    // What the corners alone would do.
+    const FeatureSites corners = feature_sites(lines, 10);
+    EXPECT_EQ(corners.sites.size(), lines.points.size());
+    EXPECT_GT(largest_excess(lines, corners, 3'000), 0.004);
+  }
+}
+
+// A long border of many points, of which no neighbor is another feature's, and islands far away.
+TEST(feature_sites, nearest_features_are_found_behind_many_points_of_ones_own) {
+  FeatureLines lines;
+  for (int k = 0; k <= 600; ++k) {
+    const double a = 2 * pi * k / 600;
+    lines.points.push_back({std::cos(a), std::sin(a), 0});
+  }
+  lines.lines.push_back(lines.points.size());
+  lines.features.push_back(1);
+  for (const double height : {1.0, -1.0}) {
+    lines.points.push_back({0, 0, height});
+    lines.lines.push_back(lines.points.size());
+    lines.features.push_back(lines.lines.size() - 1);
+  }
+  const FeatureSites found = feature_sites(lines, 1e-4);
+  EXPECT_LE(largest_excess(lines, found, 2'000), 1e-4);
+  EXPECT_EQ(found.sites.size(), lines.points.size());  // half a degree is close enough
+}
+
+TEST(feature_sites, are_far_apart_where_nothing_is_near) {
+  FeatureLines lines;
+  lines.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // a quarter of the equator, and the pole
+  lines.lines = {0, 2, 3};
+  lines.features = {0, 1, 2};
+  const double tolerance = 1e-4;
+  const FeatureSites found = feature_sites(lines, tolerance);
+  const double spacing = 2 * std::sqrt(tolerance * pi / 2);
+  const double fewest = pi / 2 / spacing;
+  EXPECT_GE(found.sites.size(), fewest);
+  EXPECT_LE(found.sites.size(), 4 * fewest);
+  EXPECT_LE(largest_excess(lines, found, 2'000), tolerance);
+}
+
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(feature_cells, cover_the_sphere) {
+  const FeatureLines lines = random_lines(5, 30, 5, 0.2);
+  const CellRings cells = feature_cells(lines, {}, 0.01);
+  EXPECT_EQ(cells.num_cells(), 30U);
+  EXPECT_NEAR(sum(areas(cells)), 4 * pi, 1e-11);
+}
+
+// A square of so many degrees around a place of the equator, with corners on great circles.
+void add_square(CellRings& cells, double lon_deg, double half_deg) {
+  for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}) {
+    cells.corners.push_back(static_cast<Index>(cells.points.size()));
+    cells.points.push_back(unit_vector({lon_deg + x * half_deg, y * half_deg}));
+  }
+  cells.rings.push_back(cells.corners.size());
+  cells.cells.push_back(cells.rings.size() - 1);
+}
+
+// How often the rings of a cell go around a place, less how often around the one opposite of it.
+int turns_around(const Point& q, const CellRings& cells, std::size_t cell) {
+  double sum = 0;
+  for (auto r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
+    for (auto k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+      const auto next = k + 1 < cells.rings[r + 1] ? k + 1 : cells.rings[r];
+      const Vector a = outer(q, cells.points[cells.corners[k]]);
+      const Vector b = outer(q, cells.points[cells.corners[next]]);
+      sum += std::atan2(inner(q, outer(a, b)), inner(a, b));
+    }
+  }
+  return static_cast<int>(std::lround(sum / (2 * pi)));
+}
+
+bool is_in_square(const Point& q, const CellRings& squares, std::size_t square) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Point& a = squares.points[4 * square + k];
+    const Point& b = squares.points[4 * square + (k + 1) % 4];
+    if (inner(q, outer(a, b)) <= 0) return false;
+  }
+  return true;
+}
+
+TEST(feature_cells, have_their_polygons_exactly) {
+  CellRings squares;
+  add_square(squares, -20, 10);
+  add_square(squares, 0, 10);  // shares a side with the first
+  add_square(squares, 90, 30);
+  FeatureLines none;
+  none.features = {0, 0, 0, 0};
+  const CellRings cells = feature_cells(none, squares, 0.005);
+  EXPECT_NEAR(sum(areas(cells)), 4 * pi, 1e-11);
+  RandomPlaces random(3);
+  int num_tested = 0;
+  for (int t = 0; t < 4'000; ++t) {
+    const Point q = random.next();
+    for (std::size_t square = 0; square < 3; ++square) {
+      if (!is_in_square(q, squares, square)) continue;
+      // Opposite of the first two is the cell of the third, opposite of this that of the first.
+      const std::size_t opposite = square == 2 ? 0 : 2;
+      for (std::size_t c = 0; c < 3; ++c) {
+        EXPECT_EQ(turns_around(q, cells, c), c == square ? 1 : c == opposite ? -1 : 0);
+      }
+      ++num_tested;
+    }
+  }
+  EXPECT_GT(num_tested, 300);
+}
+
+TEST(feature_cells, of_one_feature_have_no_border) {
+  FeatureLines one;
+  one.points = {{1, 0, 0}, {0, 1, 0}};
+  one.lines = {0, 2};
+  one.features = {0, 1};
+  EXPECT_EQ(feature_cells(one, {}, 1e-3).cells, (std::vector<std::uint64_t>{0, 0}));
+  EXPECT_EQ(feature_cells({}, {}, 1e-3).num_cells(), 0U);
+}
+
+TEST(feature_sites, what_is_wrong_is_refused) {
+  FeatureLines lines;
+  lines.points = {{1, 0, 0}, {-1, 0, 0}};
+  lines.lines = {0, 2};
+  lines.features = {0, 1};
+  EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);  // antipodes
+  lines.points[1] = {0, 2, 0};
+  EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
+  lines.points[1] = {0, 1, 0};
+  EXPECT_THROW(feature_sites(lines, 0), InvalidInput);
+  EXPECT_THROW(feature_sites(lines, std::nan("")), InvalidInput);
+  lines.lines = {0, 3};
+  EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
+  lines.lines = {0, 2};
+  lines.features = {0, 2};
+  EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
+  CellRings squares;
+  add_square(squares, 0, 1);
+  lines.features = {0, 1, 1};
+  EXPECT_THROW(feature_cells(lines, squares, 1e-3), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rondel::test
