@@ -9,6 +9,7 @@
 
 #include "exact/degrees.h"
 #include "exact/vector.h"
+#include "meshing/seeded_random.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
 
@@ -17,22 +18,6 @@ namespace {
 
 using exact::to_point;
 using exact::to_vector;
-
-// Sebastiano Vigna's splitmix64 (public domain), numbers from 0 to 1.
-class Random {
- public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  double operator()() {
-    state_ += 0x9e3779b97f4a7c15U;
-    std::uint64_t z = state_;
-    z = (z ^ (z >> 30U)) * 0xbf58476d1ce4e5b9U;
-    z = (z ^ (z >> 27U)) * 0x94d049bb133111ebU;
-    return static_cast<double>((z ^ (z >> 31U)) >> 11U) * 0x1p-53;
-  }
-
- private:
-  std::uint64_t state_;
-};
 
 }  // namespace
 
@@ -59,7 +44,7 @@ std::vector<Point> icosahedron() {
 // has its share of the density, and where the sum passes a whole number there is a site, moved by a
 // random part of the distance of points.
 std::vector<Point> sampled_sites(std::size_t count, const SizeFunction* size, std::uint64_t seed) {
-  Random random(seed);
+  SeededRandom random(seed);
   const double golden = 180 * (3 - std::sqrt(5.0));
   const std::size_t most = 1 << 20;
   const std::size_t num_points = size == nullptr ? count : std::max(most, 8 * count);
