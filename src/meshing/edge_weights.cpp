@@ -10,6 +10,10 @@
 
 #include "meshing/edge_weights.h"
 
+#include <string>
+
+#include "meshing/mesh_file.h"
+#include "rondel/error.h"
 #include "system/job.h"
 
 namespace rondel::meshing {
@@ -41,7 +45,12 @@ void write_weights(const mesh::MeshArrays& arrays, std::size_t edge, std::span<I
     const std::uint64_t begin = arrays.offsets[cell];
     const std::uint64_t end = arrays.offsets[cell + 1];
     std::uint64_t at = begin;
-    while (arrays.edges_on_cell[at] != edge) ++at;
+    while (at < end && arrays.edges_on_cell[at] != edge) ++at;
+    if (at == end) {
+      throw InvalidInput("edge " + std::to_string(edge) +
+                             " of the mesh is not among those of cell " + std::to_string(cell),
+                         edge);
+    }
     double sum = 0;
     for (std::uint64_t left = end - begin - 1; left > 0; --left, ++out) {
       if (!weights.empty()) sum += kite_of(arrays, arrays.vertices_on_cell[at], cell);
@@ -63,6 +72,7 @@ namespace rondel::mesh {
 
 TangentialWeights tangential_weights(const MeshArrays& arrays, const Execution& execution) {
   const system::Call call(execution);
+  meshing::require_consistent(arrays, execution.threads);
   TangentialWeights result;
   result.offsets.resize(arrays.num_edges() + 1);
   for (std::size_t e = 0; e < arrays.num_edges(); ++e) {

@@ -12,6 +12,7 @@
 #include "exact/argument.h"
 #include "exact/vector.h"
 #include "meshing/cell_shape.h"
+#include "meshing/mesh_file.h"
 #include "rondel/mesh_quality.h"
 #include "system/job.h"
 #include "system/parallel.h"
@@ -219,12 +220,13 @@ class QualityFinder {
 
 Quality quality(const MeshArrays& arrays, const Execution& execution) {
   const system::Call call(execution);
-  if (arrays.num_cells() == 0) return {};
+  meshing::require_consistent(arrays, execution.threads);
   return QualityFinder(arrays, execution).find();
 }
 
 CellQuality cell_quality(const MeshArrays& arrays, const Execution& execution) {
   const system::Call call(execution);
+  meshing::require_consistent(arrays, execution.threads);
   const std::size_t size = arrays.num_cells();
   CellQuality result;
   for (auto* values : {&result.centroid_offset, &result.edge_ratio, &result.side_ratio,
