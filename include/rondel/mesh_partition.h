@@ -17,8 +17,8 @@
 namespace rondel::mesh {
 
 enum class PartitionEnd : std::uint8_t {
-  converged,  ///< all areas are as wanted
-  rounded,  ///< as near as weights that are doubles bring them: 2^-51 over the smallest area, about
+  converged,   ///< all areas are as wanted
+  rounded,     ///< as near as weights that are doubles bring them: a million equal cells to 1e-10
   iterations,  ///< there were too many steps
   infeasible,  ///< no weights give these areas, or none that steps come near
   stopped,     ///< Execution::stop
@@ -40,9 +40,11 @@ struct AreaPartitionOptions {
 };
 
 struct AreaPartition {
-  /// weights[i] * sites[i] are weighted sites (Model::weighted) whose power cells have the areas; the
+  /// weights[i] times the unit vectors of the sites are weighted sites (Model::weighted) whose power cells have the areas; the
   /// smallest weight is 1, so that each stands for a circle, of radius arccos(1 / weight).
   std::vector<double> weights;
+  std::vector<Point> poles;       ///< the weighted sites: a weight times a unit vector
+  std::vector<double> radii_deg;  ///< of the circles
   std::vector<double> areas;
   double largest_error = 0;
   Index worst = no_index;  ///< the site that has it

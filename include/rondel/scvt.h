@@ -56,8 +56,6 @@ struct ScvtOptions {
   double energy_tolerance = 0;
   int max_iterations = 1000;  ///< in each level
   ScvtMethod method = ScvtMethod::lbfgs;
-  /// Cells with other than 5, 6 or 7 sides and short edges are mended.
-  bool repair = true;
   /// Called after every step.
   std::function<void(const ScvtStep&)> seen{};
 };

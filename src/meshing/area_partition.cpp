@@ -16,6 +16,7 @@
 #include <string>
 #include <utility>
 
+#include "exact/argument.h"
 #include "exact/vector.h"
 #include "meshing/graph_laplacian.h"
 #include "rondel/delaunay.h"
@@ -75,13 +76,21 @@ class Newton {
     return now;
   }
 
-  // The step of log w that Newton's method makes.
-  [[nodiscard]] std::vector<double> step_from(const Weighted& now) const {
+  struct Step {
+    std::vector<double> of_log;  // of log w
+    double rounding;  // the relative error of an area that is left by weights that are doubles
+  };
+  // What Newton's method makes. Weights are rounded by 2^-53 of theirs, those of a cell and of its neighbors.
+  [[nodiscard]] Step step_from(const Weighted& now) const {
     std::vector<double> right(sites_.size());
     for (std::size_t i = 0; i < sites_.size(); ++i) right[i] = targets_[i] - now.areas[i];
-    std::vector<double> step;
-    LaplacianSolver(graph_of(now), execution_.threads)
-        .solve(right, inner_tolerance, most_inner_steps, step);
+    WeightedGraph graph = graph_of(now);
+    Step step{{}, 0};
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      step.rounding = std::max(step.rounding, 0x1p-51 * graph.diagonal[i] / targets_[i]);
+    }
+    LaplacianSolver(std::move(graph), execution_.threads)
+        .solve(right, inner_tolerance, most_inner_steps, step.of_log);
     return step;
   }
 
@@ -194,9 +203,16 @@ void require_distinct(std::span<const Point> sites, const Execution& execution) 
   }
 }
 
-void finish(AreaPartition& result, const Weighted& now) {
+void finish(AreaPartition& result, const std::vector<Point>& units, const Weighted& now) {
   const double least = *std::ranges::min_element(result.weights);
-  for (double& weight : result.weights) weight /= least;
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    double& weight = result.weights[i];
+    weight /= least;
+    result.poles.push_back(weight * units[i]);
+    // The radius has the cosine 1 / weight.
+    const double tangent = std::sqrt((weight - 1) * (weight + 1));
+    result.radii_deg.push_back(180 / std::numbers::pi * exact::argument(tangent, 1));
+  }
   result.areas = now.areas;
   result.largest_error = now.largest_error;
   result.worst = now.worst;
@@ -223,20 +239,20 @@ std::string_view name_of(PartitionEnd end) noexcept {
 AreaPartition area_partition(std::span<const Point> sites, std::span<const double> targets,
                              const AreaPartitionOptions& options, const Execution& execution) {
   const system::ArithmeticScope arithmetic;
-  std::vector<Point> units = unit_sites(sites);
+  const std::vector<Point> units = unit_sites(sites);
   require_distinct(units, execution);
-  const Newton newton(std::move(units), scaled_targets(targets, sites.size()), execution);
+  const Newton newton(units, scaled_targets(targets, sites.size()), execution);
   AreaPartition result;
   result.weights.assign(sites.size(), 1);
   std::optional<Weighted> now;
   if (!sites.empty()) now = newton.measure(result.weights);
   if (!now) {
     result.end = PartitionEnd::infeasible;
+    result.poles = units;
+    result.radii_deg.assign(sites.size(), 0);
     return result;
   }
   const double least_area = 0.5 * std::min(now->smallest_area, newton.least_target());
-  // Weights are rounded by 2^-53 of theirs, which moves walls: by some 4 of these over the smallest area.
-  const double rounding = 0x1p-51 / newton.least_target();
   for (double length = 1;;) {
     if (options.seen) options.seen({result.steps, now->largest_error, length});
     result.end = PartitionEnd::converged;
@@ -246,12 +262,12 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
     result.end = PartitionEnd::stopped;
     if (execution.stop != nullptr && execution.stop->load()) break;
 
-    const std::vector<double> step = newton.step_from(*now);
+    const Newton::Step step = newton.step_from(*now);
     std::optional<Weighted> next;
     std::vector<double> weights;
     length = 1;
     for (int halving = 0; halving < most_halvings; ++halving, length /= 2) {
-      weights = stepped(result.weights, step, length);
+      weights = stepped(result.weights, step.of_log, length);
       next = newton.measure(weights);
       const double fall = 1 - length / 2;
       if (next && next->smallest_area >= least_area &&
@@ -260,15 +276,16 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
       }
       next.reset();
       // Nothing shorter helps where rounding is all that is left.
-      if (now->largest_error <= rounding) break;
+      if (now->largest_error <= step.rounding) break;
     }
-    result.end = now->largest_error <= rounding ? PartitionEnd::rounded : PartitionEnd::infeasible;
+    result.end =
+        now->largest_error <= step.rounding ? PartitionEnd::rounded : PartitionEnd::infeasible;
     if (!next) break;
     result.weights = std::move(weights);
     now = std::move(next);
     ++result.steps;
   }
-  finish(result, *now);
+  finish(result, units, *now);
   return result;
 }
 
