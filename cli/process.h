@@ -5,6 +5,7 @@
 /// What the tool asks of the system that runs it: process_posix.cpp, process_windows.cpp.
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -13,6 +14,9 @@ namespace rondel::cli {
 /// To be called first. From then on standard streams are files that cannot be mistaken for others,
 /// which carry the same bytes on every system, and what ends the process leaves no temporary file.
 void prepare_process();
+
+/// From the first call on: a flag that Ctrl-C sets, instead of ending the process. The second Ctrl-C does that.
+const std::atomic<bool>& interrupted_by_user();
 
 /// The arguments of main(); in UTF-8 on Windows.
 std::vector<const char*> arguments_of_process(int argc, const char* const* argv);

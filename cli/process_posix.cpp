@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
 
@@ -28,7 +29,16 @@ void guard_standard_streams() {
 
 extern "C" void rondel_remove_temporaries_and_end(int signal) {
   remove_temporaries();
-  std::raise(signal);  // its default action has been restored (SA_RESETHAND)
+  std::signal(signal, SIG_DFL);  // which rondel_interrupt() has not
+  std::raise(signal);
+}
+
+std::atomic<bool> is_interrupted = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
+extern "C" void rondel_interrupt(int /*signal*/) {
+  is_interrupted = true;
+  std::signal(SIGINT, &rondel_remove_temporaries_and_end);
 }
 
 // What ends the process leaves no temporary file; a reader that goes away (SIGPIPE) ends it
@@ -51,6 +61,11 @@ void handle_signals() {
 void prepare_process() {
   guard_standard_streams();
   handle_signals();
+}
+
+const std::atomic<bool>& interrupted_by_user() {
+  if (std::signal(SIGINT, &rondel_interrupt) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
+  return is_interrupted;
 }
 
 std::vector<const char*> arguments_of_process(int argc, const char* const* argv) {

@@ -7,6 +7,7 @@
 #include <psapi.h>
 #include <shellapi.h>
 
+#include <csignal>
 #include <span>
 #include <string>
 
@@ -24,7 +25,19 @@ std::string utf8(const wchar_t* text) {
   return result;  // with the zero that ends it
 }
 
+std::atomic<bool> is_interrupted = false;
+
+extern "C" void rondel_interrupt(int /*signal*/) {
+  is_interrupted =
+      true;  // the second time ends the process: the system has forgotten this function
+}
+
 }  // namespace
+
+const std::atomic<bool>& interrupted_by_user() {
+  std::signal(SIGINT, &rondel_interrupt);
+  return is_interrupted;
+}
 
 // The system deletes temporary files itself.
 void prepare_process() {

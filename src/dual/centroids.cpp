@@ -10,10 +10,10 @@
 
 #include <cmath>
 
+#include "dual/arc_excess.h"
 #include "dual/great_circle_diagrams.h"
 #include "dual/local_ring.h"
 #include "dual/parts.h"
-#include "exact/argument.h"
 #include "rondel/diagram.h"
 #include "system/job.h"
 
@@ -31,17 +31,6 @@ Vec offset_from_origin(const Vec& q, const RingPoint& p) {
   return cross(p.r, q) - (dot(p.r, p.r) / p.cosine_plus_1) * q;
 }
 
-// t / sin(t) - 1 of an arc with this sine and cosine, t < pi.
-double arc_excess(double sine, double cosine) {
-  constexpr double series_limit = 0x1p-6;
-  if (sine > series_limit || cosine < 0) {
-    return sine == 0 ? 0 : exact::argument(sine, cosine) / sine - 1;
-  }
-  // asin(s)/s - 1; the first omitted term is below 2^-6^10 / 28.
-  const double x = sine * sine;
-  return x * (1.0 / 6 + x * (3.0 / 40 + x * (15.0 / 336 + x * (105.0 / 3456))));
-}
-
 Point centroid_of(const LocalRing& ring) {
   const Vec& q = ring.origin;
   Vec moment{0, 0, 0};
@@ -55,7 +44,7 @@ Point centroid_of(const LocalRing& ring) {
     const Vec pole = cross(q, step) + flat;
     const double chord = norm(step);
     const double sine = norm(pole);
-    moment = moment + flat + arc_excess(sine, 1 - 0.5 * chord * chord) * pole;
+    moment = moment + flat + dual::arc_excess(sine, 1 - 0.5 * chord * chord) * pole;
     sum = sum + q + d;
     perimeter += chord;
     last = d;

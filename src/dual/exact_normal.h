@@ -22,7 +22,7 @@ struct ExactNormal {
 // center: the face then lies in the plane through the center (or, when that is on the
 // line too, through the first site that is not), which supports the hull. Its normal
 // points away from the sites.
-ExactNormal exact_normal(const SplitSites& sites, Index a, Index b, Index c);
+RONDEL_API ExactNormal exact_normal(const SplitSites& sites, Index a, Index b, Index c);
 
 // The difference b/|b| - a/|a| of the projections.
 struct ExactDifference {

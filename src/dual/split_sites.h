@@ -18,6 +18,7 @@
 #include "exact/eft.h"
 #include "exact/unit_vector.h"
 #include "exact/vector.h"
+#include "rondel/export.h"
 #include "rondel/triangulation.h"
 #include "rondel/types.h"
 #include "system/huge_pages.h"
@@ -48,7 +49,7 @@ inline Offset offset(const exact::SplitPoint& a, const exact::SplitPoint& b) {
 // Vertices are named by their rank: the order in which the faces first come to them (below
 // dimension 2, the order of the ring). Faces are in spatial order and sites are not, so places by
 // rank are near in memory when they are near in space; by site, every corner would miss the caches.
-class SplitSites {
+class RONDEL_API SplitSites {
  public:
   // Keeps a reference to the sites of the triangulation. At most so many threads work, here and for
   // what is made of these places.

@@ -123,25 +123,40 @@ const char* NetcdfReader::place(const Variable& variable, std::uint64_t index) c
 }
 
 template <typename T, typename Out>
-void NetcdfReader::copy(const Variable& variable, std::vector<Out>& out) const {
-  for (std::uint64_t i = 0; i < variable.num_values; ++i) {
+void NetcdfReader::copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const {
+  if (!variable.has_records && !out.empty()) {
+    const char* const first = place(variable, begin);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+      // NOLINTNEXTLINE(bugprone-signed-char-misuse): a number, no character
+      out[i] = static_cast<Out>(load<T>(first + i * sizeof(T), std::endian::big));
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < out.size(); ++i) {
     // NOLINTNEXTLINE(bugprone-signed-char-misuse): a number, no character
-    out[i] = static_cast<Out>(load<T>(place(variable, i), std::endian::big));
+    out[i] = static_cast<Out>(load<T>(place(variable, begin + i), std::endian::big));
+  }
+}
+
+void NetcdfReader::read_numbers(const Variable& variable, std::uint64_t begin,
+                                std::span<double> out) const {
+  if (variable.type == NetcdfType::float64) {
+    copy<double>(variable, begin, out);
+  } else if (variable.type == NetcdfType::float32) {
+    copy<float>(variable, begin, out);
+  } else {
+    std::vector<std::int64_t> whole(out.size());
+    read_integers(variable, begin, whole);
+    std::ranges::copy(whole, out.begin());
   }
 }
 
 std::vector<double> NetcdfReader::numbers(const Variable& variable) const {
-  if (variable.type == NetcdfType::float64 || variable.type == NetcdfType::float32) {
-    std::vector<double> values(variable.num_values);
-    if (variable.type == NetcdfType::float64) {
-      copy<double>(variable, values);
-    } else {
-      copy<float>(variable, values);
-    }
-    return values;
-  }
-  const std::vector<std::int64_t> whole = integers(variable);
-  return {whole.begin(), whole.end()};
+  // Checked before there is room for them.
+  if (variable.type == NetcdfType::text) refuse(variable, "is a text where numbers are needed");
+  std::vector<double> values(variable.num_values);
+  read_numbers(variable, 0, values);
+  return values;
 }
 
 std::vector<double> NetcdfReader::degrees(const Variable& variable) const {
@@ -156,40 +171,46 @@ std::vector<std::int64_t> NetcdfReader::integers(const Variable& variable) const
   // Checked before there is room for them.
   if (variable.type == NetcdfType::text) refuse(variable, "is a text where numbers are needed");
   std::vector<std::int64_t> values(variable.num_values);
+  read_integers(variable, 0, values);
+  return values;
+}
+
+void NetcdfReader::read_integers(const Variable& variable, std::uint64_t begin,
+                                 std::span<std::int64_t> out) const {
   switch (variable.type) {
     case NetcdfType::int8:
-      copy<std::int8_t>(variable, values);
+      copy<std::int8_t>(variable, begin, out);
       break;
     case NetcdfType::int16:
-      copy<std::int16_t>(variable, values);
+      copy<std::int16_t>(variable, begin, out);
       break;
     case NetcdfType::int32:
-      copy<std::int32_t>(variable, values);
+      copy<std::int32_t>(variable, begin, out);
       break;
     case NetcdfType::uint8:
-      copy<std::uint8_t>(variable, values);
+      copy<std::uint8_t>(variable, begin, out);
       break;
     case NetcdfType::uint16:
-      copy<std::uint16_t>(variable, values);
+      copy<std::uint16_t>(variable, begin, out);
       break;
     case NetcdfType::uint32:
-      copy<std::uint32_t>(variable, values);
+      copy<std::uint32_t>(variable, begin, out);
       break;
     case NetcdfType::int64:
-      copy<std::int64_t>(variable, values);
+      copy<std::int64_t>(variable, begin, out);
       break;
     case NetcdfType::uint64:
-      copy<std::uint64_t>(variable, values);
-      for (const std::int64_t value : values) {
+      copy<std::uint64_t>(variable, begin, out);
+      for (const std::int64_t value : out) {
         if (value < 0) refuse(variable, "has an integer beyond 2^63");
       }
       break;
     case NetcdfType::text:
+      refuse(variable, "is a text where numbers are needed");
     case NetcdfType::float32:
     case NetcdfType::float64:
       refuse(variable, "is not of integers");
   }
-  return values;
 }
 
 const NetcdfAttribute* find_attribute(std::span<const NetcdfAttribute> attributes,

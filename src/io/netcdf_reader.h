@@ -42,6 +42,10 @@ class RONDEL_API NetcdfReader {
 
   // All values as doubles. Throws BadValue if they are a text.
   [[nodiscard]] std::vector<double> numbers(const Variable& variable) const;
+  // As many as there is room for, from this one on. Throws BadValue as numbers() and integers() do.
+  void read_numbers(const Variable& variable, std::uint64_t begin, std::span<double> out) const;
+  void read_integers(const Variable& variable, std::uint64_t begin,
+                     std::span<std::int64_t> out) const;
   // The same in degrees: as they are, unless the units begin with "rad".
   [[nodiscard]] std::vector<double> degrees(const Variable& variable) const;
   // The same as integers. Throws BadValue if they are a text, are floating, or are beyond 2^63.
@@ -50,7 +54,7 @@ class RONDEL_API NetcdfReader {
  private:
   [[nodiscard]] const char* place(const Variable& variable, std::uint64_t index) const;
   template <typename T, typename Out>
-  void copy(const Variable& variable, std::vector<Out>& out) const;
+  void copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const;
   void place_records(std::uint64_t claimed);
 
   std::string_view bytes_;

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <utility>
 
+#include "io/bad_value.h"
+
 namespace rondel::io {
 namespace {
 
@@ -64,6 +66,8 @@ class HeaderBytes {
     for (const double number : attribute.numbers) {
       if (attribute.type == NetcdfType::int32) {
         u32(static_cast<std::uint32_t>(static_cast<std::int32_t>(number)));
+      } else if (attribute.type == NetcdfType::float32) {
+        u32(std::bit_cast<std::uint32_t>(static_cast<float>(number)));
       } else {
         assert(attribute.type == NetcdfType::float64);
         add<std::uint64_t>(std::bit_cast<std::uint64_t>(number));
@@ -85,6 +89,10 @@ std::size_t NetcdfWriter::add_dimension(std::string name, std::uint64_t size) {
 
 void NetcdfWriter::add_attribute(std::string name, std::string text) {
   attributes_.push_back({std::move(name), NetcdfType::text, std::move(text), {}});
+}
+
+void NetcdfWriter::add_attribute(NetcdfAttribute attribute) {
+  attributes_.push_back(std::move(attribute));
 }
 
 void NetcdfWriter::add_variable(NetcdfVariable variable) {
@@ -141,8 +149,14 @@ std::string NetcdfWriter::header(int version, std::uint64_t first_offset) const 
   return bytes.take();
 }
 
-void NetcdfWriter::begin() {
-  const int version = needed_version();
+void NetcdfWriter::begin(int version) {
+  const int needed = needed_version();
+  if (version == 0) version = needed;
+  if (version < needed) {
+    throw BadValue("CDF-" + std::to_string(version) +
+                   " cannot hold it, as a dimension or a variable is too large; CDF-" +
+                   std::to_string(needed) + " can");
+  }
   const std::uint64_t size = header(version, 0).size();
   file_.write(header(version, size));
   end_full_variables();
@@ -152,7 +166,11 @@ void NetcdfWriter::write_bytes(std::string_view bytes) {
   assert(current_ < variables_.size() &&
          num_written_ + bytes.size() <= size_of_values(variables_[current_]));
   file_.write(bytes);
-  num_written_ += bytes.size();
+  count_bytes(bytes.size());
+}
+
+void NetcdfWriter::count_bytes(std::uint64_t size) {
+  num_written_ += size;
   end_full_variables();
 }
 

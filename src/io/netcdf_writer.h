@@ -17,6 +17,7 @@
 #include "io/atomic_file.h"
 #include "io/binary.h"
 #include "io/netcdf_format.h"
+#include "io/parallel_write.h"
 #include "rondel/export.h"
 
 namespace rondel::io {
@@ -35,10 +36,12 @@ class RONDEL_API NetcdfWriter {
   // The number by which variables name it.
   std::size_t add_dimension(std::string name, std::uint64_t size);
   void add_attribute(std::string name, std::string text);
+  void add_attribute(NetcdfAttribute attribute);
   void add_variable(NetcdfVariable variable);
-  void begin();
+  // Of this version, 1, 2 or 5; of 0 the lowest one that can. Throws BadValue if that version cannot.
+  void begin(int version = 0);
 
-  // The next values of the variable; T is that of its type: char, int32_t, int64_t, float or double.
+  // The next values of the variable; T is that of its type: char, int8_t, int32_t, int64_t, float or double.
   template <typename T>
   void write(std::span<const T> values) {
     write_values<T>(values.size(), [&](std::size_t i) { return values[i]; });
@@ -54,6 +57,21 @@ class RONDEL_API NetcdfWriter {
     }
   }
 
+  // The same of rows, `of_each` values each, which fill(begin, end, values) makes, called by several threads.
+  template <typename T, typename Fill>
+  void write_rows(unsigned threads, std::size_t rows, std::size_t of_each, const Fill& fill) {
+    write_in_parallel(file_, threads, rows, items_per_piece,
+                      [&](std::string& text, std::size_t begin, std::size_t end) {
+                        std::vector<T> values((end - begin) * of_each);
+                        fill(begin, end, values.data());
+                        text.resize(values.size() * sizeof(T));
+                        for (std::size_t i = 0; i < values.size(); ++i) {
+                          store(values[i], text.data() + i * sizeof(T), std::endian::big);
+                        }
+                      });
+    count_bytes(static_cast<std::uint64_t>(rows) * of_each * sizeof(T));
+  }
+
   // Precondition: all values are written.
   void finish();
 
@@ -62,6 +80,7 @@ class RONDEL_API NetcdfWriter {
   [[nodiscard]] int needed_version() const;
   [[nodiscard]] std::string header(int version, std::uint64_t first_offset) const;
   void write_bytes(std::string_view bytes);
+  void count_bytes(std::uint64_t size);
   void end_full_variables();
 
   AtomicFile& file_;

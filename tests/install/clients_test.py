@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Clients of the installed package that do not use CMake, of a plugin, and of the shared libraries.
 
-    clients_test.py pkg_config|c|distributed|globe|plugin|remap|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARIES...
+    clients_test.py pkg_config|c|distributed|globe|mesh|plugin|remap|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARIES...
 
 Each compiles client.cpp, that in C examples/c_interface.c, those of other libraries theirs, as globe/globe.cpp, and
-compares what it prints. The libraries are those of rondel, rondel::io, rondel::distributed and rondel::remap.
+compares what it prints. The libraries are those of rondel, rondel::io, rondel::distributed, rondel::remap and
+rondel::mesh.
 """
 
 import os
@@ -18,10 +19,10 @@ import tempfile
 from commands import run
 
 
-# What rondel::distributed and rondel::remap use of the core and of rondel::io.
+# What rondel::distributed, rondel::remap and rondel::mesh use of the core and of rondel::io.
 USED_ABOVE = re.compile(
     r"rondel::(api::(make_triangulation|require_delaunay|validate|validate_queries)|bulk::(AllSites|Bucket|bucket_of|join_buckets|quadrant|triangulate_bucket)"
-    r"|dual::((areas|circumcenters)_within|exact_projected_difference|exact_weights)|io::(Atomic(File|Folder)|BadValue|CsvRecords|FileBytes|Netcdf\w+|NpyRows|Zip\w+|Zarr\w+|is_zarr|zarr_\w+|append_number|ending|find_attribute|in_quotes|make_npy_header|netcdf_text|open_replacement|parse_n(py_header|umber)|read_polygon_features|shape_text|throw_unknown_ending|zip_member|replaced_by|temporary_name)|map::(area_on_left|line_parts|lonlat_of|region_polygons)|order::(place_keys|radix_sort|spatial_order)|query::(Built|Engine|order_ties_by_place))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
+    r"|dual::((areas|circumcenters)_within|exact_normal|exact_projected_difference|exact_weights|SplitSites)|io::(Atomic(File|Folder)|BadValue|CsvRecords|FileBytes|Netcdf\w+|NpyRows|Zip\w+|Zarr\w+|is_zarr|zarr_\w+|append_number|ending|find_attribute|in_quotes|make_npy_header|netcdf_text|open_replacement|parse_n(py_header|umber)|read_polygon_features|shape_text|throw_unknown_ending|zip_member|replaced_by|temporary_name)|map::(area_on_left|line_parts|lonlat_of|region_polygons)|order::(place_keys|radix_sort|spatial_order)|query::(Built|Engine|order_ties_by_place))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
 )
 
 
@@ -81,6 +82,10 @@ class Client:
         """A program that carries values, by pkg-config and by CMake."""
         self.of_library("remap", "a value, an error\n")
 
+    def mesh(self):
+        """A program that makes a mesh, by pkg-config and by CMake."""
+        self.of_library("mesh", "12 cells, an error\n")
+
     def of_library(self, name, expected):
         """The client of one library, which has a folder."""
         self.expected = expected
@@ -103,7 +108,8 @@ class Client:
     def shared(self):
         """The shared libraries: what they show, and a program that links them."""
         for source, expected in (("client.cpp", self.expected), ("distributed/distributed.cpp", "8 faces, 1 error\n"),
-                                 ("remap/remap.cpp", "a value, an error\n")):
+                                 ("remap/remap.cpp", "a value, an error\n"),
+                                 ("mesh/mesh.cpp", "12 cells, an error\n")):
             paths = [f"-Wl,-rpath,{library.parent}" for library in self.libraries]
             run([*self.compile, self.file(source), "-o", self.work / "client",
                  f"-I{self.source}/include", f"-I{self.build}/include", *reversed(self.libraries), *paths])
@@ -112,7 +118,8 @@ class Client:
         # These show what libraries above them use.
         layers = set((self.source / "src/LAYERS").read_text(encoding="utf-8").split()) - {"system", "exact"}
         private = re.compile(rf"\brondel::({'|'.join(sorted(layers))})::")
-        public = ("rondel::delaunay(", "rondel::read_sites(", "rondel::delaunay_file(", "rondel::apply(")
+        public = ("rondel::delaunay(", "rondel::read_sites(", "rondel::delaunay_file(", "rondel::apply(",
+                  "rondel::mesh::arrays(")
         for library, known in zip(self.libraries, public, strict=True):
             names = run(["nm", "--dynamic", "--defined-only", "--demangle", library])
             shown = [line for line in names.splitlines() if private.search(line.partition("(")[0])]

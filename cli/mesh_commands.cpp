@@ -1,0 +1,181 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The arguments and the help of `rondel mesh`.
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <vector>
+
+#include "mesh_make.h"
+#include "validate.h"
+#include "words.h"
+
+namespace rondel::cli {
+namespace {
+
+std::string sites_error(const std::string& text) { return whole_error(text, 1, max_sites); }
+
+void add_mesh_output(CLI::App& parser, MeshOutput& output) {
+  add_output_option(parser, output.common,
+                    "The mesh: .nc, of MPAS or as --format says (mpas, ugrid, scrip,\n"
+                    "esmf, exodus); or its sites: .csv .tsv .xyz .txt .npy")
+      ->required();
+  parser
+      .add_option("--report", output.report, "Write the quality of the mesh: .json, .txt or .svg")
+      ->type_name("FILE");
+  parser
+      .add_option("--graph", output.graph,
+                  "Write which cells are neighbors, for METIS: MPAS's graph.info")
+      ->type_name("FILE");
+  parser
+      .add_option("--sphere-radius", output.radius,
+                  "Radius in the file of MPAS (default: 1, as MPAS-A has it)")
+      ->check(positive_error)
+      ->type_name("M");
+  add_threads_option(parser, output.common);
+  add_report_options(parser, output.common);
+}
+
+void add_tolerances(CLI::App& parser, mesh::ScvtOptions& options) {
+  parser
+      .add_option("--tolerance", options.mean_tolerance,
+                  "Mean distance of sites from the centroids of their cells,\n"
+                  "over the spacing (default: 1e-4)")
+      ->check(positive_error)
+      ->type_name("T");
+  parser
+      .add_option("--max-tolerance", options.largest_tolerance,
+                  "The largest of these distances (default: 1e-2)")
+      ->check(positive_error)
+      ->type_name("T");
+  parser.add_option("--max-steps", options.max_iterations, "Steps in each level (default: 1000)")
+      ->check([](const std::string& text) { return whole_error(text, 0, 1'000'000'000); })
+      ->type_name("N");
+}
+
+Command add_scvt_command(CLI::App& group) {
+  auto options = std::make_shared<ScvtCommandOptions>();
+  CLI::App* parser = group.add_subcommand("scvt", "Make a centroidal Voronoi mesh");
+  CLI::Option* number =
+      parser->add_option("-n,--number", options->scvt.count, "Number of cells, also as 1e6");
+  number->check(sites_error)->transform(digits_of_whole)->type_name("N");
+  CLI::Option* spacing =
+      parser->add_option("--spacing", options->spacing,
+                         "Distance of neighbors: kilometers, or a file of them, FILE.nc[:NAME]\n"
+                         "or FILE.csv:COLUMN; with -n only its proportions count");
+  spacing->type_name("KM|FILE");
+  parser
+      ->add_option("--refine", options->refine,
+                   "Kilometers near the lines, outlines or points of FILE, .geojson\n"
+                   "or a table; may be repeated")
+      ->allow_extra_args(false)
+      ->needs(spacing)
+      ->type_name("FILE:KM");
+  parser
+      ->add_option("--gradient", options->slope,
+                   "How much the spacing grows over its own distance, at most\n"
+                   "(default: 0.05 of --refine; files as they are)")
+      ->check(positive_error)
+      ->type_name("G");
+  CLI::Option* start = parser->add_option("--start", options->start,
+                                          "Begin with the sites of FILE, and keep them in order");
+  start->excludes(number)->type_name("FILE");
+  add_word<mesh::ScvtMethod>(
+      *parser, "--method", options->scvt.method,
+      {{"lbfgs", mesh::ScvtMethod::lbfgs}, {"lloyd", mesh::ScvtMethod::lloyd}},
+      "lbfgs (default), or lloyd, to compare");
+  add_tolerances(*parser, options->scvt);
+  add_mesh_output(*parser, options->output);
+  parser->footer(
+      "Kilometers are those of a sphere of 6371.229 km. With Ctrl-C the mesh so far is written.\n\n"
+      "Examples:\n"
+      "  rondel mesh scvt -n 40962 -o x1.40962.nc\n"
+      "  rondel mesh scvt --spacing 240 --refine coast.geojson:60 -o coast.nc --report coast.json\n"
+      "  rondel mesh scvt --spacing spacing.nc:h -o mesh.nc --format ugrid");
+  return {parser, [options] { return run_scvt(*options); }};
+}
+
+Command add_icosahedral_command(CLI::App& group) {
+  auto options = std::make_shared<IcosahedralCommandOptions>();
+  CLI::App* parser =
+      group.add_subcommand("icosahedral", "Make a mesh of a divided icosahedron, relaxed");
+  parser->add_option("LEVELS", options->levels, "Divisions in four: 10 * 4^LEVELS + 2 cells")
+      ->required()
+      ->check([](const std::string& text) { return whole_error(text, 0, 12); })
+      ->type_name("");
+  parser->add_flag("--no-relax", options->keep, "Leave the sites in the middles of edges");
+  add_mesh_output(*parser, options->output);
+  parser->footer("Example:\n  rondel mesh icosahedral 6 -o x1.40962.nc");
+  return {parser, [options] { return run_icosahedral(*options); }};
+}
+
+Command add_points_command(CLI::App& group) {
+  auto options = std::make_shared<MeshPointsOptions>();
+  CLI::App* parser = group.add_subcommand("points", "Make the mesh of sites of a known kind");
+  parser->add_option("KIND", options->kind, "healpix, reduced-gaussian, cubed-sphere or poisson")
+      ->required()
+      ->check(CLI::IsMember({"healpix", "reduced-gaussian", "cubed-sphere", "poisson"}))
+      ->type_name("");
+  parser
+      ->add_option("--size", options->size,
+                   "HEALPix's side, the N of O(N), cells along an edge of the cube")
+      ->check(sites_error)
+      ->type_name("N");
+  parser->add_option("--radius", options->radius_km, "poisson: the least distance")
+      ->check(positive_error)
+      ->type_name("KM");
+  parser->add_option("--seed", options->seed, "poisson: seed of the random numbers (default: 1)")
+      ->type_name("S");
+  add_mesh_output(*parser, options->output);
+  parser->footer(
+      "Examples:\n"
+      "  rondel mesh points healpix --size 64 -o centers.npy\n"
+      "  rondel mesh points poisson --radius 100 -o poisson.nc --format ugrid");
+  return {parser, [options] { return run_mesh_points(*options); }};
+}
+
+Command add_area_partition_command(CLI::App& group) {
+  auto options = std::make_shared<AreaPartitionCommandOptions>();
+  CLI::App* parser =
+      group.add_subcommand("partition", "Give the cells of sites prescribed areas, by weights");
+  add_input_options(*parser, options->common);
+  add_output_option(*parser, options->common,
+                    "The weighted sites: .csv .tsv (lon, lat, radius), .xyz .txt .npy")
+      ->required();
+  parser
+      ->add_option("--area", options->column,
+                   "Column with the areas in any unit (default: all equal)")
+      ->type_name("COL");
+  parser
+      ->add_option("--tolerance", options->tolerance,
+                   "The largest relative error of an area (default: 1e-12)")
+      ->check(positive_error)
+      ->type_name("T");
+  add_threads_option(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "The weighted sites are read by --model weighted, and as circles by --radius radius.\n\n"
+      "Examples:\n"
+      "  rondel mesh partition stations.csv -o equal.npy\n"
+      "  rondel voronoi equal.npy --model weighted -o equal.geojson");
+  return {parser, [options] { return run_area_partition(*options); }};
+}
+
+}  // namespace
+
+Command add_mesh_command(CLI::App& tool) {
+  CLI::App* group = tool.add_subcommand("mesh", "Make meshes for models");
+  group->require_subcommand(1);
+  const std::vector<Command> commands = {add_scvt_command(*group), add_icosahedral_command(*group),
+                                         add_points_command(*group),
+                                         add_area_partition_command(*group)};
+  return {group, [commands] {
+            for (const Command& command : commands) {
+              if (command.parser->parsed()) return command.run();
+            }
+            throw UsageError("no command of mesh (see rondel mesh --help)");
+          }};
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// The options of the commands that make meshes: rondel mesh scvt, icosahedral, points, partition.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "rondel/scvt.h"
+
+namespace rondel::cli {
+
+/// Kilometers on the Earth, a sphere of 6371.229 km as MPAS has it, for a radian.
+inline constexpr double kilometers_per_radian = 6371.229;
+
+/// What of a mesh is written: OUTPUT, .nc as --format says, or its sites.
+struct MeshOutput {
+  CommonOptions common;
+  std::string report;  ///< --report
+  std::string graph;   ///< --graph
+  double radius = 1;   ///< --sphere-radius
+};
+
+struct ScvtCommandOptions {
+  MeshOutput output;
+  std::string spacing;              ///< --spacing: kilometers, FILE or FILE:NAME
+  std::vector<std::string> refine;  ///< --refine: FILE:KM
+  std::optional<double> slope;      ///< --gradient
+  std::string start;                ///< --start: sites
+  mesh::ScvtOptions scvt;
+};
+
+struct IcosahedralCommandOptions {
+  MeshOutput output;
+  unsigned levels = 0;
+  bool keep = false;  ///< --no-relax
+};
+
+struct MeshPointsOptions {
+  MeshOutput output;
+  std::string kind;
+  std::size_t size = 0;  ///< --size
+  double radius_km = 0;  ///< --radius, of poisson
+  std::uint64_t seed = 1;
+};
+
+struct AreaPartitionCommandOptions {
+  CommonOptions common;
+  std::string column;  ///< --area
+  double tolerance = 1e-12;
+};
+
+ExitStatus run_scvt(const ScvtCommandOptions& options);
+ExitStatus run_icosahedral(const IcosahedralCommandOptions& options);
+ExitStatus run_mesh_points(const MeshPointsOptions& options);
+ExitStatus run_area_partition(const AreaPartitionCommandOptions& options);
+
+}  // namespace rondel::cli

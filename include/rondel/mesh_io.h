@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Meshes as the files of models and their tools (target rondel::mesh). Every function throws FileError with one
+/// line that names the file; output appears complete or not at all, and equal meshes give equal bytes.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "rondel/export.h"
+#include "rondel/io.h"
+#include "rondel/mesh.h"
+#include "rondel/types.h"
+
+namespace rondel::mesh {
+
+/// What a file of a mesh is. All are netCDF in one of its classic formats, in double precision.
+enum class MeshFormat : std::uint8_t {
+  mpas,  ///< all arrays, TRiSK's weights among them, as the specification of MPAS meshes names them
+  ugrid,  ///< CF-1.11 UGRID-1.0: faces, edges, nodes and how they meet
+  scrip,  ///< the corners of each cell, for SCRIP, NCO, ESMF, CDO
+  esmf,   ///< ESMF's unstructured mesh
+  exodus,  ///< Exodus II on the unit sphere, for TempestRemap, MOAB, VTK: a block for each number of corners
+};
+
+/// Which of netCDF's classic formats: CDF-2, which every program reads and whose variables have less than 4 GiB; or CDF-5.
+enum class NetcdfKind : std::uint8_t { cdf2, cdf5 };
+
+struct MeshFileOptions {
+  MeshFormat format = MeshFormat::mpas;
+  NetcdfKind kind = NetcdfKind::cdf5;
+};
+
+/// Writes the mesh, piece by piece: nothing of the file's size is in memory.
+///
+/// 1. Numbers start at 1 in MPAS, ESMF and Exodus, at 0 in UGRID. Longitudes are from 0 to below 2 pi, or 360
+///    degrees; at the poles 0.
+/// 2. MPAS: lengths and areas as in the arrays; besides what the specification asks for, meshDensity, nominalMinDc
+///    (the smallest dcEdge), and the qualities of cells and triangles that MPAS-Tools writes. The file_id is
+///    a hash of the mesh.
+/// 3. The other formats have areas on the unit sphere. Corners that an edge without length joins are one corner.
+/// 4. Cells of Exodus are ordered by their number of corners; elem_num_map has their numbers from 1 on.
+/// \throws InvalidInput if the arrays do not fit together; FileError also for CDF-2 that cannot hold the mesh.
+RONDEL_API void write(const std::string& path, const MeshArrays& arrays,
+                      const MeshFileOptions& options = {}, const Execution& execution = {});
+
+/// Writes which cells are neighbors, for METIS: MPAS's graph.info.
+RONDEL_API void write_graph(const std::string& path, const MeshArrays& arrays,
+                            const Execution& execution = {});
+
+/// Reads the arrays of an MPAS mesh on the whole sphere, whoever wrote it. What write() wrote comes back bit for
+/// bit, but a density of 1 everywhere as none.
+///
+/// 1. Areas, lengths, angles and points are those of the file, whatever their precision. The
+///    order and the start of lists are those of edgesOnCell and cellsOnVertex; the others follow from them, and from the
+///    edges.
+/// 2. The file's lists must describe a closed surface, with edges counterclockwise around cells.
+RONDEL_API MeshArrays read_mpas(const FileName& file, const Execution& execution = {});
+
+/// Reads a mesh of any kind: MPAS as read_mpas(), UGRID, SCRIP and ESMF by the centers of their cells, of which the mesh is
+/// made again, as arrays() does.
+/// \throws FileError also if the file has no centers, or if a corner of one of its cells is farther than a thousandth of the
+/// spacing from all corners of the cell of its center: then its cells are not those of Voronoi.
+RONDEL_API MeshArrays read_mesh(const FileName& file, const MeshOptions& options = {},
+                                const Execution& execution = {});
+
+}  // namespace rondel::mesh

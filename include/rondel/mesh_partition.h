@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Cells of prescribed areas around sites that stay where they are.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rondel/export.h"
+#include "rondel/types.h"
+
+namespace rondel::mesh {
+
+enum class PartitionEnd : std::uint8_t {
+  converged,   ///< all areas are as wanted
+  rounded,     ///< as near as weights that are doubles bring them: a million equal cells to 1e-10
+  iterations,  ///< there were too many steps
+  infeasible,  ///< no weights give these areas, or none that steps come near
+  stopped,     ///< Execution::stop
+};
+
+/// "converged", "rounded" ...
+RONDEL_API std::string_view name_of(PartitionEnd end) noexcept;
+
+struct PartitionStep {
+  int step = 0;
+  double largest_error = 0;  ///< of |area - wanted| / wanted
+  double length = 1;         ///< of the step over that of Newton's
+};
+
+struct AreaPartitionOptions {
+  double tolerance = 1e-12;  ///< the largest error
+  int max_steps = 100;
+  std::function<void(const PartitionStep&)> seen{};
+};
+
+struct AreaPartition {
+  /// weights[i] times the unit vectors of the sites are weighted sites (Model::weighted) whose power cells have the areas; the
+  /// smallest weight is 1, so that each stands for a circle, of radius arccos(1 / weight).
+  std::vector<double> weights;
+  std::vector<Point> poles;       ///< the weighted sites: a weight times a unit vector
+  std::vector<double> radii_deg;  ///< of the circles
+  std::vector<double> areas;
+  double largest_error = 0;
+  Index worst = no_index;  ///< the site that has it
+  int steps = 0;
+  PartitionEnd end = PartitionEnd::converged;
+};
+
+/// Weights for which the power cell of site i has the area targets[i]; without targets all are equal. This is
+/// Alexandrov's problem of polyhedra with given curvatures, and that of optimal transport for the cost
+/// -log(x.q); the walls are arcs of great circles. Newton's method, damped so that no cell vanishes (Kitagawa,
+/// Merigot, Thibert, J. Eur. Math. Soc. 21, 2019), from equal weights.
+///
+/// 1. The same bytes on every machine and for every number of threads.
+/// 2. Where there are such weights, they are unique but for a common factor.
+/// 3. What is infeasible ends as such, and `worst` says where it shows. Sites in one hemisphere always
+///    are.
+/// \throws InvalidInput (first bad index) if a site is not finite or the center, or two are in one
+///         place; if targets are not one for each site, not positive, or do not add up to 4 pi within 1e-6
+///         of it (they are scaled to that).
+RONDEL_API AreaPartition area_partition(std::span<const Point> sites,
+                                        std::span<const double> targets = {},
+                                        const AreaPartitionOptions& options = {},
+                                        const Execution& execution = {});
+
+}  // namespace rondel::mesh

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Spacings of a mesh from files. Every function throws FileError with one line that names the file.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "rondel/export.h"
+#include "rondel/io.h"
+#include "rondel/mesh_size.h"
+#include "rondel/types.h"
+
+namespace rondel::mesh {
+
+/// The points to refine() at, closer than `distance` radians along lines: those of a GeoJSON file, along its
+/// lines and the outlines of its polygons, which are arcs of great circles; of other formats the sites
+/// (read_sites()).
+RONDEL_API std::vector<Point> read_refinement(const FileName& file, double distance,
+                                              const Execution& execution = {});
+
+/// Spacings at the places of a file, linear between them on their triangulation and at the nearest outside of
+/// it: the variable or column `name`, by default the only one; .nc with longitudes and latitudes, of a grid or
+/// of points, and tables .csv .tsv. The values times `unit` are radians.
+RONDEL_API SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
+                                      std::size_t steps = SizeFunction::usual_steps,
+                                      const Execution& execution = {});
+
+}  // namespace rondel::mesh

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Spherical centroidal Voronoi tessellations (SCVT): sites moved until each is the centroid of its cell.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "rondel/export.h"
+#include "rondel/mesh_size.h"
+#include "rondel/types.h"
+
+namespace rondel::mesh {
+
+/// After a step, or at the start of a level.
+struct ScvtStep {
+  std::size_t sites = 0;  ///< of the level
+  int iteration = 0;      ///< within the level; 0: its start
+  double energy = 0;      ///< the integral of density times squared distance from the nearest site
+  /// Distances of sites from the centroids of their cells over the spacing of hexagons with the cell's
+  /// area: the mean and the largest.
+  double mean_offset = 0;
+  double largest_offset = 0;
+};
+
+/// Why the work ended.
+enum class ScvtEnd : std::uint8_t {
+  converged,   ///< within both tolerances, or the change of energy
+  iterations,  ///< there were too many
+  stopped,     ///< Execution::stop
+  stuck,       ///< no step lowers the energy: it is as low as rounding allows
+};
+
+/// "converged", "iterations" ...
+RONDEL_API std::string_view name_of(ScvtEnd end) noexcept;
+
+enum class ScvtMethod : std::uint8_t {
+  lbfgs,  ///< Yang, Gunzburger and Ju, J. Comput. Phys. 367, 2018
+  lloyd,  ///< every site to its centroid, to compare
+};
+
+struct ScvtOptions {
+  std::size_t count = 0;               ///< of sites; 0: size->count(), rounded
+  std::optional<SizeFunction> size{};  ///< none: the same spacing everywhere
+  /// The work ends when the mean and the largest offset are no more than these.
+  double mean_tolerance = 1e-4;
+  double largest_tolerance = 1e-2;
+  /// Or when a step lowers the energy by less than this part of it; 0: never.
+  double energy_tolerance = 0;
+  int max_iterations = 1000;  ///< in each level
+  ScvtMethod method = ScvtMethod::lbfgs;
+  /// Called after every step.
+  std::function<void(const ScvtStep&)> seen{};
+};
+
+struct Scvt {
+  std::vector<Point> sites;  ///< unit vectors, close ones close together
+  ScvtEnd end = ScvtEnd::converged;
+  ScvtStep last{};
+  std::size_t builds = 0;  ///< triangulations of all sites
+  std::size_t flips = 0;   ///< edges that were exchanged instead
+};
+
+/// A tessellation of `count` sites, by levels: a coarse one is solved, gets a site in the middle of every
+/// edge, and is solved again. With 10 * 4^k + 2 sites and no `size` the coarsest is the icosahedron.
+///
+/// 1. The same bytes on every machine and for every number of threads.
+/// 2. The energy never grows from step to step.
+/// 3. Where Execution::stop becomes true, the sites of the present level are returned as they are; it throws
+///    nothing.
+/// \throws InvalidInput if the count is below 12 or above max_sites.
+RONDEL_API Scvt scvt(const ScvtOptions& options, const Execution& execution = {});
+
+/// The same from sites of one's own, in their order, whose `count` is theirs.
+/// \throws InvalidInput (first bad index) if a site is not finite or the center; if there are
+///         duplicates, or the sites do not surround the center.
+RONDEL_API Scvt relaxed(std::span<const Point> sites, const ScvtOptions& options = {},
+                        const Execution& execution = {});
+
+/// The energy of n sites of constant density over that of as many regular hexagons of the plane, which it
+/// never reaches: 5 (4 pi)^2 / (18 sqrt(3) n).
+RONDEL_API double energy_over_hexagons(double energy, std::size_t num_sites) noexcept;
+
+}  // namespace rondel::mesh

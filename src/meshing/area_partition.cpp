@@ -1,0 +1,292 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The cell of site i is {x : x.p_i >= x.p_j for all j}, p_i = w_i q_i: the directions in which p_i is the
+// farthest corner of the hull. With t the angle between the ends v, v' of the wall of i and j,
+//
+//     d area_i / d log w_j = - tan(t/2) p_i.(v + v') / |p_i - p_j|,
+//
+// negative, and the same for i and j, as p_i.v = p_j.v on the wall: the derivatives are those of a graph's
+// Laplacian. A step x of log w becomes the factor (2 + x) / (2 - x).
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "exact/argument.h"
+#include "exact/vector.h"
+#include "meshing/graph_laplacian.h"
+#include "rondel/delaunay.h"
+#include "rondel/diagram.h"
+#include "rondel/error.h"
+#include "rondel/mesh_partition.h"
+#include "system/arithmetic.h"
+
+namespace rondel::mesh {
+namespace {
+
+using exact::to_point;
+using exact::to_vector;
+
+constexpr int most_halvings = 20;
+constexpr double inner_tolerance = 1e-4;
+constexpr int most_inner_steps = 500;
+
+struct Weighted {
+  std::vector<Point> poles;
+  Triangulation triangulation;
+  std::vector<double> areas;
+  double smallest_area = 0;
+  double square_error = 0;
+  double largest_error = 0;  // relative
+  Index worst = 0;
+};
+
+class Newton {
+ public:
+  Newton(std::vector<Point> sites, std::vector<double> targets, const Execution& execution)
+      : sites_(std::move(sites)), targets_(std::move(targets)), execution_(execution) {
+    least_target_ = *std::ranges::min_element(targets_);
+  }
+
+  // None if a cell is empty or the hull does not surround the center.
+  [[nodiscard]] std::optional<Weighted> measure(const std::vector<double>& weights) const {
+    Weighted now;
+    now.poles.resize(sites_.size());
+    for (std::size_t i = 0; i < sites_.size(); ++i) now.poles[i] = weights[i] * sites_[i];
+    const Execution quiet{.threads = execution_.threads};
+    now.triangulation = delaunay(Sites::view(now.poles), {.model = Model::weighted}, quiet);
+    if (now.triangulation.dimension() != 2 || now.triangulation.num_ghost_faces() != 0 ||
+        now.triangulation.num_vertices() != sites_.size()) {
+      return std::nullopt;
+    }
+    now.areas = areas(now.triangulation, quiet);
+    now.smallest_area = *std::ranges::min_element(now.areas);
+    if (!(now.smallest_area > 0)) return std::nullopt;
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      const double error = now.areas[i] - targets_[i];
+      now.square_error += error * error;
+      if (std::abs(error) / targets_[i] <= now.largest_error) continue;
+      now.largest_error = std::abs(error) / targets_[i];
+      now.worst = static_cast<Index>(i);
+    }
+    return now;
+  }
+
+  struct Step {
+    std::vector<double> of_log;  // of log w
+    double rounding;  // the relative error of an area that is left by weights that are doubles
+  };
+  // What Newton's method makes. Weights are rounded by 2^-53 of theirs, those of a cell and of its neighbors.
+  [[nodiscard]] Step step_from(const Weighted& now) const {
+    std::vector<double> right(sites_.size());
+    for (std::size_t i = 0; i < sites_.size(); ++i) right[i] = targets_[i] - now.areas[i];
+    WeightedGraph graph = graph_of(now);
+    Step step{{}, 0};
+    for (std::size_t i = 0; i < sites_.size(); ++i) {
+      step.rounding = std::max(step.rounding, 0x1p-51 * graph.diagonal[i] / targets_[i]);
+    }
+    LaplacianSolver(std::move(graph), execution_.threads)
+        .solve(right, inner_tolerance, most_inner_steps, step.of_log);
+    return step;
+  }
+
+  [[nodiscard]] double least_target() const { return least_target_; }
+
+ private:
+  [[nodiscard]] WeightedGraph graph_of(const Weighted& now) const {
+    const Execution quiet{.threads = execution_.threads};
+    const std::vector<Point> centers = circumcenters(now.triangulation, quiet);
+    const auto faces = now.triangulation.faces();
+    const auto neighbors = now.triangulation.neighbors();
+    WeightedGraph graph;
+    graph.offsets.assign(sites_.size() + 1, 0);
+    for (const Triple& face : faces) {
+      for (const Index v : face) ++graph.offsets[v + 1];
+    }
+    for (std::size_t i = 0; i < sites_.size(); ++i) graph.offsets[i + 1] += graph.offsets[i];
+    graph.neighbors.resize(graph.offsets.back());
+    graph.weights.resize(graph.offsets.back());
+    graph.diagonal.assign(sites_.size(), 0);
+    std::vector<std::uint64_t> next(graph.offsets.begin(), graph.offsets.end() - 1);
+    for (Index f = 0; f < faces.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Index i = faces[f][(k + 1) % 3];
+        const Index j = faces[f][(k + 2) % 3];
+        const double weight = wall(now, i, j, centers[f], centers[neighbors[f][k]]);
+        graph.neighbors[next[i]] = j;
+        graph.weights[next[i]++] = weight;
+        graph.diagonal[i] += weight;
+      }
+    }
+    return graph;
+  }
+
+  // Each edge comes from both of its faces, with the ends in the other order; sums of two numbers are
+  // the same both ways.
+  [[nodiscard]] static double wall(const Weighted& now, Index i, Index j, const Point& v,
+                                   const Point& w) {
+    const Index low = std::min(i, j);
+    const Index high = std::max(i, j);
+    const auto p = to_vector(now.poles[low]);
+    const auto difference = p - to_vector(now.poles[high]);
+    const auto a = to_vector(v);
+    const auto b = to_vector(w);
+    const double half_tangent = norm(a - b) / norm(a + b);
+    // A wall of no length would leave a row of the graph empty.
+    return std::max(half_tangent * dot(p, a + b) / norm(difference), 0x1p-60);
+  }
+
+  std::vector<Point> sites_;
+  std::vector<double> targets_;
+  const Execution& execution_;
+  double least_target_ = 0;
+};
+
+std::vector<double> stepped(const std::vector<double>& weights, const std::vector<double>& step,
+                            double length) {
+  std::vector<double> result(weights.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double x = std::clamp(length * step[i], -1.0, 1.0);
+    result[i] = weights[i] * ((2 + x) / (2 - x));
+  }
+  return result;
+}
+
+std::vector<Point> unit_sites(std::span<const Point> sites) {
+  std::vector<Point> result;
+  result.reserve(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const Point& p = sites[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || p == Point{}) {
+      throw InvalidInput("a site is not finite or the center", i);
+    }
+    result.push_back(to_point(normalized(scaled(to_vector(p)))));
+  }
+  return result;
+}
+
+std::vector<double> scaled_targets(std::span<const double> targets, std::size_t num_sites) {
+  constexpr double whole = 4 * std::numbers::pi;
+  if (targets.empty()) {
+    return std::vector<double>(num_sites, whole / static_cast<double>(num_sites));
+  }
+  if (targets.size() != num_sites) {
+    throw InvalidInput("there is not one area for each site", std::min(targets.size(), num_sites));
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < num_sites; ++i) {
+    if (!(targets[i] > 0) || !std::isfinite(targets[i])) {
+      throw InvalidInput("the area of site " + std::to_string(i) + " is not positive", i);
+    }
+    sum += targets[i];
+  }
+  if (!(std::abs(sum - whole) <= 1e-6 * whole)) {
+    throw InvalidInput("the areas add up to " + std::to_string(sum) + ", not 4 pi", 0);
+  }
+  std::vector<double> result(targets.begin(), targets.end());
+  for (double& target : result) target *= whole / sum;
+  return result;
+}
+
+void require_distinct(std::span<const Point> sites, const Execution& execution) {
+  const Triangulation projected =
+      delaunay(Sites::view(sites), {}, Execution{.threads = execution.threads});
+  if (!projected.duplicates().empty()) {
+    const Duplicate& first = projected.duplicates().front();
+    throw InvalidInput("site " + std::to_string(first.site) + " is in the place of site " +
+                           std::to_string(first.representative),
+                       first.site);
+  }
+}
+
+void finish(AreaPartition& result, const std::vector<Point>& units, const Weighted& now) {
+  const double least = *std::ranges::min_element(result.weights);
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    double& weight = result.weights[i];
+    weight /= least;
+    result.poles.push_back(weight * units[i]);
+    // The radius has the cosine 1 / weight.
+    const double tangent = std::sqrt((weight - 1) * (weight + 1));
+    result.radii_deg.push_back(180 / std::numbers::pi * exact::argument(tangent, 1));
+  }
+  result.areas = now.areas;
+  result.largest_error = now.largest_error;
+  result.worst = now.worst;
+}
+
+}  // namespace
+
+std::string_view name_of(PartitionEnd end) noexcept {
+  switch (end) {
+    case PartitionEnd::converged:
+      return "converged";
+    case PartitionEnd::rounded:
+      return "rounded";
+    case PartitionEnd::iterations:
+      return "iterations";
+    case PartitionEnd::infeasible:
+      return "infeasible";
+    case PartitionEnd::stopped:
+      return "stopped";
+  }
+  return "";
+}
+
+AreaPartition area_partition(std::span<const Point> sites, std::span<const double> targets,
+                             const AreaPartitionOptions& options, const Execution& execution) {
+  const system::ArithmeticScope arithmetic;
+  const std::vector<Point> units = unit_sites(sites);
+  require_distinct(units, execution);
+  const Newton newton(units, scaled_targets(targets, sites.size()), execution);
+  AreaPartition result;
+  result.weights.assign(sites.size(), 1);
+  std::optional<Weighted> now;
+  if (!sites.empty()) now = newton.measure(result.weights);
+  if (!now) {
+    result.end = PartitionEnd::infeasible;
+    result.poles = units;
+    result.radii_deg.assign(sites.size(), 0);
+    return result;
+  }
+  const double least_area = 0.5 * std::min(now->smallest_area, newton.least_target());
+  for (double length = 1;;) {
+    if (options.seen) options.seen({result.steps, now->largest_error, length});
+    result.end = PartitionEnd::converged;
+    if (now->largest_error <= options.tolerance) break;
+    result.end = PartitionEnd::iterations;
+    if (result.steps == options.max_steps) break;
+    result.end = PartitionEnd::stopped;
+    if (execution.stop != nullptr && execution.stop->load()) break;
+
+    const Newton::Step step = newton.step_from(*now);
+    std::optional<Weighted> next;
+    std::vector<double> weights;
+    length = 1;
+    for (int halving = 0; halving < most_halvings; ++halving, length /= 2) {
+      weights = stepped(result.weights, step.of_log, length);
+      next = newton.measure(weights);
+      const double fall = 1 - length / 2;
+      if (next && next->smallest_area >= least_area &&
+          next->square_error <= fall * fall * now->square_error) {
+        break;
+      }
+      next.reset();
+      // Nothing shorter helps where rounding is all that is left.
+      if (now->largest_error <= step.rounding) break;
+    }
+    result.end =
+        now->largest_error <= step.rounding ? PartitionEnd::rounded : PartitionEnd::infeasible;
+    if (!next) break;
+    result.weights = std::move(weights);
+    now = std::move(next);
+    ++result.steps;
+  }
+  finish(result, units, *now);
+  return result;
+}
+
+}  // namespace rondel::mesh

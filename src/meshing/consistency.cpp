@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Whether arrays of a mesh, which anybody may fill, can be walked through.
+
+#include <algorithm>
+#include <span>
+#include <string>
+
+#include "meshing/mesh_file.h"
+#include "rondel/error.h"
+#include "system/parallel.h"
+
+namespace rondel::meshing {
+namespace {
+
+void require_size(const char* name, std::size_t size, std::size_t wanted) {
+  if (size == wanted) return;
+  throw InvalidInput(
+      "the mesh has " + std::to_string(size) + ' ' + name + " instead of " + std::to_string(wanted),
+      0);
+}
+
+template <class Row>
+void require_indices(const char* name, unsigned threads, const std::vector<Row>& rows,
+                     std::size_t end) {
+  constexpr std::size_t grain = 65536;
+  const auto numbers = std::span<const Index>(reinterpret_cast<const Index*>(rows.data()),
+                                              rows.size() * (sizeof(Row) / sizeof(Index)));
+  system::parallel_for(threads, numbers.size(), grain, [&](std::size_t first, std::size_t last) {
+    Index most = 0;
+    for (std::size_t i = first; i < last; ++i) most = std::max(most, numbers[i]);
+    if (most < end) return;
+    throw InvalidInput(std::string("the mesh's ") + name + " have the number " +
+                           std::to_string(most) + " of " + std::to_string(end),
+                       first);
+  });
+}
+
+}  // namespace
+
+void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
+  const std::size_t cells = arrays.num_cells();
+  const std::size_t edges = arrays.num_edges();
+  const std::size_t vertices = arrays.num_vertices();
+  if (cells == 0) throw InvalidInput("the mesh has no cells", 0);
+  require_size("cell_areas", arrays.cell_areas.size(), cells);
+  if (!arrays.density.empty()) require_size("density", arrays.density.size(), cells);
+  require_size("offsets", arrays.offsets.size(), cells + 1);
+  for (std::size_t i = 0; i < cells; ++i) {
+    if (arrays.offsets[i] + 3 > arrays.offsets[i + 1] || arrays.offsets[0] != 0) {
+      throw InvalidInput(
+          "the offsets of the mesh do not grow by three or more at cell " + std::to_string(i), i);
+    }
+  }
+  const auto entries = static_cast<std::size_t>(arrays.offsets.back());
+  require_size("edges_on_cell", arrays.edges_on_cell.size(), entries);
+  require_size("cells_on_cell", arrays.cells_on_cell.size(), entries);
+  require_size("vertices_on_cell", arrays.vertices_on_cell.size(), entries);
+  require_size("cells_on_edge", arrays.cells_on_edge.size(), edges);
+  require_size("vertices_on_edge", arrays.vertices_on_edge.size(), edges);
+  require_size("cell_distances", arrays.cell_distances.size(), edges);
+  require_size("vertex_distances", arrays.vertex_distances.size(), edges);
+  require_size("normal_angles", arrays.normal_angles.size(), edges);
+  require_size("cells_on_vertex", arrays.cells_on_vertex.size(), vertices);
+  require_size("edges_on_vertex", arrays.edges_on_vertex.size(), vertices);
+  require_size("kite_areas", arrays.kite_areas.size(), vertices);
+  require_size("triangle_areas", arrays.triangle_areas.size(), vertices);
+  require_indices("edges_on_cell", threads, arrays.edges_on_cell, edges);
+  require_indices("cells_on_cell", threads, arrays.cells_on_cell, cells);
+  require_indices("vertices_on_cell", threads, arrays.vertices_on_cell, vertices);
+  require_indices("cells_on_edge", threads, arrays.cells_on_edge, cells);
+  require_indices("vertices_on_edge", threads, arrays.vertices_on_edge, vertices);
+  require_indices("cells_on_vertex", threads, arrays.cells_on_vertex, cells);
+  require_indices("edges_on_vertex", threads, arrays.edges_on_vertex, edges);
+}
+
+}  // namespace rondel::meshing

@@ -1,0 +1,96 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The weights of TRiSK. Around a cell, from an edge e counterclockwise to an edge e',
+//
+//     w(e, e') = +-(1/2 - sum of the kites between e and e' / area of the cell) l(e') / d(e),
+//
+// l the length of the edge, d the distance of its cells. The sign is that with which the normal of e' leaves the
+// cell; and where the normal of e enters the cell, the opposite.
+
+#include "meshing/edge_weights.h"
+
+#include <string>
+
+#include "meshing/mesh_file.h"
+#include "rondel/error.h"
+#include "system/job.h"
+
+namespace rondel::meshing {
+namespace {
+
+constexpr std::size_t weights_grain = 4096;
+
+double kite_of(const mesh::MeshArrays& arrays, Index vertex, Index cell) {
+  const Triple& cells = arrays.cells_on_vertex[vertex];
+  const std::size_t i = cells[0] == cell ? 0 : cells[1] == cell ? 1 : 2;
+  return arrays.kite_areas[vertex][i];
+}
+
+}  // namespace
+
+std::size_t num_weights(const mesh::MeshArrays& arrays, std::size_t edge) {
+  std::size_t count = 0;
+  for (const Index cell : arrays.cells_on_edge[edge]) {
+    count += static_cast<std::size_t>(arrays.offsets[cell + 1] - arrays.offsets[cell]) - 1;
+  }
+  return count;
+}
+
+void write_weights(const mesh::MeshArrays& arrays, std::size_t edge, std::span<Index> edges,
+                   std::span<double> weights) {
+  std::size_t out = 0;
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Index cell = arrays.cells_on_edge[edge][side];
+    const std::uint64_t begin = arrays.offsets[cell];
+    const std::uint64_t end = arrays.offsets[cell + 1];
+    std::uint64_t at = begin;
+    while (at < end && arrays.edges_on_cell[at] != edge) ++at;
+    if (at == end) {
+      throw InvalidInput("edge " + std::to_string(edge) +
+                             " of the mesh is not among those of cell " + std::to_string(cell),
+                         edge);
+    }
+    double sum = 0;
+    for (std::uint64_t left = end - begin - 1; left > 0; --left, ++out) {
+      if (!weights.empty()) sum += kite_of(arrays, arrays.vertices_on_cell[at], cell);
+      at = at + 1 < end ? at + 1 : begin;
+      const Index other = arrays.edges_on_cell[at];
+      if (!edges.empty()) edges[out] = other;
+      if (weights.empty()) continue;
+      const bool is_leaving = arrays.cells_on_edge[other][0] == cell;
+      const double part = (0.5 - sum / arrays.cell_areas[cell]) * arrays.vertex_distances[other] /
+                          arrays.cell_distances[edge];
+      weights[out] = is_leaving == (side == 0) ? part : -part;
+    }
+  }
+}
+
+}  // namespace rondel::meshing
+
+namespace rondel::mesh {
+
+TangentialWeights tangential_weights(const MeshArrays& arrays, const Execution& execution) {
+  const system::Call call(execution);
+  meshing::require_consistent(arrays, execution.threads);
+  TangentialWeights result;
+  result.offsets.resize(arrays.num_edges() + 1);
+  for (std::size_t e = 0; e < arrays.num_edges(); ++e) {
+    result.offsets[e + 1] = result.offsets[e] + meshing::num_weights(arrays, e);
+  }
+  result.edges.resize(result.offsets.back());
+  result.weights.resize(result.offsets.back());
+  system::parallel_for(
+      execution.threads, arrays.num_edges(), meshing::weights_grain,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t e = begin; e < end; ++e) {
+          const auto first = static_cast<std::size_t>(result.offsets[e]);
+          const auto size = static_cast<std::size_t>(result.offsets[e + 1]) - first;
+          meshing::write_weights(arrays, e, std::span(result.edges).subspan(first, size),
+                                 std::span(result.weights).subspan(first, size));
+        }
+      });
+  return result;
+}
+
+}  // namespace rondel::mesh

@@ -1,0 +1,103 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Exodus II (https://sandialabs.github.io/seacas-docs/exodusII-new.pdf): cells as elements of a shell on the unit
+// sphere, a block for each number of corners. Numbers start at 1.
+
+#include <algorithm>
+#include <string>
+
+#include "meshing/mesh_file.h"
+#include "rondel/version.h"
+
+namespace rondel::meshing {
+namespace {
+
+// What the library of Exodus reads into.
+constexpr std::size_t exodus_name_length = 33;
+constexpr std::size_t exodus_line_length = 81;
+
+void define_exodus_attributes(io::NetcdfWriter& out) {
+  out.add_attribute({"api_version", io::NetcdfType::float32, "", {8.0}});
+  out.add_attribute({"version", io::NetcdfType::float32, "", {8.0}});
+  out.add_attribute({"floating_point_word_size", io::NetcdfType::int32, "", {8}});
+  out.add_attribute({"file_size", io::NetcdfType::int32, "", {1}});
+  out.add_attribute("title", std::string("Rondel ") + version + ": Voronoi cells");
+}
+
+void define_coordinate(MeshFile& file, const char* name, std::size_t nodes,
+                       double Point::*coordinate) {
+  const mesh::MeshArrays& arrays = file.arrays();
+  file.numbers(name, nodes, {}, arrays.num_vertices(), [&arrays, coordinate](std::size_t v) {
+    return arrays.vertex_points[v].*coordinate / arrays.radius;
+  });
+}
+
+std::string element_type(std::size_t corners) {
+  return corners == 3 || corners == 4 ? "SHELL" + std::to_string(corners) : "NSIDED";
+}
+
+}  // namespace
+
+CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners) {
+  std::vector<std::size_t> sizes(arrays.max_edges() + 1, 0);
+  for (std::size_t i = 0; i < arrays.num_cells(); ++i) ++sizes[corners.count(i)];
+  CellBlocks blocks;
+  blocks.cells.resize(arrays.num_cells());
+  std::vector<std::size_t> next(sizes.size(), 0);
+  std::size_t begin = 0;
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    next[k] = begin;
+    if (sizes[k] == 0) continue;
+    blocks.begins.push_back(begin);
+    blocks.corners.push_back(k);
+    begin += sizes[k];
+  }
+  blocks.begins.push_back(begin);
+  for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
+    blocks.cells[next[corners.count(i)]++] = static_cast<Index>(i);
+  }
+  return blocks;
+}
+
+void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks) {
+  const mesh::MeshArrays& arrays = file.arrays();
+  const std::size_t num_blocks = blocks.corners.size();
+  const std::size_t names = file.dimension("len_string", exodus_name_length);
+  file.dimension("len_line", exodus_line_length);
+  file.dimension("four", 4);
+  const std::size_t time = file.dimension("time_step", 0);
+  const std::size_t axes = file.dimension("num_dim", 3);
+  const std::size_t nodes = file.dimension("num_nodes", arrays.num_vertices());
+  const std::size_t elements = file.dimension("num_elem", arrays.num_cells());
+  const std::size_t blocks_dimension = file.dimension("num_el_blk", num_blocks);
+  define_exodus_attributes(file.netcdf());
+  file.numbers("time_whole", time, {}, 0, [](std::size_t) { return 0.0; });
+  file.indices("eb_status", blocks_dimension, {}, num_blocks, [](std::size_t) { return 1; });
+  file.indices("eb_prop1", blocks_dimension, {{"name", "ID"}}, num_blocks,
+               [](std::size_t b) { return b + 1; });
+  define_coordinate(file, "coordx", nodes, &Point::x);
+  define_coordinate(file, "coordy", nodes, &Point::y);
+  define_coordinate(file, "coordz", nodes, &Point::z);
+  file.add<char>(MeshFile::variable("coor_names", io::NetcdfType::text, {axes, names}, {}), 3,
+                 exodus_name_length,
+                 [](std::size_t axis, char* out) { *out = static_cast<char>('x' + axis); });
+  file.indices("elem_num_map", elements, {}, blocks.cells.size(),
+               [&blocks](std::size_t i) { return blocks.cells[i] + 1; });
+  for (std::size_t b = 0; b < num_blocks; ++b) {
+    const std::string number = std::to_string(b + 1);
+    const std::size_t begin = blocks.begins[b];
+    const std::size_t of_each = blocks.corners[b];
+    const std::size_t in_block =
+        file.dimension(("num_el_in_blk" + number).c_str(), blocks.begins[b + 1] - begin);
+    const std::size_t per_element = file.dimension(("num_nod_per_el" + number).c_str(), of_each);
+    file.indices(("connect" + number).c_str(), {in_block, per_element},
+                 {{"elem_type", element_type(of_each).c_str()}}, blocks.begins[b + 1] - begin,
+                 of_each, [&corners, &blocks, begin](std::size_t i, std::int32_t* out) {
+                   corners.visit(blocks.cells[begin + i],
+                                 [&](Index v) { *out++ = static_cast<std::int32_t>(v + 1); });
+                 });
+  }
+}
+
+}  // namespace rondel::meshing

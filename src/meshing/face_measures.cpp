@@ -1,0 +1,97 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "meshing/face_measures.h"
+
+#include <cmath>
+
+#include "dual/exact_normal.h"
+#include "dual/face_normal.h"
+#include "dual/ring_walk.h"
+#include "exact/argument.h"
+
+namespace rondel::meshing {
+namespace {
+
+using dual::Vec;
+
+// Of a face: the circumcenter, and the p of each edge.
+struct FaceCenter {
+  Vec normal;
+  std::array<double, 3> heights;
+  std::array<double, 3> lengths;
+};
+
+// Offsets of places known to 2^-100 have a relative error of u/2 down to this square.
+constexpr double least_square = 0x1p-90;
+
+// Flat faces and sites very close to each other: from the exact normal. There p is
+// n.(b x c) / |D|, with b x c = b x D.
+FaceCenter careful_center(const dual::SplitSites& sites, const Triple& corners) {
+  FaceCenter center{};
+  center.normal =
+      dual::to_vector(dual::exact_normal(sites, corners[0], corners[1], corners[2]).normal);
+  for (Index i = 0; i < 3; ++i) {
+    const Index b = corners[dual::next_corner(i)];
+    const Vec d = sites.difference(b, corners[dual::previous_corner(i)]);
+    center.lengths[i] = norm(d);
+    center.heights[i] = det(center.normal, dual::to_vector(sites[b].hi), d) / center.lengths[i];
+  }
+  return center;
+}
+
+FaceCenter center_of(const dual::SplitSites& sites, const Triple& corners) {
+  const auto b = sites.offset(corners[0], corners[1]);
+  const auto c = sites.offset(corners[0], corners[2]);
+  const Vec n = dual::split_cross(b, c).rounded();
+  const Vec to_b = b.hi + b.lo;
+  const Vec to_c = c.hi + c.lo;
+  const Vec d = (c.hi - b.hi) + (c.lo - b.lo);
+  const std::array<double, 3> squares = {dot(d, d), dot(to_c, to_c), dot(to_b, to_b)};
+  const double n2 = dot(n, n);
+  if (!dual::is_accurate(squares[2], squares[1], n2, true) ||
+      std::min({squares[0], squares[1], squares[2]}) < least_square) {
+    return careful_center(sites, corners);
+  }
+  const std::array<double, 3> products = {dot(to_b, to_c), -dot(to_b, d), dot(to_c, d)};
+  const double length = std::sqrt(n2);
+  FaceCenter center{n / length, {}, {}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    center.lengths[i] = std::sqrt(squares[i]);
+    center.heights[i] = center.lengths[i] * products[i] / (2 * length);
+  }
+  return center;
+}
+
+FaceMeasures measures_of(const dual::SplitSites& sites, const Triple& corners) {
+  const FaceCenter center = center_of(sites, corners);
+  const double cosine = dot(dual::to_vector(sites[corners[0]].hi), center.normal);
+  FaceMeasures measures{to_point(center.normal), {}, {}};
+  std::array<double, 3> triangles{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double half = center.lengths[i] / 2;
+    const double k = std::sqrt((1 - half) * (1 + half));
+    measures.arcs[i] = exact::argument(center.heights[i], cosine);
+    triangles[i] = 2 * exact::argument(half * center.heights[i], (1 + k) * (k + cosine));
+  }
+  for (Index i = 0; i < 3; ++i) {
+    measures.kites[i] = triangles[dual::next_corner(i)] + triangles[dual::previous_corner(i)];
+  }
+  return measures;
+}
+
+}  // namespace
+
+void measure_faces(const dual::SplitSites& sites, std::size_t begin,
+                   std::span<FaceMeasures> measures) {
+  for (std::size_t k = 0; k < measures.size(); ++k) {
+    measures[k] = measures_of(sites, sites.corners(static_cast<Index>(begin + k)));
+  }
+}
+
+double distance_of(const dual::SplitSites& sites, Index a, Index b) {
+  const double half = norm(sites.difference(a, b)) / 2;
+  return 2 * exact::argument(half, std::sqrt((1 - half) * (1 + half)));
+}
+
+}  // namespace rondel::meshing

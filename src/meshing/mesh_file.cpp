@@ -1,0 +1,136 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "meshing/mesh_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "exact/argument.h"
+#include "io/bad_value.h"
+#include "system/job.h"
+
+namespace rondel::meshing {
+namespace {
+
+constexpr double turn = 2 * std::numbers::pi;
+
+// Rounding may carry an angle just below 0 to a whole turn.
+double in_turn(double angle, double whole) {
+  const double moved = angle < 0 ? angle + whole : angle;
+  return moved < whole ? moved : 0;
+}
+
+}  // namespace
+
+double longitude_of(const Point& p) { return in_turn(exact::argument(p.y, p.x), turn); }
+
+double latitude_of(const Point& p) {
+  return exact::argument(p.z, std::sqrt(p.x * p.x + p.y * p.y));
+}
+
+double longitude_deg_of(const Point& p) {
+  return in_turn(exact::argument(p.y, p.x) * (180 / std::numbers::pi), 360);
+}
+
+double latitude_deg_of(const Point& p) {
+  return std::clamp(latitude_of(p) * (180 / std::numbers::pi), -90.0, 90.0);
+}
+
+io::NetcdfVariable MeshFile::variable(const char* name, io::NetcdfType type,
+                                      std::vector<std::size_t> dimensions, Texts texts) {
+  io::NetcdfVariable result{name, type, std::move(dimensions), {}};
+  for (const auto& [key, text] : texts) {
+    result.attributes.push_back({key, io::NetcdfType::text, text, {}});
+  }
+  return result;
+}
+
+void MeshFile::set(io::NetcdfVariable& variable, const char* name, double number) {
+  variable.attributes.push_back({name, variable.type, "", {number}});
+}
+
+void MeshFile::write(mesh::NetcdfKind kind) {
+  out_.begin(kind == mesh::NetcdfKind::cdf2 ? 2 : 5);
+  std::size_t done = 0;
+  for (const auto& write : writes_) {
+    write();
+    system::announce(execution_, "write", ++done, writes_.size());
+  }
+  out_.finish();
+}
+
+// Each vertex goes to the lowest of those that it is joined with.
+CellCorners::CellCorners(const mesh::MeshArrays& arrays) : arrays_(arrays) {
+  if (std::ranges::find(arrays.vertex_distances, 0.0) == arrays.vertex_distances.end()) return;
+  joined_.resize(arrays.num_vertices());
+  std::iota(joined_.begin(), joined_.end(), Index{0});
+  const auto lowest = [&](Index v) {
+    while (joined_[v] != v) v = joined_[v] = joined_[joined_[v]];
+    return v;
+  };
+  for (std::size_t e = 0; e < arrays.num_edges(); ++e) {
+    if (arrays.vertex_distances[e] != 0) continue;
+    const Index v = lowest(arrays.vertices_on_edge[e][0]);
+    const Index w = lowest(arrays.vertices_on_edge[e][1]);
+    joined_[std::max(v, w)] = std::min(v, w);
+  }
+  for (Index& v : joined_) v = lowest(v);
+}
+
+}  // namespace rondel::meshing
+
+namespace rondel::mesh {
+
+void write(const std::string& path, const MeshArrays& arrays, const MeshFileOptions& options,
+           const Execution& execution) {
+  const system::Call call(execution);
+  meshing::require_consistent(arrays, execution.threads);
+  const meshing::CellCorners corners(arrays);
+  meshing::CellBlocks blocks;
+  io::AtomicFile output(path);
+  meshing::MeshFile file(output, arrays, execution);
+  switch (options.format) {
+    case MeshFormat::mpas:
+      meshing::define_mpas(file);
+      break;
+    case MeshFormat::ugrid:
+      meshing::define_ugrid(file, corners);
+      break;
+    case MeshFormat::scrip:
+      meshing::define_scrip(file, corners);
+      break;
+    case MeshFormat::esmf:
+      meshing::define_esmf(file, corners);
+      break;
+    case MeshFormat::exodus:
+      blocks = meshing::blocks_of(arrays, corners);
+      meshing::define_exodus(file, corners, blocks);
+      break;
+  }
+  io::in_file(path, [&] { file.write(options.kind); });
+  output.commit();
+}
+
+void write_graph(const std::string& path, const MeshArrays& arrays, const Execution& execution) {
+  const system::Call call(execution);
+  meshing::require_consistent(arrays, execution.threads);
+  io::AtomicFile file(path);
+  file.write(std::to_string(arrays.num_cells()) + ' ' + std::to_string(arrays.num_edges()) + '\n');
+  io::write_in_parallel(file, execution.threads, arrays.num_cells(), io::items_per_piece,
+                        [&](std::string& text, std::size_t begin, std::size_t end) {
+                          for (std::size_t i = begin; i < end; ++i) {
+                            for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1];
+                                 ++at) {
+                              if (at > arrays.offsets[i]) text += ' ';
+                              text += std::to_string(arrays.cells_on_cell[at] + 1);
+                            }
+                            text += '\n';
+                          }
+                        });
+  file.commit();
+}
+
+}  // namespace rondel::mesh

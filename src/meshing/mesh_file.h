@@ -1,0 +1,146 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A netCDF file of a mesh as it is made: first all variables, each with a function that fills its rows, then
+// all of their values.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/netcdf_writer.h"
+#include "rondel/mesh.h"
+#include "rondel/mesh_io.h"
+
+namespace rondel::meshing {
+
+class MeshFile {
+ public:
+  using Texts = std::initializer_list<std::pair<const char*, const char*>>;
+
+  MeshFile(io::AtomicFile& file, const mesh::MeshArrays& arrays, const Execution& execution)
+      : arrays_(arrays), execution_(execution), out_(file) {}
+
+  [[nodiscard]] const mesh::MeshArrays& arrays() const { return arrays_; }
+  io::NetcdfWriter& netcdf() { return out_; }
+  std::size_t dimension(const char* name, std::uint64_t size) {
+    return out_.add_dimension(name, size);
+  }
+
+  // A variable of so many rows; fill(row, values) sets the values of one, which are 0 before.
+  template <typename T, typename Fill>
+  void add(io::NetcdfVariable variable, std::size_t rows, std::size_t of_each, Fill fill) {
+    out_.add_variable(std::move(variable));
+    writes_.push_back([this, rows, of_each, fill] {
+      out_.write_rows<T>(execution_.threads, rows, of_each,
+                         [&](std::size_t begin, std::size_t end, T* values) {
+                           for (std::size_t i = begin; i < end; ++i, values += of_each) {
+                             fill(i, values);
+                           }
+                         });
+    });
+  }
+  template <typename Fill>
+  void numbers(const char* name, std::vector<std::size_t> dimensions, Texts texts, std::size_t rows,
+               std::size_t of_each, Fill fill) {
+    add<double>(variable(name, io::NetcdfType::float64, std::move(dimensions), texts), rows,
+                of_each, fill);
+  }
+  // value(row).
+  template <typename Value>
+  void numbers(const char* name, std::size_t dimension, Texts texts, std::size_t rows,
+               Value value) {
+    numbers(name, std::vector{dimension}, texts, rows, 1,
+            [value](std::size_t i, double* out) { *out = value(i); });
+  }
+  template <typename Fill>
+  void indices(const char* name, std::vector<std::size_t> dimensions, Texts texts, std::size_t rows,
+               std::size_t of_each, Fill fill) {
+    add<std::int32_t>(variable(name, io::NetcdfType::int32, std::move(dimensions), texts), rows,
+                      of_each, fill);
+  }
+  template <typename Value>
+  void indices(const char* name, std::size_t dimension, Texts texts, std::size_t rows,
+               Value value) {
+    indices(
+        name, std::vector{dimension}, texts, rows, 1,
+        [value](std::size_t i, std::int32_t* out) { *out = static_cast<std::int32_t>(value(i)); });
+  }
+
+  static io::NetcdfVariable variable(const char* name, io::NetcdfType type,
+                                     std::vector<std::size_t> dimensions, Texts texts);
+  // Attributes of a number.
+  static void set(io::NetcdfVariable& variable, const char* name, double number);
+
+  // Throws BadValue.
+  void write(mesh::NetcdfKind kind);
+
+ private:
+  const mesh::MeshArrays& arrays_;
+  const Execution& execution_;
+  io::NetcdfWriter out_;
+  std::vector<std::function<void()>> writes_;
+};
+
+// Longitude from 0 to below a turn and latitude of a point, radians or degrees.
+double longitude_of(const Point& p);
+double latitude_of(const Point& p);
+double longitude_deg_of(const Point& p);
+double latitude_deg_of(const Point& p);
+
+// The corners of cells: the vertices, where those that edges without length join are one.
+class CellCorners {
+ public:
+  explicit CellCorners(const mesh::MeshArrays& arrays);
+
+  // Calls visit(vertex) for the corners of a cell, counterclockwise, and returns how many there are.
+  template <typename Visit>
+  std::size_t visit(std::size_t cell, const Visit& visit) const {
+    const std::uint64_t begin = arrays_.offsets[cell];
+    const std::uint64_t end = arrays_.offsets[cell + 1];
+    Index last = corner(arrays_.vertices_on_cell[end - 1]);
+    std::size_t count = 0;
+    for (std::uint64_t at = begin; at < end; ++at) {
+      const Index next = corner(arrays_.vertices_on_cell[at]);
+      if (next == last) continue;
+      visit(next);
+      last = next;
+      ++count;
+    }
+    return count;
+  }
+  [[nodiscard]] std::size_t count(std::size_t cell) const {
+    return visit(cell, [](Index) {});
+  }
+
+ private:
+  [[nodiscard]] Index corner(Index vertex) const {
+    return joined_.empty() ? vertex : joined_[vertex];
+  }
+
+  const mesh::MeshArrays& arrays_;
+  std::vector<Index> joined_;  // empty: every vertex is its own
+};
+
+// One function each for the formats: the definitions, and what fills them.
+void define_mpas(MeshFile& file);
+void define_ugrid(MeshFile& file, const CellCorners& corners);
+void define_scrip(MeshFile& file, const CellCorners& corners);
+void define_esmf(MeshFile& file, const CellCorners& corners);
+// The blocks live as long as the file is written.
+struct CellBlocks {
+  std::vector<Index> cells;         // by their number of corners, then by number
+  std::vector<std::size_t> begins;  // of the blocks in `cells`, and the end
+  std::vector<std::size_t> corners;
+};
+CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners);
+void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks);
+
+// Throws InvalidInput where a size or an index does not fit.
+void require_consistent(const mesh::MeshArrays& arrays, unsigned threads);
+
+}  // namespace rondel::meshing

@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// MPAS mesh files: "MPAS Mesh Specification", version 1.0, 2015, and what MPAS-Tools' converter writes besides.
+// Numbers start at 1; 0, which fills rows, is none.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "exact/argument.h"
+#include "exact/vector.h"
+#include "meshing/edge_weights.h"
+#include "meshing/mesh_file.h"
+#include "rondel/version.h"
+#include "rondel/weights.h"
+
+namespace rondel::meshing {
+namespace {
+
+using mesh::MeshArrays;
+
+// The dimensions that variables name.
+struct MpasSizes {
+  std::size_t cells, edges, vertices, max_edges, max_edges_2, two, degree;
+  std::size_t of_cell, of_edge;  // rooms of rows
+};
+
+constexpr MeshFile::Texts radians = {{"units", "rad"}};
+
+// Ten digits of base 36.
+std::string id_of(std::uint64_t hash) {
+  constexpr std::string_view digits = "0123456789abcdefghijklmnopqrstuvwxyz";
+  std::string id;
+  for (int i = 0; i < 10; ++i, hash /= 36) id += digits[hash % 36];
+  return id;
+}
+
+std::int32_t one_based(Index index) { return static_cast<std::int32_t>(index + 1); }
+
+void define_points(MeshFile& file, const std::array<const char*, 5>& names, std::size_t dimension,
+                   const std::vector<Point>& points) {
+  const std::size_t size = points.size();
+  file.numbers(names[0], dimension, radians, size,
+               [&points](std::size_t i) { return latitude_of(points[i]); });
+  file.numbers(names[1], dimension, radians, size,
+               [&points](std::size_t i) { return longitude_of(points[i]); });
+  file.numbers(names[2], dimension, {}, size, [&points](std::size_t i) { return points[i].x; });
+  file.numbers(names[3], dimension, {}, size, [&points](std::size_t i) { return points[i].y; });
+  file.numbers(names[4], dimension, {}, size, [&points](std::size_t i) { return points[i].z; });
+}
+
+void define_ids(MeshFile& file, const char* name, std::size_t dimension, std::size_t size) {
+  file.indices(name, dimension, {}, size, [](std::size_t i) { return i + 1; });
+}
+
+// Rows of an array in compressed rows.
+void define_ring(MeshFile& file, const char* name, const MpasSizes& sizes,
+                 const std::vector<Index>& ring) {
+  const MeshArrays& arrays = file.arrays();
+  file.indices(name, {sizes.cells, sizes.max_edges}, {}, arrays.num_cells(), sizes.of_cell,
+               [&arrays, &ring](std::size_t i, std::int32_t* out) {
+                 for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1]; ++at) {
+                   *out++ = one_based(ring[at]);
+                 }
+               });
+}
+
+template <class Row>
+void define_rows(MeshFile& file, const char* name, std::vector<std::size_t> dimensions,
+                 const std::vector<Row>& rows) {
+  file.indices(name, std::move(dimensions), {}, rows.size(), std::tuple_size_v<Row>,
+               [&rows](std::size_t i, std::int32_t* out) {
+                 std::ranges::transform(rows[i], out, one_based);
+               });
+}
+
+void define_cells(MeshFile& file, const MpasSizes& sizes) {
+  const MeshArrays& arrays = file.arrays();
+  const std::size_t size = arrays.num_cells();
+  define_points(file, {"latCell", "lonCell", "xCell", "yCell", "zCell"}, sizes.cells,
+                arrays.cell_points);
+  define_ids(file, "indexToCellID", sizes.cells, size);
+  file.indices("nEdgesOnCell", sizes.cells, {}, size,
+               [&arrays](std::size_t i) { return arrays.offsets[i + 1] - arrays.offsets[i]; });
+  define_ring(file, "edgesOnCell", sizes, arrays.edges_on_cell);
+  define_ring(file, "cellsOnCell", sizes, arrays.cells_on_cell);
+  define_ring(file, "verticesOnCell", sizes, arrays.vertices_on_cell);
+  file.numbers("areaCell", sizes.cells, {}, size,
+               [&arrays](std::size_t i) { return arrays.cell_areas[i]; });
+  file.numbers("meshDensity", sizes.cells, {}, size,
+               [&arrays](std::size_t i) { return arrays.density.empty() ? 1 : arrays.density[i]; });
+  // MPAS-Tools: the least distance of neighbors over the largest; the mean distance.
+  const auto distances = [&arrays](std::size_t i) {
+    std::array<double, 3> found = {arrays.cell_distances[arrays.edges_on_cell[arrays.offsets[i]]],
+                                   0, 0};
+    for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1]; ++at) {
+      const double distance = arrays.cell_distances[arrays.edges_on_cell[at]];
+      found = {std::min(found[0], distance), std::max(found[1], distance), found[2] + distance};
+    }
+    found[2] /= static_cast<double>(arrays.offsets[i + 1] - arrays.offsets[i]);
+    return found;
+  };
+  file.numbers("cellQuality", sizes.cells, {}, size, [distances](std::size_t i) {
+    const auto found = distances(i);
+    return found[0] / found[1];
+  });
+  file.numbers("gridSpacing", sizes.cells, {}, size,
+               [distances](std::size_t i) { return distances(i)[2]; });
+}
+
+void define_edges(MeshFile& file, const MpasSizes& sizes) {
+  const MeshArrays& arrays = file.arrays();
+  const std::size_t size = arrays.num_edges();
+  define_points(file, {"latEdge", "lonEdge", "xEdge", "yEdge", "zEdge"}, sizes.edges,
+                arrays.edge_points);
+  define_ids(file, "indexToEdgeID", sizes.edges, size);
+  define_rows(file, "cellsOnEdge", {sizes.edges, sizes.two}, arrays.cells_on_edge);
+  define_rows(file, "verticesOnEdge", {sizes.edges, sizes.two}, arrays.vertices_on_edge);
+  file.numbers("dcEdge", sizes.edges, {}, size,
+               [&arrays](std::size_t e) { return arrays.cell_distances[e]; });
+  file.numbers("dvEdge", sizes.edges, {}, size,
+               [&arrays](std::size_t e) { return arrays.vertex_distances[e]; });
+  file.numbers("angleEdge", sizes.edges, radians, size,
+               [&arrays](std::size_t e) { return arrays.normal_angles[e]; });
+  file.indices("nEdgesOnEdge", sizes.edges, {}, size,
+               [&arrays](std::size_t e) { return num_weights(arrays, e); });
+  const std::size_t room = sizes.of_edge;
+  file.indices("edgesOnEdge", {sizes.edges, sizes.max_edges_2}, {}, size, room,
+               [&arrays, room](std::size_t e, std::int32_t* out) {
+                 thread_local std::vector<Index> edges;
+                 edges.resize(room);
+                 write_weights(arrays, e, edges, {});
+                 std::transform(edges.begin(),
+                                edges.begin() + static_cast<std::ptrdiff_t>(num_weights(arrays, e)),
+                                out, one_based);
+               });
+  file.numbers("weightsOnEdge", {sizes.edges, sizes.max_edges_2}, {}, size, room,
+               [&arrays, room](std::size_t e, double* out) {
+                 write_weights(arrays, e, {}, {out, room});
+               });
+}
+
+// Of a triangle, as MPAS-Tools has them: (a + b - c)(b + c - a)(c + a - b) / (a b c) of its sides, 1 where they are equal;
+// its smallest angle over its largest.
+struct TriangleQuality {
+  double sides;
+  double angles;
+  bool is_obtuse;
+};
+TriangleQuality triangle_quality(const MeshArrays& arrays, std::size_t v) {
+  std::array<Point, 3> corners;
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners[i] = arrays.cell_points[arrays.cells_on_vertex[v][i]];
+  }
+  const double a = norm(corners[1] - corners[2]);
+  const double b = norm(corners[2] - corners[0]);
+  const double c = norm(corners[0] - corners[1]);
+  double least = std::numbers::pi;
+  double most = 0;
+  bool is_obtuse = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point to = corners[(i + 1) % 3] - corners[i];
+    const Point from = corners[(i + 2) % 3] - corners[i];
+    const double along = dot(to, from);
+    const double angle = exact::argument(norm(cross(to, from)), along);
+    least = std::min(least, angle);
+    most = std::max(most, angle);
+    is_obtuse = is_obtuse || along < 0;
+  }
+  return {(a + b - c) / c * ((b + c - a) / a) * ((c + a - b) / b), least / most, is_obtuse};
+}
+
+void define_vertices(MeshFile& file, const MpasSizes& sizes) {
+  const MeshArrays& arrays = file.arrays();
+  const std::size_t size = arrays.num_vertices();
+  define_points(file, {"latVertex", "lonVertex", "xVertex", "yVertex", "zVertex"}, sizes.vertices,
+                arrays.vertex_points);
+  define_ids(file, "indexToVertexID", sizes.vertices, size);
+  define_rows(file, "cellsOnVertex", {sizes.vertices, sizes.degree}, arrays.cells_on_vertex);
+  define_rows(file, "edgesOnVertex", {sizes.vertices, sizes.degree}, arrays.edges_on_vertex);
+  file.numbers("areaTriangle", sizes.vertices, {}, size,
+               [&arrays](std::size_t v) { return arrays.triangle_areas[v]; });
+  file.numbers(
+      "kiteAreasOnVertex", {sizes.vertices, sizes.degree}, {}, size, 3,
+      [&arrays](std::size_t v, double* out) { std::ranges::copy(arrays.kite_areas[v], out); });
+  file.indices("boundaryVertex", sizes.vertices, {}, size, [](std::size_t) { return 0; });
+  file.numbers("triangleQuality", sizes.vertices, {}, size,
+               [&arrays](std::size_t v) { return triangle_quality(arrays, v).sides; });
+  file.numbers("triangleAngleQuality", sizes.vertices, {}, size,
+               [&arrays](std::size_t v) { return triangle_quality(arrays, v).angles; });
+  file.indices("obtuseTriangle", sizes.vertices, {}, size,
+               [&arrays](std::size_t v) { return triangle_quality(arrays, v).is_obtuse ? 1 : 0; });
+}
+
+}  // namespace
+
+void define_mpas(MeshFile& file) {
+  const MeshArrays& arrays = file.arrays();
+  MpasSizes sizes{};
+  sizes.of_cell = arrays.max_edges();
+  sizes.of_edge = 2 * sizes.of_cell;
+  sizes.cells = file.dimension("nCells", arrays.num_cells());
+  sizes.edges = file.dimension("nEdges", arrays.num_edges());
+  sizes.vertices = file.dimension("nVertices", arrays.num_vertices());
+  sizes.max_edges = file.dimension("maxEdges", sizes.of_cell);
+  sizes.max_edges_2 = file.dimension("maxEdges2", sizes.of_edge);
+  sizes.two = file.dimension("TWO", 2);
+  sizes.degree = file.dimension("vertexDegree", 3);
+  file.dimension("Time", 0);
+  io::NetcdfWriter& out = file.netcdf();
+  out.add_attribute("on_a_sphere", "YES");
+  out.add_attribute({"sphere_radius", io::NetcdfType::float64, "", {arrays.radius}});
+  out.add_attribute("is_periodic", "NO");
+  out.add_attribute("mesh_spec", "1.0");
+  out.add_attribute("Conventions", "MPAS");
+  out.add_attribute("source", std::string("Rondel ") + version);
+  out.add_attribute("file_id", id_of(point_set_hash(arrays.cell_points)));
+  define_cells(file, sizes);
+  define_edges(file, sizes);
+  define_vertices(file, sizes);
+  const double least =
+      arrays.num_edges() == 0 ? 0 : *std::ranges::min_element(arrays.cell_distances);
+  file.numbers("nominalMinDc", std::vector<std::size_t>{}, {}, 1, 1,
+               [least](std::size_t, double* out_value) { *out_value = least; });
+}
+
+}  // namespace rondel::meshing

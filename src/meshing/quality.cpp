@@ -1,0 +1,250 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The report on a mesh: parts of pieces of cells, edges and vertices, joined in the order of the pieces, so that
+// sums have the same bits for every number of threads.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "exact/argument.h"
+#include "exact/vector.h"
+#include "meshing/cell_shape.h"
+#include "meshing/mesh_file.h"
+#include "rondel/mesh_quality.h"
+#include "system/job.h"
+#include "system/parallel.h"
+
+namespace rondel::mesh {
+namespace {
+
+constexpr std::size_t quality_grain = 4096;
+constexpr std::size_t histogram_steps = 80;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+void keep_least(Worst& worst, double value, std::size_t where) {
+  if (value < worst.value) worst = {value, static_cast<Index>(where)};
+}
+void keep_most(Worst& worst, double value, std::size_t where) {
+  if (value > worst.value) worst = {value, static_cast<Index>(where)};
+}
+
+Histogram histogram(double high) {
+  return {0, high, std::vector<std::uint64_t>(histogram_steps, 0)};
+}
+void count_in(Histogram& histogram, double value) {
+  const double step = (value - histogram.low) / (histogram.high - histogram.low) *
+                      static_cast<double>(histogram.counts.size());
+  const double last = static_cast<double>(histogram.counts.size() - 1);
+  // A value that is not a number, too, goes to the first step.
+  ++histogram.counts[step > 0 ? static_cast<std::size_t>(std::min(step, last)) : 0];
+}
+void add_to(Histogram& sum, const Histogram& part) {
+  for (std::size_t i = 0; i < sum.counts.size(); ++i) sum.counts[i] += part.counts[i];
+}
+
+// Of a piece, or of pieces so far.
+struct Part {
+  Part() {
+    found.min_angle_deg.value = found.min_edge_ratio.value = found.min_side_ratio.value = infinite;
+    found.min_spacing = infinite;
+    found.max_angle_deg.value = found.max_gradient.value = found.max_staggering.value = -1;
+    found.max_centroid_offset.value = found.max_distance_ratio.value = -1;
+    found.angles_deg = histogram(180);
+    found.edge_ratios = histogram(2);
+  }
+
+  Quality found;  // the sums are not yet means
+  std::uint64_t num_40_to_80 = 0;
+  double kites = 0;
+  double cells = 0;
+};
+
+void join(Part& all, const Part& next) {
+  Quality& a = all.found;
+  const Quality& b = next.found;
+  if (b.sides.size() > a.sides.size()) a.sides.resize(b.sides.size());
+  for (std::size_t k = 0; k < b.sides.size(); ++k) a.sides[k] += b.sides[k];
+  a.energy += b.energy;
+  a.mean_centroid_offset += b.mean_centroid_offset;
+  keep_most(a.max_centroid_offset, b.max_centroid_offset.value, b.max_centroid_offset.where);
+  keep_least(a.min_angle_deg, b.min_angle_deg.value, b.min_angle_deg.where);
+  keep_most(a.max_angle_deg, b.max_angle_deg.value, b.max_angle_deg.where);
+  a.num_obtuse += b.num_obtuse;
+  keep_least(a.min_edge_ratio, b.min_edge_ratio.value, b.min_edge_ratio.where);
+  keep_least(a.min_side_ratio, b.min_side_ratio.value, b.min_side_ratio.where);
+  keep_most(a.max_distance_ratio, b.max_distance_ratio.value, b.max_distance_ratio.where);
+  keep_most(a.max_gradient, b.max_gradient.value, b.max_gradient.where);
+  keep_most(a.max_staggering, b.max_staggering.value, b.max_staggering.where);
+  a.mean_staggering += b.mean_staggering;
+  a.min_spacing = std::min(a.min_spacing, b.min_spacing);
+  a.max_spacing = std::max(a.max_spacing, b.max_spacing);
+  a.max_kite_error = std::max(a.max_kite_error, b.max_kite_error);
+  add_to(a.angles_deg, b.angles_deg);
+  add_to(a.edge_ratios, b.edge_ratios);
+  all.num_40_to_80 += next.num_40_to_80;
+  all.kites += next.kites;
+  all.cells += next.cells;
+}
+
+class QualityFinder {
+ public:
+  QualityFinder(const MeshArrays& arrays, const Execution& execution)
+      : arrays_(arrays), execution_(execution), spacings_(arrays.num_cells()) {}
+
+  Quality find() {
+    in_pieces(arrays_.num_cells(), [&](std::size_t i, Part& part) { add_cell(i, part); });
+    in_pieces(arrays_.num_edges(), [&](std::size_t e, Part& part) { add_edge(e, part); });
+    in_pieces(arrays_.num_vertices(), [&](std::size_t v, Part& part) { add_vertex(v, part); });
+    Quality result = std::move(all_.found);
+    result.num_cells = arrays_.num_cells();
+    result.num_edges = arrays_.num_edges();
+    result.num_vertices = arrays_.num_vertices();
+    const auto cells = static_cast<double>(result.num_cells);
+    const double sphere = 4 * std::numbers::pi;
+    const double of_hexagons = 5 * std::numbers::inv_sqrt3 / 18;
+    const bool is_uniform =
+        std::ranges::all_of(arrays_.density, [](double density) { return density == 1; });
+    result.energy = is_uniform ? result.energy * cells / (sphere * sphere) / of_hexagons
+                               : std::numeric_limits<double>::quiet_NaN();
+    result.mean_centroid_offset /= cells;
+    result.mean_staggering /= static_cast<double>(result.num_edges);
+    result.share_40_to_80_deg =
+        static_cast<double>(all_.num_40_to_80) / (3 * static_cast<double>(result.num_vertices));
+    const double area = sphere * arrays_.radius * arrays_.radius;
+    result.kite_sum_error = std::abs(all_.kites / area - 1);
+    result.cell_sum_error = std::abs(all_.cells / area - 1);
+    set_spacings(result);
+    return result;
+  }
+
+ private:
+  template <class Add>
+  void in_pieces(std::size_t count, const Add& add) {
+    std::vector<Part> parts(system::num_pieces(count, quality_grain));
+    system::parallel_for(execution_.threads, count, quality_grain,
+                         [&](std::size_t begin, std::size_t end) {
+                           Part& part = parts[begin / quality_grain];
+                           for (std::size_t i = begin; i < end; ++i) add(i, part);
+                         });
+    for (const Part& part : parts) join(all_, part);
+  }
+
+  void add_cell(std::size_t i, Part& part) {
+    const meshing::CellShape shape = meshing::shape_of(arrays_, i);
+    Quality& found = part.found;
+    const auto sides = static_cast<std::size_t>(arrays_.offsets[i + 1] - arrays_.offsets[i]);
+    if (found.sides.size() <= sides) found.sides.resize(sides + 1);
+    ++found.sides[sides];
+    found.energy += shape.energy;
+    found.mean_centroid_offset += shape.centroid_offset;
+    keep_most(found.max_centroid_offset, shape.centroid_offset, i);
+    keep_least(found.min_side_ratio, shape.side_ratio, i);
+    keep_most(found.max_distance_ratio, shape.distance_ratio, i);
+    found.min_spacing = std::min(found.min_spacing, shape.spacing);
+    found.max_spacing = std::max(found.max_spacing, shape.spacing);
+    double kites = 0;
+    for (std::uint64_t at = arrays_.offsets[i]; at < arrays_.offsets[i + 1]; ++at) {
+      const Index v = arrays_.vertices_on_cell[at];
+      const Triple& cells = arrays_.cells_on_vertex[v];
+      const std::size_t k = cells[0] == i ? 0 : cells[1] == i ? 1 : 2;
+      kites += arrays_.kite_areas[v][k];
+    }
+    const double area = arrays_.cell_areas[i];
+    found.max_kite_error = std::max(found.max_kite_error, std::abs(kites - area) / area);
+    part.cells += area;
+    const double density = arrays_.density.empty() ? 1 : arrays_.density[i];
+    spacings_[i] = shape.spacing * std::sqrt(std::sqrt(density));
+  }
+
+  void add_edge(std::size_t e, Part& part) const {
+    Quality& found = part.found;
+    const double distance = arrays_.cell_distances[e];
+    const double ratio = arrays_.vertex_distances[e] / distance;
+    keep_least(found.min_edge_ratio, ratio, e);
+    count_in(found.edge_ratios, ratio);
+    keep_most(found.max_gradient, meshing::gradient_of(arrays_, e), e);
+    const auto [v, w] = arrays_.vertices_on_edge[e];
+    const Point middle = normalized(arrays_.vertex_points[v] + arrays_.vertex_points[w]);
+    const double away = norm(arrays_.radius * middle - arrays_.edge_points[e]) / distance;
+    keep_most(found.max_staggering, away, e);
+    found.mean_staggering += away;
+  }
+
+  void add_vertex(std::size_t v, Part& part) const {
+    Quality& found = part.found;
+    const Triple& cells = arrays_.cells_on_vertex[v];
+    bool is_obtuse = false;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Point& a = arrays_.cell_points[cells[i]];
+      const Point b = arrays_.cell_points[cells[(i + 1) % 3]] - a;
+      const Point c = arrays_.cell_points[cells[(i + 2) % 3]] - a;
+      const double along = dot(b, c);
+      is_obtuse |= along < 0;
+      const double angle = exact::argument(norm(cross(b, c)), along) * (180 / std::numbers::pi);
+      keep_least(found.min_angle_deg, angle, v);
+      keep_most(found.max_angle_deg, angle, v);
+      part.num_40_to_80 += static_cast<std::uint64_t>(angle >= 40 && angle <= 80);
+      count_in(found.angles_deg, angle);
+    }
+    found.num_obtuse += static_cast<std::uint64_t>(is_obtuse);
+    const auto& kites = arrays_.kite_areas[v];
+    const double sum = kites[0] + kites[1] + kites[2];
+    const double area = arrays_.triangle_areas[v];
+    found.max_kite_error = std::max(found.max_kite_error, std::abs(sum - area) / std::abs(area));
+    part.kites += sum;
+  }
+
+  void set_spacings(Quality& result) {
+    const std::size_t size = spacings_.size();
+    const auto of_rank = [&](std::size_t k) {
+      std::nth_element(spacings_.begin(), spacings_.begin() + static_cast<std::ptrdiff_t>(k),
+                       spacings_.end());
+      return spacings_[k];
+    };
+    const double median = of_rank(size / 2);
+    result.spacing_range = {of_rank(size / 20) / median, of_rank(size - 1 - size / 20) / median};
+    result.spacings = histogram(2);
+    for (const double spacing : spacings_) count_in(result.spacings, spacing / median);
+  }
+
+  const MeshArrays& arrays_;
+  const Execution& execution_;
+  std::vector<double> spacings_;  // of cells, times density^(1/4)
+  Part all_;
+};
+
+}  // namespace
+
+Quality quality(const MeshArrays& arrays, const Execution& execution) {
+  const system::Call call(execution);
+  meshing::require_consistent(arrays, execution.threads);
+  return QualityFinder(arrays, execution).find();
+}
+
+CellQuality cell_quality(const MeshArrays& arrays, const Execution& execution) {
+  const system::Call call(execution);
+  meshing::require_consistent(arrays, execution.threads);
+  const std::size_t size = arrays.num_cells();
+  CellQuality result;
+  for (auto* values : {&result.centroid_offset, &result.edge_ratio, &result.side_ratio,
+                       &result.distance_ratio, &result.gradient}) {
+    values->resize(size);
+  }
+  system::parallel_for(execution.threads, size, quality_grain,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           const meshing::CellShape shape = meshing::shape_of(arrays, i);
+                           result.centroid_offset[i] = shape.centroid_offset;
+                           result.edge_ratio[i] = shape.least_edge_ratio;
+                           result.side_ratio[i] = shape.side_ratio;
+                           result.distance_ratio[i] = shape.distance_ratio;
+                           result.gradient[i] = shape.gradient;
+                         }
+                       });
+  return result;
+}
+
+}  // namespace rondel::mesh

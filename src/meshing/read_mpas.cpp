@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// An MPAS file as arrays. Of the lists only those are read from which the others follow: cells and vertices of
+// edges, edges around cells, cells around vertices. Where a list of the file begins, and at which end of an edge it puts
+// a vertex, differs between programs; here both are as MeshArrays says.
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+
+#include "exact/vector.h"
+#include "io/bad_value.h"
+#include "io/file_bytes.h"
+#include "io/netcdf_reader.h"
+#include "io/number.h"
+#include "meshing/read_mesh.h"
+#include "rondel/error.h"
+#include "rondel/mesh_io.h"
+#include "system/job.h"
+
+namespace rondel::mesh {
+namespace {
+
+constexpr std::size_t read_grain = 4096;
+
+using io::BadValue;
+using Variable = io::NetcdfReader::Variable;
+
+class MpasReader {
+ public:
+  MpasReader(const io::NetcdfReader& file, const Execution& execution)
+      : file_(file), threads_(execution.threads), execution_(execution) {}
+
+  MeshArrays read() {
+    read_sphere();
+    read_points({"xCell", "yCell", "zCell"}, arrays_.cell_points);
+    read_points({"xEdge", "yEdge", "zEdge"}, arrays_.edge_points);
+    read_points({"xVertex", "yVertex", "zVertex"}, arrays_.vertex_points);
+    if (arrays_.num_cells() < 4) throw BadValue("less than four cells do not cover a sphere");
+    read_numbers("areaCell", arrays_.num_cells(), arrays_.cell_areas);
+    read_density();
+    read_numbers("dcEdge", arrays_.num_edges(), arrays_.cell_distances);
+    read_numbers("dvEdge", arrays_.num_edges(), arrays_.vertex_distances);
+    read_numbers("angleEdge", arrays_.num_edges(), arrays_.normal_angles);
+    read_numbers("areaTriangle", arrays_.num_vertices(), arrays_.triangle_areas);
+    system::announce(execution_, "read", 0.4);
+    read_rows("cellsOnEdge", arrays_.num_edges(), arrays_.num_cells(), arrays_.cells_on_edge);
+    read_rows("verticesOnEdge", arrays_.num_edges(), arrays_.num_vertices(),
+              arrays_.vertices_on_edge);
+    turn_edges();
+    read_rings();
+    system::announce(execution_, "read", 0.7);
+    follow_rings();
+    read_rows("cellsOnVertex", arrays_.num_vertices(), arrays_.num_cells(),
+              arrays_.cells_on_vertex);
+    read_kites();
+    find_edges_of_vertices();
+    system::announce(execution_, "read", 1);
+    return std::move(arrays_);
+  }
+
+ private:
+  template <class Piece>
+  void in_pieces(std::size_t count, const Piece& piece) const {
+    system::parallel_for(threads_, count, read_grain, piece);
+  }
+
+  void read_sphere() {
+    if (io::netcdf_text(file_.attributes(), "on_a_sphere").starts_with("NO")) {
+      throw BadValue("the mesh is not on a sphere");
+    }
+    const auto* const radius = io::find_attribute(file_.attributes(), "sphere_radius");
+    if (radius == nullptr || radius->numbers.empty()) return;
+    arrays_.radius = radius->numbers[0];
+    if (arrays_.radius > 0 && arrays_.radius < 1e30) return;
+    throw BadValue("the attribute sphere_radius is no positive number");
+  }
+
+  // A variable of so many values; 0: any number.
+  [[nodiscard]] const Variable& require(const char* name, std::uint64_t size) const {
+    const Variable& variable = file_.require(name);
+    if (variable.num_values == size || size == 0) return variable;
+    throw BadValue("variable " + io::in_quotes(name) + " has " +
+                   std::to_string(variable.num_values) + " values instead of " +
+                   std::to_string(size));
+  }
+
+  void read_numbers(const char* name, std::size_t size, std::vector<double>& values) const {
+    const Variable& variable = require(name, size);
+    values.resize(size);
+    in_pieces(size, [&](std::size_t begin, std::size_t end) {
+      file_.read_numbers(variable, begin, std::span(values).subspan(begin, end - begin));
+      for (std::size_t i = begin; i < end; ++i) require_finite(name, i, values[i]);
+    });
+  }
+
+  static void require_finite(const char* name, std::size_t i, double value) {
+    if (std::isfinite(value)) return;
+    throw BadValue("variable " + io::in_quotes(name) + ", value " + std::to_string(i) +
+                   ": not finite");
+  }
+
+  void read_points(const std::array<const char*, 3>& names, std::vector<Point>& points) const {
+    const auto size = static_cast<std::size_t>(require(names[0], 0).num_values);
+    const std::array<const Variable*, 3> variables = {
+        &require(names[0], size), &require(names[1], size), &require(names[2], size)};
+    if (size > no_index) throw BadValue("more than 2^32 - 1 points");
+    points.resize(size);
+    in_pieces(size, [&](std::size_t begin, std::size_t end) {
+      std::array<double, read_grain> values;
+      constexpr std::array coordinates = {&Point::x, &Point::y, &Point::z};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        file_.read_numbers(*variables[axis], begin, std::span(values).first(end - begin));
+        for (std::size_t i = begin; i < end; ++i) {
+          require_finite(names[axis], i, values[i - begin]);
+          points[i].*coordinates[axis] = values[i - begin];
+        }
+      }
+    });
+  }
+
+  void read_density() {
+    const Variable* const variable = file_.find("meshDensity");
+    if (variable == nullptr) return;
+    read_numbers("meshDensity", arrays_.num_cells(), arrays_.density);
+    const bool is_constant =
+        std::ranges::all_of(arrays_.density, [](double density) { return density == 1; });
+    if (is_constant) arrays_.density = {};
+    for (std::size_t i = 0; i < arrays_.density.size(); ++i) {
+      if (!(arrays_.density[i] > 0)) {
+        throw BadValue("variable \"meshDensity\" is not positive for cell " + std::to_string(i));
+      }
+    }
+  }
+
+  // Numbers from 1 to `end` as those from 0.
+  static Index index_of(const char* name, std::size_t row, std::int64_t number, std::size_t end) {
+    if (number >= 1 && static_cast<std::uint64_t>(number) <= end) {
+      return static_cast<Index>(number - 1);
+    }
+    const std::string where =
+        "variable " + io::in_quotes(name) + ", row " + std::to_string(row) + ": ";
+    if (number == 0) {
+      throw BadValue(where + "nothing there; a mesh with a border is not read");
+    }
+    throw BadValue(where + std::to_string(number) + " is not in 1 to " + std::to_string(end));
+  }
+
+  template <class Row>
+  void read_rows(const char* name, std::size_t size, std::size_t end,
+                 std::vector<Row>& rows) const {
+    constexpr std::size_t of_each = std::tuple_size_v<Row>;
+    const Variable& variable = require(name, static_cast<std::uint64_t>(size) * of_each);
+    rows.resize(size);
+    in_pieces(size, [&](std::size_t first, std::size_t last) {
+      std::vector<std::int64_t> numbers((last - first) * of_each);
+      file_.read_integers(variable, first * of_each, numbers);
+      for (std::size_t k = 0; k < numbers.size(); ++k) {
+        const std::size_t row = first + k / of_each;
+        rows[row][k % of_each] = index_of(name, row, numbers[k], end);
+      }
+    });
+  }
+
+  // The second vertex is to be to the left.
+  void turn_edges() {
+    in_pieces(arrays_.num_edges(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t e = begin; e < end; ++e) {
+        const auto [a, b] = arrays_.cells_on_edge[e];
+        auto& [v, w] = arrays_.vertices_on_edge[e];
+        if (a == b || v == w) {
+          throw BadValue("edge " + std::to_string(e) + " has the same cell or vertex twice");
+        }
+        const Point& from = arrays_.cell_points[a];
+        const Point across = cross(from, arrays_.cell_points[b] - from);
+        if (dot(across, arrays_.vertex_points[w] - arrays_.vertex_points[v]) < 0) std::swap(v, w);
+      }
+    });
+  }
+
+  void read_rings() {
+    const std::size_t size = arrays_.num_cells();
+    const Variable& counts = require("nEdgesOnCell", size);
+    std::vector<std::int64_t> sides(size);
+    file_.read_integers(counts, 0, sides);
+    const Variable& rings = require("edgesOnCell", 0);
+    const std::uint64_t room = rings.num_values / size;
+    if (room * size != rings.num_values) throw BadValue("variable \"edgesOnCell\" has no rows");
+    arrays_.offsets.assign(size + 1, 0);
+    for (std::size_t i = 0; i < size; ++i) {
+      if (sides[i] < 3 || static_cast<std::uint64_t>(sides[i]) > room) {
+        throw BadValue("variable \"nEdgesOnCell\", row " + std::to_string(i) + ": " +
+                       std::to_string(sides[i]) + " is not in 3 to " + std::to_string(room));
+      }
+      arrays_.offsets[i + 1] = arrays_.offsets[i] + static_cast<std::uint64_t>(sides[i]);
+    }
+    if (arrays_.offsets.back() != 2 * static_cast<std::uint64_t>(arrays_.num_edges())) {
+      throw BadValue("the cells have " + std::to_string(arrays_.offsets.back()) +
+                     " edges, which are not twice " + std::to_string(arrays_.num_edges()));
+    }
+    arrays_.edges_on_cell.resize(arrays_.offsets.back());
+    in_pieces(size, [&](std::size_t begin, std::size_t end) {
+      std::vector<std::int64_t> numbers((end - begin) * room);
+      file_.read_integers(rings, begin * room, numbers);
+      for (std::size_t i = begin; i < end; ++i) {
+        std::uint64_t at = arrays_.offsets[i];
+        for (std::uint64_t j = 0; at < arrays_.offsets[i + 1]; ++at, ++j) {
+          arrays_.edges_on_cell[at] =
+              index_of("edgesOnCell", i, numbers[(i - begin) * room + j], arrays_.num_edges());
+        }
+      }
+    });
+  }
+
+  // Cells and vertices around each cell.
+  void follow_rings() {
+    arrays_.cells_on_cell.resize(arrays_.edges_on_cell.size());
+    arrays_.vertices_on_cell.resize(arrays_.edges_on_cell.size());
+    in_pieces(arrays_.num_cells(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) follow_ring(static_cast<Index>(i));
+    });
+  }
+
+  // Counterclockwise, an edge begins at its first vertex if the cell is its first one.
+  void follow_ring(Index cell) {
+    const std::uint64_t end = arrays_.offsets[cell + 1];
+    Index last_end = end_of(arrays_.edges_on_cell[end - 1], cell, 1);
+    for (std::uint64_t at = arrays_.offsets[cell]; at < end; ++at) {
+      const Index e = arrays_.edges_on_cell[at];
+      const auto [a, b] = arrays_.cells_on_edge[e];
+      if (a != cell && b != cell) {
+        throw BadValue("cell " + std::to_string(cell) + " has edge " + std::to_string(e) +
+                       ", which is not one of its own");
+      }
+      if (end_of(e, cell, 0) != last_end) {
+        throw BadValue("the edges around cell " + std::to_string(cell) +
+                       " do not follow each other counterclockwise");
+      }
+      arrays_.cells_on_cell[at] = a == cell ? b : a;
+      arrays_.vertices_on_cell[at] = last_end = end_of(e, cell, 1);
+    }
+  }
+  [[nodiscard]] Index end_of(Index edge, Index cell, std::size_t which) const {
+    const bool is_first = arrays_.cells_on_edge[edge][0] == cell;
+    return arrays_.vertices_on_edge[edge][is_first ? which : 1 - which];
+  }
+
+  void read_kites() {
+    const std::size_t size = arrays_.num_vertices();
+    const Variable& variable = require("kiteAreasOnVertex", 3 * static_cast<std::uint64_t>(size));
+    arrays_.kite_areas.resize(size);
+    in_pieces(size, [&](std::size_t begin, std::size_t end) {
+      std::array<double, 3 * read_grain> values;
+      file_.read_numbers(variable, 3 * begin, std::span(values).first(3 * (end - begin)));
+      for (std::size_t v = begin; v < end; ++v) {
+        for (std::size_t j = 0; j < 3; ++j) {
+          arrays_.kite_areas[v][j] = values[3 * (v - begin) + j];
+          require_finite("kiteAreasOnVertex", 3 * v + j, arrays_.kite_areas[v][j]);
+        }
+      }
+    });
+  }
+
+  // The edge before each cell of a vertex: both are in the ring of the cell.
+  void find_edges_of_vertices() {
+    arrays_.edges_on_vertex.resize(arrays_.num_vertices());
+    in_pieces(arrays_.num_vertices(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto v = static_cast<Index>(i);
+        turn_vertex(v);
+        const Triple& cells = arrays_.cells_on_vertex[v];
+        for (std::size_t j = 0; j < 3; ++j) {
+          arrays_.edges_on_vertex[v][j] = edge_between(v, cells[(j + 2) % 3], cells[j]);
+        }
+      }
+    });
+  }
+
+  // Counterclockwise, as the cells' places say.
+  void turn_vertex(Index v) {
+    Triple& cells = arrays_.cells_on_vertex[v];
+    const Point& a = arrays_.cell_points[cells[0]];
+    const Point across =
+        cross(arrays_.cell_points[cells[1]] - a, arrays_.cell_points[cells[2]] - a);
+    if (dot(across, a) >= 0) return;
+    std::swap(cells[1], cells[2]);
+    std::swap(arrays_.kite_areas[v][1], arrays_.kite_areas[v][2]);
+  }
+
+  [[nodiscard]] Index edge_between(Index v, Index before, Index cell) const {
+    for (std::uint64_t at = arrays_.offsets[cell]; at < arrays_.offsets[cell + 1]; ++at) {
+      if (arrays_.cells_on_cell[at] != before) continue;
+      const Index e = arrays_.edges_on_cell[at];
+      if (std::ranges::count(arrays_.vertices_on_edge[e], v) > 0) return e;
+    }
+    throw BadValue("vertex " + std::to_string(v) + " has no edge between its cells " +
+                   std::to_string(before) + " and " + std::to_string(cell));
+  }
+
+  const io::NetcdfReader& file_;
+  unsigned threads_;
+  const Execution& execution_;
+  MeshArrays arrays_;
+};
+
+}  // namespace
+
+MeshArrays read_mpas(const FileName& file, const Execution& execution) {
+  const system::Call call(execution);
+  io::FileBytes bytes(file.path, true);
+  return io::in_file(bytes.name(), [&] { return meshing::read_mpas(bytes.text(), execution); });
+}
+
+}  // namespace rondel::mesh
+
+namespace rondel::meshing {
+
+mesh::MeshArrays read_mpas(std::string_view bytes, const Execution& execution) {
+  return mesh::MpasReader(io::NetcdfReader(bytes), execution).read();
+}
+
+}  // namespace rondel::meshing

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/scvt.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+
+#include "meshing/scvt_energy.h"
+#include "meshing/scvt_levels.h"
+#include "meshing/scvt_minimizer.h"
+#include "rondel/error.h"
+#include "system/arithmetic.h"
+#include "system/job.h"
+
+namespace rondel::mesh {
+namespace {
+
+constexpr std::size_t fewest_sites = 12;
+// The coarsest level: so few sites that several starts cost little, and enough of them to feel the
+// density. What is out of order there stays so: of 40,962 sites with fourfold density 1,000 had 5 or 7
+// neighbors after a start with 2,562, and 100 after one with 642.
+constexpr std::size_t coarsest_uniform = 100;
+constexpr std::size_t coarsest_of_density = 400;
+constexpr int num_starts = 8;
+constexpr int num_starts_of_density = 3;
+constexpr double tolerance_of_starts = 1e-3;
+
+class Levels {
+ public:
+  Levels(const ScvtOptions& options, const Execution& execution)
+      : options_(options),
+        execution_(execution),
+        size_(options.size ? &*options.size : nullptr),
+        energy_(size_, execution.threads) {}
+
+  Scvt solve(std::size_t count) {
+    const std::vector<std::size_t> counts = counts_of_levels(count, fewest(count));
+    Scvt result;
+    result.sites = start(counts.front());
+    for (std::size_t k = 0; k < counts.size(); ++k) {
+      if (k > 0) result.sites = refined_sites(result.sites, counts[k], size_, execution_.threads);
+      relax(result, k + 1 == counts.size());
+      if (result.end == ScvtEnd::stopped) break;
+    }
+    return result;
+  }
+
+  void relax(Scvt& result, bool is_last) {
+    Minimizer minimizer(std::move(result.sites), energy_, execution_.threads);
+    MinimizerLimits limits{.mean_offset = options_.mean_tolerance,
+                           .largest_offset = options_.largest_tolerance,
+                           .energy_change = options_.energy_tolerance,
+                           .iterations = options_.max_iterations,
+                           .lloyd = options_.method == ScvtMethod::lloyd};
+    if (!is_last) limits.largest_offset = std::numeric_limits<double>::infinity();
+    const auto see = [&](int iteration, const EnergyReport& report) {
+      result.last = {minimizer.sites().size(), iteration, report.energy, report.mean_offset,
+                     report.largest_offset};
+      if (options_.seen) options_.seen(result.last);
+      return execution_.stop == nullptr || !execution_.stop->load();
+    };
+    const bool goes_on = see(0, minimizer.report());
+    result.end = goes_on ? static_cast<ScvtEnd>(minimizer.run(limits, see)) : ScvtEnd::stopped;
+    result.sites = minimizer.sites();
+    result.builds += minimizer.surface().num_builds();
+    result.flips += minimizer.surface().num_flips();
+  }
+
+ private:
+  static bool is_of_icosahedron(std::size_t count) {
+    std::size_t edges = count - 2;
+    while (edges % 4 == 0 && edges > 10) edges /= 4;
+    return edges == 10;
+  }
+
+  [[nodiscard]] std::size_t fewest(std::size_t count) const {
+    if (size_ == nullptr) return is_of_icosahedron(count) ? fewest_sites : coarsest_uniform;
+    return coarsest_of_density;
+  }
+
+  // Of several starts the one of least energy.
+  [[nodiscard]] std::vector<Point> start(std::size_t count) const {
+    if (size_ == nullptr && count == fewest_sites) return icosahedron();
+    const MinimizerLimits limits{.mean_offset = tolerance_of_starts,
+                                 .largest_offset = std::numeric_limits<double>::infinity(),
+                                 .energy_change = 0,
+                                 .iterations = options_.max_iterations};
+    std::vector<Point> best;
+    double least = std::numeric_limits<double>::infinity();
+    for (int seed = 1; seed <= (size_ == nullptr ? num_starts : num_starts_of_density); ++seed) {
+      Minimizer minimizer(
+          in_spatial_order(sampled_sites(count, size_, static_cast<std::uint64_t>(seed)), 1),
+          energy_, 1);
+      (void)minimizer.run(limits, [](int, const EnergyReport&) { return true; });
+      if (minimizer.report().energy >= least) continue;
+      least = minimizer.report().energy;
+      best = minimizer.sites();
+    }
+    return best;
+  }
+
+  const ScvtOptions& options_;
+  const Execution& execution_;
+  const SizeFunction* size_;
+  CentroidalEnergy energy_;
+};
+
+}  // namespace
+
+std::string_view name_of(ScvtEnd end) noexcept {
+  switch (end) {
+    case ScvtEnd::converged:
+      return "converged";
+    case ScvtEnd::iterations:
+      return "iterations";
+    case ScvtEnd::stopped:
+      return "stopped";
+    case ScvtEnd::stuck:
+      return "stuck";
+  }
+  return "";
+}
+
+Scvt scvt(const ScvtOptions& options, const Execution& execution) {
+  const system::ArithmeticScope arithmetic;
+  std::size_t count = options.count;
+  if (count == 0 && options.size) {
+    count = static_cast<std::size_t>(
+        std::min(options.size->count() + 0.5, static_cast<double>(max_sites) + 1));
+  }
+  if (count < fewest_sites || count > max_sites) {
+    throw InvalidInput("a tessellation has from 12 to " + std::to_string(max_sites) +
+                           " sites, not " + std::to_string(count),
+                       0);
+  }
+  return Levels(options, execution).solve(count);
+}
+
+Scvt relaxed(std::span<const Point> sites, const ScvtOptions& options, const Execution& execution) {
+  const system::ArithmeticScope arithmetic;
+  Scvt result;
+  result.sites.reserve(sites.size());
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const Point& p = sites[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || p == Point{}) {
+      throw InvalidInput("a site is not finite or the center", i);
+    }
+    result.sites.push_back(exact::to_point(normalized(scaled(exact::to_vector(p)))));
+  }
+  if (sites.size() < 4) throw InvalidInput("a tessellation that is relaxed has 4 sites or more", 0);
+  Levels(options, execution).relax(result, true);
+  return result;
+}
+
+double energy_over_hexagons(double energy, std::size_t num_sites) noexcept {
+  const double hexagons = 5 / (18 * std::numbers::sqrt3) * 16 * std::numbers::pi * std::numbers::pi;
+  return energy * static_cast<double>(num_sites) / hexagons;
+}
+
+}  // namespace rondel::mesh

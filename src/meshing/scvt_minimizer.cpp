@@ -1,0 +1,192 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "meshing/scvt_minimizer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "rondel/error.h"
+
+namespace rondel::mesh {
+namespace {
+
+// Of the slope, what the energy has to fall by at least.
+constexpr double sufficient_fall = 1e-4;
+// No site moves by more than this part of its spacing in one step.
+constexpr double longest_move = 0.5;
+constexpr int most_trials = 12;
+
+}  // namespace
+
+Minimizer::Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, unsigned threads)
+    : energy_(energy),
+      threads_(threads),
+      sites_(std::move(sites)),
+      axes_(sites_.size()),
+      sums_(sites_.size()),
+      tried_sites_(sites_.size()),
+      tried_sums_(sites_.size()),
+      direction_(sites_.size()),
+      surface_(threads) {
+  std::ranges::transform(sites_, axes_.begin(), far_axis);
+  if (!surface_.follow(sites_)) {
+    throw InvalidInput("the sites have duplicates, or do not surround the center of the sphere", 0);
+  }
+  report_ = energy_(surface_, sites_, axes_, sums_);
+}
+
+Minimizer::Pair& Minimizer::pair(std::size_t age) {
+  return pairs_[(newest_ + memory - age) % memory];
+}
+
+// direction = factor * direction / (2 mass): with the gradient a step to the centroids.
+void Minimizer::scale_by_mass(double factor) {
+  system::parallel_for(threads_, sites_.size(), terms_at_a_time,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           const double scale = factor / (2 * sums_[i].mass);
+                           direction_[i] = {scale * direction_[i].u, scale * direction_[i].v};
+                         }
+                       });
+}
+
+// The two loops of L-BFGS (Nocedal and Wright, algorithm 7.4).
+void Minimizer::direct(bool lloyd) {
+  const std::size_t n = sites_.size();
+  for (std::size_t i = 0; i < n; ++i) direction_[i] = {-sums_[i].gradient.u, -sums_[i].gradient.v};
+  if (lloyd) num_pairs_ = 0;
+  const auto dot_with_direction = [&](const std::vector<Tangent>& a) {
+    return sum_in_order(threads_, n, [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for (std::size_t i = begin; i < end; ++i) sum += dot(a[i], direction_[i]);
+      return sum;
+    });
+  };
+  const auto add = [&](double factor, const std::vector<Tangent>& a) {
+    system::parallel_for(threads_, n, terms_at_a_time, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        direction_[i].u += factor * a[i].u;
+        direction_[i].v += factor * a[i].v;
+      }
+    });
+  };
+  std::array<double, memory> alpha{};
+  for (std::size_t age = 0; age < num_pairs_; ++age) {
+    const Pair& p = pair(age);
+    alpha[age] = dot_with_direction(p.step) / p.curvature;
+    add(-alpha[age], p.change);
+  }
+  scale_by_mass(1);
+  for (std::size_t age = num_pairs_; age-- > 0;) {
+    const Pair& p = pair(age);
+    const double beta = dot_with_direction(p.change) / p.curvature;
+    add(alpha[age] - beta, p.step);
+  }
+}
+
+double Minimizer::slope() const {
+  return sum_in_order(threads_, sites_.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum += dot(sums_[i].gradient, direction_[i]);
+    return sum;
+  });
+}
+
+// Keeps the step just made, of this length along the direction, where the gradient has grown along it.
+void Minimizer::remember(double length) {
+  if (pairs_.size() < memory) pairs_.resize(memory);
+  const std::size_t place = (newest_ + 1) % memory;
+  Pair& p = pairs_[place];
+  p.step.resize(sites_.size());
+  p.change.resize(sites_.size());
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    p.step[i] = {length * direction_[i].u, length * direction_[i].v};
+    p.change[i] = {tried_sums_[i].gradient.u - sums_[i].gradient.u,
+                   tried_sums_[i].gradient.v - sums_[i].gradient.v};
+  }
+  p.curvature = sum_in_order(threads_, sites_.size(), [&](std::size_t begin, std::size_t end) {
+    double sum = 0;
+    for (std::size_t i = begin; i < end; ++i) sum += dot(p.step[i], p.change[i]);
+    return sum;
+  });
+  if (!(p.curvature > 0)) return;
+  newest_ = place;
+  num_pairs_ = std::min(num_pairs_ + 1, memory);
+}
+
+// The longest step of a site over the spacing of its cell.
+double Minimizer::most_relative_step() const {
+  double most = 0;
+  for (std::size_t i = 0; i < sites_.size(); ++i) {
+    most =
+        std::max(most, dot(direction_[i], direction_[i]) / (sums_[i].spacing * sums_[i].spacing));
+  }
+  return std::sqrt(most);
+}
+
+// Tries lengths along the direction until the energy falls enough, and moves there.
+bool Minimizer::search() {
+  const double along = slope();
+  if (!(along < 0)) return false;
+  double length = std::min(1.0, longest_move / most_relative_step());
+  for (int trial = 0; trial < most_trials; ++trial) {
+    system::parallel_for(
+        threads_, sites_.size(), terms_at_a_time, [&](std::size_t begin, std::size_t end) {
+          for (std::size_t i = begin; i < end; ++i) {
+            tried_sites_[i] =
+                moved(sites_[i], axes_[i], {length * direction_[i].u, length * direction_[i].v});
+          }
+        });
+    double shorter = 0.5;
+    if (surface_.follow(tried_sites_)) {
+      tried_report_ = energy_(surface_, tried_sites_, axes_, tried_sums_);
+      const double rise = tried_report_.energy - report_.energy;
+      if (rise <= sufficient_fall * length * along + energy_.noise(report_.energy)) {
+        remember(length);
+        sites_.swap(tried_sites_);
+        sums_.swap(tried_sums_);
+        report_ = tried_report_;
+        return true;
+      }
+      // The lowest point of the parabola through both energies and the slope.
+      const double curvature = rise - length * along;
+      if (curvature > 0) shorter = std::clamp(-0.5 * length * along / curvature, 0.1, 0.5);
+    }
+    length *= shorter;
+  }
+  return false;
+}
+
+// The step to the centroids lowers the energy whatever the pairs say.
+bool Minimizer::search_anew() {
+  direct(true);
+  return search();
+}
+
+MinimizerEnd Minimizer::run(const MinimizerLimits& limits, const StepSeen& seen) {
+  for (int i = 0;; ++i) {
+    if (report_.mean_offset <= limits.mean_offset &&
+        report_.largest_offset <= limits.largest_offset) {
+      return MinimizerEnd::converged;
+    }
+    if (i == limits.iterations) return MinimizerEnd::iterations;
+    const double before = report_.energy;
+    direct(limits.lloyd);
+    if (!search() && (num_pairs_ == 0 || !search_anew())) {
+      if (!surface_.follow(sites_)) throw std::logic_error("sites lost their triangulation");
+      return MinimizerEnd::stuck;
+    }
+    ++iterations_;
+    if (!seen(iterations_, report_)) return MinimizerEnd::stopped;
+    if (before - report_.energy <= limits.energy_change * report_.energy &&
+        limits.energy_change > 0) {
+      return MinimizerEnd::converged;
+    }
+  }
+}
+
+}  // namespace rondel::mesh

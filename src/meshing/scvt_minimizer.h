@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Minimizes the energy of a tessellation: L-BFGS whose first guess of the inverse Hessian is the step of
+// Lloyd's method, to the centroids (Yang, Gunzburger and Ju, J. Comput. Phys. 367, 2018), in the
+// coordinates of the tangent planes.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "meshing/scvt_energy.h"
+#include "meshing/scvt_surface.h"
+#include "meshing/tangent.h"
+#include "rondel/types.h"
+
+namespace rondel::mesh {
+
+struct MinimizerLimits {
+  double mean_offset = 0;  // both must be reached
+  double largest_offset = 0;
+  double energy_change = 0;  // or this, relative, in one step; 0: never
+  int iterations = 0;
+  bool lloyd = false;  // steps to the centroids alone
+};
+
+enum class MinimizerEnd : std::uint8_t { converged, iterations, stopped, stuck };
+
+// Called after every step; false ends the work.
+using StepSeen = std::function<bool(int iteration, const EnergyReport& report)>;
+
+class Minimizer {
+ public:
+  Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, unsigned threads);
+
+  MinimizerEnd run(const MinimizerLimits& limits, const StepSeen& seen);
+
+  [[nodiscard]] const std::vector<Point>& sites() const { return sites_; }
+  [[nodiscard]] const MovingSurface& surface() const { return surface_; }
+  [[nodiscard]] const EnergyReport& report() const { return report_; }
+  [[nodiscard]] int iterations() const { return iterations_; }
+
+ private:
+  static constexpr std::size_t memory = 7;
+  struct Pair {
+    std::vector<Tangent> step;
+    std::vector<Tangent> change;  // of the gradient
+    double curvature = 0;         // step . change
+  };
+
+  void direct(bool lloyd);
+  void scale_by_mass(double factor);
+  [[nodiscard]] double slope() const;
+  [[nodiscard]] double most_relative_step() const;
+  bool search();
+  bool search_anew();
+  void remember(double length);
+  [[nodiscard]] Pair& pair(std::size_t age);
+
+  const CentroidalEnergy& energy_;
+  unsigned threads_;
+  std::vector<Point> sites_;
+  std::vector<std::uint8_t> axes_;
+  std::vector<SiteSums> sums_;
+  EnergyReport report_;
+  std::vector<Point> tried_sites_;
+  std::vector<SiteSums> tried_sums_;
+  EnergyReport tried_report_;
+  std::vector<Tangent> direction_;
+  std::vector<Pair> pairs_;
+  std::size_t num_pairs_ = 0;  // that are remembered
+  std::size_t newest_ = 0;
+  MovingSurface surface_;
+  int iterations_ = 0;
+};
+
+}  // namespace rondel::mesh

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The Delaunay triangulation of sites that all move a little, again and again.
+//
+// Between two steps few edges change, so the faces are kept: one pass looks at every edge again, and
+// flips mend those that are no longer locally Delaunay (Lawson). A filter decides nearly always, the
+// exact predicate otherwise, ties included. Where a face has turned over, all is built anew.
+//
+// Invariants after follow():
+// 1. The faces are those that delaunay() makes of the sites, in an order of their own.
+// 2. A face begins with its lowest corner; centers()[f] depends on the three corners alone. So
+//    nothing that goes around a vertex from a fixed neighbor depends on how the faces came about.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "exact/vector.h"
+#include "rondel/triangulation.h"
+#include "rondel/types.h"
+
+namespace rondel::mesh {
+
+using Vec = exact::Vector3<double>;
+
+inline Index next_of(Index corner) { return corner == 2 ? 0 : corner + 1; }
+inline Index previous_of(Index corner) { return corner == 0 ? 2 : corner - 1; }
+
+class MovingSurface {
+ public:
+  explicit MovingSurface(unsigned threads) : threads_(threads) {}
+
+  // Makes it the triangulation of these unit vectors. False where they have none that surrounds the
+  // center with all of them as vertices; then it is the triangulation of nothing.
+  // Precondition: lengths within 3 * 2^-53 of 1.
+  [[nodiscard]] bool follow(std::span<const Point> sites);
+
+  // So that the next follow() builds anew.
+  void forget() { faces_.clear(); }
+
+  [[nodiscard]] std::span<const Triple> faces() const { return faces_; }
+  [[nodiscard]] std::span<const Triple> neighbors() const { return neighbors_; }
+  [[nodiscard]] std::span<const Point> centers() const { return centers_; }
+  [[nodiscard]] unsigned threads() const { return threads_; }
+  [[nodiscard]] std::size_t num_builds() const { return num_builds_; }
+  [[nodiscard]] std::size_t num_flips() const { return num_flips_; }
+
+  // The faces around a vertex counterclockwise, the first of them the one whose next corner is the
+  // lowest neighbor. `ring` is overwritten.
+  void faces_around(Index vertex, std::vector<Index>& ring) const;
+
+  // The corner of a face that is this vertex.
+  [[nodiscard]] Index corner_of(Index face, Index vertex) const {
+    const Triple& corners = faces_[face];
+    return corners[0] == vertex ? 0 : (corners[1] == vertex ? 1 : 2);
+  }
+
+ private:
+  enum class Look : unsigned char { fine, broken, turned };
+
+  bool build(std::span<const Point> sites);
+  bool mend(std::span<const Point> sites);
+  Look look_at(std::span<const Point> sites, Index face);
+  [[nodiscard]] bool is_to_flip(std::span<const Point> sites, Index face, Index corner) const;
+  void flip(Index face, Index corner);
+  void begin_with_lowest(Index face);
+  void replace_neighbor(Index face, Index before, Index after);
+
+  std::vector<Triple> faces_;
+  std::vector<Triple> neighbors_;
+  std::vector<Point> centers_;
+  std::vector<Index> first_face_;  // of each vertex
+  unsigned threads_;
+  std::size_t num_builds_ = 0;
+  std::size_t num_flips_ = 0;
+};
+
+}  // namespace rondel::mesh

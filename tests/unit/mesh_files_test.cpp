@@ -1,0 +1,239 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Files of meshes: what comes back, whether bytes depend on threads, what is refused. Other programs read them
+// in tests/cli/mesh_clients_test.py.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <numbers>
+#include <string>
+
+#include "io/atomic_file.h"
+#include "io/bad_value.h"
+#include "io/netcdf_reader.h"
+#include "io/netcdf_writer.h"
+#include "rondel/error.h"
+#include "rondel/mesh_io.h"
+#include "unit/mesh_support.h"
+
+namespace rondel::test {
+namespace {
+
+using mesh::MeshArrays;
+using mesh::MeshFormat;
+using mesh::NetcdfKind;
+
+class MeshFiles : public ::testing::Test {
+ protected:
+  MeshFiles() { std::filesystem::create_directories(folder_); }
+  ~MeshFiles() override { std::filesystem::remove_all(folder_); }
+  [[nodiscard]] std::string path(const std::string& name) const {
+    return (folder_ / name).string();
+  }
+  [[nodiscard]] std::string bytes(const std::string& name) const {
+    std::ifstream in(path(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void put(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+  }
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() /
+      ("rondel_mesh_" +
+       std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+};
+
+template <class Work>
+std::string file_error(const Work& work) {
+  try {
+    work();
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(MeshFiles, mpas_comes_back_bit_for_bit) {
+  std::vector<double> density(2000);
+  for (std::size_t i = 0; i < density.size(); ++i)
+    density[i] = 1 / (1 + 0.001 * static_cast<double>(i));
+  for (const NetcdfKind kind : {NetcdfKind::cdf2, NetcdfKind::cdf5}) {
+    const MeshArrays arrays =
+        mesh::arrays(delaunay(mesh_sites(2000, 12)), {.radius = 6371229, .density = density});
+    mesh::write(path("m.nc"), arrays, {.kind = kind});
+    EXPECT_EQ(bytes("m.nc")[3], kind == NetcdfKind::cdf2 ? 2 : 5);
+    EXPECT_EQ(mesh::read_mpas(path("m.nc")), arrays);
+    EXPECT_EQ(mesh::read_mesh(path("m.nc")), arrays);
+  }
+}
+
+TEST_F(MeshFiles, threads_do_not_change_a_byte) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(20000, 13)));
+  for (const MeshFormat format : {MeshFormat::mpas, MeshFormat::ugrid, MeshFormat::scrip,
+                                  MeshFormat::esmf, MeshFormat::exodus}) {
+    mesh::write(path("1.nc"), arrays, {.format = format}, {.threads = 1});
+    mesh::write(path("2.nc"), arrays, {.format = format}, {.threads = 2});
+    EXPECT_EQ(bytes("1.nc"), bytes("2.nc"));
+  }
+}
+
+TEST_F(MeshFiles, other_formats_come_back_by_their_centers) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(500, 14)));
+  for (const MeshFormat format : {MeshFormat::ugrid, MeshFormat::scrip, MeshFormat::esmf}) {
+    mesh::write(path("m.nc"), arrays, {.format = format});
+    const MeshArrays found = mesh::read_mesh(path("m.nc"));
+    EXPECT_EQ(found.offsets, arrays.offsets);
+    for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
+      EXPECT_NEAR(found.cell_areas[i] / arrays.cell_areas[i], 1, 1e-12);
+    }
+  }
+}
+
+TEST_F(MeshFiles, numbers_of_mpas_are_those_of_its_specification) {
+  const MeshArrays arrays = mesh::arrays(delaunay(icosahedral_sites(2)), {.radius = 2});
+  mesh::write(path("m.nc"), arrays);
+  const std::string content = bytes("m.nc");
+  const io::NetcdfReader file(content);
+  const auto integers = [&](const char* name) { return file.integers(file.require(name)); };
+  const auto numbers = [&](const char* name) { return file.numbers(file.require(name)); };
+  EXPECT_EQ(io::netcdf_text(file.attributes(), "on_a_sphere"), "YES");
+  EXPECT_EQ(io::netcdf_text(file.attributes(), "file_id").size(), 10U);
+  const std::size_t room = arrays.max_edges();
+  ASSERT_EQ(integers("edgesOnEdge").size(), arrays.num_edges() * 2 * room);
+  for (const double lon : numbers("lonCell")) {
+    EXPECT_GE(lon, 0);
+    EXPECT_LT(lon, 2 * std::numbers::pi);
+  }
+  // Rows end with 0 where a cell has five edges.
+  const auto rings = integers("verticesOnCell");
+  for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
+    const auto sides = static_cast<std::size_t>(arrays.offsets[i + 1] - arrays.offsets[i]);
+    for (std::size_t j = 0; j < room; ++j) {
+      EXPECT_EQ(rings[i * room + j] == 0, j >= sides);
+    }
+  }
+  // Quadratic in the radius, and all of the sphere.
+  double total = 0;
+  for (const double area : numbers("areaTriangle")) total += area;
+  EXPECT_NEAR(total / (16 * std::numbers::pi), 1, 1e-13);
+  EXPECT_EQ(numbers("nominalMinDc").front(), *std::ranges::min_element(arrays.cell_distances));
+  const auto quality = numbers("triangleQuality");
+  for (const double value : quality) EXPECT_TRUE(value > 0.8 && value <= 1 + 1e-15);
+}
+
+TEST_F(MeshFiles, a_graph_has_each_neighbor_on_both_lines) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(300, 15)));
+  mesh::write_graph(path("graph.info"), arrays);
+  std::ifstream in(path("graph.info"));
+  std::size_t cells = 0;
+  std::size_t edges = 0;
+  in >> cells >> edges;
+  EXPECT_EQ(cells, 300U);
+  EXPECT_EQ(edges, arrays.num_edges());
+  std::size_t numbers = 0;
+  for (std::size_t number = 0; in >> number; ++numbers) EXPECT_TRUE(number >= 1 && number <= cells);
+  EXPECT_EQ(numbers, 2 * edges);
+}
+
+TEST_F(MeshFiles, corners_of_edges_without_length_are_one) {
+  std::vector<Point> cube;
+  for (int i = 0; i < 8; ++i) {
+    cube.push_back({i % 2 == 0 ? -1.0 : 1.0, i / 2 % 2 == 0 ? -1.0 : 1.0, i < 4 ? -1.0 : 1.0});
+  }
+  const MeshArrays arrays = mesh::arrays(delaunay(cube), {.allow_zero_edges = true});
+  mesh::write(path("m.nc"), arrays, {.format = MeshFormat::exodus});
+  const std::string content = bytes("m.nc");
+  const io::NetcdfReader file(content);
+  EXPECT_EQ(file.integers(file.require("connect1")).size(), 24U);
+  EXPECT_EQ(file.find("connect2"), nullptr);
+}
+
+TEST_F(MeshFiles, cdf2_refuses_variables_of_4_gib) {
+  const auto refusal = [&](std::uint64_t size, int version) -> std::string {
+    io::AtomicFile file(path("large.nc"));
+    io::NetcdfWriter out(file);
+    const std::size_t dimension = out.add_dimension("nEdges", size);
+    out.add_variable({"weightsOnEdge", io::NetcdfType::float64, {dimension}, {}});
+    try {
+      out.begin(version);
+    } catch (const io::BadValue& bad) {
+      return bad.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal((1U << 29U) - 1, 2), "");
+  EXPECT_EQ(refusal(1U << 29U, 5), "");
+  EXPECT_EQ(refusal(1U << 29U, 2),
+            "CDF-2 cannot hold it, as a dimension or a variable is too large; CDF-5 can");
+}
+
+TEST_F(MeshFiles, arrays_that_do_not_fit_are_refused) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(50, 17)));
+  MeshArrays bad = arrays;
+  bad.kite_areas.pop_back();
+  EXPECT_THROW(mesh::write(path("m.nc"), bad), InvalidInput);
+  bad = arrays;
+  bad.edges_on_cell[3] = 10000;
+  EXPECT_THROW(mesh::write(path("m.nc"), bad), InvalidInput);
+  bad = arrays;
+  std::swap(bad.edges_on_cell[0], bad.edges_on_cell.back());
+  EXPECT_THROW(mesh::write(path("m.nc"), bad), InvalidInput);
+  EXPECT_FALSE(std::filesystem::exists(path("m.nc")));
+  EXPECT_THROW(mesh::write_graph(path("g"), MeshArrays{}), InvalidInput);
+}
+
+// A value of a variable, put into the bytes of a file.
+void set_value(std::string& content, const char* name, std::size_t index, std::int32_t value) {
+  const io::NetcdfReader file(content);
+  const std::uint64_t at = file.require(name).offset + 4 * index;
+  for (int i = 0; i < 4; ++i) {
+    content[at + static_cast<std::size_t>(i)] =
+        static_cast<char>(static_cast<std::uint32_t>(value) >> (24 - 8 * i));
+  }
+}
+
+TEST_F(MeshFiles, damaged_lists_are_refused_with_their_place) {
+  mesh::write(path("m.nc"), mesh::arrays(delaunay(mesh_sites(50, 18))));
+  const std::string whole = bytes("m.nc");
+  const auto refusal = [&](const char* name, std::size_t index, std::int32_t value) {
+    std::string content = whole;
+    set_value(content, name, index, value);
+    put("bad.nc", content);
+    std::string what = file_error([&] { mesh::read_mpas(path("bad.nc")); });
+    EXPECT_TRUE(what.starts_with(path("bad.nc") + ": ")) << what;
+    return what.substr(std::min(what.size(), path("bad.nc").size() + 2));
+  };
+  EXPECT_EQ(refusal("cellsOnEdge", 7, 51), "variable \"cellsOnEdge\", row 3: 51 is not in 1 to 50");
+  EXPECT_EQ(refusal("cellsOnEdge", 7, 0),
+            "variable \"cellsOnEdge\", row 3: nothing there; a mesh with a border is not read");
+  EXPECT_EQ(refusal("nEdgesOnCell", 2, 2),
+            "variable \"nEdgesOnCell\", row 2: 2 is not in 3 to " +
+                std::to_string(mesh::read_mpas(path("m.nc")).max_edges()));
+  EXPECT_NE(refusal("edgesOnCell", 0, 100), "");
+  EXPECT_NE(refusal("cellsOnVertex", 0, 50), "");
+  EXPECT_NE(refusal("verticesOnEdge", 0, 90), "");
+  put("cut.nc", whole.substr(0, whole.size() / 2));
+  EXPECT_NE(file_error([&] { mesh::read_mpas(path("cut.nc")); }).find("ends at byte"),
+            std::string::npos);
+  put("text.nc", "lon,lat\n");
+  EXPECT_NE(file_error([&] { mesh::read_mesh(path("text.nc")); }), "");
+}
+
+TEST_F(MeshFiles, cells_that_are_not_those_of_their_centers_are_refused) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(60, 19)));
+  MeshArrays moved = arrays;
+  moved.cell_points[17] = normalized(moved.cell_points[17] + Point{0.01, 0.02, 0});
+  mesh::write(path("m.nc"), moved, {.format = MeshFormat::ugrid});
+  EXPECT_NE(file_error([&] { mesh::read_mesh(path("m.nc")); }).find("is not the Voronoi cell"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace rondel::test

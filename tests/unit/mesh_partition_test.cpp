@@ -1,0 +1,159 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/mesh_partition.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "exact/vector.h"
+#include "meshing/graph_laplacian.h"
+#include "meshing/scvt_levels.h"
+#include "rondel/delaunay.h"
+#include "rondel/diagram.h"
+#include "rondel/error.h"
+#include "rondel/scvt.h"
+
+namespace rondel::mesh {
+namespace {
+
+constexpr double whole = 4 * std::numbers::pi;
+
+// The areas of the power cells, by the diagram.
+std::vector<double> power_areas(const std::vector<Point>& sites, const AreaPartition& made) {
+  std::vector<Point> poles;
+  for (std::size_t i = 0; i < sites.size(); ++i) poles.push_back(made.weights[i] * sites[i]);
+  return areas(delaunay(poles, {.model = Model::weighted}));
+}
+
+TEST(mesh_partition, cells_of_a_centroidal_tessellation_become_equal) {
+  const std::vector<Point> sites = scvt({.count = 2562}).sites;
+  int steps = 0;
+  AreaPartitionOptions options;
+  options.seen = [&](const PartitionStep& step) { steps = step.step; };
+  const AreaPartition made = area_partition(sites, {}, options);
+  EXPECT_EQ(made.end, PartitionEnd::converged);
+  EXPECT_LE(made.largest_error, 1e-12);
+  EXPECT_LE(made.steps, 6);
+  EXPECT_EQ(made.steps, steps);
+  const double wanted = whole / 2562;
+  for (const double area : power_areas(sites, made)) EXPECT_NEAR(area, wanted, 3e-12 * wanted);
+  EXPECT_EQ(*std::min_element(made.weights.begin(), made.weights.end()), 1);
+}
+
+TEST(mesh_partition, random_sites_get_areas_of_any_size) {
+  const std::vector<Point> sites = sampled_sites(500, nullptr, 9);
+  std::vector<double> targets;
+  for (std::size_t i = 0; i < sites.size(); ++i) targets.push_back(1 + 0.8 * sites[i].x);
+  const double sum = std::accumulate(targets.begin(), targets.end(), 0.0);
+  for (double& target : targets) target *= whole / sum;
+  const AreaPartition made = area_partition(sites, targets);
+  EXPECT_EQ(made.end, PartitionEnd::converged);
+  const std::vector<double> found = power_areas(sites, made);
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    EXPECT_NEAR(found[i], targets[i], 1e-11 * targets[i]);
+  }
+}
+
+TEST(mesh_partition, eight_corners_of_a_cube_and_their_symmetry) {
+  std::vector<Point> cube;
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      for (const double z : {-1.0, 1.0}) cube.push_back({x, y, z});
+    }
+  }
+  const AreaPartition made = area_partition(cube);
+  EXPECT_EQ(made.end, PartitionEnd::converged);
+  EXPECT_EQ(made.steps, 0);
+  for (const double weight : made.weights) EXPECT_EQ(weight, 1);
+}
+
+TEST(mesh_partition, bytes_do_not_depend_on_threads) {
+  const std::vector<Point> sites = sampled_sites(9000, nullptr, 1);
+  const AreaPartition one = area_partition(sites, {}, {}, {.threads = 1});
+  const AreaPartition two = area_partition(sites, {}, {}, {.threads = 2});
+  EXPECT_EQ(one.weights, two.weights);
+  EXPECT_EQ(one.areas, two.areas);
+  EXPECT_EQ(one.end, two.end);
+}
+
+// The cell of a site has no point farther than 90 degrees from it where the hull surrounds the center, so its
+// area is below 2 pi.
+TEST(mesh_partition, infeasible_areas_end_as_such) {
+  const std::vector<Point> sites = icosahedron();
+  std::vector<double> targets(12, 0.3 * whole / 11);
+  targets[4] = 0.7 * whole;
+  const AreaPartition made = area_partition(sites, targets);
+  EXPECT_EQ(made.end, PartitionEnd::infeasible);
+  EXPECT_LT(made.steps, 60);
+  EXPECT_GT(made.largest_error, 0.01);
+  EXPECT_NE(made.worst, no_index);
+  // Sites in one hemisphere.
+  const std::vector<Point> octant = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
+  EXPECT_EQ(area_partition(octant).end, PartitionEnd::infeasible);
+}
+
+TEST(mesh_partition, stop_and_too_few_steps_leave_weights) {
+  const std::vector<Point> sites = sampled_sites(300, nullptr, 2);
+  EXPECT_EQ(area_partition(sites, {}, {.max_steps = 1}).end, PartitionEnd::iterations);
+  const std::atomic<bool> stop = true;
+  const AreaPartition made = area_partition(sites, {}, {}, {.stop = &stop});
+  EXPECT_EQ(made.end, PartitionEnd::stopped);
+  EXPECT_EQ(made.areas.size(), 300U);
+}
+
+TEST(mesh_partition, what_is_no_partition_is_refused) {
+  std::vector<Point> sites = icosahedron();
+  EXPECT_THROW((void)area_partition(sites, std::vector<double>(11, whole / 11)), InvalidInput);
+  EXPECT_THROW((void)area_partition(sites, std::vector<double>(12, 1)), InvalidInput);
+  std::vector<double> targets(12, whole / 11);
+  targets[7] = 0;
+  EXPECT_THROW((void)area_partition(sites, targets), InvalidInput);
+  sites[1] = 2.0 * sites[3];
+  EXPECT_THROW((void)area_partition(sites), InvalidInput);
+  sites[1] = {0, 0, 0};
+  EXPECT_THROW((void)area_partition(sites), InvalidInput);
+}
+
+// A path through all vertices and some chords, with weights of all sizes.
+TEST(graph_laplacian, solution_solves) {
+  const std::size_t n = 5000;
+  std::vector<std::vector<std::pair<Index, double>>> rows(n);
+  const auto tie = [&](std::size_t i, std::size_t j, double weight) {
+    rows[i].push_back({static_cast<Index>(j), weight});
+    rows[j].push_back({static_cast<Index>(i), weight});
+  };
+  for (std::size_t i = 0; i + 1 < n; ++i) tie(i, i + 1, 1 + static_cast<double>(i % 7));
+  for (std::size_t i = 0; i + 70 < n; ++i) tie(i, i + 70, 0.5 + static_cast<double>(i % 3));
+  WeightedGraph graph;
+  graph.offsets.push_back(0);
+  for (const auto& row : rows) {
+    double sum = 0;
+    for (const auto& [j, weight] : row) {
+      graph.neighbors.push_back(j);
+      graph.weights.push_back(weight);
+      sum += weight;
+    }
+    graph.diagonal.push_back(sum);
+    graph.offsets.push_back(graph.neighbors.size());
+  }
+  std::vector<double> wanted(n);
+  for (std::size_t i = 0; i < n; ++i) wanted[i] = static_cast<double>(i * i % 101) - 50;
+  const double mean = std::accumulate(wanted.begin(), wanted.end(), 0.0) / n;
+  std::vector<double> right(n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (const auto& [j, weight] : rows[i]) right[i] += weight * (wanted[i] - wanted[j]);
+  }
+  std::vector<double> found;
+  const int steps = LaplacianSolver(graph, 1).solve(right, 1e-12, 1000, found);
+  EXPECT_LT(steps, 60);
+  for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(found[i], wanted[i] - mean, 1e-8);
+}
+
+}  // namespace
+}  // namespace rondel::mesh

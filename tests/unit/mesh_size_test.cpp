@@ -1,0 +1,117 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/mesh_size.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "meshing/scvt_levels.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+
+namespace rondel::mesh {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double angle(const Point& p, const Point& q) {
+  return std::acos(std::clamp(p.x * q.x + p.y * q.y + p.z * q.z, -1.0, 1.0));
+}
+
+const std::vector<Point>& places() {
+  static const std::vector<Point> made = sampled_sites(5000, nullptr, 1);
+  return made;
+}
+
+TEST(mesh_size, constant_spacing_counts_hexagons) {
+  const SizeFunction size = SizeFunction::constant(0.01, 16);
+  EXPECT_NEAR(size.count(), 4 * pi / (std::sqrt(3.0) / 2 * 1e-4), 1);
+  for (const Point& p : places()) {
+    EXPECT_EQ(size.spacing(p), 0.01);
+    EXPECT_EQ(size.density(p), 1);
+  }
+}
+
+TEST(mesh_size, function_is_met_at_nodes_and_between_them) {
+  const auto wanted = [](const Point& p) { return 0.02 + 0.01 * p.z; };
+  const SizeFunction size = SizeFunction::from_function(
+      [&](std::span<const Point> at, std::span<double> out) {
+        for (std::size_t i = 0; i < at.size(); ++i) out[i] = wanted(at[i]);
+      },
+      256);
+  EXPECT_EQ(size.smallest(), 0.01);
+  for (const Point& p : places()) {
+    EXPECT_NEAR(size.spacing(p), wanted(p), 1e-6);
+    EXPECT_NEAR(size.density(p), std::pow(0.01 / wanted(p), 4), 1e-4);
+  }
+  // The integral of 1 / (a + b z)^2 over the sphere is 4 pi / (a^2 - b^2).
+  EXPECT_NEAR(size.count() * (std::sqrt(3.0) / 2) / (4 * pi / 3e-4), 1, 1e-4);
+}
+
+TEST(mesh_size, grid_of_any_direction_goes_around) {
+  std::vector<double> lon;
+  std::vector<double> lat;
+  for (int i = 0; i < 72; ++i) lon.push_back(5.0 * i - 180);
+  for (int j = 0; j <= 36; ++j) lat.push_back(90 - 5.0 * j);
+  std::vector<double> values;
+  for (const double y : lat) {
+    for (const double x : lon) {
+      const Point p = unit_vector(LonLat{x, y});
+      values.push_back(0.02 + 0.005 * p.x);
+    }
+  }
+  const SizeFunction size = SizeFunction::from_grid(lon, lat, values, 256);
+  for (const Point& p : places()) EXPECT_NEAR(size.spacing(p), 0.02 + 0.005 * p.x, 3e-5);
+}
+
+TEST(mesh_size, refinement_grows_with_the_distance_of_a_line) {
+  const std::vector<Point> equator = densified(
+      unit_vectors(std::vector<LonLat>{{-170, 0}, {-80, 0}, {10, 0}, {100, 0}, {-170, 0}}), 0.002);
+  const SizeFunction size = SizeFunction::constant(0.1, 256).refined(equator, 0.01, 0.1);
+  for (const Point& p : places()) {
+    EXPECT_NEAR(size.spacing(p), std::min(0.1, 0.01 + 0.1 * std::abs(std::asin(p.z))), 6e-4);
+  }
+}
+
+TEST(mesh_size, limited_spacing_grows_slowly_and_is_lowered_no_more_than_that) {
+  const Point middle = unit_vector(LonLat{45, 35});  // near a corner of the cube
+  const SizeFunction steep = SizeFunction::from_function(
+      [&](std::span<const Point> at, std::span<double> out) {
+        for (std::size_t i = 0; i < at.size(); ++i)
+          out[i] = angle(at[i], middle) < 0.2 ? 0.01 : 0.2;
+      },
+      128);
+  const SizeFunction gentle = steep.limited(0.1);
+  EXPECT_EQ(gentle.smallest(), steep.smallest());
+  for (const Point& p : places()) {
+    const double distance = std::max(0.0, angle(p, middle) - 0.2);
+    const double wanted = std::min(0.2, 0.01 + 0.1 * distance);
+    EXPECT_GE(gentle.spacing(p), wanted - 0.003);
+    EXPECT_LE(gentle.spacing(p), 1.03 * wanted + 0.003);
+  }
+}
+
+TEST(mesh_size, what_is_no_size_is_refused) {
+  EXPECT_THROW(SizeFunction::constant(0), InvalidInput);
+  EXPECT_THROW(SizeFunction::constant(std::nan("")), InvalidInput);
+  EXPECT_THROW(SizeFunction::constant(0.1, 100), InvalidInput);
+  const SizeFunction size = SizeFunction::constant(0.1, 8);
+  EXPECT_THROW((void)size.limited(-1), InvalidInput);
+  EXPECT_THROW((void)size.scaled(100), InvalidInput);
+  EXPECT_THROW((void)size.refined({}, 0.1, 0.1), InvalidInput);
+  EXPECT_THROW((void)size.refined(places(), 0, 0.1), InvalidInput);
+  EXPECT_THROW((void)densified(places(), 0), InvalidInput);
+  const std::vector<double> axis = {0, 1};
+  EXPECT_THROW(SizeFunction::from_grid(axis, axis, axis), InvalidInput);
+  const std::vector<double> twice = {1, 1};
+  const std::vector<double> four(4, 0.1);
+  EXPECT_THROW(SizeFunction::from_grid(twice, axis, four), InvalidInput);
+  EXPECT_THROW(SizeFunction::from_grid(axis, twice, four), InvalidInput);
+}
+
+}  // namespace
+}  // namespace rondel::mesh

@@ -1,0 +1,9 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+rondel_add_test(scvt_test
+  mesh_partition_test.cpp
+  mesh_size_test.cpp
+  point_sets_test.cpp
+  scvt_energy_test.cpp
+  scvt_test.cpp
+  LIBS rondel_mesh)

@@ -1,0 +1,190 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/scvt.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <map>
+
+#include "meshing/scvt_levels.h"
+#include "rondel/delaunay.h"
+#include "rondel/diagram.h"
+#include "rondel/error.h"
+
+namespace rondel::mesh {
+namespace {
+
+double distance(const Point& p, const Point& q) {
+  const double dx = p.x - q.x;
+  const double dy = p.y - q.y;
+  const double dz = p.z - q.z;
+  return std::sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+struct Shape {
+  std::map<int, int> degrees;
+  int num_obtuse = 0;
+  double least_dual_edge = 9;  // over its edge
+};
+
+Shape shape_of(const std::vector<Point>& sites) {
+  const Triangulation triangulation = delaunay(sites);
+  const std::vector<Point> centers = circumcenters(triangulation);
+  std::vector<int> degree(sites.size());
+  Shape shape;
+  for (std::size_t f = 0; f < triangulation.num_faces(); ++f) {
+    std::array<double, 3> squares{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Triple& face = triangulation.faces()[f];
+      ++degree[face[i]];
+      const double edge = distance(sites[face[(i + 1) % 3]], sites[face[(i + 2) % 3]]);
+      squares[i] = edge * edge;
+      shape.least_dual_edge =
+          std::min(shape.least_dual_edge,
+                   distance(centers[f], centers[triangulation.neighbors()[f][i]]) / edge);
+    }
+    std::ranges::sort(squares);
+    if (squares[2] > squares[0] + squares[1]) ++shape.num_obtuse;
+  }
+  for (const int d : degree) ++shape.degrees[d];
+  return shape;
+}
+
+SizeFunction fourfold() {
+  return SizeFunction::from_function(
+      [](std::span<const Point> places, std::span<double> out) {
+        for (std::size_t i = 0; i < places.size(); ++i) {
+          const double s = std::clamp(2.5 * (places[i].x - 0.3), 0.0, 1.0);
+          out[i] = 0.08 - 0.06 * s * s * (3 - 2 * s);
+        }
+      },
+      64);
+}
+
+TEST(scvt, subdivided_icosahedron_ends_as_good_as_published_ones) {
+  const Scvt made = scvt({.count = 10242});
+  EXPECT_EQ(made.end, ScvtEnd::converged);
+  EXPECT_LE(made.last.mean_offset, 1e-4);
+  EXPECT_LE(made.last.largest_offset, 1e-2);
+  ASSERT_EQ(made.sites.size(), 10242U);
+  const double ratio = energy_over_hexagons(made.last.energy, made.sites.size());
+  EXPECT_GT(ratio, 1);
+  EXPECT_LT(ratio, 1.005);
+  const Shape shape = shape_of(made.sites);
+  EXPECT_EQ(shape.degrees, (std::map<int, int>{{5, 12}, {6, 10230}}));
+  EXPECT_EQ(shape.num_obtuse, 0);
+  EXPECT_GE(shape.least_dual_edge, 0.39);
+}
+
+TEST(scvt, every_number_of_sites_is_met) {
+  for (const std::size_t n : {12, 13, 42, 100, 401, 999, 1602}) {
+    const Scvt made = scvt({.count = n});
+    EXPECT_EQ(made.sites.size(), n);
+    EXPECT_LT(energy_over_hexagons(made.last.energy, n), n < 100 ? 1.1 : 1.015) << n;
+    for (const Point& p : made.sites) EXPECT_NEAR(distance(p, {}), 1, 1e-15);
+  }
+}
+
+TEST(scvt, energy_never_grows) {
+  double last = 0;
+  std::size_t level = 0;
+  int num_steps = 0;
+  const auto see = [&](const ScvtStep& step) {
+    if (step.sites == level) {
+      EXPECT_LE(step.energy, last + 0x1p-48);
+    }
+    level = step.sites;
+    last = step.energy;
+    ++num_steps;
+  };
+  (void)scvt({.count = 3000, .seen = see});
+  EXPECT_GT(num_steps, 20);
+}
+
+TEST(scvt, bytes_do_not_depend_on_threads) {
+  for (const bool with_size : {false, true}) {
+    ScvtOptions options{.count = 9000};
+    if (with_size) options.size = fourfold();
+    const Scvt one = scvt(options, {.threads = 1});
+    const Scvt three = scvt(options, {.threads = 3});
+    EXPECT_EQ(one.sites, three.sites);
+    EXPECT_EQ(one.flips, three.flips);
+  }
+}
+
+TEST(scvt, far_fewer_steps_than_lloyd) {
+  const std::vector<Point> start = sampled_sites(2562, nullptr, 2);
+  ScvtOptions options{.largest_tolerance = 1, .max_iterations = 20000};
+  options.mean_tolerance = 1e-4;
+  int steps = 0;
+  options.seen = [&](const ScvtStep& step) { steps = step.iteration; };
+  EXPECT_EQ(relaxed(start, options).end, ScvtEnd::converged);
+  const int newton = steps;
+  options.method = ScvtMethod::lloyd;
+  EXPECT_EQ(relaxed(start, options).end, ScvtEnd::converged);
+  EXPECT_LT(newton * 5, steps) << newton;
+}
+
+TEST(scvt, spacings_follow_the_size_function) {
+  ScvtOptions options{.size = fourfold()};
+  const Scvt made = scvt(options);
+  EXPECT_NEAR(static_cast<double>(made.sites.size()), options.size->count(), 1);
+  const Triangulation triangulation = delaunay(made.sites);
+  const std::vector<double> cell_areas = areas(triangulation);
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < made.sites.size(); ++i) {
+    ratios.push_back(std::sqrt(2 * cell_areas[i] / std::sqrt(3.0)) /
+                     options.size->spacing(made.sites[i]));
+  }
+  std::ranges::sort(ratios);
+  EXPECT_GT(ratios[ratios.size() / 20], 0.9);
+  EXPECT_LT(ratios[ratios.size() * 19 / 20], 1.1);
+}
+
+TEST(scvt, stop_leaves_the_sites_so_far) {
+  std::atomic<bool> stop = false;
+  int num_steps = 0;
+  ScvtOptions options{.count = 5000};
+  options.seen = [&](const ScvtStep& step) {
+    if (step.sites > 1000 && ++num_steps == 3) stop = true;
+  };
+  const Scvt made = scvt(options, {.stop = &stop});
+  EXPECT_EQ(made.end, ScvtEnd::stopped);
+  EXPECT_GT(made.sites.size(), 1000U);
+}
+
+TEST(scvt, own_sites_keep_their_order) {
+  std::vector<Point> start = sampled_sites(500, nullptr, 4);
+  for (Point& p : start) p = 3.0 * p;
+  const Scvt made = relaxed(start);
+  ASSERT_EQ(made.sites.size(), 500U);
+  std::size_t num_close = 0;
+  for (std::size_t i = 0; i < 500; ++i) num_close += distance(made.sites[i], start[i] / 3) < 0.2;
+  EXPECT_GT(num_close, 450U);
+}
+
+TEST(scvt, what_is_no_start_is_refused) {
+  EXPECT_THROW((void)scvt({}), InvalidInput);
+  EXPECT_THROW((void)scvt({.count = 11}), InvalidInput);
+  EXPECT_THROW((void)relaxed({}), InvalidInput);
+  std::vector<Point> sites = icosahedron();
+  sites[5] = {0, 0, 0};
+  EXPECT_THROW((void)relaxed(sites), InvalidInput);
+  sites[5] = sites[6];
+  EXPECT_THROW((void)relaxed(sites), InvalidInput);
+}
+
+TEST(scvt, names_of_ends) {
+  EXPECT_EQ(name_of(ScvtEnd::converged), "converged");
+  EXPECT_EQ(name_of(ScvtEnd::iterations), "iterations");
+  EXPECT_EQ(name_of(ScvtEnd::stopped), "stopped");
+  EXPECT_EQ(name_of(ScvtEnd::stuck), "stuck");
+}
+
+}  // namespace
+}  // namespace rondel::mesh
