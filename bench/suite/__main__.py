@@ -7,7 +7,8 @@ import os
 import pathlib
 import sys
 
-from . import accuracy, against_peers, environment, features, hostile, ratios, rondel_alone
+from . import (accuracy, against_peers, environment, features, hostile, interpolation, ratios,
+               rondel_alone)
 from .runs import Limits
 from .settings import ROOT, Settings
 
@@ -24,6 +25,7 @@ TABLES = {
     "queries": features.queries,
     "changes": features.changes,
     "accuracy": accuracy.of_values,
+    "interpolation": interpolation.methods,
 }
 
 # How large and how often: (peers up to 2^k, Rondel up to 2^k, division of fixed sizes, limits).

@@ -4,70 +4,58 @@
 #include "interpolation/gradient.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <span>
 
 #include "exact/vector.h"
+#include "interpolation/gradient_blocks.h"
 #include "interpolation/linear.h"
-#include "interpolation/local_fit.h"
-#include "interpolation/solid_rings.h"
 #include "system/parallel.h"
 
 namespace rondel::interpolation {
 namespace {
 
-constexpr std::size_t gradients_per_piece = 1024;
-
-// Neighbors farther than 120 degrees are left out: in the stereographic plane they would be too far.
-constexpr double largest_squared_chord = 3;
-
-// Of vertices closer than its reciprocal no gradient can be had: it would not be a number.
-constexpr double largest_gradient_weight = 0x1p500;
-
-class GradientFinder {
- public:
-  GradientFinder(const Ground& ground, const SolidStars& stars, unsigned rings)
-      : ground_(ground), rings_(stars), num_rings_(rings) {}
-
-  // Whether v has a gradient: the sum of weights() times differences of values from v's.
-  bool find(Index v) {
-    const exact::SplitPoint& x = ground_.unit(v);
-    const TargetPlace place{ground_.point(v), x, {}};
-    neighbors_.clear();
-    steps_.clear();
-    for (const Index w : rings_.find(v, num_rings_)) {
-      const Vec to_w = careful_step(ground_, place, w);
-      if (dot(to_w, to_w) > largest_squared_chord) continue;
-      neighbors_.push_back(w);
-      steps_.push_back(to_w);
-    }
-    return fit_.find(exact::to_vector(x.hi), steps_, weights_) &&
-           std::ranges::all_of(weights_, [](const Vec& weight) {
-             return std::abs(weight.x) <= largest_gradient_weight &&
-                    std::abs(weight.y) <= largest_gradient_weight &&
-                    std::abs(weight.z) <= largest_gradient_weight;
-           });
+// Those of the vertices of a range.
+GradientRows rows_of(GradientBlocks& blocks, std::size_t begin) {
+  GradientRows rows;
+  std::vector<std::uint64_t> room = {0};  // one more than neighbors, where there are enough
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    room.push_back(room[i] + blocks.most_neighbors(i) + 1);
   }
-  [[nodiscard]] const std::vector<Index>& neighbors() const { return neighbors_; }
-  [[nodiscard]] const std::vector<Vec>& weights() const { return weights_; }
-
- private:
-  const Ground& ground_;
-  SolidRings rings_;
-  unsigned num_rings_;
-  LocalFit fit_;
-  std::vector<Index> neighbors_;
-  std::vector<Vec> steps_;
-  std::vector<Vec> weights_;
-};
-
-void append_row(Index v, const GradientFinder& found, GradientRows& rows) {
-  Vec sum{0, 0, 0};
-  for (const Vec& weight : found.weights()) sum = sum + weight;
-  rows.vertices.push_back(v);
-  rows.weights.push_back(exact::to_point(-1 * sum));
-  rows.vertices.insert(rows.vertices.end(), found.neighbors().begin(), found.neighbors().end());
-  for (const Vec& weight : found.weights()) rows.weights.push_back(exact::to_point(weight));
+  rows.vertices.resize(room.back());
+  rows.weights.resize(room.back());
+  std::vector<std::uint64_t> sizes(blocks.size(), 0);
+  blocks.for_each_block([&](const LocalFits& fits, std::span<const Index> members) {
+    for (std::size_t lane = 0; lane < members.size(); ++lane) {
+      if (!fits.has_gradient(lane)) continue;
+      const Index i = members[lane];
+      const std::span<const Index> neighbors = blocks.neighbors(i);
+      const std::uint64_t first = room[i];
+      Vec sum{0, 0, 0};
+      for (std::size_t k = 0; k < neighbors.size(); ++k) {
+        const Vec weight = fits.weight(lane, k);
+        sum = sum + weight;
+        rows.vertices[first + k + 1] = neighbors[k];
+        rows.weights[first + k + 1] = exact::to_point(weight);
+      }
+      rows.vertices[first] = static_cast<Index>(begin + i);
+      rows.weights[first] = exact::to_point(-1 * sum);
+      sizes[i] = neighbors.size() + 1;
+    }
+  });
+  // Without the room that was left.
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const std::uint64_t to = rows.offsets.back();
+    rows.offsets.push_back(to + sizes[i]);
+    if (to == room[i]) continue;
+    for (std::uint64_t k = 0; k < sizes[i]; ++k) {
+      rows.vertices[to + k] = rows.vertices[room[i] + k];
+      rows.weights[to + k] = rows.weights[room[i] + k];
+    }
+  }
+  rows.vertices.resize(rows.offsets.back());
+  rows.weights.resize(rows.offsets.back());
+  return rows;
 }
 
 GradientRows joined(const std::vector<GradientRows>& pieces, unsigned threads) {
@@ -101,19 +89,13 @@ GradientRows joined(const std::vector<GradientRows>& pieces, unsigned threads) {
 }  // namespace
 
 GradientRows gradient_rows(const Ground& ground, const GradientOptions& options, unsigned threads) {
-  constexpr std::size_t usual_entries = 21;
+  constexpr std::size_t grain = GradientBlocks::vertices_per_piece;
   const SolidStars stars(ground, threads);
   const std::size_t n = ground.num_vertices();
-  std::vector<GradientRows> pieces(system::num_pieces(n, gradients_per_piece));
-  system::parallel_for(threads, n, gradients_per_piece, [&](std::size_t begin, std::size_t end) {
-    GradientFinder finder(ground, stars, options.rings);
-    GradientRows& rows = pieces[begin / gradients_per_piece];
-    rows.vertices.reserve(usual_entries * (end - begin));
-    rows.weights.reserve(usual_entries * (end - begin));
-    for (std::size_t v = begin; v < end; ++v) {
-      if (finder.find(static_cast<Index>(v))) append_row(static_cast<Index>(v), finder, rows);
-      rows.offsets.push_back(rows.vertices.size());
-    }
+  std::vector<GradientRows> pieces(system::num_pieces(n, grain));
+  system::parallel_for(threads, n, grain, [&](std::size_t begin, std::size_t end) {
+    GradientBlocks blocks(ground, stars, options.rings, begin, end);
+    pieces[begin / grain] = rows_of(blocks, begin);
   });
   return joined(pieces, threads);
 }

@@ -37,7 +37,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 struct Fields {
   PlaceValues values;
   std::optional<PlaceGradients> gradients{};
-  std::shared_ptr<const GradientRows> estimated{};  // by these, if not given
+  std::vector<std::uint8_t> has_gradient{};  // empty: all vertices have one
 
   [[nodiscard]] FieldSums sums() const { return {values, gradients ? &*gradients : nullptr}; }
 };
@@ -60,15 +60,18 @@ class Interpolator::Impl {
 
   [[nodiscard]] std::shared_ptr<const GradientRows> gradient_rows(const GradientOptions& options,
                                                                   unsigned threads) const;
+  // Null if they have not been asked for.
+  [[nodiscard]] std::shared_ptr<const GradientRows> known_rows(
+      const GradientOptions& options) const;
   // With estimated gradients if the method needs any.
   [[nodiscard]] Fields fields(FieldLayout layout, std::size_t num_targets,
                               const InterpolationOptions& options,
                               const Execution& execution) const;
 
-  // `gradients`, if any, says which vertices have one.
+  // `has_gradient` says which vertices have one; empty: all.
   template <class MakeTaker>
   void for_each_row(std::span<const Point> targets, const InterpolationOptions& options,
-                    const Execution& execution, const GradientRows* gradients,
+                    const Execution& execution, std::span<const std::uint8_t> has_gradient,
                     const MakeTaker& make_taker) const;
 
   [[nodiscard]] std::uint64_t sites_hash() const {
@@ -122,10 +125,7 @@ std::size_t Interpolator::Impl::num_fields(std::string_view name, std::size_t si
 
 std::shared_ptr<const GradientRows> Interpolator::Impl::gradient_rows(
     const GradientOptions& options, unsigned threads) const {
-  {
-    const std::lock_guard lock(gradients_mutex_);
-    if (gradients_ && gradients_rings_ == options.rings) return gradients_;
-  }
+  if (auto known = known_rows(options)) return known;
   auto rows =
       std::make_shared<const GradientRows>(interpolation::gradient_rows(ground_, options, threads));
   const std::lock_guard lock(gradients_mutex_);
@@ -134,15 +134,25 @@ std::shared_ptr<const GradientRows> Interpolator::Impl::gradient_rows(
   return rows;
 }
 
+std::shared_ptr<const GradientRows> Interpolator::Impl::known_rows(
+    const GradientOptions& options) const {
+  const std::lock_guard lock(gradients_mutex_);
+  return gradients_rings_ == options.rings ? gradients_ : nullptr;
+}
+
 Fields Interpolator::Impl::fields(FieldLayout layout, std::size_t num_targets,
                                   const InterpolationOptions& options,
                                   const Execution& execution) const {
   const bool has_gradients = needs_gradients(options.method);
   Fields fields{{ground_, std::move(layout), options.shared_place,
                  has_gradients ? ground_.num_vertices() : num_targets, execution.threads}};
-  if (has_gradients) {
-    fields.estimated = gradient_rows(options.gradient, execution.threads);
-    fields.gradients.emplace(*fields.estimated, fields.values, execution.threads);
+  if (!has_gradients) return fields;
+  if (const auto rows = known_rows(options.gradient)) {
+    fields.gradients.emplace(*rows, fields.values, execution.threads);
+    fields.has_gradient = vertices_with(*rows);
+  } else {
+    fields.gradients.emplace(ground_, options.gradient, fields.values, execution.threads,
+                             fields.has_gradient);
   }
   return fields;
 }
@@ -150,7 +160,8 @@ Fields Interpolator::Impl::fields(FieldLayout layout, std::size_t num_targets,
 template <class MakeTaker>
 void Interpolator::Impl::for_each_row(std::span<const Point> targets,
                                       const InterpolationOptions& options,
-                                      const Execution& execution, const GradientRows* gradients,
+                                      const Execution& execution,
+                                      std::span<const std::uint8_t> has_gradient,
                                       const MakeTaker& make_taker) const {
   FirstOutside outside;
   const auto visit = [&](const auto& make_kernel) {
@@ -158,8 +169,6 @@ void Interpolator::Impl::for_each_row(std::span<const Point> targets,
         ground_, targets, execution,
         [&] { return KernelRows(ground_, options, outside, make_kernel()); }, make_taker);
   };
-  const auto has_gradient =
-      gradients == nullptr ? std::vector<std::uint8_t>() : vertices_with(*gradients);
   if (ground_.num_vertices() == 0) {
     if (options.outside == Outside::error && !targets.empty()) outside.add(0);
   } else if (options.method == Method::nearest) {
@@ -199,10 +208,12 @@ Weights Interpolator::weights(std::span<const Point> targets, const Interpolatio
   impl_->validate(targets, options);
   CollectedRows rows(impl_->ground(), options.shared_place);
   std::shared_ptr<const GradientRows> gradients;
+  std::vector<std::uint8_t> has_gradient;
   if (impl_->needs_gradients(options.method)) {
     gradients = impl_->gradient_rows(options.gradient, execution.threads);
+    has_gradient = vertices_with(*gradients);
   }
-  impl_->for_each_row(targets, options, execution, gradients.get(),
+  impl_->for_each_row(targets, options, execution, has_gradient,
                       [&] { return WeightsTaker(rows, gradients.get(), options.normalization); });
   Weights weights = rows.joined(targets.size(), execution.threads);
   if (options.hashes) {
@@ -221,7 +232,7 @@ std::vector<double> Interpolator::values(std::span<const double> field,
   std::vector<double> values(impl_->num_fields("field", field.size()) * targets.size(), nan);
   const Fields fields = impl_->fields(scalar_fields(field, impl_->ground().num_sites()),
                                       targets.size(), options, execution);
-  impl_->for_each_row(targets, options, execution, fields.estimated.get(),
+  impl_->for_each_row(targets, options, execution, fields.has_gradient,
                       [&] { return ValuesTaker(fields.sums(), values); });
   return values;
 }
@@ -249,7 +260,7 @@ std::vector<double> Interpolator::values(std::span<const double> field,
   if (impl_->needs_gradients(options.method)) {
     fields.gradients.emplace(ground, gradients, options.shared_place, execution.threads);
   }
-  impl_->for_each_row(targets, options, execution, nullptr,
+  impl_->for_each_row(targets, options, execution, {},
                       [&] { return ValuesTaker(fields.sums(), values); });
   return values;
 }
@@ -281,7 +292,7 @@ std::vector<Point> Interpolator::vectors(std::span<const Point> field,
                                       targets.size(), options, execution);
   InterpolationOptions homogeneous = options;
   homogeneous.normalization = Normalization::homogeneous;
-  impl_->for_each_row(targets, homogeneous, execution, fields.estimated.get(),
+  impl_->for_each_row(targets, homogeneous, execution, fields.has_gradient,
                       [&] { return VectorsTaker(fields.sums(), vectors); });
   return vectors;
 }

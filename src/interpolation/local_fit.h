@@ -17,68 +17,79 @@
 // moments, the columns stand in the order of their degree; so one factorization L D L^T serves all three
 // fits. A pivot below least_pivot of its diagonal entry ends it at the degree before; so rounding errors
 // of weights are below 1e-9 of the largest, mostly 1e-13, and polynomials come back as exactly.
+//
+// Several sites are worked on at once, each in a lane of vectors. Lanes know nothing of each other: the
+// result is the same in every lane and beside any others.
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include "exact/vector.h"
 #include "rondel/types.h"
+#include "system/plain_array.h"
 
 namespace rondel::interpolation {
 
-class LocalFit {
+class LocalFits {
  public:
+  static constexpr std::size_t lanes = 8;
   static constexpr std::size_t max_terms = 9;
   static constexpr std::array<std::size_t, 3> terms_of_degree = {2, 5, 9};
   static constexpr double least_pivot = 0x1p-16;
 
   using Vec = exact::Vector3<double>;
+  using Lanes = system::PlainArray<double, lanes>;
+  struct alignas(64) LaneVectors {
+    Lanes x;
+    Lanes y;
+    Lanes z;
+  };
 
-  // The gradient is the sum of weights[k] (f_k - f(x)), k over the neighbors at x + steps[k], in their
-  // order. The weights are tangent at x. None if the neighbors are all in line with x, or there are
-  // none. Precondition: no step is longer than sqrt(3).
-  bool find(const Vec& x, std::span<const Vec> steps, std::vector<Vec>& weights);
+  // Forgets all sites; room for so many neighbors of each.
+  void start(std::size_t most_neighbors);
+  // A neighbor of the site of a lane at the site + step. Precondition: that is no longer than sqrt(3).
+  void set_neighbor(std::size_t lane, std::size_t k, const Vec& step) {
+    LaneVectors& point = points_[k];
+    point.x[lane] = step.x;
+    point.y[lane] = step.y;
+    point.z[lane] = step.z;
+  }
+  // The site, and how many neighbors have been set.
+  void set_site(std::size_t lane, const Vec& x, std::size_t num_neighbors);
+  // Afterwards lanes can be asked.
+  void find();
 
-  // How many terms the polynomial of the last fit had.
-  [[nodiscard]] std::size_t num_terms() const { return num_terms_; }
+  // None if the neighbors are all in line with x, or so near that weights are above 2^500, or none.
+  [[nodiscard]] bool has_gradient(std::size_t lane) const { return is_found_[lane] != 0; }
+  // The gradient is the sum of weight(lane, k) (f_k - f(x)), k over the neighbors in their order. The
+  // weights are tangent at x.
+  [[nodiscard]] Vec weight(std::size_t lane, std::size_t k) const {
+    return {points_[k].x[lane], points_[k].y[lane], points_[k].z[lane]};
+  }
+  [[nodiscard]] std::size_t num_neighbors(std::size_t lane) const {
+    return static_cast<std::size_t>(counts_[lane]);
+  }
+  // How many terms the polynomial had.
+  [[nodiscard]] std::size_t num_terms(std::size_t lane) const {
+    return static_cast<std::size_t>(num_terms_[lane]);
+  }
+
+  // Room for neighbors in each lane.
+  [[nodiscard]] std::size_t num_places() const { return points_.size(); }
+  // The gradients of a field with these values at the neighbors, value k of a lane in values[k], and
+  // here at the sites: what the sums above give. Others than of has_gradient() mean nothing.
+  [[nodiscard]] LaneVectors gradients(const std::vector<Lanes>& values, const Lanes& here) const;
 
  private:
-  // Neighbors come in fours, so that the loops over them become vector code; sums are of each fourth
-  // one, and these are added at last. Those that fill up have no weight.
-  static constexpr std::size_t lanes = 4;
-  using Four = std::array<double, lanes>;
-  struct ChartPoints {
-    Four a;
-    Four b;
-    Four weight;
-  };
-  using Coefficients = std::array<double, max_terms>;
-
-  bool set_chart(const Vec& x, std::span<const Vec> steps);
-  void set_weights(double largest_square);
-  bool make_round();
-  void add_moments();
-  [[nodiscard]] double entry(std::size_t i, std::size_t j) const;
-  void factor(std::size_t most_terms);
-  [[nodiscard]] Coefficients solved_for(std::size_t unit) const;
-
-  std::vector<ChartPoints> points_;
-  Vec first_axis_{};
-  Vec second_axis_{};
-  double scale_ = 0;  // the unit of the plane's coordinates
-
-  // a' = to_round_[0] a,  b' = to_round_[1] (b - shear_ a)
-  std::array<double, 2> to_round_{};
-  double shear_ = 0;
-
-  // moments_[s - 2][q]: the weighted sum of a'^(s-q) b'^q
-  std::array<std::array<double, 7>, 5> moments_{};
-  std::array<Coefficients, max_terms> lower_{};
-  Coefficients pivots_{};
-  std::size_t num_terms_ = 0;
+  // Of the neighbors, in turns: steps; a, b and weights in the plane; weights of gradients. Lanes that
+  // have fewer are filled up with steps of no length.
+  std::vector<LaneVectors> points_;
+  LaneVectors sites_{};
+  Lanes counts_{};  // numbers and truth as doubles, so that they fit the lanes
+  Lanes num_terms_{};
+  Lanes is_found_{};
 };
 
 }  // namespace rondel::interpolation

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "exact/vector.h"
+#include "interpolation/gradient_blocks.h"
 #include "interpolation/unity.h"
 #include "system/parallel.h"
 #include "system/prefetch.h"
@@ -14,6 +15,34 @@ namespace rondel::interpolation {
 namespace {
 
 constexpr std::size_t vertices_at_once = 2048;
+
+// The gradients of all fields of the vertices from `begin` on, those of a vertex together, and whether
+// there are any.
+void estimate_blocks(GradientBlocks& blocks, const PlaceValues& values, std::size_t begin,
+                     Point* gradients, std::uint8_t* has_gradient) {
+  const std::size_t num_fields = values.num_fields();
+  std::vector<LocalFits::Lanes> at_neighbors;
+  blocks.for_each_block([&](const LocalFits& fits, std::span<const Index> members) {
+    for (std::size_t f = 0; f < num_fields; ++f) {
+      LocalFits::Lanes here{};
+      at_neighbors.resize(fits.num_places());
+      for (std::size_t lane = 0; lane < members.size(); ++lane) {
+        here[lane] = values(f, static_cast<Index>(begin + members[lane]));
+        const std::span<const Index> neighbors = blocks.neighbors(members[lane]);
+        for (std::size_t k = 0; k < neighbors.size(); ++k) {
+          at_neighbors[k][lane] = values(f, neighbors[k]);
+        }
+      }
+      const LocalFits::LaneVectors found = fits.gradients(at_neighbors, here);
+      for (std::size_t lane = 0; lane < members.size(); ++lane) {
+        const Index i = members[lane];
+        has_gradient[i] = fits.has_gradient(lane) ? 1 : 0;
+        if (!fits.has_gradient(lane)) continue;
+        gradients[i * num_fields + f] = {found.x[lane], found.y[lane], found.z[lane]};
+      }
+    }
+  });
+}
 
 }  // namespace
 
@@ -49,6 +78,23 @@ PlaceGradients::PlaceGradients(const GradientRows& rows, const PlaceValues& valu
       }
     }
   });
+}
+
+PlaceGradients::PlaceGradients(const Ground& ground, const GradientOptions& options,
+                               const PlaceValues& values, unsigned threads,
+                               std::vector<std::uint8_t>& has_gradient)
+    : num_fields_(values.num_fields()) {
+  const SolidStars stars(ground, threads);
+  const std::size_t n = ground.num_vertices();
+  by_vertex_.assign(num_fields_ * n, Point{});
+  has_gradient.assign(n, 0);
+  system::parallel_for(threads, n, GradientBlocks::vertices_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         GradientBlocks blocks(ground, stars, options.rings, begin, end);
+                         estimate_blocks(blocks, values, begin, &by_vertex_[begin * num_fields_],
+                                         &has_gradient[begin]);
+                       });
+  if (std::ranges::find(has_gradient, 0) == has_gradient.end()) has_gradient.clear();
 }
 
 PlaceGradients::PlaceGradients(const Ground& ground, std::span<const Point> given,

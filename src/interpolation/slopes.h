@@ -13,6 +13,7 @@
 #include "interpolation/ground.h"
 #include "interpolation/place_values.h"
 #include "interpolation/row.h"
+#include "rondel/interpolate.h"
 #include "rondel/weights.h"
 #include "system/large_vector.h"
 
@@ -27,8 +28,11 @@ Weights gradient_weights(const Ground& ground, const GradientRows& rows);
 // Of each field at each vertex.
 class PlaceGradients {
  public:
-  // Estimated ones; those that cannot be had are zero.
+  // Estimated ones; those that cannot be had are zero. By their rows or, to the same bytes, without;
+  // then `has_gradient` becomes what vertices_with() gives.
   PlaceGradients(const GradientRows& rows, const PlaceValues& values, unsigned threads);
+  PlaceGradients(const Ground& ground, const GradientOptions& options, const PlaceValues& values,
+                 unsigned threads, std::vector<std::uint8_t>& has_gradient);
   // Given ones, of one field after the other.
   PlaceGradients(const Ground& ground, std::span<const Point> given, SharedPlace shared,
                  unsigned threads);

@@ -8,12 +8,12 @@
 // ring follows the stars of this one.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "interpolation/ground.h"
-#include "query/visited.h"
 #include "rondel/types.h"
 
 namespace rondel::interpolation {
@@ -42,9 +42,15 @@ class SolidRings {
   std::span<const Index> find(Index v, unsigned rings);
 
  private:
+  class Slots;
+  void make_room(std::size_t more);
+  void add_star(Index v);
+
   const SolidStars& stars_;
-  query::VisitedSet visited_;
-  std::vector<Index> found_;
+  std::vector<Index> found_;  // the first size_ of them, v itself before all
+  std::size_t size_ = 0;
+  std::vector<std::uint64_t> slots_;
+  std::uint32_t time_ = 0;
 };
 
 }  // namespace rondel::interpolation

@@ -18,6 +18,14 @@
 #define RONDEL_ALWAYS_INLINE
 #endif
 
+// Before a loop of few rounds: GCC would write them one after the other, and make vector code of the
+// loops that are left.
+#if defined(__GNUC__) && !defined(__clang__)
+#define RONDEL_KEEP_LOOP _Pragma("GCC unroll 1")
+#else
+#define RONDEL_KEEP_LOOP
+#endif
+
 namespace rondel::system {
 
 #if defined(RONDEL_HAS_WIDE_VECTORS)

@@ -9,12 +9,14 @@ rondel_add_test(interpolation_test
   LIBS rondel_remap rondel_dual_support rondel_test_support)
 
 rondel_add_test(interpolation_natural_test
+  interpolation_natural_laws_test.cpp
   interpolation_natural_test.cpp
   ${PROJECT_SOURCE_DIR}/tests/support/natural_oracle.cpp
   LIBS rondel_remap rondel_dual_support rondel_test_support)
 
 rondel_add_test(interpolation_slopes_test
   interpolation_cubic_test.cpp
+  interpolation_fit_test.cpp
   interpolation_gradient_test.cpp
   interpolation_hermite_test.cpp
   LIBS rondel_remap rondel_dual_support rondel_test_support)

@@ -1,0 +1,231 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Local fits against polynomials and against least squares by rotations, in every lane.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "interpolation/local_fit.h"
+#include "support/generators.h"
+
+namespace rondel::test {
+namespace {
+
+using interpolation::LocalFits;
+using Vec = LocalFits::Vec;
+
+// The stereographic plane of x, true to length at x.
+struct Plane {
+  Vec x;
+  Vec a;
+  Vec b;
+
+  static Plane at(const Vec& x) {
+    const Vec a = normalized(cross(x, std::abs(x.x) < 0.5 ? Vec{1, 0, 0} : Vec{0, 1, 0}));
+    return {x, a, cross(x, a)};
+  }
+  // x + the step to the point at (p, q): the inverse of the projection from -x.
+  [[nodiscard]] Vec step(double p, double q) const {
+    const double square = (p * p + q * q) / 4;
+    return (p / (1 + square)) * a + (q / (1 + square)) * b - (2 * square / (1 + square)) * x;
+  }
+};
+
+using Spots = std::vector<std::array<double, 2>>;
+
+Spots random_spots(std::size_t count, double thinness, Random& random) {
+  Spots spots;
+  for (std::size_t i = 0; i < count; ++i) {
+    spots.push_back({random.signed_unit(), thinness * random.signed_unit()});
+  }
+  return spots;
+}
+
+std::vector<Vec> steps_to(const Spots& spots, double size, const Plane& plane) {
+  std::vector<Vec> steps;
+  for (const auto& [p, q] : spots) steps.push_back(plane.step(size * p, size * q));
+  return steps;
+}
+
+std::array<double, 9> terms(double p, double q) {
+  return {p, q, p * p, p * q, q * q, p * p * p, p * p * q, p * q * q, q * q * q};
+}
+
+// One site's fit, in some lane.
+struct OneFit {
+  OneFit(const Vec& x, const std::vector<Vec>& steps, std::size_t lane) {
+    LocalFits fits;
+    fits.start(steps.size());
+    fits.set_site(lane, x, steps.size());
+    for (std::size_t k = 0; k < steps.size(); ++k) fits.set_neighbor(lane, k, steps[k]);
+    fits.find();
+    has_gradient = fits.has_gradient(lane);
+    num_terms = fits.num_terms(lane);
+    for (std::size_t k = 0; k < steps.size(); ++k) weights.push_back(fits.weight(lane, k));
+    for (std::size_t other = 0; other < LocalFits::lanes; ++other) {
+      EXPECT_TRUE(other == lane || !fits.has_gradient(other));
+    }
+  }
+  bool has_gradient;
+  std::size_t num_terms;
+  std::vector<Vec> weights;
+};
+
+// Exact on polynomials of the degree of the fit, whatever the size of the cloud, and nearly whatever its
+// shape.
+TEST(interpolation_fit, fits_are_exact_on_their_polynomials) {
+  Random random(1);
+  std::array<int, 10> seen{};
+  for (const double size : {0.3, 1e-3, 1e-9, 1e-120}) {
+    for (const double thinness : {1.0, 1e-2, 1e-4}) {
+      for (std::size_t i = 0; i < scaled(200); ++i) {
+        const Plane plane = Plane::at(exact::to_vector(random.direction()));
+        const Spots spots = random_spots(2 + random.below(25), thinness, random);
+        const OneFit fit(plane.x, steps_to(spots, size, plane), i % LocalFits::lanes);
+        ASSERT_TRUE(fit.has_gradient);
+        ++seen[fit.num_terms];
+        std::array<double, 9> coefficients{};
+        for (std::size_t t = 0; t < fit.num_terms; ++t) coefficients[t] = random.signed_unit();
+        // In units of the cloud.
+        Vec gradient{0, 0, 0};
+        double most = 0;
+        for (std::size_t k = 0; k < spots.size(); ++k) {
+          double value = 0;
+          const auto at = terms(spots[k][0], spots[k][1] / thinness);
+          for (std::size_t t = 0; t < 9; ++t) value += coefficients[t] * at[t];
+          gradient = gradient + (value * size) * fit.weights[k];
+          most = std::max(most, norm(fit.weights[k]) * size);
+        }
+        const Vec expected = coefficients[0] * plane.a + (coefficients[1] / thinness) * plane.b;
+        ASSERT_LE(norm(gradient - expected), 1e-9 * (1 + most))
+            << size << " " << thinness << " " << spots.size() << " " << fit.num_terms;
+        for (const Vec& weight : fit.weights) {
+          ASSERT_LE(std::abs(dot(weight, plane.x)), 1e-15 * norm(weight));
+        }
+      }
+    }
+  }
+  EXPECT_GT(seen[2], 0);
+  EXPECT_GT(seen[5], 0);
+  EXPECT_GT(seen[9], 0);
+}
+
+// Least squares by Givens rotations on the rows, as LocalFits never sees them, with its weights.
+std::array<double, 2> slopes_by_rotations(const Spots& spots, const std::vector<double>& values,
+                                          std::size_t num_terms) {
+  double farthest = 0;
+  for (const auto& [p, q] : spots) farthest = std::max(farthest, std::hypot(p, q));
+  std::array<std::array<long double, 10>, 9> upper{};
+  for (std::size_t k = 0; k < spots.size(); ++k) {
+    const double r = std::hypot(spots[k][0], spots[k][1]) / (1.2 * farthest);
+    const double weight = std::pow((1 - r) / std::max(r, 0.25), 2);
+    std::array<long double, 10> row{};
+    const auto at = terms(spots[k][0], spots[k][1]);
+    for (std::size_t t = 0; t < num_terms; ++t) row[t] = weight * at[t];
+    row[9] = weight * values[k];
+    for (std::size_t t = 0; t < num_terms; ++t) {
+      const long double length = std::hypot(upper[t][t], row[t]);
+      if (length == 0) continue;
+      const long double c = upper[t][t] / length;
+      const long double s = row[t] / length;
+      for (std::size_t j = t; j < 10; ++j) {
+        if (j >= num_terms && j < 9) continue;
+        const long double above = upper[t][j];
+        upper[t][j] = c * above + s * row[j];
+        row[j] = c * row[j] - s * above;
+      }
+    }
+  }
+  std::array<long double, 9> solution{};
+  for (std::size_t t = num_terms; t-- > 0;) {
+    long double rest = upper[t][9];
+    for (std::size_t j = t + 1; j < num_terms; ++j) rest -= upper[t][j] * solution[j];
+    solution[t] = rest / upper[t][t];
+  }
+  return {static_cast<double>(solution[0]), static_cast<double>(solution[1])};
+}
+
+TEST(interpolation_fit, fits_are_least_squares) {
+  Random random(2);
+  for (std::size_t i = 0; i < scaled(300); ++i) {
+    const Plane plane = Plane::at(exact::to_vector(random.direction()));
+    Spots spots = random_spots(6 + random.below(25), 1, random);
+    spots[0] = {1e-5 * spots[0][0], 1e-5 * spots[0][1]};  // so near that its weight is bounded
+    const OneFit fit(plane.x, steps_to(spots, 0.1, plane), i % LocalFits::lanes);
+    ASSERT_TRUE(fit.has_gradient);
+    std::vector<double> values;
+    Vec gradient{0, 0, 0};
+    for (std::size_t k = 0; k < spots.size(); ++k) {
+      values.push_back(random.signed_unit());
+      gradient = gradient + (0.1 * values[k]) * fit.weights[k];
+    }
+    const auto [a, b] = slopes_by_rotations(spots, values, fit.num_terms);
+    ASSERT_LE(norm(gradient - (a * plane.a + b * plane.b)), 1e-9 * (1 + std::hypot(a, b)))
+        << spots.size() << " " << fit.num_terms;
+  }
+}
+
+TEST(interpolation_fit, neighbors_in_line_have_no_fit) {
+  const Plane plane = Plane::at({0, 0, 1});
+  EXPECT_FALSE(OneFit(plane.x, {}, 0).has_gradient);
+  const Spots one = {{0.6, 0.8}};
+  EXPECT_FALSE(OneFit(plane.x, steps_to(one, 0.1, plane), 1).has_gradient);
+  const Spots line = {{0.6, 0.8}, {-1.2, -1.6}, {0.3, 0.4}, {2.4, 3.2}};
+  EXPECT_FALSE(OneFit(plane.x, steps_to(line, 0.1, plane), 7).has_gradient);
+  Spots bent = line;
+  bent[3] = {2.4, 3.3};
+  EXPECT_TRUE(OneFit(plane.x, steps_to(bent, 0.1, plane), 7).has_gradient);
+}
+
+// Whatever lies in the other lanes, and however many neighbors those have.
+TEST(interpolation_fit, lanes_do_not_see_each_other) {
+  Random random(6);
+  const std::size_t lanes = LocalFits::lanes;
+  for (std::size_t i = 0; i < scaled(100); ++i) {
+    std::vector<Plane> planes;
+    std::vector<std::vector<Vec>> steps;
+    std::size_t most = 0;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      planes.push_back(Plane::at(exact::to_vector(random.direction())));
+      const Spots spots = random_spots(random.below(25), lane == 3 ? 0 : 1, random);
+      steps.push_back(steps_to(spots, 0.1, planes.back()));
+      most = std::max(most, spots.size());
+    }
+    LocalFits fits;
+    fits.start(most);
+    std::vector<LocalFits::Lanes> values(fits.num_places());
+    LocalFits::Lanes here{};
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      fits.set_site(lane, planes[lane].x, steps[lane].size());
+      here[lane] = random.signed_unit();
+      for (std::size_t k = 0; k < steps[lane].size(); ++k) {
+        fits.set_neighbor(lane, k, steps[lane][k]);
+        values[k][lane] = random.signed_unit();
+      }
+    }
+    fits.find();
+    const LocalFits::LaneVectors gradients = fits.gradients(values, here);
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const OneFit alone(planes[lane].x, steps[lane], (lane + i) % lanes);
+      ASSERT_EQ(fits.has_gradient(lane), alone.has_gradient);
+      if (!alone.has_gradient) continue;
+      ASSERT_EQ(fits.num_terms(lane), alone.num_terms);
+      Vec sum{0, 0, 0};
+      for (std::size_t k = 0; k < steps[lane].size(); ++k) {
+        ASSERT_EQ(exact::to_point(fits.weight(lane, k)), exact::to_point(alone.weights[k]));
+        sum = sum + (values[k][lane] - here[lane]) * alone.weights[k];
+      }
+      ASSERT_EQ(exact::to_point(sum),
+                (Point{gradients.x[lane], gradients.y[lane], gradients.z[lane]}));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test
