@@ -20,6 +20,7 @@
 #include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
+#include "rondel/weight_files.h"
 
 namespace rondel::cli {
 namespace {
@@ -99,11 +100,38 @@ std::vector<Column> columns_of(const VoronoiOptions& options, const CellRings& c
   return columns;
 }
 
+std::string feature_name(const PolygonTable& polygons, Index feature) {
+  std::string text = std::to_string(feature);
+  for (const Column& column : polygons.columns) {
+    if (column.name != "name" && column.name != "NAME") continue;
+    const std::uint64_t begin = feature == 0 ? 0 : column.ends[feature - 1];
+    return text + " (" + column.text.substr(begin, column.ends[feature] - begin) + ')';
+  }
+  return text;
+}
+
+// Polygons that overlap are an error of the file, but of few cells.
+void warn_of_crossings(const PolygonTable& polygons, const Execution& execution) {
+  const std::vector<CrossingCells> found = crossing_cells(polygons.cells, execution);
+  if (found.empty()) return;
+  const CrossingCells& one = found.front();
+  const LonLat place = lonlats(std::vector<Point>{one.place})[0];
+  const std::string what = one.first == one.second
+                               ? "feature " + feature_name(polygons, one.first) + " crosses itself"
+                               : "features " + feature_name(polygons, one.first) + " and " +
+                                     feature_name(polygons, one.second) + " cross";
+  const std::string more =
+      found.size() > 1 ? ", and others (" + std::to_string(found.size()) + " in all)" : "";
+  std::fprintf(stderr, "rondel: %s: %s at %.4f %.4f%s; cells overlap there\n",
+               polygons.name.c_str(), what.c_str(), place.lon_deg, place.lat_deg, more.c_str());
+}
+
 CellRings clipped_to(const VoronoiOptions& options, const Partition& cells,
                      const Execution& execution) {
   if (options.clip.empty()) return cells.rings();
   const PolygonTable polygons =
       read_polygons({options.clip, {}}, {.edges = options.edges}, execution);
+  if (!options.common.quiet) warn_of_crossings(polygons, execution);
   return clip(cells, Partition(polygons.cells, execution), execution);
 }
 

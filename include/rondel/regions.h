@@ -55,6 +55,19 @@ RONDEL_API CellRings clip(const Partition& cells, const Partition& regions,
 RONDEL_API CellRings dissolve(const CellRings& cells, std::span<const Index> groups,
                               std::size_t num_groups, const Execution& execution = {});
 
+/// Two cells of which a side of one crosses a side of the other, or a cell with itself, and a place where they do.
+struct CrossingCells {
+  Index first = no_index;
+  Index second = no_index;  ///< not below first
+  Point place;
+};
+
+/// Which cells cross each other, in lexicographic order, each pair once: polygons that overlap at their borders, and whose
+/// clipped cells overlap there, too. Sides that only touch, or are the same, do not cross. Exact.
+/// \throws InvalidInput if the offsets do not fit.
+RONDEL_API std::vector<CrossingCells> crossing_cells(const CellRings& cells,
+                                                     const Execution& execution = {});
+
 /// The area of each cell in steradians, whatever its size and form.
 RONDEL_API std::vector<double> areas(const CellRings& cells);
 

@@ -39,7 +39,8 @@ FeatureLines with_borders(const FeatureLines& lines, const CellRings& polygons) 
     for (std::uint64_t r = polygons.cells[f]; r < polygons.cells[f + 1]; ++r) {
       const std::size_t first = all.points.size();
       append_ring_points(polygons, r, all.points);
-      all.points.push_back(Point(all.points[first]));
+      const Point closing = all.points[first];
+      all.points.push_back(closing);
       all.lines.push_back(all.points.size());
     }
     all.features.push_back(all.lines.size() - 1);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
@@ -31,6 +32,15 @@ void test_cells(const PolygonTable& table) {
   }
   for (const double area : areas(cells)) {
     require(area > -1e-9 && area < 4 * std::numbers::pi + 1e-9, "an area");
+  }
+  const std::vector<CrossingCells> crossed = crossing_cells(cells);
+  for (std::size_t i = 0; i < crossed.size(); ++i) {
+    const CrossingCells& pair = crossed[i];
+    require(pair.first <= pair.second && pair.second < cells.num_cells(), "cells that cross");
+    require(std::abs(std::hypot(pair.place.x, pair.place.y, pair.place.z) - 1) < 1e-9, "a place");
+    require(i == 0 || std::pair(crossed[i - 1].first, crossed[i - 1].second) <
+                          std::pair(pair.first, pair.second),
+            "each pair once");
   }
   const std::vector<Point> sites = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}};
   try {

@@ -14,6 +14,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/feature_cells.h"
+#include "rondel/partition.h"
 #include "rondel/query.h"
 #include "rondel/regions.h"
 
@@ -235,6 +236,46 @@ TEST(feature_cells, have_their_polygons_exactly) {
     }
   }
   EXPECT_GT(num_tested, 300);
+}
+
+TEST(crossing_cells, are_those_whose_sides_cross) {
+  CellRings squares;
+  add_square(squares, 0, 10);
+  add_square(squares, 20, 10);   // shares a side with the first
+  add_square(squares, 35, 10);   // overlaps with the second
+  add_square(squares, 0, 5);     // lies in the first
+  add_square(squares, 180, 20);  // has no other within, but goes around the antimeridian
+  add_square(squares, 215, 30);  // overlaps with that
+  const std::vector<CrossingCells> found = crossing_cells(squares);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(std::pair(found[0].first, found[0].second), std::pair(Index{1}, Index{2}));
+  EXPECT_EQ(std::pair(found[1].first, found[1].second), std::pair(Index{4}, Index{5}));
+  for (const CrossingCells& pair : found) EXPECT_NEAR(norm(pair.place), 1, 1e-15);
+  const double lon = std::atan2(found[0].place.y, found[0].place.x) * 180 / pi;
+  EXPECT_TRUE(lon >= 25 && lon <= 30) << lon;
+}
+
+TEST(crossing_cells, may_cross_themselves) {
+  CellRings bow;
+  for (const auto& [lon, lat] : {std::pair{0, 0}, {10, 10}, {10, 0}, {0, 10}}) {
+    bow.corners.push_back(static_cast<Index>(bow.points.size()));
+    bow.points.push_back(unit_vector({double(lon), double(lat)}));
+  }
+  bow.rings.push_back(4);
+  bow.cells.push_back(1);
+  const std::vector<CrossingCells> found = crossing_cells(bow);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_EQ(found[0].first, found[0].second);
+  EXPECT_NEAR(std::atan2(found[0].place.y, found[0].place.x) * 180 / pi, 5, 1e-9);
+  bow.corners[0] = 7;
+  EXPECT_THROW(crossing_cells(bow), InvalidInput);
+}
+
+TEST(crossing_cells, of_a_diagram_are_none) {
+  std::vector<Point> sites;
+  RandomPlaces random(6);
+  for (int i = 0; i < 2'000; ++i) sites.push_back(random.next());
+  EXPECT_TRUE(crossing_cells(Partition::voronoi(delaunay(sites)).rings()).empty());
 }
 
 TEST(feature_cells, of_one_feature_have_no_border) {

@@ -3,10 +3,12 @@
 
 #include "rondel/regions.h"
 
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -78,6 +80,18 @@ void add_regions(nb::module_& module) {
                        [&](const Execution& execution) { return clip(cells, regions, execution); });
       },
       nb::arg("cells"), nb::arg("regions"), nb::arg("threads"), nb::arg("progress").none());
+  module.def(
+      "crossing_cells",
+      [](const Partition& partition, unsigned threads) {
+        const auto found =
+            unlocked([&] { return crossing_cells(partition.rings(), {.threads = threads}); });
+        std::vector<std::tuple<Index, Index, std::array<double, 3>>> pairs;
+        for (const auto& [first, second, place] : found) {
+          pairs.emplace_back(first, second, std::array{place.x, place.y, place.z});
+        }
+        return pairs;
+      },
+      nb::arg("partition"), nb::arg("threads"));
   module.def(
       "feature_cells",
       [](const std::string& path, double tolerance, bool is_geodesic, unsigned threads,

@@ -5,13 +5,14 @@
 from __future__ import annotations
 
 import io
+import warnings
 from collections.abc import Hashable, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
 from . import _core
-from ._arrays import as_threads
+from ._arrays import as_threads, lonlat
 from ._geo import Path, Properties, polygon_frame, written
 from ._geometries import Edges, features_of, is_file, polygons_of
 from ._partition import Partition
@@ -240,6 +241,11 @@ def clip_cells(
         One for each site, empty where nothing is left. Which lines cross is decided exactly;
         where two parts meet they have the same corners, bit by bit.
 
+    Warns
+    -----
+    UserWarning
+        If polygons cross each other, or themselves.
+
     Raises
     ------
     ValueError
@@ -347,8 +353,15 @@ def _as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:
     if isinstance(regions, Partition):
         return regions
     if is_file(regions):
-        return Partition.read(regions, edges=edges, threads=threads)
-    return Partition._of(polygons_of(regions, edges, as_threads(threads)))
+        found = Partition.read(regions, edges=edges, threads=threads)
+    else:
+        found = Partition._of(polygons_of(regions, edges, as_threads(threads)))
+    for first, second, place in _core.crossing_cells(found._partition, as_threads(threads))[:1]:
+        what = "itself" if first == second else f"polygon {second}"
+        lon, lat = lonlat(np.array(place))
+        message = f"polygon {first} crosses {what} at {lon:.4f} {lat:.4f}: cells overlap there"
+        warnings.warn(message, stacklevel=3)
+    return found
 
 
 # The groups as numbers, -1 for none, and what each of them is.

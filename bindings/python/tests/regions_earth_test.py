@@ -17,9 +17,12 @@ DATA = pathlib.Path(__file__).resolve().parents[3] / "data"
 LAND = DATA / "land-110m.geojson"
 COUNTRIES = DATA / "countries-110m.geojson"
 # They cross each other in the source.
-CROSSED = {"Sudan", "S. Sudan"}
+CROSSED = {"Sudan", "S. Sudan", "Ethiopia"}
 
-pytestmark = pytest.mark.skipif(not LAND.exists(), reason="the data are not in the package")
+pytestmark = [
+    pytest.mark.skipif(not LAND.exists(), reason="the data are not in the package"),
+    pytest.mark.filterwarnings("ignore:polygon [0-9]+ crosses"),
+]
 
 
 @pytest.fixture(scope="module")
@@ -87,12 +90,20 @@ def test_every_border_is_shared_by_two_or_is_the_polygons(cells, path):
     assert outer == sides_of(whole)
     twice = [side for side, number in outer.items() if abs(number) != 1]
     assert path == COUNTRIES or not twice
-    for end in itertools.chain.from_iterable(twice):  # where Sudan and South Sudan overlap
+    for end in itertools.chain.from_iterable(twice):  # where they overlap
         lon, lat = rondel.lonlat(np.frombuffer(end))
         assert np.hypot(lon - 33.97, lat - 9.0) < 1
     thirds = clipped.dissolve(np.arange(len(clipped)) % 3)
     assert sides_of(thirds) == outer
     assert np.isclose(thirds.areas.sum(), clipped.areas.sum(), rtol=1e-12, atol=0)
+
+
+def test_countries_that_cross_are_told(cells):
+    document = json.loads(COUNTRIES.read_text("utf-8"))
+    names = [feature["properties"]["name"] for feature in document["features"]]
+    first, second, _ = sorted(names.index(name) for name in CROSSED)
+    with pytest.warns(UserWarning, match=f"polygon {first} crosses polygon {second} at 33.96"):
+        cells.clip(COUNTRIES)
 
 
 def test_cells_on_land_are_valid(cells):
