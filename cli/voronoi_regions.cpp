@@ -16,6 +16,7 @@
 #include "region_files.h"
 #include "report.h"
 #include "rondel/delaunay.h"
+#include "rondel/error.h"
 #include "rondel/feature_cells.h"
 #include "rondel/partition.h"
 #include "rondel/polygon_files.h"
@@ -197,10 +198,14 @@ ExitStatus write_cells_of_features(const VoronoiOptions& options) {
     }
     const double radius = options.earth_radius_km > 0 ? options.earth_radius_km : mean_earth_radius;
     const double tolerance = options.densify_km / radius;
-    if (options.clip.empty()) {
-      cells = feature_cells(table.lines, table.polygons, tolerance, execution);
-    } else if (table.polygons.corners.empty()) {
-      cells = clipped_cells_of_lines(options, table, tolerance, execution);
+    if (options.clip.empty() || table.polygons.corners.empty()) {
+      try {
+        cells = options.clip.empty()
+                    ? feature_cells(table.lines, table.polygons, tolerance, execution)
+                    : clipped_cells_of_lines(options, table, tolerance, execution);
+      } catch (const InvalidInput& error) {
+        throw FileError(table.name + ": " + error.what());
+      }
     } else {
       throw UsageError("--clip: " + table.name + " has polygons; only cells of lines are clipped");
     }

@@ -54,7 +54,8 @@ RONDEL_API FeatureSites feature_sites(const FeatureLines& lines, double toleranc
 /// 2. Cells cover the sphere; where two meet both have the same corners, bit by bit. A single feature has the
 ///    whole sphere, which has no border, and so no rings.
 /// 3. Where features share a line, or a point, the first of them has what is nearest to that.
-/// \throws InvalidInput as feature_sites() and Partition(), or if there are cells, but not one a feature.
+/// \throws InvalidInput as feature_sites() and Partition(), if there are cells, but not one a feature, or if polygons
+///         cross (with the first one and a place) or overlap.
 RONDEL_API CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons,
                                    double tolerance, const Execution& execution = {});
 

@@ -6,15 +6,19 @@
 #include "rondel/feature_cells.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/partition.h"
 #include "rondel/regions.h"
+#include "rondel/weight_files.h"
 #include "system/job.h"
 
 namespace rondel {
@@ -63,6 +67,30 @@ CellRings with_outside(CellRings cells, const Execution& execution) {
   return cells;
 }
 
+void require_no_crossing(const CellRings& polygons, const Execution& execution) {
+  const std::vector<CrossingCells> crossed = crossing_cells(polygons, execution);
+  if (crossed.empty()) return;
+  const CrossingCells& one = crossed.front();
+  const LonLat place = lonlats(std::vector<Point>{one.place}).front();
+  throw InvalidInput("polygon " + std::to_string(one.first) + " crosses " +
+                         (one.first == one.second ? std::string("itself")
+                                                  : "polygon " + std::to_string(one.second)) +
+                         " at " + std::to_string(place.lon_deg) + ' ' +
+                         std::to_string(place.lat_deg),
+                     one.first);
+}
+
+// Polygons of which one lies in another do not cross.
+void require_cover(const CellRings& cells) {
+  constexpr double rounding = 1e-9;
+  if (cells.corners.empty()) return;
+  double sum = 0;
+  for (const double area : areas(cells)) sum += area;
+  if (std::abs(sum - 4 * std::numbers::pi) > rounding) {
+    throw InvalidInput("polygons overlap, so that their cells are not a cover of the sphere", 0);
+  }
+}
+
 }  // namespace
 
 CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
@@ -75,7 +103,7 @@ CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, do
                            std::to_string(n) + " features",
                        polygons.num_cells());
   }
-  const Partition areas(polygons, execution);  // refuses what is no cell
+  require_no_crossing(polygons, execution);
   const FeatureSites found =
       feature_sites(has_polygons ? with_borders(lines, polygons) : lines, tolerance, execution);
   const Partition cells =
@@ -88,7 +116,9 @@ CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, do
     const bool is_outside = pieces.regions[k] == n;
     groups[k] = is_outside ? found.features[pieces.cells[k]] : pieces.regions[k];
   }
-  return dissolve(pieces.rings, groups, n, execution);
+  CellRings joined = dissolve(pieces.rings, groups, n, execution);
+  require_cover(joined);
+  return joined;
 }
 
 }  // namespace rondel

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <numeric>
 #include <random>
+#include <string>
 
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
@@ -236,6 +237,24 @@ TEST(feature_cells, have_their_polygons_exactly) {
     }
   }
   EXPECT_GT(num_tested, 300);
+}
+
+TEST(feature_cells, of_polygons_that_overlap_are_refused) {
+  FeatureLines none;
+  none.features = {0, 0, 0};
+  for (const double lon : {5.0, 0.0}) {  // they cross, or one lies in the other
+    CellRings squares;
+    add_square(squares, 0, 10);
+    add_square(squares, lon, lon == 0 ? 5 : 10);
+    try {
+      (void)feature_cells(none, squares, 0.01);
+      ADD_FAILURE();
+    } catch (const InvalidInput& error) {
+      const std::string expected =
+          lon == 0 ? "polygons overlap" : "polygon 0 crosses polygon 1 at ";
+      EXPECT_EQ(std::string(error.what()).substr(0, expected.size()), expected);
+    }
+  }
 }
 
 TEST(crossing_cells, are_those_whose_sides_cross) {

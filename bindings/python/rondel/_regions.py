@@ -323,7 +323,7 @@ def feature_cells(
     Raises
     ------
     ValueError
-        If something is no geometry, or the tolerance is not positive.
+        If something is no geometry, polygons cross or overlap, or the tolerance is not positive.
     OSError
         If the file cannot be read.
 
