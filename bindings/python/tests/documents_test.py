@@ -41,6 +41,7 @@ def test_docstrings(name):
         "docs/guide/contours.md",
         "docs/guide/graphs.md",
         "docs/guide/interpolation.md",
+        "docs/guide/meshes.md",
         "docs/guide/remapping.md",
         "docs/guide/regions.md",
         "docs/guide/distributed.md",
