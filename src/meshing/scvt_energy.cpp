@@ -130,8 +130,8 @@ EnergyReport CentroidalEnergy::operator()(const MovingSurface& surface,
           const Vec z = exact::to_vector(sites[i]);
           const CellSums cell = size_ == nullptr ? sums_of_uniform_cell(surface, z, ring)
                                                  : sums_of_cell(surface, z, ring, *size_);
-          const Frame frame = frame_at(sites[i], axes[i]);
-          const Tangent pull = {dot(cell.moment, frame.u), dot(cell.moment, frame.v)};
+          const TangentFrame frame = frame_at(sites[i], axes[i]);
+          const TangentVector pull = {dot(cell.moment, frame.u), dot(cell.moment, frame.v)};
 
           const DoubleDouble total = exact::two_sum(piece.energy.hi, cell.energy);
           piece.energy = {total.hi, piece.energy.lo + total.lo};

@@ -92,7 +92,7 @@ TEST(scvt_energy, gradient_is_the_slope_of_the_energy) {
     // A rule of degree 4 knows the density up to its fourth derivatives.
     const double allowed = density == nullptr ? 1e-5 : 3e-4;
     for (std::size_t i = 0; i < sites.size(); i += 10) {
-      for (const Tangent& unit : {Tangent{1, 0}, Tangent{0, 1}}) {
+      for (const TangentVector& unit : {TangentVector{1, 0}, TangentVector{0, 1}}) {
         constexpr double step = 1e-4;
         std::vector<Point> ahead = sites;
         std::vector<Point> behind = sites;
