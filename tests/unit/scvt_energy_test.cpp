@@ -49,7 +49,7 @@ Evaluated evaluate(const std::vector<Point>& sites, const SizeFunction* size,
 
 TEST(scvt_energy, closed_form_and_quadrature_of_constant_density_agree) {
   const SizeFunction constant = SizeFunction::constant(0.1, 1);
-  for (const std::size_t n : {500, 5000}) {
+  for (const std::size_t n : {std::size_t{500}, std::size_t{5000}}) {
     const std::vector<Point> sites = sampled_sites(n, nullptr, 7);
     const auto axes = axes_of(sites);
     const Evaluated exact = evaluate(sites, nullptr, axes);

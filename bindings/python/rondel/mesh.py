@@ -48,8 +48,8 @@ class EdgeWeights(NamedTuple):
 class Mesh:
     """A Voronoi mesh of the sphere: cells, edges between them, and vertices, all immutable.
 
-    It is made by `scvt`, `from_points` and `read`. Lengths and areas are those of a sphere of `radius`;
-    angles are radians; numbers of cells, edges and vertices start at 0.
+    It is made by `scvt`, `from_points` and `read`. Lengths and areas are those of a sphere of
+    `radius`; angles are radians; numbers of cells, edges and vertices start at 0.
 
     Examples
     --------
