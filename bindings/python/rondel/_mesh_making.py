@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Literal, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -17,9 +17,12 @@ Spacing: TypeAlias = float | Callable[[FloatArray], ArrayLike]
 
 
 class ScvtReport(NamedTuple):
-    """How the work on a centroidal tessellation ended: `Mesh.report`."""
+    """How the work on a centroidal tessellation ended: `Mesh.report`.
 
-    end: Literal["converged", "iterations", "stuck"]
+    ``end`` is ``"converged"``, ``"iterations"``, or ``"stuck"`` where rounding allows no more.
+    """
+
+    end: str
     steps: int
     mean_offset: float
     largest_offset: float
@@ -36,7 +39,7 @@ class Partition(NamedTuple):
     points: FloatArray
     weights: FloatArray
     areas: FloatArray
-    end: Literal["converged", "rounded", "iterations", "infeasible"]
+    end: str
     steps: int
     largest_error: float
 
@@ -69,7 +72,7 @@ def scvt_points(
     if n is None and spacing is None:
         raise TypeError("scvt() needs n or spacing")
     steps = int(raster_steps) if callable(spacing) else 1
-    points, density, *report = _core.make_scvt(
+    points, density, end, made_steps, mean, largest = _core.make_scvt(
         0 if n is None else int(n),
         raster_of(spacing, steps),
         steps,
@@ -80,7 +83,7 @@ def scvt_points(
         as_threads(threads),
         progress,
     )
-    return points, density, ScvtReport(*report)
+    return points, density, ScvtReport(end, made_steps, mean, largest)
 
 
 def partition(
