@@ -268,8 +268,9 @@ std::vector<Point> densified(std::span<const Point> line, double distance) {
       const auto a = exact::to_vector(line[i - 1]);
       const auto b = exact::to_vector(line[i]);
       const double parts = std::ceil(norm(b - a) / distance);
-      for (double k = 1; k < parts; k += 1) {
-        points.push_back(exact::to_point(normalized(a + (k / parts) * (b - a))));
+      for (std::size_t k = 1; static_cast<double>(k) < parts; ++k) {
+        points.push_back(
+            exact::to_point(normalized(a + (static_cast<double>(k) / parts) * (b - a))));
       }
     }
     points.push_back(line[i]);

@@ -33,6 +33,7 @@ const ScratchFolder& folder() {
 void use(const mesh::MeshArrays& arrays) {
   const mesh::Quality quality = mesh::quality(arrays, {.threads = 1});
   require(quality.num_edges == arrays.num_edges(), "a report has all edges");
+  require(quality.num_vertices == arrays.num_vertices(), "a report has all vertices");
   require(!mesh::quality_text(quality).empty() && !mesh::quality_json(quality).empty(), "a report");
   require(std::isfinite(mesh::quality_value(quality, "max-angle-deg")), "an angle");
   require(mesh::cell_quality(arrays).gradient.size() == arrays.num_cells(), "all cells");
