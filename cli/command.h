@@ -162,6 +162,6 @@ Command add_interpolate_command(CLI::App& tool);    // remap_commands.cpp
 Command add_apply_command(CLI::App& tool);          // remap_commands.cpp
 Command add_check_weights_command(CLI::App& tool);  // remap_commands.cpp
 Command add_remap_command(CLI::App& tool);          // remap_commands.cpp
-Command add_mesh_command(CLI::App& tool);           // mesh_commands.cpp
+Command add_mesh_command(CLI::App& tool);           // mesh.cpp
 
 }  // namespace rondel::cli

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The arguments and the help of `rondel mesh`.
+// The arguments and the help of the commands of `rondel mesh` that make meshes.
 
 #include <CLI/CLI.hpp>
 #include <memory>
@@ -164,18 +164,9 @@ Command add_area_partition_command(CLI::App& group) {
 
 }  // namespace
 
-Command add_mesh_command(CLI::App& tool) {
-  CLI::App* group = tool.add_subcommand("mesh", "Make meshes for models");
-  group->require_subcommand(1);
-  const std::vector<Command> commands = {add_scvt_command(*group), add_icosahedral_command(*group),
-                                         add_points_command(*group),
-                                         add_area_partition_command(*group)};
-  return {group, [commands] {
-            for (const Command& command : commands) {
-              if (command.parser->parsed()) return command.run();
-            }
-            throw UsageError("no command of mesh (see rondel mesh --help)");
-          }};
+std::vector<Command> add_mesh_making_commands(CLI::App& mesh) {
+  return {add_scvt_command(mesh), add_icosahedral_command(mesh), add_points_command(mesh),
+          add_area_partition_command(mesh)};
 }
 
 }  // namespace rondel::cli

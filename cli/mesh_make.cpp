@@ -32,7 +32,7 @@ constexpr double usual_slope = 0.05;
 
 bool is_mesh_file(const CommonOptions& common) {
   const std::string format = common.format();
-  for (const std::string_view known : {"nc", "mpas", "ugrid", "scrip", "esmf", "exodus"}) {
+  for (const std::string_view known : {"nc", "mpas", "ugrid", "scrip", "esmf", "exodus", "exo"}) {
     if (format == known) return true;
   }
   return false;
@@ -43,13 +43,13 @@ mesh::MeshFormat mesh_format(const CommonOptions& common) {
   if (format == "ugrid") return mesh::MeshFormat::ugrid;
   if (format == "scrip") return mesh::MeshFormat::scrip;
   if (format == "esmf") return mesh::MeshFormat::esmf;
-  if (format == "exodus") return mesh::MeshFormat::exodus;
+  if (format == "exodus" || format == "exo") return mesh::MeshFormat::exodus;
   return mesh::MeshFormat::mpas;
 }
 
-void require_mesh_output(const CommonOptions& common) {
+void require_made_output(const CommonOptions& common) {
   require_output(common, is_mesh_file(common) || can_write_sites(common.target()),
-                 ".nc (mpas ugrid scrip esmf exodus) .csv .tsv .xyz .txt .npy");
+                 ".nc .exo (mpas ugrid scrip esmf exodus) .csv .tsv .xyz .txt .npy");
   if (is_mesh_file(common) && common.output == "-") {
     throw UsageError("--output: a mesh is written to a file");
   }
@@ -68,7 +68,7 @@ void write_report(const MeshOutput& output, const mesh::MeshArrays& arrays,
 }
 
 // Writes all that is wanted of these sites; returns the quality as JSON where it was computed.
-nlohmann::ordered_json write_mesh(const MeshOutput& output, const std::vector<Point>& sites,
+nlohmann::ordered_json write_made(const MeshOutput& output, const std::vector<Point>& sites,
                                   const mesh::SizeFunction* size, Job& job) {
   const CommonOptions& common = output.common;
   nlohmann::ordered_json quality_of_mesh;
@@ -181,7 +181,7 @@ void show(const mesh::PartitionStep& step, const mesh::AreaPartitionOptions& opt
 
 ExitStatus run_scvt(const ScvtCommandOptions& options) {
   const MeshOutput& output = options.output;
-  require_mesh_output(output.common);
+  require_made_output(output.common);
   if (options.scvt.count == 0 && options.spacing.empty() && options.start.empty()) {
     throw UsageError("-n, --spacing or --start says how many cells there shall be");
   }
@@ -199,7 +199,7 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
     made = with_places(table, [&] { return mesh::relaxed(table.sites, scvt, execution); });
   }
   nlohmann::ordered_json quality =
-      write_mesh(output, made.sites, scvt.size ? &*scvt.size : nullptr, job);
+      write_made(output, made.sites, scvt.size ? &*scvt.size : nullptr, job);
   const bool is_whole = made.end == mesh::ScvtEnd::converged || made.end == mesh::ScvtEnd::stuck;
   const nlohmann::ordered_json json = {{"end", mesh::name_of(made.end)},
                                        {"steps", made.last.iteration},
@@ -212,20 +212,20 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
 }
 
 ExitStatus run_icosahedral(const IcosahedralCommandOptions& options) {
-  require_mesh_output(options.output.common);
+  require_made_output(options.output.common);
   Job job(options.output.common);
   const std::size_t count = (std::size_t{10} << (2 * options.levels)) + 2;
   const std::vector<Point> sites = options.keep
                                        ? mesh::icosahedral_points(options.levels, job.execution())
                                        : mesh::scvt({.count = count}, job.execution()).sites;
-  nlohmann::ordered_json quality = write_mesh(options.output, sites, nullptr, job);
+  nlohmann::ordered_json quality = write_made(options.output, sites, nullptr, job);
   report_mesh(options.output, sites.size(), "", {{"levels", options.levels}}, std::move(quality),
               job);
   return done;
 }
 
 ExitStatus run_mesh_points(const MeshPointsOptions& options) {
-  require_mesh_output(options.output.common);
+  require_made_output(options.output.common);
   const bool is_poisson = options.kind == "poisson";
   if (is_poisson != (options.radius_km > 0) || is_poisson == (options.size > 0)) {
     throw UsageError(options.kind + (is_poisson ? " takes --radius" : " takes --size"));
@@ -243,7 +243,7 @@ ExitStatus run_mesh_points(const MeshPointsOptions& options) {
   } catch (const InvalidInput& error) {
     throw UsageError(error.what());
   }
-  nlohmann::ordered_json quality = write_mesh(options.output, sites, nullptr, job);
+  nlohmann::ordered_json quality = write_made(options.output, sites, nullptr, job);
   report_mesh(options.output, sites.size(), "", {{"kind", options.kind}}, std::move(quality), job);
   return done;
 }

@@ -56,6 +56,9 @@ struct AreaPartitionCommandOptions {
   double tolerance = 1e-12;
 };
 
+/// Adds them to `rondel mesh`: mesh_commands.cpp.
+std::vector<Command> add_mesh_making_commands(CLI::App& mesh);
+
 ExitStatus run_scvt(const ScvtCommandOptions& options);
 ExitStatus run_icosahedral(const IcosahedralCommandOptions& options);
 ExitStatus run_mesh_points(const MeshPointsOptions& options);

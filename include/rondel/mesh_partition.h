@@ -33,10 +33,13 @@ struct PartitionStep {
   double length = 1;         ///< of the step over that of Newton's
 };
 
+/// Called before each step and at the end.
+using PartitionSeen = std::function<void(const PartitionStep&)>;
+
 struct AreaPartitionOptions {
   double tolerance = 1e-12;  ///< the largest error
   int max_steps = 100;
-  std::function<void(const PartitionStep&)> seen{};
+  PartitionSeen seen{};
 };
 
 struct AreaPartition {

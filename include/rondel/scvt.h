@@ -46,6 +46,9 @@ enum class ScvtMethod : std::uint8_t {
   lloyd,  ///< every site to its centroid, to compare
 };
 
+/// Called at the start of a level and after every step.
+using ScvtSeen = std::function<void(const ScvtStep&)>;
+
 struct ScvtOptions {
   std::size_t count = 0;               ///< of sites; 0: size->count(), rounded
   std::optional<SizeFunction> size{};  ///< none: the same spacing everywhere
@@ -56,8 +59,7 @@ struct ScvtOptions {
   double energy_tolerance = 0;
   int max_iterations = 1000;  ///< in each level
   ScvtMethod method = ScvtMethod::lbfgs;
-  /// Called after every step.
-  std::function<void(const ScvtStep&)> seen{};
+  ScvtSeen seen{};
 };
 
 struct Scvt {

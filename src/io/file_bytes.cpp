@@ -56,6 +56,18 @@ std::string_view FileBytes::text() {
   return head();
 }
 
+void FileBytes::read_at(std::uint64_t place, char* bytes, std::size_t size) const {
+  while (size > 0) {
+    const std::ptrdiff_t count = system::read_at(descriptor_.value, place, bytes, size);
+    if (count < 0) fail(errno);
+    if (count == 0) throw FileError(name_ + ": cut off while it was read");
+    const auto read = static_cast<std::size_t>(count);
+    place += read;
+    bytes += read;
+    size -= read;
+  }
+}
+
 // Precondition: `bytes_` has room for so many.
 void FileBytes::read_up_to(std::size_t size) {
   while (num_read_ < size && !is_at_end_) {

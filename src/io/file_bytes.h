@@ -32,6 +32,10 @@ class RONDEL_API FileBytes {
   // All bytes. Throws FileError.
   std::string_view text();
 
+  // Bytes of a file of known size, from this place on, without those before; several threads may ask.
+  // Throws FileError, also where the file has ended by now.
+  void read_at(std::uint64_t place, char* bytes, std::size_t size) const;
+
  private:
   struct Descriptor {
     int value;

@@ -43,8 +43,24 @@ void require_bytes(const NetcdfReader::Variable& variable, std::uint64_t size,
 
 }  // namespace
 
-NetcdfReader::NetcdfReader(std::string_view bytes) : bytes_(bytes) {
-  NetcdfHeader header = parse_netcdf_header(bytes);
+NetcdfReader::NetcdfReader(std::string_view bytes) : bytes_(bytes), size_(bytes.size()) {
+  parse(bytes);
+}
+
+NetcdfReader::NetcdfReader(FileBytes& file) : file_(&file), size_(file.claimed_size()) {
+  try {
+    if (size_ > file.head().size()) {
+      parse(file.head());
+      return;
+    }
+  } catch (const BadValue&) {
+    // It may be the head that is cut off, and not the file.
+  }
+  *this = NetcdfReader(file.text());
+}
+
+void NetcdfReader::parse(std::string_view head) {
+  NetcdfHeader header = parse_netcdf_header(head);
   dimensions_ = std::move(header.dimensions);
   attributes_ = std::move(header.attributes);
   variables_ = std::move(header.variables);
@@ -63,7 +79,7 @@ NetcdfReader::NetcdfReader(std::string_view bytes) : bytes_(bytes) {
     }
     const std::uint64_t size = product(variable, variable.record_values, size_of(variable.type));
     variable.num_values = variable.record_values;
-    if (!variable.has_records) require_bytes(variable, size, bytes.size());
+    if (!variable.has_records) require_bytes(variable, size, size_);
   }
   place_records(header.counts_records ? header.num_records
                                       : std::numeric_limits<std::uint64_t>::max());
@@ -74,12 +90,12 @@ NetcdfReader::NetcdfReader(std::string_view bytes) : bytes_(bytes) {
 void NetcdfReader::place_records(std::uint64_t claimed) {
   std::size_t num_variables = 0;
   std::uint64_t unpadded = 0;
-  std::uint64_t first = bytes_.size();
+  std::uint64_t first = size_;
   for (const Variable& variable : variables_) {
     if (!variable.has_records) continue;
     ++num_variables;
     unpadded = variable.record_values * size_of(variable.type);
-    if (unpadded > bytes_.size() && claimed != 0) refuse(variable, "is longer than the file");
+    if (unpadded > size_ && claimed != 0) refuse(variable, "is longer than the file");
     record_size_ =
         sum(variable, record_size_, netcdf_padded(std::min(unpadded, ~std::uint64_t{7})));
     first = std::min(first, variable.offset);
@@ -88,7 +104,7 @@ void NetcdfReader::place_records(std::uint64_t claimed) {
   if (num_variables == 1) record_size_ = unpadded;
   std::uint64_t number = claimed;
   if (number == std::numeric_limits<std::uint64_t>::max()) {
-    number = record_size_ == 0 ? 0 : (bytes_.size() - first) / record_size_;
+    number = record_size_ == 0 ? 0 : (size_ - first) / record_size_;
   }
   for (Variable& variable : variables_) {
     if (!variable.has_records) continue;
@@ -97,7 +113,7 @@ void NetcdfReader::place_records(std::uint64_t claimed) {
     if (number == 0) continue;
     const std::uint64_t before = product(variable, number - 1, record_size_);
     require_bytes(variable, sum(variable, before, variable.record_values * size_of(variable.type)),
-                  bytes_.size());
+                  size_);
   }
   for (NetcdfDimension& dimension : dimensions_) {
     if (dimension.size == 0) dimension.size = number;
@@ -114,27 +130,38 @@ const NetcdfReader::Variable& NetcdfReader::require(std::string_view name) const
   throw BadValue("no variable " + in_quotes(name));
 }
 
-const char* NetcdfReader::place(const Variable& variable, std::uint64_t index) const {
+std::uint64_t NetcdfReader::place(const Variable& variable, std::uint64_t index) const {
   const std::size_t size = size_of(variable.type);
-  if (!variable.has_records) return bytes_.data() + variable.offset + index * size;
+  if (!variable.has_records) return variable.offset + index * size;
   const std::uint64_t record = index / variable.record_values;
-  return bytes_.data() + variable.offset + record * record_size_ +
-         index % variable.record_values * size;
+  return variable.offset + record * record_size_ + index % variable.record_values * size;
 }
 
+// What is together in the file is read together: all, or what is left of a record.
 template <typename T, typename Out>
 void NetcdfReader::copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const {
-  if (!variable.has_records && !out.empty()) {
-    const char* const first = place(variable, begin);
-    for (std::size_t i = 0; i < out.size(); ++i) {
+  std::vector<char> buffer;
+  while (!out.empty()) {
+    std::size_t count = out.size();
+    if (variable.has_records) {
+      count = static_cast<std::size_t>(
+          std::min<std::uint64_t>(count, variable.record_values - begin % variable.record_values));
+    }
+    const std::uint64_t at = place(variable, begin);
+    const char* first = nullptr;
+    if (file_ == nullptr) {
+      first = bytes_.data() + at;
+    } else {
+      buffer.resize(count * sizeof(T));
+      file_->read_at(at, buffer.data(), buffer.size());
+      first = buffer.data();
+    }
+    for (std::size_t i = 0; i < count; ++i) {
       // NOLINTNEXTLINE(bugprone-signed-char-misuse): a number, no character
       out[i] = static_cast<Out>(load<T>(first + i * sizeof(T), std::endian::big));
     }
-    return;
-  }
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    // NOLINTNEXTLINE(bugprone-signed-char-misuse): a number, no character
-    out[i] = static_cast<Out>(load<T>(place(variable, begin + i), std::endian::big));
+    begin += count;
+    out = out.subspan(count);
   }
 }
 

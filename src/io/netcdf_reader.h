@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/file_bytes.h"
 #include "io/netcdf_format.h"
 #include "rondel/export.h"
 
@@ -30,8 +31,11 @@ class RONDEL_API NetcdfReader {
   // nothing is allocated for what a count claims before the bytes can have it, and every value of every
   // variable is there.
   explicit NetcdfReader(std::string_view bytes);
+  // The same of a file, of which only the header is in memory, and values are read when they are asked for; all of
+  // it, where its size is not known or its header is longer than its head. Throws FileError, too.
+  explicit NetcdfReader(FileBytes& file);
 
-  [[nodiscard]] std::size_t num_bytes() const { return bytes_.size(); }
+  [[nodiscard]] std::uint64_t num_bytes() const { return size_; }
   [[nodiscard]] std::span<const NetcdfDimension> dimensions() const { return dimensions_; }
   [[nodiscard]] std::span<const NetcdfAttribute> attributes() const { return attributes_; }
   [[nodiscard]] std::span<const Variable> variables() const { return variables_; }
@@ -52,12 +56,15 @@ class RONDEL_API NetcdfReader {
   [[nodiscard]] std::vector<std::int64_t> integers(const Variable& variable) const;
 
  private:
-  [[nodiscard]] const char* place(const Variable& variable, std::uint64_t index) const;
+  void parse(std::string_view head);
+  [[nodiscard]] std::uint64_t place(const Variable& variable, std::uint64_t index) const;
   template <typename T, typename Out>
   void copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const;
   void place_records(std::uint64_t claimed);
 
   std::string_view bytes_;
+  const FileBytes* file_ = nullptr;  // where the bytes are not in memory
+  std::uint64_t size_ = 0;
   std::vector<NetcdfDimension> dimensions_;
   std::vector<NetcdfAttribute> attributes_;
   std::vector<Variable> variables_;

@@ -76,16 +76,16 @@ class Newton {
     return now;
   }
 
-  struct Step {
+  struct NewtonStep {
     std::vector<double> of_log;  // of log w
     double rounding;  // the relative error of an area that is left by weights that are doubles
   };
   // What Newton's method makes. Weights are rounded by 2^-53 of theirs, those of a cell and of its neighbors.
-  [[nodiscard]] Step step_from(const Weighted& now) const {
+  [[nodiscard]] NewtonStep step_from(const Weighted& now) const {
     std::vector<double> right(sites_.size());
     for (std::size_t i = 0; i < sites_.size(); ++i) right[i] = targets_[i] - now.areas[i];
     WeightedGraph graph = graph_of(now);
-    Step step{{}, 0};
+    NewtonStep step{{}, 0};
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       step.rounding = std::max(step.rounding, 0x1p-51 * graph.diagonal[i] / targets_[i]);
     }
@@ -262,7 +262,7 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
     result.end = PartitionEnd::stopped;
     if (execution.stop != nullptr && execution.stop->load()) break;
 
-    const Newton::Step step = newton.step_from(*now);
+    const Newton::NewtonStep step = newton.step_from(*now);
     std::optional<Weighted> next;
     std::vector<double> weights;
     length = 1;

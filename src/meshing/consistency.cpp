@@ -25,8 +25,10 @@ template <class Row>
 void require_indices(const char* name, unsigned threads, const std::vector<Row>& rows,
                      std::size_t end) {
   constexpr std::size_t grain = 65536;
-  const auto numbers = std::span<const Index>(reinterpret_cast<const Index*>(rows.data()),
-                                              rows.size() * (sizeof(Row) / sizeof(Index)));
+  static_assert(sizeof(Index) == 4);
+  constexpr std::size_t of_each = sizeof(Row) / 4;
+  const auto numbers =
+      std::span<const Index>(reinterpret_cast<const Index*>(rows.data()), rows.size() * of_each);
   system::parallel_for(threads, numbers.size(), grain, [&](std::size_t first, std::size_t last) {
     Index most = 0;
     for (std::size_t i = first; i < last; ++i) most = std::max(most, numbers[i]);

@@ -33,9 +33,8 @@ void define_coordinate(MeshFile& file, const char* name, std::size_t nodes,
   });
 }
 
-std::string element_type(std::size_t corners) {
-  return corners == 3 || corners == 4 ? "SHELL" + std::to_string(corners) : "NSIDED";
-}
+// As TempestRemap names them.
+std::string element_type(std::size_t corners) { return "SHELL" + std::to_string(corners); }
 
 }  // namespace
 
@@ -72,7 +71,6 @@ void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks&
   const std::size_t elements = file.dimension("num_elem", arrays.num_cells());
   const std::size_t blocks_dimension = file.dimension("num_el_blk", num_blocks);
   define_exodus_attributes(file.netcdf());
-  file.numbers("time_whole", time, {}, 0, [](std::size_t) { return 0.0; });
   file.indices("eb_status", blocks_dimension, {}, num_blocks, [](std::size_t) { return 1; });
   file.indices("eb_prop1", blocks_dimension, {{"name", "ID"}}, num_blocks,
                [](std::size_t b) { return b + 1; });
@@ -98,6 +96,8 @@ void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks&
                                  [&](Index v) { *out++ = static_cast<std::int32_t>(v + 1); });
                  });
   }
+  // Records come last.
+  file.numbers("time_whole", time, {}, 0, [](std::size_t) { return 0.0; });
 }
 
 }  // namespace rondel::meshing

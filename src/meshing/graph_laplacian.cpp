@@ -108,14 +108,14 @@ WeightedGraph coarse_graph(const WeightedGraph& fine, const std::vector<Index>& 
 LaplacianSolver::LaplacianSolver(WeightedGraph graph, unsigned threads) : threads_(threads) {
   levels_.push_back({.graph = std::move(graph), .group{}, .right{}, .solution{}, .rest{}});
   while (levels_.back().graph.size() > coarsest_size) {
-    Level& fine = levels_.back();
+    GraphLevel& fine = levels_.back();
     Index num_groups = 0;
     fine.group = groups_of(fine.graph, num_groups);
     if (num_groups == fine.graph.size()) break;
     WeightedGraph coarse = coarse_graph(fine.graph, fine.group, num_groups);
     levels_.push_back({.graph = std::move(coarse), .group{}, .right{}, .solution{}, .rest{}});
   }
-  for (Level& level : levels_) {
+  for (GraphLevel& level : levels_) {
     level.right.resize(level.graph.size());
     level.solution.resize(level.graph.size());
     level.rest.resize(level.graph.size());
@@ -136,7 +136,7 @@ void LaplacianSolver::multiply(const WeightedGraph& graph, const std::vector<dou
                        });
 }
 
-void LaplacianSolver::smooth(Level& level) const {
+void LaplacianSolver::smooth(GraphLevel& level) const {
   multiply(level.graph, level.solution, level.rest);
   for (std::size_t i = 0; i < level.graph.size(); ++i) {
     level.solution[i] += damping * (level.right[i] - level.rest[i]) / level.graph.diagonal[i];
@@ -145,7 +145,7 @@ void LaplacianSolver::smooth(Level& level) const {
 
 // Before and after the coarse correction the same symmetric smoother, so that the cycle is symmetric.
 void LaplacianSolver::cycle(std::size_t number) {
-  Level& level = levels_[number];
+  GraphLevel& level = levels_[number];
   std::ranges::fill(level.solution, 0.0);
   if (number + 1 == levels_.size()) {
     for (int sweep = 0; sweep < coarsest_sweeps; ++sweep) smooth(level);
@@ -154,7 +154,7 @@ void LaplacianSolver::cycle(std::size_t number) {
   smooth(level);
   smooth(level);
   multiply(level.graph, level.solution, level.rest);
-  Level& coarse = levels_[number + 1];
+  GraphLevel& coarse = levels_[number + 1];
   std::ranges::fill(coarse.right, 0.0);
   for (std::size_t i = 0; i < level.group.size(); ++i) {
     coarse.right[level.group[i]] += level.right[i] - level.rest[i];
@@ -169,7 +169,7 @@ void LaplacianSolver::cycle(std::size_t number) {
 
 int LaplacianSolver::solve(std::span<const double> right, double tolerance, int most_steps,
                            std::vector<double>& solution) {
-  Level& finest = levels_.front();
+  GraphLevel& finest = levels_.front();
   std::vector<double> rest(right.begin(), right.end());
   take_mean_off(rest);
   solution.assign(rest.size(), 0);

@@ -35,7 +35,7 @@ class LaplacianSolver {
             std::vector<double>& solution);
 
  private:
-  struct Level {
+  struct GraphLevel {
     WeightedGraph graph;
     std::vector<Index> group;  // the coarse vertex of each
     std::vector<double> right;
@@ -44,11 +44,11 @@ class LaplacianSolver {
   };
 
   void cycle(std::size_t level);
-  void smooth(Level& level) const;
+  void smooth(GraphLevel& level) const;
   void multiply(const WeightedGraph& graph, const std::vector<double>& x,
                 std::vector<double>& result) const;
 
-  std::vector<Level> levels_;
+  std::vector<GraphLevel> levels_;
   unsigned threads_;
 };
 

@@ -97,24 +97,23 @@ class CellCorners {
  public:
   explicit CellCorners(const mesh::MeshArrays& arrays);
 
-  // Calls visit(vertex) for the corners of a cell, counterclockwise, and returns how many there are.
+  // Calls visit(vertex) for the corners of a cell, counterclockwise.
   template <typename Visit>
-  std::size_t visit(std::size_t cell, const Visit& visit) const {
+  void visit(std::size_t cell, const Visit& visit) const {
     const std::uint64_t begin = arrays_.offsets[cell];
     const std::uint64_t end = arrays_.offsets[cell + 1];
     Index last = corner(arrays_.vertices_on_cell[end - 1]);
-    std::size_t count = 0;
     for (std::uint64_t at = begin; at < end; ++at) {
       const Index next = corner(arrays_.vertices_on_cell[at]);
       if (next == last) continue;
       visit(next);
       last = next;
-      ++count;
     }
-    return count;
   }
   [[nodiscard]] std::size_t count(std::size_t cell) const {
-    return visit(cell, [](Index) {});
+    std::size_t found = 0;
+    visit(cell, [&](Index /*corner*/) { ++found; });
+    return found;
   }
 
  private:

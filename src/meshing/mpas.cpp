@@ -143,34 +143,49 @@ void define_edges(MeshFile& file, const MpasSizes& sizes) {
                });
 }
 
-// Of a triangle, as MPAS-Tools has them: (a + b - c)(b + c - a)(c + a - b) / (a b c) of its sides, 1 where they are equal;
-// its smallest angle over its largest.
-struct TriangleQuality {
-  double sides;
-  double angles;
-  bool is_obtuse;
-};
-TriangleQuality triangle_quality(const MeshArrays& arrays, std::size_t v) {
-  std::array<Point, 3> corners;
+using Corners = std::array<Point, 3>;
+
+Corners corners_of(const MeshArrays& arrays, std::size_t v) {
+  Corners corners;
   for (std::size_t i = 0; i < 3; ++i) {
     corners[i] = arrays.cell_points[arrays.cells_on_vertex[v][i]];
   }
+  return corners;
+}
+
+// Calls visit(to, from) for the two sides of each corner.
+template <class Visit>
+void for_each_angle(const Corners& corners, const Visit& visit) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    visit(corners[(i + 1) % 3] - corners[i], corners[(i + 2) % 3] - corners[i]);
+  }
+}
+
+// Of triangles, as MPAS-Tools has them: (a + b - c)(b + c - a)(c + a - b) / (a b c) of their sides, 1 where they are
+// equal; the smallest angle over the largest.
+double side_quality(const Corners& corners) {
   const double a = norm(corners[1] - corners[2]);
   const double b = norm(corners[2] - corners[0]);
   const double c = norm(corners[0] - corners[1]);
+  return (a + b - c) / c * ((b + c - a) / a) * ((c + a - b) / b);
+}
+
+double angle_quality(const Corners& corners) {
   double least = std::numbers::pi;
   double most = 0;
-  bool is_obtuse = false;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Point to = corners[(i + 1) % 3] - corners[i];
-    const Point from = corners[(i + 2) % 3] - corners[i];
-    const double along = dot(to, from);
-    const double angle = exact::argument(norm(cross(to, from)), along);
+  for_each_angle(corners, [&](const Point& to, const Point& from) {
+    const double angle = exact::argument(norm(cross(to, from)), dot(to, from));
     least = std::min(least, angle);
     most = std::max(most, angle);
-    is_obtuse = is_obtuse || along < 0;
-  }
-  return {(a + b - c) / c * ((b + c - a) / a) * ((c + a - b) / b), least / most, is_obtuse};
+  });
+  return least / most;
+}
+
+bool is_obtuse(const Corners& corners) {
+  bool found = false;
+  for_each_angle(corners,
+                 [&](const Point& to, const Point& from) { found = found || dot(to, from) < 0; });
+  return found;
 }
 
 void define_vertices(MeshFile& file, const MpasSizes& sizes) {
@@ -188,11 +203,11 @@ void define_vertices(MeshFile& file, const MpasSizes& sizes) {
       [&arrays](std::size_t v, double* out) { std::ranges::copy(arrays.kite_areas[v], out); });
   file.indices("boundaryVertex", sizes.vertices, {}, size, [](std::size_t) { return 0; });
   file.numbers("triangleQuality", sizes.vertices, {}, size,
-               [&arrays](std::size_t v) { return triangle_quality(arrays, v).sides; });
+               [&arrays](std::size_t v) { return side_quality(corners_of(arrays, v)); });
   file.numbers("triangleAngleQuality", sizes.vertices, {}, size,
-               [&arrays](std::size_t v) { return triangle_quality(arrays, v).angles; });
+               [&arrays](std::size_t v) { return angle_quality(corners_of(arrays, v)); });
   file.indices("obtuseTriangle", sizes.vertices, {}, size,
-               [&arrays](std::size_t v) { return triangle_quality(arrays, v).is_obtuse ? 1 : 0; });
+               [&arrays](std::size_t v) { return is_obtuse(corners_of(arrays, v)) ? 1 : 0; });
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ double legendre_root(std::size_t degree, double x) {
   for (int step = 0; step < 100; ++step) {
     double before = 1;
     double value = x;
-    for (double k = 2; k <= n; k += 1) {
+    for (std::size_t order = 2; order <= degree; ++order) {
+      const auto k = static_cast<double>(order);
       const double next = ((2 * k - 1) * x * value - (k - 1) * before) / k;
       before = value;
       value = next;

@@ -33,13 +33,14 @@ class Bins {
  public:
   // Of the chord's square the rounding of points and of the square takes less than 2^-48.
   Bins(double radius, double square) : square_(square * (1 + 0x1p-48)) {
-    const double bands = std::floor(std::numbers::pi / radius);
-    height_ = 180 / bands;
+    const auto bands = static_cast<std::size_t>(std::numbers::pi / radius);
+    height_ = 180 / static_cast<double>(bands);
     first_.push_back(0);
-    for (double band = 0; band < bands; band += 1) {
+    for (std::size_t band = 0; band < bands; ++band) {
       // No narrower at its end that is nearer to the pole; there one bin is enough.
-      const double low = exact::sine_cosine_of_degrees(band * height_).sine;
-      const double high = exact::sine_cosine_of_degrees((band + 1) * height_).sine;
+      const double low = exact::sine_cosine_of_degrees(static_cast<double>(band) * height_).sine;
+      const double high =
+          exact::sine_cosine_of_degrees(static_cast<double>(band + 1) * height_).sine;
       const double around = 2 * std::numbers::pi * std::max(0.0, std::min(low, high));
       const auto count = static_cast<std::size_t>(std::max(1.0, std::floor(around / radius)));
       first_.push_back(first_.back() + count);

@@ -46,8 +46,8 @@ void add_to(Histogram& sum, const Histogram& part) {
 }
 
 // Of a piece, or of pieces so far.
-struct Part {
-  Part() {
+struct PieceQuality {
+  PieceQuality() {
     found.min_angle_deg.value = found.min_edge_ratio.value = found.min_side_ratio.value = infinite;
     found.min_spacing = infinite;
     found.max_angle_deg.value = found.max_gradient.value = found.max_staggering.value = -1;
@@ -62,7 +62,7 @@ struct Part {
   double cells = 0;
 };
 
-void join(Part& all, const Part& next) {
+void join(PieceQuality& all, const PieceQuality& next) {
   Quality& a = all.found;
   const Quality& b = next.found;
   if (b.sides.size() > a.sides.size()) a.sides.resize(b.sides.size());
@@ -95,9 +95,10 @@ class QualityFinder {
       : arrays_(arrays), execution_(execution), spacings_(arrays.num_cells()) {}
 
   Quality find() {
-    in_pieces(arrays_.num_cells(), [&](std::size_t i, Part& part) { add_cell(i, part); });
-    in_pieces(arrays_.num_edges(), [&](std::size_t e, Part& part) { add_edge(e, part); });
-    in_pieces(arrays_.num_vertices(), [&](std::size_t v, Part& part) { add_vertex(v, part); });
+    in_pieces(arrays_.num_cells(), [&](std::size_t i, PieceQuality& part) { add_cell(i, part); });
+    in_pieces(arrays_.num_edges(), [&](std::size_t e, PieceQuality& part) { add_edge(e, part); });
+    in_pieces(arrays_.num_vertices(),
+              [&](std::size_t v, PieceQuality& part) { add_vertex(v, part); });
     Quality result = std::move(all_.found);
     result.num_cells = arrays_.num_cells();
     result.num_edges = arrays_.num_edges();
@@ -123,16 +124,16 @@ class QualityFinder {
  private:
   template <class Add>
   void in_pieces(std::size_t count, const Add& add) {
-    std::vector<Part> parts(system::num_pieces(count, quality_grain));
+    std::vector<PieceQuality> parts(system::num_pieces(count, quality_grain));
     system::parallel_for(execution_.threads, count, quality_grain,
                          [&](std::size_t begin, std::size_t end) {
-                           Part& part = parts[begin / quality_grain];
+                           PieceQuality& part = parts[begin / quality_grain];
                            for (std::size_t i = begin; i < end; ++i) add(i, part);
                          });
-    for (const Part& part : parts) join(all_, part);
+    for (const PieceQuality& part : parts) join(all_, part);
   }
 
-  void add_cell(std::size_t i, Part& part) {
+  void add_cell(std::size_t i, PieceQuality& part) {
     const meshing::CellShape shape = meshing::shape_of(arrays_, i);
     Quality& found = part.found;
     const auto sides = static_cast<std::size_t>(arrays_.offsets[i + 1] - arrays_.offsets[i]);
@@ -159,7 +160,7 @@ class QualityFinder {
     spacings_[i] = shape.spacing * std::sqrt(std::sqrt(density));
   }
 
-  void add_edge(std::size_t e, Part& part) const {
+  void add_edge(std::size_t e, PieceQuality& part) const {
     Quality& found = part.found;
     const double distance = arrays_.cell_distances[e];
     const double ratio = arrays_.vertex_distances[e] / distance;
@@ -173,7 +174,7 @@ class QualityFinder {
     found.mean_staggering += away;
   }
 
-  void add_vertex(std::size_t v, Part& part) const {
+  void add_vertex(std::size_t v, PieceQuality& part) const {
     Quality& found = part.found;
     const Triple& cells = arrays_.cells_on_vertex[v];
     bool is_obtuse = false;
@@ -213,7 +214,7 @@ class QualityFinder {
   const MeshArrays& arrays_;
   const Execution& execution_;
   std::vector<double> spacings_;  // of cells, times density^(1/4)
-  Part all_;
+  PieceQuality all_;
 };
 
 }  // namespace

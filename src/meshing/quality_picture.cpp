@@ -72,7 +72,7 @@ std::vector<Index> largest(const std::vector<double>& values, std::size_t count,
 std::string dots(const MeshArrays& arrays, const std::vector<Index>& cells, const char* color,
                  double radius) {
   constexpr double turn = 2 * std::numbers::pi;
-  std::string svg = std::string("<g fill=\"none\" stroke=\"") + color + "\">\n";
+  std::string svg = std::string(R"(<g fill="none" stroke=")") + color + "\">\n";
   for (const Index cell : cells) {
     const Point& p = arrays.cell_points[cell];
     const double lon = exact::argument(p.y, p.x);
@@ -103,11 +103,14 @@ std::string quality_picture(const MeshArrays& arrays, const Quality& quality, st
                             const Execution& execution) {
   const CellQuality cells = cell_quality(arrays, execution);
   const double third = (picture_width - margin) / 3;
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + fixed(picture_width) +
-                    "\" height=\"" + fixed(picture_height) +
-                    "\" font-family=\"sans-serif\" font-size=\"12\">\n"
-                    "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n"
-                    "<g fill=\"#456\" stroke=\"none\">\n";
+  std::string svg = R"(<svg xmlns="http://www.w3.org/2000/svg" width=")" + fixed(picture_width) +
+                    R"(" height=")" + fixed(picture_height) +
+                    R"(" font-family="sans-serif" font-size="12">)"
+                    "\n"
+                    R"(<rect width="100%" height="100%" fill="white"/>)"
+                    "\n"
+                    R"(<g fill="#456" stroke="none">)"
+                    "\n";
   svg += bars(quality.angles_deg, margin, "angles of triangles, degrees");
   svg += bars(quality.edge_ratios, margin + third, "dv / dc of edges");
   svg += bars(quality.spacings, margin + 2 * third, "spacing over its median");

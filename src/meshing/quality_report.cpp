@@ -14,7 +14,7 @@ namespace rondel::mesh {
 namespace {
 
 // A number of the report: its key in JSON, and what a line of text says.
-struct Entry {
+struct ReportEntry {
   const char* key;
   const char* what;
   const char* place;  // "cell", "edge" or "vertex"; null: a number of the whole mesh
@@ -35,37 +35,39 @@ Worst range(const Quality& quality) {
 }
 
 constexpr std::array entries = {
-    Entry{"energy", "energy over that of hexagons", nullptr, number<&Quality::energy>},
-    Entry{"mean_centroid_offset", "mean distance of site and center of mass, in spacings", nullptr,
-          number<&Quality::mean_centroid_offset>},
-    Entry{"max_centroid_offset", "largest", "cell", worst<&Quality::max_centroid_offset>},
-    Entry{"min_angle_deg", "smallest angle of a triangle, degrees", "vertex",
-          worst<&Quality::min_angle_deg>},
-    Entry{"max_angle_deg", "largest", "vertex", worst<&Quality::max_angle_deg>},
-    Entry{"share_40_to_80_deg", "share of angles from 40 to 80 degrees", nullptr,
-          number<&Quality::share_40_to_80_deg>},
-    Entry{"min_edge_ratio", "shortest edge over distance of its cells (dv/dc)", "edge",
-          worst<&Quality::min_edge_ratio>},
-    Entry{"min_side_ratio", "shortest edge of a cell over its longest", "cell",
-          worst<&Quality::min_side_ratio>},
-    Entry{"max_distance_ratio", "farthest neighbor of a cell over its nearest", "cell",
-          worst<&Quality::max_distance_ratio>},
-    Entry{"max_gradient", "largest change of spacing between neighbors", "edge",
-          worst<&Quality::max_gradient>},
-    Entry{"max_staggering", "farthest that the middle of an edge is from the line of its sites",
-          "edge", worst<&Quality::max_staggering>},
-    Entry{"mean_staggering", "mean", nullptr, number<&Quality::mean_staggering>},
-    Entry{"min_spacing", "smallest spacing, radius 1", nullptr, number<&Quality::min_spacing>},
-    Entry{"max_spacing", "largest", nullptr, number<&Quality::max_spacing>},
-    Entry{"spacing_5", "spacing over what the density wants: 5 of 100 cells below", nullptr,
-          range<0>},
-    Entry{"spacing_95", "95 of 100 cells below", nullptr, range<1>},
-    Entry{"kite_sum_error", "sum of kites against the sphere", nullptr,
-          number<&Quality::kite_sum_error>},
-    Entry{"cell_sum_error", "sum of cells against the sphere", nullptr,
-          number<&Quality::cell_sum_error>},
-    Entry{"max_kite_error", "kites against their cell or triangle", nullptr,
-          number<&Quality::max_kite_error>}};
+    ReportEntry{"energy", "energy over that of hexagons", nullptr, number<&Quality::energy>},
+    ReportEntry{"mean_centroid_offset", "mean distance of site and center of mass, in spacings",
+                nullptr, number<&Quality::mean_centroid_offset>},
+    ReportEntry{"max_centroid_offset", "largest", "cell", worst<&Quality::max_centroid_offset>},
+    ReportEntry{"min_angle_deg", "smallest angle of a triangle, degrees", "vertex",
+                worst<&Quality::min_angle_deg>},
+    ReportEntry{"max_angle_deg", "largest", "vertex", worst<&Quality::max_angle_deg>},
+    ReportEntry{"share_40_to_80_deg", "share of angles from 40 to 80 degrees", nullptr,
+                number<&Quality::share_40_to_80_deg>},
+    ReportEntry{"min_edge_ratio", "shortest edge over distance of its cells (dv/dc)", "edge",
+                worst<&Quality::min_edge_ratio>},
+    ReportEntry{"min_side_ratio", "shortest edge of a cell over its longest", "cell",
+                worst<&Quality::min_side_ratio>},
+    ReportEntry{"max_distance_ratio", "farthest neighbor of a cell over its nearest", "cell",
+                worst<&Quality::max_distance_ratio>},
+    ReportEntry{"max_gradient", "largest change of spacing between neighbors", "edge",
+                worst<&Quality::max_gradient>},
+    ReportEntry{"max_staggering",
+                "farthest that the middle of an edge is from the line of its sites", "edge",
+                worst<&Quality::max_staggering>},
+    ReportEntry{"mean_staggering", "mean", nullptr, number<&Quality::mean_staggering>},
+    ReportEntry{"min_spacing", "smallest spacing, radius 1", nullptr,
+                number<&Quality::min_spacing>},
+    ReportEntry{"max_spacing", "largest", nullptr, number<&Quality::max_spacing>},
+    ReportEntry{"spacing_5", "spacing over what the density wants: 5 of 100 cells below", nullptr,
+                range<0>},
+    ReportEntry{"spacing_95", "95 of 100 cells below", nullptr, range<1>},
+    ReportEntry{"kite_sum_error", "sum of kites against the sphere", nullptr,
+                number<&Quality::kite_sum_error>},
+    ReportEntry{"cell_sum_error", "sum of cells against the sphere", nullptr,
+                number<&Quality::cell_sum_error>},
+    ReportEntry{"max_kite_error", "kites against their cell or triangle", nullptr,
+                number<&Quality::max_kite_error>}};
 
 std::string number_of(double value) {
   return std::isfinite(value) ? system::shortest_text(value) : "null";
@@ -115,7 +117,7 @@ std::string quality_text(const Quality& quality) {
                      std::to_string(quality.num_vertices) + " vertices\n";
   text += "edges of cells: " + sides_text(quality) + '\n';
   text += "obtuse triangles: " + std::to_string(quality.num_obtuse) + '\n';
-  for (const Entry& entry : entries) {
+  for (const ReportEntry& entry : entries) {
     const Worst found = entry.worst(quality);
     if (std::isnan(found.value)) continue;
     text += std::string(entry.what) + ": " + short_number(found.value);
@@ -133,7 +135,7 @@ std::string quality_json(const Quality& quality) {
                      ", \"num_vertices\": " + std::to_string(quality.num_vertices) +
                      ", \"sides\": " + sides_json(quality) +
                      ", \"num_obtuse\": " + std::to_string(quality.num_obtuse);
-  for (const Entry& entry : entries) {
+  for (const ReportEntry& entry : entries) {
     const Worst found = entry.worst(quality);
     text += std::string(", \"") + entry.key + "\": ";
     if (entry.place == nullptr) {
@@ -153,7 +155,7 @@ double quality_value(const Quality& quality, std::string_view name) {
   std::ranges::replace(key, '-', '_');
   if (key == "min_dv_dc") key = "min_edge_ratio";
   if (key == "num_obtuse") return static_cast<double>(quality.num_obtuse);
-  for (const Entry& entry : entries) {
+  for (const ReportEntry& entry : entries) {
     if (key == entry.key) return entry.worst(quality).value;
   }
   throw InvalidInput("'" + std::string(name) + "' is no number of the report", 0);

@@ -82,10 +82,9 @@ MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Exe
   {
     io::FileBytes bytes(file.path, true);
     std::optional<MeshArrays> arrays = io::in_file(bytes.name(), [&] {
-      const std::string_view text = bytes.text();
-      const io::NetcdfReader reader(text);
+      const io::NetcdfReader reader(bytes);
       return reader.find("cellsOnEdge") != nullptr && reader.find("verticesOnEdge") != nullptr
-                 ? std::optional(meshing::read_mpas(text, execution))
+                 ? std::optional(meshing::read_mpas(reader, execution))
                  : std::nullopt;
     });
     if (arrays) return std::move(*arrays);

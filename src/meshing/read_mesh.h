@@ -3,13 +3,12 @@
 
 #pragma once
 
-#include <string_view>
-
+#include "io/netcdf_reader.h"
 #include "rondel/mesh.h"
 
 namespace rondel::meshing {
 
-// The arrays that the bytes of an MPAS file hold. Throws BadValue.
-mesh::MeshArrays read_mpas(std::string_view bytes, const Execution& execution);
+// The arrays that an MPAS file holds. Throws BadValue and FileError.
+mesh::MeshArrays read_mpas(const io::NetcdfReader& file, const Execution& execution);
 
 }  // namespace rondel::meshing

@@ -49,8 +49,8 @@ class MpasReader {
     read_rows("cellsOnEdge", arrays_.num_edges(), arrays_.num_cells(), arrays_.cells_on_edge);
     read_rows("verticesOnEdge", arrays_.num_edges(), arrays_.num_vertices(),
               arrays_.vertices_on_edge);
-    turn_edges();
     read_rings();
+    turn_edges();
     system::announce(execution_, "read", 0.7);
     follow_rings();
     read_rows("cellsOnVertex", arrays_.num_vertices(), arrays_.num_cells(),
@@ -164,18 +164,30 @@ class MpasReader {
     });
   }
 
-  // The second vertex is to be to the left.
+  // The second vertex is to be to the left, which is where the edge ends around its first cell. That the ring says, also
+  // of an edge too short for its vertices' places to tell.
   void turn_edges() {
+    std::vector<std::uint8_t> is_turned(arrays_.num_edges(), 0);
+    in_pieces(arrays_.num_cells(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const std::uint64_t first = arrays_.offsets[i];
+        const std::uint64_t last = arrays_.offsets[i + 1];
+        for (std::uint64_t at = first; at < last; ++at) {
+          const Index e = arrays_.edges_on_cell[at];
+          if (arrays_.cells_on_edge[e][0] != i) continue;
+          const Index next = arrays_.edges_on_cell[at + 1 < last ? at + 1 : first];
+          const auto& ends = arrays_.vertices_on_edge[next];
+          is_turned[e] = std::ranges::count(ends, arrays_.vertices_on_edge[e][1]) == 0 ? 1 : 0;
+        }
+      }
+    });
     in_pieces(arrays_.num_edges(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t e = begin; e < end; ++e) {
-        const auto [a, b] = arrays_.cells_on_edge[e];
         auto& [v, w] = arrays_.vertices_on_edge[e];
-        if (a == b || v == w) {
+        if (arrays_.cells_on_edge[e][0] == arrays_.cells_on_edge[e][1] || v == w) {
           throw BadValue("edge " + std::to_string(e) + " has the same cell or vertex twice");
         }
-        const Point& from = arrays_.cell_points[a];
-        const Point across = cross(from, arrays_.cell_points[b] - from);
-        if (dot(across, arrays_.vertex_points[w] - arrays_.vertex_points[v]) < 0) std::swap(v, w);
+        if (is_turned[e] != 0) std::swap(v, w);
       }
     });
   }
@@ -227,6 +239,8 @@ class MpasReader {
   void follow_ring(Index cell) {
     const std::uint64_t end = arrays_.offsets[cell + 1];
     Index last_end = end_of(arrays_.edges_on_cell[end - 1], cell, 1);
+    Point last_corner = arrays_.vertex_points[last_end] - arrays_.cell_points[cell];
+    Point around{0, 0, 0};
     for (std::uint64_t at = arrays_.offsets[cell]; at < end; ++at) {
       const Index e = arrays_.edges_on_cell[at];
       const auto [a, b] = arrays_.cells_on_edge[e];
@@ -234,13 +248,18 @@ class MpasReader {
         throw BadValue("cell " + std::to_string(cell) + " has edge " + std::to_string(e) +
                        ", which is not one of its own");
       }
-      if (end_of(e, cell, 0) != last_end) {
-        throw BadValue("the edges around cell " + std::to_string(cell) +
-                       " do not follow each other counterclockwise");
-      }
+      if (end_of(e, cell, 0) != last_end) refuse_ring(cell);
       arrays_.cells_on_cell[at] = a == cell ? b : a;
       arrays_.vertices_on_cell[at] = last_end = end_of(e, cell, 1);
+      const Point corner = arrays_.vertex_points[last_end] - arrays_.cell_points[cell];
+      around = around + cross(last_corner, corner);
+      last_corner = corner;
     }
+    if (!(dot(around, arrays_.cell_points[cell]) > 0)) refuse_ring(cell);
+  }
+  [[noreturn]] static void refuse_ring(Index cell) {
+    throw BadValue("the edges around cell " + std::to_string(cell) +
+                   " do not follow each other counterclockwise");
   }
   [[nodiscard]] Index end_of(Index edge, Index cell, std::size_t which) const {
     const bool is_first = arrays_.cells_on_edge[edge][0] == cell;
@@ -263,40 +282,37 @@ class MpasReader {
     });
   }
 
-  // The edge before each cell of a vertex: both are in the ring of the cell.
+  // Counterclockwise, and the edge before each cell: where the ring of the cell comes to the vertex, it has just left
+  // the next cell.
   void find_edges_of_vertices() {
     arrays_.edges_on_vertex.resize(arrays_.num_vertices());
     in_pieces(arrays_.num_vertices(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const auto v = static_cast<Index>(i);
-        turn_vertex(v);
-        const Triple& cells = arrays_.cells_on_vertex[v];
+        Triple& cells = arrays_.cells_on_vertex[v];
+        if (arrays_.cells_on_cell[place_of(v, cells[0])] != cells[1]) {
+          std::swap(cells[1], cells[2]);
+          std::swap(arrays_.kite_areas[v][1], arrays_.kite_areas[v][2]);
+        }
         for (std::size_t j = 0; j < 3; ++j) {
-          arrays_.edges_on_vertex[v][j] = edge_between(v, cells[(j + 2) % 3], cells[j]);
+          const std::uint64_t at = place_of(v, cells[j]);
+          const std::size_t next = (j + 1) % 3;
+          if (arrays_.cells_on_cell[at] != cells[next]) {
+            throw BadValue("vertex " + std::to_string(v) + " has no edge between its cells " +
+                           std::to_string(cells[j]) + " and " + std::to_string(cells[next]));
+          }
+          arrays_.edges_on_vertex[v][next] = arrays_.edges_on_cell[at];
         }
       }
     });
   }
-
-  // Counterclockwise, as the cells' places say.
-  void turn_vertex(Index v) {
-    Triple& cells = arrays_.cells_on_vertex[v];
-    const Point& a = arrays_.cell_points[cells[0]];
-    const Point across =
-        cross(arrays_.cell_points[cells[1]] - a, arrays_.cell_points[cells[2]] - a);
-    if (dot(across, a) >= 0) return;
-    std::swap(cells[1], cells[2]);
-    std::swap(arrays_.kite_areas[v][1], arrays_.kite_areas[v][2]);
-  }
-
-  [[nodiscard]] Index edge_between(Index v, Index before, Index cell) const {
+  // Where the ring of a cell has the vertex.
+  [[nodiscard]] std::uint64_t place_of(Index v, Index cell) const {
     for (std::uint64_t at = arrays_.offsets[cell]; at < arrays_.offsets[cell + 1]; ++at) {
-      if (arrays_.cells_on_cell[at] != before) continue;
-      const Index e = arrays_.edges_on_cell[at];
-      if (std::ranges::count(arrays_.vertices_on_edge[e], v) > 0) return e;
+      if (arrays_.vertices_on_cell[at] == v) return at;
     }
-    throw BadValue("vertex " + std::to_string(v) + " has no edge between its cells " +
-                   std::to_string(before) + " and " + std::to_string(cell));
+    throw BadValue("vertex " + std::to_string(v) + " is none of those of cell " +
+                   std::to_string(cell));
   }
 
   const io::NetcdfReader& file_;
@@ -310,15 +326,16 @@ class MpasReader {
 MeshArrays read_mpas(const FileName& file, const Execution& execution) {
   const system::Call call(execution);
   io::FileBytes bytes(file.path, true);
-  return io::in_file(bytes.name(), [&] { return meshing::read_mpas(bytes.text(), execution); });
+  return io::in_file(bytes.name(),
+                     [&] { return meshing::read_mpas(io::NetcdfReader(bytes), execution); });
 }
 
 }  // namespace rondel::mesh
 
 namespace rondel::meshing {
 
-mesh::MeshArrays read_mpas(std::string_view bytes, const Execution& execution) {
-  return mesh::MpasReader(io::NetcdfReader(bytes), execution).read();
+mesh::MeshArrays read_mpas(const io::NetcdfReader& file, const Execution& execution) {
+  return mesh::MpasReader(file, execution).read();
 }
 
 }  // namespace rondel::meshing

@@ -22,7 +22,7 @@ constexpr std::size_t cells_at_a_time = 1024;
 constexpr DoubleDouble eight_pi = {8 * std::numbers::pi, 8 * 0x1.1a62633145c07p-53};
 
 struct CellSums {
-  Vec moment;     // the integral of rho x
+  Vector moment;  // the integral of rho x
   double mass;    // of rho
   double area;    // of 1
   double energy;  // of rho |x - z|^2; of constant density: z.M
@@ -42,14 +42,14 @@ double arc_over_sine(double square, double cosine) {
 
 // M = 1/2 sum (t / sin t) n x n'. In n x n' = (n' + n)/2 x (n' - n) the difference has few rounding
 // errors.
-CellSums sums_of_uniform_cell(const MovingSurface& surface, const Vec& z,
+CellSums sums_of_uniform_cell(const MovingSurface& surface, const Vector& z,
                               std::span<const Index> ring) {
   const auto centers = surface.centers();
-  Vec moment{0, 0, 0};
-  Vec last = exact::to_vector(centers[ring.back()]);
+  Vector moment{0, 0, 0};
+  Vector last = exact::to_vector(centers[ring.back()]);
   for (const Index f : ring) {
-    const Vec n = exact::to_vector(centers[f]);
-    const Vec pole = 0.5 * cross(n + last, n - last);
+    const Vector n = exact::to_vector(centers[f]);
+    const Vector pole = 0.5 * cross(n + last, n - last);
     moment = moment + (0.5 * arc_over_sine(dot(pole, pole), dot(n, last))) * pole;
     last = n;
   }
@@ -72,25 +72,25 @@ double inverse_root(double square) {
   return 1 - e * (0.5 - e * (0.375 - e * (0.3125 - e * (0.2734375 - e * 0.24609375))));
 }
 
-CellSums sums_of_cell(const MovingSurface& surface, const Vec& z, std::span<const Index> ring,
+CellSums sums_of_cell(const MovingSurface& surface, const Vector& z, std::span<const Index> ring,
                       const SizeFunction& size) {
   const auto centers = surface.centers();
   CellSums sums{{0, 0, 0}, 0, 0, 0};
-  Vec last = exact::to_vector(centers[ring.back()]) - z;
+  Vector last = exact::to_vector(centers[ring.back()]) - z;
   for (const Index f : ring) {
-    const Vec d = exact::to_vector(centers[f]) - z;
+    const Vector d = exact::to_vector(centers[f]) - z;
     const double solid = 0.5 * det(z, last, d);
     for (const Orbit& orbit : degree_4) {
       const double b = 1 - 2 * orbit.a;
-      const std::array<Vec, 3> offsets = {orbit.a * (last + d), b * last + orbit.a * d,
-                                          orbit.a * last + b * d};
-      for (const Vec& offset : offsets) {
-        const Vec p = z + offset;
+      const std::array<Vector, 3> offsets = {orbit.a * (last + d), b * last + orbit.a * d,
+                                             orbit.a * last + b * d};
+      for (const Vector& offset : offsets) {
+        const Vector p = z + offset;
         const double square = dot(p, p);
         const double inverse = inverse_root(square);
         const double area = orbit.weight * solid * (inverse * inverse * inverse);
         const double mass = area * size.density(exact::to_point(p));
-        const Vec to_node = inverse * p - z;
+        const Vector to_node = inverse * p - z;
         sums.moment = sums.moment + mass * to_node;
         sums.energy += mass * dot(to_node, to_node);
         sums.mass += mass;
@@ -127,11 +127,11 @@ EnergyReport CentroidalEnergy::operator()(const MovingSurface& surface,
         std::vector<Index> ring;
         for (std::size_t i = begin; i < end; ++i) {
           surface.faces_around(static_cast<Index>(i), ring);
-          const Vec z = exact::to_vector(sites[i]);
+          const Vector z = exact::to_vector(sites[i]);
           const CellSums cell = size_ == nullptr ? sums_of_uniform_cell(surface, z, ring)
                                                  : sums_of_cell(surface, z, ring, *size_);
-          const Frame frame = frame_at(sites[i], axes[i]);
-          const Tangent pull = {dot(cell.moment, frame.u), dot(cell.moment, frame.v)};
+          const TangentFrame frame = frame_at(sites[i], axes[i]);
+          const TangentVector pull = {dot(cell.moment, frame.u), dot(cell.moment, frame.v)};
 
           const DoubleDouble total = exact::two_sum(piece.energy.hi, cell.energy);
           piece.energy = {total.hi, piece.energy.lo + total.lo};

@@ -37,7 +37,7 @@ struct EnergyReport {
 };
 
 struct SiteSums {
-  Tangent gradient;
+  TangentVector gradient;
   double mass;     // the integral of rho
   double spacing;  // of the cell
 };

@@ -59,14 +59,14 @@ void Minimizer::direct(bool lloyd) {
   const std::size_t n = sites_.size();
   for (std::size_t i = 0; i < n; ++i) direction_[i] = {-sums_[i].gradient.u, -sums_[i].gradient.v};
   if (lloyd) num_pairs_ = 0;
-  const auto dot_with_direction = [&](const std::vector<Tangent>& a) {
+  const auto dot_with_direction = [&](const std::vector<TangentVector>& a) {
     return sum_in_order(threads_, n, [&](std::size_t begin, std::size_t end) {
       double sum = 0;
       for (std::size_t i = begin; i < end; ++i) sum += dot(a[i], direction_[i]);
       return sum;
     });
   };
-  const auto add = [&](double factor, const std::vector<Tangent>& a) {
+  const auto add = [&](double factor, const std::vector<TangentVector>& a) {
     system::parallel_for(threads_, n, terms_at_a_time, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         direction_[i].u += factor * a[i].u;

@@ -46,9 +46,9 @@ class Minimizer {
  private:
   static constexpr std::size_t memory = 7;
   struct Pair {
-    std::vector<Tangent> step;
-    std::vector<Tangent> change;  // of the gradient
-    double curvature = 0;         // step . change
+    std::vector<TangentVector> step;
+    std::vector<TangentVector> change;  // of the gradient
+    double curvature = 0;               // step . change
   };
 
   void direct(bool lloyd);
@@ -69,7 +69,7 @@ class Minimizer {
   std::vector<Point> tried_sites_;
   std::vector<SiteSums> tried_sums_;
   EnergyReport tried_report_;
-  std::vector<Tangent> direction_;
+  std::vector<TangentVector> direction_;
   std::vector<Pair> pairs_;
   std::size_t num_pairs_ = 0;  // that are remembered
   std::size_t newest_ = 0;

@@ -64,10 +64,10 @@ bool MovingSurface::build(std::span<const Point> sites) {
 // Writes the center of a face, and looks across its edges to faces of higher numbers.
 MovingSurface::Look MovingSurface::look_at(std::span<const Point> sites, Index face) {
   const Triple& corners = faces_[face];
-  const Vec a = exact::to_vector(sites[corners[0]]);
-  const Vec b = exact::to_vector(sites[corners[1]]) - a;
-  const Vec c = exact::to_vector(sites[corners[2]]) - a;
-  const Vec n = cross(b, c);
+  const Vector a = exact::to_vector(sites[corners[0]]);
+  const Vector b = exact::to_vector(sites[corners[1]]) - a;
+  const Vector c = exact::to_vector(sites[corners[2]]) - a;
+  const Vector n = cross(b, c);
   const double length = norm(n);
   const double longest = larger(dot(b, b), dot(c, c));
   if (!(dot(n, a) > turn_error * longest)) return Look::turned;
@@ -77,7 +77,7 @@ MovingSurface::Look MovingSurface::look_at(std::span<const Point> sites, Index f
     if (g < face) continue;
     const Triple& beyond = neighbors_[g];
     const Index j = beyond[0] == face ? 0 : (beyond[1] == face ? 1 : 2);
-    const Vec d = exact::to_vector(sites[faces_[g][j]]) - a;
+    const Vector d = exact::to_vector(sites[faces_[g][j]]) - a;
     if (!(dot(n, d) < -plane_error * larger(longest, dot(d, d)))) return Look::broken;
   }
   return Look::fine;
@@ -127,10 +127,10 @@ bool MovingSurface::is_to_flip(std::span<const Point> sites, Index face, Index c
   const Triple& beyond = neighbors_[g];
   const Index j = beyond[0] == face ? 0 : (beyond[1] == face ? 1 : 2);
   const Point& p = sites[faces_[g][j]];
-  const Vec a = exact::to_vector(sites[corners[0]]);
-  const Vec b = exact::to_vector(sites[corners[1]]) - a;
-  const Vec c = exact::to_vector(sites[corners[2]]) - a;
-  const Vec d = exact::to_vector(p) - a;
+  const Vector a = exact::to_vector(sites[corners[0]]);
+  const Vector b = exact::to_vector(sites[corners[1]]) - a;
+  const Vector c = exact::to_vector(sites[corners[2]]) - a;
+  const Vector d = exact::to_vector(p) - a;
   const double height = det(b, c, d);
   const double error = plane_error * larger(larger(dot(b, b), dot(c, c)), dot(d, d));
   if (height < -error) return false;

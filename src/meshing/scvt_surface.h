@@ -23,7 +23,7 @@
 
 namespace rondel::mesh {
 
-using Vec = exact::Vector3<double>;
+using Vector = exact::Vector3<double>;
 
 inline Index next_of(Index corner) { return corner == 2 ? 0 : corner + 1; }
 inline Index previous_of(Index corner) { return corner == 0 ? 2 : corner - 1; }

@@ -63,13 +63,13 @@ std::vector<Point> places_of_nodes(const CubeRaster& cube) {
 }
 
 // A place among the numbers of an axis that increases: axis[k] to axis[k + 1], and how far.
-struct Between {
+struct AxisPart {
   std::size_t first;
   std::size_t second;
   double part;
 };
 
-Between between(std::span<const double> axis, double x) {
+AxisPart between(std::span<const double> axis, double x) {
   const auto next = static_cast<std::size_t>(std::ranges::upper_bound(axis, x) - axis.begin());
   if (next == 0) return {0, 0, 0};
   if (next == axis.size()) return {next - 1, next - 1, 0};
@@ -77,7 +77,7 @@ Between between(std::span<const double> axis, double x) {
 }
 
 // The same around the circle: beyond the last longitude comes the first.
-Between between_longitudes(std::span<const double> axis, double lon) {
+AxisPart between_longitudes(std::span<const double> axis, double lon) {
   double x = lon - 360 * std::floor((lon - axis.front()) / 360);
   if (x < axis.front()) x = axis.front();
   if (x <= axis.back()) return between(axis, x);
@@ -157,8 +157,8 @@ SizeFunction SizeFunction::from_grid(std::span<const double> lon_deg,
     for (std::size_t k = 0; k < places.size(); ++k) {
       const Point& p = places[k];
       const double parallel = std::sqrt(p.x * p.x + p.y * p.y);
-      const Between x = between_longitudes(lon, degrees * exact::argument(p.y, p.x));
-      const Between y = between(lat, degrees * exact::argument(p.z, parallel));
+      const AxisPart x = between_longitudes(lon, degrees * exact::argument(p.y, p.x));
+      const AxisPart y = between(lat, degrees * exact::argument(p.z, parallel));
       const double below =
           value(x.first, y.first) * (1 - x.part) + value(x.second, y.first) * x.part;
       const double above =
@@ -199,7 +199,7 @@ SizeFunction SizeFunction::limited(double slope) const {
 }
 
 double SizeFunction::relative(const Point& place) const {
-  const CubeRaster::Spot spot = raster_->cube.spot(place);
+  const CubeRaster::RasterPlace spot = raster_->cube.spot(place);
   const float* const low = &raster_->relative[raster_->cube.node(spot.face, spot.i, spot.j)];
   const float* const high = low + raster_->cube.side();
   const double below = low[0] + spot.s * (static_cast<double>(low[1]) - low[0]);
@@ -268,8 +268,9 @@ std::vector<Point> densified(std::span<const Point> line, double distance) {
       const auto a = exact::to_vector(line[i - 1]);
       const auto b = exact::to_vector(line[i]);
       const double parts = std::ceil(norm(b - a) / distance);
-      for (double k = 1; k < parts; k += 1) {
-        points.push_back(exact::to_point(normalized(a + (k / parts) * (b - a))));
+      for (std::size_t k = 1; static_cast<double>(k) < parts; ++k) {
+        points.push_back(
+            exact::to_point(normalized(a + (static_cast<double>(k) / parts) * (b - a))));
       }
     }
     points.push_back(line[i]);

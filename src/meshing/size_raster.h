@@ -46,14 +46,14 @@ struct CubeRaster {
   }
 
   // Where a point lies: a face, and its place there in steps.
-  struct Spot {
+  struct RasterPlace {
     std::size_t face;
     std::size_t i;
     std::size_t j;
     double s;  // 0 to 1 from i to i + 1
     double t;
   };
-  [[nodiscard]] Spot spot(const Point& p) const {
+  [[nodiscard]] RasterPlace spot(const Point& p) const {
     const double ax = std::abs(p.x);
     const double ay = std::abs(p.y);
     const double az = std::abs(p.z);

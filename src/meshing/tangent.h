@@ -17,12 +17,12 @@
 
 namespace rondel::mesh {
 
-struct Tangent {
+struct TangentVector {
   double u;
   double v;
 };
 
-struct Frame {
+struct TangentFrame {
   exact::Vector3<double> u;
   exact::Vector3<double> v;
 };
@@ -37,7 +37,7 @@ inline std::uint8_t far_axis(const Point& z) {
   return y2 <= z2 ? 1 : 2;
 }
 
-inline Frame frame_at(const Point& z, std::uint8_t axis) {
+inline TangentFrame frame_at(const Point& z, std::uint8_t axis) {
   const exact::Vector3<double> east = axis == 0
                                           ? exact::Vector3<double>{0, -z.z, z.y}
                                           : (axis == 1 ? exact::Vector3<double>{z.z, 0, -z.x}
@@ -47,8 +47,8 @@ inline Frame frame_at(const Point& z, std::uint8_t axis) {
 }
 
 // z moved by a tangent vector, back on the sphere.
-inline Point moved(const Point& z, std::uint8_t axis, const Tangent& by) {
-  const Frame frame = frame_at(z, axis);
+inline Point moved(const Point& z, std::uint8_t axis, const TangentVector& by) {
+  const TangentFrame frame = frame_at(z, axis);
   const auto p = exact::to_vector(z) + by.u * frame.u + by.v * frame.v;
   return exact::to_point(p / norm(p));
 }
@@ -67,6 +67,6 @@ double sum_in_order(unsigned threads, std::size_t count, const Piece& piece) {
   return sum;
 }
 
-inline double dot(const Tangent& a, const Tangent& b) { return a.u * b.u + a.v * b.v; }
+inline double dot(const TangentVector& a, const TangentVector& b) { return a.u * b.u + a.v * b.v; }
 
 }  // namespace rondel::mesh

@@ -39,7 +39,7 @@ TEST(point_sets, icosahedral_points_have_five_or_six_neighbors) {
 
 // Pixels have equal areas, so sums of harmonics of low degree vanish; and the first center is known.
 TEST(point_sets, healpix_centers_are_those_of_equal_areas) {
-  for (const std::size_t side : {1, 2, 3, 8}) {
+  for (const std::size_t side : std::vector<std::size_t>{1, 2, 3, 8}) {
     const std::vector<Point> points = healpix_points(side);
     ASSERT_EQ(points.size(), 12 * side * side);
     expect_unit(points);

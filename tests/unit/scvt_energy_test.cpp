@@ -49,7 +49,7 @@ Evaluated evaluate(const std::vector<Point>& sites, const SizeFunction* size,
 
 TEST(scvt_energy, closed_form_and_quadrature_of_constant_density_agree) {
   const SizeFunction constant = SizeFunction::constant(0.1, 1);
-  for (const std::size_t n : {500, 5000}) {
+  for (const std::size_t n : {std::size_t{500}, std::size_t{5000}}) {
     const std::vector<Point> sites = sampled_sites(n, nullptr, 7);
     const auto axes = axes_of(sites);
     const Evaluated exact = evaluate(sites, nullptr, axes);
@@ -92,7 +92,7 @@ TEST(scvt_energy, gradient_is_the_slope_of_the_energy) {
     // A rule of degree 4 knows the density up to its fourth derivatives.
     const double allowed = density == nullptr ? 1e-5 : 3e-4;
     for (std::size_t i = 0; i < sites.size(); i += 10) {
-      for (const Tangent& unit : {Tangent{1, 0}, Tangent{0, 1}}) {
+      for (const TangentVector& unit : {TangentVector{1, 0}, TangentVector{0, 1}}) {
         constexpr double step = 1e-4;
         std::vector<Point> ahead = sites;
         std::vector<Point> behind = sites;

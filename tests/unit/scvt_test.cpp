@@ -11,6 +11,7 @@
 #include <cmath>
 #include <map>
 
+#include "exact/vector.h"
 #include "meshing/scvt_levels.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
@@ -82,7 +83,7 @@ TEST(scvt, subdivided_icosahedron_ends_as_good_as_published_ones) {
 }
 
 TEST(scvt, every_number_of_sites_is_met) {
-  for (const std::size_t n : {12, 13, 42, 100, 401, 999, 1602}) {
+  for (const std::size_t n : std::vector<std::size_t>{12, 13, 42, 100, 401, 999, 1602}) {
     const Scvt made = scvt({.count = n});
     EXPECT_EQ(made.sites.size(), n);
     EXPECT_LT(energy_over_hexagons(made.last.energy, n), n < 100 ? 1.1 : 1.015) << n;

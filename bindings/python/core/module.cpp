@@ -60,6 +60,8 @@ NB_MODULE(_core, module) {
   rondel::python::add_globe(module);
   rondel::python::add_graphs(module);
   rondel::python::add_interpolation(module);
+  rondel::python::add_mesh(module);
+  rondel::python::add_mesh_make(module);
   rondel::python::add_out_of_core(module);
   rondel::python::add_distributed(module);
   rondel::python::add_remap(module);

@@ -23,6 +23,8 @@ void add_files(nanobind::module_& module);
 void add_globe(nanobind::module_& module);
 void add_graphs(nanobind::module_& module);
 void add_interpolation(nanobind::module_& module);
+void add_mesh(nanobind::module_& module);
+void add_mesh_make(nanobind::module_& module);
 void add_out_of_core(nanobind::module_& module);
 void add_distributed(nanobind::module_& module);
 void add_regions(nanobind::module_& module);

@@ -21,6 +21,8 @@ unit_vectors, lonlat
 
 Modules
 -------
+rondel.mesh
+    Meshes of models: arrays, quality, files.
 rondel.out_of_core
     Triangulations that are larger than the memory, from files to files.
 rondel.distributed

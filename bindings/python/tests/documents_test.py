@@ -41,6 +41,8 @@ def test_docstrings(name):
         "docs/guide/contours.md",
         "docs/guide/graphs.md",
         "docs/guide/interpolation.md",
+        "docs/guide/mesh-making.md",
+        "docs/guide/meshes.md",
         "docs/guide/remapping.md",
         "docs/guide/regions.md",
         "docs/guide/distributed.md",

@@ -14,6 +14,7 @@ import pathlib
 import numpy as np
 import rondel
 import rondel.distributed
+import rondel.mesh
 import rondel.out_of_core
 
 points = np.eye(3)
@@ -60,6 +61,9 @@ reveal_type(part.num_faces)
 reveal_type(rondel.distributed.delaunay_file(path, "faces.npy", neighbors=path).first_face)
 reveal_type(rondel.distributed.DistributedError("rank 0, count: none").rank)
 rondel.distributed.delaunay(points, "world")
+
+reveal_type(rondel.mesh.from_points(tri, radius=2).cell_areas.size)
+reveal_type(rondel.mesh.read(path))
 """
 
 
@@ -87,7 +91,8 @@ def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
         "dict[str, Any]",
         "rondel.out_of_core.Report",
         "rondel.distributed.DistributedTriangulation",
-        *["int"] * 4,
+        *["int"] * 5,
+        "rondel.mesh.Mesh",
     ], out
     errors = [line.rpartition("[")[2] for line in said if "error:" in line]
     assert sorted(errors) == [

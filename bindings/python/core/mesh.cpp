@@ -1,0 +1,124 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/mesh.h"
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "module.h"
+#include "rondel/mesh_io.h"
+#include "rondel/mesh_quality.h"
+
+namespace rondel::python {
+namespace {
+
+using mesh::MeshArrays;
+using WeightsOfEdges = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int32_t>, ArrayOut<double>>;
+
+MeshArrays mesh_of(const Triangulation& t, double radius, const NumbersIn& density,
+                   bool allow_zero_edges, unsigned threads, const nb::object& listener) {
+  const mesh::MeshOptions options{
+      .radius = radius, .density = rows_of<double>(density), .allow_zero_edges = allow_zero_edges};
+  return watched(t.num_sites(), threads, listener,
+                 [&](const Execution& execution) { return mesh::arrays(t, options, execution); });
+}
+
+MeshArrays mesh_of_file(const std::string& path, double radius, bool allow_zero_edges,
+                        unsigned threads) {
+  constexpr std::size_t many = 1U << 20U;
+  return watched_quietly(many, threads, [&](const Execution& execution) {
+    return mesh::read_mesh(path, {.radius = radius, .allow_zero_edges = allow_zero_edges},
+                           execution);
+  });
+}
+
+void write_mesh(const MeshArrays& arrays, const std::string& path, int format, bool is_cdf2,
+                unsigned threads) {
+  run_watched(arrays.num_cells(), threads, nb::none(), [&](const Execution& execution) {
+    mesh::write(path, arrays,
+                {static_cast<mesh::MeshFormat>(format),
+                 is_cdf2 ? mesh::NetcdfKind::cdf2 : mesh::NetcdfKind::cdf5},
+                execution);
+  });
+}
+
+WeightsOfEdges weights_of_edges(const MeshArrays& arrays, unsigned threads) {
+  mesh::TangentialWeights found = watched_quietly(
+      arrays.num_cells(), threads,
+      [&](const Execution& execution) { return mesh::tangential_weights(arrays, execution); });
+  return {offsets_out(std::move(found.offsets)), indices_out(std::move(found.edges)),
+          to_array<double>(std::move(found.weights))};
+}
+
+// A member of MeshArrays as an array that refers to it.
+template <class T, auto member>
+void add_member(nb::class_<MeshArrays>& type, const char* name) {
+  type.def_prop_ro(name, [](const nb::object& self) {
+    const auto& rows = nb::cast<const MeshArrays&>(self).*member;
+    using Row = typename std::remove_cvref_t<decltype(rows)>::value_type;
+    return array_of<T>(self, std::span<const Row>(rows));
+  });
+}
+
+}  // namespace
+
+void add_mesh(nb::module_& module) {
+  nb::class_<MeshArrays> type(module, "MeshArrays");
+  type.def_ro("radius", &MeshArrays::radius);
+  add_member<double, &MeshArrays::cell_points>(type, "cell_points");
+  add_member<double, &MeshArrays::cell_areas>(type, "cell_areas");
+  add_member<double, &MeshArrays::density>(type, "density");
+  add_member<std::int64_t, &MeshArrays::offsets>(type, "offsets");
+  add_member<std::int32_t, &MeshArrays::edges_on_cell>(type, "edges_on_cell");
+  add_member<std::int32_t, &MeshArrays::cells_on_cell>(type, "cells_on_cell");
+  add_member<std::int32_t, &MeshArrays::vertices_on_cell>(type, "vertices_on_cell");
+  add_member<double, &MeshArrays::edge_points>(type, "edge_points");
+  add_member<std::int32_t, &MeshArrays::cells_on_edge>(type, "cells_on_edge");
+  add_member<std::int32_t, &MeshArrays::vertices_on_edge>(type, "vertices_on_edge");
+  add_member<double, &MeshArrays::cell_distances>(type, "cell_distances");
+  add_member<double, &MeshArrays::vertex_distances>(type, "vertex_distances");
+  add_member<double, &MeshArrays::normal_angles>(type, "normal_angles");
+  add_member<double, &MeshArrays::vertex_points>(type, "vertex_points");
+  add_member<std::int32_t, &MeshArrays::cells_on_vertex>(type, "cells_on_vertex");
+  add_member<std::int32_t, &MeshArrays::edges_on_vertex>(type, "edges_on_vertex");
+  add_member<double, &MeshArrays::kite_areas>(type, "kite_areas");
+  add_member<double, &MeshArrays::triangle_areas>(type, "triangle_areas");
+  type.def("tangential_weights", &weights_of_edges, nb::arg("threads"));
+  type.def("write", &write_mesh, nb::arg("path"), nb::arg("format"), nb::arg("is_cdf2"),
+           nb::arg("threads"));
+  type.def(
+      "write_graph",
+      [](const MeshArrays& self, const std::string& path) {
+        unlocked([&] { mesh::write_graph(path, self); });
+      },
+      nb::arg("path"));
+  type.def(
+      "quality_json",
+      [](const MeshArrays& self, unsigned threads) {
+        return mesh::quality_json(watched_quietly(
+            self.num_cells(), threads,
+            [&](const Execution& execution) { return mesh::quality(self, execution); }));
+      },
+      nb::arg("threads"));
+  type.def(
+      "quality_picture",
+      [](const MeshArrays& self, std::size_t num_worst) {
+        return unlocked(
+            [&] { return mesh::quality_picture(self, mesh::quality(self), num_worst); });
+      },
+      nb::arg("num_worst"));
+  module.def("mesh_of", &mesh_of, nb::arg("triangulation"), nb::arg("radius"),
+             nb::arg("density").noconvert(), nb::arg("allow_zero_edges"), nb::arg("threads"),
+             nb::arg("listener").none());
+  module.def("read_mesh", &mesh_of_file, nb::arg("path"), nb::arg("radius"),
+             nb::arg("allow_zero_edges"), nb::arg("threads"));
+}
+
+}  // namespace rondel::python

@@ -1,0 +1,106 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "module.h"
+#include "rondel/mesh_partition.h"
+#include "rondel/scvt.h"
+
+namespace rondel::python {
+namespace {
+
+using mesh::SizeFunction;
+
+constexpr std::size_t many_sites = 1U << 20U;  // enough to be watched
+
+// Points, densities (none: empty), how it ended, steps of the last level, mean offset, largest offset.
+using ScvtOut = std::tuple<ArrayOut<double>, ArrayOut<double>, std::string, int, double, double>;
+using AreasOut =
+    std::tuple<ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, std::string, int, double>;
+
+ArrayOut<double> raster_places(std::size_t steps) {
+  std::vector<Point> all;
+  (void)SizeFunction::from_function(
+      [&](std::span<const Point> places, std::span<double> out) {
+        all.insert(all.end(), places.begin(), places.end());
+        std::ranges::fill(out, 1.0);
+      },
+      steps);
+  return points_out(std::move(all));
+}
+
+SizeFunction size_of_raster(std::span<const double> spacings, std::size_t steps) {
+  std::size_t next = 0;
+  return SizeFunction::from_function(
+      [&](std::span<const Point> places, std::span<double> out) {
+        std::ranges::copy(spacings.subspan(next, places.size()), out.begin());
+        next += places.size();
+      },
+      steps);
+}
+
+ScvtOut make_scvt(std::size_t count, const NumbersIn& spacings, std::size_t steps, double gradient,
+                  double mean_tolerance, double largest_tolerance, int max_steps, unsigned threads,
+                  const nb::object& listener) {
+  mesh::ScvtOptions options{.count = count,
+                            .mean_tolerance = mean_tolerance,
+                            .largest_tolerance = largest_tolerance,
+                            .max_iterations = max_steps};
+  mesh::Scvt made = watched(many_sites, threads, listener, [&](const Execution& execution) {
+    if (spacings.size() > 0) options.size = size_of_raster(rows_of<double>(spacings), steps);
+    if (gradient > 0 && options.size) options.size = options.size->limited(gradient);
+    options.seen = [&](const mesh::ScvtStep& step) {
+      if (!execution.progress) return;
+      execution.progress(std::to_string(step.sites) + " cells",
+                         static_cast<double>(step.iteration) / std::max(1, max_steps));
+    };
+    return mesh::scvt(options, execution);
+  });
+  std::vector<double> density;
+  if (options.size) {
+    for (const Point& site : made.sites) density.push_back(options.size->density(site));
+  }
+  return {points_out(std::move(made.sites)),
+          to_array<double>(std::move(density)),
+          std::string(name_of(made.end)),
+          made.last.iteration,
+          made.last.mean_offset,
+          made.last.largest_offset};
+}
+
+AreasOut make_area_partition(const PointsIn& points, const NumbersIn& areas, double tolerance,
+                             unsigned threads) {
+  mesh::AreaPartition made = watched_quietly(many_sites, threads, [&](const Execution& execution) {
+    return mesh::area_partition(points_of(points), rows_of<double>(areas), {.tolerance = tolerance},
+                                execution);
+  });
+  return {points_out(std::move(made.poles)),
+          to_array<double>(std::move(made.weights)),
+          to_array<double>(std::move(made.areas)),
+          std::string(name_of(made.end)),
+          made.steps,
+          made.largest_error};
+}
+
+}  // namespace
+
+void add_mesh_make(nb::module_& module) {
+  module.def("raster_places", &raster_places, nb::arg("steps"));
+  module.def("make_scvt", &make_scvt, nb::arg("count"), nb::arg("spacings").noconvert(),
+             nb::arg("steps"), nb::arg("gradient"), nb::arg("mean_tolerance"),
+             nb::arg("largest_tolerance"), nb::arg("max_steps"), nb::arg("threads"),
+             nb::arg("listener").none());
+  module.def("make_area_partition", &make_area_partition, nb::arg("points").noconvert(),
+             nb::arg("areas").noconvert(), nb::arg("tolerance"), nb::arg("threads"));
+}
+
+}  // namespace rondel::python

@@ -1,0 +1,139 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Points that are moved to make a mesh, and weights that give cells their areas."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_floats, as_points, as_threads, frozen
+from ._types import ArrayLike, FloatArray, Progress
+
+Spacing: TypeAlias = float | Callable[[FloatArray], ArrayLike]
+
+
+class ScvtReport(NamedTuple):
+    """How the work on a centroidal tessellation ended: `Mesh.report`.
+
+    ``end`` is ``"converged"``, ``"iterations"``, or ``"stuck"`` where rounding allows no more.
+    """
+
+    end: str
+    steps: int
+    mean_offset: float
+    largest_offset: float
+
+
+class Partition(NamedTuple):
+    """What `partition` finds.
+
+    ``points`` are weighted sites, ``rondel.delaunay(points, model="weighted")``, whose power cells
+    have the ``areas``; ``weights`` are their lengths. ``end`` is ``"converged"``, ``"rounded"``
+    where doubles bring them no nearer, ``"iterations"`` or ``"infeasible"``.
+    """
+
+    points: FloatArray
+    weights: FloatArray
+    areas: FloatArray
+    end: str
+    steps: int
+    largest_error: float
+
+
+def raster_of(spacing: Spacing | None, steps: int) -> FloatArray:
+    """The spacings at the nodes of the raster; empty where all are the same and not given."""
+    if spacing is None:
+        return np.empty(0)
+    places = _core.raster_places(steps)
+    if not callable(spacing):
+        return np.full(len(places), float(spacing))
+    values = as_floats(spacing(frozen(places)), "spacing")
+    if values.shape != (len(places),):
+        raise ValueError(f"spacing has the shape {values.shape}, not ({len(places)},)")
+    return np.ascontiguousarray(values)
+
+
+def scvt_points(
+    n: int | None,
+    spacing: Spacing | None,
+    gradient: float | None,
+    tolerance: float,
+    largest_tolerance: float,
+    max_steps: int,
+    raster_steps: int,
+    threads: int | None,
+    progress: Progress,
+) -> tuple[FloatArray, FloatArray, ScvtReport]:
+    """Points, densities and report of `rondel.mesh.scvt`."""
+    if n is None and spacing is None:
+        raise TypeError("scvt() needs n or spacing")
+    steps = int(raster_steps) if callable(spacing) else 1
+    points, density, end, made_steps, mean, largest = _core.make_scvt(
+        0 if n is None else int(n),
+        raster_of(spacing, steps),
+        steps,
+        0.0 if gradient is None else float(gradient),
+        float(tolerance),
+        float(largest_tolerance),
+        int(max_steps),
+        as_threads(threads),
+        progress,
+    )
+    return points, density, ScvtReport(end, made_steps, mean, largest)
+
+
+def partition(
+    points: ArrayLike,
+    areas: ArrayLike | None = None,
+    *,
+    tolerance: float = 1e-12,
+    threads: int | None = None,
+) -> Partition:
+    """Weights of points whose power cells have prescribed areas.
+
+    Parameters
+    ----------
+    points : array_like, shape (n, 3)
+        The sites; only their directions count.
+    areas : array_like, shape (n,), optional
+        In any unit: they are scaled to the sphere. By default all are equal.
+    tolerance : float, optional
+        The largest relative error of an area.
+    threads : int, optional
+        At most so many threads; by default one for each core.
+
+    Returns
+    -------
+    Partition
+
+    Raises
+    ------
+    InvalidInput
+        For points in one place and areas that are not positive.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import rondel.mesh
+    >>> points = np.random.default_rng(1).normal(size=(500, 3))
+    >>> found = rondel.mesh.partition(points)
+    >>> found.end in ("converged", "rounded")
+    True
+    >>> cells = rondel.delaunay(found.points, "weighted").voronoi()
+    >>> bool(np.ptp(cells.areas) < 1e-10)
+    True
+
+    """
+    sites = as_points(points)
+    targets = np.empty(0)
+    if areas is not None:
+        targets = as_floats(areas, "areas")
+        targets = np.ascontiguousarray(targets * (4 * np.pi / targets.sum()))
+    poles, weights, found, end, steps, error = _core.make_area_partition(
+        sites, targets, float(tolerance), as_threads(threads)
+    )
+    return Partition(frozen(poles), frozen(weights), frozen(found), end, steps, error)

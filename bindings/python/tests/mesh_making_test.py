@@ -1,0 +1,71 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Centroidal meshes and cells of prescribed areas."""
+
+import numpy as np
+import pytest
+
+import rondel
+import rondel.mesh
+
+
+def test_uniform_mesh_has_twelve_pentagons():
+    mesh = rondel.mesh.scvt(642)
+    assert len(mesh.points) == 642
+    assert mesh.report.end == "converged"
+    assert mesh.report.mean_offset <= 1e-4
+    quality = mesh.quality
+    assert quality["sides"] == {"5": 12, "6": 630}
+    assert 1 < quality["energy"] < 1.01
+    assert quality["num_obtuse"] == 0
+
+
+def test_spacing_of_a_function_is_met():
+    def spacing(points):
+        return 0.15 + 0.05 * points[:, 2]
+
+    calls = []
+    mesh = rondel.mesh.scvt(
+        spacing=spacing, raster_steps=128, progress=lambda stage, part: calls.append((stage, part))
+    )
+    found = np.sqrt(mesh.cell_areas * 2 / np.sqrt(3)) / spacing(mesh.points)
+    assert np.percentile(abs(found - 1), 90) < 0.05
+    assert mesh.density.max() <= 1
+    assert mesh.density.min() < 0.1
+    assert calls
+
+
+def test_one_spacing_and_the_radius():
+    mesh = rondel.mesh.scvt(spacing=0.2, radius=10)
+    assert abs(len(mesh.points) - 4 * np.pi / (np.sqrt(0.75) * 0.04)) < 1
+    assert np.allclose(np.linalg.norm(mesh.points, axis=1), 10)
+
+
+def test_bytes_do_not_depend_on_threads():
+    one = rondel.mesh.scvt(5000, threads=1)
+    two = rondel.mesh.scvt(5000, threads=2)
+    assert one.points.tobytes() == two.points.tobytes()
+
+
+def test_what_is_no_request_is_refused():
+    with pytest.raises(TypeError, match="n or spacing"):
+        rondel.mesh.scvt()
+    with pytest.raises(rondel.InvalidInput, match="from 12"):
+        rondel.mesh.scvt(5)
+    with pytest.raises(rondel.InvalidInput, match="not between 0 and pi"):
+        rondel.mesh.scvt(spacing=lambda p: -p[:, 0], raster_steps=8)
+    with pytest.raises(ValueError, match="shape"):
+        rondel.mesh.scvt(spacing=lambda p: p, raster_steps=8)
+
+
+def test_areas_are_as_wanted():
+    points = np.random.default_rng(3).normal(size=(400, 3))
+    wanted = 1 + 0.5 * np.sign(points[:, 0])
+    found = rondel.mesh.partition(points, wanted)
+    assert found.end in ("converged", "rounded")
+    assert np.allclose(found.areas, wanted * 4 * np.pi / wanted.sum(), rtol=1e-10)
+    assert found.weights.min() == 1
+    octant = np.abs(points)
+    assert rondel.mesh.partition(octant).end == "infeasible"
+    with pytest.raises(rondel.InvalidInput, match="not positive"):
+        rondel.mesh.partition(points, points[:, 0] + 1)

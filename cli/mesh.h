@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// The commands of `rondel mesh`, one file each, and what they share.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "rondel/mesh.h"
+#include "rondel/mesh_io.h"
+#include "rondel/mesh_quality.h"
+
+namespace rondel::cli {
+
+struct MeshConvertOptions {
+  CommonOptions common;  ///< INPUT: sites or a mesh; output, --format, threads
+  mesh::NetcdfKind kind = mesh::NetcdfKind::cdf5;
+  std::string graph;   ///< --graph; empty: not written
+  std::string report;  ///< --report; empty: not written
+  double radius = 1;   ///< --sphere-radius
+  bool allow_zero_edges = false;
+};
+
+struct MeshQualityOptions {
+  CommonOptions common;  ///< INPUT: sites or a mesh
+  std::string picture;   ///< --picture; empty: not written
+  /// --require: a name of quality_value() and its bound.
+  std::vector<std::pair<std::string, double>> required;
+};
+
+ExitStatus run_mesh_convert(const MeshConvertOptions& options);
+ExitStatus run_mesh_quality(const MeshQualityOptions& options);
+
+/// The mesh of a file, of .nc by read_mesh(), of sites by arrays(). \throws FileError with the place of a site
+mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
+                                    const mesh::MeshOptions& options);
+/// Writes the mesh in the format of --format, or of the ending: nc is mpas, exo exodus.
+void write_mesh(const CommonOptions& common, const mesh::MeshArrays& arrays, mesh::NetcdfKind kind,
+                const Job& job);
+/// \throws UsageError for a format that write_mesh() does not have
+void require_mesh_output(const CommonOptions& common);
+
+/// What the commands that write a mesh have: --output, --format, --kind, --graph, --sphere-radius, --report.
+void add_mesh_output_options(CLI::App& parser, MeshConvertOptions& options);
+
+Command add_mesh_convert_command(CLI::App& mesh);
+Command add_mesh_quality_command(CLI::App& mesh);
+
+}  // namespace rondel::cli

@@ -1,0 +1,66 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "mesh.h"
+#include "process.h"
+#include "report.h"
+
+namespace rondel::cli {
+
+Command add_mesh_convert_command(CLI::App& mesh) {
+  auto options = std::make_shared<MeshConvertOptions>();
+  CLI::App* parser = mesh.add_subcommand("convert", "Write the mesh of sites, or of another file");
+  add_input_options(*parser, options->common);
+  add_mesh_output_options(*parser, *options);
+  parser->add_flag("--allow-zero-edges", options->allow_zero_edges,
+                   "Accept sites on one circle, whose cells meet in one point: MPAS's edges have\n"
+                   "length 0 there, by which models divide; in other formats it is one corner");
+  add_threads_option(*parser, options->common);
+  add_report_options(*parser, options->common);
+  parser->footer(
+      "INPUT may be a mesh as well, .nc: MPAS, or UGRID, SCRIP and ESMF, which are made\n"
+      "again of the centers of their cells. The sites have to surround the center of the sphere,\n"
+      "each in a place of its own.\n\n"
+      "Examples:\n"
+      "  rondel mesh convert sites.csv -o mesh.nc --graph graph.info --sphere-radius 6371229\n"
+      "  rondel mesh convert sites.npy -o mesh.nc --format ugrid\n"
+      "  rondel mesh convert mesh.nc -o mesh.exo");
+  return {parser, [options] { return run_mesh_convert(*options); }};
+}
+
+ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
+  const CommonOptions& common = options.common;
+  require_mesh_output(common);
+  Job job(common);
+  const mesh::MeshArrays arrays = read_mesh_or_sites(
+      job, common, {.radius = options.radius, .allow_zero_edges = options.allow_zero_edges});
+  job.time(Stage::write, [&] {
+    write_mesh(common, arrays, options.kind, job);
+    if (!options.graph.empty()) mesh::write_graph(options.graph, arrays, job.execution());
+  });
+  if (!options.report.empty()) {
+    write_file(options.report, mesh::quality_json(mesh::quality(arrays, job.execution())));
+  }
+  const Seconds seconds = job.seconds();
+  const nlohmann::ordered_json json = {{"cells", arrays.num_cells()},
+                                       {"edges", arrays.num_edges()},
+                                       {"vertices", arrays.num_vertices()},
+                                       {"max_edges", arrays.max_edges()},
+                                       {"seconds",
+                                        {{"read", seconds.read},
+                                         {"mesh", seconds.dual},
+                                         {"write", seconds.write},
+                                         {"total", seconds.total}}},
+                                       {"peak_memory_bytes", peak_memory_bytes()}};
+  job.report(json.dump(2) + '\n', count(arrays.num_cells(), "cell", "cells") + ", " +
+                                      count(arrays.num_edges(), "edge", "edges") + ", " +
+                                      count(arrays.num_vertices(), "vertex", "vertices") +
+                                      "\nwrote the mesh to " + common.output + '\n');
+  return done;
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,129 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Sites that are moved or weighted, spacings of any numbers, and files of lines and spacings. Each has an answer that
+// keeps its promises, or a message.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "fuzz/fuzz_input.h"
+#include "fuzz/scratch_folder.h"
+#include "rondel/error.h"
+#include "rondel/mesh_partition.h"
+#include "rondel/mesh_size_files.h"
+#include "rondel/point_sets.h"
+#include "rondel/scvt.h"
+
+namespace rondel::fuzz {
+namespace {
+
+const ScratchFolder& scratch() {
+  static const ScratchFolder made;
+  return made;
+}
+
+void test_sites(ByteSource& source) {
+  const std::vector<Point> sites = all_sites(source, 24, next_scales(source));
+  try {
+    double last = 0;
+    mesh::ScvtOptions options{.max_iterations = 20};
+    options.seen = [&](const mesh::ScvtStep& step) {
+      require(step.iteration == 0 || step.energy <= last + 1e-12, "the energy does not grow");
+      last = step.energy;
+    };
+    const mesh::Scvt made = mesh::relaxed(sites, options, {.threads = 1});
+    require(made.sites.size() == sites.size(), "a site for each");
+    require(!mesh::name_of(made.end).empty(), "an end");
+    require(mesh::energy_over_hexagons(made.last.energy, sites.size()) > 0, "an energy");
+  } catch (const InvalidInput& error) {
+    require(error.index() < std::max<std::size_t>(sites.size(), 1), "an index in range");
+  }
+  try {
+    std::vector<double> targets;
+    if (source.byte() % 2 == 0) {
+      for (std::size_t i = 0; i < sites.size(); ++i) targets.push_back(1 + source.byte());
+      double sum = 0;
+      for (const double target : targets) sum += target;
+      for (double& target : targets) target *= 12.566370614359172 / sum;
+    }
+    const mesh::AreaPartition made =
+        mesh::area_partition(sites, targets, {.max_steps = 20}, {.threads = 1});
+    require(made.weights.size() == sites.size(), "a weight for each");
+    require(!mesh::name_of(made.end).empty(), "an end");
+  } catch (const InvalidInput&) {
+  }
+}
+
+void test_sizes(ByteSource& source) {
+  try {
+    const std::vector<double> lon = {source.finite_double(), source.finite_double()};
+    const std::vector<double> lat = {source.finite_double(), source.finite_double()};
+    const std::vector<double> four = {source.finite_double(), 0.5, 1, source.finite_double()};
+    mesh::SizeFunction::from_grid(lon, lat, four, 4);
+  } catch (const InvalidInput&) {
+  }
+  try {
+    const double base = 0.05 + 0.01 * source.byte();
+    const mesh::SizeFunction size = mesh::SizeFunction::from_function(
+        [&](std::span<const Point> places, std::span<double> out) {
+          for (std::size_t i = 0; i < places.size(); ++i) out[i] = base + 0.001 * source.byte();
+        },
+        8);
+    const std::vector<Point> line = all_sites(source, 4, Scales::near);
+    const mesh::SizeFunction limited =
+        size.refined(mesh::densified(line, 0.1), 0.04, 0.01 * source.byte())
+            .limited(0.01 * source.byte())
+            .scaled(1);
+    require(limited.smallest() <= limited.largest() && limited.count() > 0, "a size");
+    const Point place{0.3, -0.5, 0.2};
+    require(limited.density(place) <= 1 && limited.spacing(place) > 0, "a spacing");
+    (void)mesh::scvt({.count = 12 + source.below(20), .size = limited, .max_iterations = 10},
+                     {.threads = 1});
+    (void)mesh::SizeFunction::constant(source.finite_double(), 2);
+  } catch (const InvalidInput&) {
+  }
+}
+
+void test_point_sets(ByteSource& source) {
+  try {
+    (void)mesh::icosahedral_points(static_cast<unsigned>(source.below(3)), {.threads = 1});
+    (void)mesh::healpix_points(source.below(6));
+    (void)mesh::reduced_gaussian_points(source.below(6));
+    (void)mesh::cubed_sphere_points(source.below(6));
+    (void)mesh::poisson_disk_points(0.2 + 0.005 * source.byte(), source.byte(), {.threads = 1});
+  } catch (const InvalidInput&) {
+  }
+}
+
+void test_files(std::string_view bytes) {
+  for (const char* name : {"any.geojson", "any.csv", "any.nc"}) {
+    const std::string path = scratch().file(name);
+    std::ofstream(path, std::ios::binary) << bytes;
+    try {
+      (void)mesh::read_refinement(path, 0.1, {.threads = 1});
+    } catch (const FileError&) {
+    } catch (const InvalidInput&) {
+    }
+    try {
+      (void)mesh::read_spacings(path, "h", 1, 2, {.threads = 1});
+    } catch (const FileError&) {
+    } catch (const InvalidInput&) {
+    }
+  }
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  rondel::fuzz::ByteSource source(data, size);
+  rondel::fuzz::test_sites(source);
+  rondel::fuzz::test_sizes(source);
+  rondel::fuzz::test_point_sets(source);
+  rondel::fuzz::test_files({reinterpret_cast<const char*>(data), size});
+  return 0;
+}
