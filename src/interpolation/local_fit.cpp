@@ -43,6 +43,11 @@ constexpr double largest_gradient_weight = 0x1p500;
 RONDEL_ALWAYS_INLINE inline double larger(double a, double b) { return a < b ? b : a; }
 RONDEL_ALWAYS_INLINE inline double smaller(double a, double b) { return b < a ? b : a; }
 
+// Without a branch.
+RONDEL_ALWAYS_INLINE inline bool both(bool a, bool b) {
+  return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0;
+}
+
 // The moments of degree s begin here, a^s first.
 RONDEL_ALWAYS_INLINE constexpr std::size_t first_of(std::size_t s) { return (s * (s + 1)) / 2 - 3; }
 constexpr std::size_t num_moments = first_of(7);
@@ -210,8 +215,9 @@ RONDEL_ALWAYS_INLINE inline void set_weights(Fit& fit) {
   RONDEL_KEEP_LOOP for (std::size_t i = 0; i < lanes; ++i) {
     fit.shear[i] = ab[i] / aa[i];
     const double rest = bb[i] - fit.shear[i] * ab[i];
-    const bool is_plane = (rest > (least_thickness * least_thickness) * aa[i]) &
-                          (rest > least_remainder * bb[i]) & (fit.scale[i] >= least_scale);
+    const bool is_plane = both(
+        both(rest > (least_thickness * least_thickness) * aa[i], rest > least_remainder * bb[i]),
+        fit.scale[i] >= least_scale);
     fit.is_found[i] = is_plane ? 1.0 : 0.0;
     fit.round_a[i] = 1 / std::sqrt(aa[i]);
     fit.round_b[i] = 1 / std::sqrt(is_plane ? rest : 1.0);

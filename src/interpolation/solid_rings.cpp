@@ -69,9 +69,9 @@ SolidStars::SolidStars(const Ground& ground, unsigned threads) {
 }
 
 // Open addressing with linear probing in slots of another time, or of indices found at this one.
-class SolidRings::Slots {
+class SolidRings::SeenSlots {
  public:
-  Slots(std::vector<std::uint64_t>& slots, std::uint32_t time)
+  SeenSlots(std::vector<std::uint64_t>& slots, std::uint32_t time)
       : slots_(slots.data()), mask_(slots.size() - 1), time_(std::uint64_t{time} << 32) {}
 
   // 1 if it was not there, or 0.
@@ -103,7 +103,7 @@ void SolidRings::make_room(std::size_t more) {
   std::size_t size = std::max(least_slots, slots_.size());
   while (size < 2 * most) size *= 2;
   slots_.assign(size, 0);
-  const Slots slots(slots_, time_);
+  const SeenSlots slots(slots_, time_);
   for (std::size_t k = 0; k < size_; ++k) slots.insert(found_[k]);
 }
 
@@ -112,7 +112,7 @@ void SolidRings::make_room(std::size_t more) {
 void SolidRings::add_star(Index v) {
   const std::span<const Index> star = stars_[v];
   make_room(star.size());
-  const Slots slots(slots_, time_);
+  const SeenSlots slots(slots_, time_);
   Index* const found = found_.data();
   std::size_t size = size_;
   for (const Index w : star) {
@@ -130,7 +130,7 @@ std::span<const Index> SolidRings::find(Index v, unsigned rings) {
   size_ = 1;
   make_room(0);
   found_[0] = v;
-  Slots(slots_, time_).insert(v);
+  SeenSlots(slots_, time_).insert(v);
   std::size_t next = 0;
   for (unsigned ring = 0; ring < rings; ++ring) {
     const std::size_t end = size_;

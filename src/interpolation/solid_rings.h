@@ -42,7 +42,7 @@ class SolidRings {
   std::span<const Index> find(Index v, unsigned rings);
 
  private:
-  class Slots;
+  class SeenSlots;
   void make_room(std::size_t more);
   void add_star(Index v);
 
