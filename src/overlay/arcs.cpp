@@ -38,7 +38,9 @@ Sign crossing_order(const Point& y, const Point& z, const Point& p, const Point&
 
 std::span<const PieceArc> ArcMaker::operator()(Index cell) {
   arcs_.clear();
+  points_.clear();
   passages_.clear();
+  passed_ = 0;
   arrivals_.clear();
   visited_.clear();
   follow_boundary(cell);
@@ -50,23 +52,27 @@ std::span<const PieceArc> ArcMaker::operator()(Index cell) {
 
 void ArcMaker::follow_boundary(Index cell) {
   for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
-    for (Halfedge h = cells_.rings[ring]; h < cells_.rings[ring + 1]; ++h) {
-      const Halfedge next = h + 1 == cells_.rings[ring + 1] ? cells_.rings[ring] : h + 1;
+    const Halfedge end = cells_.rings[ring + 1];
+    const auto first = static_cast<Index>(points_.size());
+    for (Halfedge h = cells_.rings[ring]; h < end; ++h) {
       const Crossings::EdgeTrace& trace = crossings_.trace_of(h);
       const auto crossings = crossings_.of(trace);
       Index beyond = trace.start;
-      Point from = cells_.origin(h);
+      Index from = add_point(cells_.origin(h));
       for (std::size_t k = 0; k < crossings.size(); ++k) {
         const EdgeCrossing& crossing = crossings[trace.is_backwards ? crossings.size() - 1 - k : k];
         const Halfedge twin = cover_.twins[crossing.out];
         const Halfedge out = trace.is_backwards ? twin : crossing.out;
         const Halfedge in = trace.is_backwards ? crossing.out : twin;
-        arcs_.push_back({beyond, no_index, from, crossing.point});
-        passages_.push_back({std::min(out, in), out, h, crossing.point});
-        from = crossing.point;
+        const Index to = add_point(crossing.point);
+        arcs_.push_back({beyond, no_index, from, to});
+        passages_.push_back({std::min(out, in), out, h, to});
+        passed_ |= digits_of(std::min(out, in));
+        from = to;
         beyond = cover_.cell_of[in];
       }
-      arcs_.push_back({beyond, no_index, from, cells_.origin(next)});
+      arcs_.push_back(
+          {beyond, no_index, from, h + 1 == end ? first : static_cast<Index>(points_.size())});
     }
   }
 }
@@ -101,13 +107,13 @@ void ArcMaker::follow_inwards() {
   for (std::size_t k = 0; k < passages_.size(); ++k) {
     const Passage& passage = passages_[k];
     if (passage.out != passage.edge) {  // inside is before it
-      add_edge(passage.edge, cover_.origin(passage.edge), passage.point);
+      add_edge(passage.edge, add_point(cover_.origin(passage.edge)), passage.point);
       arrive(passage.out);
     } else if (k + 1 < passages_.size() && passages_[k + 1].edge == passage.edge) {
       add_edge(passage.edge, passage.point, passages_[k + 1].point);
       ++k;
     } else {
-      add_edge(passage.edge, passage.point, cover_.end(passage.edge));
+      add_edge(passage.edge, passage.point, add_point(cover_.end(passage.edge)));
       arrive(passage.out);
     }
   }
@@ -122,7 +128,7 @@ void ArcMaker::flood() {
     do {
       const Halfedge edge = std::min(h, cover_.twins[h]);
       if (!has_passage(edge)) {
-        if (h == edge) add_edge(h, cover_.origin(h), cover_.end(h));
+        if (h == edge) add_edge(h, add_point(cover_.origin(h)), add_point(cover_.end(h)));
         arrive(h);
       }
       h = cover_.twins[cover_.previous(h)];
@@ -130,7 +136,7 @@ void ArcMaker::flood() {
   }
 }
 
-void ArcMaker::add_edge(Halfedge h, const Point& from, const Point& to) {
+void ArcMaker::add_edge(Halfedge h, Index from, Index to) {
   arcs_.push_back({cover_.cell_of[h], cover_.cell_of[cover_.twins[h]], from, to});
 }
 
@@ -139,6 +145,7 @@ void ArcMaker::arrive(Halfedge h) {
 }
 
 bool ArcMaker::has_passage(Halfedge edge) const {
+  if ((passed_ & digits_of(edge)) == 0) return false;
   constexpr std::size_t few = 12;
   if (passages_.size() <= few) {
     return std::ranges::any_of(passages_,

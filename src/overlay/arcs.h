@@ -10,6 +10,7 @@
 // left bound the piece of b; edges of the cover bound two.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -24,8 +25,8 @@ namespace rondel::overlay {
 struct PieceArc {
   Index left;   // the cell of the cover
   Index right;  // the same of an edge of the cover; no_index of the cell's boundary
-  Point from;
-  Point to;
+  Index from;   // of points()
+  Index to;
 };
 
 // Of the cells [first_cell, end_cell).
@@ -37,6 +38,7 @@ class ArcMaker {
   // All arcs of a cell that has a ring: first those of its boundary, in order. The result lives until the
   // next call.
   std::span<const PieceArc> operator()(Index cell);
+  [[nodiscard]] std::span<const Point> points() const { return points_; }
 
  private:
   // Where the boundary leaves a cell of the cover.
@@ -44,7 +46,7 @@ class ArcMaker {
     Halfedge edge;  // the lower one of `out` and its twin
     Halfedge out;
     Halfedge by;  // of the cell
-    Point point;
+    Index point;  // of points_
   };
 
   void follow_boundary(Index cell);
@@ -52,15 +54,22 @@ class ArcMaker {
   [[nodiscard]] bool is_before(const Passage& a, const Passage& b) const;
   void follow_inwards();
   void flood();
-  void add_edge(Halfedge h, const Point& from, const Point& to);
+  Index add_point(const Point& p) {
+    points_.push_back(p);
+    return static_cast<Index>(points_.size() - 1);
+  }
+  void add_edge(Halfedge h, Index from, Index to);
   void arrive(Halfedge h);
   [[nodiscard]] bool has_passage(Halfedge edge) const;
+  static std::uint64_t digits_of(Halfedge edge) { return std::uint64_t{1} << edge % 64; }
 
   const Subdivision& cells_;
   const Subdivision& cover_;
   Crossings crossings_;
   std::vector<PieceArc> arcs_;
+  std::vector<Point> points_;
   std::vector<Passage> passages_;
+  std::uint64_t passed_ = 0;        // digits_of() the edges that have passages
   std::vector<Halfedge> arrivals_;  // their ends are inside, and wait
   query::VisitedSet visited_;       // points of the cover
 };

@@ -5,6 +5,13 @@
 
 namespace rondel::overlay {
 
+Halfedge CoverWalk::way_out_by_steps(const TracedLine& line, Index cell) const {
+  Halfedge h = cover_.begin_of(cell);
+  while (line.is_left(cover_.origin(h))) h = cover_.next(h);
+  while (!line.is_left(cover_.end(h))) h = cover_.next(h);
+  return h;
+}
+
 // Through the triangles of the center c and each halfedge, from that which has the start or that behind
 // `in`. With c to the left, the line turns counterclockwise around it. Sides of triangles by which
 // it leaves have their origin right and their end left.

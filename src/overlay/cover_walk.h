@@ -5,6 +5,9 @@
 // exactly, with the cover turned as signs.h says.
 #pragma once
 
+#include <algorithm>
+#include <bit>
+
 #include "overlay/signs.h"
 #include "overlay/subdivision.h"
 
@@ -21,7 +24,7 @@ class CoverWalk {
     if (cover_.num_halfedges() == 0 || line.is_point()) return cell;
     Halfedge in = no_index;  // the halfedge by which the cell was entered
     for (;;) {
-      const Halfedge out = cover_.shapes[cell] == Shape::convex ? way_out(line, cell, in)
+      const Halfedge out = cover_.shapes[cell] == Shape::convex ? way_out(line, cell)
                                                                 : way_out_of_star(line, cell, in);
       if (out == no_index) return cell;
       const CoverEdge edge(cover_.origin(out), cover_.end(out));
@@ -33,25 +36,28 @@ class CoverWalk {
   }
 
  private:
+  static constexpr Index most_at_once = 8;  // corners: most cells of diagrams have no more
+
   // The halfedge whose origin is right of the line and whose end is left of it.
-  [[nodiscard]] Halfedge way_out(const TracedLine& line, Index cell, Halfedge in) const {
+  [[nodiscard]] Halfedge way_out(const TracedLine& line, Index cell) const {
     const Index begin = cover_.begin_of(cell);
-    const Index end = cover_.end_of(cell);
-    const auto next = [&](Halfedge h) { return h + 1 == end ? begin : h + 1; };
-    Halfedge h = in;
-    if (in == no_index) {
-      h = begin;
-      while (line.is_left(cover_.origin(h))) h = next(h);
-    } else {
-      h = next(in);  // its origin is right
+    const Index size = cover_.end_of(cell) - begin;
+    if (size <= most_at_once) {
+      // A bit for each corner, without a branch: which way it goes cannot be guessed.
+      unsigned left = 0;
+      bool is_sure = true;
+      for (Index k = 0; k < most_at_once; ++k) {
+        const double value = line.rough_side(cover_.origin(begin + std::min(k, size - 1)));
+        is_sure &= line.is_sure(value);
+        left |= static_cast<unsigned>(value > 0) << k;
+      }
+      left &= (1U << size) - 1;
+      const unsigned left_ends = left >> 1 | (left & 1) << (size - 1);
+      if (is_sure) return begin + static_cast<Index>(std::countr_zero(left_ends & ~left));
     }
-    Halfedge after = next(h);
-    while (!line.is_left(cover_.origin(after))) {
-      h = after;
-      after = next(h);
-    }
-    return h;
+    return way_out_by_steps(line, cell);
   }
+  [[nodiscard]] Halfedge way_out_by_steps(const TracedLine& line, Index cell) const;
 
   // The same, or no_index where the line ends before.
   [[nodiscard]] Halfedge way_out_of_star(const TracedLine& line, Index cell, Halfedge in) const;

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "overlay/pieces.h"
@@ -14,61 +16,82 @@
 
 namespace rondel::overlay {
 
-// make(first, end) makes what the work on these cells needs; of it operator()(cell) gives pieces, with `area` and `moment`, in the order of
-// column(piece), of a cell that has a ring.
+// Pieces of some cells, in the order of the cells.
+struct RowBlock {
+  std::vector<Index> counts;  // of each cell
+  std::vector<Index> columns;
+  std::vector<Index> places;
+  std::vector<double> areas;
+  std::vector<Point> moments;
+};
+
+inline constexpr std::size_t cells_per_row_block = 1024;
+
+// By blocks one after the other: what is near on the sphere is near in memory then.
+inline std::vector<double> column_sums(std::span<const RowBlock> blocks,
+                                       std::span<const Index> names) {
+  std::vector<exact::DoubleDouble> sums(names.size());
+  for (const RowBlock& block : blocks) {
+    for (std::size_t k = 0; k < block.places.size(); ++k) {
+      add_term(block.areas[k], sums[block.places[k]]);
+    }
+  }
+  std::vector<double> result(names.size());
+  for (std::size_t k = 0; k < names.size(); ++k) result[names[k]] = sums[k].hi + sums[k].lo;
+  return result;
+}
+
+// make(first, end) makes what the work on these cells needs; of it operator()(cell) gives pieces, with `area` and
+// `moment`, in the order of column(piece), of a cell that has a ring. column(piece) is names[place(piece)].
 template <class Make>
-PieceRows gathered_rows(const Subdivision& cells, bool has_moments, const Execution& execution,
-                        const Make& make) {
-  constexpr std::size_t cells_per_block = 1024;
-  struct RowBlock {
-    std::vector<Index> counts;  // of each cell
-    std::vector<Index> columns;
-    std::vector<double> areas;
-    std::vector<Point> moments;
-  };
+PieceRows gathered_rows(const Subdivision& cells, std::span<const Index> names, bool has_moments,
+                        const Execution& execution, const Make& make) {
   const std::size_t n = cells.num_cells();
-  std::vector<RowBlock> blocks(system::num_pieces(n, cells_per_block));
+  std::vector<RowBlock> blocks(system::num_pieces(n, cells_per_row_block));
   PieceRows result;
   result.offsets.assign(n + 1, 0);
+  result.row_sums.assign(n, 0);
   system::StageProgress progress(execution.progress, "cut", blocks.size());
-  system::parallel_for(execution.threads, n, cells_per_block,
+  system::parallel_for(execution.threads, n, cells_per_row_block,
                        [&](std::size_t begin, std::size_t end) {
-                         RowBlock& block = blocks[begin / cells_per_block];
+                         RowBlock& block = blocks[begin / cells_per_row_block];
                          auto maker = make(static_cast<Index>(begin), static_cast<Index>(end));
                          for (std::size_t c = begin; c < end; ++c) {
                            const auto cell = static_cast<Index>(c);
                            Index count = 0;
+                           exact::DoubleDouble sum{};
                            if (cells.shapes[c] != Shape::empty) {
                              for (const auto& piece : maker(cell)) {
                                block.columns.push_back(maker.column(piece));
+                               block.places.push_back(maker.place(piece));
                                block.areas.push_back(piece.area);
                                if (has_moments) block.moments.push_back(piece.moment);
+                               add_term(piece.area, sum);
                                ++count;
                              }
                            }
                            block.counts.push_back(count);
                            result.offsets[cells.names[c] + std::size_t{1}] = count;
+                           result.row_sums[cells.names[c]] = sum.hi + sum.lo;
                          }
                          progress.step();
                        });
   for (std::size_t i = 0; i < n; ++i) result.offsets[i + 1] += result.offsets[i];
+  result.column_sums = column_sums(blocks, names);
   result.columns.resize(result.offsets[n]);
   result.areas.resize(result.offsets[n]);
   if (has_moments) result.moments.resize(result.offsets[n]);
   system::parallel_for(
-      execution.threads, n, cells_per_block, [&](std::size_t begin, std::size_t end) {
-        RowBlock block = std::move(blocks[begin / cells_per_block]);
-        std::size_t from = 0;
+      execution.threads, n, cells_per_row_block, [&](std::size_t begin, std::size_t end) {
+        RowBlock block = std::move(blocks[begin / cells_per_row_block]);
+        auto from = std::ptrdiff_t{0};
         for (std::size_t c = begin; c < end; ++c) {
-          const std::size_t to = result.offsets[cells.names[c]];
-          const std::size_t size = block.counts[c - begin];
-          std::copy_n(block.columns.begin() + static_cast<std::ptrdiff_t>(from), size,
-                      result.columns.begin() + static_cast<std::ptrdiff_t>(to));
-          std::copy_n(block.areas.begin() + static_cast<std::ptrdiff_t>(from), size,
-                      result.areas.begin() + static_cast<std::ptrdiff_t>(to));
+          const auto to = static_cast<std::ptrdiff_t>(result.offsets[cells.names[c]]);
+          const Index size = block.counts[c - begin];
+          std::copy_n(block.columns.begin() + from, size, result.columns.begin() + to);
+          std::copy_n(block.areas.begin() + from, size, result.areas.begin() + to);
           if (has_moments) {
-            std::copy_n(block.moments.begin() + static_cast<std::ptrdiff_t>(from), size,
-                        result.moments.begin() + static_cast<std::ptrdiff_t>(to));
+            std::copy_n(block.moments.begin() + from, size, result.moments.begin() + to);
           }
           from += size;
         }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -80,7 +81,8 @@ class GridPieceMaker {
     std::ranges::sort(pieces_, {}, &GridPiece::cell);
     return pieces_;
   }
-  [[nodiscard]] Index column(const GridPiece& piece) const { return piece.cell; }
+  static Index column(const GridPiece& piece) { return piece.cell; }
+  static Index place(const GridPiece& piece) { return piece.cell; }
 
  private:
   // What is south of the arcs differs from the cell's area by the sphere's if the pole is in the cell.
@@ -174,9 +176,12 @@ PieceRows pieces(const PartitionData& cells, const Graticule& grid, bool has_mom
                            places[i] = walk.place_of(subdivision.points[i]);
                          }
                        });
-  return gathered_rows(subdivision, has_moments, execution, [&](Index /*first*/, Index /*end*/) {
-    return GridPieceMaker(cells, grid, places, has_moments);
-  });
+  LargeVector<Index> boxes(grid.num_cells());
+  std::iota(boxes.begin(), boxes.end(), Index{0});
+  return gathered_rows(subdivision, boxes, has_moments, execution,
+                       [&](Index /*first*/, Index /*end*/) {
+                         return GridPieceMaker(cells, grid, places, has_moments);
+                       });
 }
 
 }  // namespace rondel::overlay

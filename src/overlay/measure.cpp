@@ -7,25 +7,34 @@
 
 namespace rondel::overlay {
 
-// Triangles around the first corner, or, for large regions, the direction of the center of mass. Where
+namespace {
+
+// Whether no triangle is large.
+bool add_triangles(std::span<const BorderArc> border, const Point& origin, double& area) {
+  const LocalAxes axes(origin);
+  bool is_any_large = false;
+  for (const auto& [from, to] : border) {
+    const Triangle triangle(axes.place_of(from), axes.place_of(to));
+    is_any_large |= triangle.is_large();
+    area += triangle.area();
+  }
+  return !is_any_large;
+}
+
+}  // namespace
+
+// Triangles around a point nearby, or, for large regions, the direction of the center of mass. Where
 // the moment is nothing but rounding, so is the area.
-Measures measures_of(std::span<const BorderArc> border) {
+Measures measures_of(std::span<const BorderArc> border, const Point& nearby) {
   Measures result;
-  if (border.empty()) return result;
-  Point origin = border.front().from;
-  bool is_large = false;
   for (const auto& [from, to] : border) {
     result.moment = result.moment + moment_of_arc(from, to);
     result.length += rough_length(from, to);
-    is_large |= is_far(origin, from);
   }
-  if (is_large) {
-    if (norm(result.moment) <= 4 * predicates::unit_roundoff * result.length) return result;
-    origin = normalized(result.moment);
-  }
-  for (const auto& [from, to] : border) {
-    if (from != origin && to != origin) result.area += Triangle(origin, from, to).area();
-  }
+  if (add_triangles(border, nearby, result.area)) return result;
+  result.area = 0;
+  if (norm(result.moment) <= 4 * predicates::unit_roundoff * result.length) return result;
+  add_triangles(border, normalized(result.moment), result.area);
   return result;
 }
 

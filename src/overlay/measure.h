@@ -16,17 +16,41 @@
 
 namespace rondel::overlay {
 
-// The triangle (o, p, q). With P = p-o and S = q-p
+// Of a point p, as seen from a point o: (x, y, z) = p - o along three axes, of which the third one is o.
+using Place = exact::Vector3<double>;
+
+// Axes at o: those of the coordinates, turned from the nearer pole to o along the shortest way.
+class LocalAxes {
+ public:
+  explicit LocalAxes(const Point& o) : o_(o) {
+    const double pole = o.z < 0 ? -1 : 1;
+    const double scale = -1 / (pole + o.z);
+    const double mixed = o.x * o.y * scale;
+    x_ = {1 + pole * o.x * o.x * scale, pole * mixed, -pole * o.x};
+    y_ = {mixed, pole + o.y * o.y * scale, -o.y};
+  }
+  // Of points of the sphere, so that z follows from the distance.
+  [[nodiscard]] Place place_of(const Point& p) const {
+    const Point step = p - o_;
+    return {dot(x_, step), dot(y_, step), -0.5 * dot(step, step)};
+  }
+
+ private:
+  Point o_;
+  Point x_{};
+  Point y_{};
+};
+
+// The triangle (o, p, q), where p and q are given by their places. With S = q - p
 //
-//     tan(area / 2) = o.(P x S) / (1 + o.p + p.q + q.o),    o.p = 1 - |P|^2 / 2 ...
+//     tan(area / 2) = o.(P x S) / (1 + o.p + p.q + q.o),    o.p = 1 + z(p), p.q = 1 - |S|^2 / 2.
 class Triangle {
  public:
-  Triangle(const Point& o, const Point& p, const Point& q) {
-    const Point to_p = p - o;
-    const Point to_q = q - o;
-    const Point side = q - p;
-    above_ = dot(o, cross(to_p, side));
-    below_ = 4 - (dot(to_p, to_p) + dot(to_q, to_q) + dot(side, side)) / 2;
+  Triangle(const Place& p, const Place& q) {
+    const Place side = q - p;
+    above_ = p.x * side.y - p.y * side.x;
+    below_ = 4 + (p.z + q.z) - 0.5 * dot(side, side);
+    length_ = std::abs(side.x) + std::abs(side.y) + std::abs(side.z);
   }
   // Negative if it is clockwise.
   [[nodiscard]] double area() const {
@@ -40,10 +64,13 @@ class Triangle {
   }
   // Whether sides are longer than a radian or so: its area may be ill-defined.
   [[nodiscard]] bool is_large() const { return below_ < 2.5; }
+  // How long the side from p to q is, or up to sqrt(3) times that.
+  [[nodiscard]] double rough_length() const { return length_; }
 
  private:
   double above_;
   double below_;
+  double length_;
 };
 
 // The arc's share of the first moment, the integral of q over a region: half of that of q x dq along its
@@ -86,9 +113,6 @@ void drop_rounding(std::vector<Piece>& pieces) {
   }
 }
 
-// Triangles with corners much farther from their first one may be ill-defined.
-inline bool is_far(const Point& p, const Point& q) { return dot(p, q) < 0.5; }
-
 struct BorderArc {
   Point from;
   Point to;
@@ -98,7 +122,7 @@ struct Measures {
   double length = 0;  // roughly
   Point moment{};
 };
-// Of a region that fits into a hemisphere, by all arcs of its border.
-Measures measures_of(std::span<const BorderArc> border);
+// Of a region that fits into a hemisphere, by all arcs of its border, and a point not far from most regions'.
+Measures measures_of(std::span<const BorderArc> border, const Point& nearby);
 
 }  // namespace rondel::overlay

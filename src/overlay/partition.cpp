@@ -39,7 +39,7 @@ PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned thre
               {subdivision_.origin(h), subdivision_.origin(h == last ? first : h + 1)});
         }
       }
-      const Measures measures = measures_of(border);
+      const Measures measures = measures_of(border, subdivision_.centers[c]);
       areas_[subdivision_.names[c]] = measures.area;
       moments_[subdivision_.names[c]] = measures.moment;
     }

@@ -4,6 +4,7 @@
 #include "overlay/pieces.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "overlay/arcs.h"
@@ -25,13 +26,16 @@ class PieceMaker {
  public:
   PieceMaker(const Subdivision& cells, const Subdivision& cover, Index first_cell, Index end_cell,
              bool has_moments)
-      : cover_(cover), arcs_(cells, cover, first_cell, end_cell), has_moments_(has_moments) {}
+      : cells_(cells),
+        cover_(cover),
+        arcs_(cells, cover, first_cell, end_cell),
+        has_moments_(has_moments) {}
   // Of a cell that has a ring, in the order of the columns.
   std::span<const MeasuredPiece> operator()(Index cell) {
     constexpr std::size_t many = 128;
     pieces_.clear();
     const std::span<const PieceArc> arcs = arcs_(cell);
-    if (arcs.size() > many || !add_all(arcs)) {
+    if (arcs.size() > many || !add_all(arcs, cells_.centers[cell])) {
       pieces_.clear();
       add_by_piece(arcs);
     }
@@ -42,45 +46,55 @@ class PieceMaker {
   [[nodiscard]] Index column(const MeasuredPiece& piece) const {
     return cover_.names[piece.beyond];
   }
+  static Index place(const MeasuredPiece& piece) { return piece.beyond; }
 
  private:
-  // Triangles of each arc and the first corner, which count for both sides of an edge. Corners are rounded by
+  // Triangles of each arc and the cell's center, which count for both sides of an edge. Corners are rounded by
   // more than a triangle is, if it is not large: whether none is.
-  bool add_all(std::span<const PieceArc> arcs) {
-    const Point& origin = arcs.front().from;
-    std::size_t last = 0;
+  bool add_all(std::span<const PieceArc> arcs, const Point& center) {
+    const LocalAxes axes(center);
+    const auto points = arcs_.points();
+    places_.clear();
+    for (const Point& p : points) places_.push_back(axes.place_of(p));
+    bool is_any_large = false;
     for (const PieceArc& arc : arcs) {
-      const Triangle triangle(origin, arc.from, arc.to);
-      if (triangle.is_large()) return false;
-      MeasuredPiece share{no_index, triangle.area(), rough_length(arc.from, arc.to)};
-      if (has_moments_) share.moment = moment_of_arc(arc.from, arc.to);
-      if (pieces_.empty() || pieces_[last].beyond != arc.left) last = find(arc.left);
-      MeasuredPiece& left = pieces_[last];
-      left.area += share.area;
-      left.length += share.length;
-      left.moment = left.moment + share.moment;
+      const Triangle triangle(places_[arc.from], places_[arc.to]);
+      is_any_large |= triangle.is_large();
+      const double area = triangle.area();
+      MeasuredPiece& left = piece_of(arc.left);
+      left.area += area;
+      left.length += triangle.rough_length();
+      Point moment{};
+      if (has_moments_) {
+        moment = moment_of_arc(points[arc.from], points[arc.to]);
+        left.moment = left.moment + moment;
+      }
       if (arc.right == no_index) continue;
-      MeasuredPiece& right = pieces_[find(arc.right)];
-      right.area -= share.area;
-      right.length += share.length;
-      right.moment = right.moment - share.moment;
+      MeasuredPiece& right = piece_of(arc.right);
+      right.area -= area;
+      right.length += triangle.rough_length();
+      if (has_moments_) right.moment = right.moment - moment;
     }
-    return true;
+    return !is_any_large;
   }
-  std::size_t find(Index beyond) {
-    for (std::size_t k = 0; k < pieces_.size(); ++k) {
-      if (pieces_[k].beyond == beyond) return k;
-    }
-    pieces_.push_back({beyond});
-    return pieces_.size() - 1;
+  // Where it was or would be is remembered by the last digits, which neighbors seldom share.
+  MeasuredPiece& piece_of(Index beyond) {
+    Index& known = known_[beyond % known_.size()];
+    if (known < pieces_.size() && pieces_[known].beyond == beyond) return pieces_[known];
+    const auto there = std::ranges::find(pieces_, beyond, &MeasuredPiece::beyond);
+    known = static_cast<Index>(there - pieces_.begin());
+    if (there == pieces_.end()) pieces_.push_back({beyond});
+    return pieces_[known];
   }
 
   // The same for each piece by itself.
   void add_by_piece(std::span<const PieceArc> arcs) {
     sides_.clear();
     for (const PieceArc& arc : arcs) {
-      sides_.push_back({arc.left, {arc.from, arc.to}});
-      if (arc.right != no_index) sides_.push_back({arc.right, {arc.to, arc.from}});
+      const Point& from = arcs_.points()[arc.from];
+      const Point& to = arcs_.points()[arc.to];
+      sides_.push_back({arc.left, {from, to}});
+      if (arc.right != no_index) sides_.push_back({arc.right, {to, from}});
     }
     std::ranges::stable_sort(sides_, {}, &Side::beyond);
     for (std::size_t k = 0; k < sides_.size();) {
@@ -89,7 +103,7 @@ class PieceMaker {
       for (; k < sides_.size() && sides_[k].beyond == beyond; ++k) {
         border_.push_back(sides_[k].arc);
       }
-      const auto [area, length, moment] = measures_of(border_);
+      const auto [area, length, moment] = measures_of(border_, border_.front().from);
       pieces_.push_back({beyond, area, length, moment});
     }
   }
@@ -98,9 +112,12 @@ class PieceMaker {
     BorderArc arc;
   };
 
+  const Subdivision& cells_;
   const Subdivision& cover_;
   ArcMaker arcs_;
   bool has_moments_;
+  std::array<Index, 64> known_{};
+  std::vector<Place> places_;
   std::vector<Side> sides_;
   std::vector<BorderArc> border_;
   std::vector<MeasuredPiece> pieces_;
@@ -110,13 +127,30 @@ class PieceMaker {
 
 PieceRows pieces(const Subdivision& cells, const Subdivision& cover, bool has_moments,
                  const Execution& execution) {
-  return gathered_rows(cells, has_moments, execution, [&](Index first, Index end) {
+  return gathered_rows(cells, cover.names, has_moments, execution, [&](Index first, Index end) {
     return PieceMaker(cells, cover, first, end, has_moments);
   });
 }
 
+void find_sums(PieceRows& pieces, std::size_t num_columns) {
+  std::vector<exact::DoubleDouble> of_columns(num_columns);
+  pieces.row_sums.assign(pieces.offsets.size() - 1, 0);
+  for (std::size_t row = 0; row < pieces.row_sums.size(); ++row) {
+    exact::DoubleDouble of_row{};
+    for (std::uint64_t k = pieces.offsets[row]; k < pieces.offsets[row + 1]; ++k) {
+      add_term(pieces.areas[k], of_row);
+      add_term(pieces.areas[k], of_columns[pieces.columns[k]]);
+    }
+    pieces.row_sums[row] = of_row.hi + of_row.lo;
+  }
+  pieces.column_sums.clear();
+  for (const exact::DoubleDouble& sum : of_columns) pieces.column_sums.push_back(sum.hi + sum.lo);
+}
+
 PieceRows transposed(const PieceRows& pieces, std::size_t num_columns) {
   PieceRows result;
+  result.row_sums = pieces.column_sums;
+  result.column_sums = pieces.row_sums;
   result.offsets.assign(num_columns + 1, 0);
   for (const Index column : pieces.columns) ++result.offsets[column + std::size_t{1}];
   for (std::size_t i = 0; i < num_columns; ++i) result.offsets[i + 1] += result.offsets[i];

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "exact/eft.h"
 #include "overlay/subdivision.h"
 #include "rondel/types.h"
 
@@ -18,7 +19,17 @@ struct PieceRows {
   std::vector<Index> columns;
   std::vector<double> areas;
   std::vector<Point> moments;  // empty unless asked for
+  // Of the areas, in twice the precision and then rounded; empty where find_sums() is still to be called.
+  std::vector<double> row_sums;
+  std::vector<double> column_sums;
 };
+
+// A sum and its error so far: a cell may have a thousand pieces.
+inline void add_term(double term, exact::DoubleDouble& sum) {
+  const exact::DoubleDouble next = exact::two_sum(sum.hi, term);
+  sum = {next.hi, sum.lo + next.lo};
+}
+void find_sums(PieceRows& pieces, std::size_t num_columns);
 
 // Pieces not larger than what rounding of their corners may be are left out.
 PieceRows pieces(const Subdivision& cells, const Subdivision& cover, bool has_moments,

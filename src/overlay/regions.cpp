@@ -39,20 +39,22 @@ struct NamedArc {
 std::vector<NamedArc> arcs_of(const Subdivision& cells, const Subdivision& cover,
                               const Execution& execution) {
   std::vector<std::vector<NamedArc>> blocks(system::num_pieces(cells.num_cells(), cells_per_block));
-  system::parallel_for(
-      execution.threads, cells.num_cells(), cells_per_block,
-      [&](std::size_t begin, std::size_t end) {
-        overlay::ArcMaker make(cells, cover, static_cast<Index>(begin), static_cast<Index>(end));
-        for (std::size_t c = begin; c < end; ++c) {
-          if (cells.shapes[c] == overlay::Shape::empty) continue;
-          for (const overlay::PieceArc& arc : make(static_cast<Index>(c))) {
-            auto& block = blocks[begin / cells_per_block];
-            block.push_back({cells.names[c], cover.names[arc.left], arc.from, arc.to});
-            if (arc.right == no_index) continue;
-            block.push_back({cells.names[c], cover.names[arc.right], arc.to, arc.from});
-          }
-        }
-      });
+  system::parallel_for(execution.threads, cells.num_cells(), cells_per_block,
+                       [&](std::size_t begin, std::size_t end) {
+                         overlay::ArcMaker make(cells, cover, static_cast<Index>(begin),
+                                                static_cast<Index>(end));
+                         for (std::size_t c = begin; c < end; ++c) {
+                           if (cells.shapes[c] == overlay::Shape::empty) continue;
+                           for (const overlay::PieceArc& arc : make(static_cast<Index>(c))) {
+                             auto& block = blocks[begin / cells_per_block];
+                             const Point& from = make.points()[arc.from];
+                             const Point& to = make.points()[arc.to];
+                             block.push_back({cells.names[c], cover.names[arc.left], from, to});
+                             if (arc.right == no_index) continue;
+                             block.push_back({cells.names[c], cover.names[arc.right], to, from});
+                           }
+                         }
+                       });
   std::vector<NamedArc> all;
   for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
   return all;

@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "exact/eft.h"
 #include "exact/vector.h"
 #include "overlay/graticule_pieces.h"
 #include "overlay/partition_data.h"
@@ -17,6 +16,7 @@
 #include "overlay/slopes_of_cells.h"
 #include "rondel/error.h"
 #include "system/job.h"
+#include "system/parallel.h"
 
 namespace rondel {
 namespace {
@@ -90,6 +90,7 @@ void drop_masked(const RemapOptions& options, PieceRows& pieces) {
   pieces.columns.resize(kept);
   pieces.areas.resize(kept);
   if (!pieces.moments.empty()) pieces.moments.resize(kept);
+  pieces.row_sums.clear();
 }
 
 void require_mask(const char* name, const std::vector<std::int32_t>& mask, std::size_t num_cells) {
@@ -100,37 +101,12 @@ void require_mask(const char* name, const std::vector<std::int32_t>& mask, std::
                      0);
 }
 
-struct CoveredSums {
-  std::vector<double> of_sources;
-  std::vector<Point> moments_of_sources;
-  std::vector<double> of_targets;
-};
-
-// A sum and its error so far: a cell may have a thousand pieces.
-void add(double term, exact::DoubleDouble& sum) {
-  const exact::DoubleDouble next = exact::two_sum(sum.hi, term);
-  sum = {next.hi, sum.lo + next.lo};
-}
-
-CoveredSums sums_of(const Remap& remap, const std::vector<Point>& moments,
-                    std::size_t num_sources) {
-  CoveredSums sums;
-  std::vector<exact::DoubleDouble> of_sources(num_sources);
-  sums.moments_of_sources.resize(moments.empty() ? 0 : num_sources);
-  sums.of_targets.resize(remap.offsets.size() - 1);
-  for (std::size_t j = 0; j < sums.of_targets.size(); ++j) {
-    exact::DoubleDouble of_target{};
-    for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
-      const Index i = remap.columns[k];
-      add(remap.areas[k], of_target);
-      add(remap.areas[k], of_sources[i]);
-      if (!moments.empty()) {
-        sums.moments_of_sources[i] = sums.moments_of_sources[i] + moments[k];
-      }
-    }
-    sums.of_targets[j] = of_target.hi + of_target.lo;
+std::vector<Point> column_moments(const PieceRows& pieces, std::size_t num_columns) {
+  std::vector<Point> sums(num_columns);
+  for (std::size_t k = 0; k < pieces.moments.size(); ++k) {
+    Point& sum = sums[pieces.columns[k]];
+    sum = sum + pieces.moments[k];
   }
-  for (const exact::DoubleDouble& sum : of_sources) sums.of_sources.push_back(sum.hi + sum.lo);
   return sums;
 }
 
@@ -188,16 +164,21 @@ void join(std::vector<Term>& terms, Weights& weights) {
 }
 
 // The columns of a row are different, and increase.
-Weights mean_weights(const Remap& remap, const std::vector<double>& target_areas) {
+Weights mean_weights(const Remap& remap, const std::vector<double>& target_areas,
+                     unsigned threads) {
   Weights weights;
   weights.offsets = remap.offsets;
-  weights.columns = remap.columns;
-  weights.values.reserve(remap.areas.size());
-  for (std::size_t j = 0; j < target_areas.size(); ++j) {
-    for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
-      weights.values.push_back(remap.areas[k] / target_areas[j]);
-    }
-  }
+  weights.columns.resize(remap.columns.size());
+  weights.values.resize(remap.areas.size());
+  system::parallel_for(threads, target_areas.size(), overlay::cells_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t j = begin; j < end; ++j) {
+                           for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
+                             weights.columns[k] = remap.columns[k];
+                             weights.values[k] = remap.areas[k] / target_areas[j];
+                           }
+                         }
+                       });
   return weights;
 }
 
@@ -238,33 +219,35 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
   require_mask("source", options.source_mask, source.num_cells());
   require_mask("target", options.target_mask, target.num_cells());
   PieceRows pieces = overlay_of(sources, targets, is_second, execution);
+  const std::size_t num_sources = source.num_cells();
   drop_masked(options, pieces);
+  if (pieces.row_sums.empty()) find_sums(pieces, num_sources);
   Remap result;
+  if (!is_second) pieces.moments.clear();
+  const std::vector<Point> moments_of_sources = column_moments(pieces, num_sources);
   result.offsets = std::move(pieces.offsets);
   result.columns = std::move(pieces.columns);
   result.areas = std::move(pieces.areas);
-  const std::size_t num_sources = source.num_cells();
-  const CoveredSums sums = sums_of(result, pieces.moments, num_sources);
-  result.source_areas = areas_of(sums.of_sources, sources.areas());
-  result.target_areas = areas_of(sums.of_targets, targets.areas());
-  result.source_fractions = fractions(sums.of_sources, result.source_areas);
-  result.target_fractions = fractions(sums.of_targets, result.target_areas);
+  result.source_areas = areas_of(pieces.column_sums, sources.areas());
+  result.target_areas = areas_of(pieces.row_sums, targets.areas());
+  result.source_fractions = fractions(pieces.column_sums, result.source_areas);
+  result.target_fractions = fractions(pieces.row_sums, result.target_areas);
 
   overlay::CellGradients gradients;
   if (is_second) {
     std::vector<Point> means(num_sources);
     std::vector<Point> centers(num_sources);
     for (std::size_t i = 0; i < num_sources; ++i) {
-      if (sums.of_sources[i] > 0) means[i] = sums.moments_of_sources[i] / sums.of_sources[i];
+      if (pieces.column_sums[i] > 0) means[i] = moments_of_sources[i] / pieces.column_sums[i];
       if (sources.areas()[i] > 0) centers[i] = sources.moments()[i] / sources.areas()[i];
     }
     result.moments = moments_around(means, result, std::move(pieces.moments));
     gradients = cell_gradients(sources, centers, options.source_mask, execution.threads);
   }
   const std::vector<double>& areas =
-      options.norm == RemapNorm::fracarea ? sums.of_targets : result.target_areas;
-  result.weights =
-      is_second ? linear_weights(result, gradients, areas) : mean_weights(result, areas);
+      options.norm == RemapNorm::fracarea ? pieces.row_sums : result.target_areas;
+  result.weights = is_second ? linear_weights(result, gradients, areas)
+                             : mean_weights(result, areas, execution.threads);
   result.weights.num_columns = num_sources;
   return result;
 }

@@ -12,9 +12,10 @@
 // is of second order is at most of order d^2.
 #pragma once
 
+#include <cmath>
+
 #include "exact/vector.h"
 #include "predicates/bounds.h"
-#include "predicates/rung.h"
 #include "rondel/predicates.h"
 #include "rondel/types.h"
 
@@ -27,28 +28,39 @@ Sign turned_point_sign(const Point& a, const Point& b, const Point& y);
 // The sign of det(x, y, z).
 Sign turned_edge_sign(const Point& x, const Point& y, const Point& z);
 
+// The product of p, or of y, with a step between two points, as good as unit vectors: their cross
+// product is off by u (1 + 2 sqrt(2)) |step|, and its scalar product with a third one by 3 u |step| more: 6.9 u.
+// With a difference to one of the first two, at most 2 long, for the third, it is 2 (6.9 u + u).
+inline constexpr double line_bound = 8 * predicates::unit_roundoff;
+inline constexpr double edge_bound = 18 * predicates::unit_roundoff;
+
+// At least the length, unless that is so small that products may underflow: then too much for any value.
+inline double size_of_step(const Vec& step) {
+  constexpr double least_size = 0x1p-400;
+  constexpr double too_much = 1e300;
+  const double size = std::abs(step.x) + std::abs(step.y) + std::abs(step.z);
+  return size > least_size ? size : too_much;
+}
+
 // The great circle from p to q, two points that are not turned.
 class TracedLine {
  public:
   TracedLine(const Point& p, const Point& q)
       : p_(p), q_(q), step_(exact::to_vector(q) - exact::to_vector(p)) {
     normal_ = cross(exact::to_vector(p), step_);
-    const double square = dot(step_, step_);
-    limit_ = square > predicates::least_squared_length
-                 ? bound * bound * dot(exact::to_vector(p), exact::to_vector(p)) * square
-                 : too_much;
+    limit_ = line_bound * size_of_step(step_);
   }
 
   // Whether a point of the cover is to the left.
   [[nodiscard]] bool is_left(const Point& y) const {
-    const Vec from = exact::to_vector(y) - exact::to_vector(p_);
-    const double value = dot(normal_, from);
-    const double square = dot(from, from);
-    if (value * value > limit_ * square && square > predicates::least_squared_length) {
-      return value > 0;
-    }
-    return turned_point_sign(p_, q_, y) == Sign::positive;
+    const double value = rough_side(y);
+    return is_sure(value) ? value > 0 : turned_point_sign(p_, q_, y) == Sign::positive;
   }
+  // Positive on the left, negative on the right, if it is_sure().
+  [[nodiscard]] double rough_side(const Point& y) const {
+    return dot(normal_, exact::to_vector(y));
+  }
+  [[nodiscard]] bool is_sure(double rough_side) const { return std::abs(rough_side) > limit_; }
 
   // Whether both points are on one ray from the center: no point is to the left then.
   [[nodiscard]] bool is_point() const {
@@ -61,9 +73,6 @@ class TracedLine {
   [[nodiscard]] const Vec& step() const { return step_; }
 
  private:
-  static constexpr double bound = predicates::orientation_bound;
-  static constexpr double too_much = 1e300;
-
   Point p_;
   Point q_;
   Vec step_;
@@ -80,26 +89,19 @@ class CoverEdge {
   }
 
   // How far x, which is not turned, is to the left of it, times its length.
-  [[nodiscard]] double distance(const Point& x) const { return dot(normal_, from(x)); }
+  [[nodiscard]] double distance(const Point& x) const {
+    return dot(normal_, exact::to_vector(x) - exact::to_vector(y_));
+  }
   [[nodiscard]] const Point& start() const { return y_; }
   [[nodiscard]] const Point& end() const { return z_; }
   [[nodiscard]] double squared_length() const { return dot(step_, step_); }
   [[nodiscard]] bool is_left(const Point& x) const {
-    const Vec from = this->from(x);
-    const double value = dot(normal_, from);
-    const double ray_square = dot(exact::to_vector(y_), exact::to_vector(y_));
-    if (predicates::is_beyond(value, predicates::orientation_bound, ray_square, dot(step_, step_),
-                              dot(from, from))) {
-      return value > 0;
-    }
+    const double value = distance(x);
+    if (std::abs(value) > edge_bound * size_of_step(step_)) return value > 0;
     return turned_edge_sign(x, y_, z_) == Sign::positive;
   }
 
  private:
-  [[nodiscard]] Vec from(const Point& x) const {
-    return exact::to_vector(x) - exact::to_vector(y_);
-  }
-
   const Point& y_;
   const Point& z_;
   Vec step_;
