@@ -64,8 +64,8 @@ struct AreaPartition {
 /// 2. Where there are such weights, they are unique but for a common factor.
 /// 3. What is infeasible ends as such, and `worst` says where it shows. Sites in one hemisphere always
 ///    are.
-/// \throws InvalidInput (first bad index) if a site is not finite or the center, or two are in one
-///         place; if targets are not one for each site, not positive, or do not add up to 4 pi within 1e-6
+/// \throws InvalidInput (first bad index) if there are no sites, one is not finite or the center, or two
+///         are in one place; if targets are not one for each site, not positive, or do not add up to 4 pi within 1e-6
 ///         of it (they are scaled to that).
 RONDEL_API AreaPartition area_partition(std::span<const Point> sites,
                                         std::span<const double> targets = {},

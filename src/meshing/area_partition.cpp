@@ -240,12 +240,12 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
                              const AreaPartitionOptions& options, const Execution& execution) {
   const system::ArithmeticScope arithmetic;
   const std::vector<Point> units = unit_sites(sites);
+  if (units.empty()) throw InvalidInput("there are no sites", 0);
   require_distinct(units, execution);
   const Newton newton(units, scaled_targets(targets, sites.size()), execution);
   AreaPartition result;
   result.weights.assign(sites.size(), 1);
-  std::optional<Weighted> now;
-  if (!sites.empty()) now = newton.measure(result.weights);
+  std::optional<Weighted> now = newton.measure(result.weights);
   if (!now) {
     result.end = PartitionEnd::infeasible;
     result.poles = units;

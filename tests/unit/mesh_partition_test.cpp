@@ -109,6 +109,7 @@ TEST(mesh_partition, stop_and_too_few_steps_leave_weights) {
 
 TEST(mesh_partition, what_is_no_partition_is_refused) {
   std::vector<Point> sites = icosahedron();
+  EXPECT_THROW((void)area_partition({}), InvalidInput);
   EXPECT_THROW((void)area_partition(sites, std::vector<double>(11, whole / 11)), InvalidInput);
   EXPECT_THROW((void)area_partition(sites, std::vector<double>(12, 1)), InvalidInput);
   std::vector<double> targets(12, whole / 11);
