@@ -75,7 +75,7 @@ class SolidRings::SeenSlots {
       : slots_(slots.data()), mask_(slots.size() - 1), time_(std::uint64_t{time} << 32) {}
 
   // 1 if it was not there, or 0.
-  std::size_t insert(Index v) const {
+  std::size_t insert(Index v) {
     const std::uint64_t key = time_ | v;
     std::size_t i = v & mask_;
     while (is_another(slots_[i], key)) i = (i + 1) & mask_;
@@ -103,7 +103,7 @@ void SolidRings::make_room(std::size_t more) {
   std::size_t size = std::max(least_slots, slots_.size());
   while (size < 2 * most) size *= 2;
   slots_.assign(size, 0);
-  const SeenSlots slots(slots_, time_);
+  SeenSlots slots(slots_, time_);
   for (std::size_t k = 0; k < size_; ++k) slots.insert(found_[k]);
 }
 
@@ -112,7 +112,7 @@ void SolidRings::make_room(std::size_t more) {
 void SolidRings::add_star(Index v) {
   const std::span<const Index> star = stars_[v];
   make_room(star.size());
-  const SeenSlots slots(slots_, time_);
+  SeenSlots slots(slots_, time_);
   Index* const found = found_.data();
   std::size_t size = size_;
   for (const Index w : star) {
