@@ -48,7 +48,7 @@ std::vector<LonLat> corners_of_rings(const CellRings& cells) {
 }
 
 CellSide side_of_grid(const std::string& name, const RemapCommandOptions& options, const Job& job) {
-  WeightSide side = read_targets(name, {}).side;
+  WeightSide side = grid_side(name);
   add_grid_cells(side);
   try {
     return {Partition::lonlat_grid(lonlat_grid(name), options.sides, job.execution()),

@@ -42,6 +42,8 @@ struct Targets {
 };
 /// \throws UsageError for a grid that there cannot be, FileError
 Targets read_targets(const std::string& name, const ReadOptions& read);
+// The centers of a grid's cells.
+WeightSide grid_side(const std::string& name);
 /// Corners and areas of the cells, if the targets are a grid.
 void add_grid_cells(WeightSide& side);
 /// The lines of "grid:DEG" or "grid:NLONxNLAT". \throws UsageError

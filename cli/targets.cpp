@@ -99,12 +99,18 @@ std::vector<double> grid_areas(const GridSize& size) {
 
 }  // namespace
 
+WeightSide grid_side(const std::string& name) {
+  const GridSize size = grid_size(name);
+  WeightSide side;
+  side.points = grid_points(size);
+  side.shape = {size.num_lat, size.num_lon};
+  return side;
+}
+
 Targets read_targets(const std::string& name, const ReadOptions& read) {
   Targets targets;
   if (name.starts_with("grid:")) {
-    const GridSize size = grid_size(name);
-    targets.side.points = grid_points(size);
-    targets.side.shape = {size.num_lat, size.num_lon};
+    targets.side = grid_side(name);
     targets.table.name = name;
     targets.table.first_line = 0;
     targets.table.sites = unit_vectors(targets.side.points);

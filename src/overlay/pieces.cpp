@@ -96,7 +96,7 @@ class PieceMaker {
       sides_.push_back({arc.left, {from, to}});
       if (arc.right != no_index) sides_.push_back({arc.right, {to, from}});
     }
-    std::ranges::stable_sort(sides_, {}, &Side::beyond);
+    std::ranges::stable_sort(sides_, {}, &SideOfPiece::beyond);
     for (std::size_t k = 0; k < sides_.size();) {
       border_.clear();
       const Index beyond = sides_[k].beyond;
@@ -107,7 +107,7 @@ class PieceMaker {
       pieces_.push_back({beyond, area, length, moment});
     }
   }
-  struct Side {
+  struct SideOfPiece {
     Index beyond;
     BorderArc arc;
   };
@@ -118,7 +118,7 @@ class PieceMaker {
   bool has_moments_;
   std::array<Index, 64> known_{};
   std::vector<Place> places_;
-  std::vector<Side> sides_;
+  std::vector<SideOfPiece> sides_;
   std::vector<BorderArc> border_;
   std::vector<MeasuredPiece> pieces_;
 };
