@@ -7,8 +7,9 @@
 Weights of order 1 from N cells to a grid of NLON x NLON/2 cells between true parallels, in memory, one process, one thread.
 Both get the same corners as doubles, in arrays. Programs run in turns, with sites of their own each time. Prints a
 JSON object: medians of the seconds in which each takes the cells (YAC's basic grids; Rondel's partitions, with areas) and
-makes weights of them (YAC: its exchange, search and weights, which its interface does not separate); the number of weights,
-and how much they differ at most, with how many differ by more than 1e-11. Pairs that one lacks count as 0 there. Needs rondel, yac, netCDF4.
+makes weights of them (YAC: its exchange, search and weights, which its interface does not separate); the number of weights;
+of pairs that both have, how much they differ at most; of others, how many there are and the greatest weight. Needs rondel,
+yac, netCDF4, SciPy.
 """
 
 import json
@@ -82,11 +83,16 @@ def main():
         if turn > 0:  # the first one has waited for memory
             for name, seconds in zip(times, (grids, search, taken, overlay), strict=True):
                 times[name].append(seconds)
-    difference = np.abs((ours.tocsr() - read_yac(theirs, ours.shape)).data)
+    ours, theirs = scipy.sparse.csr_array(ours.tocsr()), read_yac(theirs, ours.shape)
+    difference = abs(ours - theirs)
+    of_common = difference.multiply(ours != 0).multiply(theirs != 0)
+    of_one = difference - of_common
+    of_one.eliminate_zeros()
     medians = {name: statistics.median(seconds) for name, seconds in times.items()}
-    print(json.dumps({"cells": count, "targets": nlon * (nlon // 2), "weights": len(ours.data)} | medians
+    print(json.dumps({"cells": count, "targets": nlon * (nlon // 2), "weights": ours.nnz} | medians
                      | {"ratio": medians["yac_weights"] / medians["rondel_weights"],
-                        "greatest_difference": difference.max(), "beyond_1e-11": int((difference > 1e-11).sum())}))
+                        "greatest_difference": of_common.max(), "of_one_alone": of_one.nnz,
+                        "greatest_of_one_alone": of_one.max()}))
 
 
 if __name__ == "__main__":
