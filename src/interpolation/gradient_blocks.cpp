@@ -51,7 +51,7 @@ void GradientBlocks::fit(std::span<const Index> members) {
 
 void GradientBlocks::add_neighbors(std::size_t lane, std::size_t i) {
   const auto v = static_cast<Index>(begin_ + i);
-  const exact::SplitPoint& x = ground_.unit(v);
+  const exact::SplitPoint x = ground_.unit(v);  // a copy: what is written below is not of it
   Index* const neighbors = neighbors_.data() + starts_[i];
   const std::size_t count = most_neighbors(i);
   std::size_t num_near = 0;
