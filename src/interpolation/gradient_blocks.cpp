@@ -19,10 +19,9 @@ constexpr std::size_t num_sizes = 64;
 
 }  // namespace
 
-GradientBlocks::GradientBlocks(const Ground& ground, const SolidStars& stars, unsigned rings,
+GradientBlocks::GradientBlocks(const Ground& ground, SolidRings& finder, unsigned rings,
                                std::size_t begin, std::size_t end)
     : ground_(ground), begin_(begin), num_near_(end - begin), order_(end - begin) {
-  SolidRings finder(stars);
   neighbors_.reserve(usual_neighbors * (end - begin));
   starts_.reserve(end - begin + 1);
   for (std::size_t v = begin; v < end; ++v) {

@@ -84,16 +84,14 @@ PlaceGradients::PlaceGradients(const Ground& ground, const GradientOptions& opti
                                const PlaceValues& values, unsigned threads,
                                std::vector<std::uint8_t>& has_gradient)
     : num_fields_(values.num_fields()) {
-  const SolidStars stars(ground, threads);
   const std::size_t n = ground.num_vertices();
   by_vertex_.assign(num_fields_ * n, Point{});
   has_gradient.assign(n, 0);
-  system::parallel_for(threads, n, GradientBlocks::vertices_per_piece,
-                       [&](std::size_t begin, std::size_t end) {
-                         GradientBlocks blocks(ground, stars, options.rings, begin, end);
-                         estimate_blocks(blocks, values, begin, &by_vertex_[begin * num_fields_],
-                                         &has_gradient[begin]);
-                       });
+  for_each_range_of_blocks(
+      ground, options.rings, threads, [&](GradientBlocks& blocks, std::size_t begin) {
+        estimate_blocks(blocks, values, begin, &by_vertex_[begin * num_fields_],
+                        &has_gradient[begin]);
+      });
   if (std::ranges::find(has_gradient, 0) == has_gradient.end()) has_gradient.clear();
 }
 
