@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // laws_bench N [--seed S]: how far weights are from their laws, for about N sites of several kinds and
-// as many targets: random ones, sites, middles of edges, circumcenters. One JSON object a line: the
-// largest |sum of weights - 1| over 2^-52, over the sum of absolute weights where they have signs, and
-// the largest length of u x (sum of weights times sites).
+// as many targets: random ones, sites, middles of edges, points exactly on edges, circumcenters. One JSON
+// object a line: the number of rows, and of those with two weights; the largest |sum of weights - 1| over
+// 2^-52, over the sum of absolute weights where they have signs, and the largest length of
+// u x (sum of weights times sites).
 
 #include <algorithm>
 #include <array>
@@ -38,6 +39,18 @@ Point scaled_sum(const Point& a, const Point& b) {
   return {sum.x / length, sum.y / length, sum.z / length};
 }
 
+bool is_exact(double a, double b) {
+  const double sum = a + b;
+  return sum - a == b && sum - b == a;
+}
+
+// a + b, whose ray is exactly on the edge, where no coordinate is rounded: of one edge in a few dozen.
+void append_if_on_edge(const Point& a, const Point& b, std::vector<Point>& targets) {
+  if (is_exact(a.x, b.x) && is_exact(a.y, b.y) && is_exact(a.z, b.z)) {
+    targets.push_back({a.x + b.x, a.y + b.y, a.z + b.z});
+  }
+}
+
 std::vector<Point> targets_of(const rondel::Triangulation& triangulation, bool is_patch,
                               std::size_t n, std::uint64_t seed) {
   const auto sites = triangulation.sites().points();
@@ -48,8 +61,12 @@ std::vector<Point> targets_of(const rondel::Triangulation& triangulation, bool i
     if (targets.size() >= 3 * n) break;
     targets.push_back(scaled_sum(sites[a], sites[b]));
   }
+  for (const auto& [a, b] : rondel::edges(triangulation)) {
+    append_if_on_edge(sites[a], sites[b], targets);
+  }
+  const std::size_t most = targets.size() + n;
   for (const Point& p : rondel::circumcenters(triangulation)) {
-    if (targets.size() >= 4 * n) break;
+    if (targets.size() >= most) break;
     targets.push_back(p);
   }
   return targets;
@@ -63,9 +80,11 @@ void print_laws(const rondel::Interpolator& interpolator, const char* kind, Meth
   double unity = 0;
   double direction = 0;
   std::size_t rows = 0;
+  std::size_t rows_of_two = 0;
   for (std::size_t t = 0; t < targets.size(); ++t) {
     if (weights.offsets[t] == weights.offsets[t + 1]) continue;
     ++rows;
+    if (weights.offsets[t + 1] - weights.offsets[t] == 2) ++rows_of_two;
     double sum = 0;
     double absolute = 0;
     std::array<long double, 3> place{};
@@ -82,12 +101,14 @@ void print_laws(const rondel::Interpolator& interpolator, const char* kind, Meth
     const std::array<long double, 3> off = {u.y * place[2] - u.z * place[1],
                                             u.z * place[0] - u.x * place[2],
                                             u.x * place[1] - u.y * place[0]};
-    const long double square = off[0] * off[0] + off[1] * off[1] + off[2] * off[2];
+    const long double square =
+        (off[0] * off[0] + off[1] * off[1] + off[2] * off[2]) / (u.x * u.x + u.y * u.y + u.z * u.z);
     unity = std::max(unity, std::abs(sum - 1) / absolute / 0x1p-52);
     direction = std::max(direction, static_cast<double>(std::sqrt(square)));
   }
-  std::printf(R"({"kind": "%s", "sites": %zu, "method": "%s", "rows": %zu, "unity_ulp": %.3g)",
-              kind, sites.size(), name, rows, unity);
+  std::printf(R"({"kind": "%s", "sites": %zu, "method": "%s", "rows": %zu, "of_two": %zu, )"
+              R"("unity_ulp": %.3g)",
+              kind, sites.size(), name, rows, rows_of_two, unity);
   // Hermite's method and the cubic do not promise it.
   if (method < Method::hermite) std::printf(R"(, "direction": %.3g)", direction);
   std::printf("}\n");

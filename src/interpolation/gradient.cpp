@@ -90,13 +90,11 @@ GradientRows joined(const std::vector<GradientRows>& pieces, unsigned threads) {
 
 GradientRows gradient_rows(const Ground& ground, const GradientOptions& options, unsigned threads) {
   constexpr std::size_t grain = GradientBlocks::vertices_per_piece;
-  const SolidStars stars(ground, threads);
-  const std::size_t n = ground.num_vertices();
-  std::vector<GradientRows> pieces(system::num_pieces(n, grain));
-  system::parallel_for(threads, n, grain, [&](std::size_t begin, std::size_t end) {
-    GradientBlocks blocks(ground, stars, options.rings, begin, end);
-    pieces[begin / grain] = rows_of(blocks, begin);
-  });
+  std::vector<GradientRows> pieces(system::num_pieces(ground.num_vertices(), grain));
+  for_each_range_of_blocks(ground, options.rings, threads,
+                           [&](GradientBlocks& blocks, std::size_t begin) {
+                             pieces[begin / grain] = rows_of(blocks, begin);
+                           });
   return joined(pieces, threads);
 }
 

@@ -19,10 +19,9 @@ constexpr std::size_t num_sizes = 64;
 
 }  // namespace
 
-GradientBlocks::GradientBlocks(const Ground& ground, const SolidStars& stars, unsigned rings,
+GradientBlocks::GradientBlocks(const Ground& ground, SolidRings& finder, unsigned rings,
                                std::size_t begin, std::size_t end)
     : ground_(ground), begin_(begin), num_near_(end - begin), order_(end - begin) {
-  SolidRings finder(stars);
   neighbors_.reserve(usual_neighbors * (end - begin));
   starts_.reserve(end - begin + 1);
   for (std::size_t v = begin; v < end; ++v) {
@@ -51,7 +50,7 @@ void GradientBlocks::fit(std::span<const Index> members) {
 
 void GradientBlocks::add_neighbors(std::size_t lane, std::size_t i) {
   const auto v = static_cast<Index>(begin_ + i);
-  const exact::SplitPoint& x = ground_.unit(v);
+  const exact::SplitPoint x = ground_.unit(v);  // a copy: what is written below is not of it
   Index* const neighbors = neighbors_.data() + starts_[i];
   const std::size_t count = most_neighbors(i);
   std::size_t num_near = 0;

@@ -8,13 +8,16 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
+#include "bulk/builder_pool.h"
 #include "interpolation/ground.h"
 #include "interpolation/local_fit.h"
 #include "interpolation/solid_rings.h"
 #include "rondel/types.h"
+#include "system/parallel.h"
 
 namespace rondel::interpolation {
 
@@ -24,7 +27,7 @@ class GradientBlocks {
   // So many vertices are one thread's work at a time: what they need fits the fastest cache.
   static constexpr std::size_t vertices_per_piece = 256;
 
-  GradientBlocks(const Ground& ground, const SolidStars& stars, unsigned rings, std::size_t begin,
+  GradientBlocks(const Ground& ground, SolidRings& finder, unsigned rings, std::size_t begin,
                  std::size_t end);
 
   [[nodiscard]] std::size_t size() const { return starts_.size() - 1; }
@@ -60,5 +63,22 @@ class GradientBlocks {
   std::vector<Index> order_;
   LocalFits fits_;
 };
+
+// Calls work(blocks, begin) for the ranges of all vertices, in parallel.
+template <class Work>
+void for_each_range_of_blocks(const Ground& ground, unsigned rings, unsigned threads,
+                              const Work& work) {
+  const SolidStars stars(ground, threads);
+  bulk::BuilderPool<SolidRings> finders;
+  system::parallel_for(threads, ground.num_vertices(), GradientBlocks::vertices_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         finders.with_builder([&] { return std::make_unique<SolidRings>(stars); },
+                                              [&](SolidRings& finder) {
+                                                GradientBlocks blocks(ground, finder, rings, begin,
+                                                                      end);
+                                                work(blocks, begin);
+                                              });
+                       });
+}
 
 }  // namespace rondel::interpolation

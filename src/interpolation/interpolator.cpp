@@ -271,7 +271,8 @@ Weights Interpolator::gradient(const GradientOptions& options, const Execution& 
   if (ground.model() == Model::weighted) throw InvalidInput("weighted sites have no gradients", 0);
   Weights weights;
   if (ground.triangulation().dimension() == 2) {
-    weights = gradient_weights(ground, *impl_->gradient_rows(options, execution.threads));
+    weights = gradient_weights(ground, *impl_->gradient_rows(options, execution.threads),
+                               execution.threads);
   } else {
     weights.offsets.assign(3 * ground.num_sites() + 1, 0);
     weights.num_columns = ground.num_sites();

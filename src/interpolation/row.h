@@ -48,6 +48,12 @@ template <class K>
 concept Kernel = requires(K& kernel, const TargetPlace& place, Row& row) {
   kernel(place, row);
 };
+// Works on K::group targets at once.
+template <class K>
+concept GroupKernel = requires(K& kernel, const TargetPlace& place) {
+  kernel.begin();
+  kernel.expect(K::group, place);
+};
 template <class K>
 concept SlopeKernel = requires(K& kernel, const TargetPlace& place, SlopeRow& row) {
   kernel(place, row);

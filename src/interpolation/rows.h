@@ -67,44 +67,80 @@ inline void make_homogeneous(const Ground& /*ground*/, const exact::SplitPoint& 
 class NearestRows {
  public:
   using RowType = Row;
+  static constexpr std::size_t group = 1;
+
   explicit NearestRows(const Ground& ground) : ground_(ground) {}
-  void operator()(Index /*target*/, const Point& p, const exact::SplitPoint& /*u*/,
-                  query::Cursor& cursor, Row& row) const {
-    row.push_back({ground_.engine().nearest(p, cursor), 1});
+  void begin() const {}
+  void expect(std::size_t /*lane*/, const Point& p, const exact::SplitPoint& /*u*/,
+              query::Cursor& cursor) {
+    nearest_ = ground_.engine().nearest(p, cursor);
+  }
+  void operator()(std::size_t /*lane*/, Index /*target*/, query::Cursor& /*cursor*/,
+                  Row& row) const {
+    row.push_back({nearest_, 1});
   }
 
  private:
   const Ground& ground_;
+  Index nearest_ = no_index;
 };
+
+// So many targets a kernel works on at once.
+template <class K>
+inline constexpr std::size_t group_of = 1;
+template <GroupKernel K>
+inline constexpr std::size_t group_of<K> = K::group;
 
 template <class K>
 class KernelRows {
  public:
   using RowType = std::conditional_t<Kernel<K>, Row, SlopeRow>;
+  static constexpr std::size_t group = group_of<K>;
 
   KernelRows(const Ground& ground, const InterpolationOptions& options, FirstOutside& outside,
              K kernel)
       : ground_(ground), options_(options), outside_(outside), kernel_(std::move(kernel)) {}
 
-  void operator()(Index target, const Point& p, const exact::SplitPoint& u, query::Cursor& cursor,
-                  RowType& row) {
-    place_ = {p, u, ground_.engine().locate(p, cursor)};
-    if (place_.location.where == Where::vertex) {
-      row.push_back({place_.location.sites[0], 1});
+  // Up to `group` targets are expected, and then asked for.
+  void begin() {
+    if constexpr (GroupKernel<K>) kernel_.begin();
+  }
+  void expect(std::size_t lane, const Point& p, const exact::SplitPoint& u, query::Cursor& cursor) {
+    TargetPlace& place = places_[lane];
+    place = {p, u, ground_.engine().locate(p, cursor)};
+    if constexpr (GroupKernel<K>) {
+      if (has_weights(place)) kernel_.expect(lane, place);
+    }
+  }
+  void operator()(std::size_t lane, Index target, query::Cursor& cursor, RowType& row) {
+    const TargetPlace& place = places_[lane];
+    if (place.location.where == Where::vertex) {
+      row.push_back({place.location.sites[0], 1});
       return;
     }
-    if (place_.location.where != Where::outside) {
-      kernel_(place_, row);
-      if constexpr (!Kernel<K>) make_finite(row);
+    if (has_weights(place)) {
+      if constexpr (GroupKernel<K>) {
+        kernel_(lane, place, row);
+      } else {
+        kernel_(place, row);
+      }
+      if constexpr (!Kernel<K>) make_finite(place, row);
     }
-    if (options_.normalization == Normalization::homogeneous) make_homogeneous(ground_, u, row);
-    if (row.empty()) answer_outside(target, p, cursor, row);
+    if (options_.normalization == Normalization::homogeneous) {
+      make_homogeneous(ground_, place.unit, row);
+    }
+    if (row.empty()) answer_outside(target, place.point, cursor, row);
   }
 
  private:
+  // Not a vertex, whose row is simple, nor nothing.
+  static bool has_weights(const TargetPlace& place) {
+    return place.location.where == Where::edge || place.location.where == Where::face;
+  }
+
   // Of sites that are as close as numbers can be, products of slopes may leave the range of doubles:
   // linear there.
-  void make_finite(SlopeRow& row) const {
+  void make_finite(const TargetPlace& place, SlopeRow& row) const {
     double sum = 0;
     for (const SlopeShare& share : row) {
       sum += share.weight + (share.slope.x + share.slope.y + share.slope.z);
@@ -112,7 +148,7 @@ class KernelRows {
     if (std::isfinite(sum)) return;
     row.clear();
     Row flat;
-    LinearKernel{ground_}(place_, flat);
+    LinearKernel{ground_}(place, flat);
     for (const auto& [vertex, weight] : flat) row.push_back({vertex, weight, {}});
   }
 
@@ -128,7 +164,7 @@ class KernelRows {
   const InterpolationOptions& options_;
   FirstOutside& outside_;
   K kernel_;
-  TargetPlace place_;
+  std::array<TargetPlace, group> places_;
 };
 
 // make_rows() and make_taker() for each range of targets; taker.expect(target) some time before
@@ -144,17 +180,26 @@ void for_each_row(const Ground& ground, std::span<const Point> targets, const Ex
     auto taker = make_taker();
     typename decltype(rows)::RowType row;
     std::vector<exact::SplitPoint> units(std::min(batch_size, range.size()));
-    for (std::size_t k = 0; k < range.size(); ++k) {
+    constexpr std::size_t group = decltype(rows)::group;
+    static_assert(batch_size % group == 0);
+    for (std::size_t k = 0; k < range.size(); k += group) {
       const std::size_t in_batch = k % batch_size;
       if (in_batch == 0) {
         const auto batch = range.subspan(k, std::min(batch_size, range.size() - k));
         exact::unit_vectors(targets, batch, ground.center(), units.data());
       }
-      const std::size_t ahead = k + system::prefetch_distance;
-      if (ahead < range.size()) taker.expect(range[ahead]);
-      row.clear();
-      rows(range[k], targets[range[k]], units[in_batch], cursor, row);
-      taker.take(range[k], units[in_batch], row);
+      const auto members = range.subspan(k, std::min(group, range.size() - k));
+      rows.begin();
+      for (std::size_t lane = 0; lane < members.size(); ++lane) {
+        rows.expect(lane, targets[members[lane]], units[in_batch + lane], cursor);
+      }
+      for (std::size_t lane = 0; lane < members.size(); ++lane) {
+        const std::size_t ahead = k + lane + system::prefetch_distance;
+        if (ahead < range.size()) taker.expect(range[ahead]);
+        row.clear();
+        rows(lane, members[lane], cursor, row);
+        taker.take(members[lane], units[in_batch + lane], row);
+      }
     }
     taker.finish();
     progress.step();

@@ -84,16 +84,14 @@ PlaceGradients::PlaceGradients(const Ground& ground, const GradientOptions& opti
                                const PlaceValues& values, unsigned threads,
                                std::vector<std::uint8_t>& has_gradient)
     : num_fields_(values.num_fields()) {
-  const SolidStars stars(ground, threads);
   const std::size_t n = ground.num_vertices();
   by_vertex_.assign(num_fields_ * n, Point{});
   has_gradient.assign(n, 0);
-  system::parallel_for(threads, n, GradientBlocks::vertices_per_piece,
-                       [&](std::size_t begin, std::size_t end) {
-                         GradientBlocks blocks(ground, stars, options.rings, begin, end);
-                         estimate_blocks(blocks, values, begin, &by_vertex_[begin * num_fields_],
-                                         &has_gradient[begin]);
-                       });
+  for_each_range_of_blocks(
+      ground, options.rings, threads, [&](GradientBlocks& blocks, std::size_t begin) {
+        estimate_blocks(blocks, values, begin, &by_vertex_[begin * num_fields_],
+                        &has_gradient[begin]);
+      });
   if (std::ranges::find(has_gradient, 0) == has_gradient.end()) has_gradient.clear();
 }
 
@@ -127,22 +125,35 @@ void PlaceGradients::take_means(const Ground& ground, std::span<const Point> giv
   }
 }
 
-Weights gradient_weights(const Ground& ground, const GradientRows& rows) {
+Weights gradient_weights(const Ground& ground, const GradientRows& rows, unsigned threads) {
+  const std::size_t n = ground.num_sites();
   Weights weights;
-  weights.num_columns = ground.num_sites();
-  weights.offsets.reserve(3 * ground.num_sites() + 1);
-  const auto append = [&](Index v, double Point::*coordinate) {
-    for (std::uint64_t k = rows.offsets[v]; k < rows.offsets[v + std::size_t{1}]; ++k) {
-      weights.columns.push_back(ground.name(rows.vertices[k]));
-      weights.values.push_back(rows.weights[k].*coordinate);
-    }
-    weights.offsets.push_back(weights.columns.size());
-  };
-  for (Index i = 0; i < ground.num_sites(); ++i) {
-    for (double Point::*const coordinate : {&Point::x, &Point::y, &Point::z}) {
-      append(ground.vertex_of(i), coordinate);
-    }
+  weights.num_columns = n;
+  weights.offsets.resize(3 * n + 1);
+  const auto size_of = [&](Index v) { return rows.offsets[v + std::size_t{1}] - rows.offsets[v]; };
+  for (Index i = 0; i < n; ++i) {
+    const std::uint64_t size = size_of(ground.vertex_of(i));
+    std::uint64_t* const offsets = &weights.offsets[3 * std::size_t{i}];
+    for (std::size_t c = 0; c < 3; ++c) offsets[c + 1] = offsets[c] + size;
   }
+  weights.columns.resize(weights.offsets.back());
+  weights.values.resize(weights.offsets.back());
+  system::parallel_for(threads, n, vertices_at_once, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index v = ground.vertex_of(static_cast<Index>(i));
+      const std::uint64_t size = size_of(v);
+      const std::uint64_t from = rows.offsets[v];
+      const std::uint64_t to = weights.offsets[3 * i];
+      for (std::uint64_t k = 0; k < size; ++k) {
+        const Index column = ground.name(rows.vertices[from + k]);
+        const Point& weight = rows.weights[from + k];
+        for (std::size_t c = 0; c < 3; ++c) weights.columns[to + c * size + k] = column;
+        weights.values[to + k] = weight.x;
+        weights.values[to + size + k] = weight.y;
+        weights.values[to + 2 * size + k] = weight.z;
+      }
+    }
+  });
   return weights;
 }
 

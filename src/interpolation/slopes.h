@@ -23,7 +23,7 @@ namespace rondel::interpolation {
 std::vector<std::uint8_t> vertices_with(const GradientRows& rows);
 
 // A gradient of a field at each site: three rows of it.
-Weights gradient_weights(const Ground& ground, const GradientRows& rows);
+Weights gradient_weights(const Ground& ground, const GradientRows& rows, unsigned threads);
 
 // Of each field at each vertex.
 class PlaceGradients {

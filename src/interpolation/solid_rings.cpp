@@ -12,8 +12,6 @@
 namespace rondel::interpolation {
 namespace {
 
-constexpr std::size_t least_slots = 512;
-
 // So many vertices are one thread's work at a time.
 constexpr std::size_t stars_per_piece = 4096;
 
@@ -68,69 +66,31 @@ SolidStars::SolidStars(const Ground& ground, unsigned threads) {
   }
 }
 
-// Open addressing with linear probing in slots of another time, or of indices found at this one.
-class SolidRings::SeenSlots {
- public:
-  SeenSlots(std::vector<std::uint64_t>& slots, std::uint32_t time)
-      : slots_(slots.data()), mask_(slots.size() - 1), time_(std::uint64_t{time} << 32) {}
-
-  // 1 if it was not there, or 0.
-  std::size_t insert(Index v) {
-    const std::uint64_t key = time_ | v;
-    std::size_t i = v & mask_;
-    while (is_another(slots_[i], key)) i = (i + 1) & mask_;
-    const std::uint64_t before = slots_[i];
-    slots_[i] = key;
-    return static_cast<std::size_t>(before != key);
-  }
-
- private:
-  // One branch, which is hardly ever taken.
-  [[nodiscard]] bool is_another(std::uint64_t slot, std::uint64_t key) const {
-    return (static_cast<unsigned>(slot != key) & static_cast<unsigned>(slot >= time_)) != 0;
-  }
-
-  std::uint64_t* slots_;
-  std::size_t mask_;
-  std::uint64_t time_;
-};
-
-// Room for the ends of another star. The slots are at most half full.
-void SolidRings::make_room(std::size_t more) {
-  const std::size_t most = size_ + more;
-  if (most > found_.size()) found_.resize(2 * most);
-  if (2 * most <= slots_.size()) return;
-  std::size_t size = std::max(least_slots, slots_.size());
-  while (size < 2 * most) size *= 2;
-  slots_.assign(size, 0);
-  SeenSlots slots(slots_, time_);
-  for (std::size_t k = 0; k < size_; ++k) slots.insert(found_[k]);
-}
-
 // About every second end has been found before, in no order that a processor could guess: without a
 // branch for it.
 void SolidRings::add_star(Index v) {
   const std::span<const Index> star = stars_[v];
-  make_room(star.size());
-  SeenSlots slots(slots_, time_);
+  if (size_ + star.size() > found_.size()) found_.resize(2 * (size_ + star.size()));
   Index* const found = found_.data();
+  std::uint32_t* const times = times_.data();
+  const std::uint32_t time = time_;
   std::size_t size = size_;
   for (const Index w : star) {
     found[size] = w;
-    size += slots.insert(w);
+    size += static_cast<std::size_t>(times[w] != time);
+    times[w] = time;
   }
   size_ = size;
 }
 
 std::span<const Index> SolidRings::find(Index v, unsigned rings) {
   if (++time_ == 0) {
-    std::ranges::fill(slots_, 0);
+    std::ranges::fill(times_, 0);
     time_ = 1;
   }
   size_ = 1;
-  make_room(0);
   found_[0] = v;
-  SeenSlots(slots_, time_).insert(v);
+  times_[v] = time_;
   std::size_t next = 0;
   for (unsigned ring = 0; ring < rings; ++ring) {
     const std::size_t end = size_;

@@ -24,6 +24,7 @@ class SolidStars {
   // Precondition: dimension 2.
   SolidStars(const Ground& ground, unsigned threads);
 
+  [[nodiscard]] std::size_t size() const { return offsets_.size() - 1; }
   [[nodiscard]] std::span<const Index> operator[](Index v) const {
     return {ends_.data() + offsets_[v], offsets_[v + 1] - offsets_[v]};
   }
@@ -33,23 +34,21 @@ class SolidStars {
   std::vector<Index> ends_;
 };
 
-// Finds several rings. One a thread.
+// Finds several rings. One a thread: it has a place for every vertex, which takes time to make.
 class SolidRings {
  public:
-  explicit SolidRings(const SolidStars& stars) : stars_(stars) {}
+  explicit SolidRings(const SolidStars& stars) : stars_(stars), times_(stars.size(), 0) {}
 
   // All vertices at most so many edges from v, without v itself; until the next call.
   std::span<const Index> find(Index v, unsigned rings);
 
  private:
-  class SeenSlots;
-  void make_room(std::size_t more);
   void add_star(Index v);
 
   const SolidStars& stars_;
-  std::vector<Index> found_;  // the first size_ of them, v itself before all
+  std::vector<Index> found_ = {no_index};  // the first size_ of them, v itself before all
   std::size_t size_ = 0;
-  std::vector<std::uint64_t> slots_;
+  std::vector<std::uint32_t> times_;  // when each vertex was found
   std::uint32_t time_ = 0;
 };
 
