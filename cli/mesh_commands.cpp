@@ -86,6 +86,9 @@ Command add_scvt_command(CLI::App& group) {
       {{"lbfgs", mesh::ScvtMethod::lbfgs}, {"lloyd", mesh::ScvtMethod::lloyd}},
       "lbfgs (default), or lloyd, to compare");
   add_tolerances(*parser, options->scvt);
+  parser->add_flag("--no-repair", options->no_repair,
+                   "Leave short edges, obtuse triangles, and cells with\n"
+                   "other than 5 to 7 sides");
   add_mesh_output(*parser, options->output);
   parser->footer(
       "Kilometers are those of a sphere of 6371.229 km. With Ctrl-C the mesh so far is written.\n\n"

@@ -67,6 +67,13 @@ void write_report(const MeshOutput& output, const mesh::MeshArrays& arrays,
   }
 }
 
+nlohmann::ordered_json json_of(const mesh::ScvtDefects& defects) {
+  return {{"odd_cells", defects.odd_cells},
+          {"short_edges", defects.short_edges},
+          {"obtuse_triangles", defects.obtuse_triangles},
+          {"least_edge_ratio", defects.least_edge_ratio}};
+}
+
 // Writes all that is wanted of these sites; returns the quality as JSON where it was computed.
 nlohmann::ordered_json write_made(const MeshOutput& output, const std::vector<Point>& sites,
                                   const mesh::SizeFunction* size, Job& job) {
@@ -188,6 +195,7 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
   Job job(output.common);
   mesh::ScvtOptions scvt = options.scvt;
   scvt.size = size_of(options, job);
+  scvt.repair = !options.no_repair;
   Execution execution = job.execution();
   execution.stop = &interrupted_by_user();
   scvt.seen = [&](const mesh::ScvtStep& step) { show(step, scvt.max_iterations, execution); };
@@ -201,11 +209,17 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
   nlohmann::ordered_json quality =
       write_made(output, made.sites, scvt.size ? &*scvt.size : nullptr, job);
   const bool is_whole = made.end == mesh::ScvtEnd::converged || made.end == mesh::ScvtEnd::stuck;
-  const nlohmann::ordered_json json = {{"end", mesh::name_of(made.end)},
-                                       {"steps", made.last.iteration},
-                                       {"energy", made.last.energy},
-                                       {"mean_offset", made.last.mean_offset},
-                                       {"largest_offset", made.last.largest_offset}};
+  nlohmann::ordered_json json = {{"end", mesh::name_of(made.end)},
+                                 {"steps", made.last.iteration},
+                                 {"energy", made.last.energy},
+                                 {"mean_offset", made.last.mean_offset},
+                                 {"largest_offset", made.last.largest_offset}};
+  if (scvt.repair && is_whole) {
+    json["repair"] = {{"rounds", made.repair.rounds},
+                      {"moved", made.repair.moved},
+                      {"before", json_of(made.repair.before)},
+                      {"after", json_of(made.repair.after)}};
+  }
   const std::string how = is_whole ? "" : std::string(mesh::name_of(made.end)) + "; ";
   report_mesh(output, made.sites.size(), how, json, std::move(quality), job);
   return made.end == mesh::ScvtEnd::stopped ? failed : done;

@@ -33,6 +33,7 @@ struct ScvtCommandOptions {
   std::vector<std::string> refine;  ///< --refine: FILE:KM
   std::optional<double> slope;      ///< --gradient
   std::string start;                ///< --start: sites
+  bool no_repair = false;
   mesh::ScvtOptions scvt;
 };
 

@@ -13,6 +13,7 @@
 #include "meshing/scvt_energy.h"
 #include "meshing/scvt_levels.h"
 #include "meshing/scvt_minimizer.h"
+#include "meshing/scvt_repair.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
 #include "system/job.h"
@@ -44,12 +45,23 @@ class Levels {
     result.sites = start(counts.front());
     for (std::size_t k = 0; k < counts.size(); ++k) {
       if (k > 0) result.sites = refined_sites(result.sites, counts[k], size_, execution_.threads);
-      relax(result, k + 1 == counts.size());
-      if (result.end == ScvtEnd::stopped) break;
+      if (k + 1 == counts.size()) {
+        finish(result);
+      } else {
+        relax(result, false);
+        if (result.end == ScvtEnd::stopped) break;
+      }
     }
     return result;
   }
 
+  void finish(Scvt& result) {
+    relax(result, true);
+    const bool is_solved = result.end == ScvtEnd::converged || result.end == ScvtEnd::stuck;
+    if (options_.repair && is_solved) result.repair = repair(result.sites, execution_.threads);
+  }
+
+ private:
   void relax(Scvt& result, bool is_last) {
     Minimizer minimizer(std::move(result.sites), energy_, execution_.threads);
     MinimizerLimits limits{.mean_offset = options_.mean_tolerance,
@@ -71,7 +83,6 @@ class Levels {
     result.flips += minimizer.surface().num_flips();
   }
 
- private:
   static bool is_of_icosahedron(std::size_t count) {
     std::size_t edges = count - 2;
     while (edges % 4 == 0 && edges > 10) edges /= 4;
@@ -153,7 +164,7 @@ Scvt relaxed(std::span<const Point> sites, const ScvtOptions& options, const Exe
     result.sites.push_back(exact::to_point(normalized(scaled(exact::to_vector(p)))));
   }
   if (sites.size() < 4) throw InvalidInput("a tessellation that is relaxed has 4 sites or more", 0);
-  Levels(options, execution).relax(result, true);
+  Levels(options, execution).finish(result);
   return result;
 }
 

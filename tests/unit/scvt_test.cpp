@@ -147,6 +147,39 @@ TEST(scvt, spacings_follow_the_size_function) {
   EXPECT_LT(ratios[ratios.size() * 19 / 20], 1.1);
 }
 
+TEST(scvt, repair_leaves_neither_short_edges_nor_odd_cells) {
+  ScvtOptions options{.count = 40962, .size = fourfold(), .largest_tolerance = 1};
+  options.repair = false;
+  const Scvt as_is = scvt(options);
+  EXPECT_EQ(as_is.repair.moved, 0U);
+  EXPECT_LT(shape_of(as_is.sites).least_dual_edge, 0.05);
+
+  options.repair = true;
+  const Scvt made = scvt(options);
+  ASSERT_EQ(made.sites.size(), 40962U);
+  const Shape shape = shape_of(made.sites);
+  EXPECT_GE(shape.least_dual_edge, 0.05);
+  EXPECT_EQ(shape.num_obtuse, 0);
+  EXPECT_GE(shape.degrees.begin()->first, 5);
+  EXPECT_LE(shape.degrees.rbegin()->first, 7);
+  EXPECT_GT(made.repair.before.short_edges, 0U);
+  EXPECT_EQ(made.repair.after.short_edges, 0U);
+  EXPECT_EQ(made.repair.after.odd_cells, 0U);
+
+  const double scale = std::sqrt(options.size->count() / 40962);
+  std::size_t num_moved = 0;
+  for (std::size_t i = 0; i < made.sites.size(); ++i) {
+    num_moved += made.sites[i] == as_is.sites[i] ? 0U : 1U;
+    EXPECT_LT(distance(made.sites[i], as_is.sites[i]),
+              0.15 * 1.5 * scale * options.size->spacing(made.sites[i]))
+        << i;
+  }
+  EXPECT_EQ(num_moved, made.repair.moved);
+  EXPECT_LT(num_moved, made.sites.size() / 20);
+  options.mean_tolerance = 1;
+  EXPECT_LT(relaxed(made.sites, options).last.mean_offset, 1e-3);
+}
+
 TEST(scvt, stop_leaves_the_sites_so_far) {
   std::atomic<bool> stop = false;
   int num_steps = 0;

@@ -22,8 +22,12 @@ using mesh::SizeFunction;
 
 constexpr std::size_t many_sites = 1U << 20U;  // enough to be watched
 
-// Points, densities (none: empty), how it ended, steps of the last level, mean offset, largest offset.
-using ScvtOut = std::tuple<ArrayOut<double>, ArrayOut<double>, std::string, int, double, double>;
+// Odd cells, short edges, obtuse triangles, least ratio.
+using DefectsOut = std::tuple<std::size_t, std::size_t, std::size_t, double>;
+// Points, densities (none: empty), how it ended, steps of the last level, mean offset, largest offset,
+// defects before and after the repair, sites that it moved.
+using ScvtOut = std::tuple<ArrayOut<double>, ArrayOut<double>, std::string, int, double, double,
+                           DefectsOut, DefectsOut, std::size_t>;
 using AreasOut =
     std::tuple<ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, std::string, int, double>;
 
@@ -48,13 +52,19 @@ SizeFunction size_of_raster(std::span<const double> spacings, std::size_t steps)
       steps);
 }
 
+DefectsOut defects_out(const mesh::ScvtDefects& defects) {
+  return {defects.odd_cells, defects.short_edges, defects.obtuse_triangles,
+          defects.least_edge_ratio};
+}
+
 ScvtOut make_scvt(std::size_t count, const NumbersIn& spacings, std::size_t steps, double gradient,
-                  double mean_tolerance, double largest_tolerance, int max_steps, unsigned threads,
-                  const nb::object& listener) {
+                  double mean_tolerance, double largest_tolerance, int max_steps, bool repair,
+                  unsigned threads, const nb::object& listener) {
   mesh::ScvtOptions options{.count = count,
                             .mean_tolerance = mean_tolerance,
                             .largest_tolerance = largest_tolerance,
-                            .max_iterations = max_steps};
+                            .max_iterations = max_steps,
+                            .repair = repair};
   mesh::Scvt made = watched(many_sites, threads, listener, [&](const Execution& execution) {
     if (spacings.size() > 0) options.size = size_of_raster(rows_of<double>(spacings), steps);
     if (gradient > 0 && options.size) options.size = options.size->limited(gradient);
@@ -74,7 +84,10 @@ ScvtOut make_scvt(std::size_t count, const NumbersIn& spacings, std::size_t step
           std::string(name_of(made.end)),
           made.last.iteration,
           made.last.mean_offset,
-          made.last.largest_offset};
+          made.last.largest_offset,
+          defects_out(made.repair.before),
+          defects_out(made.repair.after),
+          made.repair.moved};
 }
 
 AreasOut make_area_partition(const PointsIn& points, const NumbersIn& areas, double tolerance,
@@ -97,8 +110,8 @@ void add_mesh_make(nb::module_& module) {
   module.def("raster_places", &raster_places, nb::arg("steps"));
   module.def("make_scvt", &make_scvt, nb::arg("count"), nb::arg("spacings").noconvert(),
              nb::arg("steps"), nb::arg("gradient"), nb::arg("mean_tolerance"),
-             nb::arg("largest_tolerance"), nb::arg("max_steps"), nb::arg("threads"),
-             nb::arg("listener").none());
+             nb::arg("largest_tolerance"), nb::arg("max_steps"), nb::arg("repair"),
+             nb::arg("threads"), nb::arg("listener").none());
   module.def("make_area_partition", &make_area_partition, nb::arg("points").noconvert(),
              nb::arg("areas").noconvert(), nb::arg("tolerance"), nb::arg("threads"));
 }

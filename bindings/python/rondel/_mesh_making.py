@@ -16,16 +16,34 @@ from ._types import ArrayLike, FloatArray, Progress
 Spacing: TypeAlias = float | Callable[[FloatArray], ArrayLike]
 
 
+class Defects(NamedTuple):
+    """What a model does not run on, or badly.
+
+    ``odd_cells`` have other than 5, 6 or 7 sides; ``short_edges`` are shorter than 0.0505 of the
+    distance of their cells, ``least_edge_ratio`` is the least of these ratios.
+    """
+
+    odd_cells: int
+    short_edges: int
+    obtuse_triangles: int
+    least_edge_ratio: float
+
+
 class ScvtReport(NamedTuple):
     """How the work on a centroidal tessellation ended: `Mesh.report`.
 
     ``end`` is ``"converged"``, ``"iterations"``, or ``"stuck"`` where rounding allows no more.
+    Offsets are those before the repair, which found ``defects_before``, left ``defects_after``,
+    and moved so many sites.
     """
 
     end: str
     steps: int
     mean_offset: float
     largest_offset: float
+    defects_before: Defects
+    defects_after: Defects
+    moved: int
 
 
 class Partition(NamedTuple):
@@ -65,6 +83,7 @@ def scvt_points(
     largest_tolerance: float,
     max_steps: int,
     raster_steps: int,
+    repair: bool,  # noqa: FBT001
     threads: int | None,
     progress: Progress,
 ) -> tuple[FloatArray, FloatArray, ScvtReport]:
@@ -72,7 +91,7 @@ def scvt_points(
     if n is None and spacing is None:
         raise TypeError("scvt() needs n or spacing")
     steps = int(raster_steps) if callable(spacing) else 1
-    points, density, end, made_steps, mean, largest = _core.make_scvt(
+    points, density, end, made_steps, mean, largest, before, after, moved = _core.make_scvt(
         0 if n is None else int(n),
         raster_of(spacing, steps),
         steps,
@@ -80,10 +99,12 @@ def scvt_points(
         float(tolerance),
         float(largest_tolerance),
         int(max_steps),
+        bool(repair),
         as_threads(threads),
         progress,
     )
-    return points, density, ScvtReport(end, made_steps, mean, largest)
+    defects = Defects(*before), Defects(*after)
+    return points, density, ScvtReport(end, made_steps, mean, largest, *defects, moved)
 
 
 def partition(

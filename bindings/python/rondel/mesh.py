@@ -15,13 +15,14 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import as_floats, as_name, as_threads, frozen
 from ._delaunay import SphericalDelaunay, delaunay
-from ._mesh_making import Partition, ScvtReport, Spacing, partition, scvt_points
+from ._mesh_making import Defects, Partition, ScvtReport, Spacing, partition, scvt_points
 from ._types import ArrayLike, FloatArray, IntArray, Path, Progress
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = [
+    "Defects",
     "EdgeWeights",
     "Mesh",
     "Partition",
@@ -413,6 +414,7 @@ def scvt(
     largest_tolerance: float = 1e-2,
     max_steps: int = 1000,
     raster_steps: int = 512,
+    repair: bool = True,
     threads: int | None = None,
     progress: Progress = None,
 ) -> Mesh:
@@ -437,6 +439,9 @@ def scvt(
     raster_steps : int, optional
         The function is asked for at so many places along a quarter of a great circle, a power of
         two up to 4096.
+    repair : bool, optional
+        Move sites by some hundredths of the spacing where edges are short, triangles obtuse, or
+        cells have other than 5, 6 or 7 sides.
     threads : int, optional
         At most so many threads; by default one for each core. The result does not depend on it.
     progress : callable, optional
@@ -464,6 +469,7 @@ def scvt(
         largest_tolerance,
         max_steps,
         raster_steps,
+        repair,
         threads,
         progress,
     )

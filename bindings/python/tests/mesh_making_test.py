@@ -47,6 +47,24 @@ def test_bytes_do_not_depend_on_threads():
     assert one.points.tobytes() == two.points.tobytes()
 
 
+def test_repair_mends_what_it_says():
+    def spacing(points):
+        return np.clip(0.02 + 0.1 * (0.7 - points[:, 0]), 0.02, 0.08)
+
+    as_is = rondel.mesh.scvt(6000, spacing=spacing, raster_steps=64, repair=False)
+    assert as_is.quality["min_edge_ratio"]["value"] < 0.05
+    assert as_is.report.moved == 0
+    mesh = rondel.mesh.scvt(6000, spacing=spacing, raster_steps=64)
+    report = mesh.report
+    assert report.defects_before.short_edges > 0
+    assert report.defects_after == (0, 0, 0, report.defects_after.least_edge_ratio)
+    assert 0 < report.moved < 1000
+    quality = mesh.quality
+    assert quality["min_edge_ratio"]["value"] >= 0.05
+    assert quality["num_obtuse"] == 0
+    assert set(quality["sides"]) <= {"5", "6", "7"}
+
+
 def test_what_is_no_request_is_refused():
     with pytest.raises(TypeError, match="n or spacing"):
         rondel.mesh.scvt()
