@@ -9,6 +9,7 @@
 
 #include "command.h"
 #include "inputs/kinds.h"
+#include "point_set_kinds.h"
 #include "run.h"
 #include "validate.h"
 #include "words.h"
@@ -17,7 +18,7 @@ namespace rondel::cli {
 namespace {
 
 std::string kind_error(const std::string& text) {
-  return inputs::find_kind(text) != nullptr ? std::string() : "'" + text + "' is not a kind";
+  return find_kind(text) != nullptr ? std::string() : "'" + text + "' is not a kind";
 }
 
 std::string count_error(const std::string& text) { return whole_error(text, 1, max_sites); }
@@ -36,7 +37,8 @@ std::string kinds_help() {
     }
     return text;
   };
-  return "Kinds:\n" + list(inputs::plain_kinds()) +
+  return "Kinds:\n" + list(inputs::plain_kinds()) + "\nSets of known numbers of sites:\n" +
+         list(point_set_kinds()) +
          "\nHostile kinds, which cost some algorithms much time or many digits:\n" +
          list(inputs::hostile_kinds());
 }
@@ -252,7 +254,8 @@ Command add_generate_command(CLI::App& tool) {
       ->type_name("S");
   CLI::Option* angle = parser->add_option("--angle", options->angle,
                                           "Angular radius of patch, cluster, cap and\n"
-                                          "small-circle, largest one of circles, width of wedge");
+                                          "small-circle, largest one of circles, width of wedge,\n"
+                                          "least distance of poisson");
   angle->check(positive_error)->type_name("DEG");
   parser->add_flag("--radians", options->common.read.radians, "--angle is in radians")
       ->needs(angle);

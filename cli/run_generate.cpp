@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "inputs/kinds.h"
+#include "point_set_kinds.h"
 #include "report.h"
 #include "run.h"
 
@@ -26,6 +27,10 @@ void require_parts(const Kind& kind, const Recipe& recipe) {
     throw UsageError("--angle: " + name + ": less than 90 degrees");
   }
   if (recipe.angle_deg > 180) throw UsageError("--angle is more than half a turn");
+  if (name == "poisson") {
+    if (recipe.n > 0) throw UsageError("-n,--number: poisson takes --angle instead");
+    return;
+  }
   if (!has_grid && recipe.n == 0) throw UsageError("-n,--number is required");
   if (has_grid && recipe.rows > max_sites / recipe.columns) {
     throw UsageError("--rows times --columns is more than " + std::to_string(max_sites));
@@ -38,7 +43,7 @@ ExitStatus run_generate(const GenerateOptions& options) {
   CommonOptions common = options.common;
   if (common.output == "-" && common.output_format.empty()) common.output_format = "csv";
   require_output(common, can_write_sites(common.target()), ".csv .tsv .xyz .txt .npy");
-  const Kind& kind = *inputs::find_kind(options.kind);
+  const Kind& kind = *find_kind(options.kind);
   Recipe recipe = options.recipe;
   recipe.angle_deg =
       common.read.radians ? options.angle * inputs::degrees_per_radian : options.angle;

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "point_set_kinds.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "command.h"
+#include "rondel/error.h"
+#include "rondel/point_sets.h"
+
+namespace rondel::cli {
+namespace {
+
+using inputs::Input;
+using inputs::Kind;
+using inputs::Recipe;
+
+// The size whose set has as many sites as are wanted; if there is none, a usage error that names the nearest.
+template <class CountOf>
+std::size_t size_of_count(std::size_t n, std::size_t least, const CountOf& count_of) {
+  std::size_t size = least;
+  while (count_of(size) < n) ++size;
+  if (count_of(size) == n) return size;
+  std::string nearest = std::to_string(count_of(size));
+  if (size > least) nearest = std::to_string(count_of(size - 1)) + " or " + nearest;
+  throw UsageError("-n,--number: this kind has " + nearest + " sites, not " + std::to_string(n));
+}
+
+template <class Make>
+Input input_of(const Make& make) {
+  Input input;
+  try {
+    input.sites = make();
+  } catch (const InvalidInput& error) {
+    throw UsageError(error.what());
+  }
+  return input;
+}
+
+Input icosahedral(const Recipe& recipe) {
+  const std::size_t levels =
+      size_of_count(recipe.n, 0, [](std::size_t k) { return (std::size_t{10} << (2 * k)) + 2; });
+  return input_of([&] { return mesh::icosahedral_points(static_cast<unsigned>(levels)); });
+}
+
+Input healpix(const Recipe& recipe) {
+  const std::size_t side = size_of_count(recipe.n, 1, [](std::size_t k) { return 12 * k * k; });
+  return input_of([&] { return mesh::healpix_points(side); });
+}
+
+Input reduced_gaussian(const Recipe& recipe) {
+  const std::size_t number =
+      size_of_count(recipe.n, 1, [](std::size_t k) { return 4 * k * (k + 9); });
+  return input_of([&] { return mesh::reduced_gaussian_points(number); });
+}
+
+Input cubed_sphere(const Recipe& recipe) {
+  const std::size_t side = size_of_count(recipe.n, 1, [](std::size_t k) { return 6 * k * k; });
+  return input_of([&] { return mesh::cubed_sphere_points(side); });
+}
+
+Input poisson(const Recipe& recipe) {
+  return input_of([&] {
+    return mesh::poisson_disk_points(recipe.angle_deg / inputs::degrees_per_radian, recipe.seed);
+  });
+}
+
+constexpr std::array all_sets{
+    Kind{"icosahedral", "corners of a divided icosahedron: 10 * 4^k + 2", &icosahedral},
+    Kind{"healpix", "centers of HEALPix's pixels, ring by ring: 12 side^2", &healpix},
+    Kind{"reduced-gaussian", "ECMWF's octahedral grid O(k): 4 k (k + 9)", &reduced_gaussian},
+    Kind{"cubed-sphere", "centers of the equiangular cubed sphere: 6 side^2", &cubed_sphere},
+    Kind{"poisson", "no two nearer than --angle (1), no gap: takes no -n", &poisson, 1},
+};
+
+}  // namespace
+
+std::span<const Kind> point_set_kinds() { return all_sets; }
+
+const Kind* find_kind(std::string_view name) {
+  const auto at = std::ranges::find(all_sets, name, &Kind::name);
+  return at != all_sets.end() ? &*at : inputs::find_kind(name);
+}
+
+}  // namespace rondel::cli

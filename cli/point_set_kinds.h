@@ -1,0 +1,19 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// The sets of rondel/point_sets.h as kinds of `rondel generate`.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "inputs/kinds.h"
+
+namespace rondel::cli {
+
+std::span<const inputs::Kind> point_set_kinds();
+/// One of these or of rondel/inputs; null if there is none of this name.
+const inputs::Kind* find_kind(std::string_view name);
+
+}  // namespace rondel::cli
