@@ -37,6 +37,47 @@ RegionsOut polygons_of(const CellRings& rings, double tolerance_deg, unsigned th
           offsets_out(std::move(found.polygons)), indices_out(std::move(found.owners))};
 }
 
+void add_region_functions(nb::module_& module) {
+  module.def(
+      "clip",
+      [](const Partition& cells, const Partition& regions, unsigned threads,
+         const nb::object& listener) {
+        return watched(cells.num_cells(), threads, listener,
+                       [&](const Execution& execution) { return clip(cells, regions, execution); });
+      },
+      nb::arg("cells"), nb::arg("regions"), nb::arg("threads"), nb::arg("progress").none());
+  module.def(
+      "crossing_cells",
+      [](const Partition& partition, unsigned threads) {
+        const auto found =
+            unlocked([&] { return crossing_cells(partition.rings(), {.threads = threads}); });
+        std::vector<std::tuple<Index, Index, std::array<double, 3>>> pairs;
+        pairs.reserve(found.size());
+        for (const auto& [first, second, place] : found) {
+          pairs.emplace_back(first, second, std::array{place.x, place.y, place.z});
+        }
+        return pairs;
+      },
+      nb::arg("partition"), nb::arg("threads"));
+  module.def(
+      "feature_cells",
+      [](const std::string& path, double tolerance, bool is_geodesic, unsigned threads,
+         const nb::object& listener) {
+        const PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic
+                                                          : PolygonEdges::lonlat};
+        return watched(0, threads, listener, [&](const Execution& execution) {
+          const FeatureTable table = read_features(path, options, execution);
+          return feature_cells(table.lines, table.polygons, tolerance, execution);
+        });
+      },
+      nb::arg("path"), nb::arg("tolerance"), nb::arg("is_geodesic"), nb::arg("threads"),
+      nb::arg("progress").none());
+  module.def(
+      "cell_rings",
+      [](const Partition& partition) { return unlocked([&] { return partition.rings(); }); },
+      nb::arg("partition"));
+}
+
 }  // namespace
 
 void add_regions(nb::module_& module) {
@@ -72,43 +113,7 @@ void add_regions(nb::module_& module) {
             });
           },
           nb::arg("path"), nb::arg("columns"), nb::arg("tolerance_deg"));
-  module.def(
-      "clip",
-      [](const Partition& cells, const Partition& regions, unsigned threads,
-         const nb::object& listener) {
-        return watched(cells.num_cells(), threads, listener,
-                       [&](const Execution& execution) { return clip(cells, regions, execution); });
-      },
-      nb::arg("cells"), nb::arg("regions"), nb::arg("threads"), nb::arg("progress").none());
-  module.def(
-      "crossing_cells",
-      [](const Partition& partition, unsigned threads) {
-        const auto found =
-            unlocked([&] { return crossing_cells(partition.rings(), {.threads = threads}); });
-        std::vector<std::tuple<Index, Index, std::array<double, 3>>> pairs;
-        for (const auto& [first, second, place] : found) {
-          pairs.emplace_back(first, second, std::array{place.x, place.y, place.z});
-        }
-        return pairs;
-      },
-      nb::arg("partition"), nb::arg("threads"));
-  module.def(
-      "feature_cells",
-      [](const std::string& path, double tolerance, bool is_geodesic, unsigned threads,
-         const nb::object& listener) {
-        const PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic
-                                                          : PolygonEdges::lonlat};
-        return watched(0, threads, listener, [&](const Execution& execution) {
-          const FeatureTable table = read_features(path, options, execution);
-          return feature_cells(table.lines, table.polygons, tolerance, execution);
-        });
-      },
-      nb::arg("path"), nb::arg("tolerance"), nb::arg("is_geodesic"), nb::arg("threads"),
-      nb::arg("progress").none());
-  module.def(
-      "cell_rings",
-      [](const Partition& partition) { return unlocked([&] { return partition.rings(); }); },
-      nb::arg("partition"));
+  add_region_functions(module);
 }
 
 }  // namespace rondel::python
