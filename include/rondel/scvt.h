@@ -71,8 +71,8 @@ struct ScvtDefects {
   double least_edge_ratio = 0;  ///< the shortest edge over the distance of its cells
 };
 
-/// Where rows of cells end, sites are moved off their centroids by as little as mends these defects: one or two
-/// hundredths of the spacing, never more than 0.15. What is left is told.
+/// Where rows of cells end, sites are moved off their centroids by as little as mends these defects: hundredths
+/// of the spacing, never more than 0.15 of the length of an edge. What is left is told.
 struct ScvtRepair {
   ScvtDefects before{};
   ScvtDefects after{};
