@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t lanes = CubicFaces::lanes;
 using Lanes = CubicFaces::Lanes;
 using LaneVectors = CubicFaces::LaneVectors;
-using State = CubicFaces::State;
+using FaceLanes = CubicFaces::FaceLanes;
 
 constexpr std::size_t next_of(std::size_t k) { return (k + 1) % 3; }
 constexpr std::size_t previous_of(std::size_t k) { return (k + 2) % 3; }
@@ -71,7 +71,7 @@ RONDEL_ALWAYS_INLINE inline bool all_of(bool a, bool b) {
 }
 
 template <std::size_t K>
-RONDEL_ALWAYS_INLINE inline void measure_edge(State& s) {
+RONDEL_ALWAYS_INLINE inline void measure_edge(FaceLanes& s) {
   RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
     const LaneVec d =
         difference(at(s.corners[previous_of(K)].step, l), at(s.corners[next_of(K)].step, l));
@@ -84,7 +84,7 @@ RONDEL_ALWAYS_INLINE inline void measure_edge(State& s) {
 
 // With k of the least l, the point's coordinates in the part of the face that has it, (x_i, x_j, v),
 // are s = l_i - l_k, t = l_j - l_k, r = 3 l_k. The excess of a corner is s, t or, at x_k, 0.
-RONDEL_ALWAYS_INLINE inline void weigh_points(State& state) {
+RONDEL_ALWAYS_INLINE inline void weigh_points(FaceLanes& state) {
   RONDEL_KEEP_LOOP for (std::size_t lane = 0; lane < lanes; ++lane) {
     const double l0 = state.l[0][lane];
     const double l1 = state.l[1][lane];
@@ -147,7 +147,7 @@ RONDEL_ALWAYS_INLINE inline EdgeCoordinates part_of_edge(const LaneVec& e, const
 // where A = qb + b' and B = qa + a'; the same at x_j with A and B in turns. Least squares:
 // X = (A R_i + B R_j) / (2 q (A^2 + B^2)). The other face of the edge has 1/q, H -> -q H and the same X
 // in its own terms.
-struct Across {
+struct BeyondEdge {
   double share;  // 0: all others are 0, too
   double q;
   double a_sum;  // A
@@ -155,9 +155,10 @@ struct Across {
   double a_difference;
   double b_difference;
 };
-RONDEL_ALWAYS_INLINE inline Across look_across(bool may_look, const LaneVec& h, const LaneVec& e,
-                                               double square, const EdgeCoordinates& inner,
-                                               const EdgeCoordinates& outer) {
+RONDEL_ALWAYS_INLINE inline BeyondEdge look_across(bool may_look, const LaneVec& h,
+                                                   const LaneVec& e, double square,
+                                                   const EdgeCoordinates& inner,
+                                                   const EdgeCoordinates& outer) {
   const double height = product(h, h);
   const double q = -product(e, h) / height;
   const double a_sum = q * inner.b + outer.b;
@@ -179,7 +180,7 @@ RONDEL_ALWAYS_INLINE inline Across look_across(bool may_look, const LaneVec& h, 
 
 // Edge k, from x_i to x_j.
 template <std::size_t K>
-RONDEL_ALWAYS_INLINE inline void weigh_edge(State& s) {
+RONDEL_ALWAYS_INLINE inline void weigh_edge(FaceLanes& s) {
   constexpr std::size_t i = next_of(K);
   constexpr std::size_t j = previous_of(K);
   RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
@@ -200,7 +201,7 @@ RONDEL_ALWAYS_INLINE inline void weigh_edge(State& s) {
     const double from_i = product(e, e);
     const double from_j = product(e_from_j, e_from_j);
     const EdgeCoordinates outer = part_of_edge(e, d, square, from_i, from_j);
-    const Across x =
+    const BeyondEdge x =
         look_across(all_of(is_long, s.has_opposite[K][l] != 0), h, e, square, inner, outer);
 
     const double mixed = x.a_difference * x.a_sum + x.b_difference * x.b_sum;
@@ -235,7 +236,7 @@ RONDEL_ALWAYS_INLINE inline void weigh_edge(State& s) {
 }
 
 template <std::size_t I>
-RONDEL_ALWAYS_INLINE inline void collect(State& s) {
+RONDEL_ALWAYS_INLINE inline void collect(FaceLanes& s) {
   constexpr std::size_t j = next_of(I);
   constexpr std::size_t k = previous_of(I);
   RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
@@ -252,7 +253,7 @@ RONDEL_ALWAYS_INLINE inline void collect(State& s) {
   }
 }
 
-RONDEL_ALWAYS_INLINE inline void weigh_in_lanes(State& s) {
+RONDEL_ALWAYS_INLINE inline void weigh_in_lanes(FaceLanes& s) {
   RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) s.is_weighed[l] = 1;
   for (std::size_t k = 0; k < 3; ++k) s.slopes[k] = {};
   measure_edge<0>(s);
@@ -270,7 +271,7 @@ RONDEL_ALWAYS_INLINE inline void weigh_in_lanes(State& s) {
 }  // namespace
 
 void CubicFaces::weigh() {
-  State& state = state_;
+  FaceLanes& state = state_;
   system::with_wide_vectors([&state]() RONDEL_ALWAYS_INLINE { weigh_in_lanes(state); });
 }
 

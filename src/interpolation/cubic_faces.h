@@ -99,7 +99,7 @@ class CubicFaces {
   }
 
   // All there is, apart from the object, so that a compiler knows that nothing of it is anything else.
-  struct State {
+  struct FaceLanes {
     Array<Vertex, 3> corners;
     Array<Vertex, 3> opposites;
     Array<Lanes, 3> has_opposite;  // truth as doubles, so that it fits the lanes
@@ -125,7 +125,7 @@ class CubicFaces {
     vertex.step.z[lane] = step.z;
   }
 
-  State state_{};
+  FaceLanes state_{};
 };
 
 }  // namespace rondel::interpolation

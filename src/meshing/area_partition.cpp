@@ -172,7 +172,8 @@ std::vector<Point> unit_sites(std::span<const Point> sites) {
 std::vector<double> scaled_targets(std::span<const double> targets, std::size_t num_sites) {
   constexpr double whole = 4 * std::numbers::pi;
   if (targets.empty()) {
-    return std::vector<double>(num_sites, whole / static_cast<double>(num_sites));
+    std::vector<double> equal(num_sites, whole / static_cast<double>(num_sites));
+    return equal;
   }
   if (targets.size() != num_sites) {
     throw InvalidInput("there is not one area for each site", std::min(targets.size(), num_sites));

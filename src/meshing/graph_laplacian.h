@@ -43,7 +43,7 @@ class LaplacianSolver {
     std::vector<double> rest;
   };
 
-  void cycle(std::size_t level);
+  void cycle(std::size_t number);
   void smooth(GraphLevel& level) const;
   void multiply(const WeightedGraph& graph, const std::vector<double>& x,
                 std::vector<double>& result) const;

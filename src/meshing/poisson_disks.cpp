@@ -120,10 +120,11 @@ std::vector<Point> gaps(const std::vector<Point>& points, double square,
   std::vector<std::pair<double, Index>> found;
   for (Index f = 0; f < centers.size(); ++f) {
     const auto d = to_vector(centers[f]) - to_vector(points[triangulation.faces()[f][0]]);
-    if (dot(d, d) > square * (1 + 0x1p-42)) found.push_back({-dot(d, d), f});
+    if (dot(d, d) > square * (1 + 0x1p-42)) found.emplace_back(-dot(d, d), f);
   }
   std::ranges::sort(found);
   std::vector<Point> result;
+  result.reserve(found.size());
   for (const auto& [size, face] : found) result.push_back(centers[face]);
   return result;
 }

@@ -83,7 +83,7 @@ class Repair {
   }
 
  private:
-  struct Piece {
+  struct FacesLookedAt {
     std::vector<Bound> bounds;
     std::size_t short_edges = 0;
     std::size_t obtuse = 0;
@@ -124,7 +124,7 @@ class Repair {
     return 4 + 2 * (degrees_[c] + degrees_[d] - degrees_[a] - degrees_[b]);
   }
 
-  void look_at(Index f, Piece& piece) const {
+  void look_at(Index f, FacesLookedAt& piece) const {
     const Triple& face = surface_.faces()[f];
     for (Index i = 0; i < 3; ++i) {
       const Index a = face[next_of(i)];
@@ -174,17 +174,17 @@ class Repair {
       for (const Index v : face) ++degrees_[v];
     }
     const std::size_t num_faces = surface_.faces().size();
-    std::vector<Piece> pieces(system::num_pieces(num_faces, faces_of_a_piece));
+    std::vector<FacesLookedAt> pieces(system::num_pieces(num_faces, faces_of_a_piece));
     system::parallel_for(threads_, num_faces, faces_of_a_piece,
                          [&](std::size_t begin, std::size_t end) {
-                           Piece& piece = pieces[begin / faces_of_a_piece];
+                           FacesLookedAt& piece = pieces[begin / faces_of_a_piece];
                            for (std::size_t f = begin; f < end; ++f) {
                              look_at(static_cast<Index>(f), piece);
                            }
                          });
     ScvtDefects found{.least_edge_ratio = std::numeric_limits<double>::infinity()};
     bounds_.clear();
-    for (const Piece& piece : pieces) {
+    for (const FacesLookedAt& piece : pieces) {
       bounds_.insert(bounds_.end(), piece.bounds.begin(), piece.bounds.end());
       found.short_edges += piece.short_edges;
       found.obtuse_triangles += piece.obtuse;

@@ -49,12 +49,12 @@ def test_bytes_do_not_depend_on_threads():
 
 def test_repair_mends_what_it_says():
     def spacing(points):
-        return np.clip(0.02 + 0.1 * (0.7 - points[:, 0]), 0.02, 0.08)
+        return np.clip(0.015 + 0.1 * (0.7 - points[:, 0]), 0.015, 0.06)
 
-    as_is = rondel.mesh.scvt(6000, spacing=spacing, raster_steps=64, repair=False)
+    as_is = rondel.mesh.scvt(7000, spacing=spacing, raster_steps=64, repair=False)
     assert as_is.quality["min_edge_ratio"]["value"] < 0.05
     assert as_is.report.moved == 0
-    mesh = rondel.mesh.scvt(6000, spacing=spacing, raster_steps=64)
+    mesh = rondel.mesh.scvt(7000, spacing=spacing, raster_steps=64)
     report = mesh.report
     assert report.defects_before.short_edges > 0
     assert report.defects_after == (0, 0, 0, report.defects_after.least_edge_ratio)
