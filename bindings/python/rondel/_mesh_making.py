@@ -83,7 +83,7 @@ def scvt_points(
     largest_tolerance: float,
     max_steps: int,
     raster_steps: int,
-    repair: bool,  # noqa: FBT001
+    repair: bool,
     threads: int | None,
     progress: Progress,
 ) -> tuple[FloatArray, FloatArray, ScvtReport]:
