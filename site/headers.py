@@ -10,6 +10,7 @@ index, so that the search finds it, and an anchor: `triangulation-num-faces` in 
 
 import re
 
+NAMESPACE = re.compile(r"^namespace rondel(?:::mesh)? \{\n", re.M)
 NAME = [
     re.compile(r"^(?:template\s*<[^>]*>\s*)?(?:struct|class|enum class|enum)\s+(?:RONDEL_API\s+)?(\w+)", re.M),
     re.compile(r"^using\s+(\w+)", re.M),
@@ -21,7 +22,7 @@ COMMANDS = {"throw": "Throws", "throws": "Throws", "pre": "Precondition:", "para
 
 def blocks(text):
     """The blocks of the namespace, as lists of lines."""
-    inside = text.split("namespace rondel {\n", 1)[1].rsplit("}  // namespace rondel", 1)[0]
+    inside = NAMESPACE.split(text, 1)[1].rsplit("}  // namespace rondel", 1)[0]
     found, block, depth = [], [], 0
     for line in inside.split("\n"):
         if not line.strip() and depth == 0:

@@ -97,7 +97,7 @@ def pages_of_headers(repository, folder):
     """A page for each public header that declares something."""
     target = folder / "reference" / "cpp"
     target.mkdir(parents=True, exist_ok=True)
-    paths = [path for path in sorted((repository / "include/rondel").glob("*.h")) if "namespace rondel {" in path.read_text(encoding="utf-8")]
+    paths = [path for path in sorted((repository / "include/rondel").glob("*.h")) if headers.NAMESPACE.search(path.read_text(encoding="utf-8"))]
     for path in paths:
         (target / f"{path.stem}.md").write_text(headers.page(path), encoding="utf-8")
     names = "\n".join(f"cpp/{path.stem}" for path in paths)
