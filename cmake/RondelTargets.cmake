@@ -67,7 +67,7 @@ function(rondel_harden target)
 endfunction()
 
 # Of a hardened target, files that read nothing of strangers, only what has been validated, and whose loops the
-# checks would slow down by a fifth. What has options of its own is compiled alone.
+# checks would slow down by about 10 %. What has options of its own is compiled alone.
 function(rondel_compile_unchecked target)
   if(WIN32)
     return()
