@@ -89,8 +89,8 @@ class Newton {
     for (std::size_t i = 0; i < sites_.size(); ++i) {
       step.rounding = std::max(step.rounding, 0x1p-51 * graph.diagonal[i] / targets_[i]);
     }
-    LaplacianSolver(std::move(graph), execution_.threads)
-        .solve(right, inner_tolerance, most_inner_steps, step.of_log);
+    LaplacianSolver solver(std::move(graph), execution_.threads);
+    solver.solve(right, inner_tolerance, most_inner_steps, step.of_log);
     return step;
   }
 

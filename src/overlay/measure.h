@@ -22,13 +22,7 @@ using Place = exact::Vector3<double>;
 // Axes at o: those of the coordinates, turned from the nearer pole to o along the shortest way.
 class LocalAxes {
  public:
-  explicit LocalAxes(const Point& o) : o_(o) {
-    const double pole = o.z < 0 ? -1 : 1;
-    const double scale = -1 / (pole + o.z);
-    const double mixed = o.x * o.y * scale;
-    x_ = {1 + pole * o.x * o.x * scale, pole * mixed, -pole * o.x};
-    y_ = {mixed, pole + o.y * o.y * scale, -o.y};
-  }
+  explicit LocalAxes(const Point& o) : LocalAxes(o, o.z < 0 ? -1 : 1) {}
   // Of points of the sphere, so that z follows from the distance.
   [[nodiscard]] Place place_of(const Point& p) const {
     const Point step = p - o_;
@@ -36,9 +30,15 @@ class LocalAxes {
   }
 
  private:
+  LocalAxes(const Point& o, double pole) : LocalAxes(o, pole, -1 / (pole + o.z)) {}
+  LocalAxes(const Point& o, double pole, double scale)
+      : o_(o),
+        x_{1 + pole * o.x * o.x * scale, pole * (o.x * o.y * scale), -pole * o.x},
+        y_{o.x * o.y * scale, pole + o.y * o.y * scale, -o.y} {}
+
   Point o_;
-  Point x_{};
-  Point y_{};
+  Point x_;
+  Point y_;
 };
 
 // The triangle (o, p, q), where p and q are given by their places. With S = q - p
