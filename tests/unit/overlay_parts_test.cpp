@@ -101,7 +101,7 @@ TEST(overlay_parts, regions_onto_regions) {
   const auto [first, first_groups] = regions(400, 3);
   const auto [second, second_groups] = regions(300, 4);
   const Remap of_cells = remap(Partition(first), Partition(second));
-  std::vector<double> expected(7 * 7);
+  std::vector<double> expected(49);
   for (std::size_t j = 0; j < 300; ++j) {
     for (auto k = of_cells.offsets[j]; k < of_cells.offsets[j + 1]; ++k) {
       const Index from = first_groups[of_cells.columns[k]];

@@ -93,6 +93,22 @@ TEST(overlay_remap, sums_of_rows_and_columns) {
   EXPECT_NEAR(std::accumulate(areas.begin(), areas.end(), 0.0), 4 * std::numbers::pi, 1e-13);
 }
 
+// A sum of thousands of pieces is off by its last rounding alone.
+TEST(overlay_remap, areas_of_cells_of_many_pieces) {
+  const Partition source = Partition::voronoi(delaunay(octants().points));
+  const Remap remap = rondel::remap(source, voronoi_of("uniform", 20'000, 5));
+  std::vector<long double> sums(source.num_cells());
+  std::vector<std::size_t> counts(source.num_cells());
+  for (std::size_t k = 0; k < remap.areas.size(); ++k) {
+    sums[remap.columns[k]] += remap.areas[k];
+    ++counts[remap.columns[k]];
+  }
+  for (std::size_t i = 0; i < source.num_cells(); ++i) {
+    EXPECT_GT(counts[i], 3000U);
+    EXPECT_NEAR(remap.source_areas[i], static_cast<double>(sums[i]), ulp * remap.source_areas[i]);
+  }
+}
+
 // Areas of cells of 1e-8 radians are right to 1e-8 of them, and yet their weights sum up to 1.
 TEST(overlay_remap, sums_of_rows_of_tiny_cells) {
   const auto patch = [](double width, std::uint64_t seed) {
