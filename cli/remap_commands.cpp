@@ -180,8 +180,7 @@ Command add_remap_command(CLI::App& tool) {
   add_report_options(*parser, options->common);
   parser->footer(
       "netCDF may be UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF, in a classic format\n"
-      "(nccopy -k cdf5 makes one). Cells that the file masks take no part. One of the two has to\n"
-      "cover the globe, or be a grid along longitudes and latitudes.\n\n"
+      "(nccopy -k cdf5 makes one). Cells that the file masks take no part.\n\n"
       "Examples:\n"
       "  rondel remap ocean.nc --to grid:1 -o weights.nc\n"
       "  rondel remap stations.csv --to countries.geojson --norm fracarea -o weights.npz\n"

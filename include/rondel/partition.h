@@ -64,8 +64,8 @@ class RONDEL_API Partition {
   /// The cells, by index. Those of voronoi() have no corners in the wrong order.
   [[nodiscard]] CellRings rings() const;
   /// Whether the cells cover the sphere, each with one ring, convex or nearly so, and share their
-  /// edges; or whether they are a grid of parallels that does. Of two partitions that are laid over each other, one
-  /// must, or be any grid of parallels.
+  /// edges; or whether they are a grid of parallels that does. An overlay of two of
+  /// which one does, or is any grid of parallels, takes less time (remap.h), and regions.h needs one that does.
   [[nodiscard]] bool is_cover() const;
 
  private:

@@ -60,8 +60,11 @@ struct Remap {
 ///
 /// With order 1 and destarea, the sum of areas times weights of a column is that source's area, and
 /// the sum of a row 1, to a few ulp, where the other partition covers it.
-/// \throws InvalidInput if no partition is_cover() and none is a grid of parallels, the order is neither 1 nor 2, or a
-///         mask has another length than its partition.
+/// If neither partition is_cover() and none is a grid of parallels, the one with fewer sides, or else the source, is
+/// filled up with triangles, whose sides leave no trace in the pieces; if its cells overlap each
+/// other, the other one is. That takes longer.
+/// \throws InvalidInput if the order is neither 1 nor 2, a mask has another length than its partition, or
+///         a partition would have to be filled up and cells of both overlap, with two of each.
 RONDEL_API Remap remap(const Partition& source, const Partition& target,
                        const RemapOptions& options = {}, const Execution& execution = {});
 

@@ -149,16 +149,7 @@ void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t
     if (std::ranges::count(side.mask, 0) == 0) side.mask.clear();
   }
   if (const auto* const dims = file.find(names.dims)) {
-    std::uint64_t product = 1;
-    for (const std::int64_t length : file.integers(*dims)) {
-      if (length < 1 || __builtin_mul_overflow(product, length, &product)) product = 0;
-      side.shape.insert(side.shape.begin(), static_cast<std::uint64_t>(length));
-    }
-    if (product != size) {
-      throw io::BadValue("variable " + io::in_quotes(names.dims) + " does not multiply to " +
-                         std::to_string(size));
-    }
-    if (side.shape.size() < 2) side.shape.clear();
+    side.shape = io::shape_of_grid(file, *dims, size);
   }
 }
 

@@ -251,4 +251,19 @@ std::string netcdf_text(std::span<const NetcdfAttribute> attributes, std::string
   return attribute == nullptr ? std::string() : attribute->text;
 }
 
+std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file,
+                                         const NetcdfReader::Variable& lengths,
+                                         std::uint64_t size) {
+  std::vector<std::uint64_t> shape;
+  std::uint64_t product = 1;
+  for (const std::int64_t length : file.integers(lengths)) {
+    if (length < 1 || __builtin_mul_overflow(product, length, &product)) product = 0;
+    shape.push_back(static_cast<std::uint64_t>(length));
+  }
+  if (shape.size() < 2) return {};
+  if (product != size) refuse(lengths, "does not multiply to " + std::to_string(size));
+  std::ranges::reverse(shape);
+  return shape;
+}
+
 }  // namespace rondel::io

@@ -78,4 +78,10 @@ RONDEL_API std::string netcdf_text(std::span<const NetcdfAttribute> attributes,
 RONDEL_API const NetcdfAttribute* find_attribute(std::span<const NetcdfAttribute> attributes,
                                                  std::string_view name);
 
+// The lengths of a grid of `size` cells, which SCRIP names from the fastest one on, in the order of arrays, the slowest one
+// first; empty if there is one or none, which says nothing. Throws BadValue if several do not multiply to the size.
+RONDEL_API std::vector<std::uint64_t> shape_of_grid(const NetcdfReader& file,
+                                                    const NetcdfReader::Variable& lengths,
+                                                    std::uint64_t size);
+
 }  // namespace rondel::io

@@ -135,6 +135,17 @@ std::vector<Point> Graticule::moments() const {
   return result;
 }
 
+std::vector<double> Graticule::lengths() const {
+  std::vector<double> result(num_cells());
+  for (Index c = 0; c < num_columns_of_grid_; ++c) {
+    for (Index r = 0; r < num_rows_of_grid_; ++r) {
+      const double height = (latitudes_[r + std::size_t{1}] - latitudes_[r]) * radians_per_degree;
+      result[cell(c, first_row_ + r)] = 2 * (columns_[c].width + height);
+    }
+  }
+  return result;
+}
+
 void Graticule::append_neighbors(Index cell, std::vector<Index>& neighbors) const {
   const Index n = num_columns_of_grid_;
   const Index column = cell % n;

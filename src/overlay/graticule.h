@@ -65,6 +65,8 @@ class Graticule {
   // By cell.
   [[nodiscard]] std::vector<double> areas() const;
   [[nodiscard]] std::vector<Point> moments() const;
+  // Of borders: of the parallels as if they were at the equator.
+  [[nodiscard]] std::vector<double> lengths() const;
   // Cells that share a side, in any order, some of them twice.
   void append_neighbors(Index cell, std::vector<Index>& neighbors) const;
 

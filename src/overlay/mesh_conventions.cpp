@@ -107,12 +107,7 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file) {
   take_mask(file, "grid_imask", mesh);
   take_centers(file, file.find("grid_center_lon"), file.find("grid_center_lat"), mesh);
   if (const MeshVariable* const dims = file.find("grid_dims")) {
-    std::uint64_t product = 1;
-    for (const std::int64_t length : file.integers(*dims)) {
-      if (length < 1 || __builtin_mul_overflow(product, length, &product)) product = 0;
-      mesh.shape.insert(mesh.shape.begin(), static_cast<std::uint64_t>(length));
-    }
-    if (product != mesh.cells.size() - 1 || mesh.shape.size() < 2) mesh.shape.clear();
+    mesh.shape = io::shape_of_grid(file, *dims, mesh.cells.size() - 1);
   }
   return mesh;
 }

@@ -26,7 +26,8 @@ PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned thre
     : subdivision_(std::move(subdivision)),
       whole_(whole),
       areas_(subdivision_.num_cells()),
-      moments_(subdivision_.num_cells()) {
+      moments_(subdivision_.num_cells()),
+      lengths_(subdivision_.num_cells()) {
   const auto measure = [&](std::size_t begin, std::size_t end) {
     std::vector<BorderArc> border;
     for (std::size_t c = begin; c < end; ++c) {
@@ -42,6 +43,7 @@ PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned thre
       const Measures measures = measures_of(border, subdivision_.centers[c]);
       areas_[subdivision_.names[c]] = measures.area;
       moments_[subdivision_.names[c]] = measures.moment;
+      lengths_[subdivision_.names[c]] = measures.length;
     }
   };
   system::parallel_for(threads, subdivision_.num_cells(), cells_per_piece, measure);
@@ -58,7 +60,8 @@ PartitionData::PartitionData(Graticule grid)
       whole_(no_index),
       is_cover_(grid_->is_cover()),
       areas_(grid_->areas()),
-      moments_(grid_->moments()) {}
+      moments_(grid_->moments()),
+      lengths_(grid_->lengths()) {}
 
 void require_arcs(const PartitionData& cells) {
   if (cells.grid() == nullptr) return;

@@ -33,6 +33,8 @@ class PartitionData {
   // By name.
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
   [[nodiscard]] const std::vector<Point>& moments() const { return moments_; }
+  // Roughly, of their borders; no less than they are.
+  [[nodiscard]] const std::vector<double>& lengths() const { return lengths_; }
 
  private:
   Subdivision subdivision_;
@@ -41,6 +43,7 @@ class PartitionData {
   bool is_cover_ = false;
   std::vector<double> areas_;
   std::vector<Point> moments_;
+  std::vector<double> lengths_;
 };
 
 // Throws InvalidInput if the cells are those of a grid.

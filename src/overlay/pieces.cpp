@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <vector>
 
 #include "overlay/arcs.h"
 #include "overlay/crossings.h"
+#include "overlay/filling.h"
 #include "overlay/gathered_rows.h"
 #include "overlay/measure.h"
 
@@ -24,10 +26,13 @@ struct MeasuredPiece {
 
 class PieceMaker {
  public:
-  PieceMaker(const Subdivision& cells, const Subdivision& cover, Index first_cell, Index end_cell,
-             bool has_moments)
+  // A piece has the place of its cell of the cover, or, if there are any, of that one's owner; of these `names` are the
+  // columns. What has no owner is measured, too: a cell may have nothing else but rounding.
+  PieceMaker(const Subdivision& cells, const Subdivision& cover, std::span<const Index> names,
+             std::span<const Index> owners, Index first_cell, Index end_cell, bool has_moments)
       : cells_(cells),
-        cover_(cover),
+        names_(names),
+        owners_(owners),
         arcs_(cells, cover, first_cell, end_cell),
         has_moments_(has_moments) {}
   // Of a cell that has a ring, in the order of the columns.
@@ -35,20 +40,36 @@ class PieceMaker {
     constexpr std::size_t many = 128;
     pieces_.clear();
     const std::span<const PieceArc> arcs = arcs_(cell);
-    if (arcs.size() > many || !add_all(arcs, cells_.centers[cell])) {
+    const std::span<const PieceArc> owned = owners_.empty() ? arcs : arcs_of_owners(arcs);
+    if (owned.size() > many || !add_all(owned, cells_.centers[cell])) {
       pieces_.clear();
       add_by_piece(arcs);
+      if (!owners_.empty()) join_by_owner();
     }
     drop_rounding(pieces_);
+    std::erase_if(pieces_, [&](const MeasuredPiece& piece) { return !has_column(piece); });
     std::ranges::sort(pieces_, {}, [&](const MeasuredPiece& piece) { return column(piece); });
     return pieces_;
   }
-  [[nodiscard]] Index column(const MeasuredPiece& piece) const {
-    return cover_.names[piece.beyond];
-  }
+  [[nodiscard]] Index column(const MeasuredPiece& piece) const { return names_[piece.beyond]; }
   static Index place(const MeasuredPiece& piece) { return piece.beyond; }
 
  private:
+  [[nodiscard]] bool has_column(const MeasuredPiece& piece) const {
+    return piece.beyond < names_.size();
+  }
+
+  // Without those that have the same on both sides.
+  std::span<const PieceArc> arcs_of_owners(std::span<const PieceArc> arcs) {
+    owned_.clear();
+    for (PieceArc arc : arcs) {
+      arc.left = owners_[arc.left];
+      if (arc.right != no_index) arc.right = owners_[arc.right];
+      if (arc.left != arc.right) owned_.push_back(arc);
+    }
+    return owned_;
+  }
+
   // Triangles of each arc and the cell's center, which count for both sides of an edge. Corners are rounded by
   // more than a triangle is, if it is not large: whether none is.
   bool add_all(std::span<const PieceArc> arcs, const Point& center) {
@@ -107,14 +128,34 @@ class PieceMaker {
       pieces_.push_back({beyond, area, length, moment});
     }
   }
+  // What has one owner may be too large to be measured at once, but no cell of the cover is.
+  void join_by_owner() {
+    for (MeasuredPiece& piece : pieces_) piece.beyond = owners_[piece.beyond];
+    std::ranges::stable_sort(pieces_, {}, &MeasuredPiece::beyond);
+    std::size_t size = 0;
+    for (std::size_t k = 0; k < pieces_.size(); ++k) {
+      const MeasuredPiece piece = pieces_[k];
+      if (size == 0 || pieces_[size - 1].beyond != piece.beyond) {
+        pieces_[size++] = piece;
+        continue;
+      }
+      MeasuredPiece& whole = pieces_[size - 1];
+      whole.area += piece.area;
+      whole.length += piece.length;
+      whole.moment = whole.moment + piece.moment;
+    }
+    pieces_.resize(size);
+  }
   struct SideOfPiece {
     Index beyond;
     BorderArc arc;
   };
 
   const Subdivision& cells_;
-  const Subdivision& cover_;
+  std::span<const Index> names_;
+  std::span<const Index> owners_;
   ArcMaker arcs_;
+  std::vector<PieceArc> owned_;
   bool has_moments_;
   std::array<Index, 64> known_{};
   std::vector<Place> places_;
@@ -128,7 +169,15 @@ class PieceMaker {
 PieceRows pieces(const Subdivision& cells, const Subdivision& cover, bool has_moments,
                  const Execution& execution) {
   return gathered_rows(cells, cover.names, has_moments, execution, [&](Index first, Index end) {
-    return PieceMaker(cells, cover, first, end, has_moments);
+    return PieceMaker(cells, cover, cover.names, {}, first, end, has_moments);
+  });
+}
+
+PieceRows pieces_of_parts(const Subdivision& cells, const Subdivision& others, bool has_moments,
+                          const Execution& execution) {
+  const Filling filling = filling_of(others, execution);
+  return gathered_rows(cells, others.names, has_moments, execution, [&](Index first, Index end) {
+    return PieceMaker(cells, filling.cover, others.names, filling.owners, first, end, has_moments);
   });
 }
 

@@ -35,6 +35,10 @@ void find_sums(PieceRows& pieces, std::size_t num_columns);
 PieceRows pieces(const Subdivision& cells, const Subdivision& cover, bool has_moments,
                  const Execution& execution);
 
+// The same of two that are parts of the sphere. Throws InvalidInput where cells of `others` overlap.
+PieceRows pieces_of_parts(const Subdivision& cells, const Subdivision& others, bool has_moments,
+                          const Execution& execution);
+
 // With rows and columns exchanged.
 PieceRows transposed(const PieceRows& pieces, std::size_t num_columns);
 

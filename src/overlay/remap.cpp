@@ -11,6 +11,7 @@
 
 #include "exact/vector.h"
 #include "overlay/graticule_pieces.h"
+#include "overlay/measure.h"
 #include "overlay/partition_data.h"
 #include "overlay/pieces.h"
 #include "overlay/slopes_of_cells.h"
@@ -39,6 +40,33 @@ PieceRows whole_cells(const PartitionData& cells, Index whole, std::size_t num_r
   return pieces;
 }
 
+// Fills up the one with fewer sides, or else the other, to a cover. Rows are targets.
+PieceRows overlay_of_parts(const PartitionData& source, const PartitionData& target,
+                           bool has_moments, const Execution& execution) {
+  const overlay::Subdivision& sources = source.subdivision();
+  const overlay::Subdivision& targets = target.subdivision();
+  const auto with = [&](bool is_source_filled) {
+    if (is_source_filled) return pieces_of_parts(targets, sources, has_moments, execution);
+    return transposed(pieces_of_parts(sources, targets, has_moments, execution),
+                      target.areas().size());
+  };
+  const bool is_source_first = sources.num_halfedges() <= targets.num_halfedges();
+  std::string first_error;
+  try {
+    return with(is_source_first);
+  } catch (const InvalidInput& error) {
+    first_error = error.what();
+  }
+  try {
+    return with(!is_source_first);
+  } catch (const InvalidInput& error) {
+    throw InvalidInput("of the source " + (is_source_first ? first_error : error.what()) +
+                           ", of the target " + (is_source_first ? error.what() : first_error) +
+                           ": one of the two must have none that do",
+                       error.index());
+  }
+}
+
 // Rows are targets.
 PieceRows overlay_of(const PartitionData& source, const PartitionData& target, bool has_moments,
                      const Execution& execution) {
@@ -62,8 +90,7 @@ PieceRows overlay_of(const PartitionData& source, const PartitionData& target, b
     return transposed(pieces(source.subdivision(), target.subdivision(), has_moments, execution),
                       num_targets);
   }
-  throw InvalidInput(
-      "neither the source nor the target covers the sphere or is a grid of parallels", 0);
+  return overlay_of_parts(source, target, has_moments, execution);
 }
 
 // Leaves out what is of a cell that takes no part.
@@ -111,10 +138,14 @@ std::vector<Point> column_moments(const PieceRows& pieces, std::size_t num_colum
 }
 
 // What pieces sum up to differs by rounding alone from the area of a cell that is covered, and is what keeps integrals.
-std::vector<double> areas_of(const std::vector<double>& covered, std::vector<double> areas) {
-  constexpr double rounding = 1e-9;
+// Corners on the cell's border are off it by what area_of_rounding() says. So are pieces that are left out, but
+// they may be many: as much as a share of 1e-9 together.
+std::vector<double> areas_of(const std::vector<double>& covered, const PartitionData& cells) {
+  constexpr double of_many = 1e-9;
+  std::vector<double> areas = cells.areas();
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    if (std::abs(covered[i] - areas[i]) <= rounding * areas[i]) areas[i] = covered[i];
+    const double rounding = of_many * areas[i] + overlay::area_of_rounding(cells.lengths()[i]);
+    if (covered[i] > 0 && std::abs(covered[i] - areas[i]) <= rounding) areas[i] = covered[i];
   }
   return areas;
 }
@@ -228,8 +259,8 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
   result.offsets = std::move(pieces.offsets);
   result.columns = std::move(pieces.columns);
   result.areas = std::move(pieces.areas);
-  result.source_areas = areas_of(pieces.column_sums, sources.areas());
-  result.target_areas = areas_of(pieces.row_sums, targets.areas());
+  result.source_areas = areas_of(pieces.column_sums, sources);
+  result.target_areas = areas_of(pieces.row_sums, targets);
   result.source_fractions = fractions(pieces.column_sums, result.source_areas);
   result.target_fractions = fractions(pieces.row_sums, result.target_areas);
 

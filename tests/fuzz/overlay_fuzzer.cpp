@@ -215,6 +215,46 @@ CellRings next_rings(ByteSource& source, const Triangulation& t) {
   return rings;
 }
 
+// Every cell but some, which become empty.
+Partition without_some(const Partition& cells, Index step) {
+  const CellRings all = cells.rings();
+  CellRings result;
+  result.points = all.points;
+  for (std::size_t i = 0; i < all.num_cells(); ++i) {
+    for (auto r = all.cells[i]; i % step != 0 && r < all.cells[i + 1]; ++r) {
+      for (auto k = all.rings[r]; k < all.rings[r + 1]; ++k) {
+        result.corners.push_back(all.corners[k]);
+      }
+      result.rings.push_back(result.corners.size());
+    }
+    result.cells.push_back(result.rings.size() - 1);
+  }
+  return Partition(result);
+}
+
+// Of two diagrams with gaps the pieces are those of the diagrams without any.
+void test_parts(const Partition& cells, const Partition& others, ByteSource& source) {
+  if (!has_borders(cells) || !has_borders(others)) return;
+  const auto first = static_cast<Index>(2 + source.below(3));
+  const auto second = static_cast<Index>(2 + source.below(3));
+  const Remap whole = remap(cells, others);
+  const Partition target = without_some(others, second);
+  const Remap parts = remap(without_some(cells, first), target);
+  std::vector<double> areas(cells.num_cells());
+  for (std::size_t j = 0; j < others.num_cells(); ++j) {
+    for (auto k = parts.offsets[j]; k < parts.offsets[j + 1]; ++k) {
+      require(parts.columns[k] % first != 0 && j % second != 0, "gaps have no pieces");
+      areas[parts.columns[k]] += parts.areas[k];
+    }
+    for (auto k = whole.offsets[j]; k < whole.offsets[j + 1]; ++k) {
+      if (whole.columns[k] % first != 0 && j % second != 0) {
+        areas[whole.columns[k]] -= whole.areas[k];
+      }
+    }
+  }
+  for (const double area : areas) require(std::abs(area) < 1e-9, "pieces do not see gaps");
+}
+
 void test_any_cells(const CellRings& rings, const Partition& target) {
   try {
     const Partition cells(rings);
@@ -223,6 +263,8 @@ void test_any_cells(const CellRings& rings, const Partition& target) {
     const Remap there = remap(cells, target, {.norm = RemapNorm::fracarea});
     require(there.weights.num_columns == cells.num_cells(), "columns are sources");
     require(clip(target, cells).num_cells() == target.num_cells(), "a part of each cell");
+    const Remap of_parts = remap(cells, without_some(target, 2), {.order = 2});
+    require(of_parts.weights.num_columns == cells.num_cells(), "of two parts, too");
   } catch (const InvalidInput&) {  // says what is wrong
   }
 }
@@ -248,6 +290,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::test_diagrams(cells, others);
     fuzz::test_regions(cells, others, static_cast<Index>(1 + source.below(3)));
     fuzz::test_grid(cells, source);
+    fuzz::test_parts(cells, others, source);
     const Partition triangles = Partition::triangles(t);
     if (others.is_cover()) {
       const Remap of_triangles = remap(triangles, others);

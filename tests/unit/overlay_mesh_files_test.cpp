@@ -155,6 +155,36 @@ TEST(overlay_mesh_files, scrip) {
   for (std::size_t i = 0; i < num_sites; ++i) EXPECT_EQ(table.mask[i], i == 7 ? 0 : 1);
 }
 
+TEST(overlay_mesh_files, lengths_that_do_not_multiply_to_the_cells) {
+  const MeshOfDiagram mesh(2);
+  const auto file_with = [&](const std::vector<double>& lengths) {
+    MeshWriter file;
+    const MeshWriter::Dimensions corners = {{"grid_size", num_sites}, {"grid_corners", mesh.most}};
+    const auto add = [&](const char* name, const std::vector<double>& values) {
+      file.add(
+          name, corners,
+          mesh.corners([&](std::size_t node) { return values[node]; },
+                       [&](const std::vector<std::size_t>& ring) { return values[ring.back()]; }));
+    };
+    add("grid_corner_lon", mesh.lon);
+    add("grid_corner_lat", mesh.lat);
+    file.add_whole("grid_dims", {{"grid_rank", lengths.size()}}, lengths);
+    return file;
+  };
+  EXPECT_TRUE(table_of(file_with({1})).shape.empty());
+  EXPECT_EQ(table_of(file_with({5, 2, 5})).shape, (std::vector<std::uint64_t>{5, 2, 5}));
+  for (const std::vector<double>& lengths : {std::vector<double>{10, 6}, {-10, -5}, {0, 50}}) {
+    try {
+      (void)table_of(file_with(lengths));
+      ADD_FAILURE() << lengths[0];
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("\"grid_dims\" does not multiply to 50"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(overlay_mesh_files, esmf) {
   const MeshOfDiagram mesh(3);
   MeshWriter file;

@@ -302,8 +302,8 @@ class Partition(Described):
 
     @property
     def is_cover(self) -> bool:
-        """bool: whether the cells cover the sphere and share their sides. Of two partitions that
-        are laid over each other one must, or be a grid of parallels.
+        """bool: whether the cells cover the sphere and share their sides. An overlay
+        takes less time if one of the two does.
         """
         return self._partition.is_cover
 

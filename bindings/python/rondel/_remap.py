@@ -46,7 +46,7 @@ def remap(
     Parameters
     ----------
     source, target : Partition
-        One of them covers the sphere, or is a grid of parallels.
+        Parts of the sphere, or all of it.
     order : {1, 2}, optional
         1: the field is constant in each source cell. 2: it has a gradient there, by least squares
         over the neighbors.
@@ -66,8 +66,8 @@ def remap(
     Raises
     ------
     InvalidInput
-        If neither partition covers the sphere or is a grid of parallels, or a mask has another
-        length.
+        If a mask has another length, or, where neither partition covers the sphere or is a grid
+        of parallels, cells of both overlap.
 
     Examples
     --------

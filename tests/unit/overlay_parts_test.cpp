@@ -1,0 +1,296 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Remapping between two parts of the sphere, neither of which covers it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "exact/vector.h"
+#include "overlay_support.h"
+#include "rondel/error.h"
+#include "rondel/regions.h"
+#include "rondel/remap.h"
+
+namespace rondel::test {
+namespace {
+
+// The cells of which `is_in` is true; others are empty.
+CellRings some_of(const CellRings& all, const std::function<bool(std::size_t)>& is_in) {
+  CellRings result;
+  result.points = all.points;
+  for (std::size_t i = 0; i < all.num_cells(); ++i) {
+    for (auto r = all.cells[i]; is_in(i) && r < all.cells[i + 1]; ++r) {
+      for (auto k = all.rings[r]; k < all.rings[r + 1]; ++k) {
+        result.corners.push_back(all.corners[k]);
+      }
+      result.rings.push_back(result.corners.size());
+    }
+    result.cells.push_back(result.rings.size() - 1);
+  }
+  return result;
+}
+
+struct RingOfPart {
+  std::vector<LonLat> corners;
+};
+CellRings cells_of_rings(const std::vector<std::vector<RingOfPart>>& cells) {
+  CellRings result;
+  for (const auto& rings : cells) {
+    for (const RingOfPart& ring : rings) {
+      for (const LonLat& corner : ring.corners) {
+        const Point p = unit_vector(corner);
+        const auto known = std::ranges::find(result.points, p);
+        result.corners.push_back(static_cast<Index>(known - result.points.begin()));
+        if (known == result.points.end()) result.points.push_back(p);
+      }
+      result.rings.push_back(result.corners.size());
+    }
+    result.cells.push_back(result.rings.size() - 1);
+  }
+  return result;
+}
+RingOfPart rectangle(double west, double south, double east, double north) {
+  return {{{west, south}, {east, south}, {east, north}, {west, north}}};
+}
+RingOfPart rectangular_hole(double west, double south, double east, double north) {
+  return {{{west, south}, {west, north}, {east, north}, {east, south}}};
+}
+
+double total_of(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+TEST(overlay_parts, pieces_are_those_of_clipping) {
+  const auto first = triangulation_of("uniform", 120, 1);
+  const auto second = triangulation_of("uniform", 160, 2);
+  const auto in_first = [&](std::size_t i) { return first.sites().points()[i].z > -0.2; };
+  const auto in_second = [&](std::size_t j) { return j % 3 != 0; };
+  const Partition source(some_of(Partition::voronoi(first).rings(), in_first));
+  const Partition target(some_of(Partition::voronoi(second).rings(), in_second));
+  ASSERT_FALSE(source.is_cover() || target.is_cover());
+  const Cells sources = cells(first);
+  const Cells targets = cells(second);
+  const Remap there = remap(source, target);
+  const Remap back = remap(target, source);
+  for (std::size_t i = 0; i < 120; ++i) {
+    for (std::size_t j = 0; j < 160; ++j) {
+      const auto expected = in_first(i) && in_second(j)
+                                ? static_cast<double>(area_of_piece(sources, i, targets, j))
+                                : 0;
+      EXPECT_NEAR(piece_of(there, i, j), expected, 1e-15) << i << ' ' << j;
+      EXPECT_NEAR(piece_of(back, j, i), expected, 1e-15) << i << ' ' << j;
+    }
+  }
+}
+
+// Regions are no more convex, have holes and several rings, and touch themselves in corners.
+TEST(overlay_parts, regions_onto_regions) {
+  const auto regions = [](std::size_t n, std::uint64_t seed) {
+    const CellRings all = Partition::voronoi(triangulation_of("uniform", n, seed)).rings();
+    return std::pair(all, random_groups(n, 7, seed, true));
+  };
+  const auto [first, first_groups] = regions(400, 3);
+  const auto [second, second_groups] = regions(300, 4);
+  const Remap of_cells = remap(Partition(first), Partition(second));
+  std::vector<double> expected(49);
+  for (std::size_t j = 0; j < 300; ++j) {
+    for (auto k = of_cells.offsets[j]; k < of_cells.offsets[j + 1]; ++k) {
+      const Index from = first_groups[of_cells.columns[k]];
+      const Index to = second_groups[j];
+      if (from != no_index && to != no_index) expected[7 * to + from] += of_cells.areas[k];
+    }
+  }
+  const Partition source(dissolve(first, first_groups, 7));
+  const Partition target(dissolve(second, second_groups, 7));
+  const Remap result = remap(source, target, {.order = 2});
+  for (Index i = 0; i < 7; ++i) {
+    for (Index j = 0; j < 7; ++j) {
+      EXPECT_NEAR(piece_of(result, i, j), expected[7 * j + i], 1e-14) << i << ' ' << j;
+    }
+  }
+}
+
+TEST(overlay_parts, patches_of_one_diagram_are_the_identity) {
+  for (const char* kind : {"uniform", "clustered", "globe_grid", "regional_grid"}) {
+    const CellRings all = Partition::voronoi(triangulation_of(kind, 500, 5)).rings();
+    const Partition source(some_of(all, [](std::size_t i) { return i % 5 != 0; }));
+    const Partition target(some_of(all, [](std::size_t i) { return i % 7 != 0; }));
+    const Remap result = remap(source, target);
+    for (std::size_t j = 0; j < all.num_cells(); ++j) {
+      if (target.areas()[j] == 0 || source.areas()[j] == 0) {
+        EXPECT_EQ(result.offsets[j], result.offsets[j + 1]) << kind << ' ' << j;
+      } else {
+        ASSERT_EQ(result.offsets[j + 1] - result.offsets[j], 1U) << kind << ' ' << j;
+        EXPECT_EQ(result.columns[result.offsets[j]], j);
+        EXPECT_EQ(result.weights.values[result.offsets[j]], 1);
+      }
+    }
+  }
+}
+
+TEST(overlay_parts, holes_and_what_is_in_them) {
+  const Partition ring(cells_of_rings(
+      {{rectangle(0, 0, 30, 30), rectangular_hole(10, 10, 20, 20)}, {rectangle(-20, 0, 0, 30)}}));
+  const Partition island(cells_of_rings({{rectangle(10, 10, 20, 20)}}));
+  EXPECT_TRUE(remap(ring, island).areas.empty());
+  EXPECT_TRUE(remap(island, ring).areas.empty());
+  const Partition within(cells_of_rings({{rectangle(12, 12, 18, 18)}}));
+  EXPECT_TRUE(remap(ring, within).areas.empty());
+  const Partition box_around(cells_of_rings({{rectangle(-90, -40, 80, 60)}}));
+  for (const auto& result : {remap(ring, box_around), remap(box_around, ring)}) {
+    EXPECT_NEAR(total_of(result.areas), ring.areas()[0] + ring.areas()[1], 1e-14);
+  }
+  const Partition far(cells_of_rings({{rectangle(150, -30, 170, -10)}}));
+  EXPECT_TRUE(remap(ring, far).areas.empty());
+  EXPECT_TRUE(remap(ring, Partition(cells_of_rings({{}, {}}))).areas.empty());
+  EXPECT_TRUE(remap(Partition(cells_of_rings({})), ring).areas.empty());
+}
+
+// What is opposite of a cell's center of mass is inside of it, where triangles around that are anything.
+TEST(overlay_parts, of_nearly_the_whole_sphere) {
+  std::vector<RingOfPart> holes;
+  std::vector<std::vector<RingOfPart>> islands;
+  for (const double lon : {0.0, 120.0, 240.0}) {
+    holes.push_back(rectangular_hole(lon - 5, -70, lon + 5, -60));
+    islands.push_back({rectangle(lon - 5, -70, lon + 5, -60)});
+  }
+  const Partition sea(cells_of_rings({holes}));
+  const Partition land(cells_of_rings(islands));
+  const Partition octants = Partition::triangles(delaunay(
+      std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}));
+  ASSERT_TRUE(octants.is_cover());
+  const Remap of_sea = remap(sea, octants);
+  const Remap of_land = remap(land, octants);
+  for (Index j = 0; j < 8; ++j) {
+    double sum = piece_of(of_sea, 0, j);
+    for (Index i = 0; i < 3; ++i) sum += piece_of(of_land, i, j);
+    EXPECT_NEAR(sum, std::numbers::pi / 2, 1e-14) << j;
+  }
+}
+
+// A cell beside two smaller ones, whose common corner lies on its side; ends of the axes inside, on sides, and corners.
+TEST(overlay_parts, corners_on_sides) {
+  const Partition uneven(cells_of_rings({{rectangle(-30, 0, 0, 40)},
+                                         {{{{0, 0}, {45, 0}, {0, 40}}}},
+                                         {{{{45, 0}, {90, 0}, {0, 90}, {0, 40}}}},
+                                         {{{{-30, 0}, {30, -40}, {90, 0}}}}}));
+  const Partition other(
+      cells_of_rings({{rectangle(-20, -20, 50, 30)}, {rectangle(50, -20, 70, 30)}}));
+  const Remap there = remap(uneven, other);
+  const Remap back = remap(other, uneven);
+  // Each cell by itself leaves no corner on a side.
+  for (Index i = 0; i < 4; ++i) {
+    const Partition alone(some_of(uneven.rings(), [&](std::size_t k) { return k == i; }));
+    const Remap expected = remap(alone, other);
+    for (Index j = 0; j < 2; ++j) {
+      EXPECT_NEAR(piece_of(there, i, j), piece_of(expected, i, j), 1e-15) << i << ' ' << j;
+      EXPECT_NEAR(piece_of(back, j, i), piece_of(expected, i, j), 1e-15) << i << ' ' << j;
+    }
+  }
+  EXPECT_NEAR(total_of(there.areas), total_of(back.areas), 1e-14);
+}
+
+// Cells that cross, that are inside of others, that are there twice, and that are inside of themselves.
+TEST(overlay_parts, names_cells_that_overlap) {
+  const RingOfPart box = rectangle(0, 0, 20, 20);
+  const RingOfPart within = rectangle(5, 5, 9, 9);
+  const RingOfPart apart = rectangle(-50, 0, -40, 10);
+  const auto message_of = [&](const std::vector<std::vector<RingOfPart>>& cells) {
+    const Partition source(cells_of_rings(cells));
+    const Partition target(cells_of_rings({{apart}, {box}, {apart}, {apart}, {apart}, {apart}}));
+    try {
+      (void)remap(source, target);
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  const std::string rest =
+      ", of the target cells 0 and 2 overlap: one of the two must have none that do";
+  EXPECT_EQ(message_of({{apart}, {box}, {rectangle(10, 10, 30, 30)}}),
+            "of the source cells 1 and 2 overlap" + rest);
+  EXPECT_EQ(message_of({{box}, {apart}, {within}}), "of the source cells 0 and 2 overlap" + rest);
+  EXPECT_EQ(message_of({{within}, {box}}), "of the source cells 0 and 1 overlap" + rest);
+  EXPECT_EQ(message_of({{apart}, {box}, {box}}), "of the source cells 1 and 2 overlap" + rest);
+  EXPECT_EQ(message_of({{box, within}}), "of the source cell 0 overlaps itself" + rest);
+  EXPECT_EQ(message_of({{box, rectangular_hole(5, 5, 9, 9)}, {within}}), "nothing");
+}
+
+// Then the other one is filled up, which has more sides.
+TEST(overlay_parts, one_of_the_two_may_overlap) {
+  const Partition twice(cells_of_rings({{rectangle(0, 0, 20, 20)}, {rectangle(10, 10, 30, 30)}}));
+  const Partition plain(cells_of_rings(
+      {{rectangle(8, 8, 12, 12)}, {rectangle(20, 20, 25, 25)}, {rectangle(12, 8, 19, 12)}}));
+  const Remap there = remap(twice, plain);
+  const Remap back = remap(plain, twice);
+  for (Index i = 0; i < 2; ++i) {
+    const Partition alone(some_of(twice.rings(), [&](std::size_t k) { return k == i; }));
+    const Remap expected = remap(alone, plain);
+    for (Index j = 0; j < 3; ++j) {
+      EXPECT_NEAR(piece_of(there, i, j), piece_of(expected, i, j), 1e-16) << i << ' ' << j;
+      EXPECT_NEAR(piece_of(back, j, i), piece_of(expected, i, j), 1e-16) << i << ' ' << j;
+    }
+  }
+}
+
+// Sides that a cell has to and fro bound nothing: a cut inwards, one outwards, and two rings along it.
+TEST(overlay_parts, sides_that_bound_nothing) {
+  const RingOfPart plain = {{{0, 0}, {20, 0}, {20, 20}, {0, 20}}};
+  const RingOfPart inwards = {{{0, 0}, {20, 0}, {20, 20}, {10, 10}, {20, 20}, {0, 20}}};
+  const RingOfPart outwards = {{{0, 0}, {20, 0}, {20, 20}, {30, 33}, {20, 20}, {0, 20}}};
+  const Partition other(cells_of_rings({{rectangle(-5, 3, 12, 50)},
+                                        {rectangle(12, 3, 40, 50)},
+                                        {rectangle(-5, -9, 40, 3)},
+                                        {rectangle(50, 3, 60, 20)},
+                                        {rectangle(60, 3, 70, 20)}}));
+  const Remap expected = remap(Partition(cells_of_rings({{plain}})), other);
+  const std::vector<std::vector<RingOfPart>> cells = {
+      {inwards}, {outwards}, {{{{0, 0}, {20, 0}, {20, 20}}}, {{{0, 0}, {20, 20}, {0, 20}}}}};
+  for (const auto& rings : cells) {
+    const Remap result = remap(Partition(cells_of_rings({rings})), other);
+    ASSERT_EQ(result.columns, expected.columns);
+    for (std::size_t k = 0; k < result.areas.size(); ++k) {
+      EXPECT_NEAR(result.areas[k], expected.areas[k], 1e-15) << k;
+    }
+  }
+}
+
+// A mesh of a patch of 1e-6 radians, beside itself turned by less than an ulp and more.
+TEST(overlay_parts, patches_that_nearly_agree) {
+  for (const double shift : {0.0, 1e-17, 1e-16, 1e-12, 1e-8}) {
+    const auto patch = [](double by) {
+      CellRings rings;
+      for (int y = 0; y <= 10; ++y) {
+        for (int x = 0; x <= 10; ++x) {
+          rings.points.push_back(normalized(Point{1, 1e-7 * x + by, 1e-7 * y + 0.5}));
+        }
+      }
+      for (Index y = 0; y < 10; ++y) {
+        for (Index x = 0; x < 10; ++x) {
+          const Index p = 11 * y + x;
+          rings.corners.insert(rings.corners.end(), {p, p + 1, p + 12, p + 11});
+          rings.rings.push_back(rings.corners.size());
+          rings.cells.push_back(rings.rings.size() - 1);
+        }
+      }
+      return Partition(rings);
+    };
+    const Partition source = patch(0);
+    const Partition target = patch(shift);
+    const Remap result = remap(source, target);
+    const double whole = std::accumulate(source.areas().begin(), source.areas().end(), 0.0);
+    EXPECT_NEAR(total_of(result.areas) / whole, 1 - shift / 1e-6, 1e-8) << shift;
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test
