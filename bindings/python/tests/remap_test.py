@@ -108,6 +108,11 @@ def test_meshes_of_xarray(tmp_path):
     assert read.mask.all()
 
 
+def test_parts_of_the_sphere():
+    part = rondel.Partition.polygons([0, 1], [0, 3], [0, 1, 2], np.eye(3))
+    assert rondel.remap(part, part).weights.data.tolist() == [1]
+
+
 def test_what_is_refused():
     with pytest.raises(ValueError, match="norm must be"):
         rondel.remap(CELLS, GRID, norm="none")
@@ -117,5 +122,3 @@ def test_what_is_refused():
         rondel.Partition.lonlat_grid(LON, LAT, sides="straight")
     with pytest.raises(rondel.InvalidInput, match="meridian 1"):
         rondel.Partition.lonlat_grid([0, 0], LAT)
-    part = rondel.Partition.polygons([0, 1], [0, 3], [0, 1, 2], np.eye(3))
-    assert rondel.remap(part, part).weights.values.tolist() == [1]
