@@ -46,8 +46,8 @@ void test_lonlats(std::string_view bytes) {
 void test_corners(std::string_view bytes) {
   constexpr std::size_t most = 64;
   std::vector<double> numbers(std::min(bytes.size() / sizeof(double), most) / 2 * 2);
-  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(double));
   if (numbers.empty()) return;
+  std::memcpy(numbers.data(), bytes.data(), numbers.size() * sizeof(double));
   std::vector<LonLat> corners;
   for (std::size_t i = 0; i < numbers.size(); i += 2)
     corners.push_back({numbers[i], numbers[i + 1]});
