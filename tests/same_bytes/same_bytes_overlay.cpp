@@ -9,9 +9,6 @@
 //                                              what differs
 //     same_bytes_overlay EXPECTED --update     records those of this build
 
-#include <cstdio>
-#include <exception>
-#include <fstream>
 #include <set>
 #include <string>
 #include <vector>
@@ -20,7 +17,7 @@
 #include "rondel/regions.h"
 #include "rondel/remap.h"
 #include "same_bytes/portable/hash.h"
-#include "same_bytes/portable/hashes.h"
+#include "same_bytes/recorded.h"
 #include "support/generators.h"
 
 namespace rondel::test {
@@ -122,27 +119,9 @@ std::vector<std::string> all_lines() {
   return lines;
 }
 
-int run(const std::vector<std::string>& arguments) {
-  if (arguments.size() == 1) return num_different(arguments[0], all_lines()) == 0 ? 0 : 1;
-  std::ofstream file(arguments[0]);
-  for (const std::string& line : all_lines()) file << line << '\n';
-  return 0;
-}
-
 }  // namespace
 }  // namespace rondel::test
 
 int main(int argc, char** argv) {
-  const std::vector<std::string> arguments(argv + 1, argv + argc);
-  const bool is_update = arguments.size() == 2 && arguments[1] == "--update";
-  if (arguments.size() != 1 && !is_update) {
-    std::fputs("usage: same_bytes_overlay EXPECTED [--update]\n", stderr);
-    return 2;
-  }
-  try {
-    return rondel::test::run(arguments);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "same_bytes_overlay: %s\n", error.what());
-    return 1;
-  }
+  return rondel::test::compare_or_record("same_bytes_overlay", rondel::test::all_lines, argc, argv);
 }
