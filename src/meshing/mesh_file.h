@@ -139,7 +139,10 @@ struct CellBlocks {
 CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners);
 void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks);
 
-// Throws InvalidInput where a size or an index does not fit.
+// Within a thousandth, so that single precision, too, is.
+bool is_on_sphere(const Point& point, double radius);
+
+// Throws InvalidInput where a size or an index does not fit, or a point is not on the sphere.
 void require_consistent(const mesh::MeshArrays& arrays, unsigned threads);
 
 }  // namespace rondel::meshing
