@@ -22,7 +22,7 @@ enum class MeshFormat : std::uint8_t {
   ugrid,  ///< CF-1.11 UGRID-1.0: faces, edges, nodes and how they meet
   scrip,  ///< the corners of each cell, for SCRIP, NCO, ESMF, CDO
   esmf,   ///< ESMF's unstructured mesh
-  exodus,  ///< Exodus II on the unit sphere, for TempestRemap, MOAB, VTK: a block for each number of corners
+  exodus,  ///< Exodus II on the unit sphere as TempestRemap has it: a block for each number of corners
 };
 
 /// Which of netCDF's classic formats: CDF-2, which every program reads and whose variables have less than 4 GiB; or CDF-5.
@@ -41,7 +41,8 @@ struct MeshFileOptions {
 ///    (the smallest dcEdge), and the qualities of cells and triangles that MPAS-Tools writes. The file_id is
 ///    a hash of the mesh.
 /// 3. The other formats have areas on the unit sphere. Corners that an edge without length joins are one corner.
-/// 4. Cells of Exodus are ordered by their number of corners; elem_num_map has their numbers from 1 on.
+/// 4. Cells of Exodus are ordered by their number of corners; elem_num_map and global_id of each block have their
+///    numbers from 1 on.
 /// \throws InvalidInput if the arrays do not fit together; FileError also for CDF-2 that cannot hold the mesh.
 RONDEL_API void write(const std::string& path, const MeshArrays& arrays,
                       const MeshFileOptions& options = {}, const Execution& execution = {});
@@ -51,7 +52,8 @@ RONDEL_API void write_graph(const std::string& path, const MeshArrays& arrays,
                             const Execution& execution = {});
 
 /// Reads the arrays of an MPAS mesh on the whole sphere, whoever wrote it. What write() wrote comes back bit for
-/// bit, but a density of 1 everywhere as none.
+/// bit, but a density of 1 everywhere as none. Points are on the sphere of sphere_radius (1 where it is missing) within a
+/// thousandth of it.
 ///
 /// 1. Areas, lengths, angles and points are those of the file, whatever their precision. The
 ///    order and the start of lists are those of edgesOnCell and cellsOnVertex; the others follow from them, and from the

@@ -21,6 +21,19 @@ void require_size(const char* name, std::size_t size, std::size_t wanted) {
       0);
 }
 
+void require_points(const char* name, unsigned threads, const std::vector<Point>& points,
+                    double radius) {
+  constexpr std::size_t grain = 65536;
+  system::parallel_for(threads, points.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (is_on_sphere(points[i], radius)) continue;
+      throw InvalidInput(std::string("the mesh's ") + name + " have a point " + std::to_string(i) +
+                             " that is not on its sphere",
+                         i);
+    }
+  });
+}
+
 template <class Row>
 void require_indices(const char* name, unsigned threads, const std::vector<Row>& rows,
                      std::size_t end) {
@@ -46,6 +59,9 @@ void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
   const std::size_t edges = arrays.num_edges();
   const std::size_t vertices = arrays.num_vertices();
   if (cells == 0) throw InvalidInput("the mesh has no cells", 0);
+  require_points("cell_points", threads, arrays.cell_points, arrays.radius);
+  require_points("edge_points", threads, arrays.edge_points, arrays.radius);
+  require_points("vertex_points", threads, arrays.vertex_points, arrays.radius);
   require_size("cell_areas", arrays.cell_areas.size(), cells);
   if (!arrays.density.empty()) require_size("density", arrays.density.size(), cells);
   require_size("offsets", arrays.offsets.size(), cells + 1);

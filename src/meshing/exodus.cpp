@@ -5,6 +5,7 @@
 // sphere, a block for each number of corners. Numbers start at 1.
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "meshing/mesh_file.h"
@@ -21,16 +22,19 @@ void define_exodus_attributes(io::NetcdfWriter& out) {
   out.add_attribute({"api_version", io::NetcdfType::float32, "", {8.0}});
   out.add_attribute({"version", io::NetcdfType::float32, "", {8.0}});
   out.add_attribute({"floating_point_word_size", io::NetcdfType::int32, "", {8}});
-  out.add_attribute({"file_size", io::NetcdfType::int32, "", {1}});
+  out.add_attribute({"file_size", io::NetcdfType::int32, "", {0}});
   out.add_attribute("title", std::string("Rondel ") + version + ": Voronoi cells");
 }
 
-void define_coordinate(MeshFile& file, const char* name, std::size_t nodes,
-                       double Point::*coordinate) {
+// All x, then all y and z: a file_size of 1 would have them in three variables, which TempestRemap does not read.
+void define_coordinates(MeshFile& file, std::size_t axes, std::size_t nodes) {
   const mesh::MeshArrays& arrays = file.arrays();
-  file.numbers(name, nodes, {}, arrays.num_vertices(), [&arrays, coordinate](std::size_t v) {
-    return arrays.vertex_points[v].*coordinate / arrays.radius;
-  });
+  const std::size_t size = arrays.num_vertices();
+  file.numbers("coord", {axes, nodes}, {}, 3 * size, 1,
+               [&arrays, size](std::size_t i, double* out) {
+                 constexpr std::array coordinates = {&Point::x, &Point::y, &Point::z};
+                 *out = arrays.vertex_points[i % size].*coordinates[i / size] / arrays.radius;
+               });
 }
 
 // As TempestRemap names them.
@@ -74,9 +78,7 @@ void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks&
   file.indices("eb_status", blocks_dimension, {}, num_blocks, [](std::size_t) { return 1; });
   file.indices("eb_prop1", blocks_dimension, {{"name", "ID"}}, num_blocks,
                [](std::size_t b) { return b + 1; });
-  define_coordinate(file, "coordx", nodes, &Point::x);
-  define_coordinate(file, "coordy", nodes, &Point::y);
-  define_coordinate(file, "coordz", nodes, &Point::z);
+  define_coordinates(file, axes, nodes);
   file.add<char>(MeshFile::variable("coor_names", io::NetcdfType::text, {axes, names}, {}), 3,
                  exodus_name_length,
                  [](std::size_t axis, char* out) { *out = static_cast<char>('x' + axis); });
@@ -95,6 +97,9 @@ void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks&
                    corners.visit(blocks.cells[begin + i],
                                  [&](Index v) { *out++ = static_cast<std::int32_t>(v + 1); });
                  });
+    // Of the Exodus library elem_num_map, of TempestRemap this.
+    file.indices(("global_id" + number).c_str(), in_block, {}, blocks.begins[b + 1] - begin,
+                 [&blocks, begin](std::size_t i) { return blocks.cells[begin + i] + 1; });
   }
   // Records come last.
   file.numbers("time_whole", time, {}, 0, [](std::size_t) { return 0.0; });

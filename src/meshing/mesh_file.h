@@ -91,6 +91,8 @@ double longitude_of(const Point& p);
 double latitude_of(const Point& p);
 double longitude_deg_of(const Point& p);
 double latitude_deg_of(const Point& p);
+// Within a thousandth, so that single precision, too, is.
+bool is_on_sphere(const Point& p, double radius);
 
 // The corners of cells: the vertices, where those that edges without length join are one.
 class CellCorners {

@@ -40,20 +40,28 @@ std::string id_of(std::uint64_t hash) {
 
 std::int32_t one_based(Index index) { return static_cast<std::int32_t>(index + 1); }
 
-void define_points(MeshFile& file, const std::array<const char*, 5>& names, std::size_t dimension,
+// What there is of cells, edges and vertices alike: where they are, and their numbers.
+void define_places(MeshFile& file, const std::string& kind, std::size_t dimension,
                    const std::vector<Point>& points) {
   const std::size_t size = points.size();
-  file.numbers(names[0], dimension, radians, size,
-               [&points](std::size_t i) { return latitude_of(points[i]); });
-  file.numbers(names[1], dimension, radians, size,
-               [&points](std::size_t i) { return longitude_of(points[i]); });
-  file.numbers(names[2], dimension, {}, size, [&points](std::size_t i) { return points[i].x; });
-  file.numbers(names[3], dimension, {}, size, [&points](std::size_t i) { return points[i].y; });
-  file.numbers(names[4], dimension, {}, size, [&points](std::size_t i) { return points[i].z; });
+  const auto define = [&](const char* axis, MeshFile::Texts texts, const auto& coordinate) {
+    file.numbers((axis + kind).c_str(), dimension, texts, size,
+                 [&points, coordinate](std::size_t i) { return coordinate(points[i]); });
+  };
+  define("lat", radians, latitude_of);
+  define("lon", radians, longitude_of);
+  define("x", {}, [](const Point& p) { return p.x; });
+  define("y", {}, [](const Point& p) { return p.y; });
+  define("z", {}, [](const Point& p) { return p.z; });
+  file.indices(("indexTo" + kind + "ID").c_str(), dimension, {}, size,
+               [](std::size_t i) { return i + 1; });
 }
 
-void define_ids(MeshFile& file, const char* name, std::size_t dimension, std::size_t size) {
-  file.indices(name, dimension, {}, size, [](std::size_t i) { return i + 1; });
+// Arrays as they are.
+void define_values(MeshFile& file, const char* name, std::size_t dimension, MeshFile::Texts texts,
+                   const std::vector<double>& values) {
+  file.numbers(name, dimension, texts, values.size(),
+               [&values](std::size_t i) { return values[i]; });
 }
 
 // Rows of an array in compressed rows.
@@ -80,16 +88,13 @@ void define_rows(MeshFile& file, const char* name, std::vector<std::size_t> dime
 void define_cells(MeshFile& file, const MpasSizes& sizes) {
   const MeshArrays& arrays = file.arrays();
   const std::size_t size = arrays.num_cells();
-  define_points(file, {"latCell", "lonCell", "xCell", "yCell", "zCell"}, sizes.cells,
-                arrays.cell_points);
-  define_ids(file, "indexToCellID", sizes.cells, size);
+  define_places(file, "Cell", sizes.cells, arrays.cell_points);
   file.indices("nEdgesOnCell", sizes.cells, {}, size,
                [&arrays](std::size_t i) { return arrays.offsets[i + 1] - arrays.offsets[i]; });
   define_ring(file, "edgesOnCell", sizes, arrays.edges_on_cell);
   define_ring(file, "cellsOnCell", sizes, arrays.cells_on_cell);
   define_ring(file, "verticesOnCell", sizes, arrays.vertices_on_cell);
-  file.numbers("areaCell", sizes.cells, {}, size,
-               [&arrays](std::size_t i) { return arrays.cell_areas[i]; });
+  define_values(file, "areaCell", sizes.cells, {}, arrays.cell_areas);
   file.numbers("meshDensity", sizes.cells, {}, size,
                [&arrays](std::size_t i) { return arrays.density.empty() ? 1 : arrays.density[i]; });
   // MPAS-Tools: the least distance of neighbors over the largest; the mean distance.
@@ -114,17 +119,12 @@ void define_cells(MeshFile& file, const MpasSizes& sizes) {
 void define_edges(MeshFile& file, const MpasSizes& sizes) {
   const MeshArrays& arrays = file.arrays();
   const std::size_t size = arrays.num_edges();
-  define_points(file, {"latEdge", "lonEdge", "xEdge", "yEdge", "zEdge"}, sizes.edges,
-                arrays.edge_points);
-  define_ids(file, "indexToEdgeID", sizes.edges, size);
+  define_places(file, "Edge", sizes.edges, arrays.edge_points);
   define_rows(file, "cellsOnEdge", {sizes.edges, sizes.two}, arrays.cells_on_edge);
   define_rows(file, "verticesOnEdge", {sizes.edges, sizes.two}, arrays.vertices_on_edge);
-  file.numbers("dcEdge", sizes.edges, {}, size,
-               [&arrays](std::size_t e) { return arrays.cell_distances[e]; });
-  file.numbers("dvEdge", sizes.edges, {}, size,
-               [&arrays](std::size_t e) { return arrays.vertex_distances[e]; });
-  file.numbers("angleEdge", sizes.edges, radians, size,
-               [&arrays](std::size_t e) { return arrays.normal_angles[e]; });
+  define_values(file, "dcEdge", sizes.edges, {}, arrays.cell_distances);
+  define_values(file, "dvEdge", sizes.edges, {}, arrays.vertex_distances);
+  define_values(file, "angleEdge", sizes.edges, radians, arrays.normal_angles);
   file.indices("nEdgesOnEdge", sizes.edges, {}, size,
                [&arrays](std::size_t e) { return num_weights(arrays, e); });
   const std::size_t room = sizes.of_edge;
@@ -191,13 +191,10 @@ bool is_obtuse(const Corners& corners) {
 void define_vertices(MeshFile& file, const MpasSizes& sizes) {
   const MeshArrays& arrays = file.arrays();
   const std::size_t size = arrays.num_vertices();
-  define_points(file, {"latVertex", "lonVertex", "xVertex", "yVertex", "zVertex"}, sizes.vertices,
-                arrays.vertex_points);
-  define_ids(file, "indexToVertexID", sizes.vertices, size);
+  define_places(file, "Vertex", sizes.vertices, arrays.vertex_points);
   define_rows(file, "cellsOnVertex", {sizes.vertices, sizes.degree}, arrays.cells_on_vertex);
   define_rows(file, "edgesOnVertex", {sizes.vertices, sizes.degree}, arrays.edges_on_vertex);
-  file.numbers("areaTriangle", sizes.vertices, {}, size,
-               [&arrays](std::size_t v) { return arrays.triangle_areas[v]; });
+  define_values(file, "areaTriangle", sizes.vertices, {}, arrays.triangle_areas);
   file.numbers(
       "kiteAreasOnVertex", {sizes.vertices, sizes.degree}, {}, size, 3,
       [&arrays](std::size_t v, double* out) { std::ranges::copy(arrays.kite_areas[v], out); });

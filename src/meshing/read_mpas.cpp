@@ -15,6 +15,7 @@
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
 #include "io/number.h"
+#include "meshing/mesh_file.h"
 #include "meshing/read_mesh.h"
 #include "rondel/error.h"
 #include "rondel/mesh_io.h"
@@ -117,6 +118,11 @@ class MpasReader {
           require_finite(names[axis], i, values[i - begin]);
           points[i].*coordinates[axis] = values[i - begin];
         }
+      }
+      for (std::size_t i = begin; i < end; ++i) {
+        if (meshing::is_on_sphere(points[i], arrays_.radius)) continue;
+        throw BadValue("variable " + io::in_quotes(names[0]) + ", value " + std::to_string(i) +
+                       ": the point is not on the sphere of sphere_radius");
       }
     });
   }

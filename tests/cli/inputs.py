@@ -50,10 +50,8 @@ def make(directory):
         (directory / name).write_bytes(content)
     (directory / "folder").mkdir()
     (directory / "folder.npy").mkdir()
-    os.symlink("/dev/full", directory / "full-disk.npy")
-    os.symlink("/dev/full", directory / "full-disk.geojson")
-    os.symlink("/dev/full", directory / "full-disk.png")
-    os.symlink("/dev/full", directory / "full-disk.csv")
+    for ending in ("npy", "geojson", "png", "csv", "nc", "exo"):
+        os.symlink("/dev/full", directory / f"full-disk.{ending}")
 
 
 def read_faces(path):

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A run that is cut short: by a signal, a full disk, a reader that went away."""
 
+import json
 import os
 import pathlib
 import pty
@@ -108,6 +109,34 @@ class Interruption(unittest.TestCase):
         self.folder.chmod(0o700)
         self.assertEqual((done.returncode, done.stderr),
                          (1, "rondel: out.npy: Permission denied\n"))
+
+    def test_an_interrupted_tessellation_is_written_as_it_is(self):
+        try:
+            terminal, other_end = pty.openpty()
+        except OSError as error:
+            self.skipTest(f"no pseudo-terminal here: {error}")
+        output = self.folder / "mesh.nc"
+        process = subprocess.Popen([TOOL, "mesh", "scvt", "-n", "40000", "--tolerance", "1e-12", "-o", output],
+                                   stdout=subprocess.PIPE, stderr=other_end, text=True)
+        os.close(other_end)
+        shown = b""
+        while b"cells, energy" not in shown:  # now it heeds the signal
+            shown += os.read(terminal, 4096)
+        process.send_signal(signal.SIGINT)
+        try:
+            while os.read(terminal, 4096):
+                pass
+        except OSError:
+            pass  # the other end is closed
+        os.close(terminal)
+        told = process.communicate(timeout=60)[0]
+        self.assertEqual(process.returncode, 1)
+        self.assertRegex(told, r"\Astopped; wrote \d+ cells to ")
+        self.assertEqual(os.listdir(self.folder), ["mesh.nc"])
+        done = subprocess.run([TOOL, "mesh", "quality", output, "--json"], capture_output=True, text=True,
+                              timeout=60, check=True)
+        quality = json.loads(done.stdout)
+        self.assertIn(f"wrote {quality['num_cells']} cells", told)
 
     def to_nobody(self, *command):
         """Exit status and standard error of a run whose standard output nobody reads."""

@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Other programs read Rondel's files of meshes (mesh_clients_test.py TOOL).
+"""Other programs read Rondel's files of meshes (mesh_clients_test.py TOOL [cdo]).
 
 netCDF-C's ncdump reads all five; NCO's ncremap makes conservative weights of two SCRIP files, and ncks judges them.
+With `cdo` instead CDO alone, and returns 77 if it is not installed. scripts/mesh-clients has more.
 """
 
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -21,6 +23,11 @@ def run(*command, folder):
     return subprocess.run(command, cwd=folder, check=True, capture_output=True, text=True).stdout
 
 
+def integers(text, name):
+    """The values of a variable in what ncdump prints."""
+    return [int(n) for n in re.findall(r"\d+", text.split(f"\n {name} =")[1].split(";")[0])]
+
+
 def check_headers(folder):
     """Every byte of the header is as netCDF-C wants it, and the values are where it says."""
     for kind, dumped in (("cdf5", "cdf5"), ("cdf2", "64-bit offset")):
@@ -28,9 +35,18 @@ def check_headers(folder):
             run(TOOL, "mesh", "convert", "sites.csv", "-o", "m.nc", "--format", name, "--kind", kind, folder=folder)
             assert run("ncdump", "-k", "m.nc", folder=folder).strip() == dumped, (name, kind)
             assert "\ndata:\n" in run("ncdump", "m.nc", folder=folder), name
-    text = run("ncdump", "-v", "connect1,elem_num_map", "m.nc", folder=folder)
-    numbers = [int(n) for n in re.findall(r"\d+", text.split("elem_num_map =")[1].split(";")[0])]
-    assert sorted(numbers) == list(range(1, 301)), numbers
+    # What TempestRemap's reader wants: this version of 32 bits, all coordinates in one variable, the cells' numbers.
+    text = run("ncdump", "m.nc", folder=folder)
+    assert ":version = 8.f ;" in text and "double coord(num_dim, num_nodes) ;" in text, text
+    blocks = int(re.search(r"num_el_blk = (\d+)", text)[1])
+    of_blocks = [n for b in range(blocks) for n in integers(text, f"global_id{b + 1}")]
+    assert sorted(of_blocks) == list(range(1, 301)), of_blocks
+    assert integers(text, "elem_num_map") == of_blocks
+    for block in range(blocks):
+        corners = integers(text, f"connect{block + 1}")
+        sides = int(re.search(rf"num_nod_per_el{block + 1} = (\d+)", text)[1])
+        assert len(corners) == sides * len(integers(text, f"global_id{block + 1}"))
+        assert min(corners) >= 1 and max(corners) <= 596 and f'elem_type = "SHELL{sides}"' in text
 
 
 def check_areas(folder):
@@ -56,12 +72,33 @@ def check_weights(folder):
         assert abs(float(line.split()[2]) - 1) < 1e-12, line
 
 
+def check_cdo(folder):
+    """CDO finds the cells' areas and conservative weights of two SCRIP files, which sum up to 1."""
+    for kind in ("cdf2", "cdf5"):
+        for name in ("sites", "others"):
+            run(TOOL, "mesh", "convert", f"{name}.csv", "-o", f"{name}.nc", "--format", "scrip", "--kind", kind,
+                folder=folder)
+        run("cdo", "-s", "-f", "nc2", "const,1,sites.nc", "one.nc", folder=folder)
+        described = run("cdo", "-s", "griddes", "one.nc", folder=folder)
+        assert "gridtype  = unstructured" in described and "gridsize  = 300" in described, described
+        assert "nvertex" in described, described
+        total = float(run("cdo", "-s", "outputf,%.17g", "-fldsum", "-gridarea", "one.nc", folder=folder))
+        assert abs(total / (12.566370614359172 * 6371000**2) - 1) < 1e-6, total
+        run("cdo", "-s", "remapcon,others.nc", "one.nc", "remapped.nc", folder=folder)
+        values = run("cdo", "-s", "outputf,%.17g,1", "remapped.nc", folder=folder).split()
+        assert len(values) == 200 and all(abs(float(v) - 1) < 1e-12 for v in values), values
+
+
 def main():
+    is_cdo = sys.argv[2:] == ["cdo"]
+    if is_cdo and shutil.which("cdo") is None:
+        sys.exit(77)
+    checks = (check_cdo,) if is_cdo else (check_headers, check_areas, check_weights)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         run(TOOL, "generate", "uniform", "-n", "300", "-o", "sites.csv", folder=folder)
         run(TOOL, "generate", "fibonacci", "-n", "200", "-o", "others.csv", folder=folder)
-        for check in (check_headers, check_areas, check_weights):
+        for check in checks:
             check(folder)
 
 

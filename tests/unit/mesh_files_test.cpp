@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "io/atomic_file.h"
@@ -19,6 +20,7 @@
 #include "io/netcdf_writer.h"
 #include "rondel/error.h"
 #include "rondel/mesh_io.h"
+#include "rondel/mesh_quality.h"
 #include "unit/mesh_support.h"
 
 namespace rondel::test {
@@ -87,7 +89,19 @@ TEST_F(MeshFiles, threads_do_not_change_a_byte) {
 TEST_F(MeshFiles, other_formats_come_back_by_their_centers) {
   const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(500, 14)));
   for (const MeshFormat format : {MeshFormat::ugrid, MeshFormat::scrip, MeshFormat::esmf}) {
-    mesh::write(path("m.nc"), arrays, {.format = format});
+    // The radius is not in these files.
+    mesh::write(path("m.nc"), mesh::arrays(delaunay(mesh_sites(500, 14)), {.radius = 6371229}),
+                {.format = format});
+    if (format != MeshFormat::ugrid) {
+      const std::string content = bytes("m.nc");
+      const io::NetcdfReader file(content);
+      double total = 0;
+      for (const double area :
+           file.numbers(file.require(format == MeshFormat::scrip ? "grid_area" : "elementArea"))) {
+        total += area;
+      }
+      EXPECT_NEAR(total / (4 * std::numbers::pi), 1, 1e-13);
+    }
     const MeshArrays found = mesh::read_mesh(path("m.nc"));
     EXPECT_EQ(found.offsets, arrays.offsets);
     for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
@@ -126,6 +140,72 @@ TEST_F(MeshFiles, numbers_of_mpas_are_those_of_its_specification) {
   EXPECT_EQ(numbers("nominalMinDc").front(), *std::ranges::min_element(arrays.cell_distances));
   const auto quality = numbers("triangleQuality");
   for (const double value : quality) EXPECT_TRUE(value > 0.8 && value <= 1 + 1e-15);
+}
+
+TEST_F(MeshFiles, qualities_of_mpas_are_those_of_distances_and_angles) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(400, 16)));
+  mesh::write(path("m.nc"), arrays);
+  const std::string content = bytes("m.nc");
+  const io::NetcdfReader file(content);
+  const auto numbers = [&](const char* name) { return file.numbers(file.require(name)); };
+  const auto of_cells = numbers("cellQuality");
+  const auto spacings = numbers("gridSpacing");
+  for (std::size_t i = 0; i < arrays.num_cells(); ++i) {
+    std::vector<double> distances;
+    for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1]; ++at) {
+      distances.push_back(arrays.cell_distances[arrays.edges_on_cell[at]]);
+    }
+    const auto [least, most] = std::ranges::minmax(distances);
+    EXPECT_EQ(of_cells[i], least / most);
+    double sum = 0;
+    for (const double distance : distances) sum += distance;
+    EXPECT_NEAR(spacings[i], sum / static_cast<double>(distances.size()), 1e-15);
+  }
+  const auto of_angles = numbers("triangleAngleQuality");
+  const auto obtuse = file.integers(file.require("obtuseTriangle"));
+  for (std::size_t v = 0; v < arrays.num_vertices(); ++v) {
+    std::array<long double, 3> angles{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto side = [&](std::size_t other) {
+        return sum(to_long(arrays.cell_points[arrays.cells_on_vertex[v][(k + other) % 3]]),
+                   times(-1, to_long(arrays.cell_points[arrays.cells_on_vertex[v][k]])));
+      };
+      angles[k] = arc(side(1), side(2));
+    }
+    const auto [least, most] = std::ranges::minmax(angles);
+    EXPECT_NEAR(of_angles[v], static_cast<double>(least / most), 1e-12);
+    EXPECT_EQ(obtuse[v], most > std::numbers::pi_v<long double> / 2 ? 1 : 0);
+  }
+}
+
+TEST_F(MeshFiles, edges_of_ugrid_run_around_their_faces) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(100, 20)));
+  mesh::write(path("m.nc"), arrays, {.format = MeshFormat::ugrid});
+  const std::string content = bytes("m.nc");
+  const io::NetcdfReader file(content);
+  const auto integers = [&](const char* name) { return file.integers(file.require(name)); };
+  const auto nodes = integers("face_nodes");
+  const auto edges = integers("face_edges");
+  const auto faces = integers("face_faces");
+  const auto ends = integers("edge_nodes");
+  const auto sides = integers("edge_faces");
+  const std::size_t room = arrays.max_edges();
+  for (std::size_t face = 0; face < arrays.num_cells(); ++face) {
+    std::size_t count = 0;
+    while (count < room && nodes[face * room + count] != -1) ++count;
+    ASSERT_EQ(count, arrays.offsets[face + 1] - arrays.offsets[face]);
+    for (std::size_t j = 0; j < room; ++j) {
+      const std::int64_t edge = edges[face * room + j];
+      EXPECT_EQ(edge == -1, j >= count);
+      if (edge == -1) continue;
+      const auto at = 2 * static_cast<std::size_t>(edge);
+      const std::set<std::int64_t> corners = {nodes[face * room + (j + count - 1) % count],
+                                              nodes[face * room + j]};
+      EXPECT_EQ(corners, (std::set{ends[at], ends[at + 1]}));
+      EXPECT_EQ((std::set<std::int64_t>{static_cast<std::int64_t>(face), faces[face * room + j]}),
+                (std::set{sides[at], sides[at + 1]}));
+    }
+  }
 }
 
 TEST_F(MeshFiles, a_graph_has_each_neighbor_on_both_lines) {
@@ -185,6 +265,11 @@ TEST_F(MeshFiles, arrays_that_do_not_fit_are_refused) {
   bad = arrays;
   std::swap(bad.edges_on_cell[0], bad.edges_on_cell.back());
   EXPECT_THROW(mesh::write(path("m.nc"), bad), InvalidInput);
+  bad = arrays;
+  bad.vertex_points[7] = {std::nan(""), 0, 1};
+  EXPECT_THROW(mesh::write(path("m.nc"), bad), InvalidInput);
+  bad.vertex_points[7] = {0, 0, 1.1};
+  EXPECT_THROW(mesh::quality(bad), InvalidInput);
   EXPECT_FALSE(std::filesystem::exists(path("m.nc")));
   EXPECT_THROW(mesh::write_graph(path("g"), MeshArrays{}), InvalidInput);
 }
@@ -197,6 +282,29 @@ void set_value(std::string& content, const char* name, std::size_t index, std::i
     content[at + static_cast<std::size_t>(i)] =
         static_cast<char>(static_cast<std::uint32_t>(value) >> (24 - 8 * i));
   }
+}
+
+// Swaps two values of so many bytes.
+void swap_values(std::string& content, const char* name, std::size_t size, std::size_t i,
+                 std::size_t j) {
+  const io::NetcdfReader file(content);
+  const auto at = static_cast<std::ptrdiff_t>(file.require(name).offset);
+  const auto begin = [&](std::size_t k) {
+    return content.begin() + at + static_cast<std::ptrdiff_t>(size * k);
+  };
+  std::swap_ranges(begin(i), begin(i + 1), begin(j));
+}
+
+TEST_F(MeshFiles, cells_around_vertices_may_be_clockwise) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(50, 21)));
+  mesh::write(path("m.nc"), arrays);
+  std::string content = bytes("m.nc");
+  for (std::size_t v = 0; v < arrays.num_vertices(); v += 2) {
+    swap_values(content, "cellsOnVertex", 4, 3 * v + 1, 3 * v + 2);
+    swap_values(content, "kiteAreasOnVertex", 8, 3 * v + 1, 3 * v + 2);
+  }
+  put("turned.nc", content);
+  EXPECT_EQ(mesh::read_mpas(path("turned.nc")), arrays);
 }
 
 TEST_F(MeshFiles, damaged_lists_are_refused_with_their_place) {
@@ -224,6 +332,19 @@ TEST_F(MeshFiles, damaged_lists_are_refused_with_their_place) {
             std::string::npos);
   put("text.nc", "lon,lat\n");
   EXPECT_NE(file_error([&] { mesh::read_mesh(path("text.nc")); }), "");
+}
+
+// Huge coordinates overflowed in the report on quality.
+TEST_F(MeshFiles, points_off_the_sphere_are_refused) {
+  MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(50, 18)), {.radius = 6371229});
+  mesh::write(path("m.nc"), arrays);
+  std::string content = bytes("m.nc");
+  const io::NetcdfReader file(content);
+  content[file.require("yEdge").offset + 8 * 13] ^= 0x20;  // the exponent
+  put("bad.nc", content);
+  EXPECT_EQ(file_error([&] { mesh::read_mpas(path("bad.nc")); }),
+            path("bad.nc") +
+                ": variable \"xEdge\", value 13: the point is not on the sphere of sphere_radius");
 }
 
 TEST_F(MeshFiles, cells_that_are_not_those_of_their_centers_are_refused) {

@@ -117,6 +117,34 @@ TEST(mesh_quality, random_sites_show_what_is_wrong_and_where) {
   EXPECT_EQ(angles, 3 * arrays.num_vertices());
 }
 
+// The sums of several pieces.
+TEST(mesh_quality, shares_and_spacings_are_those_of_all_cells) {
+  const std::vector<Point> sites = mesh_sites(9000, 12);
+  std::vector<double> density;
+  for (const Point& p : sites) density.push_back(0.6 + 0.4 * p.x);
+  const MeshArrays arrays = mesh::arrays(delaunay(sites), {.density = density});
+  const Quality quality = mesh::quality(arrays);
+  std::size_t inside = 0;
+  for (const Triple& cells : arrays.cells_on_vertex) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const LongPoint a = to_long(sites[cells[i]]);
+      const LongPoint b = sum(to_long(sites[cells[(i + 1) % 3]]), times(-1, a));
+      const LongPoint c = sum(to_long(sites[cells[(i + 2) % 3]]), times(-1, a));
+      const long double degrees = arc(b, c) * 180 / std::numbers::pi_v<long double>;
+      inside += degrees >= 40 && degrees <= 80 ? 1U : 0U;
+    }
+  }
+  EXPECT_EQ(quality.share_40_to_80_deg,
+            static_cast<double>(inside) / (3 * static_cast<double>(arrays.num_vertices())));
+  std::vector<double> spacings;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    spacings.push_back(mesh::spacing_of(arrays.cell_areas[i]) * std::pow(density[i], 0.25));
+  }
+  std::ranges::sort(spacings);
+  EXPECT_NEAR(quality.spacing_range[0], spacings[450] / spacings[4500], 1e-14);
+  EXPECT_NEAR(quality.spacing_range[1], spacings[8549] / spacings[4500], 1e-14);
+}
+
 TEST(mesh_quality, threads_do_not_change_a_bit) {
   const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(30000, 10)));
   EXPECT_EQ(mesh::quality_json(mesh::quality(arrays, {.threads = 1})),

@@ -13,6 +13,9 @@
 #include "meshing/scvt_levels.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
+#include "rondel/mesh.h"
+#include "rondel/mesh_quality.h"
+#include "rondel/scvt.h"
 
 namespace rondel::mesh {
 namespace {
@@ -63,6 +66,14 @@ TEST(scvt_energy, closed_form_and_quadrature_of_constant_density_agree) {
       EXPECT_NEAR(nodes.sums[i].mass, exact.sums[i].mass, 0.01 * exact.sums[i].mass);
     }
   }
+}
+
+// Of short arcs, whose sines are replaced by a series, against another formula.
+TEST(scvt_energy, closed_form_of_many_sites_is_that_of_the_report_on_quality) {
+  const std::vector<Point> sites = sampled_sites(40000, nullptr, 3);
+  const double energy = evaluate(sites, nullptr, axes_of(sites)).report.energy;
+  const double wanted = quality(arrays(delaunay(sites))).energy;
+  EXPECT_NEAR(energy_over_hexagons(energy, sites.size()) / wanted, 1, 1e-9);
 }
 
 // What the energy of constant density should be, from the areas and the centers of mass of the diagram,

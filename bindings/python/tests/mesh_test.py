@@ -56,6 +56,15 @@ def test_files_come_back(tmp_path):
         rondel.mesh.read(tmp_path / "exodus.nc")
 
 
+def test_ugrid_is_what_its_checker_wants(tmp_path):
+    checker = pytest.importorskip("ugrid_checks.check")
+    pytest.importorskip("netCDF4")
+    for kind in ("cdf5", "cdf2"):
+        rondel.mesh.from_points(sites()).to_ugrid(tmp_path / "mesh.nc", kind=kind)
+        checked = checker.check_dataset(str(tmp_path / "mesh.nc"), print_summary=False)
+        assert "No problems found" in checked.checking_report()
+
+
 def test_the_report_has_what_is_wrong(tmp_path):
     mesh = rondel.mesh.from_points(sites())
     quality = mesh.quality

@@ -1,0 +1,146 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Packages of Python read Rondel's files of meshes (mesh_programs.py TOOL); scripts/mesh-clients installs them.
+
+uxarray, VTK, YAC, gpuwm-hex and ugrid-checks. Prints a line for each.
+"""
+
+import contextlib
+import io
+import json
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import netCDF4
+import numpy as np
+import uxarray
+import vtk
+import yac.core
+from ugrid_checks.check import check_dataset
+
+TOOL = pathlib.Path(sys.argv[1]).resolve()
+FORMATS = ("mpas", "ugrid", "scrip", "esmf", "exodus")
+KINDS = ("cdf2", "cdf5")
+
+
+def run(*command):
+    """What a command prints."""
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+def check_uxarray(folder):
+    """All formats, of MPAS the triangles, too: so many faces, nodes and edges, which cover the sphere."""
+    for kind in KINDS:
+        for name in FORMATS:
+            grid = uxarray.open_grid(folder / f"{name}-{kind}.nc")
+            # SCRIP has corners without names; where rounding parts them there are edges twice.
+            assert (grid.n_face, grid.n_node) == (642, 1280), (name, kind)
+            assert grid.n_edge == 1920 or name == "scrip", (name, kind, grid.n_edge)
+            assert abs(float(grid.face_areas.sum()) / (4 * np.pi) - 1) < 1e-7
+            with contextlib.redirect_stdout(io.StringIO()):
+                assert grid.validate()
+        dual = uxarray.open_grid(folder / f"mpas-{kind}.nc", use_dual=True)
+        assert (dual.n_face, dual.n_node, dual.n_edge) == (1280, 642, 1920)
+        assert abs(float(dual.face_areas.sum()) / (4 * np.pi) - 1) < 1e-7
+    return "all formats, and the triangles of MPAS"
+
+
+class Complaints:
+    """What VTK's objects say, line by line."""
+
+    def __init__(self, reader):
+        self.lines = []
+        for event in ("ErrorEvent", "WarningEvent"):
+            reader.AddObserver(event, self.add)
+
+    def add(self, _caller, _event, text):
+        """Called by VTK."""
+        self.lines.append(text.strip().splitlines()[-1])
+
+    add.CallDataType = vtk.VTK_STRING
+
+
+def check_vtk(folder):
+    """UGRID in silence; MPAS with what it says of MPAS-Tools' meshes, too, and of a scalar that MPAS-A wants."""
+    for kind in KINDS:
+        reader = vtk.vtkNetCDFUGRIDReader()
+        said = Complaints(reader)
+        reader.SetFileName(str(folder / f"ugrid-{kind}.nc"))
+        reader.Update()
+        grid = reader.GetOutput()
+        assert (grid.GetNumberOfCells(), grid.GetNumberOfPoints()) == (642, 1280)
+        assert said.lines == [], said.lines
+        reader = vtk.vtkMPASReader()
+        said = Complaints(reader)
+        reader.SetFileName(str(folder / f"mpas-{kind}.nc"))
+        reader.Update()
+        # Its points are the cells and one that stands for none.
+        assert (reader.GetOutput().GetNumberOfCells(), reader.GetOutput().GetNumberOfPoints()) == (1280, 643)
+        assert len(said.lines) == 2, said.lines
+        assert "Invalid dimension" in said.lines[0] and "nominalMinDc" in said.lines[1], said.lines
+    return "UGRID; MPAS, missing nVertLevels and disliking the scalar nominalMinDc"
+
+
+def field_of(path):
+    """The cells of an MPAS file for YAC."""
+    with netCDF4.Dataset(path) as file:
+        counts = file["nEdgesOnCell"][:].data
+        corners = file["verticesOnCell"][:].data
+        rings = np.concatenate([row[:count] - 1 for row, count in zip(corners, counts, strict=True)])
+        grid = yac.core.BasicGrid.unstruct_new(path.stem, counts.astype(np.intc), file["lonVertex"][:].data,
+                                               file["latVertex"][:].data, rings.astype(np.intc))
+    cells = yac.core.yac_location.YAC_LOC_CELL
+    grid.set_global_index(cells, np.arange(len(counts), dtype=np.intc))
+    return yac.core.InterpField(grid.add_coordinates(cells))
+
+
+def check_yac(folder):
+    """Conservative weights between two meshes: rows sum up to 1."""
+    stack = yac.core.InterpolationStack()
+    stack.add_conservative(1)
+    source, target = folder / "mpas-cdf2.nc", folder / "other.nc"
+    path = folder / "weights.nc"
+    yac.core.compute_weights(stack, field_of(source), field_of(target)).write_to_file(str(path), source.stem, target.stem)
+    with netCDF4.Dataset(path) as file:
+        sums = np.bincount(file["dst_address"][:].data - 1, file["remap_matrix"][:, 0].data)
+    assert len(sums) == 300 and np.abs(sums - 1).max() < 1e-10, sums
+    return f"conservative weights, rows within {np.abs(sums - 1).max():.1g} of 1"
+
+
+def check_gpuwm(folder):
+    """Its strict check of MPAS meshes."""
+    for kind in KINDS:
+        program = pathlib.Path(sys.executable).with_name("gpuwm-hex")
+        found = json.loads(run(program, "mesh-check", "--grid", folder / f"mpas-{kind}.nc", "--grid-only"))
+        assert found["passed"] and found["dimensions"]["nCells"] == 642, found
+    return "mesh-check passes"
+
+
+def check_ugrid(folder):
+    """The rules of UGRID."""
+    for kind in KINDS:
+        report = check_dataset(str(folder / f"ugrid-{kind}.nc"), print_summary=False).checking_report()
+        assert "No problems found" in report, report
+    return "no problems found"
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        mesh = folder / "mesh.nc"
+        run(TOOL, "mesh", "icosahedral", "3", "-o", mesh)
+        for kind in KINDS:
+            for form in FORMATS:
+                run(TOOL, "mesh", "convert", mesh, "-o", folder / f"{form}-{kind}.nc", "--format", form, "--kind", kind)
+        run(TOOL, "generate", "uniform", "-n", "300", "-o", folder / "sites.csv")
+        run(TOOL, "mesh", "convert", folder / "sites.csv", "-o", folder / "other.nc", "--kind", "cdf2")
+        for client, check in (("uxarray", check_uxarray), ("vtk", check_vtk), ("yac", check_yac),
+                              ("gpuwm-hex", check_gpuwm), ("ugrid-checks", check_ugrid)):
+            print(f"{client}: {check(folder)}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
