@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "column_values.h"
+#include "mesh.h"
 #include "process.h"
 #include "report.h"
 #include "rondel/delaunay.h"
@@ -117,13 +118,6 @@ void report_mesh(const MeshOutput& output, std::size_t num_sites, const std::str
                                       output.common.output + '\n');
 }
 
-// FILE and what is behind its last colon, but that of C:\.
-std::pair<std::string, std::string> split_at_colon(const std::string& text) {
-  const std::size_t at = text.rfind(':');
-  if (at == std::string::npos || at < 2) return {text, {}};
-  return {text.substr(0, at), text.substr(at + 1)};
-}
-
 bool as_kilometers(const std::string& text, double& kilometers) {
   if (!positive_error(text).empty()) return false;
   kilometers = std::strtod(text.c_str(), nullptr);
@@ -185,6 +179,12 @@ void show(const mesh::PartitionStep& step, const mesh::AreaPartitionOptions& opt
 }
 
 }  // namespace
+
+std::pair<std::string, std::string> split_at_colon(const std::string& text) {
+  const std::size_t at = text.rfind(':');
+  if (at == std::string::npos || at < 2) return {text, {}};
+  return {text.substr(0, at), text.substr(at + 1)};
+}
 
 ExitStatus run_scvt(const ScvtCommandOptions& options) {
   const MeshOutput& output = options.output;
