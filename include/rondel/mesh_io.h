@@ -54,11 +54,11 @@ RONDEL_API void write_graph(const std::string& path, const MeshArrays& arrays,
 /// Reads the arrays of an MPAS mesh on the whole sphere, whoever wrote it. What write() wrote comes back bit for
 /// bit, but a density of 1 everywhere as none.
 ///
-/// 1. Areas, lengths, angles and points are those of the file, whatever their precision. The
+/// 1. Areas, lengths, angles and points are those of the file, whatever their precision; points that are not on the
+///    sphere within a thousandth of sphere_radius (1 where it is missing) are refused. The
 ///    order and the start of lists are those of edgesOnCell and cellsOnVertex; the others follow from them, and from the
 ///    edges.
-/// 2. The file's lists must describe a closed surface, with edges counterclockwise around cells, and its points lie
-///    within a thousandth of sphere_radius (1 where it is missing) of that distance from the center.
+/// 2. The file's lists must describe a closed surface, with edges counterclockwise around cells.
 RONDEL_API MeshArrays read_mpas(const FileName& file, const Execution& execution = {});
 
 /// Reads a mesh of any kind: MPAS as read_mpas(), UGRID, SCRIP and ESMF by the centers of their cells, of which the mesh is

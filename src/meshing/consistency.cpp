@@ -4,17 +4,28 @@
 // Whether arrays of a mesh, which anybody may fill, can be walked through.
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 #include <string>
 
-#include "exact/vector.h"
 #include "meshing/mesh_file.h"
 #include "rondel/error.h"
 #include "system/parallel.h"
 
 namespace rondel::meshing {
 namespace {
+
+void require_points(const char* name, unsigned threads, const std::vector<Point>& points,
+                    double radius) {
+  constexpr std::size_t grain = 65536;
+  system::parallel_for(threads, points.size(), grain, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (is_on_sphere(points[i], radius)) continue;
+      throw InvalidInput(std::string("the mesh's ") + name + " have a point " + std::to_string(i) +
+                             " that is not on its sphere",
+                         i);
+    }
+  });
+}
 
 void require_size(const char* name, std::size_t size, std::size_t wanted) {
   if (size == wanted) return;
@@ -41,30 +52,16 @@ void require_indices(const char* name, unsigned threads, const std::vector<Row>&
   });
 }
 
-void require_points(const char* name, unsigned threads, const std::vector<Point>& points,
-                    double radius) {
-  constexpr std::size_t grain = 65536;
-  system::parallel_for(threads, points.size(), grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      if (is_on_sphere(points[i], radius)) continue;
-      throw InvalidInput(std::string("the mesh's ") + name + " have a point " + std::to_string(i) +
-                             " that is not on its sphere",
-                         i);
-    }
-  });
-}
-
 }  // namespace
-
-bool is_on_sphere(const Point& point, double radius) {
-  return std::abs(norm(exact::to_vector(point)) - radius) <= 1e-3 * radius;
-}
 
 void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
   const std::size_t cells = arrays.num_cells();
   const std::size_t edges = arrays.num_edges();
   const std::size_t vertices = arrays.num_vertices();
   if (cells == 0) throw InvalidInput("the mesh has no cells", 0);
+  require_points("cell_points", threads, arrays.cell_points, arrays.radius);
+  require_points("edge_points", threads, arrays.edge_points, arrays.radius);
+  require_points("vertex_points", threads, arrays.vertex_points, arrays.radius);
   require_size("cell_areas", arrays.cell_areas.size(), cells);
   if (!arrays.density.empty()) require_size("density", arrays.density.size(), cells);
   require_size("offsets", arrays.offsets.size(), cells + 1);
@@ -94,9 +91,6 @@ void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
   require_indices("vertices_on_edge", threads, arrays.vertices_on_edge, vertices);
   require_indices("cells_on_vertex", threads, arrays.cells_on_vertex, cells);
   require_indices("edges_on_vertex", threads, arrays.edges_on_vertex, edges);
-  require_points("cell_points", threads, arrays.cell_points, arrays.radius);
-  require_points("edge_points", threads, arrays.edge_points, arrays.radius);
-  require_points("vertex_points", threads, arrays.vertex_points, arrays.radius);
 }
 
 }  // namespace rondel::meshing

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "exact/argument.h"
+#include "exact/vector.h"
 #include "io/bad_value.h"
 #include "system/job.h"
 
@@ -37,6 +38,10 @@ double longitude_deg_of(const Point& p) {
 
 double latitude_deg_of(const Point& p) {
   return std::clamp(latitude_of(p) * (180 / std::numbers::pi), -90.0, 90.0);
+}
+
+bool is_on_sphere(const Point& p, double radius) {
+  return std::abs(norm(exact::to_vector(p)) - radius) <= 1e-3 * radius;
 }
 
 io::NetcdfVariable MeshFile::variable(const char* name, io::NetcdfType type,

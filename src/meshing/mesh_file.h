@@ -91,6 +91,8 @@ double longitude_of(const Point& p);
 double latitude_of(const Point& p);
 double longitude_deg_of(const Point& p);
 double latitude_deg_of(const Point& p);
+// Within a thousandth, so that single precision, too, is.
+bool is_on_sphere(const Point& p, double radius);
 
 // The corners of cells: the vertices, where those that edges without length join are one.
 class CellCorners {
@@ -139,10 +141,7 @@ struct CellBlocks {
 CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners);
 void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks);
 
-// Within a thousandth, so that single precision, too, is.
-bool is_on_sphere(const Point& point, double radius);
-
-// Throws InvalidInput where a size or an index does not fit, or a point is not on the sphere.
+// Throws InvalidInput where a size or an index does not fit.
 void require_consistent(const mesh::MeshArrays& arrays, unsigned threads);
 
 }  // namespace rondel::meshing
