@@ -65,7 +65,11 @@ struct CommonOptions {
 };
 
 /// \pre comes before add_build_options(): --radius sets the model, which --model may contradict.
-void add_input_options(CLI::App& command, CommonOptions& options);
+void add_input_options(
+    CLI::App& command, CommonOptions& options,
+    const std::string& what =
+        "The sites: .csv .tsv .xyz .txt .npy .geojson, or - for standard input.\n"
+        "Longitude and latitude in degrees, or x, y, z.");
 /// The same for a command that takes points in space: x, y, z only.
 void add_point_input_options(CLI::App& command, CommonOptions& options);
 /// --output, which the caller may require, and --format. `what` says what is written and to which

@@ -95,10 +95,8 @@ void add_radius(CLI::App& command, CommonOptions& options) {
 
 }  // namespace
 
-void add_input_options(CLI::App& command, CommonOptions& options) {
-  add_input(command, options,
-            "The sites: .csv .tsv .xyz .txt .npy .geojson, or - for standard input.\n"
-            "Longitude and latitude in degrees, or x, y, z.");
+void add_input_options(CLI::App& command, CommonOptions& options, const std::string& what) {
+  add_input(command, options, what);
   add_radius(command, options);
   add_columns(command, options.read);
 }

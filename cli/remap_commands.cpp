@@ -147,14 +147,14 @@ Command add_interpolate_command(CLI::App& tool) {
 Command add_remap_command(CLI::App& tool) {
   auto options = std::make_shared<RemapCommandOptions>();
   CLI::App* parser = tool.add_subcommand("remap", "Make conservative weights between cells");
-  add_input_options(*parser, options->common);
-  parser
-      ->add_option("--to", options->target,
-                   "The targets, in the same forms as INPUT: .nc with the cells of a model or a\n"
-                   "grid, grid:DEG or grid:NLONxNLAT, .geojson with polygons, or a file of sites,\n"
-                   "whose Voronoi cells they are")
+  add_input_options(
+      *parser, options->common,
+      "The cells that have the values: .nc with those of a model or a grid, grid:DEG or\n"
+      "grid:NLONxNLAT, .geojson with polygons, or a file of sites, whose Voronoi cells\n"
+      "they are: .csv .tsv .xyz .txt .npy, or - for standard input");
+  parser->add_option("TARGET", options->target, "The cells that want them, in the same forms")
       ->required()
-      ->type_name("CELLS");
+      ->type_name("");
   add_output_option(*parser, options->common,
                     "Where to write the weights: .nc (ESMF; --format scrip for CDO), .npz (SciPy)")
       ->required();
@@ -182,9 +182,9 @@ Command add_remap_command(CLI::App& tool) {
       "netCDF may be UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF, in a classic format\n"
       "(nccopy -k cdf5 makes one). Cells that the file masks take no part.\n\n"
       "Examples:\n"
-      "  rondel remap ocean.nc --to grid:1 -o weights.nc\n"
-      "  rondel remap stations.csv --to countries.geojson --norm fracarea -o weights.npz\n"
-      "  rondel remap grid:0.25 --to icon.nc --order 2 -o weights.nc --format scrip");
+      "  rondel remap ocean.nc grid:1 -o weights.nc\n"
+      "  rondel remap stations.csv countries.geojson --norm fracarea -o weights.npz\n"
+      "  rondel remap grid:0.25 icon.nc --order 2 -o weights.nc --format scrip");
   return {parser, [options] { return run_remap(*options); }};
 }
 

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -127,13 +128,11 @@ void warn_of_crossings(const PolygonTable& polygons, const Execution& execution)
                polygons.name.c_str(), what.c_str(), place.lon_deg, place.lat_deg, more.c_str());
 }
 
-CellRings clipped_to(const VoronoiOptions& options, const Partition& cells,
-                     const Execution& execution) {
-  if (options.clip.empty()) return cells.rings();
+Partition regions_of(const VoronoiOptions& options, const Execution& execution) {
   const PolygonTable polygons =
       read_polygons({options.clip, {}}, {.edges = options.edges}, execution);
   if (!options.common.quiet) warn_of_crossings(polygons, execution);
-  return clip(cells, Partition(polygons.cells, execution), execution);
+  return Partition(polygons.cells, execution);
 }
 
 void write(Job& job, const VoronoiOptions& options, const CellRings& cells,
@@ -161,7 +160,9 @@ ExitStatus write_cells_of_sites(const VoronoiOptions& options) {
   CellRings cells;
   job.time(Stage::dual, [&] {
     const Execution execution = job.execution();
-    cells = clipped_to(options, Partition::voronoi(triangulation, execution), execution);
+    const Partition all = Partition::voronoi(triangulation, execution);
+    cells =
+        options.clip.empty() ? all.rings() : clip(all, regions_of(options, execution), execution);
     if (!options.group.empty()) {
       cells = dissolve(cells, groups.of_sites, groups.names.ends.size(), execution);
     }
@@ -175,14 +176,19 @@ ExitStatus write_cells_of_sites(const VoronoiOptions& options) {
   return done;
 }
 
-// The cells of the features' sites, joined.
-CellRings clipped_cells_of_lines(const VoronoiOptions& options, const FeatureTable& table,
-                                 double tolerance, const Execution& execution) {
-  const FeatureSites found = feature_sites(table.lines, tolerance, execution);
-  const Partition cells =
-      Partition::voronoi(delaunay(Sites::view(found.sites), {}, execution), execution);
-  return dissolve(clipped_to(options, cells, execution), found.features, table.lines.num_features(),
-                  execution);
+CellRings cells_of_features(const VoronoiOptions& options, const FeatureTable& table,
+                            const Execution& execution) {
+  const double radius = options.earth_radius_km > 0 ? options.earth_radius_km : mean_earth_radius;
+  const double tolerance = options.densify_km / radius;
+  std::optional<Partition> regions;
+  if (!options.clip.empty()) regions = regions_of(options, execution);
+  try {
+    return regions
+               ? clipped_feature_cells(table.lines, table.polygons, tolerance, *regions, execution)
+               : feature_cells(table.lines, table.polygons, tolerance, execution);
+  } catch (const InvalidInput& error) {
+    throw FileError(table.name + ": " + error.what());
+  }
 }
 
 ExitStatus write_cells_of_features(const VoronoiOptions& options) {
@@ -196,19 +202,7 @@ ExitStatus write_cells_of_features(const VoronoiOptions& options) {
     if (!options.group.empty()) {
       groups = groups_of(column_of(table.columns, table.name, options.group));
     }
-    const double radius = options.earth_radius_km > 0 ? options.earth_radius_km : mean_earth_radius;
-    const double tolerance = options.densify_km / radius;
-    if (options.clip.empty() || table.polygons.corners.empty()) {
-      try {
-        cells = options.clip.empty()
-                    ? feature_cells(table.lines, table.polygons, tolerance, execution)
-                    : clipped_cells_of_lines(options, table, tolerance, execution);
-      } catch (const InvalidInput& error) {
-        throw FileError(table.name + ": " + error.what());
-      }
-    } else {
-      throw UsageError("--clip: " + table.name + " has polygons; only cells of lines are clipped");
-    }
+    cells = cells_of_features(options, table, execution);
     if (!options.group.empty()) {
       cells = dissolve(cells, groups.of_sites, groups.names.ends.size(), execution);
     }

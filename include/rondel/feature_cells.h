@@ -13,6 +13,7 @@
 #include "rondel/cell_rings.h"
 #include "rondel/export.h"
 #include "rondel/io.h"
+#include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 #include "rondel/types.h"
 
@@ -58,6 +59,12 @@ RONDEL_API FeatureSites feature_sites(const FeatureLines& lines, double toleranc
 ///         cross (with the first one and a place) or overlap.
 RONDEL_API CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons,
                                    double tolerance, const Execution& execution = {});
+
+/// The part of each of these cells that lies in any of the regions, as clip() cuts it. A single feature has all of them.
+/// \throws InvalidInput as feature_cells() and clip().
+RONDEL_API CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& polygons,
+                                           double tolerance, const Partition& regions,
+                                           const Execution& execution = {});
 
 /// The features of a file.
 struct FeatureTable {

@@ -36,7 +36,11 @@ struct RegionPieces {
 /// 3. Rings without area but rounding are left out.
 /// 4. A piece that is the whole sphere has no border, and so no rings.
 /// 5. The result depends on the cells and their order alone, not on the number of threads.
-/// \throws InvalidInput if neither partition is_cover().
+///
+/// If neither partition is_cover(), one is filled up as remap() does it: sides of its cells get corners where those of
+/// other cells of it, or the ends of the axes, lie on them, and that takes longer.
+/// \throws InvalidInput if a partition is a grid of parallels, or neither is_cover() and cells of both overlap, with two
+///         of each.
 RONDEL_API RegionPieces intersection(const Partition& cells, const Partition& regions,
                                      const Execution& execution = {});
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 
 #include "exact/argument.h"
@@ -17,8 +18,12 @@ namespace {
 // Triangles at a point more than 60 degrees away may be ill-defined.
 bool is_far(const Point& p, const Point& q) { return dot(p, q) < 0.5; }
 
+double determinant(const Point& a, const Point& b, const Point& c) {
+  return dot(a, cross(b - a, c - a));
+}
+
 double triangle_area(const Point& a, const Point& b, const Point& c) {
-  const double sine = dot(a, cross(b - a, c - a));
+  const double sine = determinant(a, b, c);
   const double cosine = 1 + dot(a, b) + dot(b, c) + dot(c, a);
   const double half = exact::argument(std::abs(sine), cosine);
   return sine < 0 ? -2 * half : 2 * half;
@@ -33,18 +38,36 @@ Point moment_of(std::span<const Point> ring) {
   return sum;
 }
 
-}  // namespace
+bool is_large(std::span<const Point> ring) {
+  return std::ranges::any_of(ring, [&](const Point& p) { return is_far(ring.front(), p); });
+}
 
-double area_on_left(std::span<const Point> ring) {
-  const bool is_large =
-      std::ranges::any_of(ring, [&](const Point& p) { return is_far(ring.front(), p); });
-  Point a = ring.front();
-  if (is_large) {
-    constexpr double least = 1e-12;
-    const Point moment = moment_of(ring);
-    if (norm(moment) < least) return 0;  // a line to and fro
-    a = normalized(moment);
+// How far the antipode of a point is from all corners: half of the least square of a distance.
+double room(std::span<const Point> ring, const Point& origin) {
+  double least = 2;
+  for (const Point& p : ring) least = std::min(least, 1 + dot(origin, p));
+  return least;
+}
+
+// A point whose triangles are well-defined: this one, or the end of an axis that has the most room.
+Point origin_for(std::span<const Point> ring, const Point& first) {
+  constexpr double enough = 1e-3;
+  double most = room(ring, first);
+  if (most >= enough) return first;
+  Point best = first;
+  for (const Point& end : {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}}) {
+    for (const Point& origin : {end, Point{-end.x, -end.y, -end.z}}) {
+      const double here = room(ring, origin);
+      if (here <= most) continue;
+      most = here;
+      best = origin;
+    }
   }
+  return best;
+}
+
+// By triangles, which have their areas but for multiples of 4 pi: so has the sum, of whatever they overlap.
+double area_around(const Point& a, std::span<const Point> ring) {
   double area = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point& b = ring[i];
@@ -52,6 +75,34 @@ double area_on_left(std::span<const Point> ring) {
     if (b != a && c != a) area += triangle_area(a, b, c);
   }
   return std::remainder(area, 4 * std::numbers::pi);
+}
+
+// Two sides of 60 degrees or less enclose at most 0.68: so many corners, nine triangles, less than 2 pi.
+constexpr std::size_t few_corners = 11;
+
+}  // namespace
+
+double area_on_left(std::span<const Point> ring) {
+  if (!is_large(ring)) return area_around(ring.front(), ring);
+  constexpr double least = 1e-12;
+  const Point moment = moment_of(ring);
+  const bool is_balanced =
+      norm(moment) < least;  // a line to and fro, or an area whose center of mass is the sphere's
+  const Point middle = is_balanced ? Point{0, 0, 1} : normalized(moment);
+  const double area = area_around(origin_for(ring, middle), ring);
+  return is_balanced && std::abs(area) < least ? 0 : area;
+}
+
+bool is_clockwise(std::span<const Point> ring) {
+  if (ring.size() > few_corners || is_large(ring)) return area_on_left(ring) < 0;
+  bool has_left = false;
+  bool has_right = false;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const double sine = determinant(ring.front(), ring[i], ring[i + 1]);
+    has_left |= sine > 0;
+    has_right |= sine < 0;
+  }
+  return has_left && has_right ? area_on_left(ring) < 0 : has_right;
 }
 
 }  // namespace rondel::map

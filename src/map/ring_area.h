@@ -12,7 +12,10 @@ namespace rondel::map {
 
 // The area to the left of a ring (Oosterom, Strackee 1983), from -2 pi to 2 pi, by triangles at its first point:
 // of a small ring it has the right sign however thin the ring is. Of a large one they are triangles at its center of
-// mass, as no point may be opposite.
+// mass, or at another point whose antipode is no corner.
 RONDEL_API double area_on_left(std::span<const Point> ring);
+
+// Whether area_on_left() is less than 0. Triangles that all turn one way tell without an angle.
+RONDEL_API bool is_clockwise(std::span<const Point> ring);
 
 }  // namespace rondel::map

@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
-#include "io/geojson_lines.h"
+#include "io/geojson_polygons.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
@@ -22,6 +23,21 @@ bool ends_with(const std::string& text, const std::string& ending) {
 bool is_geojson(const FileName& file) {
   if (!file.format.empty()) return file.format == "geojson" || file.format == "json";
   return ends_with(file.path, ".geojson") || ends_with(file.path, ".json");
+}
+
+// Lines, the rings of polygons, and points, which are lines of one position.
+std::vector<std::vector<LonLat>> lines_of(const FileName& file) {
+  io::PolygonFeatures features = io::read_polygon_features(file, io::FeatureKinds::all);
+  std::vector<std::vector<LonLat>> all;
+  for (std::size_t i = 0; i < features.rings.size(); ++i) {
+    for (std::vector<LonLat>& line : features.lines[i]) all.push_back(std::move(line));
+    for (io::LonLatRing& ring : features.rings[i]) {
+      const LonLat closing = ring.positions.front();
+      ring.positions.push_back(closing);
+      all.push_back(std::move(ring.positions));
+    }
+  }
+  return all;
 }
 
 struct Spacings {
@@ -63,7 +79,7 @@ std::vector<Point> read_refinement(const FileName& file, double distance,
     return points;
   }
   std::vector<Point> points;
-  for (const std::vector<LonLat>& line : io::read_line_features(file)) {
+  for (const std::vector<LonLat>& line : lines_of(file)) {
     const std::vector<Point> dense = densified(unit_vectors(line), distance);
     points.insert(points.end(), dense.begin(), dense.end());
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "exact/vector.h"
 #include "map/ring_area.h"
 #include "overlay/measure.h"
+#include "overlay/same_nodes.h"
 #include "rondel/error.h"
 #include "system/parallel.h"
 
@@ -39,27 +41,36 @@ struct Named {
   std::vector<NamedSide> links;
 };
 
+// Points are named in the order of their coordinates.
 Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
-  Named result;
-  result.points.reserve(2 * arcs.size());
+  std::vector<Point> ends;
+  ends.reserve(2 * arcs.size());
   for (const KeyedArc& arc : arcs) {
-    result.points.push_back(arc.from);
-    result.points.push_back(arc.to);
+    ends.push_back(arc.from);
+    ends.push_back(arc.to);
   }
-  std::ranges::sort(result.points, is_before);
-  result.points.erase(std::unique(result.points.begin(), result.points.end()), result.points.end());
-  if (result.points.size() >= no_index) throw InvalidInput("there are too many corners", no_index);
-  const auto name_of = [&](const Point& p) {
-    return static_cast<Index>(std::ranges::lower_bound(result.points, p, is_before) -
-                              result.points.begin());
-  };
+  const Distinct<Point> places = distinct(ends);
+  if (places.values.size() >= no_index) throw InvalidInput("there are too many corners", no_index);
+  std::vector<Index> sorted(places.values.size());
+  std::iota(sorted.begin(), sorted.end(), Index{0});
+  std::ranges::sort(
+      sorted, [&](Index a, Index b) { return is_before(places.values[a], places.values[b]); });
+  Named result;
+  result.points.reserve(sorted.size());
+  std::vector<Index> names(sorted.size());
+  for (const Index place : sorted) {
+    names[place] = static_cast<Index>(result.points.size());
+    result.points.push_back(places.values[place]);
+  }
   result.offsets.assign(num_keys + 1, 0);
   for (const KeyedArc& arc : arcs) ++result.offsets[arc.key + std::size_t{1}];
   for (std::size_t k = 0; k < num_keys; ++k) result.offsets[k + 1] += result.offsets[k];
   std::vector<std::uint64_t> next(result.offsets.begin(), result.offsets.end() - 1);
   result.links.resize(arcs.size());
-  for (const KeyedArc& arc : arcs)
-    result.links[next[arc.key]++] = {name_of(arc.from), name_of(arc.to)};
+  for (std::size_t k = 0; k < arcs.size(); ++k) {
+    result.links[next[arcs[k].key]++] = {names[places.numbers[2 * k]],
+                                         names[places.numbers[2 * k + 1]]};
+  }
   return result;
 }
 

@@ -13,20 +13,25 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
+#include "system/parallel.h"
+#include "system/stage_progress.h"
 
 namespace rondel::overlay {
 namespace {
+
+constexpr Halfedge sides_per_step = 1024;
 
 // Triangles by their directed sides.
 class SideMesh {
  public:
   // Of cells with these names, for messages.
-  SideMesh(std::vector<Point> points, std::span<const Index> names_of_cells, unsigned threads)
+  SideMesh(std::vector<Point> points, std::span<const Index> names_of_cells,
+           const Execution& execution)
       : points_(std::move(points)),
         names_of_cells_(names_of_cells),
         names_(points_.size()),
         around_(points_.size(), no_index) {
-    const Triangulation triangulation = delaunay(points_, {}, {.threads = threads});
+    const Triangulation triangulation = delaunay(points_, {}, execution);
     for (Index p = 0; p < names_.size(); ++p) names_[p] = p;
     for (const auto& [site, representative] : triangulation.duplicates()) {
       names_[site] = representative;
@@ -237,12 +242,17 @@ Filling filling_of(const Subdivision& cells, const Execution& execution) {
   std::vector<Point> points = cells.points;
   points.insert(points.end(),
                 {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}});
-  SideMesh mesh(std::move(points), cells.names, execution.threads);
+  SideMesh mesh(std::move(points), cells.names, execution);
+  system::StageProgress progress(execution.progress, "fill",
+                                 system::num_pieces(cells.num_halfedges(), sides_per_step));
   for (Index ring = 0; ring + 1 < cells.rings.size(); ++ring) {
     const Halfedge first = cells.rings[ring];
     const Halfedge end = cells.rings[ring + 1];
     for (Halfedge h = first; h < end; ++h) {
       mesh.put(cells.corners[h], cells.corners[h + 1 == end ? first : h + 1], cells.cell_of[h]);
+      if ((h + 1) % sides_per_step != 0 && h + 1 != cells.num_halfedges()) continue;
+      system::obey_stop();
+      progress.step();
     }
   }
   CellRings triangles;

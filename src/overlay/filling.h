@@ -4,9 +4,12 @@
 // A cover of the sphere by triangles whose sides include those of given cells.
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "overlay/subdivision.h"
+#include "rondel/error.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -20,5 +23,27 @@ struct Filling {
 // The Delaunay triangulation of the corners and of the ends of the axes, into which the sides of the cells are put, all
 // of it exactly. Throws InvalidInput where cells overlap.
 Filling filling_of(const Subdivision& cells, const Execution& execution);
+
+// work(is_first_filled) for the one with fewer sides, or else, if that one's cells overlap, for the other one. `what`
+// they are is for the message where both do.
+template <class Work>
+auto with_one_filled(const Subdivision& first, const Subdivision& second,
+                     const std::array<const char*, 2>& what, const Work& work) {
+  const bool is_first = first.num_halfedges() <= second.num_halfedges();
+  std::array<std::string, 2> errors;
+  try {
+    return work(is_first);
+  } catch (const InvalidInput& error) {
+    errors[is_first ? 0 : 1] = error.what();
+  }
+  try {
+    return work(!is_first);
+  } catch (const InvalidInput& error) {
+    errors[is_first ? 1 : 0] = error.what();
+    throw InvalidInput(std::string("of the ") + what[0] + ' ' + errors[0] + ", of the " + what[1] +
+                           ' ' + errors[1] + ": one of the two must have none that do",
+                       error.index());
+  }
+}
 
 }  // namespace rondel::overlay

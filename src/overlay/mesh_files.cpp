@@ -41,11 +41,17 @@ class RingsOfNodes {
  public:
   // Precondition: nodes are places.
   RingsOfNodes(std::span<const LonLat> nodes, double distance) {
-    overlay::DistinctPositions distinct = overlay::distinct_positions(nodes);
-    made_.points = unit_vectors(distinct.positions);
+    overlay::Distinct<LonLat> places = overlay::distinct(nodes);
+    made_.points = unit_vectors(places.values);
     const std::vector<Index> same = overlay::same_nodes(made_.points, distance);
-    for (Index& number : distinct.numbers) number = same[number];
-    corner_of_ = std::move(distinct.numbers);
+    for (Index& number : places.numbers) number = same[number];
+    corner_of_ = std::move(places.numbers);
+  }
+
+  void reserve(std::size_t num_cells, std::size_t num_rings, std::size_t num_corners) {
+    made_.cells.reserve(num_cells + 1);
+    made_.rings.reserve(num_rings + 1);
+    made_.corners.reserve(num_corners);
   }
 
   void add_corner(Index node) {
@@ -57,7 +63,7 @@ class RingsOfNodes {
     if (ring_.size() >= 3) {
       points_.clear();
       for (const Index corner : ring_) points_.push_back(made_.points[corner]);
-      if (map::area_on_left(points_) < 0) std::ranges::reverse(ring_);
+      if (map::is_clockwise(points_)) std::ranges::reverse(ring_);
       made_.corners.insert(made_.corners.end(), ring_.begin(), ring_.end());
       made_.rings.push_back(made_.corners.size());
     }
@@ -75,6 +81,7 @@ class RingsOfNodes {
 
 CellRings cells_of(const overlay::MeshContent& mesh) {
   RingsOfNodes maker(mesh.nodes, mesh.is_single ? same_single_place : same_place);
+  maker.reserve(mesh.cells.size() - 1, mesh.rings.size() - 1, mesh.corners.size());
   for (std::size_t i = 0; i + 1 < mesh.cells.size(); ++i) {
     for (std::uint64_t r = mesh.cells[i]; r < mesh.cells[i + 1]; ++r) {
       for (std::uint64_t k = mesh.rings[r]; k < mesh.rings[r + 1]; ++k) {
@@ -109,6 +116,7 @@ CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each)
                        k / of_each);
   }
   RingsOfNodes maker(corners, same_place);
+  maker.reserve(corners.size() / of_each, corners.size() / of_each, corners.size());
   for (std::size_t k = 0; k < corners.size(); ++k) {
     maker.add_corner(static_cast<Index>(k));
     if ((k + 1) % of_each == 0) {

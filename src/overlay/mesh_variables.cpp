@@ -69,6 +69,9 @@ void take_corners(const io::NetcdfReader& file, const MeshVariable& lon, const M
   }
   take_nodes(file, lon, lat, mesh);
   const std::uint64_t of_each = lon.num_values / num_cells;
+  mesh.corners.reserve(lon.num_values);
+  mesh.rings.reserve(num_cells + 1);
+  mesh.cells.reserve(num_cells + 1);
   for (std::uint64_t i = 0; i < num_cells; ++i) {
     for (std::uint64_t k = 0; k < of_each; ++k) {
       mesh.corners.push_back(static_cast<Index>(i * of_each + k));

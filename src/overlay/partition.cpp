@@ -7,12 +7,14 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "exact/vector.h"
 #include "overlay/measure.h"
 #include "overlay/partition_data.h"
+#include "overlay/region_area.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
@@ -21,6 +23,29 @@
 
 namespace rondel {
 namespace overlay {
+
+namespace {
+
+// Only then may a cell be larger than a hemisphere.
+bool is_wide(std::span<const BorderArc> border, const Point& center) {
+  return std::ranges::any_of(border,
+                             [&](const BorderArc& arc) { return dot(center, arc.from) < 0; });
+}
+
+double area_of(const Subdivision& cells, std::size_t cell) {
+  RegionArea area;
+  std::vector<Point> points;
+  for (Index ring = cells.cells[cell]; ring < cells.cells[cell + 1]; ++ring) {
+    points.clear();
+    for (Halfedge h = cells.rings[ring]; h < cells.rings[ring + 1]; ++h) {
+      points.push_back(cells.origin(h));
+    }
+    area.add(points);
+  }
+  return area.value();
+}
+
+}  // namespace
 
 PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned threads)
     : subdivision_(std::move(subdivision)),
@@ -41,7 +66,8 @@ PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned thre
         }
       }
       const Measures measures = measures_of(border, subdivision_.centers[c]);
-      areas_[subdivision_.names[c]] = measures.area;
+      areas_[subdivision_.names[c]] =
+          is_wide(border, subdivision_.centers[c]) ? area_of(subdivision_, c) : measures.area;
       moments_[subdivision_.names[c]] = measures.moment;
       lengths_[subdivision_.names[c]] = measures.length;
     }

@@ -4,26 +4,28 @@
 #include "rondel/regions.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <string>
 #include <utility>
 
-#include "map/ring_area.h"
 #include "overlay/arcs.h"
 #include "overlay/border_rings.h"
-#include "overlay/measure.h"
+#include "overlay/filling.h"
 #include "overlay/partition_data.h"
+#include "overlay/region_area.h"
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/parallel.h"
+#include "system/stage_progress.h"
 
 namespace rondel {
 namespace {
 
+using overlay::ArcMaker;
+using overlay::Halfedge;
 using overlay::KeyedArc;
 using overlay::PartitionData;
+using overlay::PieceArc;
 using overlay::Subdivision;
 
 constexpr std::size_t cells_per_block = 64;
@@ -36,28 +38,77 @@ struct NamedArc {
   Point to;
 };
 
+// Of a cell's arcs, which begin with its boundary, those with a region to their left, from both sides. `beyond` names the
+// region of each cell of the cover, where several may have one, or none (no_index).
+class NamedArcMaker {
+ public:
+  NamedArcMaker(const Subdivision& cells, const Subdivision& cover, std::span<const Index> beyond,
+                Index first_cell, Index end_cell)
+      : cells_(cells), beyond_(beyond), make_(cells, cover, first_cell, end_cell) {}
+
+  void append(Index cell, std::vector<NamedArc>& arcs) {
+    const Index name = cells_.names[cell];
+    const auto add = [&](Index region, const Point& from, const Point& to) {
+      if (region != no_index) arcs.push_back({name, region, from, to});
+    };
+    Halfedge next = cells_.begin_of(cell);  // the corner to come
+    Index region_before = no_index;
+    for (const PieceArc& arc : make_(cell)) {
+      const Point& from = make_.points()[arc.from];
+      const Point& to = make_.points()[arc.to];
+      const Index region = beyond_[arc.left];
+      if (arc.right != no_index) {
+        const Index other = beyond_[arc.right];
+        if (region == other) continue;
+        add(region, from, to);
+        add(other, to, from);
+        continue;
+      }
+      const bool is_corner = next < cells_.end_of(cell) && from == cells_.origin(next);
+      if (is_corner) ++next;
+      if (is_corner || region != region_before) {
+        add(region, from, to);
+      } else if (region != no_index) {
+        arcs.back().to = to;  // what was crossed is within the region
+      }
+      region_before = region;
+    }
+  }
+
+ private:
+  const Subdivision& cells_;
+  std::span<const Index> beyond_;
+  ArcMaker make_;
+};
+
 std::vector<NamedArc> arcs_of(const Subdivision& cells, const Subdivision& cover,
-                              const Execution& execution) {
+                              std::span<const Index> beyond, const Execution& execution) {
   std::vector<std::vector<NamedArc>> blocks(system::num_pieces(cells.num_cells(), cells_per_block));
+  system::StageProgress progress(execution.progress, "cut", blocks.size());
   system::parallel_for(execution.threads, cells.num_cells(), cells_per_block,
                        [&](std::size_t begin, std::size_t end) {
-                         overlay::ArcMaker make(cells, cover, static_cast<Index>(begin),
-                                                static_cast<Index>(end));
+                         NamedArcMaker make(cells, cover, beyond, static_cast<Index>(begin),
+                                            static_cast<Index>(end));
                          for (std::size_t c = begin; c < end; ++c) {
                            if (cells.shapes[c] == overlay::Shape::empty) continue;
-                           for (const overlay::PieceArc& arc : make(static_cast<Index>(c))) {
-                             auto& block = blocks[begin / cells_per_block];
-                             const Point& from = make.points()[arc.from];
-                             const Point& to = make.points()[arc.to];
-                             block.push_back({cells.names[c], cover.names[arc.left], from, to});
-                             if (arc.right == no_index) continue;
-                             block.push_back({cells.names[c], cover.names[arc.right], to, from});
-                           }
+                           make.append(static_cast<Index>(c), blocks[begin / cells_per_block]);
                          }
+                         progress.step();
                        });
   std::vector<NamedArc> all;
   for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
   return all;
+}
+
+std::vector<NamedArc> arcs_of_parts(const Subdivision& cells, const Subdivision& others,
+                                    const Execution& execution) {
+  const overlay::Filling filling = overlay::filling_of(others, execution);
+  std::vector<Index> beyond;
+  beyond.reserve(filling.owners.size());
+  for (const Index owner : filling.owners) {
+    beyond.push_back(owner < others.num_cells() ? others.names[owner] : no_index);
+  }
+  return arcs_of(cells, filling.cover, beyond, execution);
 }
 
 // The borders of cells, each beyond the cell that is the whole sphere.
@@ -80,6 +131,18 @@ void exchange(std::vector<NamedArc>& arcs) {
   for (NamedArc& arc : arcs) std::swap(arc.cell, arc.beyond);
 }
 
+// Of cells and regions of which neither covers the sphere. `beyond` are the regions.
+std::vector<NamedArc> overlay_of_parts(const Subdivision& cells, const Subdivision& regions,
+                                       const Execution& execution) {
+  return overlay::with_one_filled(
+      cells, regions, {"first partition's", "regions'"}, [&](bool are_cells_filled) {
+        if (!are_cells_filled) return arcs_of_parts(cells, regions, execution);
+        std::vector<NamedArc> arcs = arcs_of_parts(regions, cells, execution);
+        exchange(arcs);
+        return arcs;
+      });
+}
+
 // `beyond` are the regions.
 std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData& regions,
                                  const Execution& execution) {
@@ -92,12 +155,14 @@ std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData
   } else if (regions.whole() != no_index) {
     arcs = arcs_within(cells.subdivision(), regions.whole());
   } else if (cells.is_cover()) {
-    arcs = arcs_of(regions.subdivision(), cells.subdivision(), execution);
+    const Subdivision& cover = cells.subdivision();
+    arcs = arcs_of(regions.subdivision(), cover, cover.names, execution);
     exchange(arcs);
   } else if (regions.is_cover()) {
-    arcs = arcs_of(cells.subdivision(), regions.subdivision(), execution);
+    const Subdivision& cover = regions.subdivision();
+    arcs = arcs_of(cells.subdivision(), cover, cover.names, execution);
   } else {
-    throw InvalidInput("neither the cells nor the regions cover the sphere", 0);
+    arcs = overlay_of_parts(cells.subdivision(), regions.subdivision(), execution);
   }
   return arcs;
 }
@@ -181,16 +246,14 @@ CellRings dissolve(const CellRings& cells, std::span<const Index> groups, std::s
 }
 
 std::vector<double> areas(const CellRings& cells) {
-  std::vector<double> result(cells.num_cells());
-  for (std::size_t i = 0; i < result.size(); ++i) {
-    std::size_t num_corners = 0;
+  std::vector<double> result;
+  result.reserve(cells.num_cells());
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    overlay::RegionArea area;
     for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + 1]; ++r) {
-      const std::vector<Point> points = points_of(cells, r);
-      result[i] += map::area_on_left(points);
-      num_corners += points.size();
+      area.add(points_of(cells, r));
     }
-    const double rounding = overlay::area_of_rounding(static_cast<double>(num_corners));
-    if (result[i] < -rounding) result[i] += 4 * std::numbers::pi;
+    result.push_back(area.value());
   }
   return result;
 }

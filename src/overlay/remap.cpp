@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "exact/vector.h"
+#include "overlay/filling.h"
 #include "overlay/graticule_pieces.h"
 #include "overlay/measure.h"
 #include "overlay/partition_data.h"
@@ -50,21 +51,7 @@ PieceRows overlay_of_parts(const PartitionData& source, const PartitionData& tar
     return transposed(pieces_of_parts(sources, targets, has_moments, execution),
                       target.areas().size());
   };
-  const bool is_source_first = sources.num_halfedges() <= targets.num_halfedges();
-  std::string first_error;
-  try {
-    return with(is_source_first);
-  } catch (const InvalidInput& error) {
-    first_error = error.what();
-  }
-  try {
-    return with(!is_source_first);
-  } catch (const InvalidInput& error) {
-    throw InvalidInput("of the source " + (is_source_first ? first_error : error.what()) +
-                           ", of the target " + (is_source_first ? error.what() : first_error) +
-                           ": one of the two must have none that do",
-                       error.index());
-  }
+  return overlay::with_one_filled(sources, targets, {"source", "target"}, with);
 }
 
 // Rows are targets.

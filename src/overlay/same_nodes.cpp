@@ -4,10 +4,13 @@
 #include "overlay/same_nodes.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+
+#include "system/prefetch.h"
 
 namespace rondel::overlay {
 namespace {
@@ -22,6 +25,13 @@ std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   return hash;
 }
 
+// The sum makes 0 of -0.
+std::int64_t bits_of(double x) { return std::bit_cast<std::int64_t>(x + 0.0); }
+std::uint64_t hash_of(const LonLat& position) {
+  return hash_of(bits_of(position.lon_deg), bits_of(position.lat_deg), 0);
+}
+std::uint64_t hash_of(const Point& p) { return hash_of(bits_of(p.x), bits_of(p.y), bits_of(p.z)); }
+
 // Points by the cubes they are in, cubes much wider than the distance, so that a point looks into one, and rarely into a
 // neighbor of it.
 class NearPoints {
@@ -29,7 +39,12 @@ class NearPoints {
   NearPoints(std::span<const Point> points, double distance)
       : points_(points),
         distance_(distance),
+        cubes_per_unit_(1 / (16 * distance)),
         slots_(std::bit_ceil(2 * points.size() + 1), no_index) {}
+
+  void prefetch(const Point& p) const {
+    system::prefetch(&slots_[slot(place(p.x), place(p.y), place(p.z))]);
+  }
 
   // The first point near to it; no_index: there is none.
   [[nodiscard]] Index find(const Point& p) const {
@@ -54,7 +69,7 @@ class NearPoints {
 
  private:
   [[nodiscard]] std::int64_t place(double coordinate) const {
-    return static_cast<std::int64_t>(std::floor(coordinate / (16 * distance_)));
+    return static_cast<std::int64_t>(std::floor(coordinate * cubes_per_unit_));
   }
   [[nodiscard]] std::size_t slot(std::int64_t x, std::int64_t y, std::int64_t z) const {
     return hash_of(x, y, z) & (slots_.size() - 1);
@@ -69,38 +84,85 @@ class NearPoints {
 
   std::span<const Point> points_;
   double distance_;
+  double cubes_per_unit_;
   std::vector<Index> slots_;
 };
 
-std::uint64_t hash_of(const LonLat& position) {
-  return hash_of(std::bit_cast<std::int64_t>(position.lon_deg),
-                 std::bit_cast<std::int64_t>(position.lat_deg), 0);
+// Numbers values in the order in which they come, in a table that grows with them: corners of cells come three or more
+// times each. A slot keeps half of the hash, so that hardly any other value is looked at.
+template <class Value>
+class KnownValues {
+ public:
+  explicit KnownValues(std::vector<Value>& values) : values_(values) {}
+
+  void prefetch(std::uint64_t hash) const { system::prefetch(&slots_[hash & mask()]); }
+  Index number(const Value& value, std::uint64_t hash) {
+    const auto tag = static_cast<std::uint32_t>(hash >> 32U);
+    std::size_t s = hash & mask();
+    for (; slots_[s].number != no_index; s = (s + 1) & mask()) {
+      if (slots_[s].tag == tag && values_[slots_[s].number] == value) return slots_[s].number;
+    }
+    const auto added = static_cast<Index>(values_.size());
+    slots_[s] = {added, tag};
+    values_.push_back(value);
+    if (2 * values_.size() > slots_.size()) grow();
+    return added;
+  }
+
+ private:
+  struct Slot {
+    Index number = no_index;
+    std::uint32_t tag = 0;
+  };
+
+  [[nodiscard]] std::size_t mask() const { return slots_.size() - 1; }
+  void grow() {
+    std::vector<Slot> before(2 * slots_.size());
+    before.swap(slots_);
+    for (const Slot& slot : before) {
+      if (slot.number == no_index) continue;
+      std::size_t s = hash_of(values_[slot.number]) & mask();
+      while (slots_[s].number != no_index) s = (s + 1) & mask();
+      slots_[s] = slot;
+    }
+  }
+
+  std::vector<Value>& values_;
+  std::vector<Slot> slots_ = std::vector<Slot>(1024);
+};
+
+template <class Value>
+Distinct<Value> distinct_of(std::span<const Value> values) {
+  Distinct<Value> result;
+  result.numbers.resize(values.size());
+  KnownValues<Value> known(result.values);
+  std::array<std::uint64_t, system::prefetch_distance> hashes{};  // of those to come
+  const auto prepare = [&](std::size_t k) {
+    if (k >= values.size()) return;
+    hashes[k % hashes.size()] = hash_of(values[k]);
+    known.prefetch(hashes[k % hashes.size()]);
+  };
+  for (std::size_t k = 0; k < hashes.size(); ++k) prepare(k);
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const std::uint64_t hash = hashes[k % hashes.size()];
+    prepare(k + hashes.size());
+    result.numbers[k] = known.number(values[k], hash);
+  }
+  return result;
 }
 
 }  // namespace
 
-DistinctPositions distinct_positions(std::span<const LonLat> positions) {
-  DistinctPositions result;
-  result.numbers.reserve(positions.size());
-  std::vector<Index> slots(std::bit_ceil(2 * positions.size() + 1), no_index);
-  for (const LonLat& position : positions) {
-    std::size_t slot = hash_of(position) & (slots.size() - 1);
-    while (slots[slot] != no_index && !(result.positions[slots[slot]] == position)) {
-      slot = (slot + 1) & (slots.size() - 1);
-    }
-    if (slots[slot] == no_index) {
-      slots[slot] = static_cast<Index>(result.positions.size());
-      result.positions.push_back(position);
-    }
-    result.numbers.push_back(slots[slot]);
-  }
-  return result;
-}
+Distinct<LonLat> distinct(std::span<const LonLat> positions) { return distinct_of(positions); }
+Distinct<Point> distinct(std::span<const Point> points) { return distinct_of(points); }
 
 std::vector<Index> same_nodes(std::span<const Point> points, double distance) {
   NearPoints known(points, distance);
   std::vector<Index> result(points.size());
   for (Index i = 0; i < points.size(); ++i) {
+    if (i + system::prefetch_distance < points.size()) {
+      known.prefetch(points[i + system::prefetch_distance]);
+    }
     const Index first = known.find(points[i]);
     result[i] = first == no_index ? i : first;
     if (first == no_index) known.insert(i);

@@ -14,11 +14,13 @@ namespace rondel::overlay {
 // point itself.
 std::vector<Index> same_nodes(std::span<const Point> points, double distance);
 
-// The positions that differ in a bit, in the order in which they come, and which of them each one is.
-struct DistinctPositions {
-  std::vector<LonLat> positions;
+// The values that differ, in the order in which they come, and which of them each one is. 0 and -0 are equal.
+template <class Value>
+struct Distinct {
+  std::vector<Value> values;
   std::vector<Index> numbers;
 };
-DistinctPositions distinct_positions(std::span<const LonLat> positions);
+Distinct<LonLat> distinct(std::span<const LonLat> positions);
+Distinct<Point> distinct(std::span<const Point> points);
 
 }  // namespace rondel::overlay

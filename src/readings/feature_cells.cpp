@@ -91,11 +91,9 @@ void require_cover(const CellRings& cells) {
   }
 }
 
-}  // namespace
-
-CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
-                        const Execution& execution) {
-  const system::Call call(execution);
+// `regions` may be null.
+CellRings cells_within(const FeatureLines& lines, const CellRings& polygons, double tolerance,
+                       const Partition* regions, const Execution& execution) {
   const std::size_t n = lines.num_features();
   const bool has_polygons = !polygons.corners.empty();
   if (has_polygons && polygons.num_cells() != n) {
@@ -108,7 +106,10 @@ CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, do
       feature_sites(has_polygons ? with_borders(lines, polygons) : lines, tolerance, execution);
   const Partition cells =
       Partition::voronoi(delaunay(Sites::view(found.sites), {}, execution), execution);
-  if (!has_polygons) return dissolve(cells.rings(), found.features, n, execution);
+  if (!has_polygons) {
+    const CellRings parts = regions == nullptr ? cells.rings() : clip(cells, *regions, execution);
+    return dissolve(parts, found.features, n, execution);
+  }
   const RegionPieces pieces =
       intersection(cells, Partition(with_outside(polygons, execution), execution), execution);
   std::vector<Index> groups(pieces.num_pieces());
@@ -118,7 +119,24 @@ CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, do
   }
   CellRings joined = dissolve(pieces.rings, groups, n, execution);
   require_cover(joined);
-  return joined;
+  if (regions == nullptr) return joined;
+  return dissolve(clip(Partition(pieces.rings, execution), *regions, execution), groups, n,
+                  execution);
+}
+
+}  // namespace
+
+CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
+                        const Execution& execution) {
+  const system::Call call(execution);
+  return cells_within(lines, polygons, tolerance, nullptr, execution);
+}
+
+CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& polygons,
+                                double tolerance, const Partition& regions,
+                                const Execution& execution) {
+  const system::Call call(execution);
+  return cells_within(lines, polygons, tolerance, &regions, execution);
 }
 
 }  // namespace rondel

@@ -57,7 +57,7 @@ def check_ncks(folder, _):
     for name in ("area_a", "area_b"):
         line = next(line for line in text.splitlines() if line.startswith(f"{name} sum/4*pi"))
         assert abs(float(line.split()[2]) - 1) < 1e-12, line
-    run(TOOL, "remap", "sites.csv", "--to", "grid:5", "-o", "cells.nc", folder=folder)
+    run(TOOL, "remap", "sites.csv", "grid:5", "-o", "cells.nc", folder=folder)
     text = run("ncks", "--chk_map", "cells.nc", folder=folder)
     for name in ("frac_a avg", "frac_a min", "frac_a max", "frac_b min", "frac_b max", "area_a sum/4*pi",
                  "area_b sum/4*pi"):
@@ -120,7 +120,7 @@ def check_conservative(folder):
     run("cdo", "-s", "-f", "nc", "-setgridtype,unstructured", "-const,1,gme12", "hexagons.nc", folder=folder)
     for source, target in (("hexagons", "grid"), ("grid", "hexagons")):
         run("cdo", "-s", f"gencon,{target}.nc", f"{source}.nc", "cdo.nc", folder=folder)
-        run(TOOL, "remap", f"{source}.nc", "--to", f"{target}.nc", "--norm", "fracarea", "-o", "own.nc",
+        run(TOOL, "remap", f"{source}.nc", f"{target}.nc", "--norm", "fracarea", "-o", "own.nc",
             "--format", "scrip", folder=folder)
         theirs = entries_of("cdo.nc", folder)
         ours = entries_of("own.nc", folder)
@@ -130,7 +130,7 @@ def check_conservative(folder):
             assert difference <= 1e-11, (source, entry, difference)
     # And CDO applies ours.
     run("cdo", "-s", "-f", "nc", "-setgridtype,unstructured", "-random,gme12,7", "random.nc", folder=folder)
-    run(TOOL, "remap", "hexagons.nc", "--to", "grid.nc", "--order", "2", "-o", "own.nc", "--format", "scrip",
+    run(TOOL, "remap", "hexagons.nc", "grid.nc", "--order", "2", "-o", "own.nc", "--format", "scrip",
         folder=folder)
     text = run("cdo", "-s", "outputf,%.17g,1", "-remap,grid.nc,own.nc", "random.nc", folder=folder)
     run(TOOL, "apply", "own.nc", "random.nc", "--input-format", "scrip", "-o", "out.csv", folder=folder)

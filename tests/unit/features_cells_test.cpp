@@ -239,6 +239,40 @@ TEST(feature_cells, have_their_polygons_exactly) {
   EXPECT_GT(num_tested, 300);
 }
 
+// Whole, and one that is all of a region; that of one feature is all of the regions.
+TEST(feature_cells, may_be_clipped) {
+  CellRings squares;
+  add_square(squares, -20, 10);
+  add_square(squares, 0, 10);
+  add_square(squares, 90, 30);
+  CellRings around;
+  add_square(around, 0, 40);
+  add_square(around, 90, 5);
+  const Partition regions(around);
+  FeatureLines lines;
+  lines.points = {unit_vector({35, 20})};
+  lines.lines = {0, 1};
+  lines.features = {0, 0, 0, 0, 1};
+  squares.cells.push_back(squares.cells.back());  // the fourth is the point
+  const CellRings whole = feature_cells(lines, squares, 0.005);
+  const std::vector<double> found = areas(clipped_feature_cells(lines, squares, 0.005, regions));
+  EXPECT_NEAR(sum(found), sum(areas(around)), 1e-13);
+  EXPECT_GT(found[3], 0.01);
+  const RegionPieces pieces = intersection(Partition(whole), regions);
+  const std::vector<double> of_pieces = areas(pieces.rings);
+  std::vector<double> expected(4);
+  for (std::size_t k = 0; k < of_pieces.size(); ++k) expected[pieces.cells[k]] += of_pieces[k];
+  for (std::size_t f = 0; f < 4; ++f) EXPECT_NEAR(found[f], expected[f], 1e-13) << f;
+
+  FeatureLines none;
+  none.features = {0, 0};
+  CellRings one;
+  add_square(one, 0, 10);
+  EXPECT_NEAR(areas(clipped_feature_cells(none, one, 0.01, regions))[0], sum(found), 1e-13);
+  lines.features = {0, 1};
+  EXPECT_NEAR(areas(clipped_feature_cells(lines, {}, 0.01, regions))[0], sum(found), 1e-13);
+}
+
 TEST(feature_cells, of_polygons_that_overlap_are_refused) {
   FeatureLines none;
   none.features = {0, 0, 0};

@@ -7,11 +7,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <numbers>
+#include <string>
 
 #include "meshing/scvt_levels.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/mesh_size_files.h"
 
 namespace rondel::mesh {
 namespace {
@@ -74,6 +77,31 @@ TEST(mesh_size, refinement_grows_with_the_distance_of_a_line) {
   const SizeFunction size = SizeFunction::constant(0.1, 256).refined(equator, 0.01, 0.1);
   for (const Point& p : places()) {
     EXPECT_NEAR(size.spacing(p), std::min(0.1, 0.01 + 0.1 * std::abs(std::asin(p.z))), 6e-4);
+  }
+}
+
+// Lines, closed outlines and points, each neighbor in a line nearer than the distance.
+TEST(mesh_size, refinement_follows_lines_and_outlines) {
+  const std::string path = testing::TempDir() + "rondel_refinement.geojson";
+  const auto read = [&](const std::string& geometries) {
+    std::ofstream(path) << R"({"type":"GeometryCollection","geometries":[)" << geometries << "]}";
+    return read_refinement({path, {}}, 0.01);
+  };
+  const std::string line = R"({"type":"LineString","coordinates":[[100,0],[110,0]]})";
+  const std::string box =
+      R"({"type":"Polygon","coordinates":[[[0,0],[10,0],[10,10],[0,10],[0,0]]]})";
+  const std::string point = R"({"type":"Point","coordinates":[50,80]})";
+  const std::vector<Point> points = read(box + ',' + line + ',' + point);
+  EXPECT_EQ(points.size(), read(box).size() + read(line).size() + 1);
+  for (const LonLat& place : {LonLat{5, 0}, LonLat{0, 5}, LonLat{105, 0}, LonLat{50, 80}}) {
+    EXPECT_TRUE(std::ranges::any_of(
+        points, [&](const Point& p) { return angle(p, unit_vector(place)) <= 0.005 + 1e-9; }));
+  }
+  try {
+    (void)read(line + R"(,{"type":"LineString","coordinates":[[1,2]]})");
+    ADD_FAILURE();
+  } catch (const FileError& error) {
+    EXPECT_EQ(std::string(error.what()), path + ":1: geometry 1: a line of 1 positions");
   }
 }
 

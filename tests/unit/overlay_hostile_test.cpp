@@ -52,23 +52,20 @@ void expect_whole_polygons(const Partition& cells, const Partition& other,
 
 class OverlayHostile : public testing::TestWithParam<std::size_t> {};
 
+Partition cells_of(const Generator& generator, std::size_t n, std::uint64_t seed) {
+  const SiteSet set = generator.make(n, seed);
+  const Model model = generator.weighted_only ? Model::weighted : Model::projected;
+  return Partition::voronoi(delaunay(set.sites, {.model = model, .sphere = set.sphere}));
+}
+
 TEST_P(OverlayHostile, nothing_is_lost) {
   const Generator& generator = generators()[GetParam()];
-  if (generator.weighted_only || (generator.has_long_integers && is_shortened())) GTEST_SKIP();
+  if (generator.has_long_integers && is_shortened()) GTEST_SKIP();
   const std::size_t n = generator.has_long_integers ? 12 : 120;
-  const SiteSet set = generator.make(n, 5);
-  const SiteSet other_set = generator.make(n + n / 2, 6);
-  const Partition cells = Partition::voronoi(delaunay(set.sites, {.sphere = set.sphere}));
-  const Partition other =
-      Partition::voronoi(delaunay(other_set.sites, {.sphere = other_set.sphere}));
+  const Partition cells = cells_of(generator, n, 5);
+  const Partition other = cells_of(generator, n + n / 2, 7);
   const Partition uniform = Partition::voronoi(triangulation_of("uniform", 100, 7));
-  const double area = std::accumulate(cells.areas().begin(), cells.areas().end(), 0.0);
-  if (!cells.is_cover() || !other.is_cover() || std::abs(area - 4 * std::numbers::pi) > 1e-11) {
-    GTEST_SKIP() << "no diagram in doubles";
-  }
   const std::string name(generator.name);
-  expect_a_cover(remap(cells, cells), name + " with itself");
-  expect_a_cover(remap(cells, other), name + " with another");
   expect_a_cover(remap(cells, uniform, {.order = 2}), name + " to uniform");
   expect_a_cover(remap(uniform, cells, {.order = 2}), "uniform to " + name);
   for (const std::size_t num_lon : {1U, 4U, 90U}) {
@@ -76,6 +73,8 @@ TEST_P(OverlayHostile, nothing_is_lost) {
     expect_a_cover(remap(cells, grid, {.order = 2}), name + " to a grid");
     expect_a_cover(remap(grid, cells, {.order = 2}), "grid to " + name);
   }
+  expect_a_cover(remap(cells, cells), name + " with itself");
+  expect_a_cover(remap(cells, other), name + " with another");
   expect_whole_polygons(cells, cells, name + " with itself");
   expect_whole_polygons(cells, other, name + " with another");
 }

@@ -65,6 +65,13 @@ RingOfPart rectangular_hole(double west, double south, double east, double north
   return {{{west, south}, {west, north}, {east, north}, {east, south}}};
 }
 
+// 12 corners around the north pole, counterclockwise, at a distance of so many degrees.
+std::vector<LonLat> circle_of(double radius) {
+  std::vector<LonLat> corners;
+  for (int k = 0; k < 12; ++k) corners.push_back({30.0 * k, 90 - radius});
+  return corners;
+}
+
 double total_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);
 }
@@ -175,6 +182,39 @@ TEST(overlay_parts, of_nearly_the_whole_sphere) {
     for (Index i = 0; i < 3; ++i) sum += piece_of(of_land, i, j);
     EXPECT_NEAR(sum, std::numbers::pi / 2, 1e-14) << j;
   }
+}
+
+// More than a hemisphere, with what is opposite of its center of mass inside, or with that in no direction at all.
+TEST(overlay_parts, areas_of_large_cells) {
+  constexpr double sphere = 4 * std::numbers::pi;
+  const auto area_of_cap = [](double radius) {
+    const Partition cap(cells_of_rings({{{circle_of(radius)}}}));
+    return cap.areas()[0];
+  };
+  for (const double radius : {1.0, 10.0, 60.0, 89.0, 91.0, 120.0, 179.0}) {
+    RingOfPart outside{circle_of(radius)};
+    std::ranges::reverse(outside.corners);
+    const Partition without(cells_of_rings({{outside}}));
+    // 12 triangles with the apex at the pole and equal sides.
+    const double half = std::numbers::pi / 12;
+    const double angle = radius * std::numbers::pi / 180;
+    const double known =
+        12 * (2 * half - 2 * std::atan2(std::cos(angle) * std::sin(half), std::cos(half)));
+    EXPECT_NEAR(area_of_cap(radius), known, 1e-13) << radius;
+    EXPECT_NEAR(without.areas()[0], sphere - known, 1e-13) << radius;
+  }
+  const RingOfPart south{circle_of(120)};
+  RingOfPart north{circle_of(60)};
+  std::ranges::reverse(north.corners);
+  EXPECT_NEAR(Partition(cells_of_rings({{south, north}})).areas()[0], sphere - 2 * area_of_cap(60),
+              1e-13);
+  std::vector<RingOfPart> holes;
+  double islands = 0;
+  for (const double lon : {0.0, 120.0, 240.0}) {
+    holes.push_back(rectangular_hole(lon - 5, -70, lon + 5, -60));
+    islands += Partition(cells_of_rings({{rectangle(lon - 5, -70, lon + 5, -60)}})).areas()[0];
+  }
+  EXPECT_NEAR(Partition(cells_of_rings({holes})).areas()[0], sphere - islands, 1e-13);
 }
 
 // A cell beside two smaller ones, whose common corner lies on its side; ends of the axes inside, on sides, and corners.

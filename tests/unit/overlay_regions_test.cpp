@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -59,6 +60,10 @@ void expect_simple_rings(const CellRings& cells) {
 CellRings random_regions(std::size_t n, Index num_groups, std::uint64_t seed) {
   const Partition cells = Partition::voronoi(triangulation_of("uniform", n, seed));
   return dissolve(cells.rings(), random_groups(n, num_groups, seed, true), num_groups);
+}
+
+std::size_t num_corners_of(const CellRings& cells, std::size_t cell) {
+  return cells.rings[cells.cells[cell + 1]] - cells.rings[cells.cells[cell]];
 }
 
 double sum(std::span<const double> values) {
@@ -168,6 +173,87 @@ TEST(overlay_regions, one_site_has_all_of_the_regions) {
   const CellRings regions = random_regions(50, 2, 15);
   const CellRings clipped = clip(cell, Partition(regions));
   EXPECT_NEAR(areas(clipped)[0], sum(areas(regions)), 1e-13);
+}
+
+// Neither covers the sphere: pieces are those of a cover's cells, with as many corners.
+TEST(overlay_regions, parts_of_the_sphere) {
+  const CellRings all = Partition::voronoi(triangulation_of("uniform", 900, 17)).rings();
+  const CellRings of_regions = random_regions(400, 3, 18);
+  std::vector<Index> names(all.num_cells(), no_index);
+  Index num_names = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (i % 3 != 0) names[i] = num_names++;
+  }
+  const CellRings some = dissolve(all, names, num_names);
+  const Partition cells(some);
+  const Partition regions(of_regions);
+  ASSERT_FALSE(cells.is_cover() || regions.is_cover());
+  const RegionPieces expected = intersection(Partition(all), regions);
+  const std::vector<double> known = areas(expected.rings);
+  for (const bool is_back : {false, true}) {
+    const RegionPieces found =
+        is_back ? intersection(regions, cells) : intersection(cells, regions);
+    const std::vector<double> of_pieces = areas(found.rings);
+    expect_simple_rings(found.rings);
+    std::map<std::pair<Index, Index>, std::size_t> pieces;
+    for (std::size_t k = 0; k < found.num_pieces(); ++k) {
+      pieces[{is_back ? found.regions[k] : found.cells[k],
+              is_back ? found.cells[k] : found.regions[k]}] = k;
+    }
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      const Index name = names[expected.cells[k]];
+      if (name == no_index) continue;
+      const auto piece = pieces.find({name, expected.regions[k]});
+      ASSERT_NE(piece, pieces.end());
+      EXPECT_NEAR(of_pieces[piece->second], known[k], 1e-15);
+      EXPECT_EQ(num_corners_of(found.rings, piece->second), num_corners_of(expected.rings, k));
+      pieces.erase(piece);
+    }
+    EXPECT_TRUE(pieces.empty());
+  }
+  EXPECT_NEAR(sum(areas(clip(cells, regions))), sum(areas(clip(regions, cells))), 1e-13);
+}
+
+// Corners of one that lie on sides of others stay; sides through the ends of the axes get a corner there.
+TEST(overlay_regions, of_parts_that_overlap) {
+  const auto boxes = [](const std::vector<std::array<double, 4>>& bounds) {
+    CellRings cells;
+    for (const auto& [west, south, east, north] : bounds) {
+      for (const LonLat corner :
+           {LonLat{west, south}, LonLat{east, south}, LonLat{east, north}, LonLat{west, north}}) {
+        cells.corners.push_back(static_cast<Index>(cells.points.size()));
+        cells.points.push_back(unit_vector(corner));
+      }
+      cells.rings.push_back(cells.corners.size());
+      cells.cells.push_back(cells.rings.size() - 1);
+    }
+    return cells;
+  };
+  const Partition twice(boxes({{0, 0, 20, 20}, {10, 10, 30, 30}}));
+  const Partition plain(boxes({{8, 8, 12, 12}, {20, 20, 25, 25}, {12, 8, 19, 12}}));
+  for (const auto& [cells, regions] : {std::pair(twice, plain), std::pair(plain, twice)}) {
+    const RegionPieces pieces = intersection(cells, regions);
+    const std::vector<double> found = areas(pieces.rings);
+    const Remap remap = rondel::remap(cells, regions);
+    ASSERT_EQ(pieces.num_pieces(), remap.areas.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      EXPECT_NEAR(found[k], piece_of(remap, pieces.cells[k], pieces.regions[k]), 1e-15);
+    }
+  }
+  try {
+    (void)clip(twice, twice);
+    ADD_FAILURE();
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(),
+                 "of the first partition's cells 0 and 1 overlap, of the regions' cells 0 and 1 "
+                 "overlap: one of the "
+                 "two must have none that do");
+  }
+  const Partition around(boxes({{-40, -30, 50, 40}}));
+  const CellRings same = clip(plain, around);
+  EXPECT_EQ(same.corners.size(), 12U);
+  EXPECT_NEAR(sum(areas(same)), sum(plain.areas()), 1e-15);
+  EXPECT_TRUE(clip(plain, Partition(boxes({{100, 0, 120, 20}}))).corners.empty());
 }
 
 TEST(overlay_regions, bad_groups_are_refused) {

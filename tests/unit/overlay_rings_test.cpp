@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -83,6 +84,45 @@ TEST(overlay_rings, areas_on_the_left) {
   // A lune of two halves of great circles.
   const PointRing lune = {{0, 0, 1}, {0, 1, 0}, {0, 0, -1}, {1, 0, 0}};
   EXPECT_NEAR(std::abs(map::area_on_left(lune)), std::numbers::pi, 1e-14);
+}
+
+// The center of mass of caps at both poles, joined by a line to and fro, is the sphere's: no triangles there.
+TEST(overlay_rings, areas_of_what_is_balanced) {
+  for (const double tilt : {0.0, 0.4, std::numbers::pi / 2}) {
+    PointRing ring = circle(0.5, tilt);
+    ring.push_back(ring.front());
+    const PointRing north = ring;
+    for (const Point& p : north) ring.push_back({-p.x, -p.y, -p.z});
+    std::reverse(ring.begin() + static_cast<std::ptrdiff_t>(north.size()), ring.end());
+    const Point side = normalized(cross(ring[0], ring[1]));  // so that no side has 180 degrees
+    ring.insert(ring.begin() + static_cast<std::ptrdiff_t>(north.size()), side);
+    ring.push_back(side);
+    EXPECT_NEAR(map::area_on_left(ring), 2 * map::area_on_left(circle(0.5)), 1e-14) << tilt;
+    EXPECT_FALSE(map::is_clockwise(ring));
+    std::ranges::reverse(ring);
+    EXPECT_TRUE(map::is_clockwise(ring));
+  }
+}
+
+TEST(overlay_rings, which_way_around) {
+  // Of any number of corners, of any size, thin to a line, and not convex.
+  for (const double radius : {1e-9, 0.3, 1.0, 1.57, 2.9}) {
+    for (const int corners : {3, 5, 11, 12, 40}) {
+      PointRing ring = circle(radius, 0.7, corners);
+      for (int k = 0; k < 3; ++k) {
+        EXPECT_EQ(map::is_clockwise(ring), map::area_on_left(ring) < 0) << radius << ' ' << corners;
+        std::ranges::reverse(ring);
+        EXPECT_EQ(map::is_clockwise(ring), map::area_on_left(ring) < 0) << radius << ' ' << corners;
+        // The next corner goes to the middle, or beyond it.
+        const auto at = static_cast<std::size_t>(k) % ring.size();
+        ring[at] = normalized(ring[at] + ring[(at + ring.size() / 2) % ring.size()]);
+      }
+    }
+  }
+  EXPECT_TRUE(map::is_clockwise(hole(0.2, 0.8)));
+  EXPECT_FALSE(map::is_clockwise(circle(0.2, 0.8)));
+  const PointRing line = {{1, 0, 0}, {0.8, 0.6, 0}, {1, 0, 0}, {0.8, 0.6, 0}};
+  EXPECT_FALSE(map::is_clockwise(line));
 }
 
 }  // namespace

@@ -61,17 +61,20 @@ void add_region_functions(nb::module_& module) {
       nb::arg("partition"), nb::arg("threads"));
   module.def(
       "feature_cells",
-      [](const std::string& path, double tolerance, bool is_geodesic, unsigned threads,
-         const nb::object& listener) {
+      [](const std::string& path, double tolerance, bool is_geodesic, const Partition* within,
+         unsigned threads, const nb::object& listener) {
         const PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic
                                                           : PolygonEdges::lonlat};
         return watched(0, threads, listener, [&](const Execution& execution) {
           const FeatureTable table = read_features(path, options, execution);
-          return feature_cells(table.lines, table.polygons, tolerance, execution);
+          return within == nullptr
+                     ? feature_cells(table.lines, table.polygons, tolerance, execution)
+                     : clipped_feature_cells(table.lines, table.polygons, tolerance, *within,
+                                             execution);
         });
       },
-      nb::arg("path"), nb::arg("tolerance"), nb::arg("is_geodesic"), nb::arg("threads"),
-      nb::arg("progress").none());
+      nb::arg("path"), nb::arg("tolerance"), nb::arg("is_geodesic"), nb::arg("within").none(),
+      nb::arg("threads"), nb::arg("progress").none());
   module.def(
       "cell_rings",
       [](const Partition& partition) { return unlocked([&] { return partition.rings(); }); },

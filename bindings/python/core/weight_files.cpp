@@ -4,11 +4,12 @@
 #include "rondel/weight_files.h"
 
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
 #include <string>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "arrays.h"
@@ -18,14 +19,21 @@
 namespace rondel::python {
 namespace {
 
-// No points where the array has no rows.
-WeightSide side_of(const PairsIn& degrees, const NumbersIn& areas,
-                   std::vector<std::uint64_t> shape) {
+// Degrees, areas, fractions and the shape of a grid; what is empty is not written.
+using SideIn = std::tuple<PairsIn, NumbersIn, NumbersIn, std::vector<std::uint64_t>>;
+
+std::vector<double> vector_of(const NumbersIn& numbers) {
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+WeightSide side_of(const SideIn& in) {
+  const auto& [degrees, areas, fractions, shape] = in;
   const auto points = rows_of<LonLat>(degrees);
   WeightSide side;
   side.points.assign(points.begin(), points.end());
-  side.areas.assign(areas.data(), areas.data() + areas.size());
-  side.shape = std::move(shape);
+  side.areas = vector_of(areas);
+  side.fractions = vector_of(fractions);
+  side.shape = shape;
   return side;
 }
 
@@ -35,22 +43,20 @@ void add_weight_files(nb::module_& module) {
   module.def(
       "write_weights",
       [](const std::string& path, const std::string& format, const Weights& weights,
-         const PairsIn& sites, const NumbersIn& site_areas, const PairsIn& targets,
-         const NumbersIn& target_areas, std::vector<std::uint64_t> shape,
-         const std::string& method) {
+         const SideIn& source, const SideIn& target, const std::string& method,
+         const std::string& normalization) {
         unlocked([&] {
           const WeightFile content{.weights = weights,
-                                   .source = side_of(sites, site_areas, {}),
-                                   .target = side_of(targets, target_areas, std::move(shape)),
+                                   .source = side_of(source),
+                                   .target = side_of(target),
                                    .method = method,
-                                   .normalization = "none"};
+                                   .normalization = normalization};
           write_weights({path, format}, content);
           return 0;
         });
       },
-      nb::arg("path"), nb::arg("format"), nb::arg("weights"), nb::arg("sites").noconvert(),
-      nb::arg("site_areas").noconvert(), nb::arg("targets").noconvert(),
-      nb::arg("target_areas").noconvert(), nb::arg("shape"), nb::arg("method"));
+      nb::arg("path"), nb::arg("format"), nb::arg("weights"), nb::arg("source"), nb::arg("target"),
+      nb::arg("method"), nb::arg("normalization"));
   module.def(
       "read_weights",
       [](const std::string& path) { return unlocked([&] { return read_weights(path).weights; }); },

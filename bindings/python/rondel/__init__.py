@@ -14,6 +14,8 @@ feature_cells
     The cells of lines and polygons: which of them is nearest.
 remap
     Conservative weights between the cells of two partitions.
+lonlat_grid, polygons
+    Partitions for it: a grid of the whole sphere, and polygons of files and libraries.
 interpolate
     Values at longitudes and latitudes, from values at others.
 unit_vectors, lonlat
@@ -52,7 +54,7 @@ Weights
     What carries values from sites to targets, as a sparse matrix.
 """
 
-from . import _core
+from . import _core, distributed, mesh, out_of_core
 from ._arrays import lonlat, point_set_hash, unit_vectors
 from ._contours import Bands, Isolines
 from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
@@ -62,7 +64,7 @@ from ._errors import InvalidInput
 from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
-from ._partition import Partition
+from ._partition import Partition, lonlat_grid, polygons
 from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where
@@ -99,10 +101,15 @@ __all__ = [
     "convex_hull",
     "delaunay",
     "delaunay_lonlat",
+    "distributed",
     "feature_cells",
     "interpolate",
     "lonlat",
+    "lonlat_grid",
+    "mesh",
+    "out_of_core",
     "point_set_hash",
+    "polygons",
     "power_diagram",
     "read_weights",
     "remap",

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import operator
 import os
 from typing import Any, Literal, TypeAlias
 
@@ -11,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads
+from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, lonlat
 from ._geo import Path, write_named
 from ._geometries import Edges, polygons_of, read_polygons
 from ._repr import Described, count
@@ -40,6 +41,7 @@ class Partition(Described):
     _partition: _core.Partition
     _mask: IntArray
     _shape: tuple[int, ...]
+    _axes: tuple[FloatArray, FloatArray] | None
 
     @classmethod
     def _of(
@@ -47,11 +49,13 @@ class Partition(Described):
         partition: _core.Partition,
         mask: IntArray | None = None,
         shape: tuple[int, ...] = (),
+        axes: tuple[FloatArray, FloatArray] | None = None,
     ) -> Partition:
         self = cls.__new__(cls)
         self._partition = partition
         self._mask = np.zeros(0, np.int32) if mask is None else mask
         self._shape = shape
+        self._axes = axes
         return self
 
     @classmethod
@@ -121,7 +125,8 @@ class Partition(Described):
         made = _core.Partition.lonlat_grid(
             meridians, parallels, _are_arcs(sides), as_threads(threads)
         )
-        return cls._of(made, shape=(len(parallels) - 1, len(meridians) - 1))
+        axes = (meridians[1:] + meridians[:-1]) / 2, (parallels[1:] + parallels[:-1]) / 2
+        return cls._of(made, shape=(len(axes[1]), len(axes[0])), axes=axes)
 
     @classmethod
     def lonlat_centers(
@@ -144,8 +149,10 @@ class Partition(Described):
             As in `lonlat_grid`.
 
         """
-        lines = _core.lines_around(_as_lines(lon, "lon"), _as_lines(lat, "lat"))
-        return cls.lonlat_grid(*lines, sides=sides, threads=threads)
+        axes = _as_lines(lon, "lon"), _as_lines(lat, "lat")
+        made = cls.lonlat_grid(*_core.lines_around(*axes), sides=sides, threads=threads)
+        made._axes = axes
+        return made
 
     @classmethod
     def polygons(
@@ -329,6 +336,13 @@ class Partition(Described):
         """
         return self._partition.rings()
 
+    def _degrees(self) -> FloatArray:
+        """Longitudes and latitudes, shape (n, 2): of a grid's axes, or of the centers."""
+        if self._axes is None:
+            return lonlat(self.centers)
+        lon, lat = np.meshgrid(*self._axes)
+        return np.stack([lon, lat], axis=-1).reshape(-1, 2)
+
     def _facts(self) -> list[tuple[str, str]]:
         facts = [("cells", count(self.num_cells, "cell"))]
         if self.is_cover:
@@ -337,6 +351,67 @@ class Partition(Described):
         if masked:
             facts.append(("mask", f"{masked:,} masked"))
         return facts
+
+
+def lonlat_grid(
+    nlon: int, nlat: int, *, sides: Sides = "parallels", threads: int | None = None
+) -> Partition:
+    """The cells of a grid of the whole sphere, equal in degrees.
+
+    Parameters
+    ----------
+    nlon, nlat : int
+        The number of cells around, from longitude -180 eastward, and from the south pole
+        northward.
+    sides, threads
+        As in `Partition.lonlat_grid`, which takes any lines.
+
+    Returns
+    -------
+    Partition
+        Of shape (nlat, nlon). Lines have the digits of an exact division, rounded once.
+
+    Examples
+    --------
+    >>> import rondel
+    >>> rondel.lonlat_grid(360, 180).shape
+    (180, 360)
+
+    """
+
+    def lines(cells: int, half: int, name: str) -> FloatArray:
+        if operator.index(cells) < 1:
+            raise ValueError(f"{name} must be at least 1, not {cells}")
+        return (2 * np.arange(cells + 1) - cells) * half / cells
+
+    return Partition.lonlat_grid(
+        lines(nlon, 180, "nlon"), lines(nlat, 90, "nlat"), sides=sides, threads=threads
+    )
+
+
+def polygons(areas: Any, *, edges: Edges = "lonlat", threads: int | None = None) -> Partition:
+    """Polygons as cells, with holes and in several parts, from a file or from another library.
+
+    Parameters
+    ----------
+    areas : path-like, GeoDataFrame, GeoSeries, sequence or mapping
+        The name of a file, as `Partition.read` takes it, or what `Partition.from_geometries`
+        takes.
+    edges : {'lonlat', 'geodesic'}, optional
+        As in `Partition.read`.
+    threads : int, optional
+
+    Examples
+    --------
+    >>> import rondel
+    >>> box = [[[0, 0], [90, 0], [90, 45], [0, 45], [0, 0]]]
+    >>> rondel.polygons({"type": "Polygon", "coordinates": box})
+    <rondel.Partition: 1 cell>
+
+    """
+    if isinstance(areas, (str, os.PathLike)):
+        return Partition.read(areas, edges=edges, threads=threads)
+    return Partition.from_geometries(areas, edges=edges, threads=threads)
 
 
 def _as_lines(values: ArrayLike, name: str) -> FloatArray:

@@ -94,9 +94,7 @@ class Regions(Described):
         progress : callable, optional
 
         """
-        numbers, labels = _numbered(groups, len(self))
-        joined = self._rings.dissolve(numbers, len(labels), as_threads(threads), progress)
-        return Regions._of(joined, labels, "group")
+        return _dissolved(self._rings, groups, threads, progress)
 
     @overload
     def to_geojson(
@@ -283,10 +281,8 @@ def dissolve_cells(
         meet have the same corners there, bit by bit.
 
     """
-    numbers, labels = _numbered(groups, len(self.points))
     rings = _core.cell_rings(Partition.voronoi(self, threads=threads)._partition)
-    joined = rings.dissolve(numbers, len(labels), as_threads(threads), progress)
-    return Regions._of(joined, labels, "group")
+    return _dissolved(rings, groups, threads, progress)
 
 
 def feature_cells(
@@ -295,6 +291,7 @@ def feature_cells(
     *,
     radius_km: float = EARTH_RADIUS_KM,
     edges: Edges = "lonlat",
+    within: Any = None,
     threads: int | None = None,
     progress: Progress = None,
 ) -> Regions:
@@ -312,13 +309,16 @@ def feature_cells(
         Of the sphere on which that is measured.
     edges : {'lonlat', 'geodesic'}, optional
         What joins positions: straight lines in longitude and latitude (RFC 7946), or great circles.
+    within : path-like, geometries or Partition, optional
+        Regions to which the cells are cut, as `SphericalVoronoi.clip` takes them.
     threads : int, optional
     progress : callable, optional
 
     Returns
     -------
     Regions
-        One for each feature; `labels` are their numbers. A single one has no border.
+        One for each feature; `labels` are their numbers. A single one that is not cut has no
+        border.
 
     Raises
     ------
@@ -339,11 +339,12 @@ def feature_cells(
     tolerance = float(tolerance_km) / float(radius_km)
     if not tolerance > 0:
         raise ValueError(f"tolerance_km / radius_km must be positive, not {tolerance}")
+    area = None if within is None else _as_partition(within, edges, threads)._partition
     found = features_of(
         features,
         edges,
         lambda name, is_geodesic: _core.feature_cells(
-            name, tolerance, is_geodesic, as_threads(threads), progress
+            name, tolerance, is_geodesic, area, as_threads(threads), progress
         ),
     )
     return Regions._of(found, np.arange(found.num_cells), "feature")
@@ -362,6 +363,14 @@ def _as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:
         message = f"polygon {first} crosses {what} at {lon:.4f} {lat:.4f}: cells overlap there"
         warnings.warn(message, stacklevel=3)
     return found
+
+
+def _dissolved(
+    rings: _core.CellRings, groups: Any, threads: int | None, progress: Progress
+) -> Regions:
+    numbers, labels = _numbered(groups, rings.num_cells)
+    joined = rings.dissolve(numbers, len(labels), as_threads(threads), progress)
+    return Regions._of(joined, labels, "group")
 
 
 # The groups as numbers, -1 for none, and what each of them is.

@@ -5,32 +5,100 @@
 from __future__ import annotations
 
 import operator
-from typing import Literal, NamedTuple
+from collections.abc import Sequence
+from typing import Any, Literal
 
 import numpy as np
 
 from . import _core
 from ._arrays import as_threads
+from ._delaunay import SphericalDelaunay
+from ._diagram import Diagram
+from ._geo import Path
 from ._partition import Partition
+from ._regions import Regions
+from ._repr import Described, count
 from ._types import ArrayLike, FloatArray, IntArray, Progress
+from ._weight_files import Side, write_weights
 from ._weights import Weights
+from .mesh import Mesh
 
 
-class Remap(NamedTuple):
-    """What `remap` gives: weights with a row for each target and a column for each source, the
-    cells' areas in steradians, and which share of each is covered by the other partition.
+class Remap(Described):
+    """What `remap` gives: weights that carry means over cells, and what they are of.
+
+    Attributes
+    ----------
+    weights : Weights
+        A row for each target, a column for each source.
+    source, target : Partition
+    source_areas, target_areas : ndarray of float64, shape (n,) and (m,)
+        Steradians.
+    source_fractions, target_fractions : ndarray of float64, shape (n,) and (m,)
+        Which share of each cell the other partition covers.
+
     """
 
-    weights: Weights
-    source_areas: FloatArray
-    target_areas: FloatArray
-    source_fractions: FloatArray
-    target_fractions: FloatArray
+    def __init__(
+        self,
+        weights: Weights,
+        source: Partition,
+        target: Partition,
+        measures: Sequence[FloatArray],
+        norm: str,
+    ) -> None:
+        self.weights = weights
+        self.source = source
+        self.target = target
+        self.source_areas, self.target_areas = measures[:2]
+        self.source_fractions, self.target_fractions = measures[2:]
+        self._norm = norm
+
+    def to_netcdf(self, path: Path, format: Literal["esmf", "scrip"] = "esmf") -> None:
+        """Writes a file that other programs apply, with the cells' centers and areas.
+
+        Parameters
+        ----------
+        path : path-like
+            The file appears when it is complete, and replaces the one that is there.
+        format : {'esmf', 'scrip'}, optional
+            netCDF with the names of ESMF, or with those of SCRIP, which CDO reads.
+
+        Raises
+        ------
+        OSError
+            If the file cannot be written; then nothing is left of it.
+
+        See Also
+        --------
+        Weights.to_netcdf : with places that are not the cells' centers of mass.
+
+        """
+        sides = [
+            Side(cells._degrees(), areas, fractions, cells.shape)
+            for cells, areas, fractions in (
+                (self.source, self.source_areas, self.source_fractions),
+                (self.target, self.target_areas, self.target_fractions),
+            )
+        ]
+        method = "Conservative remapping"
+        write_weights(path, format, self.weights, sides[0], sides[1], method, self._norm)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        return [
+            ("source", count(self.source.num_cells, "cell")),
+            ("target", count(self.target.num_cells, "cell")),
+            ("weights", count(len(self.weights.data), "weight")),
+        ]
+
+    def _summary(self) -> str:
+        source, target, weights = (text for _, text in self._facts())
+        return f"{source} to {target}, {weights}"
 
 
 def remap(
-    source: Partition,
-    target: Partition,
+    source: Any,
+    target: Any,
     *,
     order: int = 1,
     norm: Literal["destarea", "fracarea"] = "destarea",
@@ -45,8 +113,8 @@ def remap(
 
     Parameters
     ----------
-    source, target : Partition
-        Parts of the sphere, or all of it.
+    source, target : Partition, SphericalVoronoi, PowerDiagram, SphericalDelaunay, Mesh or Regions
+        The cells of parts of the sphere, or of all of it; of a triangulation the triangles.
     order : {1, 2}, optional
         1: the field is constant in each source cell. 2: it has a gradient there, by least squares
         over the neighbors.
@@ -71,11 +139,10 @@ def remap(
 
     Examples
     --------
-    >>> import numpy as np
     >>> import rondel
-    >>> fine = rondel.Partition.lonlat_grid(np.linspace(-180, 180, 5), [-90, 0, 90])
-    >>> coarse = rondel.Partition.lonlat_grid([-180, 0, 180], [-90, 90])
-    >>> remap = rondel.remap(fine, coarse)
+    >>> remap = rondel.remap(rondel.lonlat_grid(4, 2), rondel.lonlat_grid(2, 1))
+    >>> remap
+    <rondel.Remap: 8 cells to 2 cells, 8 weights>
     >>> remap.weights.apply([1, 2, 3, 4, 5, 6, 7, 8])
     array([3.5, 5.5])
 
@@ -84,17 +151,36 @@ def remap(
         raise ValueError(f"norm must be 'destarea' or 'fracarea', not {norm!r}")
     if operator.index(order) not in (1, 2):
         raise ValueError(f"order must be 1 or 2, not {order}")
-    weights, *others = _core.remap(
-        source._partition,
-        target._partition,
+    cells = [_as_partition(side, threads) for side in (source, target)]
+    weights, *measures = _core.remap(
+        cells[0]._partition,
+        cells[1]._partition,
         order,
         norm == "fracarea",
-        _as_mask(source_mask, source),
-        _as_mask(target_mask, target),
+        _as_mask(source_mask, cells[0]),
+        _as_mask(target_mask, cells[1]),
         as_threads(threads),
         progress,
     )
-    return Remap(Weights._of(weights), *others)
+    return Remap(Weights._of(weights), cells[0], cells[1], measures, norm)
+
+
+def _as_partition(cells: Any, threads: int | None) -> Partition:
+    """The cells of what has cells: of diagrams, the faces of triangulations, those of meshes."""
+    if isinstance(cells, Partition):
+        return cells
+    if isinstance(cells, Mesh):
+        each = np.arange(len(cells.offsets))
+        return Partition.polygons(
+            each, cells.offsets, cells.vertices_on_cell, cells.vertex_points, threads=threads
+        )
+    if isinstance(cells, Diagram):
+        return Partition.voronoi(cells, threads=threads)
+    if isinstance(cells, SphericalDelaunay):
+        return Partition.triangles(cells, threads=threads)
+    if isinstance(cells, Regions):
+        return cells.partition(threads=threads)
+    raise TypeError(f"{type(cells).__name__} has no cells: a Partition, diagram or mesh is wanted")
 
 
 # An empty one: all take part.

@@ -8,7 +8,7 @@ The functions that take `self` are methods of `Weights`.
 from __future__ import annotations
 
 import os
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
@@ -56,8 +56,6 @@ def weights_to_netcdf(
         If the file cannot be written; then nothing is left of it.
 
     """
-    if format not in ("esmf", "scrip"):
-        raise ValueError(f"format must be 'esmf' or 'scrip', not {format!r}")
     rows, columns = self.shape
     for name, points, count, known in (
         ("sites", sites, columns, self.sites_hash),
@@ -70,13 +68,43 @@ def weights_to_netcdf(
         if known and not self.is_of(**{name: points}):
             raise ValueError(f"the {name} are not those of the weights")
     shape: tuple[int, ...] = () if targets is None else np.shape(targets)[:-1]
-    grid = list(shape) if len(shape) > 1 else []
-    sides = (_degrees(sites), _areas(site_areas), _degrees(targets), _areas(target_areas))
+    source = Side(_degrees(sites), site_areas)
+    target = Side(_degrees(targets), target_areas, shape=shape)
+    write_weights(path, format, self, source, target, method, "none")
 
-    def write(name: str) -> None:
-        _core.write_weights(name, format, self._weights, *sides, grid, method)
 
-    write_named(os.fspath(path), write)
+class Side(NamedTuple):
+    """What a file says of the sources, or of the targets; a shape is that of a grid."""
+
+    degrees: FloatArray
+    areas: ArrayLike | None = None
+    fractions: ArrayLike | None = None
+    shape: tuple[int, ...] = ()
+
+
+def write_weights(
+    path: Path,
+    format: str,
+    weights: Any,
+    source: Side,
+    target: Side,
+    method: str,
+    normalization: str,
+) -> None:
+    if format not in ("esmf", "scrip"):
+        raise ValueError(f"format must be 'esmf' or 'scrip', not {format!r}")
+
+    def made(side: Side) -> Any:
+        grid = list(side.shape) if len(side.shape) > 1 else []
+        return side.degrees, _numbers(side.areas), _numbers(side.fractions), grid
+
+    sides = made(source), made(target)
+    write_named(
+        os.fspath(path),
+        lambda name: _core.write_weights(
+            name, format, weights._weights, *sides, method, normalization
+        ),
+    )
 
 
 def _degrees(points: ArrayLike | None) -> FloatArray:
@@ -85,7 +113,7 @@ def _degrees(points: ArrayLike | None) -> FloatArray:
     return np.ascontiguousarray(lonlat(as_floats(points, "points").reshape(-1, 3)))
 
 
-def _areas(areas: ArrayLike | None) -> FloatArray:
-    if areas is None:
+def _numbers(values: ArrayLike | None) -> FloatArray:
+    if values is None:
         return np.zeros(0)
-    return np.ascontiguousarray(as_floats(areas, "areas").reshape(-1))
+    return np.ascontiguousarray(as_floats(values, "areas").reshape(-1))

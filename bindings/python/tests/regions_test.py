@@ -146,6 +146,19 @@ def test_cells_of_lines_and_polygons(tmp_path):
         rondel.feature_cells([{"type": "Circle", "coordinates": [1, 2]}], 1)
 
 
+def test_cells_of_features_may_be_clipped():
+    island = {"type": "Polygon", "coordinates": [[[-5, -5], [5, -5], [5, 5], [-5, 5], [-5, -5]]]}
+    coast = {"type": "LineString", "coordinates": [[20, -30], [20, 30]]}
+    ring = [[-10, -20], [30, -20], [30, 20], [-10, 20], [-10, -20]]
+    sea = {"type": "Polygon", "coordinates": [ring]}
+    within = rondel.feature_cells([island, coast], 50, within=sea)
+    whole = rondel.Partition.from_geometries([sea]).areas[0]
+    assert abs(within.areas.sum() - whole) < 1e-13
+    assert (within.areas > rondel.Partition.from_geometries([island]).areas[0]).all()
+    alone = rondel.feature_cells([coast], 50, within=sea)
+    assert abs(alone.areas[0] - whole) < 1e-13
+
+
 def shapes_contain(shape, place):
     return pytest.importorskip("shapely.geometry").shape(shape).contains(place)
 

@@ -108,6 +108,69 @@ def test_meshes_of_xarray(tmp_path):
     assert read.mask.all()
 
 
+def test_cells_are_those_of_their_owners():
+    voronoi = TRI.voronoi()
+    expected = rondel.remap(CELLS, GRID).weights
+    for source, target in ((voronoi, GRID), (CELLS, rondel.lonlat_grid(24, 12))):
+        found = rondel.remap(source, target).weights
+        assert np.array_equal(found.data, expected.data)
+    triangles = rondel.remap(TRI, GRID)
+    assert triangles.source.num_cells == np.count_nonzero(~TRI.ghost)
+    mesh = rondel.mesh.from_points(TRI.points)
+    same = rondel.remap(mesh, voronoi).weights.tocsr()
+    assert abs(same - np.eye(300)).max() < 1e-12
+    box = {"type": "Polygon", "coordinates": [[[0, 0], [90, 0], [90, 45], [0, 45], [0, 0]]]}
+    clipped = voronoi.clip(box)
+    assert rondel.remap(clipped, rondel.polygons(box)).target_fractions == pytest.approx(1)
+    with pytest.raises(TypeError, match="ndarray has no cells"):
+        rondel.remap(TRI.points, GRID)
+
+
+def test_a_grid_by_its_size():
+    grid = rondel.lonlat_grid(360, 180)
+    assert grid.shape == (180, 360)
+    lines = rondel.Partition.lonlat_grid(np.arange(-180, 181), np.arange(-90, 91))
+    assert np.array_equal(grid.areas, lines.areas)
+    with pytest.raises(ValueError, match="nlat must be at least 1"):
+        rondel.lonlat_grid(4, 0)
+
+
+def test_polygons_of_files_and_mappings(tmp_path):
+    geometry = {"type": "Polygon", "coordinates": [[[0, 0], [9, 0], [9, 9], [0, 9], [0, 0]]]}
+    (tmp_path / "box.geojson").write_text(json.dumps(geometry), "utf-8")
+    for edges in ("lonlat", "geodesic"):
+        read = rondel.polygons(tmp_path / "box.geojson", edges=edges)
+        assert np.array_equal(read.areas, rondel.polygons(geometry, edges=edges).areas)
+
+
+@pytest.mark.parametrize("norm", ["destarea", "fracarea"])
+def test_files_of_weights_have_what_they_are_of(tmp_path, norm):
+    netcdf = pytest.importorskip("scipy.io").netcdf_file
+    land = rondel.Partition.from_geometries(
+        {"type": "Polygon", "coordinates": [[[0, 0], [90, 0], [90, 45], [0, 45], [0, 0]]]}
+    )
+    remap = rondel.remap(land, GRID, norm=norm)
+    remap.to_netcdf(tmp_path / "esmf.nc")
+    remap.to_netcdf(tmp_path / "scrip.nc", format="scrip")
+    for name, weights, fractions in (
+        ("esmf.nc", "S", "frac_b"),
+        ("scrip.nc", "remap_matrix", "dst_grid_frac"),
+    ):
+        with netcdf(tmp_path / name, mmap=False) as file:
+            assert file.normalization == norm.encode()
+            assert np.array_equal(file.variables[weights][:].ravel(), remap.weights.data)
+            assert np.array_equal(file.variables[fractions][:], remap.target_fractions)
+    with netcdf(tmp_path / "esmf.nc", mmap=False) as file:
+        assert np.array_equal(file.variables["area_b"][:], remap.target_areas)
+        assert np.array_equal(file.variables["xc_b"][:24], (LON[1:] + LON[:-1]) / 2)
+        assert np.array_equal(file.variables["yc_b"][::24], (LAT[1:] + LAT[:-1]) / 2)
+        assert file.variables["dst_grid_dims"][:].tolist() == [24, 12]
+    again = rondel.read_weights(tmp_path / "esmf.nc")
+    assert np.array_equal(again.data, remap.weights.data)
+    with pytest.raises(ValueError, match="format must be"):
+        remap.to_netcdf(tmp_path / "w.nc", format="npz")
+
+
 def test_parts_of_the_sphere():
     part = rondel.Partition.polygons([0, 1], [0, 3], [0, 1, 2], np.eye(3))
     assert rondel.remap(part, part).weights.data.tolist() == [1]
