@@ -55,7 +55,8 @@ RONDEL_API void write_graph(const std::string& path, const MeshArrays& arrays,
 /// bit, but a density of 1 everywhere as none. Points are on the sphere of sphere_radius (1 where it is missing) within a
 /// thousandth of it.
 ///
-/// 1. Areas, lengths, angles and points are those of the file, whatever their precision. The
+/// 1. Areas, lengths, angles and points are those of the file, whatever their precision; points that are not on the
+///    sphere within a thousandth of sphere_radius (1 where it is missing) are refused. The
 ///    order and the start of lists are those of edgesOnCell and cellsOnVertex; the others follow from them, and from the
 ///    edges.
 /// 2. The file's lists must describe a surface, closed or with a border, with edges counterclockwise around cells; 0

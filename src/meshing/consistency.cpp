@@ -14,13 +14,6 @@
 namespace rondel::meshing {
 namespace {
 
-void require_size(const char* name, std::size_t size, std::size_t wanted) {
-  if (size == wanted) return;
-  throw InvalidInput(
-      "the mesh has " + std::to_string(size) + ' ' + name + " instead of " + std::to_string(wanted),
-      0);
-}
-
 void require_points(const char* name, unsigned threads, const std::vector<Point>& points,
                     double radius) {
   constexpr std::size_t grain = 65536;
@@ -36,6 +29,13 @@ void require_points(const char* name, unsigned threads, const std::vector<Point>
 
 // Whether no_index may be there: at the border of a mesh.
 enum class None : std::uint8_t { refused, allowed };
+
+void require_size(const char* name, std::size_t size, std::size_t wanted) {
+  if (size == wanted) return;
+  throw InvalidInput(
+      "the mesh has " + std::to_string(size) + ' ' + name + " instead of " + std::to_string(wanted),
+      0);
+}
 
 template <class Row>
 void require_indices(const char* name, unsigned threads, const std::vector<Row>& rows,

@@ -216,10 +216,11 @@ void add_files(const MeshArrays& arrays, Lines& lines) {
       std::pair{mesh::MeshFormat::exodus, "exodus"}};
   const Folder folder;
   const std::string path = folder.file("mesh.nc");
-  for (const auto& [format, name] : formats) {
-    record(lines, std::string("file-") + name, [&, f = format](Hash& hash, const Execution& e) {
+  for (const auto& [of_file, name] : formats) {
+    const mesh::MeshFormat format = of_file;
+    record(lines, std::string("file-") + name, [&](Hash& hash, const Execution& execution) {
       for (const mesh::NetcdfKind kind : {mesh::NetcdfKind::cdf2, mesh::NetcdfKind::cdf5}) {
-        mesh::write(path, arrays, {.format = f, .kind = kind}, e);
+        mesh::write(path, arrays, {.format = format, .kind = kind}, execution);
         add_text(hash, bytes_of(path));
       }
     });

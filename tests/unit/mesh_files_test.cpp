@@ -341,7 +341,7 @@ TEST_F(MeshFiles, points_off_the_sphere_are_refused) {
   mesh::write(path("m.nc"), arrays);
   std::string content = bytes("m.nc");
   const io::NetcdfReader file(content);
-  content[file.require("yEdge").offset + 8 * 13] ^= 0x20;  // the exponent
+  content[file.require("yEdge").offset + sizeof(double) * 13] ^= 0x20;  // the exponent
   put("bad.nc", content);
   EXPECT_EQ(file_error([&] { mesh::read_mpas(path("bad.nc")); }),
             path("bad.nc") +

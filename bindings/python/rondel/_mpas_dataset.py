@@ -7,19 +7,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+import numpy.typing as npt
 
+from . import _core
 from ._types import FloatArray, IntArray
 
 if TYPE_CHECKING:
     import xarray
 
-    from ._voronoi_mesh import Mesh
 
-
-def _padded_rows(mesh: Mesh, counts: IntArray, entries: IntArray) -> IntArray:
+def _padded_rows(offsets: npt.NDArray[np.int64], entries: IntArray) -> IntArray:
     """Lists around cells as rows of numbers from 1 that end with 0."""
+    counts = np.diff(offsets)
     rows = np.zeros((len(counts), int(counts.max())), np.int32)
-    column = np.arange(len(entries)) - np.repeat(mesh.offsets[:-1], counts)
+    column = np.arange(len(entries)) - np.repeat(offsets[:-1], counts)
     rows[np.repeat(np.arange(len(counts)), counts), column] = entries + 1
     return rows
 
@@ -35,15 +36,14 @@ def _places(kind: str, points: FloatArray) -> dict[str, Any]:
     return {axis + kind: (dimension, values) for axis, values in coordinates.items()}
 
 
-def dataset_of(mesh: Mesh) -> xarray.Dataset:
+def dataset_of(mesh: _core.MeshArrays, density: FloatArray) -> xarray.Dataset:
     """The mesh with the names, dimensions and numbers of MPAS."""
     import xarray
 
-    counts = np.diff(mesh.offsets).astype(np.int32)
     data: dict[str, Any] = {
-        "nEdgesOnCell": ("nCells", counts),
+        "nEdgesOnCell": ("nCells", np.diff(mesh.offsets).astype(np.int32)),
         "areaCell": ("nCells", mesh.cell_areas),
-        "meshDensity": ("nCells", mesh.density),
+        "meshDensity": ("nCells", density),
         "dcEdge": ("nEdges", mesh.cell_distances),
         "dvEdge": ("nEdges", mesh.vertex_distances),
         "angleEdge": ("nEdges", mesh.normal_angles),
@@ -55,7 +55,7 @@ def dataset_of(mesh: Mesh) -> xarray.Dataset:
         ("cellsOnCell", mesh.cells_on_cell),
         ("verticesOnCell", mesh.vertices_on_cell),
     ):
-        data[name] = (("nCells", "maxEdges"), _padded_rows(mesh, counts, entries))
+        data[name] = (("nCells", "maxEdges"), _padded_rows(mesh.offsets, entries))
     for name, dimensions, rows in (
         ("cellsOnEdge", ("nEdges", "TWO"), mesh.cells_on_edge),
         ("verticesOnEdge", ("nEdges", "TWO"), mesh.vertices_on_edge),
@@ -63,7 +63,11 @@ def dataset_of(mesh: Mesh) -> xarray.Dataset:
         ("edgesOnVertex", ("nVertices", "vertexDegree"), mesh.edges_on_vertex),
     ):
         data[name] = (dimensions, rows + 1)
-    places = (("Cell", mesh.points), ("Edge", mesh.edge_points), ("Vertex", mesh.vertex_points))
+    places = (
+        ("Cell", mesh.cell_points),
+        ("Edge", mesh.edge_points),
+        ("Vertex", mesh.vertex_points),
+    )
     for kind, points in places:
         data |= _places(kind, points)
     attributes = {

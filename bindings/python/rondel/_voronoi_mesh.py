@@ -250,4 +250,4 @@ class Mesh:
             MPAS's files, and rows end with 0.
 
         """
-        return dataset_of(self)
+        return dataset_of(self._arrays, self.density)
