@@ -46,6 +46,7 @@ void test_cells(const PolygonTable& table) {
   try {
     const CellRings clipped = clip(Partition::voronoi(delaunay(sites)), Partition(cells));
     require(clipped.num_cells() == sites.size(), "a part of each cell");
+    require(clip(Partition(clipped), Partition(cells)).num_cells() == sites.size(), "and again");
   } catch (const InvalidInput&) {  // polygons that cross themselves may have no sides
   }
 }
@@ -59,6 +60,9 @@ void test_features(const FeatureTable& table) {
     require(found.sites.size() == found.features.size(), "a feature for each site");
     const CellRings cells = feature_cells(table.lines, table.polygons, tolerance);
     require(cells.num_cells() == table.lines.num_features(), "a cell for each feature");
+    const CellRings clipped =
+        clipped_feature_cells(table.lines, table.polygons, tolerance, Partition(table.polygons));
+    require(clipped.num_cells() == cells.num_cells(), "a part of each cell");
   } catch (const InvalidInput&) {  // antipodes, or polygons that cross themselves
   }
 }

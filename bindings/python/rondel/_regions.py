@@ -192,7 +192,8 @@ class Regions(Described):
 
         given = checked_properties(properties, (self._kind, *AREA_NAMES, "geometry"), len(self))
         polygons = self._rings.polygons(float(tolerance_deg), 0)
-        rows = np.unique(polygons[3])
+        owners = polygons[3]
+        rows = owners[np.diff(owners, prepend=-1) > 0]
         columns: dict[str, Any] = {self._kind: self.labels[rows], "area": self.areas[rows]}
         if radius_km is not None:
             columns["area_km2"] = self.areas_km2(radius_km)[rows]
