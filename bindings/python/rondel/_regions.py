@@ -198,7 +198,8 @@ class Regions(Described):
 
         given = checked_properties(properties, (*self._own, *AREA_NAMES, "geometry"), len(self))
         polygons = self._rings.polygons(float(tolerance_deg), 0)
-        rows = np.unique(polygons[3])
+        owners = polygons[3]
+        rows = owners[np.diff(owners, prepend=-1) > 0]
         columns: dict[str, Any] = {name: labels[rows] for name, labels in self._own.items()}
         columns["area"] = self.areas[rows]
         if radius_km is not None:
