@@ -153,6 +153,11 @@ Command add_voronoi_command(CLI::App& tool) {
           "--clip", options->clip,
           "Keep what lies in the polygons of this file (.geojson), as of land or countries")
       ->type_name("FILE");
+  parser
+      ->add_option("--clip-value", options->clip_value,
+                   "Cut cells where this property of --clip's polygons changes, and keep it: a\n"
+                   "feature for each cell and text; polygons without a text are left out")
+      ->type_name("COL");
   add_word<PolygonEdges>(
       *parser, "--edges", options->edges,
       {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
@@ -185,6 +190,7 @@ Command add_voronoi_command(CLI::App& tool) {
       "Examples:\n"
       "  rondel voronoi stations.csv -o cells.geojson\n"
       "  rondel voronoi stations.csv --clip land.geojson --group country -o countries.geojson\n"
+      "  rondel voronoi stations.csv --clip countries.geojson --clip-value NAME -o parts.gpkg\n"
       "  rondel voronoi rivers.geojson --densify 0.5 --earth-radius 6371.0088 -o basins.geojson\n"
       "  rondel voronoi circles.csv --radius radius -o power-cells.geojson");
   return {parser, [options] { return run_voronoi(*options); }};

@@ -12,6 +12,7 @@
 #include <new>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command.h"
@@ -66,9 +67,19 @@ void require_known_command(const std::vector<Command>& commands, int argc,
                            const char* const* argv) {
   if (argc < 2 || argv[1][0] == '-') return;
   const std::string name = argv[1];
-  if (std::ranges::none_of(
-          commands, [&](const Command& command) { return command.parser->get_name() == name; })) {
+  const auto found = std::ranges::find_if(
+      commands, [&](const Command& command) { return command.parser->get_name() == name; });
+  if (found == commands.end()) {
     throw UsageError("'" + name + "' is not a command (see rondel --help)");
+  }
+  const std::vector<const CLI::App*> parts = std::as_const(*found->parser).get_subcommands({});
+  if (parts.empty()) return;
+  const std::string hint = " (see rondel " + name + " --help)";
+  if (argc == 2) throw UsageError("no command of 'rondel " + name + "'" + hint);
+  const std::string part = argv[2];
+  if (part.empty() || part.front() == '-') return;
+  if (std::ranges::none_of(parts, [&](const CLI::App* app) { return app->get_name() == part; })) {
+    throw UsageError("'" + part + "' is not a command of 'rondel " + name + "'" + hint);
   }
 }
 

@@ -85,6 +85,7 @@ Command add_mesh_command(CLI::App& tool) {
   parser->require_subcommand(1);
   std::vector<Command> commands = add_mesh_making_commands(*parser);
   commands.push_back(add_mesh_convert_command(*parser));
+  commands.push_back(add_mesh_cull_command(*parser));
   commands.push_back(add_mesh_quality_command(*parser));
   parser->footer("'rondel mesh COMMAND --help' explains a command.");
   return {parser, [commands] {

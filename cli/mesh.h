@@ -13,6 +13,7 @@
 #include "rondel/mesh.h"
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_quality.h"
+#include "rondel/polygon_files.h"
 
 namespace rondel::cli {
 
@@ -32,8 +33,23 @@ struct MeshQualityOptions {
   std::vector<std::pair<std::string, double>> required;
 };
 
+struct MeshCullOptions {
+  MeshConvertOptions written;  ///< INPUT, the mesh that is left
+  std::string mask;            ///< --mask: FILE, FILE.nc:NAME or FILE.csv:COLUMN
+  std::string inside;          ///< --inside: polygons
+  std::string outside;         ///< --outside: polygons
+  PolygonEdges polygon_edges = PolygonEdges::lonlat;
+  std::string cell_map;    ///< --cell-map; empty: not written
+  std::string edge_map;    ///< --edge-map
+  std::string vertex_map;  ///< --vertex-map
+};
+
 ExitStatus run_mesh_convert(const MeshConvertOptions& options);
+ExitStatus run_mesh_cull(const MeshCullOptions& options);
 ExitStatus run_mesh_quality(const MeshQualityOptions& options);
+
+/// Writes the mesh, and graph and report if they are wanted; says so.
+void write_all_of_mesh(const MeshConvertOptions& options, const mesh::MeshArrays& arrays, Job& job);
 
 /// The mesh of a file, of .nc by read_mesh(), of sites by arrays(). \throws FileError with the place of a site
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
@@ -47,6 +63,10 @@ void require_mesh_output(const CommonOptions& common);
 /// What the commands that write a mesh have: --output, --format, --kind, --graph, --sphere-radius, --report.
 void add_mesh_output_options(CLI::App& parser, MeshConvertOptions& options);
 
+/// FILE and what is behind its last colon, but that of C:\.
+std::pair<std::string, std::string> split_at_colon(const std::string& text);
+
+Command add_mesh_cull_command(CLI::App& mesh);
 Command add_mesh_convert_command(CLI::App& mesh);
 Command add_mesh_quality_command(CLI::App& mesh);
 

@@ -78,6 +78,23 @@ Command add_scvt_command(CLI::App& group) {
                    "(default: 0.05 of --refine; files as they are)")
       ->check(positive_error)
       ->type_name("G");
+  parser
+      ->add_option("--density", options->density,
+                   "Spacing as the power -1/4 of this density of a tessellation, FILE.nc:NAME or\n"
+                   "FILE.csv:COLUMN; of a mesh of MPAS FILE.nc:meshDensity")
+      ->needs(number)
+      ->excludes(spacing)
+      ->type_name("FILE");
+  parser
+      ->add_option("--fixed", options->fixed,
+                   "Sites of FILE that are among the sites of the mesh and never move")
+      ->type_name("FILE");
+  parser
+      ->add_option("--along", options->along,
+                   "Let edges of cells follow the lines or outlines of FILE, .geojson: rows of\n"
+                   "sites on both sides never move; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
   CLI::Option* start = parser->add_option("--start", options->start,
                                           "Begin with the sites of FILE, and keep them in order");
   start->excludes(number)->type_name("FILE");
@@ -95,6 +112,7 @@ Command add_scvt_command(CLI::App& group) {
       "Examples:\n"
       "  rondel mesh scvt -n 40962 -o x1.40962.nc\n"
       "  rondel mesh scvt --spacing 240 --refine coast.geojson:60 -o coast.nc --report coast.json\n"
+      "  rondel mesh scvt -n 40962 --along land.geojson -o coast.nc\n"
       "  rondel mesh scvt --spacing spacing.nc:h -o mesh.nc --format ugrid");
   return {parser, [options] { return run_scvt(*options); }};
 }

@@ -33,11 +33,18 @@ Command add_mesh_convert_command(CLI::App& mesh) {
 }
 
 ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
+  require_mesh_output(options.common);
+  Job job(options.common);
+  const mesh::MeshArrays arrays =
+      read_mesh_or_sites(job, options.common,
+                         {.radius = options.radius, .allow_zero_edges = options.allow_zero_edges});
+  write_all_of_mesh(options, arrays, job);
+  return done;
+}
+
+void write_all_of_mesh(const MeshConvertOptions& options, const mesh::MeshArrays& arrays,
+                       Job& job) {
   const CommonOptions& common = options.common;
-  require_mesh_output(common);
-  Job job(common);
-  const mesh::MeshArrays arrays = read_mesh_or_sites(
-      job, common, {.radius = options.radius, .allow_zero_edges = options.allow_zero_edges});
   job.time(Stage::write, [&] {
     write_mesh(common, arrays, options.kind, job);
     if (!options.graph.empty()) mesh::write_graph(options.graph, arrays, job.execution());
@@ -60,7 +67,6 @@ ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
                                       count(arrays.num_edges(), "edge", "edges") + ", " +
                                       count(arrays.num_vertices(), "vertex", "vertices") +
                                       "\nwrote the mesh to " + common.output + '\n');
-  return done;
 }
 
 }  // namespace rondel::cli

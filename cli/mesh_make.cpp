@@ -7,7 +7,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <optional>
@@ -15,20 +14,18 @@
 #include <utility>
 
 #include "column_values.h"
+#include "mesh.h"
 #include "process.h"
 #include "report.h"
 #include "rondel/delaunay.h"
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_partition.h"
 #include "rondel/mesh_quality.h"
-#include "rondel/mesh_size_files.h"
 #include "rondel/point_sets.h"
 #include "validate.h"
 
 namespace rondel::cli {
 namespace {
-
-constexpr double usual_slope = 0.05;
 
 bool is_mesh_file(const CommonOptions& common) {
   const std::string format = common.format();
@@ -117,56 +114,6 @@ void report_mesh(const MeshOutput& output, std::size_t num_sites, const std::str
                                       output.common.output + '\n');
 }
 
-// FILE and what is behind its last colon, but that of C:\.
-std::pair<std::string, std::string> split_at_colon(const std::string& text) {
-  const std::size_t at = text.rfind(':');
-  if (at == std::string::npos || at < 2) return {text, {}};
-  return {text.substr(0, at), text.substr(at + 1)};
-}
-
-bool as_kilometers(const std::string& text, double& kilometers) {
-  if (!positive_error(text).empty()) return false;
-  kilometers = std::strtod(text.c_str(), nullptr);
-  return true;
-}
-
-// Half of the smallest spacing for a step of the raster, in the middle of a face of the cube.
-std::size_t raster_steps(const ScvtCommandOptions& options) {
-  double least = std::strtod(options.spacing.c_str(), nullptr);
-  for (const std::string& refinement : options.refine) {
-    least = std::min(least, std::strtod(split_at_colon(refinement).second.c_str(), nullptr));
-  }
-  std::size_t steps = 64;
-  while (steps < 2048 && static_cast<double>(steps) * least < 4 * kilometers_per_radian) steps *= 2;
-  return steps;
-}
-
-std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options, const Job& job) {
-  if (options.spacing.empty()) return std::nullopt;
-  double kilometers = 0;
-  std::optional<mesh::SizeFunction> size;
-  if (as_kilometers(options.spacing, kilometers)) {
-    size = mesh::SizeFunction::constant(kilometers / kilometers_per_radian, raster_steps(options));
-  } else {
-    const auto [file, name] = split_at_colon(options.spacing);
-    size = mesh::read_spacings({file, {}}, name, 1 / kilometers_per_radian,
-                               mesh::SizeFunction::usual_steps, job.execution());
-  }
-  for (const std::string& refinement : options.refine) {
-    const auto [file, text] = split_at_colon(refinement);
-    if (!as_kilometers(text, kilometers)) {
-      throw UsageError("--refine: '" + refinement + "' is not FILE:KM");
-    }
-    const double near = kilometers / kilometers_per_radian;
-    size = size->refined(mesh::read_refinement({file, {}}, 0.5 * near, job.execution()), near,
-                         options.slope.value_or(usual_slope), job.execution());
-  }
-  if (options.slope || !options.refine.empty()) {
-    size = size->limited(options.slope.value_or(usual_slope));
-  }
-  return size;
-}
-
 void show(const mesh::ScvtStep& step, int most_steps, const Execution& execution) {
   if (!execution.progress) return;
   std::array<char, 120> text{};
@@ -199,13 +146,14 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
   Execution execution = job.execution();
   execution.stop = &interrupted_by_user();
   scvt.seen = [&](const mesh::ScvtStep& step) { show(step, scvt.max_iterations, execution); };
-  mesh::Scvt made;
-  if (options.start.empty()) {
-    made = mesh::scvt(scvt, execution);
-  } else {
-    const SiteTable table = job.read({options.start, {}}, {});
-    made = with_places(table, [&] { return mesh::relaxed(table.sites, scvt, execution); });
-  }
+  SiteTable start;
+  if (!options.start.empty()) start = job.read({options.start, {}}, {});
+  const FixedSites fixed = fixed_sites(options, scvt, start.sites.size(), job);
+  scvt.fixed = fixed.sites;
+  const mesh::Scvt made =
+      options.start.empty()
+          ? mesh::scvt(scvt, execution)
+          : with_places(start, [&] { return mesh::relaxed(start.sites, scvt, execution); });
   nlohmann::ordered_json quality =
       write_made(output, made.sites, scvt.size ? &*scvt.size : nullptr, job);
   const bool is_whole = made.end == mesh::ScvtEnd::converged || made.end == mesh::ScvtEnd::stuck;
@@ -220,7 +168,12 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
                       {"before", json_of(made.repair.before)},
                       {"after", json_of(made.repair.after)}};
   }
-  const std::string how = is_whole ? "" : std::string(mesh::name_of(made.end)) + "; ";
+  if (!made.fixed.empty()) {
+    json["fixed"] = made.fixed.size();
+    json["left_out"] = fixed.num_left_out;
+  }
+  std::string how = is_whole ? "" : std::string(mesh::name_of(made.end)) + "; ";
+  if (!made.fixed.empty()) how += count(made.fixed.size(), "site", "sites") + " fixed; ";
   report_mesh(output, made.sites.size(), how, json, std::move(quality), job);
   return made.end == mesh::ScvtEnd::stopped ? failed : done;
 }

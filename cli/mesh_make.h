@@ -33,6 +33,9 @@ struct ScvtCommandOptions {
   std::vector<std::string> refine;  ///< --refine: FILE:KM
   std::optional<double> slope;      ///< --gradient
   std::string start;                ///< --start: sites
+  std::string density;              ///< --density: FILE:NAME
+  std::string fixed;                ///< --fixed: sites
+  std::vector<std::string> along;   ///< --along: lines
   bool no_repair = false;
   mesh::ScvtOptions scvt;
 };
@@ -59,6 +62,18 @@ struct AreaPartitionCommandOptions {
 
 /// Adds them to `rondel mesh`: mesh_commands.cpp.
 std::vector<Command> add_mesh_making_commands(CLI::App& mesh);
+
+/// The places of --fixed and --along.
+struct FixedSites {
+  std::vector<Point> sites;
+  std::size_t num_left_out = 0;  ///< beside lines
+};
+
+/// The spacings of --spacing, --refine and --density; none: the same everywhere.
+std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options, const Job& job);
+/// Rows have the spacing of a mesh of `scvt`, which starts with so many sites; 0: with none.
+FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOptions& scvt,
+                       std::size_t num_start, Job& job);
 
 ExitStatus run_scvt(const ScvtCommandOptions& options);
 ExitStatus run_icosahedral(const IcosahedralCommandOptions& options);

@@ -29,7 +29,8 @@ struct DelaunayOptions {
 struct VoronoiOptions {
   CommonOptions common;
   double tolerance_deg = 0.01;
-  std::string clip;  ///< --clip; empty: whole cells
+  std::string clip;        ///< --clip; empty: whole cells
+  std::string clip_value;  ///< --clip-value; empty: what lies in any of the polygons
   PolygonEdges edges = PolygonEdges::lonlat;
   std::string group;           ///< --group; empty: a cell a site
   double densify_km = 0;       ///< --densify; 0: the input has sites, otherwise lines and polygons

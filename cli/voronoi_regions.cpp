@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -30,10 +31,10 @@ namespace {
 constexpr double mean_earth_radius = 6371.0088;  // kilometres; of WGS 84, (2 a + b) / 3
 
 const Column& column_of(const std::vector<Column>& columns, const std::string& file,
-                        const std::string& name) {
+                        const std::string& name, const std::string& option) {
   const auto column = std::ranges::find(columns, name, &Column::name);
   if (column == columns.end()) {
-    throw UsageError("--group: " + file + " has no column '" + name + "'");
+    throw UsageError(option + ": " + file + " has no column '" + name + "'");
   }
   return *column;
 }
@@ -48,9 +49,9 @@ Column index_column(const char* name, std::size_t size) {
   return column;
 }
 
-// Which sites have the same text, groups in the order in which they come. Sites without a text have none.
+// Which of a table's rows have the same text, groups in the order in which they come. Rows without a text have none.
 struct Groups {
-  std::vector<Index> of_sites;
+  std::vector<Index> of_rows;
   Column names;
 };
 Groups groups_of(const Column& column) {
@@ -61,11 +62,11 @@ Groups groups_of(const Column& column) {
     const std::string_view text = std::string_view(column.text).substr(begin, end - begin);
     begin = end;
     if (text.empty()) {
-      groups.of_sites.push_back(no_index);
+      groups.of_rows.push_back(no_index);
       continue;
     }
     const auto [entry, is_new] = known.try_emplace(text, static_cast<Index>(known.size()));
-    groups.of_sites.push_back(entry->second);
+    groups.of_rows.push_back(entry->second);
     if (!is_new) continue;
     groups.names.text += text;
     groups.names.ends.push_back(groups.names.text.size());
@@ -86,20 +87,55 @@ Column area_column(const CellRings& cells, double radius_km) {
   return column;
 }
 
-// The columns of the cells: those of what they belong to, after its number, or the name of the group; and areas.
-std::vector<Column> columns_of(const VoronoiOptions& options, const CellRings& cells,
-                               Column numbers, std::vector<Column> given, Groups groups) {
+// These rows of a column.
+Column rows_of(const Column& column, std::span<const Index> rows) {
+  Column made{column.name, column.is_numeric, {}, {}};
+  for (const Index row : rows) {
+    const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
+    made.text.append(column.text, begin, column.ends[row] - begin);
+    made.ends.push_back(made.text.size());
+  }
+  return made;
+}
+
+// What is written: cells, or their pieces by what --clip-value says of polygons.
+struct Features {
+  CellRings rings;
   std::vector<Column> columns;
-  if (options.group.empty()) {
-    columns.push_back(std::move(numbers));
-    for (Column& column : given) columns.push_back(std::move(column));
+};
+
+// Cells of a table, whole or clipped, and what they have in common with the polygons of --clip: one of both.
+struct Cut {
+  CellRings cells;
+  RegionPieces pieces;
+  Groups values;  ///< of the polygons
+};
+
+// The columns of the cells are those of the table, after its number, or the name of the group.
+Features features_of(const VoronoiOptions& options, Cut cut, const Groups& groups,
+                     std::vector<Column> columns, const Execution& execution) {
+  Features made;
+  const bool is_joined = !options.group.empty();
+  if (is_joined) columns = {groups.names};
+  if (options.clip_value.empty()) {
+    made.rings = is_joined
+                     ? dissolve(cut.cells, groups.of_rows, groups.names.ends.size(), execution)
+                     : std::move(cut.cells);
+    made.columns = std::move(columns);
   } else {
-    columns.push_back(std::move(groups.names));
+    RegionPieces parts = dissolve(cut.pieces, groups.of_rows, cut.values.of_rows, execution);
+    for (const Column& column : columns) made.columns.push_back(rows_of(column, parts.cells));
+    Column values = rows_of(cut.values.names, parts.regions);
+    if (std::ranges::find(made.columns, values.name, &Column::name) != made.columns.end()) {
+      values.name = "clip_" + values.name;
+    }
+    made.columns.push_back(std::move(values));
+    made.rings = std::move(parts.rings);
   }
   if (options.earth_radius_km > 0) {
-    columns.push_back(area_column(cells, options.earth_radius_km));
+    made.columns.push_back(area_column(made.rings, options.earth_radius_km));
   }
-  return columns;
+  return made;
 }
 
 std::string feature_name(const PolygonTable& polygons, Index feature) {
@@ -128,25 +164,57 @@ void warn_of_crossings(const PolygonTable& polygons, const Execution& execution)
                polygons.name.c_str(), what.c_str(), place.lon_deg, place.lat_deg, more.c_str());
 }
 
-Partition regions_of(const VoronoiOptions& options, const Execution& execution) {
+struct Regions {
+  Partition partition;
+  Groups values;  ///< by --clip-value
+};
+Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
   const PolygonTable polygons =
       read_polygons({options.clip, {}}, {.edges = options.edges}, execution);
+  Groups values;
+  if (!options.clip_value.empty()) {
+    values =
+        groups_of(column_of(polygons.columns, polygons.name, options.clip_value, "--clip-value"));
+  }
   if (!options.common.quiet) warn_of_crossings(polygons, execution);
-  return Partition(polygons.cells, execution);
+  return {Partition(polygons.cells, execution), std::move(values)};
 }
 
-void write(Job& job, const VoronoiOptions& options, const CellRings& cells,
-           const std::vector<Column>& columns) {
+void write(Job& job, const VoronoiOptions& options, const Features& made) {
   const std::string format = options.common.format();
   job.time(Stage::write, [&] {
     if (is_format_of_gdal(format)) {
-      write_regions_by_gdal(options.common.output, format, cells, columns, options.tolerance_deg,
-                            job.execution());
+      write_regions_by_gdal(options.common.output, format, made.rings, made.columns,
+                            options.tolerance_deg, job.execution());
     } else {
-      write_regions(options.common.target(), cells, columns, options.tolerance_deg,
+      write_regions(options.common.target(), made.rings, made.columns, options.tolerance_deg,
                     job.execution());
     }
   });
+}
+
+// The table's columns after the number of a row.
+std::vector<Column> numbered(const char* name, std::size_t size, std::vector<Column> columns) {
+  columns.insert(columns.begin(), index_column(name, size));
+  return columns;
+}
+
+Cut cut_cells_of_sites(const VoronoiOptions& options, const Triangulation& triangulation,
+                       const Execution& execution) {
+  const Partition all = Partition::voronoi(triangulation, execution);
+  Cut cut;
+  if (options.clip.empty()) {
+    cut.cells = all.rings();
+    return cut;
+  }
+  Regions regions = regions_of(options, execution);
+  if (options.clip_value.empty()) {
+    cut.cells = clip(all, regions.partition, execution);
+  } else {
+    cut.pieces = intersection(all, regions.partition, execution);
+  }
+  cut.values = std::move(regions.values);
+  return cut;
 }
 
 ExitStatus write_cells_of_sites(const VoronoiOptions& options) {
@@ -154,63 +222,63 @@ ExitStatus write_cells_of_sites(const VoronoiOptions& options) {
   SiteTable table = job.read();
   Groups groups;
   if (!options.group.empty()) {
-    groups = groups_of(column_of(table.columns, table.name, options.group));
+    groups = groups_of(column_of(table.columns, table.name, options.group, "--group"));
   }
   const Triangulation triangulation = job.triangulate(table);
-  CellRings cells;
+  Features made;
   job.time(Stage::dual, [&] {
     const Execution execution = job.execution();
-    const Partition all = Partition::voronoi(triangulation, execution);
-    cells =
-        options.clip.empty() ? all.rings() : clip(all, regions_of(options, execution), execution);
-    if (!options.group.empty()) {
-      cells = dissolve(cells, groups.of_sites, groups.names.ends.size(), execution);
-    }
+    made = features_of(options, cut_cells_of_sites(options, triangulation, execution), groups,
+                       numbered("site", table.sites.size(), std::move(table.columns)), execution);
   });
-  write(job, options, cells,
-        columns_of(options, cells, index_column("site", table.sites.size()),
-                   std::move(table.columns), std::move(groups)));
+  write(job, options, made);
   job.report(triangulation, !options.group.empty()  ? "the joined cells"
                             : !options.clip.empty() ? "the clipped cells"
                                                     : "the cells");
   return done;
 }
 
-CellRings cells_of_features(const VoronoiOptions& options, const FeatureTable& table,
-                            const Execution& execution) {
+Cut cut_cells_of_features(const VoronoiOptions& options, const FeatureTable& table,
+                          const Execution& execution) {
   const double radius = options.earth_radius_km > 0 ? options.earth_radius_km : mean_earth_radius;
   const double tolerance = options.densify_km / radius;
-  std::optional<Partition> regions;
+  std::optional<Regions> regions;
   if (!options.clip.empty()) regions = regions_of(options, execution);
+  Cut cut;
   try {
-    return regions
-               ? clipped_feature_cells(table.lines, table.polygons, tolerance, *regions, execution)
-               : feature_cells(table.lines, table.polygons, tolerance, execution);
+    if (!regions) {
+      cut.cells = feature_cells(table.lines, table.polygons, tolerance, execution);
+    } else if (options.clip_value.empty()) {
+      cut.cells = clipped_feature_cells(table.lines, table.polygons, tolerance, regions->partition,
+                                        execution);
+    } else {
+      cut.pieces =
+          feature_pieces(table.lines, table.polygons, tolerance, regions->partition, execution);
+    }
   } catch (const InvalidInput& error) {
     throw FileError(table.name + ": " + error.what());
   }
+  if (regions) cut.values = std::move(regions->values);
+  return cut;
 }
 
 ExitStatus write_cells_of_features(const VoronoiOptions& options) {
   Job job(options.common);
   FeatureTable table;
-  CellRings cells;
-  Groups groups;
+  Features made;
   job.time(Stage::dual, [&] {
     const Execution execution = job.execution();
     table = read_features(options.common.source(), {.edges = options.edges}, execution);
+    Groups groups;
     if (!options.group.empty()) {
-      groups = groups_of(column_of(table.columns, table.name, options.group));
+      groups = groups_of(column_of(table.columns, table.name, options.group, "--group"));
     }
-    cells = cells_of_features(options, table, execution);
-    if (!options.group.empty()) {
-      cells = dissolve(cells, groups.of_sites, groups.names.ends.size(), execution);
-    }
+    made = features_of(options, cut_cells_of_features(options, table, execution), groups,
+                       numbered("feature", table.lines.num_features(), std::move(table.columns)),
+                       execution);
   });
+  write(job, options, made);
   const std::size_t count_of_features = table.lines.num_features();
-  write(job, options, cells,
-        columns_of(options, cells, index_column("feature", count_of_features),
-                   std::move(table.columns), std::move(groups)));
   const double seconds = job.seconds().total;
   char text[32];
   std::snprintf(text, sizeof text, "%.3f s", seconds);
@@ -224,12 +292,16 @@ ExitStatus write_cells_of_features(const VoronoiOptions& options) {
 }  // namespace
 
 bool makes_regions(const VoronoiOptions& options) {
-  return !options.clip.empty() || !options.group.empty() || options.densify_km > 0 ||
-         options.earth_radius_km > 0 || is_format_of_gdal(options.common.format());
+  return !options.clip.empty() || !options.clip_value.empty() || !options.group.empty() ||
+         options.densify_km > 0 || options.earth_radius_km > 0 ||
+         is_format_of_gdal(options.common.format());
 }
 
 ExitStatus write_voronoi_regions(const VoronoiOptions& options) {
   const CommonOptions& common = options.common;
+  if (!options.clip_value.empty() && options.clip.empty()) {
+    throw UsageError("--clip-value goes with --clip, whose polygons have it");
+  }
   if (is_format_of_gdal(common.format())) {
     require_gdal(common.output, common.format());
   } else if (common.format() != "geojson") {

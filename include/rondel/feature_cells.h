@@ -15,6 +15,7 @@
 #include "rondel/io.h"
 #include "rondel/partition.h"
 #include "rondel/polygon_files.h"
+#include "rondel/regions.h"
 #include "rondel/types.h"
 
 namespace rondel {
@@ -65,6 +66,12 @@ RONDEL_API CellRings feature_cells(const FeatureLines& lines, const CellRings& p
 RONDEL_API CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& polygons,
                                            double tolerance, const Partition& regions,
                                            const Execution& execution = {});
+
+/// What these cells have in common with each region, as intersection() makes it; `cells` are the features.
+/// \throws InvalidInput as feature_cells() and intersection().
+RONDEL_API RegionPieces feature_pieces(const FeatureLines& lines, const CellRings& polygons,
+                                       double tolerance, const Partition& regions,
+                                       const Execution& execution = {});
 
 /// The features of a file.
 struct FeatureTable {

@@ -35,6 +35,9 @@ namespace rondel::mesh {
 /// 6. The kite of a vertex and a cell has its corners there and in the middles of two edges of the triangle.
 ///    Areas are signed: where a triangle is obtuse, its vertex lies beyond an edge, and a
 ///    kite may be negative. Kites add up to triangles and cells.
+/// 7. A mesh of a part of the sphere (mesh_cull.h) has a border, where no_index stands for what is not there: the second
+///    cell of an edge, cells across edges, cells and edges around vertices, whose kites are then 0. At a vertex of the
+///    border triangle_areas is the sum of the kites.
 struct MeshArrays {
   double radius = 1;
 

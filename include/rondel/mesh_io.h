@@ -35,11 +35,11 @@ struct MeshFileOptions {
 
 /// Writes the mesh, piece by piece: nothing of the file's size is in memory.
 ///
-/// 1. Numbers start at 1 in MPAS, ESMF and Exodus, at 0 in UGRID. Longitudes are from 0 to below 2 pi, or 360
+/// 1. Numbers start at 1 in MPAS, ESMF and Exodus, at 0 in UGRID; at a border none is 0 or -1. Longitudes are from 0 to below 2 pi, or 360
 ///    degrees; at the poles 0.
 /// 2. MPAS: lengths and areas as in the arrays; besides what the specification asks for, meshDensity, nominalMinDc
-///    (the smallest dcEdge), and the qualities of cells and triangles that MPAS-Tools writes. The file_id is
-///    a hash of the mesh.
+///    (the smallest dcEdge), and the qualities of cells and triangles that MPAS-Tools writes, at a border 0. The file_id
+///    is a hash of the mesh.
 /// 3. The other formats have areas on the unit sphere. Corners that an edge without length joins are one corner.
 /// 4. Cells of Exodus are ordered by their number of corners; elem_num_map and global_id of each block have their
 ///    numbers from 1 on.
@@ -51,17 +51,18 @@ RONDEL_API void write(const std::string& path, const MeshArrays& arrays,
 RONDEL_API void write_graph(const std::string& path, const MeshArrays& arrays,
                             const Execution& execution = {});
 
-/// Reads the arrays of an MPAS mesh on the whole sphere, whoever wrote it. What write() wrote comes back bit for
+/// Reads the arrays of an MPAS mesh of the sphere or a part of it, whoever wrote it. What write() wrote comes back bit for
 /// bit, but a density of 1 everywhere as none.
 ///
 /// 1. Areas, lengths, angles and points are those of the file, whatever their precision; points that are not on the
 ///    sphere within a thousandth of sphere_radius (1 where it is missing) are refused. The
 ///    order and the start of lists are those of edgesOnCell and cellsOnVertex; the others follow from them, and from the
 ///    edges.
-/// 2. The file's lists must describe a closed surface, with edges counterclockwise around cells.
+/// 2. The file's lists must describe a surface, closed or with a border, with edges counterclockwise around cells; 0
+///    is none.
 RONDEL_API MeshArrays read_mpas(const FileName& file, const Execution& execution = {});
 
-/// Reads a mesh of any kind: MPAS as read_mpas(), UGRID, SCRIP and ESMF by the centers of their cells, of which the mesh is
+/// Reads a mesh of any kind: MPAS as read_mpas(); of the whole sphere UGRID, SCRIP and ESMF by the centers of their cells, of which the mesh is
 /// made again, as arrays() does.
 /// \throws FileError also if the file has no centers, or if a corner of one of its cells is farther than a thousandth of the
 /// spacing from all corners of the cell of its center: then its cells are not those of Voronoi.

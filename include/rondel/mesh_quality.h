@@ -36,6 +36,7 @@ struct Quality {
   std::size_t num_cells = 0;
   std::size_t num_edges = 0;
   std::size_t num_vertices = 0;
+  std::size_t num_border_edges = 0;  ///< with one cell; triangles are those of vertices with three
   std::vector<std::uint64_t> sides;  ///< sides[k]: the number of cells with k edges
 
   /// The mean squared distance to the site, over that of as many regular hexagons, 5 / (18 sqrt 3) of their area: 1 is
@@ -63,8 +64,9 @@ struct Quality {
   /// are below.
   std::array<double, 2> spacing_range = {0, 0};
 
-  double kite_sum_error = 0;  ///< |sum / (4 pi radius^2) - 1|
-  double cell_sum_error = 0;
+  /// |sum / whole - 1|; whole is the sphere, of kites of a mesh with a border the sum of its cells.
+  double kite_sum_error = 0;
+  double cell_sum_error = 0;  ///< NaN of a mesh with a border
   double max_kite_error = 0;  ///< |kites - whole| / whole over the cells and the triangles
 
   Histogram angles_deg;   ///< of the triangles, 0 to 180

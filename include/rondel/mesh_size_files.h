@@ -23,9 +23,15 @@ RONDEL_API std::vector<Point> read_refinement(const FileName& file, double dista
 
 /// Spacings at the places of a file, linear between them on their triangulation and at the nearest outside of
 /// it: the variable or column `name`, by default the only one; .nc with longitudes and latitudes, of a grid or
-/// of points, and tables .csv .tsv. The values times `unit` are radians.
+/// of points, or of the cells of an MPAS mesh, and tables .csv .tsv. The values times `unit` are radians.
 RONDEL_API SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
                                       std::size_t steps = SizeFunction::usual_steps,
                                       const Execution& execution = {});
+
+/// Spacings from densities of a tessellation, read as read_spacings() does: their power -1/4, the largest 1. Only proportions
+/// count; of a mesh of MPAS, "meshDensity" are those of its cells.
+RONDEL_API SizeFunction read_density(const FileName& file, const std::string& name,
+                                     std::size_t steps = SizeFunction::usual_steps,
+                                     const Execution& execution = {});
 
 }  // namespace rondel::mesh

@@ -59,6 +59,14 @@ RONDEL_API CellRings clip(const Partition& cells, const Partition& regions,
 RONDEL_API CellRings dissolve(const CellRings& cells, std::span<const Index> groups,
                               std::size_t num_groups, const Execution& execution = {});
 
+/// Pieces joined: those of the same group of cells and the same group of regions become one, as dissolve() joins
+/// cells. What is in no group (no_index) is left out; no groups at all: each is its own.
+/// \return sorted by both groups, which `cells` and `regions` then name
+/// \throws InvalidInput if a cell or region has no group
+RONDEL_API RegionPieces dissolve(const RegionPieces& pieces, std::span<const Index> cell_groups,
+                                 std::span<const Index> region_groups,
+                                 const Execution& execution = {});
+
 /// Two cells of which a side of one crosses a side of the other, or a cell with itself, and a place where they do.
 struct CrossingCells {
   Index first = no_index;

@@ -60,6 +60,9 @@ struct ScvtOptions {
   int max_iterations = 1000;  ///< in each level
   ScvtMethod method = ScvtMethod::lbfgs;
   bool repair = true;  ///< move sites where ScvtDefects are left
+  /// Places that always are sites, unit vectors bit by bit, others as such: each takes the site that is nearest when the last level begins, and that none
+  /// has taken before. They never move, and count among the sites; offsets are those of the others.
+  std::span<const Point> fixed{};
   ScvtSeen seen{};
 };
 
@@ -82,6 +85,7 @@ struct ScvtRepair {
 
 struct Scvt {
   std::vector<Point> sites;  ///< unit vectors, close ones close together
+  std::vector<Index> fixed;  ///< the site of each of the fixed places
   ScvtEnd end = ScvtEnd::converged;
   ScvtStep last{};         ///< before the repair
   ScvtRepair repair{};     ///< of what has converged, or is stuck; else empty
@@ -96,10 +100,11 @@ struct Scvt {
 /// 2. The energy never grows from step to step, but by the repair at the end.
 /// 3. Where Execution::stop becomes true, the sites of the present level are returned as they are; it throws
 ///    nothing.
-/// \throws InvalidInput if the count is below 12 or above max_sites.
+/// \throws InvalidInput if the count is below 12 or above max_sites; if there are more fixed places than sites, or (its
+///         index) one is not finite, the center, or where another one is.
 RONDEL_API Scvt scvt(const ScvtOptions& options, const Execution& execution = {});
 
-/// The same from sites of one's own, in their order, whose `count` is theirs.
+/// The same from sites of one's own, in their order, whose `count` is theirs. A site that is among the fixed places stays.
 /// \throws InvalidInput (first bad index) if a site is not finite or the center; if there are
 ///         duplicates, or the sites do not surround the center.
 RONDEL_API Scvt relaxed(std::span<const Point> sites, const ScvtOptions& options = {},

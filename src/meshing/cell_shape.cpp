@@ -64,6 +64,7 @@ void add_moment(const mesh::MeshArrays& arrays, std::size_t cell, CellShape& sha
 
 double gradient_of(const mesh::MeshArrays& arrays, std::size_t edge) {
   const auto [a, b] = arrays.cells_on_edge[edge];
+  if (b == no_index) return 0;
   const double of_a = mesh::spacing_of(arrays.cell_areas[a]);
   const double of_b = mesh::spacing_of(arrays.cell_areas[b]);
   return std::abs(of_a - of_b) / (0.5 * (of_a + of_b));

@@ -22,7 +22,7 @@ struct CellShape {
 
 CellShape shape_of(const mesh::MeshArrays& arrays, std::size_t cell);
 
-// The difference of the spacings of the cells of an edge over their mean.
+// The difference of the spacings of the cells of an edge over their mean; 0 at the border.
 double gradient_of(const mesh::MeshArrays& arrays, std::size_t edge);
 
 }  // namespace rondel::meshing

@@ -27,6 +27,9 @@ void require_points(const char* name, unsigned threads, const std::vector<Point>
   });
 }
 
+// Whether no_index may be there: at the border of a mesh.
+enum class None : std::uint8_t { refused, allowed };
+
 void require_size(const char* name, std::size_t size, std::size_t wanted) {
   if (size == wanted) return;
   throw InvalidInput(
@@ -36,7 +39,7 @@ void require_size(const char* name, std::size_t size, std::size_t wanted) {
 
 template <class Row>
 void require_indices(const char* name, unsigned threads, const std::vector<Row>& rows,
-                     std::size_t end) {
+                     std::size_t end, None none = None::refused) {
   constexpr std::size_t grain = 65536;
   static_assert(sizeof(Index) == 4);
   constexpr std::size_t of_each = sizeof(Row) / 4;
@@ -44,7 +47,9 @@ void require_indices(const char* name, unsigned threads, const std::vector<Row>&
       std::span<const Index>(reinterpret_cast<const Index*>(rows.data()), rows.size() * of_each);
   system::parallel_for(threads, numbers.size(), grain, [&](std::size_t first, std::size_t last) {
     Index most = 0;
-    for (std::size_t i = first; i < last; ++i) most = std::max(most, numbers[i]);
+    for (std::size_t i = first; i < last; ++i) {
+      if (numbers[i] != no_index || none == None::refused) most = std::max(most, numbers[i]);
+    }
     if (most < end) return;
     throw InvalidInput(std::string("the mesh's ") + name + " have the number " +
                            std::to_string(most) + " of " + std::to_string(end),
@@ -85,12 +90,16 @@ void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
   require_size("kite_areas", arrays.kite_areas.size(), vertices);
   require_size("triangle_areas", arrays.triangle_areas.size(), vertices);
   require_indices("edges_on_cell", threads, arrays.edges_on_cell, edges);
-  require_indices("cells_on_cell", threads, arrays.cells_on_cell, cells);
+  require_indices("cells_on_cell", threads, arrays.cells_on_cell, cells, None::allowed);
   require_indices("vertices_on_cell", threads, arrays.vertices_on_cell, vertices);
-  require_indices("cells_on_edge", threads, arrays.cells_on_edge, cells);
+  require_indices("cells_on_edge", threads, arrays.cells_on_edge, cells, None::allowed);
   require_indices("vertices_on_edge", threads, arrays.vertices_on_edge, vertices);
-  require_indices("cells_on_vertex", threads, arrays.cells_on_vertex, cells);
-  require_indices("edges_on_vertex", threads, arrays.edges_on_vertex, edges);
+  require_indices("cells_on_vertex", threads, arrays.cells_on_vertex, cells, None::allowed);
+  require_indices("edges_on_vertex", threads, arrays.edges_on_vertex, edges, None::allowed);
+  for (std::size_t e = 0; e < edges; ++e) {
+    if (arrays.cells_on_edge[e][0] != no_index) continue;
+    throw InvalidInput("edge " + std::to_string(e) + " of the mesh has no first cell", e);
+  }
 }
 
 }  // namespace rondel::meshing

@@ -32,6 +32,7 @@ double kite_of(const mesh::MeshArrays& arrays, Index vertex, Index cell) {
 std::size_t num_weights(const mesh::MeshArrays& arrays, std::size_t edge) {
   std::size_t count = 0;
   for (const Index cell : arrays.cells_on_edge[edge]) {
+    if (cell == no_index) continue;
     count += static_cast<std::size_t>(arrays.offsets[cell + 1] - arrays.offsets[cell]) - 1;
   }
   return count;
@@ -42,6 +43,7 @@ void write_weights(const mesh::MeshArrays& arrays, std::size_t edge, std::span<I
   std::size_t out = 0;
   for (std::size_t side = 0; side < 2; ++side) {
     const Index cell = arrays.cells_on_edge[edge][side];
+    if (cell == no_index) continue;
     const std::uint64_t begin = arrays.offsets[cell];
     const std::uint64_t end = arrays.offsets[cell + 1];
     std::uint64_t at = begin;

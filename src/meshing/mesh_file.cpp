@@ -123,13 +123,18 @@ void write_graph(const std::string& path, const MeshArrays& arrays, const Execut
   const system::Call call(execution);
   meshing::require_consistent(arrays, execution.threads);
   io::AtomicFile file(path);
-  file.write(std::to_string(arrays.num_cells()) + ' ' + std::to_string(arrays.num_edges()) + '\n');
+  const auto edges = std::ranges::count_if(
+      arrays.cells_on_edge, [](const auto& cells) { return !meshing::is_at_border(cells); });
+  file.write(std::to_string(arrays.num_cells()) + ' ' + std::to_string(edges) + '\n');
   io::write_in_parallel(file, execution.threads, arrays.num_cells(), io::items_per_piece,
                         [&](std::string& text, std::size_t begin, std::size_t end) {
                           for (std::size_t i = begin; i < end; ++i) {
+                            bool is_first = true;
                             for (std::uint64_t at = arrays.offsets[i]; at < arrays.offsets[i + 1];
                                  ++at) {
-                              if (at > arrays.offsets[i]) text += ' ';
+                              if (arrays.cells_on_cell[at] == no_index) continue;
+                              if (!is_first) text += ' ';
+                              is_first = false;
                               text += std::to_string(arrays.cells_on_cell[at] + 1);
                             }
                             text += '\n';

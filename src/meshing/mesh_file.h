@@ -5,6 +5,7 @@
 // all of their values.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <initializer_list>
@@ -140,6 +141,16 @@ struct CellBlocks {
 };
 CellBlocks blocks_of(const mesh::MeshArrays& arrays, const CellCorners& corners);
 void define_exodus(MeshFile& file, const CellCorners& corners, const CellBlocks& blocks);
+
+// Whether an edge has one cell alone, or a vertex less than three: whether one of these cells is none.
+template <class Cells>
+bool is_at_border(const Cells& cells) {
+  return std::ranges::find(cells, no_index) != cells.end();
+}
+inline bool has_border(const mesh::MeshArrays& arrays) {
+  return std::ranges::any_of(arrays.cells_on_edge,
+                             [](const auto& cells) { return cells[1] == no_index; });
+}
 
 // Throws InvalidInput where a size or an index does not fit.
 void require_consistent(const mesh::MeshArrays& arrays, unsigned threads);

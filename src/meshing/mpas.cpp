@@ -38,6 +38,7 @@ std::string id_of(std::uint64_t hash) {
   return id;
 }
 
+// Of no_index 0.
 std::int32_t one_based(Index index) { return static_cast<std::int32_t>(index + 1); }
 
 // What there is of cells, edges and vertices alike: where they are, and their numbers.
@@ -198,13 +199,22 @@ void define_vertices(MeshFile& file, const MpasSizes& sizes) {
   file.numbers(
       "kiteAreasOnVertex", {sizes.vertices, sizes.degree}, {}, size, 3,
       [&arrays](std::size_t v, double* out) { std::ranges::copy(arrays.kite_areas[v], out); });
-  file.indices("boundaryVertex", sizes.vertices, {}, size, [](std::size_t) { return 0; });
-  file.numbers("triangleQuality", sizes.vertices, {}, size,
-               [&arrays](std::size_t v) { return side_quality(corners_of(arrays, v)); });
+  // At the border there is no triangle.
+  const auto is_whole = [&arrays](std::size_t v) {
+    return !is_at_border(arrays.cells_on_vertex[v]);
+  };
+  file.indices("boundaryVertex", sizes.vertices, {}, size,
+               [is_whole](std::size_t v) { return is_whole(v) ? 0 : 1; });
+  file.numbers("triangleQuality", sizes.vertices, {}, size, [&arrays, is_whole](std::size_t v) {
+    return is_whole(v) ? side_quality(corners_of(arrays, v)) : 0;
+  });
   file.numbers("triangleAngleQuality", sizes.vertices, {}, size,
-               [&arrays](std::size_t v) { return angle_quality(corners_of(arrays, v)); });
-  file.indices("obtuseTriangle", sizes.vertices, {}, size,
-               [&arrays](std::size_t v) { return is_obtuse(corners_of(arrays, v)) ? 1 : 0; });
+               [&arrays, is_whole](std::size_t v) {
+                 return is_whole(v) ? angle_quality(corners_of(arrays, v)) : 0;
+               });
+  file.indices("obtuseTriangle", sizes.vertices, {}, size, [&arrays, is_whole](std::size_t v) {
+    return is_whole(v) && is_obtuse(corners_of(arrays, v)) ? 1 : 0;
+  });
 }
 
 }  // namespace

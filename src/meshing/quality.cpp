@@ -58,6 +58,7 @@ struct PieceQuality {
 
   Quality found;  // the sums are not yet means
   std::uint64_t num_40_to_80 = 0;
+  std::uint64_t num_angles = 0;
   double kites = 0;
   double cells = 0;
 };
@@ -84,7 +85,9 @@ void join(PieceQuality& all, const PieceQuality& next) {
   a.max_kite_error = std::max(a.max_kite_error, b.max_kite_error);
   add_to(a.angles_deg, b.angles_deg);
   add_to(a.edge_ratios, b.edge_ratios);
+  a.num_border_edges += b.num_border_edges;
   all.num_40_to_80 += next.num_40_to_80;
+  all.num_angles += next.num_angles;
   all.kites += next.kites;
   all.cells += next.cells;
 }
@@ -104,19 +107,22 @@ class QualityFinder {
     result.num_edges = arrays_.num_edges();
     result.num_vertices = arrays_.num_vertices();
     const auto cells = static_cast<double>(result.num_cells);
-    const double sphere = 4 * std::numbers::pi;
+    const double of_sphere = 4 * std::numbers::pi * arrays_.radius * arrays_.radius;
+    const double area = result.num_border_edges == 0 ? of_sphere : all_.cells;
+    const double at_one = result.num_border_edges == 0 ? 4 * std::numbers::pi
+                                                       : area / (arrays_.radius * arrays_.radius);
     const double of_hexagons = 5 * std::numbers::inv_sqrt3 / 18;
     const bool is_uniform =
         std::ranges::all_of(arrays_.density, [](double density) { return density == 1; });
-    result.energy = is_uniform ? result.energy * cells / (sphere * sphere) / of_hexagons
+    result.energy = is_uniform ? result.energy * cells / (at_one * at_one) / of_hexagons
                                : std::numeric_limits<double>::quiet_NaN();
     result.mean_centroid_offset /= cells;
     result.mean_staggering /= static_cast<double>(result.num_edges);
     result.share_40_to_80_deg =
-        static_cast<double>(all_.num_40_to_80) / (3 * static_cast<double>(result.num_vertices));
-    const double area = sphere * arrays_.radius * arrays_.radius;
+        static_cast<double>(all_.num_40_to_80) / static_cast<double>(all_.num_angles);
     result.kite_sum_error = std::abs(all_.kites / area - 1);
-    result.cell_sum_error = std::abs(all_.cells / area - 1);
+    result.cell_sum_error = result.num_border_edges == 0 ? std::abs(all_.cells / area - 1)
+                                                         : std::numeric_limits<double>::quiet_NaN();
     set_spacings(result);
     return result;
   }
@@ -167,6 +173,8 @@ class QualityFinder {
     keep_least(found.min_edge_ratio, ratio, e);
     count_in(found.edge_ratios, ratio);
     keep_most(found.max_gradient, meshing::gradient_of(arrays_, e), e);
+    found.num_border_edges +=
+        static_cast<std::uint64_t>(meshing::is_at_border(arrays_.cells_on_edge[e]));
     const auto [v, w] = arrays_.vertices_on_edge[e];
     const Point middle = normalized(arrays_.vertex_points[v] + arrays_.vertex_points[w]);
     const double away = norm(arrays_.radius * middle - arrays_.edge_points[e]) / distance;
@@ -175,6 +183,16 @@ class QualityFinder {
   }
 
   void add_vertex(std::size_t v, PieceQuality& part) const {
+    if (!meshing::is_at_border(arrays_.cells_on_vertex[v])) add_triangle(v, part);
+    const auto& kites = arrays_.kite_areas[v];
+    const double sum = kites[0] + kites[1] + kites[2];
+    const double area = arrays_.triangle_areas[v];
+    part.found.max_kite_error =
+        std::max(part.found.max_kite_error, std::abs(sum - area) / std::abs(area));
+    part.kites += sum;
+  }
+
+  void add_triangle(std::size_t v, PieceQuality& part) const {
     Quality& found = part.found;
     const Triple& cells = arrays_.cells_on_vertex[v];
     bool is_obtuse = false;
@@ -190,12 +208,8 @@ class QualityFinder {
       part.num_40_to_80 += static_cast<std::uint64_t>(angle >= 40 && angle <= 80);
       count_in(found.angles_deg, angle);
     }
+    part.num_angles += 3;
     found.num_obtuse += static_cast<std::uint64_t>(is_obtuse);
-    const auto& kites = arrays_.kite_areas[v];
-    const double sum = kites[0] + kites[1] + kites[2];
-    const double area = arrays_.triangle_areas[v];
-    found.max_kite_error = std::max(found.max_kite_error, std::abs(sum - area) / std::abs(area));
-    part.kites += sum;
   }
 
   void set_spacings(Quality& result) {

@@ -115,6 +115,9 @@ std::string quality_text(const Quality& quality) {
   std::string text = std::to_string(quality.num_cells) + " cells, " +
                      std::to_string(quality.num_edges) + " edges, " +
                      std::to_string(quality.num_vertices) + " vertices\n";
+  if (quality.num_border_edges > 0) {
+    text += "edges at the border: " + std::to_string(quality.num_border_edges) + '\n';
+  }
   text += "edges of cells: " + sides_text(quality) + '\n';
   text += "obtuse triangles: " + std::to_string(quality.num_obtuse) + '\n';
   for (const ReportEntry& entry : entries) {
@@ -133,6 +136,7 @@ std::string quality_json(const Quality& quality) {
   std::string text = "{\"num_cells\": " + std::to_string(quality.num_cells) +
                      ", \"num_edges\": " + std::to_string(quality.num_edges) +
                      ", \"num_vertices\": " + std::to_string(quality.num_vertices) +
+                     ", \"num_border_edges\": " + std::to_string(quality.num_border_edges) +
                      ", \"sides\": " + sides_json(quality) +
                      ", \"num_obtuse\": " + std::to_string(quality.num_obtuse);
   for (const ReportEntry& entry : entries) {
@@ -154,6 +158,7 @@ double quality_value(const Quality& quality, std::string_view name) {
   std::string key(name);
   std::ranges::replace(key, '-', '_');
   if (key == "min_dv_dc") key = "min_edge_ratio";
+  if (key == "num_border_edges") return static_cast<double>(quality.num_border_edges);
   if (key == "num_obtuse") return static_cast<double>(quality.num_obtuse);
   for (const ReportEntry& entry : entries) {
     if (key == entry.key) return entry.worst(quality).value;

@@ -39,7 +39,7 @@ class MpasReader {
     read_points({"xCell", "yCell", "zCell"}, arrays_.cell_points);
     read_points({"xEdge", "yEdge", "zEdge"}, arrays_.edge_points);
     read_points({"xVertex", "yVertex", "zVertex"}, arrays_.vertex_points);
-    if (arrays_.num_cells() < 4) throw BadValue("less than four cells do not cover a sphere");
+    if (arrays_.num_cells() == 0) throw BadValue("there are no cells");
     read_numbers("areaCell", arrays_.num_cells(), arrays_.cell_areas);
     read_density();
     read_numbers("dcEdge", arrays_.num_edges(), arrays_.cell_distances);
@@ -47,15 +47,16 @@ class MpasReader {
     read_numbers("angleEdge", arrays_.num_edges(), arrays_.normal_angles);
     read_numbers("areaTriangle", arrays_.num_vertices(), arrays_.triangle_areas);
     system::announce(execution_, "read", 0.4);
-    read_rows("cellsOnEdge", arrays_.num_edges(), arrays_.num_cells(), arrays_.cells_on_edge);
+    read_rows("cellsOnEdge", arrays_.num_edges(), arrays_.num_cells(), arrays_.cells_on_edge, true);
     read_rows("verticesOnEdge", arrays_.num_edges(), arrays_.num_vertices(),
-              arrays_.vertices_on_edge);
+              arrays_.vertices_on_edge, false);
+    find_border();
     read_rings();
     turn_edges();
     system::announce(execution_, "read", 0.7);
     follow_rings();
-    read_rows("cellsOnVertex", arrays_.num_vertices(), arrays_.num_cells(),
-              arrays_.cells_on_vertex);
+    read_rows("cellsOnVertex", arrays_.num_vertices(), arrays_.num_cells(), arrays_.cells_on_vertex,
+              true);
     read_kites();
     find_edges_of_vertices();
     system::announce(execution_, "read", 1);
@@ -148,15 +149,14 @@ class MpasReader {
     }
     const std::string where =
         "variable " + io::in_quotes(name) + ", row " + std::to_string(row) + ": ";
-    if (number == 0) {
-      throw BadValue(where + "nothing there; a mesh with a border is not read");
-    }
+    if (number == 0) throw BadValue(where + "nothing there");
     throw BadValue(where + std::to_string(number) + " is not in 1 to " + std::to_string(end));
   }
 
+  // `may_lack`: 0 is none.
   template <class Row>
-  void read_rows(const char* name, std::size_t size, std::size_t end,
-                 std::vector<Row>& rows) const {
+  void read_rows(const char* name, std::size_t size, std::size_t end, std::vector<Row>& rows,
+                 bool may_lack) const {
     constexpr std::size_t of_each = std::tuple_size_v<Row>;
     const Variable& variable = require(name, static_cast<std::uint64_t>(size) * of_each);
     rows.resize(size);
@@ -165,9 +165,23 @@ class MpasReader {
       file_.read_integers(variable, first * of_each, numbers);
       for (std::size_t k = 0; k < numbers.size(); ++k) {
         const std::size_t row = first + k / of_each;
-        rows[row][k % of_each] = index_of(name, row, numbers[k], end);
+        rows[row][k % of_each] =
+            may_lack && numbers[k] == 0 ? no_index : index_of(name, row, numbers[k], end);
       }
     });
+  }
+
+  // Edges of one cell have it first.
+  void find_border() {
+    for (std::size_t e = 0; e < arrays_.num_edges(); ++e) {
+      auto& [a, b] = arrays_.cells_on_edge[e];
+      if (a == no_index) std::swap(a, b);
+      if (a == no_index) throw BadValue("edge " + std::to_string(e) + " has no cell");
+      num_border_edges_ += b == no_index ? 1U : 0U;
+    }
+    if (num_border_edges_ == 0 && arrays_.num_cells() < 4) {
+      throw BadValue("less than four cells do not cover a sphere");
+    }
   }
 
   // The second vertex is to be to the left, which is where the edge ends around its first cell. That the ring says, also
@@ -214,9 +228,10 @@ class MpasReader {
       }
       arrays_.offsets[i + 1] = arrays_.offsets[i] + static_cast<std::uint64_t>(sides[i]);
     }
-    if (arrays_.offsets.back() != 2 * static_cast<std::uint64_t>(arrays_.num_edges())) {
+    const std::uint64_t sides_of_edges = 2 * arrays_.num_edges() - num_border_edges_;
+    if (arrays_.offsets.back() != sides_of_edges) {
       throw BadValue("the cells have " + std::to_string(arrays_.offsets.back()) +
-                     " edges, which are not twice " + std::to_string(arrays_.num_edges()));
+                     " edges, and the edges " + std::to_string(sides_of_edges) + " cells");
     }
     arrays_.edges_on_cell.resize(arrays_.offsets.back());
     in_pieces(size, [&](std::size_t begin, std::size_t end) {
@@ -289,28 +304,47 @@ class MpasReader {
   }
 
   // Counterclockwise, and the edge before each cell: where the ring of the cell comes to the vertex, it has just left
-  // the next cell.
+  // the next cell, and goes on along the edge before it.
   void find_edges_of_vertices() {
     arrays_.edges_on_vertex.resize(arrays_.num_vertices());
     in_pieces(arrays_.num_vertices(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const auto v = static_cast<Index>(i);
         Triple& cells = arrays_.cells_on_vertex[v];
-        if (arrays_.cells_on_cell[place_of(v, cells[0])] != cells[1]) {
+        if (!is_counterclockwise(v)) {
           std::swap(cells[1], cells[2]);
           std::swap(arrays_.kite_areas[v][1], arrays_.kite_areas[v][2]);
         }
+        Triple& edges = arrays_.edges_on_vertex[v];
+        edges = {no_index, no_index, no_index};
         for (std::size_t j = 0; j < 3; ++j) {
+          if (cells[j] == no_index) continue;
           const std::uint64_t at = place_of(v, cells[j]);
           const std::size_t next = (j + 1) % 3;
           if (arrays_.cells_on_cell[at] != cells[next]) {
             throw BadValue("vertex " + std::to_string(v) + " has no edge between its cells " +
                            std::to_string(cells[j]) + " and " + std::to_string(cells[next]));
           }
-          arrays_.edges_on_vertex[v][next] = arrays_.edges_on_cell[at];
+          edges[next] = arrays_.edges_on_cell[at];
+          edges[j] = arrays_.edges_on_cell[after(at, cells[j])];
         }
       }
     });
+  }
+  // Of a vertex with two cells or three; with one it is both.
+  [[nodiscard]] bool is_counterclockwise(Index v) const {
+    const Triple& cells = arrays_.cells_on_vertex[v];
+    const auto has_cell = [](Index cell) { return cell != no_index; };
+    const auto count = std::ranges::count_if(cells, has_cell);
+    if (count == 0) throw BadValue("vertex " + std::to_string(v) + " has no cell");
+    if (count == 1) return true;
+    std::size_t j = 0;
+    while (cells[j] == no_index || cells[(j + 1) % 3] == no_index) ++j;
+    return arrays_.cells_on_cell[place_of(v, cells[j])] == cells[(j + 1) % 3];
+  }
+  // The place in the ring of a cell that comes next.
+  [[nodiscard]] std::uint64_t after(std::uint64_t at, Index cell) const {
+    return at + 1 < arrays_.offsets[cell + 1] ? at + 1 : arrays_.offsets[cell];
   }
   // Where the ring of a cell has the vertex.
   [[nodiscard]] std::uint64_t place_of(Index v, Index cell) const {
@@ -324,6 +358,7 @@ class MpasReader {
   const io::NetcdfReader& file_;
   unsigned threads_;
   const Execution& execution_;
+  std::uint64_t num_border_edges_ = 0;
   MeshArrays arrays_;
 };
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "meshing/fixed_sites.h"
 #include "meshing/scvt_energy.h"
 #include "meshing/scvt_levels.h"
 #include "meshing/scvt_minimizer.h"
@@ -46,6 +47,7 @@ class Levels {
     for (std::size_t k = 0; k < counts.size(); ++k) {
       if (k > 0) result.sites = refined_sites(result.sites, counts[k], size_, execution_.threads);
       if (k + 1 == counts.size()) {
+        fix(result);
         finish(result);
       } else {
         relax(result, false);
@@ -55,15 +57,25 @@ class Levels {
     return result;
   }
 
+  // Puts sites at the fixed places.
+  void fix(Scvt& result) {
+    result.fixed = take_nearest(result.sites, options_.fixed, execution_.threads);
+    if (result.fixed.empty()) return;
+    is_fixed_.assign(result.sites.size(), 0);
+    for (const Index site : result.fixed) is_fixed_[site] = 1;
+  }
+
   void finish(Scvt& result) {
     relax(result, true);
     const bool is_solved = result.end == ScvtEnd::converged || result.end == ScvtEnd::stuck;
-    if (options_.repair && is_solved) result.repair = repair(result.sites, execution_.threads);
+    if (options_.repair && is_solved) {
+      result.repair = repair(result.sites, is_fixed_, execution_.threads);
+    }
   }
 
  private:
   void relax(Scvt& result, bool is_last) {
-    Minimizer minimizer(std::move(result.sites), energy_, execution_.threads);
+    Minimizer minimizer(std::move(result.sites), energy_, execution_.threads, is_fixed_);
     MinimizerLimits limits{.mean_offset = options_.mean_tolerance,
                            .largest_offset = options_.largest_tolerance,
                            .energy_change = options_.energy_tolerance,
@@ -119,7 +131,16 @@ class Levels {
   const Execution& execution_;
   const SizeFunction* size_;
   CentroidalEnergy energy_;
+  std::vector<std::uint8_t> is_fixed_;  // of the last level; empty: no site is
 };
+
+void require_fixed(std::span<const Point> fixed, std::size_t count) {
+  require_places(fixed, "a fixed place");
+  if (fixed.size() <= count) return;
+  throw InvalidInput("there are " + std::to_string(fixed.size()) + " fixed places for " +
+                         std::to_string(count) + " sites",
+                     count);
+}
 
 }  // namespace
 
@@ -149,22 +170,20 @@ Scvt scvt(const ScvtOptions& options, const Execution& execution) {
                            " sites, not " + std::to_string(count),
                        0);
   }
+  require_fixed(options.fixed, count);
   return Levels(options, execution).solve(count);
 }
 
 Scvt relaxed(std::span<const Point> sites, const ScvtOptions& options, const Execution& execution) {
   const system::ArithmeticScope arithmetic;
   Scvt result;
-  result.sites.reserve(sites.size());
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    const Point& p = sites[i];
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z) || p == Point{}) {
-      throw InvalidInput("a site is not finite or the center", i);
-    }
-    result.sites.push_back(exact::to_point(normalized(scaled(exact::to_vector(p)))));
-  }
+  require_places(sites, "a site");
+  result.sites = unit_places(sites);
   if (sites.size() < 4) throw InvalidInput("a tessellation that is relaxed has 4 sites or more", 0);
-  Levels(options, execution).finish(result);
+  require_fixed(options.fixed, sites.size());
+  Levels levels(options, execution);
+  levels.fix(result);
+  levels.finish(result);
   return result;
 }
 

@@ -103,6 +103,7 @@ CellSums sums_of_cell(const MovingSurface& surface, const Vector& z, std::span<c
 }
 
 struct PieceSums {
+  std::size_t num_fixed = 0;
   DoubleDouble energy{0, 0};
   double offsets = 0;
   double largest = 0;
@@ -119,7 +120,8 @@ double CentroidalEnergy::noise(double energy) const {
 EnergyReport CentroidalEnergy::operator()(const MovingSurface& surface,
                                           std::span<const Point> sites,
                                           std::span<const std::uint8_t> axes,
-                                          std::span<SiteSums> sums) const {
+                                          std::span<SiteSums> sums,
+                                          std::span<const std::uint8_t> is_fixed) const {
   std::vector<PieceSums> pieces(system::num_pieces(sites.size(), cells_at_a_time));
   system::parallel_for(
       threads_, sites.size(), cells_at_a_time, [&](std::size_t begin, std::size_t end) {
@@ -137,6 +139,11 @@ EnergyReport CentroidalEnergy::operator()(const MovingSurface& surface,
           piece.energy = {total.hi, piece.energy.lo + total.lo};
           const double spacing = std::sqrt(cell.area * (2 / std::numbers::sqrt3));
           sums[i] = {{-2 * pull.u, -2 * pull.v}, cell.mass, spacing};
+          if (!is_fixed.empty() && is_fixed[i] != 0) {
+            sums[i].gradient = {0, 0};
+            ++piece.num_fixed;
+            continue;
+          }
           const double offset = std::sqrt(dot(pull, pull)) / (cell.mass * spacing);
           piece.offsets += offset;
           piece.largest = std::max(piece.largest, offset);
@@ -148,9 +155,11 @@ EnergyReport CentroidalEnergy::operator()(const MovingSurface& surface,
     all.energy = all.energy + piece.energy;
     all.offsets += piece.offsets;
     all.largest = std::max(all.largest, piece.largest);
+    all.num_fixed += piece.num_fixed;
   }
   const DoubleDouble energy = size_ == nullptr ? eight_pi - (all.energy + all.energy) : all.energy;
-  return {energy.hi + energy.lo, all.offsets / static_cast<double>(sites.size()), all.largest};
+  const std::size_t num_free = std::max<std::size_t>(sites.size() - all.num_fixed, 1);
+  return {energy.hi + energy.lo, all.offsets / static_cast<double>(num_free), all.largest};
 }
 
 }  // namespace rondel::mesh

@@ -47,9 +47,11 @@ class CentroidalEnergy {
   // Constant density where `size` is null; it must outlive this.
   CentroidalEnergy(const SizeFunction* size, unsigned threads) : size_(size), threads_(threads) {}
 
-  // Of the surface's sites, for each its gradient and mass.
+  // Of the surface's sites, for each its gradient and mass. Where `is_fixed` is not 0 (empty: nowhere) the gradient is 0 and the
+  // offset does not count.
   EnergyReport operator()(const MovingSurface& surface, std::span<const Point> sites,
-                          std::span<const std::uint8_t> axes, std::span<SiteSums> sums) const;
+                          std::span<const std::uint8_t> axes, std::span<SiteSums> sums,
+                          std::span<const std::uint8_t> is_fixed = {}) const;
 
   // What rounding may do to a difference of energies.
   [[nodiscard]] double noise(double energy) const;

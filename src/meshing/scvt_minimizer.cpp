@@ -22,10 +22,12 @@ constexpr int most_trials = 12;
 
 }  // namespace
 
-Minimizer::Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, unsigned threads)
+Minimizer::Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, unsigned threads,
+                     std::vector<std::uint8_t> is_fixed)
     : energy_(energy),
       threads_(threads),
       sites_(std::move(sites)),
+      is_fixed_(std::move(is_fixed)),
       axes_(sites_.size()),
       sums_(sites_.size()),
       tried_sites_(sites_.size()),
@@ -36,7 +38,7 @@ Minimizer::Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, u
   if (!surface_.follow(sites_)) {
     throw InvalidInput("the sites have duplicates, or do not surround the center of the sphere", 0);
   }
-  report_ = energy_(surface_, sites_, axes_, sums_);
+  report_ = energy_(surface_, sites_, axes_, sums_, is_fixed_);
 }
 
 Minimizer::Pair& Minimizer::pair(std::size_t age) {
@@ -137,13 +139,15 @@ bool Minimizer::search() {
     system::parallel_for(
         threads_, sites_.size(), terms_at_a_time, [&](std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) {
-            tried_sites_[i] =
-                moved(sites_[i], axes_[i], {length * direction_[i].u, length * direction_[i].v});
+            tried_sites_[i] = !is_fixed_.empty() && is_fixed_[i] != 0
+                                  ? sites_[i]
+                                  : moved(sites_[i], axes_[i],
+                                          {length * direction_[i].u, length * direction_[i].v});
           }
         });
     double shorter = 0.5;
     if (surface_.follow(tried_sites_)) {
-      tried_report_ = energy_(surface_, tried_sites_, axes_, tried_sums_);
+      tried_report_ = energy_(surface_, tried_sites_, axes_, tried_sums_, is_fixed_);
       const double rise = tried_report_.energy - report_.energy;
       if (rise <= sufficient_fall * length * along + energy_.noise(report_.energy)) {
         remember(length);

@@ -34,7 +34,9 @@ using StepSeen = std::function<bool(int iteration, const EnergyReport& report)>;
 
 class Minimizer {
  public:
-  Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, unsigned threads);
+  // Sites whose `is_fixed` is not 0 stay where they are, bit by bit; empty: none.
+  Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, unsigned threads,
+            std::vector<std::uint8_t> is_fixed = {});
 
   MinimizerEnd run(const MinimizerLimits& limits, const StepSeen& seen);
 
@@ -63,6 +65,7 @@ class Minimizer {
   const CentroidalEnergy& energy_;
   unsigned threads_;
   std::vector<Point> sites_;
+  std::vector<std::uint8_t> is_fixed_;
   std::vector<std::uint8_t> axes_;
   std::vector<SiteSums> sums_;
   EnergyReport report_;

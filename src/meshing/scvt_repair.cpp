@@ -55,8 +55,8 @@ bool is_odd(int degree) { return degree < 5 || degree > 7; }
 
 class Repair {
  public:
-  Repair(std::vector<Point>& sites, unsigned threads)
-      : sites_(sites), start_(sites), threads_(threads), surface_(threads) {}
+  Repair(std::vector<Point>& sites, std::span<const std::uint8_t> is_fixed, unsigned threads)
+      : sites_(sites), start_(sites), is_fixed_(is_fixed), threads_(threads), surface_(threads) {}
 
   ScvtRepair run() {
     ScvtRepair done;
@@ -198,6 +198,10 @@ class Repair {
     return found;
   }
 
+  [[nodiscard]] bool is_fixed(Index site) const {
+    return !is_fixed_.empty() && is_fixed_[site] != 0;
+  }
+
   // Moves the sites of a bound that is missed to where it is met.
   void meet(const Bound& bound) {
     const Vector a = exact::to_vector(sites_[bound.a]);
@@ -219,11 +223,15 @@ class Repair {
     for (std::size_t k = 0; k < num_moved; ++k) {
       const Vector z = exact::to_vector(sites_[moved[k]]);
       gradients[k] = gradients[k] - dot(gradients[k], z) * z;
+      if (is_fixed(moved[k])) gradients[k] = {0, 0, 0};
       square += dot(gradients[k], gradients[k]);
     }
+    if (!(square > 0)) return;
     const double farthest = farthest_from_start * farthest_from_start * dot(b - a, b - a);
     std::array<Point, 4> places{};
     for (std::size_t k = 0; k < num_moved; ++k) {
+      places[k] = sites_[moved[k]];
+      if (is_fixed(moved[k])) continue;
       const Vector z = exact::to_vector(sites_[moved[k]]) + (missing / square) * gradients[k];
       places[k] = exact::to_point(z / norm(z));
       const Vector by = z - exact::to_vector(start_[moved[k]]);
@@ -234,6 +242,7 @@ class Repair {
 
   std::vector<Point>& sites_;
   const std::vector<Point> start_;
+  std::span<const std::uint8_t> is_fixed_;
   unsigned threads_;
   MovingSurface surface_;
   std::vector<int> degrees_;
@@ -243,8 +252,9 @@ class Repair {
 
 }  // namespace
 
-ScvtRepair repair(std::vector<Point>& sites, unsigned threads) {
-  return Repair(sites, threads).run();
+ScvtRepair repair(std::vector<Point>& sites, std::span<const std::uint8_t> is_fixed,
+                  unsigned threads) {
+  return Repair(sites, is_fixed, threads).run();
 }
 
 }  // namespace rondel::mesh

@@ -15,6 +15,8 @@
 // bounds in turn, again and again.
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "rondel/scvt.h"
@@ -22,7 +24,9 @@
 
 namespace rondel::mesh {
 
+// Sites whose `is_fixed` is not 0 stay; empty: none does.
 // Precondition: unit vectors that surround the center, without duplicates.
-ScvtRepair repair(std::vector<Point>& sites, unsigned threads);
+ScvtRepair repair(std::vector<Point>& sites, std::span<const std::uint8_t> is_fixed,
+                  unsigned threads);
 
 }  // namespace rondel::mesh

@@ -10,7 +10,7 @@
 namespace rondel::meshing {
 namespace {
 
-constexpr std::int32_t ugrid_none = -1;
+constexpr std::int32_t ugrid_none = -1;  // no_index in 32 bits
 
 using UgridTexts = MeshFile::Texts;
 constexpr UgridTexts east = {{"units", "degrees_east"}, {"standard_name", "longitude"}};
@@ -119,8 +119,9 @@ void define_ugrid(MeshFile& file, const CellCorners& corners) {
   define_face_list(file,
                    connectivity("face_faces", "face_face_connectivity", {faces, max_nodes}, true),
                    corners, room, face_faces);
-  define_pairs(file, connectivity("edge_faces", "edge_face_connectivity", {edges, two}, false),
-               arrays.cells_on_edge);
+  define_pairs(
+      file, connectivity("edge_faces", "edge_face_connectivity", {edges, two}, has_border(arrays)),
+      arrays.cells_on_edge);
 }
 
 }  // namespace rondel::meshing

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -91,9 +92,14 @@ void require_cover(const CellRings& cells) {
   }
 }
 
-// `regions` may be null.
-CellRings cells_within(const FeatureLines& lines, const CellRings& polygons, double tolerance,
-                       const Partition* regions, const Execution& execution) {
+// Cells, or pieces of them, and which feature each belongs to.
+struct OwnedCells {
+  Partition cells;
+  std::vector<Index> owners;
+  std::optional<CellRings> joined;  // the cells of the features, where they had to be made
+};
+OwnedCells owned_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
+                       const Execution& execution) {
   const std::size_t n = lines.num_features();
   const bool has_polygons = !polygons.corners.empty();
   if (has_polygons && polygons.num_cells() != n) {
@@ -102,26 +108,21 @@ CellRings cells_within(const FeatureLines& lines, const CellRings& polygons, dou
                        polygons.num_cells());
   }
   require_no_crossing(polygons, execution);
-  const FeatureSites found =
+  FeatureSites found =
       feature_sites(has_polygons ? with_borders(lines, polygons) : lines, tolerance, execution);
-  const Partition cells =
+  Partition cells =
       Partition::voronoi(delaunay(Sites::view(found.sites), {}, execution), execution);
-  if (!has_polygons) {
-    const CellRings parts = regions == nullptr ? cells.rings() : clip(cells, *regions, execution);
-    return dissolve(parts, found.features, n, execution);
-  }
+  if (!has_polygons) return {std::move(cells), std::move(found.features), std::nullopt};
   const RegionPieces pieces =
       intersection(cells, Partition(with_outside(polygons, execution), execution), execution);
-  std::vector<Index> groups(pieces.num_pieces());
-  for (std::size_t k = 0; k < groups.size(); ++k) {
+  std::vector<Index> owners(pieces.num_pieces());
+  for (std::size_t k = 0; k < owners.size(); ++k) {
     const bool is_outside = pieces.regions[k] == n;
-    groups[k] = is_outside ? found.features[pieces.cells[k]] : pieces.regions[k];
+    owners[k] = is_outside ? found.features[pieces.cells[k]] : pieces.regions[k];
   }
-  CellRings joined = dissolve(pieces.rings, groups, n, execution);
+  CellRings joined = dissolve(pieces.rings, owners, n, execution);
   require_cover(joined);
-  if (regions == nullptr) return joined;
-  return dissolve(clip(Partition(pieces.rings, execution), *regions, execution), groups, n,
-                  execution);
+  return {Partition(pieces.rings, execution), std::move(owners), std::move(joined)};
 }
 
 }  // namespace
@@ -129,14 +130,25 @@ CellRings cells_within(const FeatureLines& lines, const CellRings& polygons, dou
 CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
                         const Execution& execution) {
   const system::Call call(execution);
-  return cells_within(lines, polygons, tolerance, nullptr, execution);
+  OwnedCells owned = owned_cells(lines, polygons, tolerance, execution);
+  if (owned.joined) return std::move(*owned.joined);
+  return dissolve(owned.cells.rings(), owned.owners, lines.num_features(), execution);
 }
 
 CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& polygons,
                                 double tolerance, const Partition& regions,
                                 const Execution& execution) {
   const system::Call call(execution);
-  return cells_within(lines, polygons, tolerance, &regions, execution);
+  const OwnedCells owned = owned_cells(lines, polygons, tolerance, execution);
+  return dissolve(clip(owned.cells, regions, execution), owned.owners, lines.num_features(),
+                  execution);
+}
+
+RegionPieces feature_pieces(const FeatureLines& lines, const CellRings& polygons, double tolerance,
+                            const Partition& regions, const Execution& execution) {
+  const system::Call call(execution);
+  const OwnedCells owned = owned_cells(lines, polygons, tolerance, execution);
+  return dissolve(intersection(owned.cells, regions, execution), owned.owners, {}, execution);
 }
 
 }  // namespace rondel

@@ -182,6 +182,10 @@ void test_regions(const Partition& cells, const Partition& others, Index num_gro
   for (std::size_t i = 0; i < groups.size(); ++i) {
     groups[i] = i % (num_groups + 1) == num_groups ? no_index : static_cast<Index>(i % num_groups);
   }
+  const RegionPieces by_group = dissolve(pieces, groups, {});
+  double left = 0;
+  for (std::size_t i = 0; i < groups.size(); ++i) left += groups[i] == no_index ? 0 : by_pieces[i];
+  require(std::abs(sum_of(areas(by_group.rings)) - left) < 1e-8, "pieces joined by group");
   const CellRings regions = dissolve(cells.rings(), groups, num_groups);
   const CellRings inside = clip(others, Partition(regions));
   require(std::abs(sum_of(areas(inside)) - sum_of(areas(regions))) < 1e-8,

@@ -59,6 +59,10 @@ void test_features(const FeatureTable& table) {
     require(found.sites.size() == found.features.size(), "a feature for each site");
     const CellRings cells = feature_cells(table.lines, table.polygons, tolerance);
     require(cells.num_cells() == table.lines.num_features(), "a cell for each feature");
+    const Partition octants = Partition::triangles(
+        delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}}));
+    const RegionPieces pieces = feature_pieces(table.lines, table.polygons, tolerance, octants);
+    require(areas(pieces.rings).size() == pieces.num_pieces(), "a ring for each piece");
   } catch (const InvalidInput&) {  // antipodes, or polygons that cross themselves
   }
 }

@@ -263,6 +263,11 @@ TEST(feature_cells, may_be_clipped) {
   std::vector<double> expected(4);
   for (std::size_t k = 0; k < of_pieces.size(); ++k) expected[pieces.cells[k]] += of_pieces[k];
   for (std::size_t f = 0; f < 4; ++f) EXPECT_NEAR(found[f], expected[f], 1e-13) << f;
+  const RegionPieces parts = feature_pieces(lines, squares, 0.005, regions);
+  EXPECT_EQ(parts.cells, pieces.cells);
+  EXPECT_EQ(parts.regions, pieces.regions);
+  const std::vector<double> of_parts = areas(parts.rings);
+  for (std::size_t k = 0; k < of_parts.size(); ++k) EXPECT_NEAR(of_parts[k], of_pieces[k], 1e-13);
 
   FeatureLines none;
   none.features = {0, 0};

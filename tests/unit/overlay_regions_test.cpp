@@ -107,6 +107,43 @@ TEST(overlay_regions, what_is_joined_again_is_what_was_cut) {
   EXPECT_TRUE(joined.points == whole.points);
 }
 
+// By group of cells and group of regions: against the sums of the pieces' areas.
+TEST(overlay_regions, pieces_are_joined_by_both_groups) {
+  const Partition cells = Partition::voronoi(triangulation_of("uniform", 500, 15));
+  const Partition regions = Partition::voronoi(triangulation_of("uniform", 60, 16));
+  const RegionPieces pieces = intersection(cells, regions);
+  const auto group = [](Index i, Index num_groups) {
+    return i % (num_groups + 1) == num_groups ? no_index : i % num_groups;
+  };
+  std::vector<Index> cell_groups(cells.num_cells());
+  std::vector<Index> region_groups(regions.num_cells());
+  for (Index i = 0; i < cell_groups.size(); ++i) cell_groups[i] = group(i, 5);
+  for (Index i = 0; i < region_groups.size(); ++i) region_groups[i] = group(i, 3);
+  std::map<std::pair<Index, Index>, double> expected;
+  const std::vector<double> of_pieces = areas(pieces.rings);
+  for (std::size_t k = 0; k < pieces.num_pieces(); ++k) {
+    const Index a = cell_groups[pieces.cells[k]];
+    const Index b = region_groups[pieces.regions[k]];
+    if (a != no_index && b != no_index) expected[{a, b}] += of_pieces[k];
+  }
+  const RegionPieces joined = dissolve(pieces, cell_groups, region_groups);
+  const std::vector<double> found = areas(joined.rings);
+  ASSERT_EQ(joined.num_pieces(), expected.size());
+  std::size_t k = 0;
+  for (const auto& [pair, area] : expected) {
+    EXPECT_EQ(std::pair(joined.cells[k], joined.regions[k]), pair);
+    EXPECT_NEAR(found[k], area, 1e-13);
+    ++k;
+  }
+  expect_simple_rings(joined.rings);
+  const RegionPieces same = dissolve(pieces, {}, {});
+  EXPECT_EQ(same.cells, pieces.cells);
+  EXPECT_EQ(same.regions, pieces.regions);
+  EXPECT_EQ(same.rings.corners, pieces.rings.corners);
+  region_groups.resize(3);
+  EXPECT_THROW(dissolve(pieces, cell_groups, region_groups), InvalidInput);
+}
+
 TEST(overlay_regions, clipped_cells_have_the_area_of_the_regions) {
   const Partition cells = Partition::voronoi(triangulation_of("uniform", 3000, 7));
   const CellRings regions = random_regions(500, 4, 8);

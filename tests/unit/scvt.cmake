@@ -5,6 +5,7 @@ rondel_add_test(scvt_test
   mesh_size_test.cpp
   point_sets_test.cpp
   scvt_energy_test.cpp
+  scvt_fixed_test.cpp
   scvt_repair_test.cpp
   scvt_test.cpp
-  LIBS rondel_mesh)
+  LIBS rondel_mesh rondel_test_support)

@@ -46,6 +46,21 @@ void add_region_functions(nb::module_& module) {
                        [&](const Execution& execution) { return clip(cells, regions, execution); });
       },
       nb::arg("cells"), nb::arg("regions"), nb::arg("threads"), nb::arg("progress").none());
+  // The pieces of cells and regions, joined by the regions' groups; which cell and which group each is of.
+  module.def(
+      "intersection",
+      [](const Partition& cells, const Partition& regions, const IndicesIn& groups,
+         unsigned threads, const nb::object& listener) {
+        RegionPieces pieces =
+            watched(cells.num_cells(), threads, listener, [&](const Execution& execution) {
+              return dissolve(intersection(cells, regions, execution), {}, rows_of<Index>(groups),
+                              execution);
+            });
+        return std::tuple(std::move(pieces.rings), indices_out(std::move(pieces.cells)),
+                          indices_out(std::move(pieces.regions)));
+      },
+      nb::arg("cells"), nb::arg("regions"), nb::arg("groups").noconvert(), nb::arg("threads"),
+      nb::arg("progress").none());
   module.def(
       "crossing_cells",
       [](const Partition& partition, unsigned threads) {

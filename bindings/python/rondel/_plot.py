@@ -2,11 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pictures with Matplotlib, on a map of Cartopy where that is installed.
 
-The functions are methods of `SphericalDelaunay`, `SphericalVoronoi` and `PowerDiagram`.
+The functions are methods of `SphericalDelaunay`, `SphericalVoronoi`, `PowerDiagram` and `Regions`.
 """
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -19,7 +20,13 @@ from ._types import ArrayLike, Divided, FloatArray, Triangulated
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-__all__ = ["LonLatTriangles", "lonlat_triangles", "plot_cells", "plot_triangles"]
+__all__ = [
+    "LonLatTriangles",
+    "lonlat_triangles",
+    "plot_cells",
+    "plot_regions",
+    "plot_triangles",
+]
 
 
 def lonlat_triangles(self: Triangulated) -> LonLatTriangles:
@@ -138,10 +145,7 @@ def plot_cells(
     drawn = _make_map(ax, projection)
     if values is not None:
         cells, known = _draw_cells(self, drawn, np.asarray(values), {"cmap": cmap})
-        if known.size:  # also what the map does not show
-            vmin = known.min() if vmin is None else vmin
-            vmax = known.max() if vmax is None else vmax
-        cells.set_clim(vmin, vmax)
+        cells.set_clim(*_limits(known, vmin, vmax))
     _draw_coast(self.delaunay, drawn, coast)
     ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
     drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
@@ -150,17 +154,86 @@ def plot_cells(
     return drawn.ax
 
 
+def plot_regions(
+    self: Any,
+    values: ArrayLike | None = None,
+    ax: Any = None,
+    *,
+    projection: Any = None,
+    coast: bool = True,
+    cmap: Any = None,
+    vmin: float | None = None,
+    vmax: float | None = None,
+    **options: Any,
+) -> Axes:
+    """Draws the regions, and values as colors.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,), optional
+        A number for each region, shown as its color.
+    ax : matplotlib.axes.Axes, optional
+        By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
+    projection : cartopy.crs.CRS, optional
+        Of new axes; by default Robinson.
+    coast : bool, optional
+        Whether to draw the coasts of the Earth (Natural Earth, 1:110 million).
+    cmap, vmin, vmax
+        Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
+        ``colorbar`` takes.
+    **options
+        For the `matplotlib.collections.PathCollection` of the regions.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    ImportError
+        If Matplotlib is not installed.
+
+    """
+    numbers = None if values is None else np.asarray(values)
+    if numbers is not None and len(numbers) != len(self):
+        raise ValueError(f"{len(numbers)} values for {len(self)} regions")
+    drawn = _make_map(ax, projection)
+    positions, rings, polygons, owners = self._rings.polygons(0.1, 0)
+    lines = np.split(positions, rings[1:-1])
+    areas = [lines[a:b] for a, b in pairwise(polygons)]
+    options = {"edgecolors": "white", "linewidths": 0.4, **options}
+    if numbers is None:
+        drawn.draw_areas(areas, None, {"facecolors": "tab:blue", **options})
+    else:
+        colored = drawn.draw_areas(areas, numbers[owners], {"cmap": cmap, **options})
+        colored.set_clim(*_limits(numbers, vmin, vmax))
+    if coast:
+        _draw_coasts(drawn)
+    return drawn.ax
+
+
+def _limits(values: Any, vmin: float | None, vmax: float | None) -> tuple[Any, Any]:
+    """Those of the colors: of all values, also of what the map does not show."""
+    known = values[np.isfinite(values)]
+    if known.size:
+        vmin = known.min() if vmin is None else vmin
+        vmax = known.max() if vmax is None else vmax
+    return vmin, vmax
+
+
 def _draw_coast(self: Triangulated, drawn: LonLatMap, coast: bool | None) -> None:
     """The coasts, if they are wanted, or by default if sites have longitudes and latitudes."""
     if self._degrees is not None if coast is None else coast:
-        degrees, offsets = _core.coast_lines()
-        points = _core.unit_vectors(degrees)
-        is_last = np.zeros(len(points), bool)
-        is_last[offsets[1:] - 1] = True
-        first = np.flatnonzero(~is_last)
-        drawn.draw_lines(
-            arcs(points[first], points[first + 1]), {"colors": "0.45", "linewidths": 0.5}
-        )
+        _draw_coasts(drawn)
+
+
+def _draw_coasts(drawn: LonLatMap) -> None:
+    degrees, offsets = _core.coast_lines()
+    points = _core.unit_vectors(degrees)
+    is_last = np.zeros(len(points), bool)
+    is_last[offsets[1:] - 1] = True
+    first = np.flatnonzero(~is_last)
+    drawn.draw_lines(arcs(points[first], points[first + 1]), {"colors": "0.45", "linewidths": 0.5})
 
 
 def _line_options(options: dict[str, Any]) -> dict[str, Any]:

@@ -55,6 +55,21 @@ class LonLatMap:
         cells = PolyCollection(polygons, array=values[owners], **options)
         return self.ax.add_collection(cells, autolim=False)
 
+    def draw_areas(self, areas: list[Lines], values: Any, options: dict[str, Any]) -> Any:
+        """Polygons with holes, each a list of rings, the outer one first; in the colors of values,
+        if there are any.
+        """
+        return self._add_areas([(rings, k) for k, rings in enumerate(areas)], values, options)
+
+    def _add_areas(self, areas: list[tuple[Any, int]], values: Any, options: dict[str, Any]) -> Any:
+        from matplotlib.collections import PathCollection
+        from matplotlib.path import Path
+
+        paths = [Path.make_compound_path(*map(Path, rings)) for rings, _ in areas]
+        if values is not None:
+            options = {"array": values[[k for _, k in areas]], **options}
+        return self.ax.add_collection(PathCollection(paths, **options), autolim=False)
+
 
 class ProjectedMap(LonLatMap):
     """Axes of Cartopy."""
@@ -112,6 +127,33 @@ class ProjectedMap(LonLatMap):
                 whose.append(np.array([owner]))
         cells = PathCollection(parts, array=values[np.concatenate(whose)], **options)
         return self.ax.add_collection(cells, autolim=False)
+
+    def draw_areas(self, areas: list[Lines], values: Any, options: dict[str, Any]) -> Any:
+        """Polygons with holes, each a list of rings, the outer one first; in the colors of values,
+        if there are any.
+        """
+        from shapely.geometry import Point, Polygon
+        from shapely.geometry.polygon import orient
+
+        begin = np.cumsum([0, *map(len, areas)])
+        drawn, is_whole, is_seen = self._project([ring for rings in areas for ring in rings])
+        domain = self.ax.projection.domain
+        middle = domain.representative_point()
+        middle = Point(self.degrees.transform_point(middle.x, middle.y, self.ax.projection))
+        parts: list[tuple[Any, int]] = []
+        for k, rings in enumerate(areas):
+            own = slice(begin[k], begin[k + 1])
+            if is_whole[own].all():
+                parts.append((drawn[own], k))
+            elif is_seen[own].any():
+                area = Polygon(rings[0], rings[1:])
+                found = self.ax.projection.project_geometry(area, self.degrees)
+                for part in map(orient, found.geoms):
+                    bounds = (part.exterior, *part.interiors)
+                    parts.append(([np.array(ring.coords) for ring in bounds], k))
+            elif Polygon(rings[0], rings[1:]).contains(middle):
+                parts.append(([np.array(domain.exterior.coords)], k))
+        return self._add_areas(parts, values, options)
 
     def _project(self, lines: Lines) -> tuple[Lines, BoolArray, BoolArray]:
         """The lines on the map; whether each is there in one piece, and whether any of it is."""

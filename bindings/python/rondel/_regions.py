@@ -16,6 +16,7 @@ from ._arrays import as_threads, lonlat
 from ._geo import Path, Properties, polygon_frame, written
 from ._geometries import Edges, features_of, is_file, polygons_of
 from ._partition import Partition
+from ._plot import plot_regions
 from ._properties import checked_properties, is_missing, json_cells
 from ._repr import Described, count
 from ._types import ArrayLike, Divided, FloatArray, Progress
@@ -38,6 +39,8 @@ class Regions(Described):
     labels : ndarray
         What each region is: of clipped cells the site, of joined ones the group, of those of lines
         and polygons the feature.
+    values : ndarray or None
+        Of cells that were cut by the value of polygons, that value.
 
     Examples
     --------
@@ -54,14 +57,16 @@ class Regions(Described):
     """
 
     labels: np.ndarray[Any, Any]
+    values: np.ndarray[Any, Any] | None
     _rings: _core.CellRings
     _kind: str
 
     @classmethod
-    def _of(cls, rings: _core.CellRings, labels: Any, kind: str) -> Regions:
+    def _of(cls, rings: _core.CellRings, labels: Any, kind: str, values: Any = None) -> Regions:
         self = cls.__new__(cls)
         self._rings = rings
         self.labels = labels
+        self.values = values
         self._kind = kind
         return self
 
@@ -125,7 +130,7 @@ class Regions(Described):
         """The regions as GeoJSON (RFC 7946): counterclockwise, cut at the antimeridian, with holes.
 
         A feature for each region that has an area, with the properties `area` (steradians) and
-        `site`, `group` or `feature`.
+        `site`, `group` or `feature`, and `value` if there are any.
 
         Parameters
         ----------
@@ -148,8 +153,8 @@ class Regions(Described):
             If the file cannot be written; then nothing is left of it.
 
         """
-        values = checked_properties(properties, (self._kind, *AREA_NAMES), len(self))
-        named = {self._kind: self.labels, **values}
+        values = checked_properties(properties, (*self._own, *AREA_NAMES), len(self))
+        named = {**self._own, **values}
         if radius_km is not None:
             named["area_km2"] = self.areas_km2(radius_km)
         columns = [(name, json_cells(column)) for name, column in named.items()]
@@ -180,7 +185,8 @@ class Regions(Described):
         -------
         geopandas.GeoDataFrame
             A row for each region that has an area, with the columns `site`, `group` or `feature`,
-            and `area` (steradians). The index is the number of the region.
+            `value` if there are any, and `area` (steradians). The index is the number of the
+            region.
 
         Raises
         ------
@@ -190,15 +196,23 @@ class Regions(Described):
         """
         import pandas
 
-        given = checked_properties(properties, (self._kind, *AREA_NAMES, "geometry"), len(self))
+        given = checked_properties(properties, (*self._own, *AREA_NAMES, "geometry"), len(self))
         polygons = self._rings.polygons(float(tolerance_deg), 0)
         rows = np.unique(polygons[3])
-        columns: dict[str, Any] = {self._kind: self.labels[rows], "area": self.areas[rows]}
+        columns: dict[str, Any] = {name: labels[rows] for name, labels in self._own.items()}
+        columns["area"] = self.areas[rows]
         if radius_km is not None:
             columns["area_km2"] = self.areas_km2(radius_km)[rows]
         for name, values in given.items():
             columns[name] = pandas.Series(values).array[rows]
         return polygon_frame(columns, polygons, rows)
+
+    plot = plot_regions
+
+    @property
+    def _own(self) -> dict[str, Any]:
+        named = {self._kind: self.labels}
+        return named if self.values is None else {**named, "value": self.values}
 
     @property
     def __geo_interface__(self) -> dict[str, Any]:
@@ -216,6 +230,7 @@ def clip_cells(
     self: Divided,
     regions: Any,
     *,
+    values: ArrayLike | None = None,
     edges: Edges = "lonlat",
     threads: int | None = None,
     progress: Progress = None,
@@ -227,6 +242,9 @@ def clip_cells(
     regions : path-like, geometries or Partition
         A file of GeoJSON; a GeoDataFrame or GeoSeries; a geometry of shapely, a mapping of
         GeoJSON, whatever has `__geo_interface__`, or a sequence of these; or a partition.
+    values : sequence, one for each of `regions`, optional
+        Names of countries, kinds of soil: cells are cut where these change. None, NaN and NA: what
+        is there is left out.
     edges : {'lonlat', 'geodesic'}, optional
         What joins positions of polygons: straight lines in longitude and latitude (RFC 7946), or
         great circles.
@@ -236,7 +254,8 @@ def clip_cells(
     Returns
     -------
     Regions
-        One for each site, empty where nothing is left. Which lines cross is decided exactly;
+        One for each site, empty where nothing is left; with `values` one for each site and value
+        that have something in common, sorted by site. Which lines cross is decided exactly;
         where two parts meet they have the same corners, bit by bit.
 
     Warns
@@ -252,14 +271,14 @@ def clip_cells(
         If the file cannot be read.
 
     """
-    cells = Partition.voronoi(self, threads=threads)
-    found = _core.clip(
-        cells._partition,
-        _as_partition(regions, edges, threads)._partition,
-        as_threads(threads),
-        progress,
-    )
-    return Regions._of(found, np.arange(len(self.points)), "site")
+    cells = Partition.voronoi(self, threads=threads)._partition
+    within = _as_partition(regions, edges, threads)._partition
+    if values is None:
+        found = _core.clip(cells, within, as_threads(threads), progress)
+        return Regions._of(found, np.arange(len(self.points)), "site")
+    numbers, names = _numbered(values, within.num_cells, "values", "regions")
+    found, sites, groups = _core.intersection(cells, within, numbers, as_threads(threads), progress)
+    return Regions._of(found, sites, "site", names[groups])
 
 
 def dissolve_cells(
@@ -374,10 +393,12 @@ def _dissolved(
 
 
 # The groups as numbers, -1 for none, and what each of them is.
-def _numbered(groups: Any, num_cells: int) -> tuple[Any, np.ndarray[Any, Any]]:
+def _numbered(
+    groups: Any, num_cells: int, what: str = "groups", of: str = "cells"
+) -> tuple[Any, np.ndarray[Any, Any]]:
     values: Sequence[Hashable] = groups.tolist() if hasattr(groups, "tolist") else list(groups)
     if len(values) != num_cells:
-        raise ValueError(f"there are {len(values)} groups for {num_cells} cells")
+        raise ValueError(f"there are {len(values)} {what} for {num_cells} {of}")
     known: dict[Hashable, int] = {}
     numbers = np.full(num_cells, -1, np.int32)
     for i, value in enumerate(values):

@@ -173,6 +173,50 @@ def test_on_maps_of_cartopy_every_place_has_the_color_of_its_site(name, count):
         assert (same | is_border).mean() > 0.9
 
 
+@pytest.mark.parametrize("name", [None, *PROJECTIONS])
+def test_on_maps_every_place_has_the_color_of_its_region(name):
+    """Regions with holes, as shapely sees them; where the picture shows no border."""
+    plt = pytest.importorskip("matplotlib.pyplot")
+    shapely = pytest.importorskip("shapely")
+    from matplotlib import colormaps
+
+    outer = [[-170, -60], [170, -60], [170, 80], [-170, 80], [-170, -60]]
+    hole = [[-60, -30], [-60, 40], [90, 40], [90, -30], [-60, -30]]
+    area = {"type": "Polygon", "coordinates": [outer, hole]}
+    sites = clouds.uniform(30, 8)
+    regions = rondel.SphericalVoronoi(sites).clip(area)
+    with pytest.raises(ValueError, match="2 values for 30 regions"):
+        regions.plot([1, 2])
+    projection, axes = None, plt.figure().add_subplot()
+    if name is not None:
+        crs = pytest.importorskip("cartopy.crs")
+        projection, axes = getattr(crs, name.split()[0])(**PROJECTIONS[name]), None
+    values = np.arange(30)
+    ax = regions.plot(values, axes, projection=projection, coast=False, edgecolors="red")
+    ax.figure.canvas.draw()
+    picture = np.asarray(ax.figure.canvas.buffer_rgba())[::-1, :, :3] / 255.0
+    points = clouds.uniform(4000, seed=1)
+    lonlat = rondel.lonlat(points)
+    there = lonlat
+    if projection is not None:
+        there = projection.transform_points(crs.PlateCarree(), *lonlat.T)[:, :2]
+    shown = np.isfinite(there).all(axis=1)
+    pixels = ax.transData.transform(there[shown])
+    inside = ax.patch.get_path().contains_points(
+        (ax.transData if projection is not None else ax.transAxes).inverted().transform(pixels)
+    )
+    columns, rows = pixels[inside].astype(int).T
+    known = np.array([shapely.Polygon(outer, [hole]).contains(shapely.Point(p)) for p in lonlat])
+    nearest = rondel.delaunay(sites).nearest(points)
+    color = np.where(known[:, None], colormaps["viridis"](values / 29)[nearest, :3], 1.0)
+    found, expected = picture[rows, columns], color[shown][inside]
+    is_border = found[:, 0] > np.maximum(found[:, 1], found[:, 2]) + 0.2
+    same = np.abs(found - expected).max(axis=1) < 0.1
+    plt.close(ax.figure)
+    if len(same):
+        assert (same | is_border).mean() > 0.9
+
+
 def test_maps_of_cartopy_are_drawn_at_once():
     """Cartopy draws only those lines and polygons itself that end with the map."""
     crs = pytest.importorskip("cartopy.crs")

@@ -289,3 +289,25 @@ def test_partitions_of_corners():
     assert error.value.index == 1
     with pytest.raises(ValueError, match="must have shape"):
         rondel.Partition.corners([0, 1, 2], [0, 1, 2])
+
+
+def test_cells_are_cut_by_values():
+    diagram = rondel.SphericalVoronoi(clouds.uniform(60, 4))
+    boxes = [
+        {"type": "Polygon", "coordinates": [[[w, -40], [e, -40], [e, 40], [w, 40], [w, -40]]]}
+        for w, e in ((-60, 0), (0, 60), (60, 120))
+    ]
+    cut = diagram.clip(boxes, values=["land", None, "sea"])
+    assert set(cut.values) == {"land", "sea"}
+    assert list(cut.labels) == sorted(cut.labels)
+    for name, box in (("land", boxes[0]), ("sea", boxes[2])):
+        alone = diagram.clip(box).areas
+        found = np.zeros(60)
+        np.add.at(found, cut.labels[cut.values == name], cut.areas[cut.values == name])
+        assert np.allclose(found, alone, rtol=0, atol=1e-14)
+    joined = diagram.clip(boxes, values=[1, 1, 1])
+    assert np.allclose(joined.areas, diagram.clip(boxes).areas[joined.labels], atol=1e-14)
+    features = cut.to_geojson()["features"]
+    assert {feature["properties"]["value"] for feature in features} == {"land", "sea"}
+    with pytest.raises(ValueError, match="2 values for 3 regions"):
+        diagram.clip(boxes, values=["land", "sea"])

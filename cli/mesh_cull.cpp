@@ -1,0 +1,151 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/mesh_cull.h"
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <memory>
+
+#include "mesh.h"
+#include "rondel/fields.h"
+#include "validate.h"
+#include "words.h"
+
+namespace rondel::cli {
+namespace {
+
+void require_map_output(const char* option, const std::string& path) {
+  if (path.empty() || path.ends_with(".npy")) return;
+  throw UsageError(std::string(option) + ": '" + path + "' is not .npy");
+}
+
+void add_map_options(CLI::App& parser, MeshCullOptions& options) {
+  const auto add = [&](const char* name, std::string& path, const char* what) {
+    parser
+        .add_option(name, path,
+                    std::string("Where to write the new number of each ") + what +
+                        " of INPUT, from 0\non; 4294967295 where it is gone: .npy")
+        ->type_name("FILE");
+  };
+  add("--cell-map", options.cell_map, "cell");
+  add("--edge-map", options.edge_map, "edge");
+  add("--vertex-map", options.vertex_map, "vertex");
+}
+
+// 1 for each cell that goes.
+std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_cells) {
+  const auto [file, name] = split_at_colon(text);
+  std::vector<std::string> wanted;
+  if (!name.empty()) wanted.push_back(name);
+  const FieldSet fields = read_fields({file, {}}, wanted, num_cells);
+  if (fields.arrays.size() != 1 || fields.arrays.front().num_fields() != 1) {
+    throw FileError(file + ": it has not one number for each cell" +
+                    (name.empty() ? ": name it, " + file + ":NAME" : ""));
+  }
+  const std::vector<double>& values = fields.arrays.front().values;
+  std::vector<std::uint8_t> mask(values.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (values[i] != 0 && values[i] != 1) {
+      throw FileError(file + ": the number of cell " + std::to_string(i) + " is neither 0 nor 1");
+    }
+    mask[i] = values[i] == 1 ? 1 : 0;
+  }
+  return mask;
+}
+
+// Marks the cells whose sites lie in the polygons, or do not.
+void mark_by_polygons(const std::string& file, PolygonEdges polygon_edges, bool is_inside,
+                      const mesh::MeshArrays& arrays, const Execution& execution,
+                      std::vector<std::uint8_t>& is_removed) {
+  if (file.empty()) return;
+  const PolygonTable table = read_polygons({file, {}}, {.edges = polygon_edges}, execution);
+  std::vector<std::uint8_t> found;
+  try {
+    found = mesh::inside(arrays.cell_points, table.cells, execution);
+  } catch (const InvalidInput& error) {
+    throw FileError(file + ": " + error.what());
+  }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if ((found[i] != 0) == is_inside) is_removed[i] = 1;
+  }
+}
+
+void write_map(const std::string& path, const std::vector<Index>& numbers) {
+  if (path.empty()) return;
+  write_indices(path, numbers, std::array<std::uint64_t, 1>{numbers.size()});
+}
+
+}  // namespace
+
+Command add_mesh_cull_command(CLI::App& mesh) {
+  auto options = std::make_shared<MeshCullOptions>();
+  CLI::App* parser = mesh.add_subcommand("cull", "Remove cells of a mesh: those on land, a region");
+  add_input_options(*parser, options->written.common);
+  parser
+      ->add_option("--inside", options->inside,
+                   "Remove cells whose sites lie in the polygons of this file, .geojson, or on\n"
+                   "their borders")
+      ->type_name("FILE");
+  parser
+      ->add_option("--outside", options->outside,
+                   "Remove cells whose sites do not lie in the polygons of this file")
+      ->type_name("FILE");
+  parser
+      ->add_option("--mask", options->mask,
+                   "Remove the cells that have 1 in this file; the others have 0: .npy,\n"
+                   "FILE.nc:NAME, FILE.csv:COLUMN")
+      ->type_name("FILE");
+  add_word<PolygonEdges>(
+      *parser, "--edges", options->polygon_edges,
+      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
+      "What joins positions of polygons: lonlat (default; straight in longitude and\n"
+      "latitude, RFC 7946) or geodesic (great circles)");
+  add_mesh_output_options(*parser, options->written);
+  add_map_options(*parser, *options);
+  add_threads_option(*parser, options->written.common);
+  add_report_options(*parser, options->written.common);
+  parser->footer(
+      "INPUT is sites, or a mesh as 'rondel mesh convert' reads it. A cell goes if one of the\n"
+      "options says so. Edges and vertices stay where one of their cells does, and what stays\n"
+      "keeps its order; an edge of the border has no second cell.\n\n"
+      "Examples:\n"
+      "  rondel mesh cull mesh.nc -o ocean.nc --inside land.geojson --cell-map cells.npy\n"
+      "  rondel mesh cull mesh.nc -o region.nc --outside region.geojson --graph graph.info");
+  return {parser, [options] { return run_mesh_cull(*options); }};
+}
+
+ExitStatus run_mesh_cull(const MeshCullOptions& options) {
+  const CommonOptions& common = options.written.common;
+  require_mesh_output(common);
+  require_map_output("--cell-map", options.cell_map);
+  require_map_output("--edge-map", options.edge_map);
+  require_map_output("--vertex-map", options.vertex_map);
+  if (options.mask.empty() && options.inside.empty() && options.outside.empty()) {
+    throw UsageError("--inside, --outside or --mask says which cells are removed");
+  }
+  Job job(common);
+  const mesh::MeshArrays arrays =
+      read_mesh_or_sites(job, common, {.radius = options.written.radius, .allow_zero_edges = true});
+  std::vector<std::uint8_t> is_removed(arrays.num_cells(), 0);
+  if (!options.mask.empty()) is_removed = mask_of_file(options.mask, arrays.num_cells());
+  mark_by_polygons(options.inside, options.polygon_edges, true, arrays, job.execution(),
+                   is_removed);
+  mark_by_polygons(options.outside, options.polygon_edges, false, arrays, job.execution(),
+                   is_removed);
+  mesh::Culled culled;
+  try {
+    culled = mesh::cull(arrays, is_removed, job.execution());
+  } catch (const InvalidInput& error) {
+    throw FileError(common.input + ": " + error.what());
+  }
+  job.time(Stage::write, [&] {
+    write_map(options.cell_map, culled.cells);
+    write_map(options.edge_map, culled.edges);
+    write_map(options.vertex_map, culled.vertices);
+  });
+  write_all_of_mesh(options.written, culled.arrays, job);
+  return done;
+}
+
+}  // namespace rondel::cli

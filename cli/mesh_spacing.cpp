@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What `rondel mesh scvt` is asked for: spacings, and places that are sites.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <numbers>
+#include <utility>
+
+#include "mesh.h"
+#include "mesh_make.h"
+#include "rondel/mesh_lines.h"
+#include "rondel/mesh_size_files.h"
+#include "validate.h"
+
+namespace rondel::cli {
+namespace {
+
+constexpr double usual_slope = 0.05;
+
+bool as_kilometers(const std::string& text, double& kilometers) {
+  if (!positive_error(text).empty()) return false;
+  kilometers = std::strtod(text.c_str(), nullptr);
+  return true;
+}
+
+// Half of the smallest spacing for a step of the raster, in the middle of a face of the cube.
+std::size_t raster_steps(const ScvtCommandOptions& options) {
+  double least = std::strtod(options.spacing.c_str(), nullptr);
+  for (const std::string& refinement : options.refine) {
+    least = std::min(least, std::strtod(split_at_colon(refinement).second.c_str(), nullptr));
+  }
+  std::size_t steps = 64;
+  while (steps < 2048 && static_cast<double>(steps) * least < 4 * kilometers_per_radian) steps *= 2;
+  return steps;
+}
+
+// Spacings of as many cells as there will be.
+mesh::SizeFunction size_along(const mesh::ScvtOptions& scvt, std::size_t num_start) {
+  const std::size_t n = num_start > 0 ? num_start : scvt.count;
+  if (!scvt.size) {
+    return mesh::SizeFunction::constant(
+        mesh::spacing_of(4 * std::numbers::pi / static_cast<double>(n)), 1);
+  }
+  if (n == 0) return *scvt.size;
+  return scvt.size->scaled(std::sqrt(scvt.size->count() / static_cast<double>(n)));
+}
+
+}  // namespace
+
+std::pair<std::string, std::string> split_at_colon(const std::string& text) {
+  const std::size_t at = text.rfind(':');
+  if (at == std::string::npos || at < 2) return {text, {}};
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options, const Job& job) {
+  if (!options.density.empty()) {
+    const auto [file, name] = split_at_colon(options.density);
+    return mesh::read_density({file, {}}, name, mesh::SizeFunction::usual_steps, job.execution());
+  }
+  if (options.spacing.empty()) return std::nullopt;
+  double kilometers = 0;
+  std::optional<mesh::SizeFunction> size;
+  if (as_kilometers(options.spacing, kilometers)) {
+    size = mesh::SizeFunction::constant(kilometers / kilometers_per_radian, raster_steps(options));
+  } else {
+    const auto [file, name] = split_at_colon(options.spacing);
+    size = mesh::read_spacings({file, {}}, name, 1 / kilometers_per_radian,
+                               mesh::SizeFunction::usual_steps, job.execution());
+  }
+  for (const std::string& refinement : options.refine) {
+    const auto [file, text] = split_at_colon(refinement);
+    if (!as_kilometers(text, kilometers)) {
+      throw UsageError("--refine: '" + refinement + "' is not FILE:KM");
+    }
+    const double near = kilometers / kilometers_per_radian;
+    size = size->refined(mesh::read_refinement({file, {}}, 0.5 * near, job.execution()), near,
+                         options.slope.value_or(usual_slope), job.execution());
+  }
+  if (options.slope || !options.refine.empty()) {
+    size = size->limited(options.slope.value_or(usual_slope));
+  }
+  return size;
+}
+
+FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOptions& scvt,
+                       std::size_t num_start, Job& job) {
+  FixedSites fixed;
+  if (!options.fixed.empty()) fixed.sites = job.read({options.fixed, {}}, {}).sites;
+  if (options.along.empty()) return fixed;
+  const mesh::SizeFunction size = size_along(scvt, num_start);
+  std::vector<std::vector<Point>> lines;
+  for (const std::string& file : options.along) {
+    std::vector<std::vector<Point>> more = mesh::read_lines({file, {}});
+    std::ranges::move(more, std::back_inserter(lines));
+  }
+  const mesh::LineSites rows = mesh::sites_along(lines, size, job.execution());
+  fixed.sites.insert(fixed.sites.end(), rows.sites.begin(), rows.sites.end());
+  fixed.num_left_out = rows.num_left_out;
+  return fixed;
+}
+
+}  // namespace rondel::cli

@@ -1,0 +1,43 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// \file
+/// Sites along lines, so that edges of cells follow them: coasts, borders of regions, rivers (target rondel::mesh).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "rondel/export.h"
+#include "rondel/io.h"
+#include "rondel/mesh_size.h"
+#include "rondel/types.h"
+
+namespace rondel::mesh {
+
+/// Places on both sides of lines, for ScvtOptions::fixed.
+struct LineSites {
+  std::vector<Point> sites;      ///< unit vectors
+  std::size_t num_left_out = 0;  ///< places too near to another line, or another part of their own
+};
+
+/// Two rows of sites along each line, a spacing apart in a row, the rows half a spacing out of step and sqrt(3)/2 of it
+/// apart: with the sites of regular hexagons the edges between the rows go to and fro across the line, at most 0.15
+/// spacings away from it.
+///
+/// 1. A line is given by points joined by arcs of great circles. If the last is the first, it is closed, and the steps are
+///    stretched or shortened to fit.
+/// 2. What a line does within half a spacing is passed over. Closed lines of less than six steps of half a spacing are left out.
+/// 3. Places nearer than 0.7 spacings to one of a longer line, or of the same line before, are left out, and those that
+///    another part of a line passes by at less than 0.3: where a line turns sharply, or two are close, edges do not follow it.
+/// \throws InvalidInput (index of the line) if a point is not finite or the center, neighbors in a line are antipodes, or there
+///         would be more than max_sites.
+RONDEL_API LineSites sites_along(std::span<const std::vector<Point>> lines,
+                                 const SizeFunction& size, const Execution& execution = {});
+
+/// The lines of a GeoJSON file, and the outlines of its polygons, which are closed.
+/// \throws FileError with one line that names the file.
+RONDEL_API std::vector<std::vector<Point>> read_lines(const FileName& file);
+
+}  // namespace rondel::mesh

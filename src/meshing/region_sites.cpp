@@ -1,0 +1,265 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Which points lie in regions. The inside is to the left of all edges, so along any arc from q to p
+//
+//     depth(q) = depth(p) + edges that the arc leaves on their left side - edges that it enters on it,
+//
+// where depth is how many regions a point lies in. All arcs end at one pole p, and edges are kept by their azimuths around
+// it, so that few are asked. The depth of the pole follows, region by region, from two points on both sides of an edge,
+// between which the depth falls by one: they are in and out.
+//
+// All signs are exact. Where a corner lies on the great circle of the arc, or the pole on that of an edge, the arc says
+// nothing, and goes to another pole.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "exact/argument.h"
+#include "exact/vector.h"
+#include "rondel/error.h"
+#include "rondel/mesh_cull.h"
+#include "rondel/partition.h"
+#include "rondel/predicates.h"
+#include "system/job.h"
+#include "system/parallel.h"
+
+namespace rondel::mesh {
+namespace {
+
+struct RegionEdge {
+  Point from;
+  Point to;
+};
+
+// Directions that nothing in a file is likely to be in line with.
+constexpr std::array poles = {
+    Point{0.2718281828, -0.3141592653, 0.9098}, Point{-0.5772156649, 0.6931471805, 0.4316},
+    Point{0.6180339887, 0.4142135623, -0.6683}, Point{-0.7320508075, -0.2360679774, -0.6391},
+    Point{0.1234567891, 0.9876543211, -0.0991}, Point{0.9159655941, 0.0915965594, 0.3909}};
+
+// A small angle is far more than the rounding of azimuths.
+constexpr double azimuth_margin = 1e-9;
+constexpr std::size_t points_at_a_time = 256;
+constexpr std::size_t most_bins = 1U << 16U;
+// The first one does, unless the region is nearly nothing there.
+constexpr std::size_t most_edges_tried = 100;
+
+// What an edge does to the depth along the arc from q to p.
+enum class Crossing : std::uint8_t { none, leaves_left, enters_left, through_q, unclear };
+
+// Whether q, on the great circle of the edge, is on the edge itself; the pole is off it.
+bool is_on_edge(const RegionEdge& edge, const Point& q, const Point& p) {
+  if (is_same_site(q, edge.from) || is_same_site(q, edge.to)) return true;
+  const Sign whole = orientation(p, edge.from, edge.to);
+  return orientation(p, edge.from, q) == whole && orientation(p, q, edge.to) == whole;
+}
+
+Crossing crossing_of(const RegionEdge& edge, const Point& q, const Point& p) {
+  const Sign from = orientation(q, p, edge.from);
+  const Sign to = orientation(q, p, edge.to);
+  if (from == to && from != Sign::zero) return Crossing::none;
+  const Sign side_of_p = orientation(edge.from, edge.to, p);
+  if (side_of_p == Sign::zero) return Crossing::unclear;
+  const Sign side_of_q = orientation(edge.from, edge.to, q);
+  if (side_of_q == Sign::zero) {
+    return is_on_edge(edge, q, p) ? Crossing::through_q : Crossing::none;
+  }
+  if (from == Sign::zero || to == Sign::zero) return Crossing::unclear;
+  // Else the edge crosses the great circle of the arc elsewhere, or the other way around.
+  if (side_of_q == side_of_p || to != side_of_q) return Crossing::none;
+  return side_of_q == Sign::positive ? Crossing::leaves_left : Crossing::enters_left;
+}
+
+class RegionSites {
+ public:
+  explicit RegionSites(const CellRings& regions) : frame_(frame_around(poles[0])) {
+    std::vector<std::uint64_t> begins = {0};
+    for (std::size_t i = 0; i < regions.num_cells(); ++i) {
+      for (std::uint64_t r = regions.cells[i]; r < regions.cells[i + 1]; ++r) {
+        add_ring(regions, regions.rings[r], regions.rings[r + 1]);
+      }
+      begins.push_back(edges_.size());
+    }
+    sort_by_azimuth();
+    for (std::size_t i = 0; i + 1 < begins.size(); ++i) {
+      const std::span<const RegionEdge> of_region = std::span(edges_).subspan(
+          static_cast<std::size_t>(begins[i]), static_cast<std::size_t>(begins[i + 1] - begins[i]));
+      for (std::size_t k = 0; k < poles.size(); ++k) depths_[k] += depth_of_pole(of_region, k);
+    }
+  }
+
+  [[nodiscard]] bool has(const Point& q) const {
+    const std::optional<int> near_one = change_of_depth(q);
+    if (near_one) return *near_one == on_border || depths_[0] + *near_one > 0;
+    for (std::size_t k = 1; k < poles.size(); ++k) {
+      const std::optional<int> change = change_along(edges_, q, poles[k]);
+      if (change) return *change == on_border || depths_[k] + *change > 0;
+    }
+    return false;
+  }
+
+ private:
+  struct PolarFrame {
+    exact::Vector3<double> u, v;
+  };
+  static constexpr int on_border = -1'000'000'000;
+
+  static PolarFrame frame_around(const Point& pole) {
+    const auto axis = normalized(exact::to_vector(pole));
+    const auto u = normalized(cross(axis, exact::Vector3<double>{1, 0, 0}));
+    return {u, cross(axis, u)};
+  }
+
+  // 0 to 1 around the pole.
+  [[nodiscard]] double azimuth(const Point& q) const {
+    const auto x = exact::to_vector(q);
+    const double turns =
+        exact::argument(dot(x, frame_.v), dot(x, frame_.u)) / (2 * std::numbers::pi);
+    return turns < 0 ? turns + 1 : turns;
+  }
+
+  void add_ring(const CellRings& regions, std::uint64_t begin, std::uint64_t end) {
+    for (std::uint64_t k = begin; k < end; ++k) {
+      const RegionEdge edge = {regions.points[regions.corners[k]],
+                               regions.points[regions.corners[k + 1 < end ? k + 1 : begin]]};
+      if (!is_same_site(edge.from, edge.to)) edges_.push_back(edge);
+    }
+  }
+
+  void sort_by_azimuth() {
+    num_bins_ = std::clamp<std::size_t>(edges_.size(), 1, most_bins);
+    std::vector<std::array<std::size_t, 2>> spans;  // first bin and number of bins
+    spans.reserve(edges_.size());
+    begins_of_bins_.assign(num_bins_ + 1, 0);
+    for (const RegionEdge& edge : edges_) {
+      spans.push_back(bins_of(edge));
+      for (std::size_t j = 0; j < spans.back()[1]; ++j) {
+        ++begins_of_bins_[(spans.back()[0] + j) % num_bins_ + 1];
+      }
+    }
+    for (std::size_t b = 0; b < num_bins_; ++b) begins_of_bins_[b + 1] += begins_of_bins_[b];
+    in_bins_.resize(begins_of_bins_.back());
+    std::vector<std::size_t> next(begins_of_bins_.begin(), begins_of_bins_.end() - 1);
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      for (std::size_t j = 0; j < spans[e][1]; ++j) {
+        in_bins_[next[(spans[e][0] + j) % num_bins_]++] = e;
+      }
+    }
+  }
+
+  // An arc goes the shorter way around the pole; where that cannot be told, it is in all bins.
+  [[nodiscard]] std::array<std::size_t, 2> bins_of(const RegionEdge& edge) const {
+    double first = azimuth(edge.from);
+    double turn = azimuth(edge.to) - first;
+    turn -= std::floor(turn + 0.5);
+    if (std::abs(turn) > 0.49 || is_near_axis(edge.from) || is_near_axis(edge.to)) {
+      return {0, num_bins_};
+    }
+    if (turn < 0) first += turn;
+    const auto bins = static_cast<double>(num_bins_);
+    const double begin = std::floor((first - azimuth_margin + 1) * bins);
+    const double end = std::floor((first + std::abs(turn) + azimuth_margin + 1) * bins);
+    const auto count = static_cast<std::size_t>(end - begin) + 1;
+    return {static_cast<std::size_t>(begin) % num_bins_, std::min(count, num_bins_)};
+  }
+  [[nodiscard]] bool is_near_axis(const Point& q) const {
+    const auto x = exact::to_vector(q);
+    const double u = dot(x, frame_.u);
+    const double v = dot(x, frame_.v);
+    return u * u + v * v < 1e-6 * dot(x, x);
+  }
+
+  // From the first pole to q, by the edges at its azimuth; none where that is unclear.
+  [[nodiscard]] std::optional<int> change_of_depth(const Point& q) const {
+    if (is_near_axis(q)) return change_along(edges_, q, poles[0]);
+    const auto bin =
+        static_cast<std::size_t>(azimuth(q) * static_cast<double>(num_bins_)) % num_bins_;
+    int change = 0;
+    for (std::size_t k = begins_of_bins_[bin]; k < begins_of_bins_[bin + 1]; ++k) {
+      if (!add_crossing(edges_[in_bins_[k]], q, poles[0], change)) return std::nullopt;
+    }
+    return change;
+  }
+  static std::optional<int> change_along(std::span<const RegionEdge> edges, const Point& q,
+                                         const Point& p) {
+    int change = 0;
+    for (const RegionEdge& edge : edges) {
+      if (!add_crossing(edge, q, p, change)) return std::nullopt;
+    }
+    return change;
+  }
+  static bool add_crossing(const RegionEdge& edge, const Point& q, const Point& p, int& change) {
+    switch (crossing_of(edge, q, p)) {
+      case Crossing::none:
+        return true;
+      case Crossing::leaves_left:
+        if (change != on_border) ++change;
+        return true;
+      case Crossing::enters_left:
+        if (change != on_border) --change;
+        return true;
+      case Crossing::through_q:
+        change = on_border;
+        return true;
+      case Crossing::unclear:
+        return change == on_border;
+    }
+    return true;
+  }
+
+  // Whether a region has the pole. Of two points beside one of its edges the depths differ by one.
+  static int depth_of_pole(std::span<const RegionEdge> edges, std::size_t k) {
+    const std::size_t step = 1 + edges.size() / most_edges_tried;
+    for (const double away : {1e-3, 1e-6, 1e-1}) {
+      for (std::size_t e = 0; e < edges.size(); e += step) {
+        const RegionEdge& edge = edges[e];
+        const auto a = exact::to_vector(edge.from);
+        const auto b = exact::to_vector(edge.to);
+        const auto middle = normalized(a + b);
+        const auto left = away * cross(middle, b - a);
+        const auto in = change_along(edges, exact::to_point(middle + left), poles[k]);
+        const auto out = change_along(edges, exact::to_point(middle - left), poles[k]);
+        if (in && out && *in != on_border && *out != on_border && *in == *out + 1) return 1 - *in;
+      }
+    }
+    return 0;
+  }
+
+  std::vector<RegionEdge> edges_;
+  PolarFrame frame_;
+  std::size_t num_bins_ = 0;
+  std::vector<std::size_t> begins_of_bins_;
+  std::vector<std::size_t> in_bins_;
+  std::array<int, poles.size()> depths_{};
+};
+
+}  // namespace
+
+std::vector<std::uint8_t> inside(std::span<const Point> points, const CellRings& regions,
+                                 const Execution& execution) {
+  const system::Call call(execution);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Point& q = points[i];
+    if (!std::isfinite(q.x) || !std::isfinite(q.y) || !std::isfinite(q.z) || q == Point{}) {
+      throw InvalidInput("point " + std::to_string(i) + " is not finite or the center", i);
+    }
+  }
+  (void)Partition(regions, execution);  // refuses rings that are none
+  const RegionSites sites(regions);
+  std::vector<std::uint8_t> result(points.size());
+  system::parallel_for(execution.threads, points.size(), points_at_a_time,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           result[i] = sites.has(points[i]) ? 1 : 0;
+                         }
+                       });
+  return result;
+}
+
+}  // namespace rondel::mesh
