@@ -52,8 +52,7 @@ RONDEL_API void write_graph(const std::string& path, const MeshArrays& arrays,
                             const Execution& execution = {});
 
 /// Reads the arrays of an MPAS mesh of the sphere or a part of it, whoever wrote it. What write() wrote comes back bit for
-/// bit, but a density of 1 everywhere as none. Points are on the sphere of sphere_radius (1 where it is missing) within a
-/// thousandth of it.
+/// bit, but a density of 1 everywhere as none.
 ///
 /// 1. Areas, lengths, angles and points are those of the file, whatever their precision; points that are not on the
 ///    sphere within a thousandth of sphere_radius (1 where it is missing) are refused. The

@@ -35,7 +35,10 @@ TEST(mesh_partition, cells_of_a_centroidal_tessellation_become_equal) {
   const std::vector<Point> sites = scvt({.count = 2562}).sites;
   int steps = 0;
   AreaPartitionOptions options;
-  options.seen = [&](const PartitionStep& step) { steps = step.step; };
+  options.seen = [&](const PartitionStep& step) {
+    steps = step.step;
+    EXPECT_EQ(step.length, 1);  // as long as Newton's
+  };
   const AreaPartition made = area_partition(sites, {}, options);
   EXPECT_EQ(made.end, PartitionEnd::converged);
   EXPECT_LE(made.largest_error, 1e-12);
@@ -96,6 +99,12 @@ TEST(mesh_partition, infeasible_areas_end_as_such) {
   // Sites in one hemisphere.
   const std::vector<Point> octant = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}};
   EXPECT_EQ(area_partition(octant).end, PartitionEnd::infeasible);
+}
+
+TEST(mesh_partition, no_better_weights_than_doubles_is_told) {
+  const AreaPartition made = area_partition(sampled_sites(300, nullptr, 2), {}, {.tolerance = 0});
+  EXPECT_EQ(made.end, PartitionEnd::rounded);
+  EXPECT_LT(made.largest_error, 1e-12);
 }
 
 TEST(mesh_partition, stop_and_too_few_steps_leave_weights) {

@@ -58,7 +58,8 @@ TEST(mesh_size, function_is_met_at_nodes_and_between_them) {
 TEST(mesh_size, grid_of_any_direction_goes_around) {
   std::vector<double> lon;
   std::vector<double> lat;
-  for (int i = 0; i < 72; ++i) lon.push_back(5.0 * i - 180);
+  // The last step goes from 85 to 90 degrees west, where x changes most.
+  for (int i = 0; i < 72; ++i) lon.push_back(5.0 * i - 90);
   for (int j = 0; j <= 36; ++j) lat.push_back(90 - 5.0 * j);
   std::vector<double> values;
   for (const double y : lat) {
