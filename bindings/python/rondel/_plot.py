@@ -76,9 +76,9 @@ def plot_triangles(
     """
     rays = self.points - self.center
     ends = (rays / np.linalg.norm(rays, axis=1, keepdims=True))[self.edges]
-    drawn = _make_map(ax, projection)
+    drawn = make_map(ax, projection)
     _draw_coast(self, drawn, coast)
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
     if sites:
         drawn.draw_points(self.lonlat[self.vertices])
     return drawn.ax
@@ -86,8 +86,8 @@ def plot_triangles(
 
 def draw_arcs(ends: FloatArray, ax: Any, projection: Any, options: dict[str, Any]) -> Any:
     """Arcs between unit vectors, shape (k, 2, 3), on axes as `plot_triangles` makes them."""
-    drawn = _make_map(ax, projection)
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
+    drawn = make_map(ax, projection)
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
     return drawn.ax
 
 
@@ -135,7 +135,7 @@ def plot_cells(
         If Matplotlib is not installed.
 
     """
-    drawn = _make_map(ax, projection)
+    drawn = make_map(ax, projection)
     if values is not None:
         cells, known = _draw_cells(self, drawn, np.asarray(values), {"cmap": cmap})
         if known.size:  # also what the map does not show
@@ -144,7 +144,7 @@ def plot_cells(
         cells.set_clim(vmin, vmax)
     _draw_coast(self.delaunay, drawn, coast)
     ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
     if sites:
         drawn.draw_points(self.delaunay.lonlat[self.delaunay.vertices])
     return drawn.ax
@@ -153,21 +153,23 @@ def plot_cells(
 def _draw_coast(self: Triangulated, drawn: LonLatMap, coast: bool | None) -> None:
     """The coasts, if they are wanted, or by default if sites have longitudes and latitudes."""
     if self._degrees is not None if coast is None else coast:
-        degrees, offsets = _core.coast_lines()
-        points = _core.unit_vectors(degrees)
-        is_last = np.zeros(len(points), bool)
-        is_last[offsets[1:] - 1] = True
-        first = np.flatnonzero(~is_last)
-        drawn.draw_lines(
-            arcs(points[first], points[first + 1]), {"colors": "0.45", "linewidths": 0.5}
-        )
+        draw_coast_lines(drawn)
 
 
-def _line_options(options: dict[str, Any]) -> dict[str, Any]:
+def draw_coast_lines(drawn: LonLatMap) -> None:
+    degrees, offsets = _core.coast_lines()
+    points = _core.unit_vectors(degrees)
+    is_last = np.zeros(len(points), bool)
+    is_last[offsets[1:] - 1] = True
+    first = np.flatnonzero(~is_last)
+    drawn.draw_lines(arcs(points[first], points[first + 1]), {"colors": "0.45", "linewidths": 0.5})
+
+
+def line_options(options: dict[str, Any]) -> dict[str, Any]:
     return {"colors": "tab:blue", "linewidths": 0.6, **options}
 
 
-def _make_map(ax: Any, projection: Any) -> LonLatMap:
+def make_map(ax: Any, projection: Any) -> LonLatMap:
     """What draws on the axes."""
     import matplotlib.pyplot as plt
 

@@ -257,7 +257,7 @@ def clip_cells(
     cells = Partition.voronoi(self, threads=threads)
     found = _core.clip(
         cells._partition,
-        _as_partition(regions, edges, threads)._partition,
+        as_partition(regions, edges, threads)._partition,
         as_threads(threads),
         progress,
     )
@@ -349,7 +349,7 @@ def feature_cells(
     return Regions._of(found, np.arange(found.num_cells), "feature")
 
 
-def _as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:
+def as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:
     if isinstance(regions, Partition):
         return regions
     if is_file(regions):

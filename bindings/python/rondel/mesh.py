@@ -15,13 +15,24 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import as_floats, as_name, as_threads, frozen
 from ._delaunay import SphericalDelaunay, delaunay
-from ._mesh_making import Defects, Partition, ScvtReport, Spacing, partition, scvt_points
+from ._geometries import Edges
+from ._mesh_making import (
+    Defects,
+    Density,
+    Partition,
+    ScvtReport,
+    Spacing,
+    partition,
+    scvt_points,
+)
+from ._mesh_parts import Culled, Lines, plot_mesh, removed_cells
 from ._types import ArrayLike, FloatArray, IntArray, Path, Progress
 
 if TYPE_CHECKING:
     import xarray
 
 __all__ = [
+    "Culled",
     "Defects",
     "EdgeWeights",
     "Mesh",
@@ -69,6 +80,9 @@ class Mesh:
 
     report: ScvtReport | None = None
     """Of a mesh that `scvt` made, how that ended."""
+
+    fixed: IntArray = frozen(np.empty(0, np.int32))
+    """Of a mesh that `scvt` made, the cells of the fixed places, then of those along lines."""
 
     def __init__(self, arrays: _core.MeshArrays) -> None:
         self._arrays = arrays
@@ -204,6 +218,54 @@ class Mesh:
         """
         text = self._arrays.quality_picture(num_worst)
         pathlib.Path(as_name(path)).write_text(text, encoding="utf-8")
+
+    plot = plot_mesh
+
+    def cull(
+        self,
+        mask: ArrayLike | None = None,
+        *,
+        inside: Any = None,
+        outside: Any = None,
+        edges: Edges = "lonlat",
+        threads: int | None = None,
+    ) -> Culled:
+        """The mesh without some of its cells, and where all of them are now.
+
+        Edges and vertices stay where one of their cells does; what stays keeps its order, and its
+        numbers bit by bit. At the border -1 stands for what is not there: the second cell of an
+        edge, cells across edges, cells and edges around vertices.
+
+        Parameters
+        ----------
+        mask : array_like, shape (n,), optional
+            1 or True for cells that are removed.
+        inside, outside : path_like, geometries or Partition, optional
+            Polygons as in `SphericalVoronoi.clip`: cells are removed whose sites lie in them, or
+            on their borders; or those whose sites do not.
+        edges : {'lonlat', 'geodesic'}, optional
+            What joins positions of polygons.
+        threads : int, optional
+            At most so many threads; by default one for each core.
+
+        Returns
+        -------
+        Culled
+
+        Examples
+        --------
+        >>> import rondel.mesh
+        >>> mesh = rondel.mesh.scvt(642)
+        >>> north = mesh.cull(mesh.points[:, 2] < 0)
+        >>> north.mesh
+        <Mesh: 320 cells, 1002 edges, 683 vertices>
+        >>> int((north.mesh.cells_on_edge[:, 1] == -1).sum())
+        90
+
+        """
+        removed = removed_cells(self.points, mask, inside, outside, edges, threads)
+        arrays, *maps = _core.cull_mesh(self._arrays, removed, as_threads(threads))
+        return Culled(Mesh(arrays), *(frozen(numbers) for numbers in maps))
 
     def _write(self, path: Path, form: str, kind: Kind, threads: int | None) -> None:
         if kind not in ("cdf5", "cdf2"):
@@ -408,7 +470,10 @@ def scvt(
     n: int | None = None,
     *,
     spacing: Spacing | None = None,
+    density: Density | None = None,
     gradient: float | None = None,
+    fixed: ArrayLike | None = None,
+    along: Lines | None = None,
     radius: float = 1.0,
     tolerance: float = 1e-4,
     largest_tolerance: float = 1e-2,
@@ -427,8 +492,16 @@ def scvt(
     spacing : float or callable, optional
         The distance of neighbors in radians: a number, or a function of unit vectors, shape
         (m, 3), that returns m numbers, which is called once. With `n` only proportions count.
+    density : callable, optional
+        Instead of the spacing, which is its power -1/4: a function as that of the spacing, of which
+        only proportions count.
     gradient : float, optional
         How much the spacing grows over its own distance, at most.
+    fixed : array_like, shape (k, 3), optional
+        Places that are sites, and never move; they count among the `n`.
+    along : path_like, or sequence of array_like, shape (m, 3), optional
+        Lines that edges of cells follow: a GeoJSON file, or the points of each line, of which the
+        last is the first if it is closed. Two rows of sites beside each never move.
     radius : float, optional
         Of the sphere, in metres for most models.
     tolerance, largest_tolerance : float, optional
@@ -461,9 +534,12 @@ def scvt(
     ('converged', 0)
 
     """
-    points, density, report = scvt_points(
+    points, densities, sites, report = scvt_points(
         n,
         spacing,
+        density,
+        fixed,
+        along,
         gradient,
         tolerance,
         largest_tolerance,
@@ -474,7 +550,8 @@ def scvt(
         progress,
     )
     mesh = from_points(
-        points, radius=radius, density=density if len(density) else None, threads=threads
+        points, radius=radius, density=densities if len(densities) else None, threads=threads
     )
     mesh.report = report
+    mesh.fixed = frozen(sites)
     return mesh
