@@ -273,7 +273,7 @@ def clip_cells(
 
     """
     cells = Partition.voronoi(self, threads=threads)._partition
-    within = _as_partition(regions, edges, threads)._partition
+    within = as_partition(regions, edges, threads)._partition
     if values is None:
         found = _core.clip(cells, within, as_threads(threads), progress)
         return Regions._of(found, np.arange(len(self.points)), "site")
@@ -359,7 +359,7 @@ def feature_cells(
     tolerance = float(tolerance_km) / float(radius_km)
     if not tolerance > 0:
         raise ValueError(f"tolerance_km / radius_km must be positive, not {tolerance}")
-    area = None if within is None else _as_partition(within, edges, threads)._partition
+    area = None if within is None else as_partition(within, edges, threads)._partition
     found = features_of(
         features,
         edges,
@@ -370,7 +370,7 @@ def feature_cells(
     return Regions._of(found, np.arange(found.num_cells), "feature")
 
 
-def _as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:
+def as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:
     if isinstance(regions, Partition):
         return regions
     if is_file(regions):
