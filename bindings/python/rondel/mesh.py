@@ -25,7 +25,7 @@ from ._mesh_making import (
     partition,
     scvt_points,
 )
-from ._mesh_parts import Culled, Lines, plot_mesh, removed_cells
+from ._mesh_parts import Lines, plot_mesh, removed_cells
 from ._types import ArrayLike, FloatArray, IntArray, Path, Progress
 
 if TYPE_CHECKING:
@@ -55,6 +55,19 @@ class EdgeWeights(NamedTuple):
     indptr: npt.NDArray[np.int64]
     indices: IntArray
     data: FloatArray
+
+
+class Culled(NamedTuple):
+    """What `Mesh.cull` leaves.
+
+    ``cells``, ``edges`` and ``vertices`` have the new number of each one of the mesh before, -1
+    where it is gone.
+    """
+
+    mesh: Mesh
+    cells: IntArray
+    edges: IntArray
+    vertices: IntArray
 
 
 class Mesh:
