@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 
@@ -21,22 +21,22 @@ from ._types import ArrayLike, FloatArray, IntArray, Path
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from .mesh import Mesh
-
 Lines: TypeAlias = Path | Sequence[ArrayLike]
 
 
-class Culled(NamedTuple):
-    """What `Mesh.cull` leaves.
+class Drawn(Protocol):
+    """What a picture is drawn of: a `rondel.mesh.Mesh`."""
 
-    ``cells``, ``edges`` and ``vertices`` have the new number of each one of the mesh before, -1
-    where it is gone.
-    """
+    _arrays: _core.MeshArrays
 
-    mesh: Mesh
-    cells: IntArray
-    edges: IntArray
-    vertices: IntArray
+    @property
+    def radius(self) -> float: ...
+    @property
+    def points(self) -> FloatArray: ...
+    @property
+    def vertex_points(self) -> FloatArray: ...
+    @property
+    def vertices_on_edge(self) -> IntArray: ...
 
 
 def removed_cells(
@@ -89,7 +89,7 @@ def fixed_points(
 
 
 def plot_mesh(
-    self: Mesh,
+    self: Drawn,
     values: ArrayLike | None = None,
     ax: Any = None,
     *,
@@ -149,7 +149,7 @@ def plot_mesh(
     return drawn.ax
 
 
-def _draw_values(self: Mesh, drawn: LonLatMap, values: FloatArray, options: dict[str, Any]) -> Any:
+def _draw_values(self: Drawn, drawn: LonLatMap, values: FloatArray, options: dict[str, Any]) -> Any:
     if values.shape != (len(self.points),):
         raise ValueError(f"values has the shape {values.shape}, not ({len(self.points)},)")
     positions, offsets, owners = _core.mesh_polygons(self._arrays, 0.1)

@@ -16,7 +16,7 @@ from . import _core
 from ._arrays import as_name, as_threads, frozen
 from ._geometries import Edges
 from ._mesh_making import ScvtReport
-from ._mesh_parts import Culled, plot_mesh, removed_cells
+from ._mesh_parts import plot_mesh, removed_cells
 from ._mpas_dataset import dataset_of
 from ._types import ArrayLike, FloatArray, IntArray, Path
 
@@ -34,6 +34,19 @@ class EdgeWeights(NamedTuple):
     indptr: npt.NDArray[np.int64]
     indices: IntArray
     data: FloatArray
+
+
+class Culled(NamedTuple):
+    """What `Mesh.cull` leaves.
+
+    ``cells``, ``edges`` and ``vertices`` have the new number of each one of the mesh before, -1
+    where it is gone.
+    """
+
+    mesh: Mesh
+    cells: IntArray
+    edges: IntArray
+    vertices: IntArray
 
 
 class Mesh:

@@ -18,9 +18,9 @@ from ._mesh_making import (
     partition,
     scvt_points,
 )
-from ._mesh_parts import Culled, Lines
+from ._mesh_parts import Lines
 from ._types import ArrayLike, Path, Progress
-from ._voronoi_mesh import EdgeWeights, Mesh
+from ._voronoi_mesh import Culled, EdgeWeights, Mesh
 
 __all__ = [
     "Culled",
