@@ -183,7 +183,7 @@ def test_uxarray_applies_weights(tmp_path):
     source = rondel.SphericalVoronoi(sites)
     target = rondel.SphericalVoronoi(clouds.uniform(60, seed=1))
     around = np.flatnonzero(source.points @ target.points[-1] < 0.5)
-    cells, rings, corners, points = rondel.Partition.voronoi(source).rings
+    _, rings, corners, points = rondel.Partition.voronoi(source).rings
     kept = [corners[rings[i] : rings[i + 1]] for i in around]
     offsets = np.concatenate([[0], np.cumsum([len(ring) for ring in kept])])
     part = rondel.Partition.polygons(
