@@ -110,16 +110,16 @@ class KnownValues {
   }
 
  private:
-  struct Slot {
+  struct ValueSlot {
     Index number = no_index;
     std::uint32_t tag = 0;
   };
 
   [[nodiscard]] std::size_t mask() const { return slots_.size() - 1; }
   void grow() {
-    std::vector<Slot> before(2 * slots_.size());
+    std::vector<ValueSlot> before(2 * slots_.size());
     before.swap(slots_);
-    for (const Slot& slot : before) {
+    for (const ValueSlot& slot : before) {
       if (slot.number == no_index) continue;
       std::size_t s = hash_of(values_[slot.number]) & mask();
       while (slots_[s].number != no_index) s = (s + 1) & mask();
@@ -128,7 +128,7 @@ class KnownValues {
   }
 
   std::vector<Value>& values_;
-  std::vector<Slot> slots_ = std::vector<Slot>(1024);
+  std::vector<ValueSlot> slots_ = std::vector<ValueSlot>(1024);
 };
 
 template <class Value>

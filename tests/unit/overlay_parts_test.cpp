@@ -266,6 +266,23 @@ TEST(overlay_parts, names_cells_that_overlap) {
   EXPECT_EQ(message_of({{box, rectangular_hole(5, 5, 9, 9)}, {within}}), "nothing");
 }
 
+// Two covers of the sphere by lunes, which have nothing but the poles in common: whatever is beyond a side is some cell.
+TEST(overlay_parts, names_cells_of_two_covers) {
+  std::vector<std::vector<RingOfPart>> lunes;
+  for (const double west : {0.0, 120.0, 240.0, 60.0, 180.0, 300.0}) {
+    lunes.push_back({{{{0, 90}, {west, 0}, {0, -90}, {west + 120, 0}}}});
+  }
+  const Partition twice(cells_of_rings(lunes));
+  ASSERT_FALSE(twice.is_cover());
+  EXPECT_NEAR(total_of({twice.areas().begin(), twice.areas().end()}), 8 * std::numbers::pi, 1e-13);
+  try {
+    (void)remap(twice, twice);
+    ADD_FAILURE();
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(std::string(error.what()).substr(0, 35), "of the source cells 1 and 4 overlap");
+  }
+}
+
 // Then the other one is filled up, which has more sides.
 TEST(overlay_parts, one_of_the_two_may_overlap) {
   const Partition twice(cells_of_rings({{rectangle(0, 0, 20, 20)}, {rectangle(10, 10, 30, 30)}}));
