@@ -36,6 +36,10 @@ void add_map_options(CLI::App& parser, MeshCullOptions& options) {
 // 1 for each cell that goes.
 std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_cells) {
   const auto [file, name] = split_at_colon(text);
+  if (name.empty() && (file.ends_with(".csv") || file.ends_with(".tsv"))) {
+    throw UsageError("--mask: '" + file + "' is a table, of which " + file +
+                     ":COLUMN names the column");
+  }
   std::vector<std::string> wanted;
   if (!name.empty()) wanted.push_back(name);
   const FieldSet fields = read_fields({file, {}}, wanted, num_cells);

@@ -23,10 +23,10 @@ struct LineSites {
 };
 
 /// Two rows of sites along each line, a spacing apart in a row, the rows half a spacing out of step and sqrt(3)/2 of it
-/// apart: with the sites of regular hexagons the edges between the rows go to and fro across the line, at most 0.15
-/// spacings away from it.
+/// apart: with the sites of regular hexagons the edges between the rows go to and fro across the line. Their corners are
+/// 0.144 spacings away from it, a little more where it bends.
 ///
-/// 1. A line is given by points joined by arcs of great circles. If the last is the first, it is closed, and the steps are
+/// 1. A line is given by points joined by arcs of great circles. If the last is the first, or within 1e-10 of it, it is closed, and the steps are
 ///    stretched or shortened to fit.
 /// 2. What a line does within half a spacing is passed over. Closed lines of less than six steps of half a spacing are left out.
 /// 3. Places nearer than 0.7 spacings to one of a longer line, or of the same line before, are left out, and those that

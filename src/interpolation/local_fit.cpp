@@ -185,7 +185,7 @@ RONDEL_ALWAYS_INLINE inline void set_chart(Fit& fit) {
   }
 }
 
-// And what makes the cloud round.
+// And what makes the cloud round. What fills up a lane lies at (0, 0), where no term and no moment has a value.
 RONDEL_ALWAYS_INLINE inline void set_weights(Fit& fit) {
   Lanes radius;
   Lanes least;
@@ -198,14 +198,13 @@ RONDEL_ALWAYS_INLINE inline void set_weights(Fit& fit) {
   Lanes bb{};
   for (std::size_t k = 0; k < fit.size; ++k) {
     LaneVectors& p = fit.points[k];
-    const auto number = static_cast<double>(k);
     RONDEL_KEEP_LOOP for (std::size_t i = 0; i < lanes; ++i) {
       const double a = p.x[i];
       const double b = p.y[i];
       const double square = a * a + b * b;
       const double lacking = radius[i] - std::sqrt(square);
       const double root = (lacking * lacking) / larger(square, least[i]);
-      const double weight = (number < fit.counts[i] ? 1.0 : 0.0) * (root * root);
+      const double weight = root * root;
       p.z[i] = weight;
       aa[i] += weight * (a * a);
       ab[i] += weight * (a * b);

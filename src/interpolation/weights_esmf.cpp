@@ -51,8 +51,12 @@ void write_esmf(io::AtomicFile& file, const WeightFile& content) {
   add_side(out, source_names(), content.source, num_sources, n_a, src_rank);
   add_side(out, target_names(), content.target, num_targets, n_b, dst_rank);
   const NetcdfType index = index_type(std::max(num_sources, num_targets));
-  out.add_variable(variable("col", index, {n_s}));
-  out.add_variable(variable("row", index, {n_s}));
+  for (const char* name : {"col", "row"}) {
+    io::NetcdfVariable entries = variable(name, index, {n_s});
+    // UXarray guesses it from the greatest entry otherwise: wrong where the last point has no weight.
+    entries.attributes.push_back({"start_index", NetcdfType::int32, {}, {1}});
+    out.add_variable(std::move(entries));
+  }
   out.add_variable(variable("S", NetcdfType::float64, {n_s}));
   out.begin();
   write_side(out, source_names(), content.source, num_sources, [](std::size_t) { return 0.0; });

@@ -51,6 +51,7 @@ class RingsOfCell {
   RingsOfCell(const CellRings& cells, std::size_t cell) {
     for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
       std::vector<Point>& ring = points_.emplace_back();
+      ring.reserve(cells.rings[r + 1] - cells.rings[r]);
       for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
         ring.push_back(cells.points[cells.corners[k]]);
       }

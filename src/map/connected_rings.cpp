@@ -73,6 +73,7 @@ struct Outer {
 }  // namespace
 
 std::vector<std::vector<std::size_t>> connected_rings(std::span<const Ring> rings) {
+  if (rings.size() == 1) return {{0}};
   std::vector<Outer> outers;
   std::vector<std::size_t> holes;
   for (std::size_t r = 0; r < rings.size(); ++r) {

@@ -163,6 +163,10 @@ bool has_crossing_lines(std::span<const LonLat> loop) {
 }
 
 bool have_crossing_lines(std::span<const std::vector<LonLat>> rings) {
+  constexpr std::size_t few = 16;
+  if (rings.size() == 1 && rings[0].size() <= few) {
+    return has_crossing_lines(std::span(rings[0]).first(rings[0].size() - 1));
+  }
   std::vector<Line> lines;
   for (const std::vector<LonLat>& ring : rings) {
     for (std::size_t i = 0; i + 1 < ring.size(); ++i) lines.push_back({ring[i], ring[i + 1], i});

@@ -130,6 +130,10 @@ std::vector<Loop> simple_loops(const Loop& loop) {
   const auto add = [&](Loop part) {
     if (part.size() >= 3 && doubled_loop_area(part) != 0) found.push_back(std::move(part));
   };
+  if (!has_touching({&loop, 1})) {
+    add(loop);
+    return found;
+  }
   std::map<LonLat, std::size_t, InPlane> places;
   Loop open;
   for (const LonLat& position : loop) {

@@ -110,12 +110,12 @@ class RegionDrawing {
 
  private:
   void add(UnitVectors ring, double tolerance) {
-    const std::vector<Point> points = cleaned(ring, true);
+    std::vector<Point> points = cleaned(ring, true);
     if (points.size() < 3) return;
-    area_ += area_on_left(points);
     const std::vector<ArcTolerance> tolerances(points.size(), {tolerance, tolerance, {}});
     Trace trace;
     draw(points, tolerances, trace);
+    rings_.push_back(std::move(points));
     if (trace.starts.empty()) {
       Loop& loop = loops_.emplace_back();
       for (const MapPoint& point : trace.points) loop.push_back(point.position);
@@ -185,7 +185,10 @@ class RegionDrawing {
   [[nodiscard]] bool is_sliver(const Loop& loop) const {
     constexpr double small = 1e-3;  // square radians, far above what is lost between arcs and lines
     const double in_plane = doubled_loop_area(loop) / 2 / degrees_per_radian / degrees_per_radian;
-    return std::abs(in_plane) < small && area_ > 0 && area_ < small;
+    if (std::abs(in_plane) >= small) return false;
+    double area = 0;  // to the left of the rings, up to multiples of 4 pi
+    for (const std::vector<Point>& ring : rings_) area += area_on_left(ring);
+    return area > 0 && area < small;
   }
 
   static std::vector<Loop> outer_parts(const Loop& loop) {
@@ -252,9 +255,9 @@ class RegionDrawing {
     return loops;
   }
 
+  std::vector<std::vector<Point>> rings_;
   std::vector<Chain> chains_;
   std::vector<Loop> loops_;
-  double area_ = 0;  // to the left of the rings, up to multiples of 4 pi
 };
 
 }  // namespace

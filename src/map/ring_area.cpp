@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "exact/argument.h"
 #include "exact/vector.h"
@@ -66,6 +67,18 @@ Point origin_for(std::span<const Point> ring, const Point& first) {
   return best;
 }
 
+// Of the triangles at the first corner the least and the greatest sine, and 0.
+std::pair<double, double> sines_at_first(std::span<const Point> ring) {
+  double least = 0;
+  double most = 0;
+  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
+    const double sine = determinant(ring.front(), ring[i], ring[i + 1]);
+    least = std::min(least, sine);
+    most = std::max(most, sine);
+  }
+  return {least, most};
+}
+
 // By triangles, which have their areas but for multiples of 4 pi: so has the sum, of whatever they overlap.
 double area_around(const Point& a, std::span<const Point> ring) {
   double area = 0;
@@ -95,14 +108,15 @@ double area_on_left(std::span<const Point> ring) {
 
 bool is_clockwise(std::span<const Point> ring) {
   if (ring.size() > few_corners || is_large(ring)) return area_on_left(ring) < 0;
-  bool has_left = false;
-  bool has_right = false;
-  for (std::size_t i = 1; i + 1 < ring.size(); ++i) {
-    const double sine = determinant(ring.front(), ring[i], ring[i + 1]);
-    has_left |= sine > 0;
-    has_right |= sine < 0;
-  }
-  return has_left && has_right ? area_on_left(ring) < 0 : has_right;
+  const auto [least, most] = sines_at_first(ring);
+  return least < 0 && most > 0 ? area_on_left(ring) < 0 : least < 0;
+}
+
+bool is_surely_larger(std::span<const Point> ring, double area) {
+  if (ring.size() > few_corners || is_large(ring)) return false;
+  const auto [least, most] = sines_at_first(ring);
+  // A triangle with sine s and cosine c <= 4 has an area of 2 atan(s / c) >= s / 3, as s <= 1.
+  return (least >= 0 && most > 4 * area) || (most <= 0 && least < -4 * area);
 }
 
 }  // namespace rondel::map

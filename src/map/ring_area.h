@@ -18,4 +18,8 @@ RONDEL_API double area_on_left(std::span<const Point> ring);
 // Whether area_on_left() is less than 0. Triangles that all turn one way tell without an angle.
 RONDEL_API bool is_clockwise(std::span<const Point> ring);
 
+// Whether that is at least so much to the right or to the left, where triangles that all turn one way tell without an
+// angle; false says nothing.
+RONDEL_API bool is_surely_larger(std::span<const Point> ring, double area);
+
 }  // namespace rondel::map

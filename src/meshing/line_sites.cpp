@@ -21,7 +21,6 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_lines.h"
-#include "rondel/predicates.h"
 #include "rondel/query.h"
 #include "system/job.h"
 
@@ -104,7 +103,9 @@ class LineWalk {
 };
 
 bool is_closed(const std::vector<Point>& line) {
-  return line.size() > 3 && is_same_site(line.front(), line.back());
+  // As of corners in files, positions so near are one.
+  constexpr double same_place = 1e-10;
+  return line.size() > 3 && norm(line.front() - line.back()) < same_place;
 }
 
 // An even number of steps that come back to the first.

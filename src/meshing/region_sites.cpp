@@ -51,7 +51,7 @@ constexpr std::size_t most_bins = 1U << 16U;
 constexpr std::size_t most_edges_tried = 100;
 
 // What an edge does to the depth along the arc from q to p.
-enum class Crossing : std::uint8_t { none, leaves_left, enters_left, through_q, unclear };
+enum class ArcCrossing : std::uint8_t { none, leaves_left, enters_left, through_q, unclear };
 
 // Whether q, on the great circle of the edge, is on the edge itself; the pole is off it.
 bool is_on_edge(const RegionEdge& edge, const Point& q, const Point& p) {
@@ -60,20 +60,20 @@ bool is_on_edge(const RegionEdge& edge, const Point& q, const Point& p) {
   return orientation(p, edge.from, q) == whole && orientation(p, q, edge.to) == whole;
 }
 
-Crossing crossing_of(const RegionEdge& edge, const Point& q, const Point& p) {
+ArcCrossing crossing_of(const RegionEdge& edge, const Point& q, const Point& p) {
   const Sign from = orientation(q, p, edge.from);
   const Sign to = orientation(q, p, edge.to);
-  if (from == to && from != Sign::zero) return Crossing::none;
+  if (from == to && from != Sign::zero) return ArcCrossing::none;
   const Sign side_of_p = orientation(edge.from, edge.to, p);
-  if (side_of_p == Sign::zero) return Crossing::unclear;
+  if (side_of_p == Sign::zero) return ArcCrossing::unclear;
   const Sign side_of_q = orientation(edge.from, edge.to, q);
   if (side_of_q == Sign::zero) {
-    return is_on_edge(edge, q, p) ? Crossing::through_q : Crossing::none;
+    return is_on_edge(edge, q, p) ? ArcCrossing::through_q : ArcCrossing::none;
   }
-  if (from == Sign::zero || to == Sign::zero) return Crossing::unclear;
+  if (from == Sign::zero || to == Sign::zero) return ArcCrossing::unclear;
   // Else the edge crosses the great circle of the arc elsewhere, or the other way around.
-  if (side_of_q == side_of_p || to != side_of_q) return Crossing::none;
-  return side_of_q == Sign::positive ? Crossing::leaves_left : Crossing::enters_left;
+  if (side_of_q == side_of_p || to != side_of_q) return ArcCrossing::none;
+  return side_of_q == Sign::positive ? ArcCrossing::leaves_left : ArcCrossing::enters_left;
 }
 
 class RegionSites {
@@ -196,18 +196,18 @@ class RegionSites {
   }
   static bool add_crossing(const RegionEdge& edge, const Point& q, const Point& p, int& change) {
     switch (crossing_of(edge, q, p)) {
-      case Crossing::none:
+      case ArcCrossing::none:
         return true;
-      case Crossing::leaves_left:
+      case ArcCrossing::leaves_left:
         if (change != on_border) ++change;
         return true;
-      case Crossing::enters_left:
+      case ArcCrossing::enters_left:
         if (change != on_border) --change;
         return true;
-      case Crossing::through_q:
+      case ArcCrossing::through_q:
         change = on_border;
         return true;
-      case Crossing::unclear:
+      case ArcCrossing::unclear:
         return change == on_border;
     }
     return true;

@@ -118,9 +118,10 @@ class RingMaker {
   explicit RingMaker(const std::vector<Point>& points) : points_(points) {}
 
   // The rings of one region, in order. Precondition: as many links end in a point as begin there.
-  std::vector<std::vector<Index>> operator()(std::vector<NamedSide> links) {
-    cancel(links);
-    links_ = std::move(links);
+  std::vector<std::vector<Index>> operator()(std::span<const NamedSide> links) {
+    links_.assign(links.begin(), links.end());
+    std::ranges::sort(links_);
+    if (!is_plain()) cancel(links_);
     is_used_.assign(links_.size(), false);
     rings_.clear();
     for (std::size_t k = 0; k < links_.size(); ++k) {
@@ -135,6 +136,18 @@ class RingMaker {
   }
 
  private:
+  // Whether no two of the sorted links begin in one point, so that only the one from a link's end may run the other way,
+  // and does not.
+  [[nodiscard]] bool is_plain() const {
+    for (std::size_t k = 0; k < links_.size(); ++k) {
+      const auto [from, to] = links_[k];
+      if (from == to || (k + 1 < links_.size() && links_[k + 1].from == from)) return false;
+      const std::size_t back = first_link_from(to);
+      if (back < links_.size() && links_[back] == NamedSide{to, from}) return false;
+    }
+    return true;
+  }
+
   // From a link on until it comes back; whatever it meets again on its way is a ring of its own.
   void follow(std::size_t first) {
     path_.clear();
@@ -190,7 +203,9 @@ class RingMaker {
       border_.push_back(points_[p]);
     }
     length += rough_length(border_.back(), border_.front());
-    return std::abs(map::area_on_left(border_)) <= area_of_rounding(length);
+    const double rounding = area_of_rounding(length);
+    return !map::is_surely_larger(border_, rounding) &&
+           std::abs(map::area_on_left(border_)) <= rounding;
   }
 
   const std::vector<Point>& points_;
@@ -209,9 +224,8 @@ CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, uns
   system::parallel_for(threads, num_keys, keys_per_block, [&](std::size_t begin, std::size_t end) {
     RingMaker make(all.points);
     for (std::size_t key = begin; key < end; ++key) {
-      const auto from = all.links.begin() + static_cast<std::ptrdiff_t>(all.offsets[key]);
-      const auto to = all.links.begin() + static_cast<std::ptrdiff_t>(all.offsets[key + 1]);
-      rings[key] = make({from, to});
+      const std::size_t first = all.offsets[key];
+      rings[key] = make(std::span(all.links).subspan(first, all.offsets[key + 1] - first));
     }
   });
   CellRings result;

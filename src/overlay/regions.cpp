@@ -96,6 +96,9 @@ std::vector<NamedArc> arcs_of(const Subdivision& cells, const Subdivision& cover
                          progress.step();
                        });
   std::vector<NamedArc> all;
+  std::size_t size = 0;
+  for (const auto& block : blocks) size += block.size();
+  all.reserve(size);
   for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
   return all;
 }
@@ -169,6 +172,7 @@ std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData
 
 std::vector<Point> points_of(const CellRings& cells, std::uint64_t ring) {
   std::vector<Point> points;
+  points.reserve(cells.rings[ring + 1] - cells.rings[ring]);
   for (std::uint64_t k = cells.rings[ring]; k < cells.rings[ring + 1]; ++k) {
     points.push_back(cells.points[cells.corners[k]]);
   }

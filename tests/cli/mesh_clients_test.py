@@ -89,11 +89,35 @@ def check_cdo(folder):
         assert len(values) == 200 and all(abs(float(v) - 1) < 1e-12 for v in values), values
 
 
+def check_part(folder):
+    """A mesh with a border: every format, and weights from the whole sphere, which give each cell all of its area."""
+    (folder / "area.geojson").write_text(
+        '{"type":"Polygon","coordinates":[[[-20,-30],[100,-30],[100,60],[-20,60],[-20,-30]]]}')
+    cull = (TOOL, "mesh", "cull", "others.csv", "--outside", "area.geojson", "-o", "m.nc", "--format")
+    for name in FORMATS:
+        run(*cull, name, folder=folder)
+        assert "\ndata:\n" in run("ncdump", "m.nc", folder=folder), name
+    run(*cull, "mpas", folder=folder)
+    text = run("ncdump", "-v", "cellsOnEdge", "m.nc", folder=folder).split("\n cellsOnEdge =")[1]
+    numbers = [int(n) for n in re.findall(r"\d+", text.split(";")[0])]
+    assert 0 not in numbers[::2] and 10 < numbers[1::2].count(0) < 100, numbers
+    text = run("ncdump", "-v", "areaCell", "-p", "9,17", "m.nc", folder=folder).split("\n areaCell =")[1]
+    total = sum(float(n) for n in text.split(";")[0].replace(",", " ").split())
+    run(*cull, "scrip", folder=folder)
+    run("ncremap", "--no_stdin", "-a", "nco", "-s", "sites.nc", "-g", "m.nc", "-m", "part.nc", folder=folder)
+    text = run("ncks", "--chk_map", "part.nc", folder=folder)
+    for name in ("avg", "min", "max"):
+        line = next(line for line in text.splitlines() if line.startswith(f"frac_b {name}"))
+        assert abs(float(line.split()[2]) - 1) < 1e-10, line
+    line = next(line for line in text.splitlines() if line.startswith("area_b sum/4*pi"))
+    assert abs(float(line.split()[2]) - total / 12.566370614359172) < 1e-12, line
+
+
 def main():
     is_cdo = sys.argv[2:] == ["cdo"]
     if is_cdo and shutil.which("cdo") is None:
         sys.exit(77)
-    checks = (check_cdo,) if is_cdo else (check_headers, check_areas, check_weights)
+    checks = (check_cdo,) if is_cdo else (check_headers, check_areas, check_weights, check_part)
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         run(TOOL, "generate", "uniform", "-n", "300", "-o", "sites.csv", folder=folder)

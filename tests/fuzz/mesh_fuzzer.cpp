@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Meshes: any bytes as a file, a file of a mesh with some bytes changed, and any points as sites. Each gives a mesh
-// that fits together, or one message.
+// Meshes: any bytes as a file, a file of a mesh with some bytes changed, any points as sites, some cells of them removed, and
+// points in any polygons. Each gives a mesh that fits together, or one message.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,6 +18,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh.h"
+#include "rondel/mesh_cull.h"
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_quality.h"
 
@@ -43,9 +44,50 @@ void use(const mesh::MeshArrays& arrays) {
   require(arrays.max_edges() >= 3 && mesh::spacing_of(1) > 1, "cells have three edges or more");
 }
 
+// A mesh with a border, or none.
+void test_part(const mesh::MeshArrays& arrays, std::string_view bytes) {
+  std::vector<std::uint8_t> is_removed(arrays.num_cells());
+  for (std::size_t i = 0; i < is_removed.size() && i < 8 * bytes.size(); ++i) {
+    is_removed[i] = static_cast<std::uint8_t>(bytes[i / 8]) >> (i % 8) & 1U;
+  }
+  try {
+    const mesh::Culled culled = mesh::cull(arrays, is_removed, {.threads = 1});
+    use(culled.arrays);
+    const std::string path = folder().file("part.nc");
+    mesh::write(path, culled.arrays);
+    require(mesh::read_mpas(path) == culled.arrays, "a part of a mesh comes back");
+  } catch (const InvalidInput&) {
+    require(std::ranges::find(is_removed, 0) == is_removed.end(), "a part is a mesh");
+  }
+}
+
+// Rings of any corners, which may cross: an answer for each point.
+void test_regions(const std::vector<Point>& sites) {
+  CellRings regions;
+  for (const Point& site : sites) {
+    const double length = std::sqrt(site.x * site.x + site.y * site.y + site.z * site.z);
+    regions.corners.push_back(static_cast<Index>(regions.points.size()));
+    regions.points.push_back({site.x / length, site.y / length, site.z / length});
+    if (regions.corners.size() % 5 != 0) continue;
+    regions.rings.push_back(regions.corners.size());
+    regions.cells.push_back(regions.rings.size() - 1);
+  }
+  if (regions.rings.back() != regions.corners.size()) regions.corners.resize(regions.rings.back());
+  try {
+    const std::vector<std::uint8_t> found = mesh::inside(sites, regions, {.threads = 1});
+    require(found.size() == sites.size(), "an answer for each point");
+    require(found == mesh::inside(sites, regions, {.threads = 2}), "of any threads the same");
+  } catch (const InvalidInput&) {
+  }
+}
+
 void expect_mesh_or_message(const std::string& path) {
   try {
-    use(mesh::read_mesh(path));
+    const mesh::MeshArrays arrays = mesh::read_mesh(path);
+    use(arrays);
+    std::vector<std::uint8_t> every_other(arrays.num_cells());
+    for (std::size_t i = 1; i < every_other.size(); i += 2) every_other[i] = 1;
+    use(mesh::cull(arrays, every_other).arrays);
   } catch (const FileError& error) {
     const std::string what = error.what();
     require(what.find('\n') == std::string::npos, "a message is one line: " + what);
@@ -83,6 +125,8 @@ void test_sites(std::string_view bytes) {
     return;
   }
   use(arrays);
+  test_part(arrays, bytes);
+  test_regions(sites);
   const std::string path = folder().file("mesh.nc");
   const auto format = static_cast<mesh::MeshFormat>(bytes.empty() ? 0 : bytes[0] & 3);
   mesh::write(path, arrays, {.format = format});

@@ -46,6 +46,7 @@ void test_cells(const PolygonTable& table) {
   try {
     const CellRings clipped = clip(Partition::voronoi(delaunay(sites)), Partition(cells));
     require(clipped.num_cells() == sites.size(), "a part of each cell");
+    require(clip(Partition(clipped), Partition(cells)).num_cells() == sites.size(), "and again");
   } catch (const InvalidInput&) {  // polygons that cross themselves may have no sides
   }
 }
@@ -63,6 +64,9 @@ void test_features(const FeatureTable& table) {
         delaunay(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, -1, -1}}));
     const RegionPieces pieces = feature_pieces(table.lines, table.polygons, tolerance, octants);
     require(areas(pieces.rings).size() == pieces.num_pieces(), "a ring for each piece");
+    const CellRings clipped =
+        clipped_feature_cells(table.lines, table.polygons, tolerance, Partition(table.polygons));
+    require(clipped.num_cells() == cells.num_cells(), "a part of each cell");
   } catch (const InvalidInput&) {  // antipodes, or polygons that cross themselves
   }
 }

@@ -13,6 +13,7 @@
 #include "fuzz/fuzz_input.h"
 #include "fuzz/scratch_folder.h"
 #include "rondel/error.h"
+#include "rondel/mesh_lines.h"
 #include "rondel/mesh_partition.h"
 #include "rondel/mesh_size_files.h"
 #include "rondel/point_sets.h"
@@ -24,6 +25,30 @@ namespace {
 const ScratchFolder& scratch() {
   static const ScratchFolder made;
   return made;
+}
+
+// Some sites stay, of which each is found where it was put; rows beside a line through all.
+void test_fixed(const std::vector<Point>& sites) {
+  const std::vector<Point> some(sites.begin(),
+                                sites.begin() + static_cast<std::ptrdiff_t>(sites.size() / 3));
+  try {
+    const mesh::ScvtOptions options{.count = 40, .max_iterations = 5, .fixed = some};
+    const mesh::Scvt made = mesh::scvt(options, {.threads = 1});
+    require(made.fixed.size() == some.size(), "a site for each fixed place");
+    const mesh::Scvt again =
+        mesh::relaxed(made.sites, {.max_iterations = 5, .fixed = made.sites}, {.threads = 1});
+    require(again.last.iteration == 0, "nothing moves where all is fixed");
+  } catch (const InvalidInput&) {
+  }
+  try {
+    const std::vector<std::vector<Point>> lines = {sites, some};
+    const mesh::LineSites rows =
+        mesh::sites_along(lines, mesh::SizeFunction::constant(0.2, 1), {.threads = 1});
+    (void)mesh::scvt({.count = rows.sites.size() + 60, .max_iterations = 1, .fixed = rows.sites},
+                     {.threads = 1});
+  } catch (const InvalidInput& error) {
+    require(error.index() < 2, "the index of a line");
+  }
 }
 
 void test_sites(ByteSource& source) {
@@ -42,6 +67,7 @@ void test_sites(ByteSource& source) {
   } catch (const InvalidInput& error) {
     require(error.index() < std::max<std::size_t>(sites.size(), 1), "an index in range");
   }
+  test_fixed(sites);
   try {
     std::vector<double> targets;
     if (source.byte() % 2 == 0) {
@@ -112,6 +138,15 @@ void test_files(std::string_view bytes) {
       (void)mesh::read_spacings(path, "h", 1, 2, {.threads = 1});
     } catch (const FileError&) {
     } catch (const InvalidInput&) {
+    }
+    try {
+      (void)mesh::read_density(path, "h", 2, {.threads = 1});
+    } catch (const FileError&) {
+    } catch (const InvalidInput&) {
+    }
+    try {
+      (void)mesh::read_lines(path);
+    } catch (const FileError&) {
     }
   }
 }

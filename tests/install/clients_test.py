@@ -22,7 +22,7 @@ from commands import run
 # What rondel::distributed, rondel::remap and rondel::mesh use of the core and of rondel::io.
 USED_ABOVE = re.compile(
     r"rondel::(api::(make_triangulation|require_delaunay|validate|validate_queries)|bulk::(AllSites|Bucket|bucket_of|join_buckets|quadrant|triangulate_bucket)"
-    r"|dual::((areas|circumcenters)_within|exact_normal|exact_projected_difference|exact_weights|SplitSites)|io::(Atomic(File|Folder)|BadValue|CsvRecords|FileBytes|Netcdf\w+|NpyRows|Zip\w+|Zarr\w+|is_zarr|zarr_\w+|append_number|ending|find_attribute|in_quotes|make_npy_header|netcdf_text|open_replacement|parse_n(py_header|umber)|read_polygon_features|shape_(of_grid|text)|throw_unknown_ending|zip_member|replaced_by|temporary_name|write_in_parallel)|map::(area_on_left|is_clockwise|line_parts|lonlat_of|region_polygons)|order::(place_keys|radix_sort|spatial_order)|query::(Built|Engine|order_ties_by_place))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
+    r"|dual::((areas|circumcenters)_within|exact_normal|exact_projected_difference|exact_weights|SplitSites)|io::(Atomic(File|Folder)|BadValue|CsvRecords|FileBytes|Netcdf\w+|NpyRows|Zip\w+|Zarr\w+|is_zarr|zarr_\w+|append_number|ending|find_attribute|in_quotes|make_npy_header|netcdf_text|open_replacement|parse_n(py_header|umber)|read_polygon_features|shape_(of_grid|text)|throw_unknown_ending|zip_member|replaced_by|temporary_name|write_in_parallel)|map::(area_on_left|is_clockwise|is_surely_larger|line_parts|lonlat_of|region_polygons)|order::(place_keys|radix_sort|spatial_order)|query::(Built|Engine|order_ties_by_place))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
 )
 
 

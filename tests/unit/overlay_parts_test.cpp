@@ -262,6 +262,7 @@ TEST(overlay_parts, names_cells_that_overlap) {
   EXPECT_EQ(message_of({{within}, {box}}), "of the source cells 0 and 1 overlap" + rest);
   EXPECT_EQ(message_of({{apart}, {box}, {box}}), "of the source cells 1 and 2 overlap" + rest);
   EXPECT_EQ(message_of({{box, within}}), "of the source cell 0 overlaps itself" + rest);
+  EXPECT_EQ(message_of({{apart}, {box, box}}), "of the source cell 1 overlaps itself" + rest);
   EXPECT_EQ(message_of({{box, rectangular_hole(5, 5, 9, 9)}, {within}}), "nothing");
 }
 

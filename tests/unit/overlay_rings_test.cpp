@@ -113,6 +113,11 @@ TEST(overlay_rings, which_way_around) {
         EXPECT_EQ(map::is_clockwise(ring), map::area_on_left(ring) < 0) << radius << ' ' << corners;
         std::ranges::reverse(ring);
         EXPECT_EQ(map::is_clockwise(ring), map::area_on_left(ring) < 0) << radius << ' ' << corners;
+        const double area = std::abs(map::area_on_left(ring));
+        EXPECT_FALSE(map::is_surely_larger(ring, area));
+        if (k == 0 && corners <= 11 && radius <= 0.3) {
+          EXPECT_TRUE(map::is_surely_larger(ring, area / 40));
+        }
         // The next corner goes to the middle, or beyond it.
         const auto at = static_cast<std::size_t>(k) % ring.size();
         ring[at] = normalized(ring[at] + ring[(at + ring.size() / 2) % ring.size()]);

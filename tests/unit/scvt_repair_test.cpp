@@ -39,7 +39,7 @@ TEST(scvt_repair, an_obtuse_triangle_without_a_short_edge_is_made_acute) {
   const auto apex = to_vector(sites[face[0]]);
   sites[face[0]] = to_point(normalized(apex + 0.4 * (middle - apex)));
   const std::vector<Point> start = sites;
-  const ScvtRepair done = repair(sites, 1);
+  const ScvtRepair done = repair(sites, {}, 1);
   EXPECT_EQ(done.before.short_edges, 0U);
   EXPECT_GT(done.before.obtuse_triangles, 0U);
   EXPECT_EQ(done.after.obtuse_triangles, 0U);
@@ -57,7 +57,7 @@ TEST(scvt_repair, sites_move_no_farther_than_they_may) {
                                         to_vector(sites[face[1]]) + to_vector(sites[face[2]]))));
   }
   const std::vector<Point> start = sites;
-  const ScvtRepair done = repair(sites, 1);
+  const ScvtRepair done = repair(sites, {}, 1);
   EXPECT_GT(done.before.odd_cells, 10U);
   EXPECT_LE(done.after.odd_cells, done.before.odd_cells);
   EXPECT_LT(farthest_move(start, sites), 0.15 * 1.3 * longest_edge);

@@ -11,6 +11,7 @@
 
 #include "arrays.h"
 #include "interrupt.h"
+#include "mesh_sizes.h"
 #include "module.h"
 #include "rondel/mesh_partition.h"
 #include "rondel/scvt.h"
@@ -20,14 +21,12 @@ namespace {
 
 using mesh::SizeFunction;
 
-constexpr std::size_t many_sites = 1U << 20U;  // enough to be watched
-
 // Odd cells, short edges, obtuse triangles, least ratio.
 using DefectsOut = std::tuple<std::size_t, std::size_t, std::size_t, double>;
 // Points, densities (none: empty), how it ended, steps of the last level, mean offset, largest offset,
-// defects before and after the repair, sites that it moved.
+// defects before and after the repair, sites that it moved, those of fixed places.
 using ScvtOut = std::tuple<ArrayOut<double>, ArrayOut<double>, std::string, int, double, double,
-                           DefectsOut, DefectsOut, std::size_t>;
+                           DefectsOut, DefectsOut, std::size_t, ArrayOut<std::int32_t>>;
 using AreasOut =
     std::tuple<ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, std::string, int, double>;
 
@@ -42,16 +41,6 @@ ArrayOut<double> raster_places(std::size_t steps) {
   return points_out(std::move(all));
 }
 
-SizeFunction size_of_raster(std::span<const double> spacings, std::size_t steps) {
-  std::size_t next = 0;
-  return SizeFunction::from_function(
-      [&](std::span<const Point> places, std::span<double> out) {
-        std::ranges::copy(spacings.subspan(next, places.size()), out.begin());
-        next += places.size();
-      },
-      steps);
-}
-
 DefectsOut defects_out(const mesh::ScvtDefects& defects) {
   return {defects.odd_cells, defects.short_edges, defects.obtuse_triangles,
           defects.least_edge_ratio};
@@ -59,15 +48,15 @@ DefectsOut defects_out(const mesh::ScvtDefects& defects) {
 
 ScvtOut make_scvt(std::size_t count, const NumbersIn& spacings, std::size_t steps, double gradient,
                   double mean_tolerance, double largest_tolerance, int max_steps, bool repair,
-                  unsigned threads, const nb::object& listener) {
+                  const PointsIn& fixed, unsigned threads, const nb::object& listener) {
   mesh::ScvtOptions options{.count = count,
                             .mean_tolerance = mean_tolerance,
                             .largest_tolerance = largest_tolerance,
                             .max_iterations = max_steps,
-                            .repair = repair};
+                            .repair = repair,
+                            .fixed = points_of(fixed)};
   mesh::Scvt made = watched(many_sites, threads, listener, [&](const Execution& execution) {
-    if (spacings.size() > 0) options.size = size_of_raster(rows_of<double>(spacings), steps);
-    if (gradient > 0 && options.size) options.size = options.size->limited(gradient);
+    options.size = size_of(rows_of<double>(spacings), steps, gradient);
     options.seen = [&](const mesh::ScvtStep& step) {
       if (!execution.progress) return;
       execution.progress(std::to_string(step.sites) + " cells",
@@ -87,7 +76,8 @@ ScvtOut make_scvt(std::size_t count, const NumbersIn& spacings, std::size_t step
           made.last.largest_offset,
           defects_out(made.repair.before),
           defects_out(made.repair.after),
-          made.repair.moved};
+          made.repair.moved,
+          indices_out(std::move(made.fixed))};
 }
 
 AreasOut make_area_partition(const PointsIn& points, const NumbersIn& areas, double tolerance,
@@ -111,7 +101,7 @@ void add_mesh_make(nb::module_& module) {
   module.def("make_scvt", &make_scvt, nb::arg("count"), nb::arg("spacings").noconvert(),
              nb::arg("steps"), nb::arg("gradient"), nb::arg("mean_tolerance"),
              nb::arg("largest_tolerance"), nb::arg("max_steps"), nb::arg("repair"),
-             nb::arg("threads"), nb::arg("listener").none());
+             nb::arg("fixed").noconvert(), nb::arg("threads"), nb::arg("listener").none());
   module.def("make_area_partition", &make_area_partition, nb::arg("points").noconvert(),
              nb::arg("areas").noconvert(), nb::arg("tolerance"), nb::arg("threads"));
 }

@@ -62,6 +62,7 @@ NB_MODULE(_core, module) {
   rondel::python::add_interpolation(module);
   rondel::python::add_mesh(module);
   rondel::python::add_mesh_make(module);
+  rondel::python::add_mesh_parts(module);
   rondel::python::add_out_of_core(module);
   rondel::python::add_distributed(module);
   rondel::python::add_remap(module);

@@ -25,6 +25,7 @@ void add_graphs(nanobind::module_& module);
 void add_interpolation(nanobind::module_& module);
 void add_mesh(nanobind::module_& module);
 void add_mesh_make(nanobind::module_& module);
+void add_mesh_parts(nanobind::module_& module);
 void add_out_of_core(nanobind::module_& module);
 void add_distributed(nanobind::module_& module);
 void add_regions(nanobind::module_& module);

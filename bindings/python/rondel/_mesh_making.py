@@ -11,9 +11,11 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_floats, as_points, as_threads, frozen
-from ._types import ArrayLike, FloatArray, Progress
+from ._mesh_parts import Lines, fixed_points
+from ._types import ArrayLike, FloatArray, IntArray, Progress
 
 Spacing: TypeAlias = float | Callable[[FloatArray], ArrayLike]
+Density: TypeAlias = Callable[[FloatArray], ArrayLike]
 
 
 class Defects(NamedTuple):
@@ -34,7 +36,7 @@ class ScvtReport(NamedTuple):
 
     ``end`` is ``"converged"``, ``"iterations"``, or ``"stuck"`` where rounding allows no more.
     Offsets are those before the repair, which found ``defects_before``, left ``defects_after``,
-    and moved so many sites.
+    and moved so many sites. Beside lines so many places were ``left_out``.
     """
 
     end: str
@@ -44,6 +46,7 @@ class ScvtReport(NamedTuple):
     defects_before: Defects
     defects_after: Defects
     moved: int
+    left_out: int = 0
 
 
 class Partition(NamedTuple):
@@ -75,9 +78,24 @@ def raster_of(spacing: Spacing | None, steps: int) -> FloatArray:
     return np.ascontiguousarray(values)
 
 
+def spacing_of_density(density: Density) -> Callable[[FloatArray], FloatArray]:
+    """The spacings of a tessellation of this density, the largest 1."""
+
+    def spacing(places: FloatArray) -> FloatArray:
+        values = as_floats(density(places), "density")
+        if not (np.isfinite(values).all() and (values > 0).all()):
+            raise ValueError("density is not positive and finite everywhere")
+        return np.asarray((values / values.min()) ** -0.25)
+
+    return spacing
+
+
 def scvt_points(
     n: int | None,
     spacing: Spacing | None,
+    density: Density | None,
+    fixed: ArrayLike | None,
+    along: Lines | None,
     gradient: float | None,
     tolerance: float,
     largest_tolerance: float,
@@ -86,25 +104,37 @@ def scvt_points(
     repair: bool,
     threads: int | None,
     progress: Progress,
-) -> tuple[FloatArray, FloatArray, ScvtReport]:
-    """Points, densities and report of `rondel.mesh.scvt`."""
+) -> tuple[FloatArray, FloatArray, IntArray, ScvtReport]:
+    """Points, densities, the sites of fixed places and report of `rondel.mesh.scvt`."""
+    if density is not None:
+        if n is None or spacing is not None:
+            raise TypeError("scvt() takes density with n, and without spacing")
+        spacing = spacing_of_density(density)
     if n is None and spacing is None:
         raise TypeError("scvt() needs n or spacing")
+    count = 0 if n is None else int(n)
     steps = int(raster_steps) if callable(spacing) else 1
-    points, density, end, made_steps, mean, largest, before, after, moved = _core.make_scvt(
-        0 if n is None else int(n),
-        raster_of(spacing, steps),
-        steps,
-        0.0 if gradient is None else float(gradient),
-        float(tolerance),
-        float(largest_tolerance),
-        int(max_steps),
-        bool(repair),
-        as_threads(threads),
-        progress,
+    spacings = raster_of(spacing, steps)
+    slope = 0.0 if gradient is None else float(gradient)
+    places, left_out = fixed_points(fixed, along, count, spacings, steps, slope, threads)
+    points, densities, end, made_steps, mean, largest, before, after, moved, sites = (
+        _core.make_scvt(
+            count,
+            spacings,
+            steps,
+            slope,
+            float(tolerance),
+            float(largest_tolerance),
+            int(max_steps),
+            bool(repair),
+            places,
+            as_threads(threads),
+            progress,
+        )
     )
     defects = Defects(*before), Defects(*after)
-    return points, density, ScvtReport(end, made_steps, mean, largest, *defects, moved)
+    report = ScvtReport(end, made_steps, mean, largest, *defects, moved, left_out)
+    return points, densities, sites, report
 
 
 def partition(

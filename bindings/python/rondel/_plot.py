@@ -83,9 +83,9 @@ def plot_triangles(
     """
     rays = self.points - self.center
     ends = (rays / np.linalg.norm(rays, axis=1, keepdims=True))[self.edges]
-    drawn = _make_map(ax, projection)
+    drawn = make_map(ax, projection)
     _draw_coast(self, drawn, coast)
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
     if sites:
         drawn.draw_points(self.lonlat[self.vertices])
     return drawn.ax
@@ -93,8 +93,8 @@ def plot_triangles(
 
 def draw_arcs(ends: FloatArray, ax: Any, projection: Any, options: dict[str, Any]) -> Any:
     """Arcs between unit vectors, shape (k, 2, 3), on axes as `plot_triangles` makes them."""
-    drawn = _make_map(ax, projection)
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
+    drawn = make_map(ax, projection)
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
     return drawn.ax
 
 
@@ -142,13 +142,13 @@ def plot_cells(
         If Matplotlib is not installed.
 
     """
-    drawn = _make_map(ax, projection)
+    drawn = make_map(ax, projection)
     if values is not None:
         cells, known = _draw_cells(self, drawn, np.asarray(values), {"cmap": cmap})
         cells.set_clim(*_limits(known, vmin, vmax))
     _draw_coast(self.delaunay, drawn, coast)
     ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
-    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), _line_options(options))
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
     if sites:
         drawn.draw_points(self.delaunay.lonlat[self.delaunay.vertices])
     return drawn.ax
@@ -197,7 +197,7 @@ def plot_regions(
     numbers = None if values is None else np.asarray(values)
     if numbers is not None and len(numbers) != len(self):
         raise ValueError(f"{len(numbers)} values for {len(self)} regions")
-    drawn = _make_map(ax, projection)
+    drawn = make_map(ax, projection)
     positions, rings, polygons, owners = self._rings.polygons(0.1, 0)
     lines = np.split(positions, rings[1:-1])
     areas = [lines[a:b] for a, b in pairwise(polygons)]
@@ -208,7 +208,7 @@ def plot_regions(
         colored = drawn.draw_areas(areas, numbers[owners], {"cmap": cmap, **options})
         colored.set_clim(*_limits(numbers, vmin, vmax))
     if coast:
-        _draw_coasts(drawn)
+        draw_coast_lines(drawn)
     return drawn.ax
 
 
@@ -224,10 +224,10 @@ def _limits(values: Any, vmin: float | None, vmax: float | None) -> tuple[Any, A
 def _draw_coast(self: Triangulated, drawn: LonLatMap, coast: bool | None) -> None:
     """The coasts, if they are wanted, or by default if sites have longitudes and latitudes."""
     if self._degrees is not None if coast is None else coast:
-        _draw_coasts(drawn)
+        draw_coast_lines(drawn)
 
 
-def _draw_coasts(drawn: LonLatMap) -> None:
+def draw_coast_lines(drawn: LonLatMap) -> None:
     degrees, offsets = _core.coast_lines()
     points = _core.unit_vectors(degrees)
     is_last = np.zeros(len(points), bool)
@@ -236,11 +236,11 @@ def _draw_coasts(drawn: LonLatMap) -> None:
     drawn.draw_lines(arcs(points[first], points[first + 1]), {"colors": "0.45", "linewidths": 0.5})
 
 
-def _line_options(options: dict[str, Any]) -> dict[str, Any]:
+def line_options(options: dict[str, Any]) -> dict[str, Any]:
     return {"colors": "tab:blue", "linewidths": 0.6, **options}
 
 
-def _make_map(ax: Any, projection: Any) -> LonLatMap:
+def make_map(ax: Any, projection: Any) -> LonLatMap:
     """What draws on the axes."""
     import matplotlib.pyplot as plt
 

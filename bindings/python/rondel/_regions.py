@@ -198,7 +198,8 @@ class Regions(Described):
 
         given = checked_properties(properties, (*self._own, *AREA_NAMES, "geometry"), len(self))
         polygons = self._rings.polygons(float(tolerance_deg), 0)
-        rows = np.unique(polygons[3])
+        owners = polygons[3]
+        rows = owners[np.diff(owners, prepend=-1) > 0]
         columns: dict[str, Any] = {name: labels[rows] for name, labels in self._own.items()}
         columns["area"] = self.areas[rows]
         if radius_km is not None:
@@ -272,7 +273,7 @@ def clip_cells(
 
     """
     cells = Partition.voronoi(self, threads=threads)._partition
-    within = _as_partition(regions, edges, threads)._partition
+    within = as_partition(regions, edges, threads)._partition
     if values is None:
         found = _core.clip(cells, within, as_threads(threads), progress)
         return Regions._of(found, np.arange(len(self.points)), "site")
@@ -358,7 +359,7 @@ def feature_cells(
     tolerance = float(tolerance_km) / float(radius_km)
     if not tolerance > 0:
         raise ValueError(f"tolerance_km / radius_km must be positive, not {tolerance}")
-    area = None if within is None else _as_partition(within, edges, threads)._partition
+    area = None if within is None else as_partition(within, edges, threads)._partition
     found = features_of(
         features,
         edges,
@@ -369,7 +370,7 @@ def feature_cells(
     return Regions._of(found, np.arange(found.num_cells), "feature")
 
 
-def _as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:
+def as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:
     if isinstance(regions, Partition):
         return regions
     if is_file(regions):

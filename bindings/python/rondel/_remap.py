@@ -19,9 +19,9 @@ from ._partition import Partition
 from ._regions import Regions
 from ._repr import Described, count
 from ._types import ArrayLike, FloatArray, IntArray, Progress
+from ._voronoi_mesh import Mesh
 from ._weight_files import Side, write_weights
 from ._weights import Weights
-from .mesh import Mesh
 
 
 class Remap(Described):

@@ -14,9 +14,11 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_name, as_threads, frozen
+from ._geometries import Edges
 from ._mesh_making import ScvtReport
+from ._mesh_parts import plot_mesh, removed_cells
 from ._mpas_dataset import dataset_of
-from ._types import FloatArray, IntArray, Path
+from ._types import ArrayLike, FloatArray, IntArray, Path
 
 if TYPE_CHECKING:
     import xarray
@@ -32,6 +34,19 @@ class EdgeWeights(NamedTuple):
     indptr: npt.NDArray[np.int64]
     indices: IntArray
     data: FloatArray
+
+
+class Culled(NamedTuple):
+    """What `Mesh.cull` leaves.
+
+    ``cells``, ``edges`` and ``vertices`` have the new number of each one of the mesh before, -1
+    where it is gone.
+    """
+
+    mesh: Mesh
+    cells: IntArray
+    edges: IntArray
+    vertices: IntArray
 
 
 class Mesh:
@@ -57,6 +72,9 @@ class Mesh:
 
     report: ScvtReport | None = None
     """Of a mesh that `scvt` made, how that ended."""
+
+    fixed: IntArray = frozen(np.empty(0, np.int32))
+    """Of a mesh that `scvt` made, the cells of the fixed places, then of those along lines."""
 
     def __init__(self, arrays: _core.MeshArrays) -> None:
         self._arrays = arrays
@@ -192,6 +210,54 @@ class Mesh:
         """
         text = self._arrays.quality_picture(num_worst)
         pathlib.Path(as_name(path)).write_text(text, encoding="utf-8")
+
+    plot = plot_mesh
+
+    def cull(
+        self,
+        mask: ArrayLike | None = None,
+        *,
+        inside: Any = None,
+        outside: Any = None,
+        edges: Edges = "lonlat",
+        threads: int | None = None,
+    ) -> Culled:
+        """The mesh without some of its cells, and where all of them are now.
+
+        Edges and vertices stay where one of their cells does; what stays keeps its order, and its
+        numbers bit by bit. At the border -1 stands for what is not there: the second cell of an
+        edge, cells across edges, cells and edges around vertices.
+
+        Parameters
+        ----------
+        mask : array_like, shape (n,), optional
+            1 or True for cells that are removed.
+        inside, outside : path_like, geometries or Partition, optional
+            Polygons as in `SphericalVoronoi.clip`: cells are removed whose sites lie in them, or
+            on their borders; or those whose sites do not.
+        edges : {'lonlat', 'geodesic'}, optional
+            What joins positions of polygons.
+        threads : int, optional
+            At most so many threads; by default one for each core.
+
+        Returns
+        -------
+        Culled
+
+        Examples
+        --------
+        >>> import rondel.mesh
+        >>> mesh = rondel.mesh.scvt(642)
+        >>> north = mesh.cull(mesh.points[:, 2] < 0)
+        >>> north.mesh
+        <Mesh: 320 cells, 1002 edges, 683 vertices>
+        >>> int((north.mesh.cells_on_edge[:, 1] == -1).sum())
+        90
+
+        """
+        removed = removed_cells(self.points, mask, inside, outside, edges, threads)
+        arrays, *maps = _core.cull_mesh(self._arrays, removed, as_threads(threads))
+        return Culled(Mesh(arrays), *(frozen(numbers) for numbers in maps))
 
     def _write(self, path: Path, form: str, kind: Kind, threads: int | None) -> None:
         if kind not in ("cdf5", "cdf2"):

@@ -7,13 +7,23 @@ from __future__ import annotations
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, as_name, as_threads
+from ._arrays import as_floats, as_name, as_threads, frozen
 from ._delaunay import SphericalDelaunay, delaunay
-from ._mesh_making import Defects, Partition, ScvtReport, Spacing, partition, scvt_points
+from ._mesh_making import (
+    Defects,
+    Density,
+    Partition,
+    ScvtReport,
+    Spacing,
+    partition,
+    scvt_points,
+)
+from ._mesh_parts import Lines
 from ._types import ArrayLike, Path, Progress
-from ._voronoi_mesh import EdgeWeights, Mesh
+from ._voronoi_mesh import Culled, EdgeWeights, Mesh
 
 __all__ = [
+    "Culled",
     "Defects",
     "EdgeWeights",
     "Mesh",
@@ -116,7 +126,10 @@ def scvt(
     n: int | None = None,
     *,
     spacing: Spacing | None = None,
+    density: Density | None = None,
     gradient: float | None = None,
+    fixed: ArrayLike | None = None,
+    along: Lines | None = None,
     radius: float = 1.0,
     tolerance: float = 1e-4,
     largest_tolerance: float = 1e-2,
@@ -135,8 +148,16 @@ def scvt(
     spacing : float or callable, optional
         The distance of neighbors in radians: a number, or a function of unit vectors, shape
         (m, 3), that returns m numbers, which is called once. With `n` only proportions count.
+    density : callable, optional
+        Instead of the spacing, which is its power -1/4: a function as that of the spacing, of which
+        only proportions count.
     gradient : float, optional
         How much the spacing grows over its own distance, at most.
+    fixed : array_like, shape (k, 3), optional
+        Places that are sites, and never move; they count among the `n`.
+    along : path_like, or sequence of array_like, shape (m, 3), optional
+        Lines that edges of cells follow: a GeoJSON file, or the points of each line, of which the
+        last is the first if it is closed. Two rows of sites beside each never move.
     radius : float, optional
         Of the sphere, in metres for most models.
     tolerance, largest_tolerance : float, optional
@@ -169,9 +190,12 @@ def scvt(
     ('converged', 0)
 
     """
-    points, density, report = scvt_points(
+    points, densities, sites, report = scvt_points(
         n,
         spacing,
+        density,
+        fixed,
+        along,
         gradient,
         tolerance,
         largest_tolerance,
@@ -182,7 +206,8 @@ def scvt(
         progress,
     )
     mesh = from_points(
-        points, radius=radius, density=density if len(density) else None, threads=threads
+        points, radius=radius, density=densities if len(densities) else None, threads=threads
     )
     mesh.report = report
+    mesh.fixed = frozen(sites)
     return mesh

@@ -176,6 +176,33 @@ def test_parts_of_the_sphere():
     assert rondel.remap(part, part).weights.data.tolist() == [1]
 
 
+def test_uxarray_applies_weights(tmp_path):
+    """Also where the last target has none, from which it would guess that the first index is 0."""
+    uxarray = pytest.importorskip("uxarray")
+    sites = clouds.uniform(100)
+    source = rondel.SphericalVoronoi(sites)
+    target = rondel.SphericalVoronoi(clouds.uniform(60, seed=1))
+    around = np.flatnonzero(source.points @ target.points[-1] < 0.5)
+    _, rings, corners, points = rondel.Partition.voronoi(source).rings
+    kept = [corners[rings[i] : rings[i + 1]] for i in around]
+    offsets = np.concatenate([[0], np.cumsum([len(ring) for ring in kept])])
+    part = rondel.Partition.polygons(
+        np.arange(len(kept) + 1), offsets, np.concatenate(kept), points
+    )
+    weights = rondel.remap(part, rondel.Partition.voronoi(target), norm="fracarea").weights
+    values = np.random.default_rng(2).normal(size=len(kept))
+    expected = weights.apply(values)
+    assert np.isnan(expected[-1])
+    weights.to_netcdf(tmp_path / "w.nc")
+    mesh = uxarray.Grid.from_dataset(source.to_xarray().isel(n_face=around))
+    field = uxarray.UxDataArray(values, dims=["n_face"], uxgrid=mesh)
+    onto = uxarray.Grid.from_dataset(target.to_xarray())
+    found = field.remap.apply_weights(onto, tmp_path / "w.nc").values
+    there = ~np.isnan(expected)
+    assert 0 < there.sum() < 60
+    assert np.abs(found[there] - expected[there]).max() < 1e-14
+
+
 def test_what_is_refused():
     with pytest.raises(ValueError, match="norm must be"):
         rondel.remap(CELLS, GRID, norm="none")

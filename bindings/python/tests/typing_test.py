@@ -64,6 +64,9 @@ rondel.distributed.delaunay(points, "world")
 
 reveal_type(rondel.mesh.from_points(tri, radius=2).cell_areas.size)
 reveal_type(rondel.mesh.read(path))
+reveal_type(rondel.mesh.scvt(100, fixed=[[0, 0, 1]], along=path).cull(inside=path).mesh)
+reveal_type(rondel.mesh.scvt(100, density=lambda p: p[:, 2] ** 2 + 1).cull([0, 1]).cells.size)
+rondel.mesh.scvt(100, density=2.0)
 """
 
 
@@ -93,9 +96,12 @@ def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
         "rondel.distributed.DistributedTriangulation",
         *["int"] * 5,
         "rondel.mesh.Mesh",
+        "rondel.mesh.Mesh",
+        "int",
     ], out
     errors = [line.rpartition("[")[2] for line in said if "error:" in line]
     assert sorted(errors) == [
+        "arg-type]",
         "arg-type]",
         "arg-type]",
         "arg-type]",

@@ -35,6 +35,7 @@ def test_names_of_esmf(tmp_path):
     with scipy.io.netcdf_file(tmp_path / "w.nc", mmap=False) as file:
         names = ("S", "row", "col", "xc_a", "yc_a", "xc_b", "dst_grid_dims")
         data, row, col, lon, lat, to_lon, dims = (file.variables[name][:] for name in names)
+        assert [file.variables[name].start_index for name in ("row", "col")] == [1, 1]
     matrix = scipy.sparse.coo_matrix((data, (row - 1, col - 1)), shape=(30, 80))
     assert np.allclose(matrix @ VALUES, WEIGHTS.apply(VALUES), atol=1e-15)
     assert np.allclose(rondel.unit_vectors(lon, lat), SITES, atol=1e-14)

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Meshes of a part of the sphere, and rows of sites along lines.
+
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "arrays.h"
+#include "interrupt.h"
+#include "mesh_sizes.h"
+#include "module.h"
+#include "rondel/mesh_cull.h"
+#include "rondel/mesh_lines.h"
+#include "rondel/partition.h"
+#include "rondel/regions.h"
+
+namespace rondel::python {
+namespace {
+
+using mesh::MeshArrays;
+using CullOut =
+    std::tuple<MeshArrays, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>, ArrayOut<std::int32_t>>;
+using MaskIn = nb::ndarray<const std::uint8_t, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+
+CullOut cull_mesh(const MeshArrays& arrays, const MaskIn& is_removed, unsigned threads) {
+  mesh::Culled culled =
+      watched_quietly(arrays.num_cells(), threads, [&](const Execution& execution) {
+        return mesh::cull(arrays, rows_of<std::uint8_t>(is_removed), execution);
+      });
+  return {std::move(culled.arrays), indices_out(std::move(culled.cells)),
+          indices_out(std::move(culled.edges)), indices_out(std::move(culled.vertices))};
+}
+
+ArrayOut<std::uint8_t> points_inside(const PointsIn& points, const Partition& regions,
+                                     unsigned threads) {
+  return to_array<std::uint8_t>(
+      watched_quietly(points.shape(0), threads, [&](const Execution& execution) {
+        return mesh::inside(points_of(points), regions.rings(), execution);
+      }));
+}
+
+// Rows beside lines for so many cells of these spacings.
+std::tuple<ArrayOut<double>, std::size_t> sites_along(const std::vector<PointsIn>& lines,
+                                                      std::size_t count, const NumbersIn& spacings,
+                                                      std::size_t steps, double gradient,
+                                                      unsigned threads) {
+  std::vector<std::vector<Point>> all;
+  for (const PointsIn& line : lines) {
+    const std::span<const Point> points = points_of(line);
+    all.emplace_back(points.begin(), points.end());
+  }
+  mesh::LineSites rows = watched_quietly(many_sites, threads, [&](const Execution& execution) {
+    return mesh::sites_along(
+        all, size_along(size_of(rows_of<double>(spacings), steps, gradient), count), execution);
+  });
+  return {points_out(std::move(rows.sites)), rows.num_left_out};
+}
+
+// Cells as polygons of the plane: positions, where each polygon begins, and its cell.
+std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mesh_polygons(
+    const MeshArrays& arrays, double tolerance_deg) {
+  LonLatRegions found = watched_quietly(arrays.num_cells(), 0, [&](const Execution& execution) {
+    CellRings rings;
+    rings.points = arrays.vertex_points;
+    for (Point& p : rings.points) {
+      const double length = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+      p = {p.x / length, p.y / length, p.z / length};
+    }
+    rings.corners = arrays.vertices_on_cell;
+    rings.rings = arrays.offsets;
+    rings.cells.resize(arrays.offsets.size());
+    std::iota(rings.cells.begin(), rings.cells.end(), std::uint64_t{0});
+    return region_polygons(rings, tolerance_deg, execution);
+  });
+  return {to_array<double>(std::move(found.positions)), offsets_out(std::move(found.rings)),
+          indices_out(std::move(found.owners))};
+}
+
+std::vector<ArrayOut<double>> lines_of_file(const std::string& path) {
+  std::vector<ArrayOut<double>> lines;
+  for (std::vector<Point>& line : unlocked([&] { return mesh::read_lines({path, {}}); })) {
+    lines.push_back(points_out(std::move(line)));
+  }
+  return lines;
+}
+
+}  // namespace
+
+void add_mesh_parts(nb::module_& module) {
+  module.def("cull_mesh", &cull_mesh, nb::arg("arrays"), nb::arg("is_removed").noconvert(),
+             nb::arg("threads"));
+  module.def("points_inside", &points_inside, nb::arg("points").noconvert(), nb::arg("regions"),
+             nb::arg("threads"));
+  module.def("sites_along", &sites_along, nb::arg("lines"), nb::arg("count"),
+             nb::arg("spacings").noconvert(), nb::arg("steps"), nb::arg("gradient"),
+             nb::arg("threads"));
+  module.def("mesh_polygons", &mesh_polygons, nb::arg("arrays"), nb::arg("tolerance_deg"));
+  module.def("read_lines", &lines_of_file, nb::arg("path"));
+}
+
+}  // namespace rondel::python

@@ -1,0 +1,162 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Parts of meshes: which cells are removed, places that sites keep, and pictures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+
+import numpy as np
+
+from . import _core
+from ._arrays import as_floats, as_name, as_points, as_threads, lonlat
+from ._geometries import Edges, is_file
+from ._lonlat import arcs
+from ._plot import draw_coast_lines, line_options, make_map
+from ._projection import LonLatMap
+from ._regions import as_partition
+from ._types import ArrayLike, FloatArray, IntArray, Path
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Lines: TypeAlias = Path | Sequence[ArrayLike]
+
+
+class Drawn(Protocol):
+    """What a picture is drawn of: a `rondel.mesh.Mesh`."""
+
+    _arrays: _core.MeshArrays
+
+    @property
+    def radius(self) -> float: ...
+    @property
+    def points(self) -> FloatArray: ...
+    @property
+    def vertex_points(self) -> FloatArray: ...
+    @property
+    def vertices_on_edge(self) -> IntArray: ...
+
+
+def removed_cells(
+    points: FloatArray,
+    mask: ArrayLike | None,
+    inside: Any,
+    outside: Any,
+    edges: Edges,
+    threads: int | None,
+) -> np.ndarray[Any, np.dtype[np.uint8]]:
+    """1 for each cell that goes."""
+    if mask is None and inside is None and outside is None:
+        raise TypeError("cull() needs mask, inside or outside")
+    removed = np.zeros(len(points), bool)
+    if mask is not None:
+        given = np.asarray(mask)
+        if given.shape != removed.shape:
+            raise ValueError(f"mask has the shape {given.shape}, not {removed.shape}")
+        if not np.isin(given, (0, 1)).all():
+            raise ValueError("mask has other values than 0 and 1")
+        removed |= given.astype(bool)
+    for regions, value in ((inside, 1), (outside, 0)):
+        if regions is None:
+            continue
+        polygons = as_partition(regions, edges, threads)._partition
+        found = _core.points_inside(points, polygons, as_threads(threads))
+        removed |= found == value
+    return removed.astype(np.uint8)
+
+
+def fixed_points(
+    fixed: ArrayLike | None,
+    along: Lines | None,
+    count: int,
+    spacings: FloatArray,
+    steps: int,
+    gradient: float,
+    threads: int | None,
+) -> tuple[FloatArray, int]:
+    """Places that are sites, and how many beside lines are left out."""
+    places = np.empty((0, 3)) if fixed is None else as_points(fixed, "fixed")
+    if along is None:
+        return places, 0
+    if is_file(along):
+        lines = _core.read_lines(as_name(along))  # type: ignore[arg-type]
+    else:
+        lines = [as_points(line, "a line") for line in along]  # type: ignore[union-attr]
+    rows, left_out = _core.sites_along(lines, count, spacings, steps, gradient, as_threads(threads))
+    return np.ascontiguousarray(np.concatenate([places, rows])), left_out
+
+
+def plot_mesh(
+    self: Drawn,
+    values: ArrayLike | None = None,
+    ax: Any = None,
+    *,
+    projection: Any = None,
+    sites: bool = False,
+    coast: bool = False,
+    cmap: Any = None,
+    vmin: float | None = None,
+    vmax: float | None = None,
+    **options: Any,
+) -> Axes:
+    """Draws the edges as arcs of great circles, and values as colors of cells.
+
+    Parameters
+    ----------
+    values : array_like, shape (n,), optional
+        A number for each cell, shown as its color.
+    ax : matplotlib.axes.Axes, optional
+        By default new axes: of Cartopy where it is installed, otherwise longitude and latitude.
+    projection : cartopy.crs.CRS, optional
+        Of new axes; by default Robinson.
+    sites : bool, optional
+        Whether to draw the sites.
+    coast : bool, optional
+        Whether to draw the coasts of the Earth (Natural Earth, 1:110 million) below the edges.
+    cmap, vmin, vmax
+        Colors of the values, as everywhere in Matplotlib. ``ax.collections[0]`` is what
+        ``colorbar`` takes.
+    **options
+        For the `matplotlib.collections.LineCollection` of the edges.
+
+    Returns
+    -------
+    matplotlib.axes.Axes
+
+    Raises
+    ------
+    ImportError
+        If Matplotlib is not installed.
+
+    """
+    drawn = make_map(ax, projection)
+    if values is not None:
+        colors = as_floats(values, "values")
+        cells = _draw_values(self, drawn, colors, {"cmap": cmap})
+        known = colors[np.isfinite(colors)]
+        if known.size:  # also what the map does not show
+            vmin = known.min() if vmin is None else vmin
+            vmax = known.max() if vmax is None else vmax
+        cells.set_clim(vmin, vmax)
+    if coast:
+        draw_coast_lines(drawn)
+    ends = (self.vertex_points / self.radius)[self.vertices_on_edge]
+    drawn.draw_lines(arcs(ends[:, 0], ends[:, 1]), line_options(options))
+    if sites:
+        drawn.draw_points(lonlat(self.points))
+    return drawn.ax
+
+
+def _draw_values(self: Drawn, drawn: LonLatMap, values: FloatArray, options: dict[str, Any]) -> Any:
+    if values.shape != (len(self.points),):
+        raise ValueError(f"values has the shape {values.shape}, not ({len(self.points)},)")
+    positions, offsets, owners = _core.mesh_polygons(self._arrays, 0.1)
+
+    def owner_at(degrees: Any) -> int:
+        return int(np.argmax(self.points @ _core.unit_vectors(np.array([degrees], float))[0]))
+
+    options = {"edgecolors": "face", "linewidths": 0.2, **options}
+    polygons = np.split(positions, offsets[1:-1])
+    return drawn.draw_polygons(polygons, owners, owner_at, options, values)
