@@ -54,7 +54,9 @@ Weights
     What carries values from sites to targets, as a sparse matrix.
 """
 
-from . import _core, distributed, mesh, out_of_core
+from typing import TYPE_CHECKING, Any
+
+from . import _core, mesh
 from ._arrays import lonlat, point_set_hash, unit_vectors
 from ._contours import Bands, Isolines
 from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
@@ -73,6 +75,9 @@ from ._regridder import Regridder
 from ._remap import Remap, remap
 from ._voronoi import SphericalVoronoi
 from ._weights import Weights, read_weights
+
+if TYPE_CHECKING:
+    from . import distributed, out_of_core
 
 __version__ = _core.version
 
@@ -115,3 +120,12 @@ __all__ = [
     "remap",
     "unit_vectors",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    """The modules that few programs need, when they are asked for."""
+    if name not in ("distributed", "out_of_core"):
+        raise AttributeError(f"module 'rondel' has no attribute {name!r}")
+    import importlib
+
+    return importlib.import_module(f"rondel.{name}")

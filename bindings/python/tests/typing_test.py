@@ -95,8 +95,8 @@ def test_programs_have_the_types_that_are_documented(tmp_path, monkeypatch):
         "rondel.out_of_core.Report",
         "rondel.distributed.DistributedTriangulation",
         *["int"] * 5,
-        "rondel.mesh.Mesh",
-        "rondel.mesh.Mesh",
+        "rondel._voronoi_mesh.Mesh",
+        "rondel._voronoi_mesh.Mesh",
         "int",
     ], out
     errors = [line.rpartition("[")[2] for line in said if "error:" in line]
