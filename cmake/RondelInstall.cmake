@@ -14,7 +14,7 @@ set(RONDEL_HEADERS_LEFT_OUT PATTERN io.h EXCLUDE PATTERN polygons.h EXCLUDE PATT
                             PATTERN partition.h EXCLUDE PATTERN remap.h EXCLUDE PATTERN regions.h EXCLUDE PATTERN polygon_files.h EXCLUDE PATTERN mesh_files.h EXCLUDE PATTERN graphs.h EXCLUDE
                             PATTERN outlines.h EXCLUDE PATTERN feature_cells.h EXCLUDE PATTERN mesh.h EXCLUDE
                             PATTERN mesh_quality.h EXCLUDE PATTERN mesh_io.h EXCLUDE PATTERN mesh_partition.h EXCLUDE PATTERN mesh_size.h EXCLUDE
-                            PATTERN mesh_size_files.h EXCLUDE PATTERN point_sets.h EXCLUDE PATTERN scvt.h EXCLUDE)
+                            PATTERN mesh_cull.h EXCLUDE PATTERN mesh_lines.h EXCLUDE PATTERN mesh_size_files.h EXCLUDE PATTERN point_sets.h EXCLUDE PATTERN scvt.h EXCLUDE)
 if(RONDEL_BUILD_IO)
   list(APPEND RONDEL_TARGETS rondel_io rondel_remap rondel_mesh rondel_distributed rondel_globe)
   list(APPEND RONDEL_PACKAGES rondel-io rondel-remap rondel-mesh rondel-distributed rondel-globe)

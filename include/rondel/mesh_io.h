@@ -35,8 +35,8 @@ struct MeshFileOptions {
 
 /// Writes the mesh, piece by piece: nothing of the file's size is in memory.
 ///
-/// 1. Numbers start at 1 in MPAS, ESMF and Exodus, at 0 in UGRID; at a border none is 0 or -1. Longitudes are from 0 to below 2 pi, or 360
-///    degrees; at the poles 0.
+/// 1. Numbers start at 1 in MPAS, ESMF and Exodus, at 0 in UGRID; at a border none is 0 or -1. Longitudes are from 0 to
+///    below 2 pi, or 360 degrees; at the poles 0.
 /// 2. MPAS: lengths and areas as in the arrays; besides what the specification asks for, meshDensity, nominalMinDc
 ///    (the smallest dcEdge), and the qualities of cells and triangles that MPAS-Tools writes, at a border 0. The file_id
 ///    is a hash of the mesh.
@@ -62,8 +62,8 @@ RONDEL_API void write_graph(const std::string& path, const MeshArrays& arrays,
 ///    is none.
 RONDEL_API MeshArrays read_mpas(const FileName& file, const Execution& execution = {});
 
-/// Reads a mesh of any kind: MPAS as read_mpas(); of the whole sphere UGRID, SCRIP and ESMF by the centers of their cells, of which the mesh is
-/// made again, as arrays() does.
+/// Reads a mesh of any kind: MPAS as read_mpas(); of the whole sphere UGRID, SCRIP and ESMF by the centers of their
+/// cells, of which the mesh is made again, as arrays() does.
 /// \throws FileError also if the file has no centers, or if a corner of one of its cells is farther than a thousandth of the
 /// spacing from all corners of the cell of its center: then its cells are not those of Voronoi.
 RONDEL_API MeshArrays read_mesh(const FileName& file, const MeshOptions& options = {},

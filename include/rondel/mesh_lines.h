@@ -26,8 +26,8 @@ struct LineSites {
 /// apart: with the sites of regular hexagons the edges between the rows go to and fro across the line. Their corners are
 /// 0.144 spacings away from it, a little more where it bends.
 ///
-/// 1. A line is given by points joined by arcs of great circles. If the last is the first, or within 1e-10 of it, it is closed, and the steps are
-///    stretched or shortened to fit.
+/// 1. A line is given by points joined by arcs of great circles. If the last is the first, or within 1e-10 of it, it is
+///    closed, and the steps are stretched or shortened to fit.
 /// 2. What a line does within half a spacing is passed over. Closed lines of less than six steps of half a spacing are left out.
 /// 3. Places nearer than 0.7 spacings to one of a longer line, or of the same line before, are left out, and those that
 ///    another part of a line passes by at less than 0.3: where a line turns sharply, or two are close, edges do not follow it.

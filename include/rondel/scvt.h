@@ -60,8 +60,9 @@ struct ScvtOptions {
   int max_iterations = 1000;  ///< in each level
   ScvtMethod method = ScvtMethod::lbfgs;
   bool repair = true;  ///< move sites where ScvtDefects are left
-  /// Places that always are sites, unit vectors bit by bit, others as such: each takes the site that is nearest when the last level begins, and that none
-  /// has taken before. They never move, and count among the sites; offsets are those of the others.
+  /// Places that always are sites, unit vectors bit by bit, others as such: each takes the site that is nearest when
+  /// the last level begins, and that none has taken before. They never move, and count among the sites; offsets are
+  /// those of the others.
   std::span<const Point> fixed{};
   ScvtSeen seen{};
 };

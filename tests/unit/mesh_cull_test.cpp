@@ -50,77 +50,101 @@ std::vector<std::uint8_t> cap_mask(const MeshArrays& arrays, double cosine) {
 }
 
 // All that stays, and how it is numbered, from lists of cells alone.
-void expect_culled(const MeshArrays& arrays, const std::vector<std::uint8_t>& mask) {
-  const Culled culled = mesh::cull(arrays, mask);
-  const MeshArrays& found = culled.arrays;
-  std::vector<Index> old_cells;
-  std::vector<Index> old_edges;
-  std::vector<Index> old_vertices;
-  const auto stays = [&](const auto& cells) {
-    return std::ranges::any_of(cells, [&](Index c) { return mask[c] == 0; });
-  };
-  for (Index i = 0; i < arrays.num_cells(); ++i) {
-    if (mask[i] == 0) old_cells.push_back(i);
-  }
-  for (Index e = 0; e < arrays.num_edges(); ++e) {
-    if (stays(arrays.cells_on_edge[e])) old_edges.push_back(e);
-  }
-  for (Index v = 0; v < arrays.num_vertices(); ++v) {
-    if (stays(arrays.cells_on_vertex[v])) old_vertices.push_back(v);
-  }
-  ASSERT_EQ(found.num_cells(), old_cells.size());
-  ASSERT_EQ(found.num_edges(), old_edges.size());
-  ASSERT_EQ(found.num_vertices(), old_vertices.size());
-  const auto before = [](const std::vector<Index>& old, Index now) {
-    return now == no_index ? no_index : old[now];
-  };
-  const auto left = [&](Index cell) { return mask[cell] == 0 ? cell : no_index; };
-  for (Index i = 0; i < old_cells.size(); ++i) {
-    const Index old = old_cells[i];
-    EXPECT_EQ(culled.cells[old], i);
-    EXPECT_EQ(found.cell_points[i], arrays.cell_points[old]);
-    EXPECT_EQ(found.cell_areas[i], arrays.cell_areas[old]);
-    ASSERT_EQ(found.offsets[i + 1] - found.offsets[i],
-              arrays.offsets[old + 1] - arrays.offsets[old]);
-    for (std::uint64_t j = 0; j < found.offsets[i + 1] - found.offsets[i]; ++j) {
-      const std::uint64_t at = found.offsets[i] + j;
-      const std::uint64_t old_at = arrays.offsets[old] + j;
-      EXPECT_EQ(before(old_cells, found.cells_on_cell[at]), left(arrays.cells_on_cell[old_at]));
-      EXPECT_EQ(old_edges[found.edges_on_cell[at]], arrays.edges_on_cell[old_at]);
-      EXPECT_EQ(old_vertices[found.vertices_on_cell[at]], arrays.vertices_on_cell[old_at]);
+class CullingOracle {
+ public:
+  CullingOracle(const MeshArrays& arrays, const std::vector<std::uint8_t>& mask)
+      : arrays_(arrays), mask_(mask) {
+    for (Index i = 0; i < arrays.num_cells(); ++i) {
+      if (mask[i] == 0) cells_.push_back(i);
+    }
+    for (Index e = 0; e < arrays.num_edges(); ++e) {
+      if (stays(arrays.cells_on_edge[e])) edges_.push_back(e);
+    }
+    for (Index v = 0; v < arrays.num_vertices(); ++v) {
+      if (stays(arrays.cells_on_vertex[v])) vertices_.push_back(v);
     }
   }
-  for (Index e = 0; e < old_edges.size(); ++e) {
-    const Index old = old_edges[e];
+
+  void expect(const Culled& culled) const {
+    ASSERT_EQ(culled.arrays.num_cells(), cells_.size());
+    ASSERT_EQ(culled.arrays.num_edges(), edges_.size());
+    ASSERT_EQ(culled.arrays.num_vertices(), vertices_.size());
+    for (Index i = 0; i < cells_.size(); ++i) expect_cell(culled, i);
+    for (Index e = 0; e < edges_.size(); ++e) expect_edge(culled, e);
+    for (Index v = 0; v < vertices_.size(); ++v) expect_vertex(culled, v);
+  }
+
+ private:
+  template <class Cells>
+  [[nodiscard]] bool stays(const Cells& cells) const {
+    return std::ranges::any_of(cells, [&](Index c) { return mask_[c] == 0; });
+  }
+  static Index before(const std::vector<Index>& old, Index now) {
+    return now == no_index ? no_index : old[now];
+  }
+  [[nodiscard]] Index left(Index cell) const { return mask_[cell] == 0 ? cell : no_index; }
+
+  void expect_cell(const Culled& culled, Index i) const {
+    const MeshArrays& found = culled.arrays;
+    const Index old = cells_[i];
+    EXPECT_EQ(culled.cells[old], i);
+    EXPECT_EQ(found.cell_points[i], arrays_.cell_points[old]);
+    EXPECT_EQ(found.cell_areas[i], arrays_.cell_areas[old]);
+    const std::uint64_t size = found.offsets[i + 1] - found.offsets[i];
+    ASSERT_EQ(size, arrays_.offsets[old + 1] - arrays_.offsets[old]);
+    for (std::uint64_t j = 0; j < size; ++j) {
+      const std::uint64_t at = found.offsets[i] + j;
+      const std::uint64_t old_at = arrays_.offsets[old] + j;
+      EXPECT_EQ(before(cells_, found.cells_on_cell[at]), left(arrays_.cells_on_cell[old_at]));
+      EXPECT_EQ(edges_[found.edges_on_cell[at]], arrays_.edges_on_cell[old_at]);
+      EXPECT_EQ(vertices_[found.vertices_on_cell[at]], arrays_.vertices_on_cell[old_at]);
+    }
+  }
+
+  void expect_edge(const Culled& culled, Index e) const {
+    const MeshArrays& found = culled.arrays;
+    const Index old = edges_[e];
     EXPECT_EQ(culled.edges[old], e);
-    const bool is_turned = mask[arrays.cells_on_edge[old][0]] != 0;
+    const bool is_turned = mask_[arrays_.cells_on_edge[old][0]] != 0;
     for (std::size_t side = 0; side < 2; ++side) {
       const std::size_t from = is_turned ? 1 - side : side;
-      EXPECT_EQ(before(old_cells, found.cells_on_edge[e][side]),
-                left(arrays.cells_on_edge[old][from]));
-      EXPECT_EQ(old_vertices[found.vertices_on_edge[e][side]], arrays.vertices_on_edge[old][from]);
+      EXPECT_EQ(before(cells_, found.cells_on_edge[e][side]),
+                left(arrays_.cells_on_edge[old][from]));
+      EXPECT_EQ(vertices_[found.vertices_on_edge[e][side]], arrays_.vertices_on_edge[old][from]);
     }
-    EXPECT_EQ(found.vertex_distances[e], arrays.vertex_distances[old]);
-    EXPECT_EQ(found.cell_distances[e], arrays.cell_distances[old]);
-    const double turn = std::abs(found.normal_angles[e] - arrays.normal_angles[old]);
+    EXPECT_EQ(found.vertex_distances[e], arrays_.vertex_distances[old]);
+    EXPECT_EQ(found.cell_distances[e], arrays_.cell_distances[old]);
+    const double turn = std::abs(found.normal_angles[e] - arrays_.normal_angles[old]);
     EXPECT_NEAR(turn, is_turned ? std::numbers::pi : 0, 1e-15);
     EXPECT_LE(std::abs(found.normal_angles[e]), std::numbers::pi);
   }
-  for (Index v = 0; v < old_vertices.size(); ++v) {
-    const Index old = old_vertices[v];
+
+  void expect_vertex(const Culled& culled, Index v) const {
+    const MeshArrays& found = culled.arrays;
+    const Index old = vertices_[v];
     EXPECT_EQ(culled.vertices[old], v);
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
-      const Index cell = arrays.cells_on_vertex[old][k];
-      EXPECT_EQ(before(old_cells, found.cells_on_vertex[v][k]), left(cell));
-      EXPECT_EQ(found.kite_areas[v][k], mask[cell] == 0 ? arrays.kite_areas[old][k] : 0);
+      const Index cell = arrays_.cells_on_vertex[old][k];
+      EXPECT_EQ(before(cells_, found.cells_on_vertex[v][k]), left(cell));
+      EXPECT_EQ(found.kite_areas[v][k], mask_[cell] == 0 ? arrays_.kite_areas[old][k] : 0);
       sum += found.kite_areas[v][k];
-      const Index edge = arrays.edges_on_vertex[old][k];
-      EXPECT_EQ(before(old_edges, found.edges_on_vertex[v][k]),
-                stays(arrays.cells_on_edge[edge]) ? edge : no_index);
+      const Index edge = arrays_.edges_on_vertex[old][k];
+      EXPECT_EQ(before(edges_, found.edges_on_vertex[v][k]),
+                stays(arrays_.cells_on_edge[edge]) ? edge : no_index);
     }
     EXPECT_EQ(found.triangle_areas[v], sum);
   }
+
+  const MeshArrays& arrays_;
+  const std::vector<std::uint8_t>& mask_;
+  std::vector<Index> cells_;
+  std::vector<Index> edges_;
+  std::vector<Index> vertices_;
+};
+
+void expect_culled(const MeshArrays& arrays, const std::vector<std::uint8_t>& mask) {
+  CullingOracle(arrays, mask).expect(mesh::cull(arrays, mask));
 }
 
 TEST(mesh_cull, keeps_what_touches_a_kept_cell) {
