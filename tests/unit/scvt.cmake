@@ -5,5 +5,6 @@ rondel_add_test(scvt_test
   mesh_size_test.cpp
   point_sets_test.cpp
   scvt_energy_test.cpp
+  scvt_steps_test.cpp
   scvt_test.cpp
   LIBS rondel_mesh)
