@@ -67,6 +67,7 @@ class RONDEL_API SizeFunction {
 
  private:
   struct Raster;
+  friend class DensityNodes;
   explicit SizeFunction(std::shared_ptr<const Raster> raster) : raster_(std::move(raster)) {}
   static SizeFunction of(std::vector<double> spacings, std::size_t steps);
   [[nodiscard]] double relative(const Point& place) const;  // smallest / spacing

@@ -42,7 +42,7 @@ enum class ScvtEnd : std::uint8_t {
 RONDEL_API std::string_view name_of(ScvtEnd end) noexcept;
 
 enum class ScvtMethod : std::uint8_t {
-  lbfgs,  ///< Yang, Gunzburger and Ju, J. Comput. Phys. 367, 2018
+  lbfgs,  ///< Yang, Gunzburger and Ju, J. Comput. Phys. 367, 2018, begun with springs along the edges
   lloyd,  ///< every site to its centroid, to compare
 };
 
@@ -76,7 +76,8 @@ struct ScvtDefects {
 };
 
 /// Where rows of cells end, sites are moved off their centroids by as little as mends these defects: hundredths
-/// of the spacing, never more than 0.15 of the length of an edge. What is left is told.
+/// of the spacing, never more than 0.15 of the length of an edge, or, where that leaves something, 0.45. What is left is
+/// told.
 struct ScvtRepair {
   ScvtDefects before{};
   ScvtDefects after{};

@@ -9,6 +9,7 @@
 
 #include "exact/argument.h"
 #include "exact/eft.h"
+#include "meshing/density_nodes.h"
 #include "system/parallel.h"
 
 namespace rondel::mesh {
@@ -20,13 +21,6 @@ constexpr std::size_t cells_at_a_time = 1024;
 
 // 8 pi to twice double precision.
 constexpr DoubleDouble eight_pi = {8 * std::numbers::pi, 8 * 0x1.1a62633145c07p-53};
-
-struct CellSums {
-  Vector moment;  // the integral of rho x
-  double mass;    // of rho
-  double area;    // of 1
-  double energy;  // of rho |x - z|^2; of constant density: z.M
-};
 
 // t / sin(t) for the arc of this sine and cosine, 0 <= t < pi.
 double arc_over_sine(double square, double cosine) {
@@ -42,8 +36,7 @@ double arc_over_sine(double square, double cosine) {
 
 // M = 1/2 sum (t / sin t) n x n'. In n x n' = (n' + n)/2 x (n' - n) the difference has few rounding
 // errors.
-CellSums sums_of_uniform_cell(const MovingSurface& surface, const Vector& z,
-                              std::span<const Index> ring) {
+CellSums uniform_cell(const MovingSurface& surface, const Vector& z, std::span<const Index> ring) {
   const auto centers = surface.centers();
   Vector moment{0, 0, 0};
   Vector last = exact::to_vector(centers[ring.back()]);
@@ -57,49 +50,47 @@ CellSums sums_of_uniform_cell(const MovingSurface& surface, const Vector& z,
   return {moment, mass, mass, mass};
 }
 
-// The rule of degree 4 with 6 nodes (Dunavant 1985): weights of sum 1, nodes (a, a, 1 - 2a) in any order.
-struct Orbit {
-  double weight;
-  double a;
-};
-constexpr std::array<Orbit, 2> degree_4 = {
-    {{0.223381589678011, 0.445948490915965}, {0.109951743655322, 0.091576213509771}}};
-
-// 1 / sqrt(1 + e). Of the series the first omitted term is below 2^-9^6 / 4.
-double inverse_root(double square) {
-  const double e = square - 1;
-  if (std::abs(e) > 0x1p-9) return 1 / std::sqrt(square);
-  return 1 - e * (0.5 - e * (0.375 - e * (0.3125 - e * (0.2734375 - e * 0.24609375))));
+void add_uniform_cells(const MovingSurface& surface, std::span<const Point> sites,
+                       std::size_t begin, std::span<CellSums> cells) {
+  std::vector<Index> ring;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    surface.faces_around(static_cast<Index>(begin + i), ring);
+    cells[i] = uniform_cell(surface, exact::to_vector(sites[begin + i]), ring);
+  }
 }
 
-CellSums sums_of_cell(const MovingSurface& surface, const Vector& z, std::span<const Index> ring,
-                      const SizeFunction& size) {
-  const auto centers = surface.centers();
-  CellSums sums{{0, 0, 0}, 0, 0, 0};
-  Vector last = exact::to_vector(centers[ring.back()]) - z;
-  for (const Index f : ring) {
-    const Vector d = exact::to_vector(centers[f]) - z;
-    const double solid = 0.5 * det(z, last, d);
-    for (const Orbit& orbit : degree_4) {
-      const double b = 1 - 2 * orbit.a;
-      const std::array<Vector, 3> offsets = {orbit.a * (last + d), b * last + orbit.a * d,
-                                             orbit.a * last + b * d};
-      for (const Vector& offset : offsets) {
-        const Vector p = z + offset;
-        const double square = dot(p, p);
-        const double inverse = inverse_root(square);
-        const double area = orbit.weight * solid * (inverse * inverse * inverse);
-        const double mass = area * size.density(exact::to_point(p));
-        const Vector to_node = inverse * p - z;
-        sums.moment = sums.moment + mass * to_node;
-        sums.energy += mass * dot(to_node, to_node);
-        sums.mass += mass;
-        sums.area += area;
-      }
+// Of the cells [begin, begin + cells.size()), with a density: their triangles in one row, some at a time.
+void add_cells(const MovingSurface& surface, std::span<const Point> sites, std::size_t begin,
+               const SizeFunction& size, std::span<CellSums> cells) {
+  DensityNodes nodes(size);
+  std::array<std::size_t, DensityNodes::lanes> owners;
+  std::size_t num_lanes = 0;
+  const auto add_lanes = [&] {
+    nodes.integrate();
+    for (std::size_t k = 0; k < num_lanes; ++k) {
+      CellSums& cell = cells[owners[k]];
+      const CellSums part = nodes[k];
+      cell.moment = cell.moment + part.moment;
+      cell.mass += part.mass;
+      cell.area += part.area;
+      cell.energy += part.energy;
     }
-    last = d;
+    num_lanes = 0;
+  };
+  std::vector<Index> ring;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    surface.faces_around(static_cast<Index>(begin + i), ring);
+    const Vector z = exact::to_vector(sites[begin + i]);
+    Vector last = exact::to_vector(surface.centers()[ring.back()]) - z;
+    for (const Index f : ring) {
+      const Vector d = exact::to_vector(surface.centers()[f]) - z;
+      nodes.set(num_lanes, z, last, d);
+      owners[num_lanes] = i;
+      if (++num_lanes == DensityNodes::lanes) add_lanes();
+      last = d;
+    }
   }
-  return sums;
+  add_lanes();
 }
 
 struct PieceSums {
@@ -126,12 +117,14 @@ EnergyReport CentroidalEnergy::operator()(const MovingSurface& surface,
   system::parallel_for(
       threads_, sites.size(), cells_at_a_time, [&](std::size_t begin, std::size_t end) {
         PieceSums piece;
-        std::vector<Index> ring;
+        std::vector<CellSums> cells(end - begin, CellSums{});
+        if (size_ == nullptr) {
+          add_uniform_cells(surface, sites, begin, cells);
+        } else {
+          add_cells(surface, sites, begin, *size_, cells);
+        }
         for (std::size_t i = begin; i < end; ++i) {
-          surface.faces_around(static_cast<Index>(i), ring);
-          const Vector z = exact::to_vector(sites[i]);
-          const CellSums cell = size_ == nullptr ? sums_of_uniform_cell(surface, z, ring)
-                                                 : sums_of_cell(surface, z, ring, *size_);
+          const CellSums& cell = cells[i - begin];
           const TangentFrame frame = frame_at(sites[i], axes[i]);
           const TangentVector pull = {dot(cell.moment, frame.u), dot(cell.moment, frame.v)};
 

@@ -9,9 +9,8 @@
 // cell: the tessellation is centroidal.
 //
 // Constant density: |x - z|^2 = 2 - 2 x.z, so F = 8 pi - 2 sum z.M, and M is a sum over the cell's arcs
-// (src/dual/centroids.cpp). Otherwise both are sums over the same nodes: those of a rule of degree 4 on
-// the triangles from the site to the arcs. Where x = p / |p| for a point p of the plane triangle,
-// the solid angle is det(z, n, n') / |p|^3 times that of the triangle's own coordinates.
+// (src/dual/centroids.cpp). Otherwise both are sums over the same nodes in the triangles from the site
+// to the arcs (density_nodes.h).
 //
 // Unknowns are two coordinates a site in its tangent plane, in a frame that turns with the site.
 #pragma once

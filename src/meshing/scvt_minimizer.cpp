@@ -33,7 +33,8 @@ Minimizer::Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, u
       tried_sites_(sites_.size()),
       tried_sums_(sites_.size()),
       direction_(sites_.size()),
-      surface_(threads) {
+      surface_(threads),
+      springs_(threads) {
   std::ranges::transform(sites_, axes_.begin(), far_axis);
   if (!surface_.follow(sites_)) {
     throw InvalidInput("the sites have duplicates, or do not surround the center of the sphere", 0);
@@ -45,21 +46,26 @@ Minimizer::Pair& Minimizer::pair(std::size_t age) {
   return pairs_[(newest_ + memory - age) % memory];
 }
 
-// direction = factor * direction / (2 mass): with the gradient a step to the centroids.
-void Minimizer::scale_by_mass(double factor) {
+template <class Change>
+void Minimizer::for_all(const Change& change) {
   system::parallel_for(threads_, sites_.size(), terms_at_a_time,
                        [&](std::size_t begin, std::size_t end) {
-                         for (std::size_t i = begin; i < end; ++i) {
-                           const double scale = factor / (2 * sums_[i].mass);
-                           direction_[i] = {scale * direction_[i].u, scale * direction_[i].v};
-                         }
+                         for (std::size_t i = begin; i < end; ++i) change(i);
                        });
+}
+
+// Of the gradient a step to the centroids.
+void Minimizer::scale_by_mass() {
+  for_all([&](std::size_t i) {
+    const double scale = 1 / (2 * sums_[i].mass);
+    direction_[i] = {scale * direction_[i].u, scale * direction_[i].v};
+  });
 }
 
 // The two loops of L-BFGS (Nocedal and Wright, algorithm 7.4).
 void Minimizer::direct(bool lloyd) {
   const std::size_t n = sites_.size();
-  for (std::size_t i = 0; i < n; ++i) direction_[i] = {-sums_[i].gradient.u, -sums_[i].gradient.v};
+  for_all([&](std::size_t i) { direction_[i] = {-sums_[i].gradient.u, -sums_[i].gradient.v}; });
   if (lloyd) num_pairs_ = 0;
   const auto dot_with_direction = [&](const std::vector<TangentVector>& a) {
     return sum_in_order(threads_, n, [&](std::size_t begin, std::size_t end) {
@@ -69,11 +75,9 @@ void Minimizer::direct(bool lloyd) {
     });
   };
   const auto add = [&](double factor, const std::vector<TangentVector>& a) {
-    system::parallel_for(threads_, n, terms_at_a_time, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) {
-        direction_[i].u += factor * a[i].u;
-        direction_[i].v += factor * a[i].v;
-      }
+    for_all([&](std::size_t i) {
+      direction_[i].u += factor * a[i].u;
+      direction_[i].v += factor * a[i].v;
     });
   };
   std::array<double, memory> alpha{};
@@ -82,7 +86,15 @@ void Minimizer::direct(bool lloyd) {
     alpha[age] = dot_with_direction(p.step) / p.curvature;
     add(-alpha[age], p.change);
   }
-  scale_by_mass(1);
+  if (lloyd) {
+    scale_by_mass();
+  } else {
+    springs_.measure(surface_, sites_, sums_);
+    springs_.yield(sites_, axes_, direction_);
+    for_all([&](std::size_t i) {
+      if (is_fixed(i)) direction_[i] = {0, 0};
+    });
+  }
   for (std::size_t age = num_pairs_; age-- > 0;) {
     const Pair& p = pair(age);
     const double beta = dot_with_direction(p.change) / p.curvature;
@@ -105,11 +117,11 @@ void Minimizer::remember(double length) {
   Pair& p = pairs_[place];
   p.step.resize(sites_.size());
   p.change.resize(sites_.size());
-  for (std::size_t i = 0; i < sites_.size(); ++i) {
+  for_all([&](std::size_t i) {
     p.step[i] = {length * direction_[i].u, length * direction_[i].v};
     p.change[i] = {tried_sums_[i].gradient.u - sums_[i].gradient.u,
                    tried_sums_[i].gradient.v - sums_[i].gradient.v};
-  }
+  });
   p.curvature = sum_in_order(threads_, sites_.size(), [&](std::size_t begin, std::size_t end) {
     double sum = 0;
     for (std::size_t i = begin; i < end; ++i) sum += dot(p.step[i], p.change[i]);
@@ -122,12 +134,17 @@ void Minimizer::remember(double length) {
 
 // The longest step of a site over the spacing of its cell.
 double Minimizer::most_relative_step() const {
-  double most = 0;
-  for (std::size_t i = 0; i < sites_.size(); ++i) {
-    most =
-        std::max(most, dot(direction_[i], direction_[i]) / (sums_[i].spacing * sums_[i].spacing));
-  }
-  return std::sqrt(most);
+  std::vector<double> most(system::num_pieces(sites_.size(), terms_at_a_time));
+  system::parallel_for(
+      threads_, sites_.size(), terms_at_a_time, [&](std::size_t begin, std::size_t end) {
+        double of_piece = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+          const double square = dot(direction_[i], direction_[i]);
+          of_piece = std::max(of_piece, square / (sums_[i].spacing * sums_[i].spacing));
+        }
+        most[begin / terms_at_a_time] = of_piece;
+      });
+  return std::sqrt(*std::ranges::max_element(most));
 }
 
 // Tries lengths along the direction until the energy falls enough, and moves there.
@@ -136,15 +153,11 @@ bool Minimizer::search() {
   if (!(along < 0)) return false;
   double length = std::min(1.0, longest_move / most_relative_step());
   for (int trial = 0; trial < most_trials; ++trial) {
-    system::parallel_for(
-        threads_, sites_.size(), terms_at_a_time, [&](std::size_t begin, std::size_t end) {
-          for (std::size_t i = begin; i < end; ++i) {
-            tried_sites_[i] = !is_fixed_.empty() && is_fixed_[i] != 0
-                                  ? sites_[i]
-                                  : moved(sites_[i], axes_[i],
-                                          {length * direction_[i].u, length * direction_[i].v});
-          }
-        });
+    for_all([&](std::size_t i) {
+      tried_sites_[i] = is_fixed(i) ? sites_[i]
+                                    : moved(sites_[i], axes_[i],
+                                            {length * direction_[i].u, length * direction_[i].v});
+    });
     double shorter = 0.5;
     if (surface_.follow(tried_sites_)) {
       tried_report_ = energy_(surface_, tried_sites_, axes_, tried_sums_, is_fixed_);

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Minimizes the energy of a tessellation: L-BFGS whose first guess of the inverse Hessian is the step of
-// Lloyd's method, to the centroids (Yang, Gunzburger and Ju, J. Comput. Phys. 367, 2018), in the
-// coordinates of the tangent planes.
+// Minimizes the energy of a tessellation: L-BFGS in the coordinates of the tangent planes, whose first guess of
+// the inverse Hessian is that of springs along the edges (edge_springs.h). Lloyd's step, to the centroids, in this place
+// (Yang, Gunzburger and Ju, J. Comput. Phys. 367, 2018) takes three times as many steps from random sites.
 #pragma once
 
 #include <cstddef>
@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "meshing/edge_springs.h"
 #include "meshing/scvt_energy.h"
 #include "meshing/scvt_surface.h"
 #include "meshing/tangent.h"
@@ -54,7 +55,12 @@ class Minimizer {
   };
 
   void direct(bool lloyd);
-  void scale_by_mass(double factor);
+  template <class Change>
+  void for_all(const Change& change);  // change(i) for every site
+  [[nodiscard]] bool is_fixed(std::size_t site) const {
+    return !is_fixed_.empty() && is_fixed_[site] != 0;
+  }
+  void scale_by_mass();
   [[nodiscard]] double slope() const;
   [[nodiscard]] double most_relative_step() const;
   bool search();
@@ -77,6 +83,7 @@ class Minimizer {
   std::size_t num_pairs_ = 0;  // that are remembered
   std::size_t newest_ = 0;
   MovingSurface surface_;
+  EdgeSprings springs_;
   int iterations_ = 0;
 };
 

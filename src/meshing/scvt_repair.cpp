@@ -23,8 +23,8 @@ constexpr double limit_of_edges = 0.0505;  // dual edge / edge; 1 % for the curv
 constexpr double aim_of_edges = 0.055;
 constexpr double limit_of_corners = 0.0005;  // cotangents
 constexpr double aim_of_corners = 0.005;
-constexpr double farthest_from_start = 0.15;  // of a site, over the length of an edge
-constexpr int most_rounds = 60;
+// How far a site may go from where it was, over the length of an edge: farther where something is left.
+constexpr std::array<double, 3> reaches = {0.15, 0.3, 0.45};
 constexpr int rounds_without_success = 12;
 constexpr int passes_of_a_round = 8;
 
@@ -62,27 +62,37 @@ class Repair {
     ScvtRepair done;
     if (!surface_.follow(sites_)) return done;
     done.before = done.after = find();
-    std::vector<Point> best = sites_;
-    int last_success = 0;
-    for (int round = 1;
-         round <= most_rounds && round <= last_success + rounds_without_success && !bounds_.empty();
-         ++round) {
-      for (int pass = 0; pass < passes_of_a_round; ++pass) {
-        for (const Bound& bound : bounds_) meet(bound);
-      }
+    for (const double reach : reaches) {
+      if (bounds_.empty()) break;
+      improve(reach, done);
       if (!surface_.follow(sites_)) break;
-      const ScvtDefects found = find();
-      if (!is_better(found, done)) continue;
-      done.after = found;
-      done.rounds = last_success = round;
-      best = sites_;
+      done.after = find();
     }
-    sites_ = std::move(best);
     for (std::size_t i = 0; i < sites_.size(); ++i) done.moved += sites_[i] == start_[i] ? 0U : 1U;
     return done;
   }
 
  private:
+  // Rounds until nothing is left or they no longer help; the best sites are kept.
+  void improve(double reach, ScvtRepair& done) {
+    std::vector<Point> best = sites_;
+    for (int last = 0, round = 1; round <= last + rounds_without_success && !bounds_.empty();
+         ++round) {
+      for (int pass = 0; pass < passes_of_a_round; ++pass) {
+        for (const Bound& bound : bounds_) meet(bound, reach);
+      }
+      if (!surface_.follow(sites_)) break;
+      ++rounds_;
+      const ScvtDefects found = find();
+      if (!is_better(found, done)) continue;
+      done.after = found;
+      done.rounds = rounds_;
+      last = round;
+      best = sites_;
+    }
+    sites_ = std::move(best);
+  }
+
   struct FacesLookedAt {
     std::vector<Bound> bounds;
     std::size_t short_edges = 0;
@@ -151,16 +161,19 @@ class Repair {
     surface_.faces_around(site, ring_);
     double least = std::numeric_limits<double>::infinity();
     Bound best{};
+    const bool has_few = degrees_[site] < 6;
     for (const Index f : ring_) {
       const Index at = surface_.corner_of(f, site);
-      const Index corner = degrees_[site] < 6 ? at : next_of(at);
+      const Index corner = has_few ? at : next_of(at);
       const Triple& face = surface_.faces()[f];
       const Index a = face[next_of(corner)];
       const Index b = face[previous_of(corner)];
       const Index c = face[corner];
       const Index d = beyond(f, corner);
       const double ratio = ratio_of_edge(a, b, c, d);
-      if (ratio >= least || growth(a, b, c, d) >= 0) continue;
+      const bool makes_odd =
+          degrees_[a] == 5 || degrees_[d] == 7 || (has_few ? degrees_[b] == 5 : degrees_[c] == 7);
+      if (ratio >= least || growth(a, b, c, d) > (makes_odd ? -1 : 0)) continue;
       least = ratio;
       best = {c, d, {a, b}, 2 * aim_of_edges};
     }
@@ -203,7 +216,7 @@ class Repair {
   }
 
   // Moves the sites of a bound that is missed to where it is met.
-  void meet(const Bound& bound) {
+  void meet(const Bound& bound, double reach) {
     const Vector a = exact::to_vector(sites_[bound.a]);
     const Vector b = exact::to_vector(sites_[bound.b]);
     std::array<Index, 4> moved = {bound.a, bound.b, bound.corners[0], bound.corners[1]};
@@ -227,7 +240,7 @@ class Repair {
       square += dot(gradients[k], gradients[k]);
     }
     if (!(square > 0)) return;
-    const double farthest = farthest_from_start * farthest_from_start * dot(b - a, b - a);
+    const double farthest = reach * reach * dot(b - a, b - a);
     std::array<Point, 4> places{};
     for (std::size_t k = 0; k < num_moved; ++k) {
       places[k] = sites_[moved[k]];
@@ -243,6 +256,7 @@ class Repair {
   std::vector<Point>& sites_;
   const std::vector<Point> start_;
   std::span<const std::uint8_t> is_fixed_;
+  int rounds_ = 0;
   unsigned threads_;
   MovingSurface surface_;
   std::vector<int> degrees_;

@@ -20,13 +20,6 @@
 
 namespace rondel::mesh {
 
-struct SizeFunction::Raster {
-  CubeRaster cube;
-  std::vector<float> relative;  // smallest / spacing, at each node
-  double smallest;
-  double largest;
-};
-
 namespace {
 
 bool is_spacing(double value) { return value > 0 && value < std::numbers::pi; }

@@ -10,8 +10,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "exact/vector.h"
+#include "rondel/mesh_size.h"
 #include "rondel/types.h"
 
 namespace rondel::mesh {
@@ -87,6 +89,13 @@ struct CubeRaster {
     const auto i = static_cast<std::size_t>(x > 0 ? x : 0);
     return i < steps ? i : steps - 1;
   }
+};
+
+struct SizeFunction::Raster {
+  CubeRaster cube;
+  std::vector<float> relative;  // smallest / spacing, at each node
+  double smallest;
+  double largest;
 };
 
 }  // namespace rondel::mesh

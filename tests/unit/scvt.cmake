@@ -7,5 +7,6 @@ rondel_add_test(scvt_test
   scvt_energy_test.cpp
   scvt_fixed_test.cpp
   scvt_repair_test.cpp
+  scvt_steps_test.cpp
   scvt_test.cpp
   LIBS rondel_mesh rondel_test_support)

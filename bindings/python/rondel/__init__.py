@@ -121,11 +121,12 @@ __all__ = [
     "unit_vectors",
 ]
 
+if not TYPE_CHECKING:
 
-def __getattr__(name: str) -> Any:
-    """The modules that few programs need, when they are asked for."""
-    if name not in ("distributed", "out_of_core"):
-        raise AttributeError(f"module 'rondel' has no attribute {name!r}")
-    import importlib
+    def __getattr__(name: str) -> Any:
+        """The modules that few programs need, when they are asked for."""
+        if name not in ("distributed", "out_of_core"):
+            raise AttributeError(f"module 'rondel' has no attribute {name!r}")
+        import importlib
 
-    return importlib.import_module(f"rondel.{name}")
+        return importlib.import_module(f"rondel.{name}")

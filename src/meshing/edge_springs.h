@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A model of the energy's second derivative that is never negative. The derivative itself is, with the wall between
+// the cells of i and j and its points x,
+//
+//     H_ii = 2 mass_i - sum over j of W_ij,   H_ij = W_ij,
+//     W_ij = 2 density / |z_i - z_j| times the integral of x x' over the wall,
+//
+// and negative in some directions wherever edges are about to flip: a step that is solved with it goes far astray
+// there. Across the wall x is half an edge, along it x is little. Without what is along, each edge is a spring,
+//
+//     x.S x = sum over edges of k (e.(x_i - x_j))^2,   k = density |wall| |z_i - z_j| / 2,   e = its direction.
+//
+// In the lattice of hexagons S is 1.04 and 1.5 times H for long waves, along and across them. As (e.(x_i - x_j))^2
+// is at most 2 (x_i^2 + x_j^2), 0 <= S <= D with D = 2 sum k at each site, four times the mass of its cell. So a Chebyshev
+// polynomial in S / D stands in for the inverse of S: positive, without sums over all sites, and between Lloyd's step and
+// Newton's.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "meshing/scvt_energy.h"
+#include "meshing/scvt_surface.h"
+#include "meshing/tangent.h"
+
+namespace rondel::mesh {
+
+class EdgeSprings {
+ public:
+  explicit EdgeSprings(unsigned threads) : threads_(threads) {}
+
+  void measure(const MovingSurface& surface, std::span<const Point> sites,
+               std::span<const SiteSums> sums);
+
+  // Forces become displacements, about S^-1 of them.
+  void yield(std::span<const Point> sites, std::span<const std::uint8_t> axes,
+             std::span<TangentVector> forces);
+
+ private:
+  struct Spring {
+    Index neighbor;
+    float x, y, z;  // sqrt(k) e
+  };
+
+  void relax(double keep, double gain);
+
+  unsigned threads_;
+  std::vector<std::uint64_t> offsets_;  // of the springs of each site
+  std::vector<Spring> springs_;
+  std::vector<double> softness_;  // 1 / D
+  std::vector<Vector> forces_;
+  std::vector<Vector> steps_;
+  std::vector<Vector> displacements_;
+  std::vector<Vector> next_;
+};
+
+}  // namespace rondel::mesh
