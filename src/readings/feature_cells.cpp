@@ -120,8 +120,10 @@ CellRings cells_within(const FeatureLines& lines, const CellRings& polygons, dou
   CellRings joined = dissolve(pieces.rings, groups, n, execution);
   require_cover(joined);
   if (regions == nullptr) return joined;
-  return dissolve(clip(Partition(pieces.rings, execution), *regions, execution), groups, n,
-                  execution);
+  // Cells have been cut before, so that nothing is told of it: fractions must not decrease.
+  const CellRings parts = clip(Partition(pieces.rings, execution), *regions,
+                               {.threads = execution.threads, .stop = execution.stop});
+  return dissolve(parts, groups, n, execution);
 }
 
 }  // namespace
