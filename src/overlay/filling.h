@@ -24,20 +24,21 @@ struct Filling {
 // of it exactly. Throws InvalidInput where cells overlap.
 Filling filling_of(const Subdivision& cells, const Execution& execution);
 
-// work(is_first_filled) for the one with fewer sides, or else, if that one's cells overlap, for the other one. `what`
-// they are is for the message where both do.
+// work(is_first_filled, execution) for the one with fewer sides, or else, if that one's cells overlap, for the other one,
+// of which nothing is told, as fractions must not decrease. `what` they are is for the message where both do.
 template <class Work>
 auto with_one_filled(const Subdivision& first, const Subdivision& second,
-                     const std::array<const char*, 2>& what, const Work& work) {
+                     const std::array<const char*, 2>& what, const Execution& execution,
+                     const Work& work) {
   const bool is_first = first.num_halfedges() <= second.num_halfedges();
   std::array<std::string, 2> errors;
   try {
-    return work(is_first);
+    return work(is_first, execution);
   } catch (const InvalidInput& error) {
     errors[is_first ? 0 : 1] = error.what();
   }
   try {
-    return work(!is_first);
+    return work(!is_first, Execution{.threads = execution.threads, .stop = execution.stop});
   } catch (const InvalidInput& error) {
     errors[is_first ? 1 : 0] = error.what();
     throw InvalidInput(std::string("of the ") + what[0] + ' ' + errors[0] + ", of the " + what[1] +

@@ -137,13 +137,14 @@ void exchange(std::vector<NamedArc>& arcs) {
 // Of cells and regions of which neither covers the sphere. `beyond` are the regions.
 std::vector<NamedArc> overlay_of_parts(const Subdivision& cells, const Subdivision& regions,
                                        const Execution& execution) {
-  return overlay::with_one_filled(
-      cells, regions, {"first partition's", "regions'"}, [&](bool are_cells_filled) {
-        if (!are_cells_filled) return arcs_of_parts(cells, regions, execution);
-        std::vector<NamedArc> arcs = arcs_of_parts(regions, cells, execution);
-        exchange(arcs);
-        return arcs;
-      });
+  const auto with = [&](bool are_cells_filled, const Execution& told) {
+    if (!are_cells_filled) return arcs_of_parts(cells, regions, told);
+    std::vector<NamedArc> arcs = arcs_of_parts(regions, cells, told);
+    exchange(arcs);
+    return arcs;
+  };
+  return overlay::with_one_filled(cells, regions, {"first partition's", "regions'"}, execution,
+                                  with);
 }
 
 // `beyond` are the regions.

@@ -46,12 +46,11 @@ PieceRows overlay_of_parts(const PartitionData& source, const PartitionData& tar
                            bool has_moments, const Execution& execution) {
   const overlay::Subdivision& sources = source.subdivision();
   const overlay::Subdivision& targets = target.subdivision();
-  const auto with = [&](bool is_source_filled) {
-    if (is_source_filled) return pieces_of_parts(targets, sources, has_moments, execution);
-    return transposed(pieces_of_parts(sources, targets, has_moments, execution),
-                      target.areas().size());
+  const auto with = [&](bool is_source_filled, const Execution& told) {
+    if (is_source_filled) return pieces_of_parts(targets, sources, has_moments, told);
+    return transposed(pieces_of_parts(sources, targets, has_moments, told), target.areas().size());
   };
-  return overlay::with_one_filled(sources, targets, {"source", "target"}, with);
+  return overlay::with_one_filled(sources, targets, {"source", "target"}, execution, with);
 }
 
 // Rows are targets.

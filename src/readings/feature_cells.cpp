@@ -125,6 +125,12 @@ OwnedCells owned_cells(const FeatureLines& lines, const CellRings& polygons, dou
   return {Partition(pieces.rings, execution), std::move(owners), std::move(joined)};
 }
 
+// What cuts the cells once more tells nothing of it: fractions must not decrease.
+Execution quiet_after(const OwnedCells& owned, const Execution& execution) {
+  if (!owned.joined) return execution;
+  return {.threads = execution.threads, .stop = execution.stop};
+}
+
 }  // namespace
 
 CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
@@ -140,15 +146,16 @@ CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& poly
                                 const Execution& execution) {
   const system::Call call(execution);
   const OwnedCells owned = owned_cells(lines, polygons, tolerance, execution);
-  return dissolve(clip(owned.cells, regions, execution), owned.owners, lines.num_features(),
-                  execution);
+  return dissolve(clip(owned.cells, regions, quiet_after(owned, execution)), owned.owners,
+                  lines.num_features(), execution);
 }
 
 RegionPieces feature_pieces(const FeatureLines& lines, const CellRings& polygons, double tolerance,
                             const Partition& regions, const Execution& execution) {
   const system::Call call(execution);
   const OwnedCells owned = owned_cells(lines, polygons, tolerance, execution);
-  return dissolve(intersection(owned.cells, regions, execution), owned.owners, {}, execution);
+  return dissolve(intersection(owned.cells, regions, quiet_after(owned, execution)), owned.owners,
+                  {}, execution);
 }
 
 }  // namespace rondel

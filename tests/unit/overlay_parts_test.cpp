@@ -6,11 +6,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -95,6 +97,35 @@ TEST(overlay_parts, pieces_are_those_of_clipping) {
                                 : 0;
       EXPECT_NEAR(piece_of(there, i, j), expected, 1e-15) << i << ' ' << j;
       EXPECT_NEAR(piece_of(back, j, i), expected, 1e-15) << i << ' ' << j;
+    }
+  }
+}
+
+LongRing long_ring(const RingOfPart& ring) {
+  LongRing result;
+  for (const LonLat& corner : ring.corners) result.push_back(long_vector(unit_vector(corner)));
+  return result;
+}
+
+// What is filled up has corners on one hemisphere alone, what is laid over it goes around the other one.
+TEST(overlay_parts, of_one_hemisphere) {
+  const RingOfPart patch = rectangle(0, 10, 40, 50);
+  const std::vector<RingOfPart> around = {rectangle(10, -60, 100, 30), rectangle(-100, -70, 5, 40),
+                                          rectangle(170, -80, 260, -5), rectangle(30, 40, 50, 80)};
+  const Partition source(cells_of_rings({{patch}}));
+  std::vector<std::vector<RingOfPart>> cells;
+  for (const RingOfPart& ring : around) cells.push_back({ring});
+  const Partition target(cells_of_rings(cells));
+  for (const bool is_back : {false, true}) {
+    const Remap result = is_back ? remap(target, source) : remap(source, target);
+    for (std::size_t j = 0; j < around.size(); ++j) {
+      LongRing piece = long_ring(patch);
+      const LongRing other = long_ring(around[j]);
+      for (std::size_t k = 0; k < 4 && piece.size() > 2; ++k) {
+        piece = clipped(piece, other[k], other[(k + 1) % 4]);
+      }
+      const double found = is_back ? piece_of(result, j, 0) : piece_of(result, 0, j);
+      EXPECT_NEAR(found, static_cast<double>(area_of(piece)), 1e-15) << j;
     }
   }
 }
@@ -320,6 +351,27 @@ TEST(overlay_parts, sides_that_bound_nothing) {
       EXPECT_NEAR(result.areas[k], expected.areas[k], 1e-15) << k;
     }
   }
+}
+
+TEST(overlay_parts, filling_tells_how_far_it_is_and_stops) {
+  const auto part = [](std::uint64_t seed) {
+    return Partition(some_of(Partition::voronoi(triangulation_of("uniform", 900, seed)).rings(),
+                             [](std::size_t i) { return i % 4 != 0; }));
+  };
+  const Partition source = part(6);
+  const Partition target = part(7);
+  std::vector<double> fractions;
+  const auto listen = [&](std::string_view stage, double fraction) {
+    if (stage == "fill") fractions.push_back(fraction);
+  };
+  (void)remap(source, target, {}, {.threads = 1, .progress = listen});
+  EXPECT_GT(fractions.size(), 2U);
+  EXPECT_TRUE(std::ranges::is_sorted(fractions));
+  EXPECT_EQ(fractions.back(), 1);
+  std::atomic<bool> stop = false;
+  const auto halt = [&](std::string_view stage, double) { stop = stop || stage == "fill"; };
+  EXPECT_THROW((void)remap(source, target, {}, {.threads = 1, .progress = halt, .stop = &stop}),
+               Interrupted);
 }
 
 // A mesh of a patch of 1e-6 radians, beside itself turned by less than an ulp and more.
