@@ -7,7 +7,7 @@
 //     d area_i / d log w_j = - tan(t/2) p_i.(v + v') / |p_i - p_j|,
 //
 // negative, and the same for i and j, as p_i.v = p_j.v on the wall: the derivatives are those of a graph's
-// Laplacian. A step x of log w becomes the factor (2 + x) / (2 - x). Weights have twice double precision, and so, nearly, have
+// Laplacian. A step x of log w becomes the factor (2 + x) / (2 - x). FineWeights have twice double precision, and so, nearly, have
 // the lengths of the p_i that stand for them (placed_pole.h); their least is 1.
 
 #include <algorithm>
@@ -35,7 +35,7 @@ namespace {
 using exact::DoubleDouble;
 using exact::to_point;
 using exact::to_vector;
-using Weights = std::vector<DoubleDouble>;
+using FineWeights = std::vector<DoubleDouble>;
 
 constexpr int most_halvings = 20;
 constexpr double inner_tolerance = 1e-4;
@@ -60,7 +60,7 @@ class Newton {
   }
 
   // With poles near those given. None if a cell is empty or the hull does not surround the center.
-  [[nodiscard]] std::optional<Weighted> measure(const Weights& weights,
+  [[nodiscard]] std::optional<Weighted> measure(const FineWeights& weights,
                                                 const std::vector<Point>& near) const {
     Weighted now;
     now.poles.resize(sites_.size());
@@ -162,7 +162,7 @@ class Newton {
 };
 
 // By a factor whose least weight becomes 1.
-void scale_to_one(Weights& weights) {
+void scale_to_one(FineWeights& weights) {
   const double least = std::ranges::min_element(weights, {}, &DoubleDouble::hi)->hi;
   for (DoubleDouble& w : weights) {
     const double quotient = w.hi / least;
@@ -171,8 +171,8 @@ void scale_to_one(Weights& weights) {
   }
 }
 
-Weights stepped(const Weights& weights, const std::vector<double>& step, double length) {
-  Weights result(weights.size());
+FineWeights stepped(const FineWeights& weights, const std::vector<double>& step, double length) {
+  FineWeights result(weights.size());
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const double x = std::clamp(length * step[i], -1.0, 1.0);
     const double growth = 2 * x / (2 - x);
@@ -232,7 +232,7 @@ void require_distinct(std::span<const Point> sites, const Execution& execution) 
   }
 }
 
-void finish(AreaPartition& result, const Weights& weights, Weighted&& now) {
+void finish(AreaPartition& result, const FineWeights& weights, Weighted&& now) {
   for (const DoubleDouble& weight : weights) {
     result.weights.push_back(weight.hi);
     // The radius has the cosine 1 / weight.
@@ -271,7 +271,7 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
   require_distinct(units, execution);
   const Newton newton(units, scaled_targets(targets, sites.size()), execution);
   AreaPartition result;
-  Weights weights(sites.size(), DoubleDouble{1, 0});
+  FineWeights weights(sites.size(), DoubleDouble{1, 0});
   std::optional<Weighted> now = newton.measure(weights, units);
   if (!now) {
     result.end = PartitionEnd::infeasible;
@@ -292,7 +292,7 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
 
     const Newton::NewtonStep step = newton.step_from(*now);
     std::optional<Weighted> next;
-    Weights tried;
+    FineWeights tried;
     length = 1;
     for (int halving = 0; halving < most_halvings; ++halving, length /= 2) {
       tried = stepped(weights, step.of_log, length);
