@@ -7,7 +7,7 @@
 //     d area_i / d log w_j = - tan(t/2) p_i.(v + v') / |p_i - p_j|,
 //
 // negative, and the same for i and j, as p_i.v = p_j.v on the wall: the derivatives are those of a graph's
-// Laplacian. A step x of log w becomes the factor (2 + x) / (2 - x). FineWeights have twice double precision, and so, nearly, have
+// Laplacian. A step x of log w becomes the factor (2 + x) / (2 - x). Weights have twice double precision, and so, nearly, have
 // the lengths of the p_i that stand for them (placed_pole.h); their least is 1.
 
 #include <algorithm>
