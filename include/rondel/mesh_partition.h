@@ -18,7 +18,7 @@ namespace rondel::mesh {
 
 enum class PartitionEnd : std::uint8_t {
   converged,   ///< all areas are as wanted
-  rounded,     ///< as near as weights that are doubles bring them: a million equal cells to 1e-10
+  rounded,     ///< as near as coordinates that are doubles bring them
   iterations,  ///< there were too many steps
   infeasible,  ///< no weights give these areas, or none that steps come near
   stopped,     ///< Execution::stop
@@ -43,10 +43,12 @@ struct AreaPartitionOptions {
 };
 
 struct AreaPartition {
-  /// weights[i] times the unit vectors of the sites are weighted sites (Model::weighted) whose power cells have the areas; the
-  /// smallest weight is 1, so that each stands for a circle, of radius arccos(1 / weight).
+  /// The smallest is 1: each stands for a circle, of radius arccos(1 / weight).
   std::vector<double> weights;
-  std::vector<Point> poles;       ///< the weighted sites: a weight times a unit vector
+  /// Weighted sites (Model::weighted) whose power cells have the areas. They have the directions of the sites, to 1e-13, and
+  /// the lengths of the weights, but nearer than doubles have those: rounding alone would move areas of a million
+  /// cells by 1e-10. A few spacings from the ends of the three axes coordinates cannot have all lengths.
+  std::vector<Point> poles;
   std::vector<double> radii_deg;  ///< of the circles
   std::vector<double> areas;
   double largest_error = 0;

@@ -7,7 +7,8 @@
 //     d area_i / d log w_j = - tan(t/2) p_i.(v + v') / |p_i - p_j|,
 //
 // negative, and the same for i and j, as p_i.v = p_j.v on the wall: the derivatives are those of a graph's
-// Laplacian. A step x of log w becomes the factor (2 + x) / (2 - x).
+// Laplacian. A step x of log w becomes the factor (2 + x) / (2 - x). Weights have twice double precision, and so, nearly, have
+// the lengths of the p_i that stand for them (placed_pole.h); their least is 1.
 
 #include <algorithm>
 #include <cmath>
@@ -17,23 +18,29 @@
 #include <utility>
 
 #include "exact/argument.h"
+#include "exact/eft.h"
 #include "exact/vector.h"
 #include "meshing/graph_laplacian.h"
+#include "meshing/placed_pole.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
 #include "rondel/mesh_partition.h"
 #include "system/arithmetic.h"
+#include "system/parallel.h"
 
 namespace rondel::mesh {
 namespace {
 
+using exact::DoubleDouble;
 using exact::to_point;
 using exact::to_vector;
+using FineWeights = std::vector<DoubleDouble>;
 
 constexpr int most_halvings = 20;
 constexpr double inner_tolerance = 1e-4;
 constexpr int most_inner_steps = 500;
+constexpr std::size_t poles_at_a_time = 1024;
 
 struct Weighted {
   std::vector<Point> poles;
@@ -52,11 +59,18 @@ class Newton {
     least_target_ = *std::ranges::min_element(targets_);
   }
 
-  // None if a cell is empty or the hull does not surround the center.
-  [[nodiscard]] std::optional<Weighted> measure(const std::vector<double>& weights) const {
+  // With poles near those given. None if a cell is empty or the hull does not surround the center.
+  [[nodiscard]] std::optional<Weighted> measure(const FineWeights& weights,
+                                                const std::vector<Point>& near) const {
     Weighted now;
     now.poles.resize(sites_.size());
-    for (std::size_t i = 0; i < sites_.size(); ++i) now.poles[i] = weights[i] * sites_[i];
+    system::parallel_for(execution_.threads, sites_.size(), poles_at_a_time,
+                         [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t i = begin; i < end; ++i) {
+                             now.poles[i] =
+                                 placed_pole(near[i], weights[i], std::sqrt(targets_[i]));
+                           }
+                         });
     const Execution quiet{.threads = execution_.threads};
     now.triangulation = delaunay(Sites::view(now.poles), {.model = Model::weighted}, quiet);
     if (now.triangulation.dimension() != 2 || now.triangulation.num_ghost_faces() != 0 ||
@@ -78,9 +92,10 @@ class Newton {
 
   struct NewtonStep {
     std::vector<double> of_log;  // of log w
-    double rounding;  // the relative error of an area that is left by weights that are doubles
+    double
+        rounding;  // the relative error of an area that would be left by weights that are doubles
   };
-  // What Newton's method makes. Weights are rounded by 2^-53 of theirs, those of a cell and of its neighbors.
+  // What Newton's method makes. Doubles are rounded by 2^-53 of theirs, those of a cell and of its neighbors.
   [[nodiscard]] NewtonStep step_from(const Weighted& now) const {
     std::vector<double> right(sites_.size());
     for (std::size_t i = 0; i < sites_.size(); ++i) right[i] = targets_[i] - now.areas[i];
@@ -146,13 +161,26 @@ class Newton {
   double least_target_ = 0;
 };
 
-std::vector<double> stepped(const std::vector<double>& weights, const std::vector<double>& step,
-                            double length) {
-  std::vector<double> result(weights.size());
+// By a factor whose least weight becomes 1.
+void scale_to_one(FineWeights& weights) {
+  const double least = std::ranges::min_element(weights, {}, &DoubleDouble::hi)->hi;
+  for (DoubleDouble& w : weights) {
+    const double quotient = w.hi / least;
+    const DoubleDouble product = exact::two_product(quotient, least);
+    w = exact::fast_two_sum(quotient, ((w.hi - product.hi) - product.lo + w.lo) / least);
+  }
+}
+
+FineWeights stepped(const FineWeights& weights, const std::vector<double>& step, double length) {
+  FineWeights result(weights.size());
   for (std::size_t i = 0; i < weights.size(); ++i) {
     const double x = std::clamp(length * step[i], -1.0, 1.0);
-    result[i] = weights[i] * ((2 + x) / (2 - x));
+    const double growth = 2 * x / (2 - x);
+    const DoubleDouble& w = weights[i];
+    const DoubleDouble sum = exact::two_sum(w.hi, w.hi * growth);
+    result[i] = exact::fast_two_sum(sum.hi, sum.lo + w.lo * (1 + growth));
   }
+  scale_to_one(result);
   return result;
 }
 
@@ -204,17 +232,15 @@ void require_distinct(std::span<const Point> sites, const Execution& execution) 
   }
 }
 
-void finish(AreaPartition& result, const std::vector<Point>& units, const Weighted& now) {
-  const double least = *std::ranges::min_element(result.weights);
-  for (std::size_t i = 0; i < units.size(); ++i) {
-    double& weight = result.weights[i];
-    weight /= least;
-    result.poles.push_back(weight * units[i]);
+void finish(AreaPartition& result, const FineWeights& weights, Weighted&& now) {
+  for (const DoubleDouble& weight : weights) {
+    result.weights.push_back(weight.hi);
     // The radius has the cosine 1 / weight.
-    const double tangent = std::sqrt((weight - 1) * (weight + 1));
+    const double tangent = std::sqrt(std::max(0.0, (weight.hi - 1) + weight.lo) * (weight.hi + 1));
     result.radii_deg.push_back(180 / std::numbers::pi * exact::argument(tangent, 1));
   }
-  result.areas = now.areas;
+  result.poles = std::move(now.poles);
+  result.areas = std::move(now.areas);
   result.largest_error = now.largest_error;
   result.worst = now.worst;
 }
@@ -245,10 +271,11 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
   require_distinct(units, execution);
   const Newton newton(units, scaled_targets(targets, sites.size()), execution);
   AreaPartition result;
-  result.weights.assign(sites.size(), 1);
-  std::optional<Weighted> now = newton.measure(result.weights);
+  FineWeights weights(sites.size(), DoubleDouble{1, 0});
+  std::optional<Weighted> now = newton.measure(weights, units);
   if (!now) {
     result.end = PartitionEnd::infeasible;
+    result.weights.assign(sites.size(), 1);
     result.poles = units;
     result.radii_deg.assign(sites.size(), 0);
     return result;
@@ -265,14 +292,16 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
 
     const Newton::NewtonStep step = newton.step_from(*now);
     std::optional<Weighted> next;
-    std::vector<double> weights;
+    FineWeights tried;
     length = 1;
     for (int halving = 0; halving < most_halvings; ++halving, length /= 2) {
-      weights = stepped(result.weights, step.of_log, length);
-      next = newton.measure(weights);
+      tried = stepped(weights, step.of_log, length);
+      next = newton.measure(tried, now->poles);
       const double fall = 1 - length / 2;
+      // In the end rounding is most of the sum of squares, and few cells have larger errors.
       if (next && next->smallest_area >= least_area &&
-          next->square_error <= fall * fall * now->square_error) {
+          (next->square_error <= fall * fall * now->square_error ||
+           next->largest_error <= fall * now->largest_error)) {
         break;
       }
       next.reset();
@@ -282,11 +311,11 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
     result.end =
         now->largest_error <= step.rounding ? PartitionEnd::rounded : PartitionEnd::infeasible;
     if (!next) break;
-    result.weights = std::move(weights);
+    weights = std::move(tried);
     now = std::move(next);
     ++result.steps;
   }
-  finish(result, units, *now);
+  finish(result, weights, std::move(*now));
   return result;
 }
 

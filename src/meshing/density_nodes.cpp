@@ -108,7 +108,10 @@ void DensityNodes::integrate() {
     const double b = 1 - 2 * orbit.a;
     const std::array<std::array<double, 2>, 3> places = {
         {{orbit.a, orbit.a}, {b, orbit.a}, {orbit.a, b}}};
-    for (const auto& [of_first, of_second] : places) {
+    for (const auto& place : places) {
+      // By name: Clang 14 captures no structured bindings.
+      const double of_first = place[0];
+      const double of_second = place[1];
       system::with_wide_vectors([=, this]()
                                     RONDEL_ALWAYS_INLINE { place_nodes(of_first, of_second); });
       read_raster();

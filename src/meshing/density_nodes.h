@@ -43,7 +43,7 @@ class DensityNodes {
 
  private:
   using Numbers = std::array<double, lanes>;
-  struct Vectors {
+  struct VectorLanes {
     alignas(64) Numbers x;
     alignas(64) Numbers y;
     alignas(64) Numbers z;
@@ -63,15 +63,15 @@ class DensityNodes {
   void add_nodes(double weight);
 
   const SizeFunction::Raster& raster_;
-  Vectors sites_, first_, second_;
+  VectorLanes sites_, first_, second_;
   alignas(64) Numbers solids_;
   // Of one node in each triangle.
-  Vectors to_node_;
+  VectorLanes to_node_;
   alignas(64) Numbers inverse_;
   alignas(64) Numbers s_, t_;  // where in the square of the raster
   std::array<std::uint32_t, lanes> squares_;
   alignas(64) std::array<std::array<float, lanes>, 4> corners_;  // of the raster
-  Vectors moments_;
+  VectorLanes moments_;
   alignas(64) Numbers masses_, areas_, energies_;
 };
 

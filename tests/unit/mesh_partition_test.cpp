@@ -11,8 +11,10 @@
 #include <numbers>
 #include <numeric>
 
+#include "exact/eft.h"
 #include "exact/vector.h"
 #include "meshing/graph_laplacian.h"
+#include "meshing/placed_pole.h"
 #include "meshing/scvt_levels.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
@@ -25,10 +27,8 @@ namespace {
 constexpr double whole = 4 * std::numbers::pi;
 
 // The areas of the power cells, by the diagram.
-std::vector<double> power_areas(const std::vector<Point>& sites, const AreaPartition& made) {
-  std::vector<Point> poles;
-  for (std::size_t i = 0; i < sites.size(); ++i) poles.push_back(made.weights[i] * sites[i]);
-  return areas(delaunay(poles, {.model = Model::weighted}));
+std::vector<double> power_areas(const AreaPartition& made) {
+  return areas(delaunay(made.poles, {.model = Model::weighted}));
 }
 
 TEST(mesh_partition, cells_of_a_centroidal_tessellation_become_equal) {
@@ -45,8 +45,28 @@ TEST(mesh_partition, cells_of_a_centroidal_tessellation_become_equal) {
   EXPECT_LE(made.steps, 6);
   EXPECT_EQ(made.steps, steps);
   const double wanted = whole / 2562;
-  for (const double area : power_areas(sites, made)) EXPECT_NEAR(area, wanted, 3e-12 * wanted);
+  for (const double area : power_areas(made)) EXPECT_NEAR(area, wanted, 3e-12 * wanted);
   EXPECT_EQ(*std::min_element(made.weights.begin(), made.weights.end()), 1);
+}
+
+// Weights that are doubles would leave errors of 1e-11 everywhere; they do next to the six ends of the axes.
+TEST(mesh_partition, small_cells_become_equal_to_the_last_digits) {
+  const std::vector<Point> sites = scvt({.count = 20000, .mean_tolerance = 1e-2}).sites;
+  const AreaPartition made = area_partition(sites);
+  EXPECT_TRUE(made.end == PartitionEnd::converged || made.end == PartitionEnd::rounded);
+  EXPECT_LE(made.largest_error, 2e-12);
+  EXPECT_LE(made.steps, 8);
+  const std::vector<double> found = power_areas(made);
+  const double wanted = whole / 20000;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const Point& p = made.poles[i];
+    EXPECT_NEAR(norm(exact::to_vector(p)), made.weights[i], 4e-16);
+    EXPECT_LT(norm(cross(exact::to_vector(p), exact::to_vector(sites[i]))), 1e-13);
+    const double from_axis = 1 - std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+    if (from_axis > 20 * wanted) {
+      EXPECT_NEAR(found[i], wanted, 1e-12 * wanted) << i;
+    }
+  }
 }
 
 TEST(mesh_partition, random_sites_get_areas_of_any_size) {
@@ -57,7 +77,7 @@ TEST(mesh_partition, random_sites_get_areas_of_any_size) {
   for (double& target : targets) target *= whole / sum;
   const AreaPartition made = area_partition(sites, targets);
   EXPECT_EQ(made.end, PartitionEnd::converged);
-  const std::vector<double> found = power_areas(sites, made);
+  const std::vector<double> found = power_areas(made);
   for (std::size_t i = 0; i < sites.size(); ++i) {
     EXPECT_NEAR(found[i], targets[i], 1e-11 * targets[i]);
   }
@@ -128,6 +148,40 @@ TEST(mesh_partition, what_is_no_partition_is_refused) {
   EXPECT_THROW((void)area_partition(sites), InvalidInput);
   sites[1] = {0, 0, 0};
   EXPECT_THROW((void)area_partition(sites), InvalidInput);
+}
+
+TEST(placed_pole, length_is_the_weight_beyond_double_precision) {
+  const std::vector<Point> sites = sampled_sites(20000, nullptr, 12);
+  constexpr double spacing = 3.5e-3;
+  std::size_t num_rough = 0;
+  for (std::size_t i = 0; i < sites.size(); ++i) {
+    const exact::DoubleDouble weight = {1 + 1e-7 * static_cast<double>(i),
+                                        1e-21 * static_cast<double>(i)};
+    const Point placed = placed_pole(sites[i], weight, spacing);
+    const auto [x, y, z] = placed;
+    const auto square = [](double a) { return exact::two_product(a, a); };
+    const exact::DoubleDouble rest = square(x) + square(y) + square(z) - weight * weight;
+    const double error = std::abs(rest.hi) / (2 * weight.hi);
+    num_rough += error > 0x1p-58 ? 1U : 0U;
+    EXPECT_LT(error, 0x1p-53);
+    EXPECT_LT(norm(cross(exact::to_vector(placed), exact::to_vector(sites[i]))), 1e-13);
+    // A mirrored site has the mirrored pole.
+    EXPECT_EQ(placed_pole({-sites[i].x, sites[i].y, -sites[i].z}, weight, spacing),
+              (Point{-x, y, -z}));
+    // What is placed stays.
+    EXPECT_EQ(placed_pole(placed, {weight.hi, weight.lo + rest.hi / (2 * weight.hi)}, spacing),
+              placed);
+  }
+  EXPECT_LT(num_rough, sites.size() / 500);
+}
+
+// Where two coordinates are too small to change the length: what doubles can.
+TEST(placed_pole, near_an_axis_the_length_is_rounded) {
+  for (const Point& site : {Point{0, 0, 1}, Point{-1, 0, 0}, Point{0x1p-20, 1, 0x1p-30}}) {
+    const Point placed = placed_pole(site, {1.25, 0x1p-54}, 0.01);
+    EXPECT_NEAR(norm(exact::to_vector(placed)), 1.25, 0x1p-51);
+    EXPECT_LT(norm(cross(exact::to_vector(placed), exact::to_vector(site))), 1e-15);
+  }
 }
 
 // A path through all vertices and some chords, with weights of all sizes.

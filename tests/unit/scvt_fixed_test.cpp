@@ -65,7 +65,9 @@ TEST(scvt_fixed, sites_stay_bit_by_bit_and_others_relax) {
   EXPECT_LE(made.last.largest_offset, 1e-2);
   options.repair = false;
   const Scvt unrepaired = scvt(options);
-  EXPECT_NEAR(largest_offset_of_free(unrepaired), made.last.largest_offset, 1e-6);
+  // A moment over a mass is not quite the distance of the center: by a part of the cell's size, squared.
+  EXPECT_NEAR(largest_offset_of_free(unrepaired), made.last.largest_offset,
+              1e-2 * made.last.largest_offset);
   for (std::size_t i = 0; i < places.size(); ++i) {
     EXPECT_EQ(unrepaired.sites[unrepaired.fixed[i]], made.sites[made.fixed[i]]);
   }
