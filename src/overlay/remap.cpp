@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "exact/vector.h"
 #include "overlay/graticule_pieces.h"
+#include "overlay/linear_weights.h"
 #include "overlay/measure.h"
 #include "overlay/partition_data.h"
 #include "overlay/pieces.h"
@@ -18,6 +20,7 @@
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/parallel.h"
+#include "system/prefetch.h"
 
 namespace rondel {
 namespace {
@@ -128,9 +131,18 @@ void require_mask(const char* name, const std::vector<std::int32_t>& mask, std::
                      0);
 }
 
+// What a loop over pieces will touch, as columns are anywhere in memory.
+template <class T>
+void prefetch_column(std::span<const Index> columns, std::size_t k, const std::vector<T>& values) {
+  if (k + system::prefetch_distance < columns.size()) {
+    system::prefetch(&values[columns[k + system::prefetch_distance]]);
+  }
+}
+
 std::vector<Point> column_moments(const PieceRows& pieces, std::size_t num_columns) {
   std::vector<Point> sums(num_columns);
   for (std::size_t k = 0; k < pieces.moments.size(); ++k) {
+    prefetch_column(pieces.columns, k, sums);
     Point& sum = sums[pieces.columns[k]];
     sum = sum + pieces.moments[k];
   }
@@ -166,6 +178,9 @@ std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& 
   std::vector<Point> sums(means.size());
   std::vector<std::uint64_t> largest(means.size(), moments.size());
   for (std::size_t k = 0; k < moments.size(); ++k) {
+    prefetch_column(remap.columns, k, means);
+    prefetch_column(remap.columns, k, sums);
+    prefetch_column(remap.columns, k, largest);
     const Index i = remap.columns[k];
     moments[k] = moments[k] - remap.areas[k] * means[i];
     sums[i] = sums[i] + moments[k];
@@ -177,21 +192,10 @@ std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& 
   return moments;
 }
 
-struct Term {
-  Index source;
-  double weight;
-};
-
-// One row of order 2. What is added up for one source is added in the order of the pieces.
-void join(std::vector<Term>& terms, Weights& weights) {
-  std::ranges::stable_sort(terms, {}, &Term::source);
-  for (std::size_t k = 0; k < terms.size();) {
-    const Index source = terms[k].source;
-    double sum = 0;
-    for (; k < terms.size() && terms[k].source == source; ++k) sum += terms[k].weight;
-    weights.columns.push_back(source);
-    weights.values.push_back(sum);
-  }
+// The cells by name, as they are along the curve; none of a grid, which is in order itself.
+std::span<const Index> spatial_order_of(const PartitionData& cells) {
+  if (cells.grid() != nullptr || cells.whole() != no_index) return {};
+  return cells.subdivision().names;
 }
 
 // The columns of a row are different, and increase.
@@ -210,29 +214,6 @@ Weights mean_weights(const Remap& remap, const std::vector<double>& target_areas
                            }
                          }
                        });
-  return weights;
-}
-
-Weights linear_weights(const Remap& remap, const overlay::CellGradients& gradients,
-                       const std::vector<double>& target_areas) {
-  Weights weights;
-  std::vector<Term> terms;
-  for (std::size_t j = 0; j < target_areas.size(); ++j) {
-    terms.clear();
-    for (std::uint64_t k = remap.offsets[j]; k < remap.offsets[j + 1]; ++k) {
-      const Index i = remap.columns[k];
-      double own = remap.areas[k];
-      for (std::uint64_t g = gradients.offsets[i]; g < gradients.offsets[i + std::size_t{1}]; ++g) {
-        const double weight = dot(remap.moments[k], gradients.slopes[g]);
-        if (weight == 0) continue;
-        terms.push_back({gradients.neighbors[g], weight / target_areas[j]});
-        own -= weight;
-      }
-      terms.push_back({i, own / target_areas[j]});
-    }
-    join(terms, weights);
-    weights.offsets.push_back(weights.columns.size());
-  }
   return weights;
 }
 
@@ -277,7 +258,8 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
   }
   const std::vector<double>& areas =
       options.norm == RemapNorm::fracarea ? pieces.row_sums : result.target_areas;
-  result.weights = is_second ? linear_weights(result, gradients, areas)
+  result.weights = is_second ? linear_weights(result, gradients, areas, spatial_order_of(targets),
+                                              execution.threads)
                              : mean_weights(result, areas, execution.threads);
   result.weights.num_columns = num_sources;
   return result;

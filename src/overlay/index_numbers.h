@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Indices that get numbers 0, 1, ... in the order in which they come first.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "rondel/types.h"
+
+namespace rondel::overlay {
+
+// Open addressing with linear probing, at most half full. A slot is in use if it has the stamp of the time since the
+// last clear().
+class IndexNumbers {
+ public:
+  IndexNumbers() : slots_(least_slots) {}
+
+  Index operator()(Index key) {
+    if (2 * (keys_.size() + 1) > slots_.size()) grow();
+    NumberedIndex& slot = slot_of(key);
+    if (slot.stamp != now_) {
+      slot = {key, static_cast<Index>(keys_.size()), now_};
+      keys_.push_back(key);
+    }
+    return slot.number;
+  }
+  // By number.
+  [[nodiscard]] std::span<const Index> keys() const { return keys_; }
+
+  void clear() {
+    keys_.clear();
+    if (++now_ != 0) return;
+    for (NumberedIndex& slot : slots_) slot.stamp = 0;
+    now_ = 1;
+  }
+
+ private:
+  static constexpr std::size_t least_slots = 64;
+
+  struct NumberedIndex {
+    Index key = 0;
+    Index number = 0;
+    std::uint32_t stamp = 0;
+  };
+
+  NumberedIndex& slot_of(Index key) {
+    constexpr std::uint64_t multiplier = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t k = static_cast<std::size_t>((key * multiplier) >> 32) & mask;
+    while (slots_[k].stamp == now_ && slots_[k].key != key) k = (k + 1) & mask;
+    return slots_[k];
+  }
+  void grow() {
+    slots_.assign(2 * slots_.size(), {});
+    for (Index number = 0; number < keys_.size(); ++number) {
+      slot_of(keys_[number]) = {keys_[number], number, now_};
+    }
+  }
+
+  std::vector<NumberedIndex> slots_;
+  std::vector<Index> keys_;
+  std::uint32_t now_ = 1;
+};
+
+}  // namespace rondel::overlay

@@ -1,0 +1,125 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/linear_weights.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "exact/vector.h"
+#include "overlay/index_numbers.h"
+#include "overlay/ranks.h"
+#include "system/parallel.h"
+
+namespace rondel::overlay {
+namespace {
+
+constexpr std::size_t rows_per_block = 1024;
+
+// Rows one after the other.
+struct LinearRows {
+  std::vector<Index> counts;
+  std::vector<Index> columns;
+  std::vector<double> values;
+};
+
+class LinearRowMaker {
+ public:
+  LinearRowMaker(const Remap& remap, const CellGradients& gradients)
+      : remap_(remap), gradients_(gradients) {}
+
+  void append(std::size_t target, double area, LinearRows& rows) {
+    numbers_.clear();
+    sums_.clear();
+    for (std::uint64_t k = remap_.offsets[target]; k < remap_.offsets[target + 1]; ++k) {
+      const Index source = remap_.columns[k];
+      double own = remap_.areas[k];
+      const std::uint64_t end = gradients_.offsets[source + std::size_t{1}];
+      for (std::uint64_t g = gradients_.offsets[source]; g < end; ++g) {
+        const double weight = dot(remap_.moments[k], gradients_.slopes[g]);
+        if (weight == 0) continue;
+        add(gradients_.neighbors[g], weight / area);
+        own -= weight;
+      }
+      add(source, own / area);
+    }
+    put_in_order(rows);
+  }
+
+ private:
+  // What belongs to one source is added in the order of the pieces.
+  void add(Index source, double weight) {
+    const Index number = numbers_(source);
+    if (number == sums_.size()) sums_.push_back(0);
+    sums_[number] += weight;
+  }
+
+  void put_in_order(LinearRows& rows) {
+    const std::span<const Index> sources = numbers_.keys();
+    const std::size_t begin = rows.columns.size();
+    rows.counts.push_back(static_cast<Index>(sources.size()));
+    rows.columns.resize(begin + sources.size());
+    rows.values.resize(begin + sources.size());
+    const auto put = [&](std::size_t place, std::size_t number) {
+      rows.columns[begin + place] = sources[number];
+      rows.values[begin + place] = sums_[number];
+    };
+    if (sources.size() <= Ranks::most) {
+      const Ranks ranks(sources.size(), [&](std::size_t k) { return sources[k]; });
+      for (std::size_t k = 0; k < sources.size(); ++k) put(ranks[k], k);
+      return;
+    }
+    order_.resize(sources.size());
+    std::iota(order_.begin(), order_.end(), Index{0});
+    std::ranges::sort(order_, {}, [&](Index number) { return sources[number]; });
+    for (std::size_t k = 0; k < order_.size(); ++k) put(k, order_[k]);
+  }
+
+  const Remap& remap_;
+  const CellGradients& gradients_;
+  IndexNumbers numbers_;
+  std::vector<double> sums_;  // by number
+  std::vector<Index> order_;  // of numbers
+};
+
+}  // namespace
+
+Weights linear_weights(const Remap& remap, const CellGradients& gradients,
+                       std::span<const double> target_areas, std::span<const Index> targets,
+                       unsigned threads) {
+  const std::size_t n = target_areas.size();
+  const auto target = [&](std::size_t k) { return targets.empty() ? k : std::size_t{targets[k]}; };
+  std::vector<LinearRows> blocks(system::num_pieces(n, rows_per_block));
+  Weights weights;
+  weights.offsets.assign(n + 1, 0);
+  system::parallel_for(threads, n, rows_per_block, [&](std::size_t begin, std::size_t end) {
+    LinearRows& rows = blocks[begin / rows_per_block];
+    LinearRowMaker maker(remap, gradients);
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::size_t j = target(k);
+      maker.append(j, target_areas[j], rows);
+      weights.offsets[j + 1] = rows.counts.back();
+    }
+  });
+  for (std::size_t j = 0; j < n; ++j) weights.offsets[j + 1] += weights.offsets[j];
+  weights.columns.resize(weights.offsets[n]);
+  weights.values.resize(weights.offsets[n]);
+  system::parallel_for(threads, n, rows_per_block, [&](std::size_t begin, std::size_t end) {
+    const LinearRows rows = std::move(blocks[begin / rows_per_block]);
+    std::ptrdiff_t from = 0;
+    for (std::size_t k = begin; k < end; ++k) {
+      const auto to = static_cast<std::ptrdiff_t>(weights.offsets[target(k)]);
+      const Index size = rows.counts[k - begin];
+      std::copy_n(rows.columns.begin() + from, size, weights.columns.begin() + to);
+      std::copy_n(rows.values.begin() + from, size, weights.values.begin() + to);
+      from += size;
+    }
+  });
+  return weights;
+}
+
+}  // namespace rondel::overlay

@@ -1,0 +1,41 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The order of a few different indices, without a branch: each is compared with each.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "rondel/types.h"
+#include "system/wide_vectors.h"
+
+namespace rondel::overlay {
+
+class Ranks {
+ public:
+  static constexpr std::size_t most = 32;
+
+  // Where key(0) ... key(size - 1), all different and none of them no_index, are when sorted: size <= most.
+  template <class Key>
+  Ranks(std::size_t size, const Key& key) {
+    std::array<Index, most> keys{};
+    for (std::size_t k = 0; k < size; ++k) keys[k] = key(k);
+    for (std::size_t begin = 0; begin < size; begin += lanes) {
+      for (std::size_t i = 0; i < size; ++i) {
+        const Index other = keys[i];
+        RONDEL_KEEP_LOOP for (std::size_t k = begin; k < begin + lanes; ++k) {
+          ranks_[k] += static_cast<Index>(other < keys[k]);
+        }
+      }
+    }
+  }
+  [[nodiscard]] Index operator[](std::size_t k) const { return ranks_[k]; }
+
+ private:
+  static constexpr std::size_t lanes = 8;
+  std::array<Index, most> ranks_{};
+};
+
+}  // namespace rondel::overlay
