@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "exact/vector.h"
-#include "overlay/numbering.h"
+#include "overlay/index_numbers.h"
 #include "overlay/ranks.h"
 #include "system/parallel.h"
 
@@ -81,7 +81,7 @@ class LinearRowMaker {
 
   const Remap& remap_;
   const CellGradients& gradients_;
-  Numbering numbers_;
+  IndexNumbers numbers_;
   std::vector<double> sums_;  // by number
   std::vector<Index> order_;  // of numbers
 };

@@ -15,13 +15,13 @@ namespace rondel::overlay {
 
 // Open addressing with linear probing, at most half full. A slot is in use if it has the stamp of the time since the
 // last clear().
-class Numbering {
+class IndexNumbers {
  public:
-  Numbering() : slots_(least_slots) {}
+  IndexNumbers() : slots_(least_slots) {}
 
   Index operator()(Index key) {
     if (2 * (keys_.size() + 1) > slots_.size()) grow();
-    Slot& slot = slot_of(key);
+    NumberedIndex& slot = slot_of(key);
     if (slot.stamp != now_) {
       slot = {key, static_cast<Index>(keys_.size()), now_};
       keys_.push_back(key);
@@ -34,20 +34,20 @@ class Numbering {
   void clear() {
     keys_.clear();
     if (++now_ != 0) return;
-    for (Slot& slot : slots_) slot.stamp = 0;
+    for (NumberedIndex& slot : slots_) slot.stamp = 0;
     now_ = 1;
   }
 
  private:
   static constexpr std::size_t least_slots = 64;
 
-  struct Slot {
+  struct NumberedIndex {
     Index key = 0;
     Index number = 0;
     std::uint32_t stamp = 0;
   };
 
-  Slot& slot_of(Index key) {
+  NumberedIndex& slot_of(Index key) {
     constexpr std::uint64_t multiplier = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
     const std::size_t mask = slots_.size() - 1;
     std::size_t k = static_cast<std::size_t>((key * multiplier) >> 32) & mask;
@@ -61,7 +61,7 @@ class Numbering {
     }
   }
 
-  std::vector<Slot> slots_;
+  std::vector<NumberedIndex> slots_;
   std::vector<Index> keys_;
   std::uint32_t now_ = 1;
 };
