@@ -54,6 +54,19 @@ void add_tolerances(CLI::App& parser, mesh::ScvtOptions& options) {
       ->type_name("N");
 }
 
+void add_places_that_stay(CLI::App& parser, ScvtCommandOptions& options) {
+  parser
+      .add_option("--fixed", options.fixed,
+                  "Sites of FILE that are among the sites of the mesh and never move")
+      ->type_name("FILE");
+  parser
+      .add_option("--along", options.along,
+                  "Let edges of cells follow the lines or outlines of FILE, .geojson: rows of\n"
+                  "sites on both sides never move; may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+}
+
 Command add_scvt_command(CLI::App& group) {
   auto options = std::make_shared<ScvtCommandOptions>();
   CLI::App* parser = group.add_subcommand("scvt", "Make a centroidal Voronoi mesh");
@@ -85,16 +98,7 @@ Command add_scvt_command(CLI::App& group) {
       ->needs(number)
       ->excludes(spacing)
       ->type_name("FILE");
-  parser
-      ->add_option("--fixed", options->fixed,
-                   "Sites of FILE that are among the sites of the mesh and never move")
-      ->type_name("FILE");
-  parser
-      ->add_option("--along", options->along,
-                   "Let edges of cells follow the lines or outlines of FILE, .geojson: rows of\n"
-                   "sites on both sides never move; may be repeated")
-      ->allow_extra_args(false)
-      ->type_name("FILE");
+  add_places_that_stay(*parser, *options);
   CLI::Option* start = parser->add_option("--start", options->start,
                                           "Begin with the sites of FILE, and keep them in order");
   start->excludes(number)->type_name("FILE");

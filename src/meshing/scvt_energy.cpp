@@ -63,7 +63,7 @@ void add_uniform_cells(const MovingSurface& surface, std::span<const Point> site
 void add_cells(const MovingSurface& surface, std::span<const Point> sites, std::size_t begin,
                const SizeFunction& size, std::span<CellSums> cells) {
   DensityNodes nodes(size);
-  std::array<std::size_t, DensityNodes::lanes> owners;
+  std::array<std::size_t, DensityNodes::lanes> owners{};
   std::size_t num_lanes = 0;
   const auto add_lanes = [&] {
     nodes.integrate();

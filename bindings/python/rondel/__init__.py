@@ -56,7 +56,8 @@ Weights
 
 from typing import TYPE_CHECKING, Any
 
-from . import _core, mesh
+from . import _core
+from . import mesh as mesh
 from ._arrays import lonlat, point_set_hash, unit_vectors
 from ._contours import Bands, Isolines
 from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
@@ -77,7 +78,8 @@ from ._voronoi import SphericalVoronoi
 from ._weights import Weights, read_weights
 
 if TYPE_CHECKING:
-    from . import distributed, out_of_core
+    from . import distributed as distributed
+    from . import out_of_core as out_of_core
 
 __version__ = _core.version
 
@@ -106,13 +108,10 @@ __all__ = [
     "convex_hull",
     "delaunay",
     "delaunay_lonlat",
-    "distributed",
     "feature_cells",
     "interpolate",
     "lonlat",
     "lonlat_grid",
-    "mesh",
-    "out_of_core",
     "point_set_hash",
     "polygons",
     "power_diagram",
