@@ -90,8 +90,25 @@ void measure_faces(const dual::SplitSites& sites, std::size_t begin,
 }
 
 double distance_of(const dual::SplitSites& sites, Index a, Index b) {
-  const double half = norm(sites.difference(a, b)) / 2;
+  return angle_of_chord(norm(sites.difference(a, b)));
+}
+
+double angle_of_chord(double length) {
+  const double half = length / 2;
   return 2 * exact::argument(half, std::sqrt((1 - half) * (1 + half)));
+}
+
+// The normal at the middle m is that of the plane of m and of the cross product a x b.
+EdgePlace edge_place(const Vec& a, const Vec& b) {
+  const Vec m = normalized(a + b);
+  const Vec to = b - a;
+  const double across_axis = m.x * m.x + m.y * m.y;
+  const double rho = std::sqrt(across_axis);
+  const double x = rho > 0 ? m.x / rho : 1;
+  const double y = rho > 0 ? m.y / rho : 0;
+  const double east = to.y * x - to.x * y;
+  const double north = rho * to.z - m.z * (to.x * x + to.y * y);
+  return {to_point(m), exact::argument(north, east)};
 }
 
 }  // namespace rondel::meshing

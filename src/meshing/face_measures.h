@@ -34,5 +34,15 @@ void measure_faces(const dual::SplitSites& sites, std::size_t begin,
 
 // The angle between two sites.
 double distance_of(const dual::SplitSites& sites, Index a, Index b);
+// The angle between unit vectors that are this far apart.
+double angle_of_chord(double length);
+
+// The middle of two cells' sites, and the angle of the edge's normal there, from the first site to the second: from east
+// counterclockwise. East and north are those of the longitude that the middle has as a file says it: 0 at the poles.
+struct EdgePlace {
+  Point middle;
+  double normal_angle;
+};
+EdgePlace edge_place(const dual::Vec& a, const dual::Vec& b);
 
 }  // namespace rondel::meshing

@@ -13,6 +13,7 @@
 #include "dual/split_sites.h"
 #include "exact/argument.h"
 #include "meshing/face_measures.h"
+#include "meshing/mesh_options.h"
 #include "rondel/error.h"
 #include "rondel/mesh.h"
 #include "rondel/predicates.h"
@@ -26,7 +27,6 @@ using dual::corner_of;
 using dual::mirror_corner;
 using dual::next_corner;
 using dual::previous_corner;
-using dual::Vec;
 
 constexpr std::size_t mesh_grain = 4096;
 
@@ -168,23 +168,11 @@ class MeshMaker {
     const double arc = measures_[f].arcs[i] + measures_[g].arcs[other % 3];
     const bool has_length = arc > least_certain_arc || !is_cocircular(f, g, other % 3);
     arrays_.vertex_distances[edge] = has_length ? options_.radius * std::max(arc, 0.0) : 0;
-    set_edge_place(edge, dual::to_vector(sites_[a].hi), dual::to_vector(sites_[b].hi));
+    const meshing::EdgePlace place =
+        meshing::edge_place(dual::to_vector(sites_[a].hi), dual::to_vector(sites_[b].hi));
+    arrays_.edge_points[edge] = options_.radius * place.middle;
+    arrays_.normal_angles[edge] = place.normal_angle;
     return arrays_.vertex_distances[edge] > 0;
-  }
-
-  // The normal at the middle m is that of the plane of m and of the cross product a x b. East and north
-  // are those of the longitude that m has as a file says it: 0 at the poles.
-  void set_edge_place(std::size_t edge, const Vec& a, const Vec& b) {
-    const Vec m = normalized(a + b);
-    const Vec to = b - a;
-    const double across_axis = m.x * m.x + m.y * m.y;
-    const double rho = std::sqrt(across_axis);
-    const double x = rho > 0 ? m.x / rho : 1;
-    const double y = rho > 0 ? m.y / rho : 0;
-    const double east = to.y * x - to.x * y;
-    const double north = rho * to.z - m.z * (to.x * x + to.y * y);
-    arrays_.edge_points[edge] = options_.radius * to_point(m);
-    arrays_.normal_angles[edge] = exact::argument(north, east);
   }
 
   [[nodiscard]] bool is_cocircular(Index f, Index g, std::size_t corner) const {
@@ -270,20 +258,7 @@ void require_mesh(const Triangulation& triangulation, const MeshOptions& options
     throw InvalidInput(
         "a mesh covers the sphere, but the hull of the sites does not surround its center", 0);
   }
-  if (!(options.radius > 0) || options.radius > 1e30) {
-    throw InvalidInput("the radius is not positive or not finite", 0);
-  }
-  if (options.density.empty()) return;
-  if (options.density.size() != triangulation.num_sites()) {
-    throw InvalidInput("there are " + std::to_string(options.density.size()) + " densities for " +
-                           std::to_string(triangulation.num_sites()) + " sites",
-                       0);
-  }
-  for (std::size_t i = 0; i < options.density.size(); ++i) {
-    if (!(options.density[i] > 0) || options.density[i] > 1e300) {
-      throw InvalidInput("density " + std::to_string(i) + " is not positive or not finite", i);
-    }
-  }
+  meshing::require_options(options, triangulation.num_sites());
 }
 
 }  // namespace
@@ -304,3 +279,24 @@ MeshArrays arrays(const Triangulation& triangulation, const MeshOptions& options
 }
 
 }  // namespace rondel::mesh
+
+namespace rondel::meshing {
+
+void require_options(const mesh::MeshOptions& options, std::size_t num_sites) {
+  if (!(options.radius > 0) || options.radius > 1e30) {
+    throw InvalidInput("the radius is not positive or not finite", 0);
+  }
+  if (options.density.empty()) return;
+  if (options.density.size() != num_sites) {
+    throw InvalidInput("there are " + std::to_string(options.density.size()) + " densities for " +
+                           std::to_string(num_sites) + " sites",
+                       0);
+  }
+  for (std::size_t i = 0; i < options.density.size(); ++i) {
+    if (!(options.density[i] > 0) || options.density[i] > 1e300) {
+      throw InvalidInput("density " + std::to_string(i) + " is not positive or not finite", i);
+    }
+  }
+}
+
+}  // namespace rondel::meshing

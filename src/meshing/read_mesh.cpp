@@ -1,32 +1,34 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Meshes of other formats: made again of the centers of their cells, and held against the cells' corners.
+// Meshes of other formats: made again of the centers of their cells, and held against the cells' corners; what is beyond a
+// border only the corners tell.
 
 #include "meshing/read_mesh.h"
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "exact/vector.h"
 #include "io/bad_value.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
+#include "meshing/bordered_mesh.h"
+#include "meshing/ring_surface.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_files.h"
 #include "rondel/mesh_io.h"
+#include "rondel/query.h"
 #include "system/job.h"
 
 namespace rondel::mesh {
 namespace {
-
-// Of the spacing: how far a corner of the file may be from that of the mesh. Files have single precision, too, and
-// programs find circumcenters in the plane.
-constexpr double corner_tolerance = 1e-3;
 
 bool has_corner(const MeshArrays& arrays, std::size_t cell, const Point& corner,
                 double square_distance) {
@@ -38,19 +40,59 @@ bool has_corner(const MeshArrays& arrays, std::size_t cell, const Point& corner,
   return false;
 }
 
+void require_rings(const CellTable& table) {
+  for (std::size_t i = 0; i < table.cells.num_cells(); ++i) {
+    if (table.cells.cells[i + 1] - table.cells.cells[i] == 1) continue;
+    throw FileError(table.name + ": cell " + std::to_string(i) + " has not one ring of corners");
+  }
+}
+
 void require_cells(const MeshArrays& arrays, const CellTable& table) {
   const CellRings& cells = table.cells;
-  const auto refuse = [&](std::size_t cell, const std::string& why) {
-    throw FileError(table.name + ": cell " + std::to_string(cell) + ' ' + why);
-  };
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
-    if (cells.cells[i + 1] - cells.cells[i] != 1) refuse(i, "has not one ring of corners");
-    const double distance = corner_tolerance * spacing_of(arrays.cell_areas[i]) / arrays.radius;
-    const std::uint64_t ring = cells.cells[i];
-    for (std::uint64_t k = cells.rings[ring]; k < cells.rings[ring + 1]; ++k) {
+    const double distance =
+        meshing::corner_tolerance * spacing_of(arrays.cell_areas[i]) / arrays.radius;
+    for (std::uint64_t k = cells.rings[i]; k < cells.rings[i + 1]; ++k) {
       if (has_corner(arrays, i, cells.points[cells.corners[k]], distance * distance)) continue;
-      refuse(i, "is not the Voronoi cell of its center");
+      throw FileError(table.name + ": cell " + std::to_string(i) +
+                      " is not the Voronoi cell of its center");
     }
+  }
+}
+
+MeshArrays whole_mesh(const CellTable& table, const Triangulation& triangulation,
+                      const MeshOptions& options, const Execution& execution) {
+  MeshArrays result = arrays(triangulation, options, execution);
+  require_cells(result, table);
+  return result;
+}
+
+// Nothing if there is no border. Cells may differ in corners that they share by more than those have that are taken for one, and
+// be the whole mesh of their centers all the same.
+std::optional<MeshArrays> part_of_mesh(const CellTable& table, const Triangulation& triangulation,
+                                       std::span<const Point> sites, const MeshOptions& options,
+                                       const Execution& execution) {
+  const meshing::RingSides sides(table.cells);
+  if (!sides.has_border()) return std::nullopt;
+  if (!triangulation.duplicates().empty()) {
+    const auto [cell, other] = triangulation.duplicates().front();
+    throw io::BadValue("cells " + std::to_string(other) + " and " + std::to_string(cell) +
+                       " have the same center");
+  }
+  const Locator locator(triangulation);
+  const meshing::RingsAndSites from{table.cells, sides, sites, locator};
+  meshing::require_rings_around_sites(from);
+  const auto differing = meshing::cells_that_differ(from, execution);
+  if (!differing) return meshing::bordered_mesh(from, options, execution);
+  const io::BadValue refusal("cells " + std::to_string(differing->first) + " and " +
+                             std::to_string(differing->second) +
+                             " meet, but not in the same corners");
+  try {
+    return whole_mesh(table, triangulation, options, execution);
+  } catch (const FileError&) {
+    throw refusal;
+  } catch (const InvalidInput&) {
+    throw refusal;
   }
 }
 
@@ -61,11 +103,14 @@ MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
     throw FileError(table.name + ": " + table.convention +
                     " without centers of cells, of which the mesh is made");
   }
+  require_rings(table);
   try {
-    MeshArrays result =
-        arrays(delaunay(unit_vectors(table.centers), {}, execution), options, execution);
-    require_cells(result, table);
-    return result;
+    const std::vector<Point> sites = unit_vectors(table.centers);
+    const Triangulation triangulation = delaunay(sites, {}, execution);
+    return io::in_file(table.name, [&] {
+      std::optional<MeshArrays> part = part_of_mesh(table, triangulation, sites, options, execution);
+      return part ? std::move(*part) : whole_mesh(table, triangulation, options, execution);
+    });
   } catch (const InvalidInput& error) {
     throw FileError(table.name + ": cell " + std::to_string(error.index()) + ": " + error.what());
   }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(mesh_test
   mesh_arrays_test.cpp
+  mesh_border_test.cpp
   mesh_cull_test.cpp
   mesh_files_test.cpp
   mesh_quality_test.cpp

@@ -1,0 +1,62 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// How cells that are one ring of corners each meet: the lists of a mesh, without a place.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "rondel/cell_rings.h"
+#include "rondel/mesh.h"
+
+namespace rondel::meshing {
+
+// The sides of all rings: side k ends at corners[k], and begins at the corner before in its ring. Two sides between the same
+// corners, one each way, are opposite: an edge of two cells.
+//
+//                 \  side k  \.
+//        cell_of(k) \    opposite(k)     A side without an opposite is an edge of the border.
+//                    \          \.
+class RingSides {
+ public:
+  // Precondition: a ring of three corners or more for each cell. Keeps a reference. Throws BadValue for too many sides.
+  explicit RingSides(const CellRings& cells);
+
+  [[nodiscard]] bool has_border() const { return has_border_; }
+  [[nodiscard]] std::size_t num_sides() const { return opposite_.size(); }
+  // no_index at the border.
+  [[nodiscard]] Index opposite(Index side) const { return opposite_[side]; }
+  [[nodiscard]] Index cell_of(Index side) const { return cell_of_[side]; }
+  [[nodiscard]] Index corner(Index side) const { return cells_.corners[side]; }
+  [[nodiscard]] Index next(Index side) const {
+    const Index cell = cell_of_[side];
+    return side + 1 < cells_.rings[cell + 1] ? side + 1 : static_cast<Index>(cells_.rings[cell]);
+  }
+  [[nodiscard]] Index previous(Index side) const {
+    const Index cell = cell_of_[side];
+    return side > cells_.rings[cell] ? side - 1 : static_cast<Index>(cells_.rings[cell + 1] - 1);
+  }
+
+  // The lists of a mesh with a border and its points of vertices, in order of the corners. A corner where parts of the mesh touch that
+  // share no edge there is a vertex for each. Throws BadValue for a corner that no vertex of three cells can be.
+  void set_lists(mesh::MeshArrays& arrays) const;
+
+ private:
+  void find_opposites();
+  [[nodiscard]] Index find_opposite(Index side) const;
+  // Sides that end at a corner are ending_[begins_[corner]] ... ending_[begins_[corner + 1] - 1].
+  [[nodiscard]] Index degree(Index corner) const { return begins_[corner + 1] - begins_[corner]; }
+  void add_vertices(Index corner, mesh::MeshArrays& arrays) const;
+  void add_vertex(Index first, std::size_t count, mesh::MeshArrays& arrays) const;
+  void number_edges(mesh::MeshArrays& arrays) const;
+
+  const CellRings& cells_;
+  std::vector<Index> cell_of_;
+  std::vector<Index> begins_;
+  std::vector<Index> ending_;
+  std::vector<Index> opposite_;
+  bool has_border_ = false;
+};
+
+}  // namespace rondel::meshing
