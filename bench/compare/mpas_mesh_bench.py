@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """Centroidal meshes as files of MPAS: rw_mpas_mesh of gpuwm-hex and `rondel mesh scvt`, in turns.
 
-    mpas_mesh_bench.py RW_MPAS_MESH RONDEL N [--cap] [--turns N] [--limit SECONDS]
+    mpas_mesh_bench.py RW_MPAS_MESH RONDEL N [--cap] [--turns N] [--first N] [--limit SECONDS]
 
 Whole commands, one thread each, from starts of their own to a mean distance of site and centroid of 1e-3 spacings; of one
 spacing, or (--cap) of 30 km in a cap of 1,200 km that becomes 120 km over 3,000 km, in proportion, around another center in
-each turn. Prints a JSON object: medians of the seconds, their ratio, and what `rondel mesh quality` finds in the last files.
+each turn (--first: the first turn's number). Prints a JSON object: medians of the seconds, their ratio, and what `rondel mesh quality` finds in the last files.
 rw_mpas_mesh is in the package's folder gpuwm/libexec/bridges.
 """
 
@@ -81,6 +81,7 @@ def main():
     parser.add_argument("count", type=int)
     parser.add_argument("--cap", action="store_true")
     parser.add_argument("--turns", type=int, default=3)
+    parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--limit", type=float, default=3600)
     options = parser.parse_args()
     count = str(options.count)
@@ -88,7 +89,7 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
         files = {program: folder / f"{program}.nc" for program in times}
-        for turn in range(options.turns):
+        for turn in range(options.first, options.first + options.turns):
             theirs = [options.peer, "--out", files["rw_mpas_mesh"], "--clobber", "--cells", count, "--tolerance", "1e-3"]
             ours = [options.rondel, "mesh", "scvt", "-n", count, "-o", files["rondel"], "--tolerance", "1e-3",
                     "--threads", "1"]

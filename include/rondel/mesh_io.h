@@ -62,10 +62,17 @@ RONDEL_API void write_graph(const std::string& path, const MeshArrays& arrays,
 ///    is none.
 RONDEL_API MeshArrays read_mpas(const FileName& file, const Execution& execution = {});
 
-/// Reads a mesh of any kind: MPAS as read_mpas(); of the whole sphere UGRID, SCRIP and ESMF by the centers of their
-/// cells, of which the mesh is made again, as arrays() does.
-/// \throws FileError also if the file has no centers, or if a corner of one of its cells is farther than a thousandth of the
-/// spacing from all corners of the cell of its center: then its cells are not those of Voronoi.
+/// Reads a mesh of any kind: MPAS as read_mpas(); UGRID, SCRIP and ESMF by the centers and corners of their cells.
+///
+/// 1. Cells that cover the sphere: the mesh is made again of the centers, as arrays() does.
+/// 2. Cells with a border: the mesh has the rings of the file, in the order of its cells and corners. What is not in the file is
+///    made of centers and corners: middles of edges, lengths, kites. Beyond an edge of the border the cell that is gone is
+///    supposed to have had its site where that of the edge's cell is reflected, so that all is that of cull(), as far as
+///    degrees tell, but for the numbers of vertices and edges: vertices are in the order of the file's corners, of SCRIP in that in which cells come to
+///    them, and edges in the order of the first of their two vertices.
+/// 3. Such files do not say the radius and the density; `options` do.
+/// \throws FileError also if the file has no centers, or a corner of a cell is farther than a thousandth of the spacing
+///         from where the cells of Voronoi have it; with a border, if more than three cells meet in a corner, or three and the border.
 RONDEL_API MeshArrays read_mesh(const FileName& file, const MeshOptions& options = {},
                                 const Execution& execution = {});
 

@@ -98,9 +98,8 @@ class BorderedMeshMaker {
         const Point& corner = arrays_.vertex_points[v];
         const Index before = arrays_.edges_on_cell[at];
         const Index after = arrays_.edges_on_cell[from_.sides.next(static_cast<Index>(at))];
-        const double kite =
-            square * (triangle_area(site, arrays_.edge_points[before], corner) +
-                      triangle_area(site, corner, arrays_.edge_points[after]));
+        const double kite = square * (triangle_area(site, arrays_.edge_points[before], corner) +
+                                      triangle_area(site, corner, arrays_.edge_points[after]));
         for (std::size_t k = 0; k < 3; ++k) {
           if (arrays_.cells_on_vertex[v][k] == i) arrays_.kite_areas[v][k] = kite;
         }

@@ -108,7 +108,8 @@ MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
     const std::vector<Point> sites = unit_vectors(table.centers);
     const Triangulation triangulation = delaunay(sites, {}, execution);
     return io::in_file(table.name, [&] {
-      std::optional<MeshArrays> part = part_of_mesh(table, triangulation, sites, options, execution);
+      std::optional<MeshArrays> part =
+          part_of_mesh(table, triangulation, sites, options, execution);
       return part ? std::move(*part) : whole_mesh(table, triangulation, options, execution);
     });
   } catch (const InvalidInput& error) {

@@ -67,8 +67,7 @@ void RingSides::set_lists(mesh::MeshArrays& arrays) const {
   number_edges(arrays);
   arrays.cells_on_cell.resize(num_sides());
   for (Index side = 0; side < num_sides(); ++side) {
-    arrays.cells_on_cell[side] =
-        opposite(side) == no_index ? no_index : cell_of(opposite(side));
+    arrays.cells_on_cell[side] = opposite(side) == no_index ? no_index : cell_of(opposite(side));
   }
 }
 
@@ -91,7 +90,8 @@ void RingSides::add_vertices(Index corner, mesh::MeshArrays& arrays) const {
       ++count;
     }
     const bool is_open = opposite(last) == no_index;
-    if (count == 3 && is_open) refuse("of three cells and the border, which no vertex of a mesh has");
+    if (count == 3 && is_open)
+      refuse("of three cells and the border, which no vertex of a mesh has");
     if (count < 3 && !is_open) refuse("of two cells alone, which no vertex of a mesh has");
     add_vertex(first, count, arrays);
     left -= count;
@@ -134,8 +134,8 @@ void RingSides::number_edges(mesh::MeshArrays& arrays) const {
     const Index ring_side = is_first ? side : other;
     arrays.cells_on_edge.push_back(
         {cell_of(ring_side), other == no_index ? no_index : cell_of(is_first ? other : side)});
-    arrays.vertices_on_edge.push_back({arrays.vertices_on_cell[previous(ring_side)],
-                                       arrays.vertices_on_cell[ring_side]});
+    arrays.vertices_on_edge.push_back(
+        {arrays.vertices_on_cell[previous(ring_side)], arrays.vertices_on_cell[ring_side]});
     return edge;
   };
   for (std::size_t v = 0; v < first_sides.size(); ++v) {

@@ -81,8 +81,8 @@ class SameMesh {
     EXPECT_NEAR(found_.cell_distances[e], wanted_.cell_distances[number], error * wanted_.radius);
     EXPECT_NEAR(found_.vertex_distances[e], wanted_.vertex_distances[number],
                 1e-14 * wanted_.radius);
-    const double turn =
-        std::remainder(found_.normal_angles[e] - wanted_.normal_angles[number], 2 * std::numbers::pi);
+    const double turn = std::remainder(found_.normal_angles[e] - wanted_.normal_angles[number],
+                                       2 * std::numbers::pi);
     EXPECT_NEAR(turn, 0, 100 * error / wanted_.cell_distances[number] * wanted_.radius);
   }
 
@@ -151,8 +151,8 @@ class BorderedFiles : public ::testing::Test {
     MeshWriter file;
     file.add("nodeCoords", {{"nodeCount", corners.size()}, {"coordDim", 2}}, degrees(corners),
              {{"units", "degrees"}});
-    file.add_whole("elementConn", {{"elementCount", rings.size()}, {"maxNodePElement", room}}, nodes,
-                   {}, {{"_FillValue", -1}});
+    file.add_whole("elementConn", {{"elementCount", rings.size()}, {"maxNodePElement", room}},
+                   nodes, {}, {{"_FillValue", -1}});
     file.add_whole("numElementConn", {{"elementCount", rings.size()}}, counts);
     file.add("centerCoords", {{"elementCount", rings.size()}, {"coordDim", 2}}, degrees(centers),
              {{"units", "degrees"}});
@@ -187,9 +187,8 @@ MeshArrays without(const MeshArrays& arrays, std::uint64_t seed, double share) {
 MeshArrays cap_of(const MeshArrays& arrays, double cosine) {
   std::vector<std::uint8_t> mask;
   for (const Point& p : arrays.cell_points) {
-    mask.push_back(exact::dot(p, arrays.cell_points[0]) < cosine * arrays.radius * arrays.radius
-                       ? 1
-                       : 0);
+    mask.push_back(
+        exact::dot(p, arrays.cell_points[0]) < cosine * arrays.radius * arrays.radius ? 1 : 0);
   }
   return mesh::cull(arrays, mask).arrays;
 }
@@ -233,7 +232,8 @@ TEST_F(BorderedFiles, take_radius_and_density_of_the_options) {
 TEST_F(BorderedFiles, threads_do_not_change_them) {
   mesh::write(path(), without(mesh::arrays(delaunay(mesh_sites(20000, 37))), 3, 0.2),
               {.format = MeshFormat::scrip});
-  EXPECT_EQ(mesh::read_mesh(path(), {}, {.threads = 1}), mesh::read_mesh(path(), {}, {.threads = 2}));
+  EXPECT_EQ(mesh::read_mesh(path(), {}, {.threads = 1}),
+            mesh::read_mesh(path(), {}, {.threads = 2}));
 }
 
 TEST_F(BorderedFiles, parts_that_touch_in_a_corner_have_a_vertex_each) {
@@ -283,7 +283,8 @@ TEST_F(BorderedFiles, whose_cells_are_those_of_no_mesh_are_refused) {
               points[inner] = normalized(points[inner] + Point{0.004, 0.004, 0.004});
             }).find(" is not the Voronoi cell of its center"),
             std::string::npos);
-  const std::string differing = refusal_of([&](auto&, auto& changed) { changed[inner].pop_back(); });
+  const std::string differing =
+      refusal_of([&](auto&, auto& changed) { changed[inner].pop_back(); });
   EXPECT_TRUE(differing.starts_with("cells ")) << differing;
   EXPECT_TRUE(differing.ends_with(" meet, but not in the same corners")) << differing;
   EXPECT_EQ(refusal_of([&](auto& points, auto& changed) {
