@@ -42,7 +42,7 @@ AtomicFile::~AtomicFile() { discard(); }
 
 void AtomicFile::write(std::string_view bytes) {
   if (buffer_.size() + bytes.size() > buffer_size) flush();
-  if (bytes.size() > buffer_size) {
+  if (bytes.size() >= buffer_size) {
     drain(bytes);
   } else {
     buffer_ += bytes;
@@ -66,6 +66,12 @@ void AtomicFile::drain(std::string_view bytes) {
 void AtomicFile::reserve(std::uint64_t size) {
   if (is_direct()) return;
   if (system::reserve(descriptor_, size) != 0) fail(errno);
+  is_reserved_ = true;
+}
+
+void AtomicFile::expect(std::uint64_t size) {
+  if (is_direct()) return;
+  if (system::prepare(descriptor_, size) != 0) fail(errno);
   is_reserved_ = true;
 }
 

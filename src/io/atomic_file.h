@@ -51,6 +51,10 @@ class RONDEL_API AtomicFile {
   // written is given back by commit().
   void reserve(std::uint64_t size);
 
+  // Tells the system how long the file will be, so that it can find the room at once, or say that there is none. Files may become
+  // longer or shorter.
+  void expect(std::uint64_t size);
+
   // Flushes, closes and renames.
   void commit();
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <iterator>
 #include <span>
@@ -20,6 +21,39 @@
 #include "rondel/triangulation.h"
 
 namespace rondel::io {
+
+// Unsigned bits with their bytes the other way around: masks and shifts that compilers know as one instruction, and do for
+// several numbers at once.
+template <typename Bits>
+constexpr Bits reversed(Bits bits) {
+  static_assert(std::is_unsigned_v<Bits>);
+  if constexpr (sizeof(Bits) == 8) {
+    bits = (bits >> 32U) | (bits << 32U);
+    bits = (bits >> 16U & 0x0000'ffff'0000'ffff) | (bits & 0x0000'ffff'0000'ffff) << 16U;
+    return (bits >> 8U & 0x00ff'00ff'00ff'00ff) | (bits & 0x00ff'00ff'00ff'00ff) << 8U;
+  } else if constexpr (sizeof(Bits) == 4) {
+    bits = (bits >> 16U) | (bits << 16U);
+    return (bits >> 8U & 0x00ff'00ffU) | (bits & 0x00ff'00ffU) << 8U;
+  } else {
+    static_assert(sizeof(Bits) == 1);
+    return bits;
+  }
+}
+
+// Stores the numbers one after the other at `bytes`, which need not be aligned.
+template <typename T>
+void store_all(std::span<const T> numbers, char* bytes, std::endian order) {
+  if (order == std::endian::native) {
+    std::memcpy(bytes, numbers.data(), numbers.size_bytes());
+    return;
+  }
+  using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t,
+                                  std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint8_t>>;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const Bits bits = reversed(std::bit_cast<Bits>(numbers[i]));
+    std::memcpy(bytes + i * sizeof(T), &bits, sizeof(T));
+  }
+}
 
 // The number stored at `bytes`, which need not be aligned.
 template <typename T>

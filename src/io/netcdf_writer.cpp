@@ -13,6 +13,8 @@ namespace {
 // The largest dimension, and the largest variable, of CDF-1 and CDF-2.
 constexpr std::uint64_t largest_dimension = 0x7fff'ffff;
 constexpr std::uint64_t largest_variable = 0xffff'fffc;
+// Smaller ones stay in memory until long after they are written.
+constexpr std::uint64_t large_file = std::uint64_t{1} << 25U;
 // Where a variable may start at most in CDF-1.
 constexpr std::uint64_t largest_offset = 0x7fff'ffff;
 
@@ -158,8 +160,17 @@ void NetcdfWriter::begin(int version) {
                    std::to_string(needed) + " can");
   }
   const std::uint64_t size = header(version, 0).size();
+  expected_ = size;
+  for (const NetcdfVariable& variable : variables_) {
+    expected_ += netcdf_padded(size_of_values(variable));
+  }
   file_.write(header(version, size));
   end_full_variables();
+}
+
+void NetcdfWriter::find_room() {
+  const std::uint64_t size = std::exchange(expected_, 0);
+  if (size >= large_file) file_.expect(size);
 }
 
 void NetcdfWriter::write_bytes(std::string_view bytes) {

@@ -57,17 +57,18 @@ class RONDEL_API NetcdfWriter {
     }
   }
 
-  // The same of rows, `of_each` values each, which fill(begin, end, values) makes, called by several threads.
+  // The same of rows, `of_each` values each, which fill(begin, end, values) makes, called by several threads. The values are 0 before.
   template <typename T, typename Fill>
   void write_rows(unsigned threads, std::size_t rows, std::size_t of_each, const Fill& fill) {
-    write_in_parallel(file_, threads, rows, items_per_piece,
+    find_room();
+    const std::size_t of_piece = bytes_per_piece / (std::max<std::size_t>(of_each, 1) * sizeof(T));
+    write_in_parallel(file_, threads, rows, std::max<std::size_t>(of_piece, 1),
                       [&](std::string& text, std::size_t begin, std::size_t end) {
-                        std::vector<T> values((end - begin) * of_each);
+                        std::vector<T>& values = values_of_rows<T>();
+                        values.assign((end - begin) * of_each, T{});
                         fill(begin, end, values.data());
                         text.resize(values.size() * sizeof(T));
-                        for (std::size_t i = 0; i < values.size(); ++i) {
-                          store(values[i], text.data() + i * sizeof(T), std::endian::big);
-                        }
+                        store_all(std::span<const T>(values), text.data(), std::endian::big);
                       });
     count_bytes(static_cast<std::uint64_t>(rows) * of_each * sizeof(T));
   }
@@ -76,9 +77,20 @@ class RONDEL_API NetcdfWriter {
   void finish();
 
  private:
+  // One thread's work at a time, which stays in its cache; a row at least.
+  static constexpr std::size_t bytes_per_piece = std::size_t{1} << 18U;
+  // Kept by each thread: to ask the system for memory in each piece would cost as much as to fill it.
+  template <typename T>
+  static std::vector<T>& values_of_rows() {
+    thread_local std::vector<T> values;
+    return values;
+  }
+
   [[nodiscard]] std::uint64_t size_of_values(const NetcdfVariable& variable) const;
   [[nodiscard]] int needed_version() const;
   [[nodiscard]] std::string header(int version, std::uint64_t first_offset) const;
+  // Before the first rows.
+  void find_room();
   void write_bytes(std::string_view bytes);
   void count_bytes(std::uint64_t size);
   void end_full_variables();
@@ -89,6 +101,7 @@ class RONDEL_API NetcdfWriter {
   std::vector<NetcdfVariable> variables_;
   std::size_t current_ = 0;        // the variable whose values are next
   std::uint64_t num_written_ = 0;  // bytes of it
+  std::uint64_t expected_ = 0;     // bytes of the file, until there is room for them
 };
 
 }  // namespace rondel::io

@@ -44,6 +44,9 @@ RONDEL_API std::ptrdiff_t write_at(int descriptor, std::uint64_t place,
 
 // Makes the file at least so long, with room on the disk for all of it; what is in it stays. Returns 0.
 RONDEL_API int reserve(int descriptor, std::uint64_t size) noexcept;
+// The same where the system can do so at once, else nothing: room that is there beforehand is written to several times as
+// fast, on Linux. Returns 0, also where it cannot.
+RONDEL_API int prepare(int descriptor, std::uint64_t size) noexcept;
 // Cuts the file, or makes it longer. Returns 0.
 RONDEL_API int resize(int descriptor, std::uint64_t size) noexcept;
 

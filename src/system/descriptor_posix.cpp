@@ -75,6 +75,21 @@ int reserve(int descriptor, std::uint64_t size) noexcept {
 #endif
 }
 
+int prepare(int descriptor, std::uint64_t size) noexcept {
+#if defined(__linux__)
+  int status = -1;
+  do {
+    status = ::fallocate(descriptor, 0, 0, static_cast<off_t>(size));
+  } while (status != 0 && errno == EINTR);
+  const bool cannot = errno == EOPNOTSUPP || errno == ENOSYS || errno == EINVAL;
+  return status == 0 || cannot ? 0 : -1;
+#else
+  static_cast<void>(descriptor);
+  static_cast<void>(size);
+  return 0;
+#endif
+}
+
 int resize(int descriptor, std::uint64_t size) noexcept {
   return ::ftruncate(descriptor, static_cast<off_t>(size));
 }

@@ -31,6 +31,28 @@ TEST(atomic_file, appears_complete) {
   EXPECT_EQ(directory.num_files(), 1U);
 }
 
+TEST(atomic_file, has_the_length_that_is_written_not_the_expected_one) {
+  const TemporaryDirectory directory;
+  const std::string path = directory.file("a.txt");
+  for (const std::uint64_t size : {std::uint64_t{0}, std::uint64_t{3}, std::uint64_t{1} << 20U}) {
+    AtomicFile file(path);
+    file.expect(size);
+    file.write("content");
+    file.commit();
+    EXPECT_EQ(read_all(path), "content");
+  }
+  AtomicFile direct("/dev/null");
+  direct.expect(1U << 20U);
+  direct.write("content");
+  direct.commit();
+#if defined(__linux__)
+  AtomicFile endless(path);
+  EXPECT_THROW(endless.expect(std::uint64_t{1} << 62U), FileError);
+#endif
+  EXPECT_EQ(read_all(path), "content");
+  EXPECT_EQ(directory.num_files(), 1U);
+}
+
 TEST(atomic_file, leaves_everything_as_it_was_when_abandoned) {
   const TemporaryDirectory directory;
   const std::string path = directory.with("a.txt", "before");
