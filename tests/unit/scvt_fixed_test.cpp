@@ -79,6 +79,14 @@ TEST(scvt_fixed, sites_stay_bit_by_bit_and_others_relax) {
             unrepaired.sites);
 }
 
+TEST(scvt_fixed, places_near_each_other_have_a_site_each) {
+  std::vector<Point> places = random_places(2, 10);
+  places[1] = normalized(places[0] + 0.02 * places[1]);
+  const Scvt made = scvt({.count = 60, .largest_tolerance = 1, .repair = false, .fixed = places});
+  ASSERT_NE(made.fixed[0], made.fixed[1]);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(made.sites[made.fixed[i]], places[i]);
+}
+
 TEST(scvt_fixed, sites_of_a_start_keep_their_numbers) {
   const std::vector<Point> sites = random_places(400, 8);
   const std::vector<Point> some(sites.begin() + 100, sites.begin() + 140);
@@ -241,8 +249,53 @@ TEST(mesh_lines, what_is_too_near_is_left_out) {
   EXPECT_EQ(twice.num_left_out, once.sites.size());
   // An islet, a point, and nothing.
   std::vector<Point> islet;
-  for (int k = 0; k <= 8; ++k) islet.push_back(on_curve(std::numbers::pi * (k % 8) / 4, 0.01));
-  EXPECT_TRUE(sites_along(Lines{islet, {{1, 2, 3}}, {}}, size).sites.empty());
+  for (const double radius : {0.01, 0.018}) {
+    islet.clear();
+    for (int k = 0; k <= 8; ++k) islet.push_back(on_curve(std::numbers::pi * (k % 8) / 4, radius));
+    EXPECT_TRUE(sites_along(Lines{islet, {{1, 2, 3}}, {}}, size).sites.empty());
+  }
+}
+
+// Straight lines one by one, whose sites all stay; of their places those are taken, line by line, the longest first, that are
+// far enough from all stations and from those taken before.
+TEST(mesh_lines, of_lines_that_cross_the_longest_go_first) {
+  const double spacing = 0.06;
+  const SizeFunction size = SizeFunction::constant(spacing, 64);
+  test::Random random(12);
+  Lines lines;
+  std::vector<std::pair<std::vector<Point>, Point>> rows;  // and the line's normal
+  for (int k = 0; k < 40; ++k) {
+    const Point a = test::random_direction(random);
+    const Point b = normalized(a + (0.2 + 0.03 * k) * test::random_direction(random));
+    lines.push_back({a, b});
+    const LineSites alone = sites_along(Lines{lines.back()}, size);
+    EXPECT_EQ(alone.num_left_out, 0U);
+    rows.emplace_back(alone.sites, normalized(cross(a, b)));
+  }
+  std::ranges::stable_sort(rows, std::greater(), [](const auto& row) { return row.first.size(); });
+  std::vector<Point> stations;
+  for (const auto& [sites, normal] : rows) {
+    for (const Point& p : sites) stations.push_back(normalized(p - dot(p, normal) * normal));
+  }
+  std::vector<Point> taken;
+  std::size_t num_left_out = 0;
+  for (const auto& [sites, normal] : rows) {
+    for (const Point& p : sites) {
+      const auto is_near = [&p](double distance) {
+        return [&p, distance](const Point& q) { return away(p, q) < distance; };
+      };
+      if (std::ranges::any_of(stations, is_near(0.3 * spacing)) ||
+          std::ranges::any_of(taken, is_near(0.7 * spacing))) {
+        ++num_left_out;
+      } else {
+        taken.push_back(p);
+      }
+    }
+  }
+  const LineSites found = sites_along(lines, size);
+  EXPECT_GT(num_left_out, 50U);
+  EXPECT_EQ(found.num_left_out, num_left_out);
+  EXPECT_EQ(found.sites, taken);
 }
 
 TEST(mesh_lines, that_are_none_are_refused) {
