@@ -6,7 +6,8 @@
 
 Whole commands, one thread each, from starts of their own to a mean distance of site and centroid of 1e-3 spacings; of one
 spacing, or (--cap) of 30 km in a cap of 1,200 km that becomes 120 km over 3,000 km, in proportion, around another center in
-each turn (--first: the first turn's number). Prints a JSON object: medians of the seconds, their ratio, and what `rondel mesh quality` finds in the last files.
+each turn (--first: the number of the first turn). Prints a JSON object: medians of the seconds, their ratio, and what
+`rondel mesh quality` finds in the last files.
 rw_mpas_mesh is in the package's folder gpuwm/libexec/bridges.
 """
 

@@ -11,6 +11,14 @@
 #include "io/bad_value.h"
 
 namespace rondel::meshing {
+namespace {
+
+[[noreturn]] void refuse_corner(Index cell, const char* what) {
+  throw io::BadValue("cell " + std::to_string(cell) + " has a corner " + what +
+                     ", which no vertex of a mesh has");
+}
+
+}  // namespace
 
 RingSides::RingSides(const CellRings& cells) : cells_(cells) {
   if (cells.corners.size() >= no_index) throw io::BadValue("more than 2^32 - 2 corners of cells");
@@ -75,10 +83,7 @@ void RingSides::set_lists(mesh::MeshArrays& arrays) const {
 // there before.
 void RingSides::add_vertices(Index corner, mesh::MeshArrays& arrays) const {
   const auto sides = std::span(ending_).subspan(begins_[corner], degree(corner));
-  const auto refuse = [&] [[noreturn]] (const char* what) {
-    throw io::BadValue("cell " + std::to_string(cell_of(sides.front())) + " has a corner " + what);
-  };
-  if (sides.size() > 3) refuse("of more than three cells, which no vertex of a mesh has");
+  if (sides.size() > 3) refuse_corner(cell_of(sides.front()), "of more than three cells");
   std::size_t left = sides.size();
   const auto add = [&](Index first) {
     std::size_t count = 1;
@@ -91,8 +96,8 @@ void RingSides::add_vertices(Index corner, mesh::MeshArrays& arrays) const {
     }
     const bool is_open = opposite(last) == no_index;
     if (count == 3 && is_open)
-      refuse("of three cells and the border, which no vertex of a mesh has");
-    if (count < 3 && !is_open) refuse("of two cells alone, which no vertex of a mesh has");
+      refuse_corner(cell_of(sides.front()), "of three cells and the border");
+    if (count < 3 && !is_open) refuse_corner(cell_of(sides.front()), "of two cells alone");
     add_vertex(first, count, arrays);
     left -= count;
   };

@@ -24,6 +24,7 @@ from ugrid_checks.check import check_dataset
 TOOL = pathlib.Path(sys.argv[1]).resolve()
 FORMATS = ("mpas", "ugrid", "scrip", "esmf", "exodus")
 KINDS = ("cdf2", "cdf5")
+PART = [[-10, -30], [60, -30], [60, 40], [-10, 40], [-10, -30]]
 
 
 def run(*command):
@@ -45,7 +46,16 @@ def check_uxarray(folder):
         dual = uxarray.open_grid(folder / f"mpas-{kind}.nc", use_dual=True)
         assert (dual.n_face, dual.n_node, dual.n_edge) == (1280, 642, 1920)
         assert abs(float(dual.face_areas.sum()) / (4 * np.pi) - 1) < 1e-7
-    return "all formats, and the triangles of MPAS"
+    areas = []
+    for name in FORMATS:
+        grid = uxarray.open_grid(folder / f"part-{name}.nc")
+        areas.append(float(grid.face_areas.sum()))
+        # Of a part that hangs together: Euler's formula without the face outside.
+        assert name == "scrip" or grid.n_node + grid.n_face == grid.n_edge + 1, name
+        with contextlib.redirect_stdout(io.StringIO()):
+            assert grid.validate()
+    assert max(areas) - min(areas) < 1e-7 < min(areas), areas
+    return "all formats, with a border, too, and the triangles of MPAS"
 
 
 class Complaints:
@@ -124,6 +134,8 @@ def check_ugrid(folder):
     for kind in KINDS:
         report = check_dataset(str(folder / f"ugrid-{kind}.nc"), print_summary=False).checking_report()
         assert "No problems found" in report, report
+    report = check_dataset(str(folder / "part-ugrid.nc"), print_summary=False).checking_report()
+    assert "No problems found" in report, report
     return "no problems found"
 
 
@@ -135,6 +147,10 @@ def main():
         for kind in KINDS:
             for form in FORMATS:
                 run(TOOL, "mesh", "convert", mesh, "-o", folder / f"{form}-{kind}.nc", "--format", form, "--kind", kind)
+        (folder / "part.geojson").write_text(json.dumps({"type": "Polygon", "coordinates": [PART]}))
+        for form in FORMATS:
+            run(TOOL, "mesh", "cull", mesh, "-o", folder / f"part-{form}.nc", "--format", form, "--outside",
+                folder / "part.geojson")
         run(TOOL, "generate", "uniform", "-n", "300", "-o", folder / "sites.csv")
         run(TOOL, "mesh", "convert", folder / "sites.csv", "-o", folder / "other.nc", "--kind", "cdf2")
         for client, check in (("uxarray", check_uxarray), ("vtk", check_vtk), ("yac", check_yac),

@@ -104,8 +104,8 @@ def read(
     ----------
     path : path_like
         A file of MPAS, whose arrays are taken as they are; or of UGRID, SCRIP or ESMF, whose mesh
-        is made again of the centers of its cells, which must be their Voronoi cells, and at a border
-        of their corners.
+        is made again of the centers of its cells, which must be their Voronoi cells, and at a
+        border of their corners.
     radius : float, optional
         Of the sphere; that of MPAS's files is in them.
     allow_zero_edges : bool, optional
