@@ -4,6 +4,7 @@
 // Meshes without enough memory: std::bad_alloc and no leak, or the result; their files are whole or are not there.
 
 #include <array>
+#include <cstdint>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "faults/failing_files.h"
 #include "rondel/delaunay.h"
 #include "rondel/mesh.h"
+#include "rondel/mesh_cull.h"
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_partition.h"
 #include "rondel/mesh_quality.h"
@@ -92,8 +94,13 @@ TEST(allocation_of_meshes, files_are_read_or_bad_alloc) {
   const std::string path = directory.file("mesh.nc");
   for (const mesh::MeshFormat format : formats) {
     if (format == mesh::MeshFormat::exodus) continue;
-    mesh::write(path, small_mesh(), {.format = format}, one_thread);
-    expect_result_or_bad_alloc([&] { return mesh::read_mesh(path, {}, one_thread); });
+    const mesh::MeshArrays whole = small_mesh();
+    std::vector<std::uint8_t> is_removed(whole.num_cells(), 0);
+    is_removed[1] = 1;
+    for (const auto& arrays : {whole, mesh::cull(whole, is_removed, one_thread).arrays}) {
+      mesh::write(path, arrays, {.format = format}, one_thread);
+      expect_result_or_bad_alloc([&] { return mesh::read_mesh(path, {}, one_thread); });
+    }
   }
   expect_result_or_bad_alloc([&] {
     return mesh::read_refinement((corpus / "good" / "features.geojson").string(), 0.1, one_thread);
