@@ -55,22 +55,22 @@ std::vector<Point> sampled_sites(std::size_t count, const SizeFunction* size, st
         golden * static_cast<double>(k) - 360 * std::floor(golden * static_cast<double>(k) / 360));
     return Point{r * turn.cosine, r * turn.sine, z};
   };
-  const auto share = [&](const Point& p) {
-    return size == nullptr ? 1.0 : std::sqrt(size->density(p));
-  };
+  std::vector<double> shares(num_points, 1.0);
+  for (std::size_t k = 0; k < num_points && size != nullptr; ++k) {
+    shares[k] = std::sqrt(size->density(point(k)));
+  }
   double total = 0;
-  for (std::size_t k = 0; k < num_points; ++k) total += share(point(k));
+  for (const double share : shares) total += share;
   const double spread = 0.5 * std::sqrt(4 * std::numbers::pi / static_cast<double>(num_points));
   std::vector<Point> sites;
   double sum = 0;
   for (std::size_t k = 0; k < num_points && sites.size() < count; ++k) {
-    const Point p = point(k);
-    sum += share(p) / total * static_cast<double>(count);
+    sum += shares[k] / total * static_cast<double>(count);
     if (sum < static_cast<double>(sites.size()) + 0.5 && num_points - k > count - sites.size()) {
       continue;
     }
     const exact::Vector3<double> shift = {random() - 0.5, random() - 0.5, random() - 0.5};
-    sites.push_back(to_point(normalized(to_vector(p) + 2 * spread * shift)));
+    sites.push_back(to_point(normalized(to_vector(point(k)) + 2 * spread * shift)));
   }
   return sites;
 }

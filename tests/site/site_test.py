@@ -126,7 +126,7 @@ class Files(unittest.TestCase):
         c = (SITE / "reference/c.html").read_text(encoding="utf-8")
         for function in set(re.findall(r"^RONDEL_C_API [^;(]*?(rondel_\w+)\(", c_header, re.M)):
             self.assertTrue(f'id="c.{function}"' in c, function)
-        exported = (ROOT / "bindings/python/rondel/__init__.py").read_text(encoding="utf-8").split("__all__")[1]
+        exported = (ROOT / "bindings/python/rondel/__init__.py").read_text(encoding="utf-8").split("__all__ = [")[1].split("]")[0]
         python = (SITE / "reference/python.html").read_text(encoding="utf-8")
         for word in re.findall(r'"(\w+)"', exported):
             self.assertTrue(f'id="rondel.{word}"' in python, word)

@@ -127,6 +127,14 @@ std::size_t largest_degree(const Triangulation& triangulation) {
   return *std::ranges::max_element(degrees);
 }
 
+// The definition takes the square of a ring's length, in long numbers: half a minute of 300.
+bool has_long_ring(interpolation::NaturalRegion& region, const TargetPlace& place) {
+  if (!is_for_kernels(place)) return false;
+  region.find(place);
+  region.list_faces();
+  return region.ring().size() > 150;
+}
+
 Difference compare_with_definition(const test::SiteSet& set, std::uint64_t seed, std::size_t step) {
   Difference difference;
   const auto triangulation = delaunay(set.sites, {.sphere = set.sphere});
@@ -139,7 +147,9 @@ Difference compare_with_definition(const test::SiteSet& set, std::uint64_t seed,
   const test::NaturalOracle oracle(places, ground.center());
   test::Random random(seed);
   const std::vector<Point> targets = targets_of(triangulation, set.sites, random);
+  interpolation::NaturalRegion region(ground);
   for (std::size_t i = 0; i < targets.size(); i += step) {
+    if (step > 1 && has_long_ring(region, place_of(ground, targets[i]))) continue;
     compare(ground, oracle, targets[i], difference);
   }
   return difference;

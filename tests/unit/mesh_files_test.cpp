@@ -77,7 +77,8 @@ TEST_F(MeshFiles, mpas_comes_back_bit_for_bit) {
 }
 
 TEST_F(MeshFiles, threads_do_not_change_a_byte) {
-  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(20000, 13)));
+  const std::size_t n = is_shortened() ? 9000 : 20000;  // threads take 4096 rows at a time
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(n, 13)));
   for (const MeshFormat format : {MeshFormat::mpas, MeshFormat::ugrid, MeshFormat::scrip,
                                   MeshFormat::esmf, MeshFormat::exodus}) {
     mesh::write(path("1.nc"), arrays, {.format = format}, {.threads = 1});

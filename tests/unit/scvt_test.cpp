@@ -16,6 +16,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
+#include "support/generators.h"
 
 namespace rondel::mesh {
 namespace {
@@ -109,7 +110,7 @@ TEST(scvt, energy_never_grows) {
 
 TEST(scvt, bytes_do_not_depend_on_threads) {
   for (const bool with_size : {false, true}) {
-    ScvtOptions options{.count = 9000};
+    ScvtOptions options{.count = test::is_shortened() ? 5000U : 9000U};
     if (with_size) options.size = fourfold();
     const Scvt one = scvt(options, {.threads = 1});
     const Scvt three = scvt(options, {.threads = 3});
@@ -148,7 +149,8 @@ TEST(scvt, spacings_follow_the_size_function) {
 }
 
 TEST(scvt, repair_leaves_neither_short_edges_nor_odd_cells) {
-  ScvtOptions options{.count = 40962, .size = fourfold(), .largest_tolerance = 1};
+  const std::size_t count = test::is_shortened() ? 10242 : 40962;
+  ScvtOptions options{.count = count, .size = fourfold(), .largest_tolerance = 1};
   options.repair = false;
   const Scvt as_is = scvt(options);
   EXPECT_EQ(as_is.repair.moved, 0U);
@@ -156,7 +158,7 @@ TEST(scvt, repair_leaves_neither_short_edges_nor_odd_cells) {
 
   options.repair = true;
   const Scvt made = scvt(options);
-  ASSERT_EQ(made.sites.size(), 40962U);
+  ASSERT_EQ(made.sites.size(), count);
   const Shape shape = shape_of(made.sites);
   EXPECT_GE(shape.least_dual_edge, 0.05);
   EXPECT_EQ(shape.num_obtuse, 0);
@@ -166,7 +168,7 @@ TEST(scvt, repair_leaves_neither_short_edges_nor_odd_cells) {
   EXPECT_EQ(made.repair.after.short_edges, 0U);
   EXPECT_EQ(made.repair.after.odd_cells, 0U);
 
-  const double scale = std::sqrt(options.size->count() / 40962);
+  const double scale = std::sqrt(options.size->count() / static_cast<double>(count));
   std::size_t num_moved = 0;
   for (std::size_t i = 0; i < made.sites.size(); ++i) {
     num_moved += made.sites[i] == as_is.sites[i] ? 0U : 1U;
