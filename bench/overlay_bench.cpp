@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// overlay_bench N M [THREADS] [--seed S] [--kind KIND] [--pair PAIR] [--order 1]: conservative weights from the Voronoi cells of N
-// sites of the kind to others, and one JSON object on standard output: nanoseconds a cell for the partitions, made of
-// triangulations that are there, and a piece and a cell for the overlay with its weights, of order 1 and 2, or 1
-// alone: narrow cells have many pieces, and of order 2 a hundred times as many weights. Every repetition has sites of its own, and medians count. PAIR says what the others are:
+// overlay_bench N M [THREADS] [--seed S] [--kind KIND] [--pair PAIR] [--order 1]: conservative weights from the Voronoi
+// cells of N sites of the kind to others, and one JSON object on standard output: nanoseconds a cell for the partitions,
+// made of triangulations that are there, and a piece and a cell for the overlay with its weights, of order 1 and 2, or 1
+// alone: narrow cells have many pieces, and of order 2 many more weights than that. Every repetition has sites of its
+// own, and medians count. PAIR says what the others are:
 //
 //   other    the cells of M other sites of the kind (default)
 //   uniform  the cells of M uniform sites
