@@ -1,27 +1,34 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// overlay_bench N M [THREADS] [--seed S] [--kind KIND] [--pair PAIR]: conservative weights from the Voronoi cells of N
-// sites to others, and one JSON object on standard output: nanoseconds a cell for the partitions, made of triangulations
-// that are there, and a piece for the overlay with its weights, of order 1 and 2. Every repetition has sites of its own,
-// and medians count. PAIR says what the others are:
+// overlay_bench N M [THREADS] [--seed S] [--kind KIND] [--pair PAIR] [--order 1]: conservative weights from the Voronoi
+// cells of N sites of the kind to others, and one JSON object on standard output: nanoseconds a cell for the partitions,
+// made of triangulations that are there, and a piece and a cell for the overlay with its weights, of order 1 and 2, or 1
+// alone: narrow cells have many pieces, and of order 2 many more weights than that. Every repetition has sites of its
+// own, and medians count. PAIR says what the others are:
 //
-//   other    the cells of M other sites (default)
+//   other    the cells of M other sites of the kind (default)
+//   uniform  the cells of M uniform sites
+//   hemisphere  the same, all sites of both in the northern hemisphere
 //   same     the same cells
 //   turned   those of the same sites, turned by 1e-15 about the z axis
 //   half     every other one of the same cells: polygons that touch in corners, and run along edges
+//   grid     the cells between 501 parallels and 1001 meridians
+//   grids    the same, on themselves instead of on cells of sites
+//   checkers the black ones of these, their sides great circles, on themselves: polygons that touch in corners
 //
 // Of the last repetition, order 1, also the greatest difference of a row's sum to the share of its target that is covered,
 // and of what all pieces add up to from what the smaller partition does, as a share of it.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "inputs.h"
@@ -42,6 +49,7 @@ struct What {
   std::size_t n = 0;
   std::size_t m = 0;
   std::uint64_t seed = 0;
+  bool is_first_alone = false;
 };
 
 struct Measured {
@@ -69,24 +77,50 @@ std::vector<rondel::Point> turned(std::vector<rondel::Point> sites) {
   return sites;
 }
 
-Partition every_other(const Partition& partition, const rondel::Execution& execution) {
+// Those cells for which is_in() says so.
+template <class IsIn>
+Partition some_of(const Partition& partition, const IsIn& is_in,
+                  const rondel::Execution& execution) {
   const rondel::CellRings all = partition.rings();
-  rondel::CellRings half;
-  half.points = all.points;
-  for (std::size_t i = 0; i < all.num_cells(); i += 2) {
+  rondel::CellRings some;
+  some.points = all.points;
+  for (std::size_t i = 0; i < all.num_cells(); ++i) {
+    if (!is_in(i)) continue;
     for (std::uint64_t ring = all.cells[i]; ring < all.cells[i + 1]; ++ring) {
       const auto first = all.corners.begin();
-      half.corners.insert(half.corners.end(), first + static_cast<std::ptrdiff_t>(all.rings[ring]),
+      some.corners.insert(some.corners.end(), first + static_cast<std::ptrdiff_t>(all.rings[ring]),
                           first + static_cast<std::ptrdiff_t>(all.rings[ring + 1]));
-      half.rings.push_back(half.corners.size());
+      some.rings.push_back(some.corners.size());
     }
-    half.cells.push_back(half.rings.size() - 1);
+    some.cells.push_back(some.rings.size() - 1);
   }
-  return Partition(half, execution);
+  return Partition(some, execution);
 }
 
+constexpr std::size_t grid_rows = 500;
+constexpr std::size_t grid_columns = 1000;
+
+Partition make_grid(rondel::GridSides sides, const rondel::Execution& execution) {
+  rondel::LonLatGrid grid;
+  for (std::size_t i = 0; i <= grid_columns; ++i) {
+    grid.lon_deg.push_back(360.0 * static_cast<double>(i) / grid_columns);
+  }
+  for (std::size_t i = 0; i <= grid_rows; ++i) {
+    grid.lat_deg.push_back(180.0 * static_cast<double>(i) / grid_rows - 90);
+  }
+  return Partition::lonlat_grid(grid, sides, execution);
+}
+
+// As exact as the numbers are, so that what is lost shows.
 double sum_of(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
+  double sum = 0;
+  double rest = 0;
+  for (const double value : values) {
+    const double next = sum + value;
+    rest += std::abs(sum) < std::abs(value) ? value - next + sum : sum - next + value;
+    sum = next;
+  }
+  return sum + rest;
 }
 
 double row_error(const rondel::Remap& remap) {
@@ -100,27 +134,69 @@ double row_error(const rondel::Remap& remap) {
   return most;
 }
 
+std::vector<rondel::Point> northern(std::vector<rondel::Point> sites) {
+  for (rondel::Point& p : sites) p.z = std::abs(p.z);
+  return sites;
+}
+
+std::vector<rondel::Point> sites_of_source(const What& what) {
+  auto sites = rondel::bench::make_input(what.kind, what.n, what.seed);
+  return what.pair == "hemisphere" ? northern(std::move(sites)) : sites;
+}
+
+std::vector<rondel::Point> sites_of_target(const What& what,
+                                           const std::vector<rondel::Point>& sites) {
+  if (what.pair == "other") return rondel::bench::make_input(what.kind, what.m, what.seed + 1);
+  if (what.pair == "turned") return turned(sites);
+  if (what.pair == "same" || what.pair == "half") return sites;
+  auto others = rondel::bench::make_input("uniform", what.m, what.seed + 1);
+  return what.pair == "hemisphere" ? northern(std::move(others)) : others;
+}
+
+// Source and target.
+std::vector<Partition> make_partitions(const What& what, const rondel::Execution& execution,
+                                       double& seconds) {
+  std::vector<Partition> partitions;
+  if (what.pair == "grids" || what.pair == "checkers") {
+    const bool is_checkers = what.pair == "checkers";
+    seconds = seconds_of([&] {
+      partitions.push_back(
+          make_grid(is_checkers ? rondel::GridSides::great_circles : rondel::GridSides::parallels,
+                    execution));
+      partitions.push_back(partitions[0]);
+    });
+    if (!is_checkers) return partitions;
+    const auto is_black = [](std::size_t i) {
+      return (i / grid_columns + i % grid_columns) % 2 == 0;
+    };
+    for (Partition& partition : partitions) partition = some_of(partition, is_black, execution);
+    return partitions;
+  }
+  const auto sites = sites_of_source(what);
+  const auto source = rondel::delaunay(sites, {}, execution);
+  const auto target = rondel::delaunay(sites_of_target(what, sites), {}, execution);
+  seconds = seconds_of([&] {
+    partitions.push_back(Partition::voronoi(source, execution));
+    partitions.push_back(what.pair == "grid" ? make_grid(rondel::GridSides::parallels, execution)
+                                             : Partition::voronoi(target, execution));
+  });
+  if (what.pair == "half") {
+    partitions[0] = some_of(
+        partitions[1], [](std::size_t i) { return i % 2 == 0; }, execution);
+  }
+  return partitions;
+}
+
 void repeat(std::uint64_t k, const What& what, const rondel::Execution& execution,
             Measured& measured) {
-  const auto sites = rondel::bench::make_input(what.kind, what.n, what.seed);
-  const auto other_sites = what.pair == "other"
-                               ? rondel::bench::make_input(what.kind, what.m, what.seed + 1)
-                           : what.pair == "turned" ? turned(sites)
-                                                   : sites;
-  const auto source = rondel::delaunay(sites, {}, execution);
-  const auto target = rondel::delaunay(other_sites, {}, execution);
-  std::vector<Partition> partitions;
-  const double seconds = seconds_of([&] {
-    partitions.push_back(Partition::voronoi(source, execution));
-    partitions.push_back(Partition::voronoi(target, execution));
-  });
-  if (what.pair == "half") partitions[0] = every_other(partitions[1], execution);
+  double seconds = 0;
+  const std::vector<Partition> partitions = make_partitions(what, execution, seconds);
   const auto remap = [&](unsigned order) {
     return seconds_of([&] {
       measured.last = rondel::remap(partitions[0], partitions[1], {.order = order}, execution);
     });
   };
-  const double second = remap(2);
+  const double second = what.is_first_alone ? 0 : remap(2);
   const double first = remap(1);
   const double smaller = std::min(sum_of(partitions[0].areas()), sum_of(partitions[1].areas()));
   measured.sum_error = std::abs(sum_of(measured.last.areas) - smaller) / smaller;
@@ -136,11 +212,13 @@ int main(int argc, char** argv) {
   const std::uint64_t seed = rondel::bench::take_seed(argc, argv);
   const std::string kind = take_option(argc, argv, "--kind", "uniform");
   const std::string pair = take_option(argc, argv, "--pair", "other");
-  const bool is_pair = pair == "other" || pair == "same" || pair == "turned" || pair == "half";
-  if (argc < 3 || !is_pair) {
+  const bool is_first_alone = take_option(argc, argv, "--order", "") == "1";
+  constexpr std::array<std::string_view, 9> pairs = {
+      "other", "uniform", "hemisphere", "same", "turned", "half", "grid", "grids", "checkers"};
+  if (argc < 3 || std::ranges::find(pairs, pair) == pairs.end()) {
     std::fprintf(stderr,
                  "usage: overlay_bench N M [THREADS] [--seed S] [--kind KIND] "
-                 "[--pair other|same|turned|half]\n");
+                 "[--pair PAIR] [--order 1]\n");
     return 2;
   }
   const std::size_t n = std::strtoull(argv[1], nullptr, 10);
@@ -150,7 +228,7 @@ int main(int argc, char** argv) {
   rondel::bench::keep_freed_memory();
   Measured measured;
   for (std::uint64_t k = 0; k <= repetitions; ++k) {
-    repeat(k, {kind, pair, n, m, seed + 2 * k}, execution, measured);
+    repeat(k, {kind, pair, n, m, seed + 2 * k, is_first_alone}, execution, measured);
   }
   const rondel::Remap& result = measured.last;
   const auto sources = static_cast<double>(result.weights.num_columns);
@@ -163,6 +241,8 @@ int main(int argc, char** argv) {
        {"partition_ns_a_cell",
         1e9 * rondel::bench::median(measured.partition_seconds) / (sources + targets)},
        {"overlay_ns_a_piece", 1e9 * rondel::bench::median(measured.first_seconds) / pieces},
+       {"overlay_ns_a_cell",
+        1e9 * rondel::bench::median(measured.first_seconds) / (sources + targets)},
        {"second_order_ns_a_piece", 1e9 * rondel::bench::median(measured.second_seconds) / pieces},
        {"row_error", row_error(result)},
        {"sum_error", measured.sum_error}});

@@ -45,15 +45,20 @@ class CoverWalk {
     if (size <= most_at_once) {
       // A bit for each corner, without a branch: which way it goes cannot be guessed.
       unsigned left = 0;
-      bool is_sure = true;
+      unsigned sure = 0;
       for (Index k = 0; k < most_at_once; ++k) {
         const double value = line.rough_side(cover_.origin(begin + std::min(k, size - 1)));
-        is_sure &= line.is_sure(value);
+        sure |= static_cast<unsigned>(line.is_sure(value)) << k;
         left |= static_cast<unsigned>(value > 0) << k;
       }
-      left &= (1U << size) - 1;
+      const unsigned all = (1U << size) - 1;
+      left &= sure & all;
+      for (unsigned unsure = all & ~sure; unsure != 0; unsure &= unsure - 1) {
+        const auto k = static_cast<Index>(std::countr_zero(unsure));
+        left |= static_cast<unsigned>(line.is_left_nearby(cover_.origin(begin + k))) << k;
+      }
       const unsigned left_ends = left >> 1 | (left & 1) << (size - 1);
-      if (is_sure) return begin + static_cast<Index>(std::countr_zero(left_ends & ~left));
+      return begin + static_cast<Index>(std::countr_zero(left_ends & ~left));
     }
     return way_out_by_steps(line, cell);
   }

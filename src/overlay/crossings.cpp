@@ -51,7 +51,7 @@ Point crossing_point(const TracedLine& line, const CoverEdge& edge) {
   const Point p = direction_of(exact::to_vector(from) + part * line.step());
   if (drop * drop > least_sine * least_sine * edge.squared_length() * dot(line.step(), line.step()))
     return p;
-  if (orientation(y, z, from) == Sign::zero && orientation(y, z, to) == Sign::zero) {
+  if (edge.is_on_circle(from) && edge.is_on_circle(to)) {
     if (is_within(edge, from)) return from;
     if (is_within(edge, to)) return to;
   } else if (is_within(edge, p)) {

@@ -22,8 +22,11 @@ constexpr double change_bound = 16 * predicates::unit_roundoff;
 Sign sign_of_change(const Point& a, const Point& b, const Point& y) {
   const Point d = b - a;
   const double value = a.x * dot(y, d) - d.x * dot(y, a);
-  const double size = norm(a) * norm(d) * norm(y);
-  if (size > least_size && std::abs(value) > change_bound * size) return exact::sign_of(value);
+  const double square = dot(a, a) * dot(d, d) * dot(y, y);
+  constexpr double least_square = least_size * least_size;
+  if (square > least_square && value * value > change_bound * change_bound * square) {
+    return exact::sign_of(value);
+  }
   const auto coordinate = [&](auto axis) {
     return exact::sign_of_cubic([&](const auto& step) {
       const auto u = step(Point{}, a);
@@ -38,7 +41,44 @@ Sign sign_of_change(const Point& a, const Point& b, const Point& y) {
   return sign;
 }
 
+// The sign of det(from, to, p) by the normal of the two and the difference d from the nearer one to p, or zero:
+// a step away it is lost in the rounding of the product with p, but not of that with d.
+Sign sign_by_nearer_end(const Vec& normal, double limit, const Point& from, const Point& to,
+                        const Point& p) {
+  const Vec of_from = exact::to_vector(p) - exact::to_vector(from);
+  const Vec of_to = exact::to_vector(p) - exact::to_vector(to);
+  const Vec& d = dot(of_from, of_from) < dot(of_to, of_to) ? of_from : of_to;
+  const double value = dot(normal, d);
+  return std::abs(value) > limit * size_of_step(d) ? exact::sign_of(value) : Sign::zero;
+}
+
+// The sign of the first coordinate of the change for an end y of the step from a, which are as good as unit vectors,
+// or zero.
+Sign sign_of_change_at_end(const Point& a, const Vec& step, const Point& y) {
+  const Vec end = exact::to_vector(y);
+  const double value = a.x * dot(end, step) - step.x * dot(end, exact::to_vector(a));
+  return std::abs(value) > change_bound * size_of_step(step) ? exact::sign_of(value) : Sign::zero;
+}
+
 }  // namespace
+
+bool TracedLine::is_left_nearby(const Point& y) const {
+  Sign sign = y == p_ || y == q_ ? sign_of_change_at_end(p_, step_, y)
+                                 : sign_by_nearer_end(normal_, limit_, p_, q_, y);
+  if (sign == Sign::zero) sign = turned_point_sign(p_, q_, y);
+  return sign == Sign::positive;
+}
+
+Sign CoverEdge::nearby_sign(const Point& x) const {
+  return sign_by_nearer_end(normal_, line_bound * size_of_step(step_), y_, z_, x);
+}
+
+// The change of x by an edge is that of a point by the line backwards.
+bool CoverEdge::is_left_nearby(const Point& x) const {
+  Sign sign = x == y_ || x == z_ ? -sign_of_change_at_end(z_, step_, x) : nearby_sign(x);
+  if (sign == Sign::zero) sign = turned_edge_sign(x, y_, z_);
+  return sign == Sign::positive;
+}
 
 Sign turned_point_sign(const Point& a, const Point& b, const Point& y) {
   const Sign sign = y == a || y == b ? Sign::zero : orientation(a, b, y);

@@ -30,7 +30,7 @@ Sign turned_edge_sign(const Point& x, const Point& y, const Point& z);
 
 // The product of p, or of y, with a step between two points, as good as unit vectors: their cross
 // product is off by u (1 + 2 sqrt(2)) |step|, and its scalar product with a third one by 3 u |step| more: 6.9 u.
-// With a difference to one of the first two, at most 2 long, for the third, it is 2 (6.9 u + u).
+// With a difference d to one of the ends of the step for the third, it is 7.9 u |d|; d is at most 2 long.
 inline constexpr double line_bound = 8 * predicates::unit_roundoff;
 inline constexpr double edge_bound = 18 * predicates::unit_roundoff;
 
@@ -54,8 +54,10 @@ class TracedLine {
   // Whether a point of the cover is to the left.
   [[nodiscard]] bool is_left(const Point& y) const {
     const double value = rough_side(y);
-    return is_sure(value) ? value > 0 : turned_point_sign(p_, q_, y) == Sign::positive;
+    return is_sure(value) ? value > 0 : is_left_nearby(y);
   }
+  // The same of one that is as good as on the line: most likely next to an end.
+  [[nodiscard]] bool is_left_nearby(const Point& y) const;
   // Positive on the left, negative on the right, if it is_sure().
   [[nodiscard]] double rough_side(const Point& y) const {
     return dot(normal_, exact::to_vector(y));
@@ -97,11 +99,21 @@ class CoverEdge {
   [[nodiscard]] double squared_length() const { return dot(step_, step_); }
   [[nodiscard]] bool is_left(const Point& x) const {
     const double value = distance(x);
-    if (std::abs(value) > edge_bound * size_of_step(step_)) return value > 0;
-    return turned_edge_sign(x, y_, z_) == Sign::positive;
+    return is_sure(value) ? value > 0 : is_left_nearby(x);
+  }
+  // Whether x, which is not turned, is on the great circle of the edge as it was before it turned.
+  [[nodiscard]] bool is_on_circle(const Point& x) const {
+    return !is_sure(distance(x)) && nearby_sign(x) == Sign::zero &&
+           orientation(y_, z_, x) == Sign::zero;
   }
 
  private:
+  [[nodiscard]] bool is_sure(double distance) const {
+    return std::abs(distance) > edge_bound * size_of_step(step_);
+  }
+  [[nodiscard]] bool is_left_nearby(const Point& x) const;
+  [[nodiscard]] Sign nearby_sign(const Point& x) const;  // zero: not known
+
   const Point& y_;
   const Point& z_;
   Vec step_;
