@@ -5,11 +5,58 @@
 
 namespace rondel::overlay {
 
-Halfedge CoverWalk::way_out_by_steps(const TracedLine& line, Index cell) const {
-  Halfedge h = cover_.begin_of(cell);
-  while (line.is_left(cover_.origin(h))) h = cover_.next(h);
-  while (!line.is_left(cover_.end(h))) h = cover_.next(h);
-  return h;
+namespace {
+
+// The last of [first, end) for which `holds`, which it does for the first, and for none behind one for which it does not.
+template <class Holds>
+Index last_of(Index first, Index end, const Holds& holds) {
+  while (end - first > 1) {
+    const Index middle = first + (end - first) / 2;
+    (holds(middle) ? first : end) = middle;
+  }
+  return first;
+}
+
+}  // namespace
+
+// Corners left of the line follow each other, and those right of it. One of each is known of the halfedge by which the line
+// came in, or else of the triangle of the first corner and two that follow each other which has the start.
+Halfedge CoverWalk::way_out_by_search(const TracedLine& line, Index cell, Halfedge in) const {
+  const Index begin = cover_.begin_of(cell);
+  const Index size = cover_.end_of(cell) - begin;
+  const auto corner = [&](Index k) -> const Point& {
+    return cover_.origin(begin + (k < size ? k : k - size));
+  };
+  const auto is_right = [&](Index k) { return !line.is_left(corner(k)); };
+  Index right = 0;
+  Index left = size;
+  if (in != no_index) {
+    right = in - begin + 1;
+    left = in - begin + size;
+  } else {
+    const Index k = last_of(1, size - 1, [&](Index middle) {
+      return CoverEdge(corner(0), corner(middle)).is_left(line.from());
+    });
+    if (is_right(0)) {
+      left = is_right(k) ? k + 1 : k;
+    } else {
+      right = is_right(k) ? k : k + 1;
+    }
+  }
+  return begin + last_of(right, left, is_right) % size;
+}
+
+// The corners that are less than half a turn counterclockwise of the first come before the others.
+Halfedge CoverWalk::halfedge_before(const Point& p, Index cell) const {
+  const Point& c = cover_.centers[cell];
+  const Halfedge begin = cover_.begin_of(cell);
+  const Halfedge end = cover_.end_of(cell);
+  const auto is_past = [&](Halfedge h) { return CoverEdge(c, cover_.origin(h)).is_left(p); };
+  const Halfedge half = last_of(begin, end, [&](Halfedge h) {
+    return orientation(c, cover_.origin(begin), cover_.origin(h)) == Sign::positive;
+  });
+  if (is_past(begin)) return last_of(begin, half + 1, is_past);
+  return half + 1 < end && is_past(half + 1) ? last_of(half + 1, end, is_past) : half;
 }
 
 // Through the triangles of the center c and each halfedge, from that which has the start or that behind
@@ -17,14 +64,7 @@ Halfedge CoverWalk::way_out_by_steps(const TracedLine& line, Index cell) const {
 // it leaves have their origin right and their end left.
 Halfedge CoverWalk::way_out_of_star(const TracedLine& line, Index cell, Halfedge in) const {
   const Point& c = cover_.centers[cell];
-  Halfedge h = in;
-  if (in == no_index) {
-    const Point& p = line.from();
-    h = cover_.begin_of(cell);
-    while (!CoverEdge(c, cover_.origin(h)).is_left(p) || CoverEdge(c, cover_.end(h)).is_left(p)) {
-      h = cover_.next(h);
-    }
-  }
+  Halfedge h = in == no_index ? halfedge_before(line.from(), cell) : in;
   const auto ends_before = [&](const Point& from, const Point& to) {
     return CoverEdge(from, to).is_left(line.to());
   };

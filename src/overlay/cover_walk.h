@@ -24,7 +24,7 @@ class CoverWalk {
     if (cover_.num_halfedges() == 0 || line.is_point()) return cell;
     Halfedge in = no_index;  // the halfedge by which the cell was entered
     for (;;) {
-      const Halfedge out = cover_.shapes[cell] == Shape::convex ? way_out(line, cell)
+      const Halfedge out = cover_.shapes[cell] == Shape::convex ? way_out(line, cell, in)
                                                                 : way_out_of_star(line, cell, in);
       if (out == no_index) return cell;
       const CoverEdge edge(cover_.origin(out), cover_.end(out));
@@ -39,7 +39,7 @@ class CoverWalk {
   static constexpr Index most_at_once = 8;  // corners: most cells of diagrams have no more
 
   // The halfedge whose origin is right of the line and whose end is left of it.
-  [[nodiscard]] Halfedge way_out(const TracedLine& line, Index cell) const {
+  [[nodiscard]] Halfedge way_out(const TracedLine& line, Index cell, Halfedge in) const {
     const Index begin = cover_.begin_of(cell);
     const Index size = cover_.end_of(cell) - begin;
     if (size <= most_at_once) {
@@ -60,11 +60,13 @@ class CoverWalk {
       const unsigned left_ends = left >> 1 | (left & 1) << (size - 1);
       return begin + static_cast<Index>(std::countr_zero(left_ends & ~left));
     }
-    return way_out_by_steps(line, cell);
+    return way_out_by_search(line, cell, in);
   }
-  [[nodiscard]] Halfedge way_out_by_steps(const TracedLine& line, Index cell) const;
+  [[nodiscard]] Halfedge way_out_by_search(const TracedLine& line, Index cell, Halfedge in) const;
 
-  // The same, or no_index where the line ends before.
+  // The halfedge of a star whose triangle with the center has p.
+  [[nodiscard]] Halfedge halfedge_before(const Point& p, Index cell) const;
+  // As way_out() of a star, or no_index where the line ends before.
   [[nodiscard]] Halfedge way_out_of_star(const TracedLine& line, Index cell, Halfedge in) const;
 
   const Subdivision& cover_;
