@@ -4,12 +4,11 @@
 #include "overlay/filling.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <utility>
 
+#include "overlay/side_table.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
@@ -30,13 +29,13 @@ class SideMesh {
       : points_(std::move(points)),
         names_of_cells_(names_of_cells),
         names_(points_.size()),
-        around_(points_.size(), no_index) {
+        around_(points_.size(), no_index),
+        sides_(6 * points_.size()) {
     const Triangulation triangulation = delaunay(points_, {}, execution);
     for (Index p = 0; p < names_.size(); ++p) names_[p] = p;
     for (const auto& [site, representative] : triangulation.duplicates()) {
       names_[site] = representative;
     }
-    apexes_.reserve(3 * triangulation.num_faces());
     for (const Triple& face : triangulation.faces()) add(face[0], face[1], face[2]);
   }
 
@@ -46,39 +45,32 @@ class SideMesh {
     const Index end = names_[q];
     while (at != end) {
       const Index next = put_first(at, end, owner);
-      const auto [there, is_new] = owners_.try_emplace(side(at, next), owner);
-      if (!is_new) refuse(owner, there->second);
+      Index& there = sides_.make(at, next).owner;
+      if (there != no_index) refuse(owner, there);
+      there = owner;
       at = next;
     }
   }
   // The triangles, and what they are parts of. Cells that overlap are refused.
-  void take(CellRings& triangles, std::vector<Index>& owners) const;
+  void take(CellRings& triangles, std::vector<Index>& owners);
 
  private:
-  static std::uint64_t side(Index from, Index to) { return std::uint64_t{from} << 32U | to; }
-  [[nodiscard]] Index apex(Index from, Index to) const { return apexes_.at(side(from, to)); }
+  [[nodiscard]] Index apex(Index from, Index to) const { return sides_.at(from, to).apex; }
   [[nodiscard]] Sign turn(Index a, Index b, Index c) const {
     return orientation(points_[a], points_[b], points_[c]);
   }
   void add(Index a, Index b, Index c) {
-    apexes_[side(a, b)] = c;
-    apexes_[side(b, c)] = a;
-    apexes_[side(c, a)] = b;
+    sides_.make(a, b).apex = c;
+    sides_.make(b, c).apex = a;
+    sides_.make(c, a).apex = b;
     around_[a] = b;
     around_[b] = c;
     around_[c] = a;
   }
-  void remove(Index a, Index b, Index c) {
-    apexes_.erase(side(a, b));
-    apexes_.erase(side(b, c));
-    apexes_.erase(side(c, a));
-  }
   Index put_first(Index p, Index q, Index owner);
   [[noreturn]] void refuse(Index owner, Index other) const;
   void refuse_if_crossed(Index a, Index b, Index owner) const;
-  [[nodiscard]] Index owner_beside(Index from, Index to) const;
-  [[nodiscard]] std::vector<Index> owners_of(
-      std::span<const Index> corners, const std::unordered_map<std::uint64_t, Index>& names) const;
+  [[nodiscard]] std::vector<Index> owners_of(std::span<const Index> corners) const;
   void fill(std::vector<Index> ring);
   [[nodiscard]] bool is_ear(const std::vector<Index>& ring, std::size_t k) const;
 
@@ -86,9 +78,7 @@ class SideMesh {
   std::span<const Index> names_of_cells_;
   std::vector<Index> names_;   // of points in the same direction, one
   std::vector<Index> around_;  // an end of a side from each point
-  std::unordered_map<std::uint64_t, Index> apexes_;
-  std::unordered_map<std::uint64_t, Index>
-      owners_;  // of sides that were put, what is to their left
+  SideTable sides_;            // also those that were crossed, and are none any more
 };
 
 void SideMesh::refuse(Index owner, Index other) const {
@@ -100,9 +90,8 @@ void SideMesh::refuse(Index owner, Index other) const {
 }
 
 void SideMesh::refuse_if_crossed(Index a, Index b, Index owner) const {
-  for (const std::uint64_t key : {side(a, b), side(b, a)}) {
-    const auto other = owners_.find(key);
-    if (other != owners_.end()) refuse(owner, other->second);
+  for (const TriangleSide& side : {sides_.at(a, b), sides_.at(b, a)}) {
+    if (side.owner != no_index) refuse(owner, side.owner);
   }
 }
 
@@ -120,11 +109,9 @@ Index SideMesh::put_first(Index p, Index q, Index owner) {
   if (turn(p, a, q) == Sign::zero) return a;
   std::vector<Index> left = {b};
   std::vector<Index> right = {a};
-  remove(p, a, b);
   for (;;) {
     refuse_if_crossed(a, b, owner);
     const Index c = apex(b, a);
-    remove(b, a, c);
     const Sign at = turn(p, q, c);
     if (at == Sign::zero) {
       left.insert(left.end(), {c, p});
@@ -164,10 +151,8 @@ void SideMesh::fill(std::vector<Index> ring) {
   add(ring[0], ring[1], ring[2]);
 }
 
-void SideMesh::take(CellRings& triangles, std::vector<Index>& owners) const {
+void SideMesh::take(CellRings& triangles, std::vector<Index>& owners) {
   triangles.points = points_;
-  std::unordered_map<std::uint64_t, Index> names;
-  names.reserve(apexes_.size());
   for (Index p = 0; p < points_.size(); ++p) {
     if (around_[p] == no_index) continue;
     Index a = around_[p];
@@ -178,26 +163,33 @@ void SideMesh::take(CellRings& triangles, std::vector<Index>& owners) const {
         triangles.corners.insert(triangles.corners.end(), {p, a, b});
         triangles.rings.push_back(triangles.corners.size());
         triangles.cells.push_back(triangles.rings.size() - 1);
-        for (const auto key : {side(p, a), side(a, b), side(b, p)}) names[key] = name;
+        for (const auto& [from, to] : {std::pair(p, a), {a, b}, {b, p}}) {
+          sides_.make(from, to).triangle = name;
+        }
       }
       a = b;
     } while (a != around_[p]);
   }
-  owners = owners_of(triangles.corners, names);
+  owners = owners_of(triangles.corners);
 }
 
-// What a side that was put bounds to its left; no_index where a cell has it in both directions, which bounds nothing.
-Index SideMesh::owner_beside(Index from, Index to) const {
-  const auto there = owners_.find(side(from, to));
-  if (there == owners_.end()) return no_index;
-  const auto back = owners_.find(side(to, from));
-  return back != owners_.end() && back->second == there->second ? no_index : there->second;
-}
-
-// Of the triangles with these corners, which `names` has by their sides. A cell has all triangles that are beside its
-// sides, and what is beyond these through sides that bound nothing.
-std::vector<Index> SideMesh::owners_of(
-    std::span<const Index> corners, const std::unordered_map<std::uint64_t, Index>& names) const {
+// Of the triangles with these corners. A cell has all triangles that are beside its sides, and what is beyond these
+// through sides that bound nothing: that a cell has in both directions, or none.
+std::vector<Index> SideMesh::owners_of(std::span<const Index> corners) const {
+  struct Bounds {
+    Index left;
+    Index right;
+    Index beyond;  // the triangle to the right
+  };
+  std::vector<Bounds> bounds(corners.size());
+  for (std::size_t at = 0; at < corners.size(); ++at) {
+    const Index p = corners[at];
+    const Index q = corners[at % 3 == 2 ? at - 2 : at + 1];
+    const TriangleSide& side = sides_.at(p, q);
+    const TriangleSide& back = sides_.at(q, p);
+    const bool is_none = side.owner == back.owner;
+    bounds[at] = {is_none ? no_index : side.owner, is_none ? no_index : back.owner, back.triangle};
+  }
   std::vector<Index> owners(corners.size() / 3, no_index);
   std::vector<Index> waiting;
   const auto visit = [&](Index triangle, Index owner) {
@@ -205,33 +197,28 @@ std::vector<Index> SideMesh::owners_of(
     owners[triangle] = owner;
     waiting.push_back(triangle);
   };
-  // Of each side its ends, and what is bounded to its left and to its right.
-  const auto for_each_side = [&](Index triangle, const auto& take) {
-    for (Index k = 0; k < 3; ++k) {
-      const Index p = corners[3 * std::size_t{triangle} + k];
-      const Index q = corners[3 * std::size_t{triangle} + (k + 1) % 3];
-      take(p, q, owner_beside(p, q), owner_beside(q, p));
-    }
+  const auto bounds_of = [&](Index triangle) {
+    return std::span(bounds).subspan(3 * std::size_t{triangle}, 3);
   };
   for (Index triangle = 0; triangle < owners.size(); ++triangle) {
-    for_each_side(triangle, [&](Index, Index, Index left, Index) {
-      if (left != no_index) visit(triangle, left);
-    });
+    for (const Bounds& side : bounds_of(triangle)) {
+      if (side.left != no_index) visit(triangle, side.left);
+    }
     while (!waiting.empty()) {
       const Index from = waiting.back();
       waiting.pop_back();
-      for_each_side(from, [&](Index p, Index q, Index left, Index right) {
-        if (left == no_index && right == no_index) visit(names.at(side(q, p)), owners[from]);
-      });
+      for (const auto& [left, right, beyond] : bounds_of(from)) {
+        if (left == no_index && right == no_index) visit(beyond, owners[from]);
+      }
     }
   }
   // A triangle of a cell beside the side of another one, or outside of a side of its own, is in both.
   for (Index triangle = 0; triangle < owners.size(); ++triangle) {
-    for_each_side(triangle, [&](Index, Index, Index left, Index right) {
-      const Index owner = owners[triangle];
+    const Index owner = owners[triangle];
+    for (const auto& [left, right, beyond] : bounds_of(triangle)) {
       if (left != no_index && left != owner) refuse(left, owner);
       if (left == no_index && right != no_index && owner != no_index) refuse(right, owner);
-    });
+    }
   }
   return owners;
 }

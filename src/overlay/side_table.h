@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The directed sides of triangles by their ends: a table of one array, as all of filling waits for its answers.
+#pragma once
+
+#include <bit>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "rondel/types.h"
+
+namespace rondel::overlay {
+
+struct TriangleSide {
+  Index from = no_index;  // of no side
+  Index to = no_index;
+  Index apex =
+      no_index;  // the corner of the triangle to its left; of a side that has none no_index
+  Index owner = no_index;     // what it was made a border of, to its left
+  Index triangle = no_index;  // the name of the triangle to its left
+};
+
+class SideTable {
+ public:
+  explicit SideTable(std::size_t expected)
+      : slots_(std::bit_ceil(2 * expected + 2)), shift_(64 - std::countr_zero(slots_.size())) {}
+
+  // Precondition: it was made.
+  [[nodiscard]] const TriangleSide& at(Index from, Index to) const {
+    const TriangleSide& side = slots_[slot_of(from, to)];
+    assert(side.from == from);
+    return side;
+  }
+  // A side that has been none if it was not made. The reference lives until the next one is made.
+  [[nodiscard]] const TriangleSide& find(Index from, Index to) const {
+    return slots_[slot_of(from, to)];
+  }
+  // Makes it if there is none.
+  TriangleSide& make(Index from, Index to) {
+    std::size_t slot = slot_of(from, to);
+    if (slots_[slot].from == no_index) {
+      if (2 * (size_ + 1) > slots_.size()) {
+        grow();
+        slot = slot_of(from, to);
+      }
+      slots_[slot].from = from;
+      slots_[slot].to = to;
+      ++size_;
+    }
+    return slots_[slot];
+  }
+
+ private:
+  // Where it is, or would be. Half of the slots are free at least. Sides of points with numbers that are near each other
+  // are near each other, where there is room: near points have such, and memory that is near is there sooner.
+  [[nodiscard]] std::size_t slot_of(Index from, Index to) const {
+    constexpr std::uint64_t odd = 0x9e37'79b9'7f4a'7c15;  // 2^64 over the golden ratio
+    constexpr std::size_t of_point = 12;
+    constexpr std::size_t most_steps = 16;
+    const std::size_t last = slots_.size() - 1;
+    std::size_t slot = (from * of_point + (to * odd >> 61U)) & last;
+    for (std::size_t k = 0; k < most_steps; ++k) {
+      if (is_place_of(slot, from, to)) return slot;
+      slot = (slot + 1) & last;
+    }
+    slot = ((std::uint64_t{from} << 32U | to) * odd) >> shift_;
+    while (!is_place_of(slot, from, to)) slot = (slot + 1) & last;
+    return slot;
+  }
+  [[nodiscard]] bool is_place_of(std::size_t slot, Index from, Index to) const {
+    const TriangleSide& side = slots_[slot];
+    return side.from == no_index || (side.from == from && side.to == to);
+  }
+  void grow() {
+    std::vector<TriangleSide> before(2 * slots_.size());
+    before.swap(slots_);
+    --shift_;
+    for (const TriangleSide& side : before) {
+      if (side.from != no_index) slots_[slot_of(side.from, side.to)] = side;
+    }
+  }
+
+  std::vector<TriangleSide> slots_;  // a power of two
+  int shift_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace rondel::overlay
