@@ -183,6 +183,22 @@ TEST(interpolation_fit, neighbors_in_line_have_no_fit) {
   EXPECT_TRUE(OneFit(plane.x, steps_to(bent, 0.1, plane), 7).has_gradient);
 }
 
+// On a conic through the site one quadratic polynomial vanishes: there the quadratic fit is anything.
+TEST(interpolation_fit, neighbors_nearly_on_a_circle_through_the_site_have_a_linear_fit) {
+  const Plane plane = Plane::at({0, 0, 1});
+  for (const double distance : {0.0, 1e-8, 1e-4, 0.1}) {
+    Spots spots;
+    for (int k = 0; k < 8; ++k) {
+      const double turn = 0.7 * k + 0.2;
+      const double radius = std::sqrt(0.34) * (1 + (k % 3 - 1) * distance);
+      spots.push_back({0.5 + radius * std::cos(turn), 0.3 + radius * std::sin(turn)});
+    }
+    const OneFit fit(plane.x, steps_to(spots, 0.1, plane), 2);
+    EXPECT_TRUE(fit.has_gradient);
+    EXPECT_EQ(fit.num_terms, distance < 1e-3 ? 2U : 5U) << distance;
+  }
+}
+
 // Whatever lies in the other lanes, and however many neighbors those have.
 TEST(interpolation_fit, lanes_do_not_see_each_other) {
   Random random(6);
