@@ -40,18 +40,27 @@ constexpr Bits reversed(Bits bits) {
   }
 }
 
+// Copies `count` numbers of `size` bytes, each with its bytes the other way around. Neither place need be aligned.
+template <std::size_t size>
+void copy_reversed(const char* numbers, std::size_t count, char* bytes) {
+  using Bits = std::conditional_t<size == 8, std::uint64_t,
+                                  std::conditional_t<size == 4, std::uint32_t, std::uint8_t>>;
+  static_assert(sizeof(Bits) == size);
+  for (std::size_t i = 0; i < count; ++i) {
+    Bits bits;
+    std::memcpy(&bits, numbers + i * size, size);
+    bits = reversed(bits);
+    std::memcpy(bytes + i * size, &bits, size);
+  }
+}
+
 // Stores the numbers one after the other at `bytes`, which need not be aligned.
 template <typename T>
 void store_all(std::span<const T> numbers, char* bytes, std::endian order) {
   if (order == std::endian::native) {
     std::memcpy(bytes, numbers.data(), numbers.size_bytes());
-    return;
-  }
-  using Bits = std::conditional_t<sizeof(T) == 8, std::uint64_t,
-                                  std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint8_t>>;
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const Bits bits = reversed(std::bit_cast<Bits>(numbers[i]));
-    std::memcpy(bytes + i * sizeof(T), &bits, sizeof(T));
+  } else {
+    copy_reversed<sizeof(T)>(reinterpret_cast<const char*>(numbers.data()), numbers.size(), bytes);
   }
 }
 
@@ -112,7 +121,7 @@ class NumberBytes {
       : bytes_(reinterpret_cast<const char*>(std::data(values)),
                std::size(values) * sizeof(*std::data(values))) {
     using Element = std::remove_cvref_t<decltype(*std::data(values))>;
-    if (order != std::endian::native) reverse(sizeof(typename NumbersOf<Element>::Number));
+    if (order != std::endian::native) reverse<sizeof(typename NumbersOf<Element>::Number)>();
   }
   NumberBytes(const NumberBytes&) = delete;
   NumberBytes& operator=(const NumberBytes&) = delete;
@@ -121,13 +130,10 @@ class NumberBytes {
   operator std::string_view() const { return bytes_; }
 
  private:
-  void reverse(std::size_t size) {
-    copy_ = bytes_;
-    for (auto number = copy_.begin(); number != copy_.end();) {
-      const auto end = number + static_cast<std::ptrdiff_t>(size);
-      std::reverse(number, end);
-      number = end;
-    }
+  template <std::size_t size>
+  void reverse() {
+    copy_.resize(bytes_.size());
+    copy_reversed<size>(bytes_.data(), bytes_.size() / size, copy_.data());
     bytes_ = copy_;
   }
 
