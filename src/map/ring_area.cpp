@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "exact/argument.h"
+#include "exact/triangle_area.h"
 #include "exact/vector.h"
 
 namespace rondel::map {
@@ -21,13 +21,6 @@ bool is_far(const Point& p, const Point& q) { return dot(p, q) < 0.5; }
 
 double determinant(const Point& a, const Point& b, const Point& c) {
   return dot(a, cross(b - a, c - a));
-}
-
-double triangle_area(const Point& a, const Point& b, const Point& c) {
-  const double sine = determinant(a, b, c);
-  const double cosine = 1 + dot(a, b) + dot(b, c) + dot(c, a);
-  const double half = exact::argument(std::abs(sine), cosine);
-  return sine < 0 ? -2 * half : 2 * half;
 }
 
 // A multiple of about the center of mass of the region to the left of the ring.
@@ -85,7 +78,7 @@ double area_around(const Point& a, std::span<const Point> ring) {
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point& b = ring[i];
     const Point& c = ring[i + 1 < ring.size() ? i + 1 : 0];
-    if (b != a && c != a) area += triangle_area(a, b, c);
+    if (b != a && c != a) area += exact::triangle_area(a, b, c);
   }
   return std::remainder(area, 4 * std::numbers::pi);
 }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "exact/argument.h"
+#include "exact/triangle_area.h"
 #include "exact/vector.h"
 #include "io/bad_value.h"
 #include "meshing/face_measures.h"
@@ -19,19 +19,10 @@ namespace {
 
 constexpr std::size_t border_grain = 4096;
 
-[[noreturn]] void refuse_cell(std::size_t cell) {
-  throw io::BadValue("cell " + std::to_string(cell) + " is not the Voronoi cell of its center");
-}
-
 // In the plane of the center, v and w.
 Point reflected(const Point& p, const Point& v, const Point& w) {
   const Point normal = normalized(cross(v, w - v));
   return normalized(p - 2 * dot(p - v, normal) * normal);
-}
-
-// Van Oosterom and Strackee 1983; positive counterclockwise.
-double triangle_area(const Point& a, const Point& b, const Point& c) {
-  return 2 * exact::argument(det(a, b - a, c - a), 1 + dot(a, b) + dot(b, c) + dot(c, a));
 }
 
 double distance_between(const Point& a, const Point& b) { return norm(b - a); }
@@ -98,8 +89,9 @@ class BorderedMeshMaker {
         const Point& corner = arrays_.vertex_points[v];
         const Index before = arrays_.edges_on_cell[at];
         const Index after = arrays_.edges_on_cell[from_.sides.next(static_cast<Index>(at))];
-        const double kite = square * (triangle_area(site, arrays_.edge_points[before], corner) +
-                                      triangle_area(site, corner, arrays_.edge_points[after]));
+        const double kite =
+            square * (exact::triangle_area(site, arrays_.edge_points[before], corner) +
+                      exact::triangle_area(site, corner, arrays_.edge_points[after]));
         for (std::size_t k = 0; k < 3; ++k) {
           if (arrays_.cells_on_vertex[v][k] == i) arrays_.kite_areas[v][k] = kite;
         }
@@ -137,6 +129,10 @@ class BorderedMeshMaker {
 };
 
 }  // namespace
+
+void refuse_cell(std::size_t cell) {
+  throw io::BadValue("cell " + std::to_string(cell) + " is not the Voronoi cell of its center");
+}
 
 // Each side runs counterclockwise around the site by less than half a turn; together they make one, if one side alone
 // comes to the direction of the last corner, or past it, from the right.

@@ -5,6 +5,7 @@
 // that of a cell of the border is reflected in their edge.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <utility>
@@ -25,6 +26,9 @@ struct RingsAndSites {
   std::span<const Point> sites;
   const Locator& locator;
 };
+
+// Throws BadValue: not the Voronoi cell of its center.
+[[noreturn]] void refuse_cell(std::size_t cell);
 
 // Throws BadValue for a ring that does not run around its site, once and counterclockwise.
 void require_rings_around_sites(const RingsAndSites& from);

@@ -43,7 +43,7 @@ bool has_corner(const MeshArrays& arrays, std::size_t cell, const Point& corner,
 void require_rings(const CellTable& table) {
   for (std::size_t i = 0; i < table.cells.num_cells(); ++i) {
     if (table.cells.cells[i + 1] - table.cells.cells[i] == 1) continue;
-    throw FileError(table.name + ": cell " + std::to_string(i) + " has not one ring of corners");
+    throw io::BadValue("cell " + std::to_string(i) + " has not one ring of corners");
   }
 }
 
@@ -53,9 +53,9 @@ void require_cells(const MeshArrays& arrays, const CellTable& table) {
     const double distance =
         meshing::corner_tolerance * spacing_of(arrays.cell_areas[i]) / arrays.radius;
     for (std::uint64_t k = cells.rings[i]; k < cells.rings[i + 1]; ++k) {
-      if (has_corner(arrays, i, cells.points[cells.corners[k]], distance * distance)) continue;
-      throw FileError(table.name + ": cell " + std::to_string(i) +
-                      " is not the Voronoi cell of its center");
+      if (!has_corner(arrays, i, cells.points[cells.corners[k]], distance * distance)) {
+        meshing::refuse_cell(i);
+      }
     }
   }
 }
@@ -89,7 +89,7 @@ std::optional<MeshArrays> part_of_mesh(const CellTable& table, const Triangulati
                              " meet, but not in the same corners");
   try {
     return whole_mesh(table, triangulation, options, execution);
-  } catch (const FileError&) {
+  } catch (const io::BadValue&) {
     throw refusal;
   } catch (const InvalidInput&) {
     throw refusal;
@@ -103,11 +103,11 @@ MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
     throw FileError(table.name + ": " + table.convention +
                     " without centers of cells, of which the mesh is made");
   }
-  require_rings(table);
   try {
-    const std::vector<Point> sites = unit_vectors(table.centers);
-    const Triangulation triangulation = delaunay(sites, {}, execution);
     return io::in_file(table.name, [&] {
+      require_rings(table);
+      const std::vector<Point> sites = unit_vectors(table.centers);
+      const Triangulation triangulation = delaunay(sites, {}, execution);
       std::optional<MeshArrays> part =
           part_of_mesh(table, triangulation, sites, options, execution);
       return part ? std::move(*part) : whole_mesh(table, triangulation, options, execution);
