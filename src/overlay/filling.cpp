@@ -78,7 +78,7 @@ class SideMesh {
   std::span<const Index> names_of_cells_;
   std::vector<Index> names_;   // of points in the same direction, one
   std::vector<Index> around_;  // an end of a side from each point
-  SideTable sides_;            // also those that were crossed, and are none any more
+  SideTable sides_;  // also those that were crossed: nobody asks for their apexes any more
 };
 
 void SideMesh::refuse(Index owner, Index other) const {

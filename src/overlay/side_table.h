@@ -17,8 +17,7 @@ namespace rondel::overlay {
 struct TriangleSide {
   Index from = no_index;  // of no side
   Index to = no_index;
-  Index apex =
-      no_index;  // the corner of the triangle to its left; of a side that has none no_index
+  Index apex = no_index;      // the corner of the triangle to its left
   Index owner = no_index;     // what it was made a border of, to its left
   Index triangle = no_index;  // the name of the triangle to its left
 };
@@ -34,11 +33,7 @@ class SideTable {
     assert(side.from == from);
     return side;
   }
-  // A side that has been none if it was not made. The reference lives until the next one is made.
-  [[nodiscard]] const TriangleSide& find(Index from, Index to) const {
-    return slots_[slot_of(from, to)];
-  }
-  // Makes it if there is none.
+  // Makes it if there is none. The reference lives until the next one is made.
   TriangleSide& make(Index from, Index to) {
     std::size_t slot = slot_of(from, to);
     if (slots_[slot].from == no_index) {

@@ -77,7 +77,7 @@ TEST_F(MeshFiles, mpas_comes_back_bit_for_bit) {
 }
 
 TEST_F(MeshFiles, threads_do_not_change_a_byte) {
-  const std::size_t n = is_shortened() ? 9000 : 20000;  // threads take 4096 rows at a time
+  const std::size_t n = is_shortened() ? 9000 : 20000;  // a thread takes 256 KiB of rows at a time
   const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(n, 13)));
   for (const MeshFormat format : {MeshFormat::mpas, MeshFormat::ugrid, MeshFormat::scrip,
                                   MeshFormat::esmf, MeshFormat::exodus}) {

@@ -84,6 +84,46 @@ INSTANTIATE_TEST_SUITE_P(overlay, OverlayHostile,
                            return std::string(generators()[test.param].name);
                          });
 
+// Two cells, around the poles: a ring of corners at two latitudes by turns, and its rest.
+CellRings caps(Index num_corners, double even, double odd) {
+  CellRings rings;
+  for (Index k = 0; k < num_corners; ++k) {
+    const double height = k % 2 == 0 ? even : odd;
+    const double radius = std::sqrt(1 - height * height);
+    const double turn = 2 * std::numbers::pi * (k + 0.25) / num_corners;
+    rings.points.push_back({radius * std::cos(turn), radius * std::sin(turn), height});
+    rings.corners.push_back(k);
+  }
+  for (Index k = num_corners; k > 0; --k) rings.corners.push_back(k - 1);
+  rings.rings.insert(rings.rings.end(), {num_corners, 2 * std::uint64_t{num_corners}});
+  rings.cells = {0, 1, 2};
+  return rings;
+}
+
+TEST(overlay_hostile, cells_of_many_corners_are_those_of_clipping) {
+  const auto sites = triangulation_of("uniform", 120, 3);
+  const Partition others = Partition::voronoi(sites);
+  const Cells convex = cells(sites);
+  for (const Index num_corners : {10U, 64U, 302U}) {
+    for (const auto& [even, odd] : {std::pair{0.2, 0.2}, {0.9, 0.9}, {0.3, 0.7}, {0.1, 0.15}}) {
+      const CellRings rings = caps(num_corners, even, odd);
+      const Partition two(rings);
+      const Remap there = rondel::remap(two, others);
+      const Remap back = rondel::remap(others, two);
+      LongRing cap;
+      for (const Point& p : rings.points) cap.push_back(long_vector(p));
+      for (std::size_t j = 0; j < others.num_cells(); ++j) {
+        const auto north = static_cast<double>(area_of_piece(cap, convex, j));
+        const double south = others.areas()[j] - north;
+        EXPECT_NEAR(piece_of(there, 0, j), north, 1e-14) << num_corners << ' ' << even << ' ' << j;
+        EXPECT_NEAR(piece_of(there, 1, j), south, 1e-14) << num_corners << ' ' << even << ' ' << j;
+        EXPECT_NEAR(piece_of(back, j, 0), north, 1e-14) << num_corners << ' ' << even << ' ' << j;
+        EXPECT_NEAR(piece_of(back, j, 1), south, 1e-14) << num_corners << ' ' << even << ' ' << j;
+      }
+    }
+  }
+}
+
 // The middle of a cell, from which corners are looked for, is a corner of the other diagram but for its length, an ulp.
 TEST(overlay_hostile, corners_in_the_middle_of_cells) {
   const std::vector<Point> sites = {{0, 0, 1}, {-3, 0, 0}, {0, 0, -1}, {0, -3, 0}};

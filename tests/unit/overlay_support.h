@@ -104,15 +104,19 @@ inline std::vector<LongVector> centers_of(const Triangulation& sites) {
   return centers;
 }
 
-// Of convex cells.
-inline long double area_of_piece(const Cells& first, std::size_t i, const Cells& second,
-                                 std::size_t j) {
-  LongRing ring = ring_of(first, i);
+// What of a ring within a hemisphere is in a convex cell.
+inline long double area_of_piece(LongRing ring, const Cells& second, std::size_t j) {
   const LongRing other = ring_of(second, j);
   for (std::size_t k = 0; k < other.size() && ring.size() > 2; ++k) {
     ring = clipped(ring, other[k], other[(k + 1) % other.size()]);
   }
   return area_of(ring);
+}
+
+// Of convex cells.
+inline long double area_of_piece(const Cells& first, std::size_t i, const Cells& second,
+                                 std::size_t j) {
+  return area_of_piece(ring_of(first, i), second, j);
 }
 
 inline Triangulation triangulation_of(std::string_view kind, std::size_t n, std::uint64_t seed) {
