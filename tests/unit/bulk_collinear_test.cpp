@@ -9,6 +9,7 @@
 #include <cstdint>
 
 #include "bulk/collinear.h"
+#include "exact/vector.h"
 #include "gtest/gtest.h"
 #include "support/random.h"
 

@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "rondel/delaunay.h"
 #include "rondel/dynamic.h"
 #include "rondel/error.h"
 #include "rondel/query.h"

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "exact/vector.h"
 #include "kernel/brio.h"
 #include "order/cube_position.h"
 #include "order/hilbert.h"

@@ -14,6 +14,7 @@
 #include <tuple>
 #include <utility>
 
+#include "rondel/triangulation.h"
 #include "rondel/types.h"
 
 namespace rondel {
