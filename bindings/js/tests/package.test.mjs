@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the package holds, how large it is, and how it is loaded.
+// What the package holds and how it is loaded.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -9,17 +9,9 @@ import { readFileSync, statSync } from "node:fs";
 import { createRequire } from "node:module";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
-import { brotliCompressSync, constants } from "node:zlib";
 
 const folder = dirname(createRequire(import.meta.url).resolve("rondel/package.json"));
 const description = JSON.parse(readFileSync(join(folder, "package.json"), "utf8"));
-
-test("the module is at most 220 KB, compressed by brotli", () => {
-  const module = readFileSync(join(folder, "rondel.wasm"));
-  const options = { params: { [constants.BROTLI_PARAM_QUALITY]: 11, [constants.BROTLI_PARAM_SIZE_HINT]: module.length } };
-  const size = brotliCompressSync(module, options).length;
-  assert.ok(size <= 220_000, `${size}`);
-});
 
 test("the package needs no other, and has a licence, types and a version", () => {
   assert.equal(description.dependencies, undefined);
