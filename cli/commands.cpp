@@ -129,7 +129,7 @@ Command add_delaunay_command(CLI::App& tool) {
       "  rondel delaunay stations.csv -o stations.geojson\n"
       "  rondel delaunay points.xyz --model weighted -o hull.ply\n"
       "  rondel delaunay stations.csv --lon east --lat north --json -o faces.npy\n"
-      "  rondel delaunay sites.npy -o faces.npy --memory 2G --scratch /data/work\n"
+      "  rondel delaunay sites.npy -o faces.npy --memory 2G --scratch scratch\n"
       "  rondel delaunay sites.npy -o mesh.zarr --areas mesh.zarr");
   return {parser, [options] { return run_delaunay(*options); }};
 }
@@ -190,7 +190,7 @@ Command add_voronoi_command(CLI::App& tool) {
       "Examples:\n"
       "  rondel voronoi stations.csv -o cells.geojson\n"
       "  rondel voronoi stations.csv --clip land.geojson --group country -o countries.geojson\n"
-      "  rondel voronoi stations.csv --clip countries.geojson --clip-value NAME -o parts.gpkg\n"
+      "  rondel voronoi stations.csv --clip countries.geojson --clip-value name -o parts.gpkg\n"
       "  rondel voronoi rivers.geojson --densify 0.5 --earth-radius 6371.0088 -o basins.geojson\n"
       "  rondel voronoi circles.csv --radius radius -o power-cells.geojson");
   return {parser, [options] { return run_voronoi(*options); }};

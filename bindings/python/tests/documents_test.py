@@ -34,22 +34,15 @@ def test_docstrings(name):
         assert failed == 0
 
 
-@pytest.mark.parametrize(
-    "document",
-    [
-        "docs/guide/python.md",
-        "docs/guide/contours.md",
-        "docs/guide/graphs.md",
-        "docs/guide/interpolation.md",
-        "docs/guide/mesh-making.md",
-        "docs/guide/meshes.md",
-        "docs/guide/remapping.md",
-        "docs/guide/regions.md",
-        "docs/guide/distributed.md",
-        "docs/guide/scaling.md",
-        "README.md",
-    ],
-)
+def documents():
+    """The documents that show what Python answers."""
+    paths = [ROOT / "README.md", *ROOT.glob("docs/**/*.md"), *ROOT.glob("bindings/**/*.md")]
+    return sorted(
+        str(p.relative_to(ROOT)) for p in paths if "\n```python\n>>> " in p.read_text("utf-8")
+    )
+
+
+@pytest.mark.parametrize("document", documents())
 def test_documents(document):
     blocks = re.findall(
         r"^```python\n(.*?)^```$", (ROOT / document).read_text("utf-8"), re.M | re.S
