@@ -53,7 +53,7 @@ class RONDEL_API Partition {
                                const Execution& execution = {});
   /// Any cells.
   /// \throws InvalidInput with the cell that has an index out of range, a ring of less than three corners,
-  /// or a corner that is no unit vector.
+  /// a corner that is no unit vector, or rings although it is named as the whole sphere.
   explicit Partition(const CellRings& cells, const Execution& execution = {});
 
   [[nodiscard]] std::size_t num_cells() const;

@@ -34,7 +34,7 @@ struct RegionPieces {
 /// 2. Rings are simple and meet at most in points; a ring begins at its corner with the least coordinates.
 ///    Where two pieces meet, both have the same corners, bit by bit.
 /// 3. Rings without area but rounding are left out.
-/// 4. A piece that is the whole sphere has no border, and so no rings.
+/// 4. A piece that is the whole sphere has no border, and so no rings: `rings.whole` names it.
 /// 5. The result depends on the cells and their order alone, not on the number of threads.
 ///
 /// If neither partition is_cover(), one is filled up as remap() does it: sides of its cells get corners where those of
@@ -45,15 +45,15 @@ RONDEL_API RegionPieces intersection(const Partition& cells, const Partition& re
                                      const Execution& execution = {});
 
 /// The part of each cell that lies in any of the regions: the pieces of intersection(), joined to their
-/// cell. A cell of which nothing is left has no rings. Regions that share a border have to name the same
+/// cell. A cell of which nothing is left has no rings; `whole` names one of which the whole sphere is left. Regions that share a border have to name the same
 /// corners along it; otherwise it stays visible.
 /// \throws InvalidInput as intersection().
 RONDEL_API CellRings clip(const Partition& cells, const Partition& regions,
                           const Execution& execution = {});
 
 /// Cells joined by group: cell i becomes a part of `groups[i]`, or of nothing if that is no_index. Edges
-/// that two cells of one group have in common vanish; those between groups are the same for both, bit by bit. What
-/// covers the sphere has no border, and so no rings.
+/// that two cells of one group have in common vanish; those between groups are the same for both, bit by bit. A group
+/// that covers the sphere has no border, and so no rings: `whole` names it.
 /// \throws InvalidInput if there is not one group a cell, or one is neither below num_groups nor no_index (its
 ///         index).
 RONDEL_API CellRings dissolve(const CellRings& cells, std::span<const Index> groups,

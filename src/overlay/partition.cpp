@@ -47,9 +47,9 @@ double area_of(const Subdivision& cells, std::size_t cell) {
 
 }  // namespace
 
-PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned threads)
+PartitionData::PartitionData(Subdivision subdivision, std::vector<Index> whole, unsigned threads)
     : subdivision_(std::move(subdivision)),
-      whole_(whole),
+      all_whole_(std::move(whole)),
       areas_(subdivision_.num_cells()),
       moments_(subdivision_.num_cells()),
       lengths_(subdivision_.num_cells()) {
@@ -73,17 +73,16 @@ PartitionData::PartitionData(Subdivision subdivision, Index whole, unsigned thre
     }
   };
   system::parallel_for(threads, subdivision_.num_cells(), cells_per_piece, measure);
-  if (whole != no_index) areas_[whole] = 4 * std::numbers::pi;
+  for (const Index cell : all_whole_) areas_[cell] = 4 * std::numbers::pi;
   // Cells that turn counterclockwise and close around all edges cover the sphere once or several times.
   const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
-  is_cover_ = whole != no_index ||
+  is_cover_ = !all_whole_.empty() ||
               (subdivision_.is_closed && std::abs(total - 4 * std::numbers::pi) < std::numbers::pi);
 }
 
 PartitionData::PartitionData(Graticule grid)
     : subdivision_({}, false, 1),
       grid_(std::move(grid)),
-      whole_(no_index),
       is_cover_(grid_->is_cover()),
       areas_(grid_->areas()),
       moments_(grid_->moments()),
@@ -142,6 +141,15 @@ void validate(const CellRings& cells) {
     throw InvalidInput("the offsets of cells and rings do not fit", 0);
   }
   if (cells.corners.size() >= no_index) throw InvalidInput("there are too many corners", no_index);
+  for (std::size_t k = 0; k < cells.whole.size(); ++k) {
+    const Index i = cells.whole[k];
+    if (i >= cells.num_cells() || (k > 0 && i <= cells.whole[k - 1])) {
+      throw InvalidInput("the cells that are the whole sphere are not in order", i);
+    }
+    if (cells.cells[i] < cells.cells[i + std::size_t{1}]) {
+      refuse(i, "is the whole sphere and has rings");
+    }
+  }
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
     for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + 1]; ++r) {
       const std::uint64_t size = cells.rings[r + 1] - cells.rings[r];
@@ -172,22 +180,21 @@ Partition::Partition(const CellRings& cells, const Execution& execution) {
   const system::Call call(execution);
   validate(cells);
   data_ = std::make_shared<const PartitionData>(Subdivision(cells, false, execution.threads),
-                                                no_index, execution.threads);
+                                                cells.whole, execution.threads);
 }
 
 Partition Partition::voronoi(const Triangulation& triangulation, const Execution& execution) {
   const system::Call call(execution);
-  const bool is_whole = triangulation.num_vertices() == 1;
-  Index whole = no_index;
-  if (is_whole) {
+  std::vector<Index> whole;
+  if (triangulation.num_vertices() == 1) {
     std::vector<bool> is_hidden(triangulation.num_sites());
     for (const auto& [site, representative] : triangulation.duplicates()) is_hidden[site] = true;
     for (const auto& [site, face] : triangulation.hidden()) is_hidden[site] = true;
-    whole = static_cast<Index>(std::ranges::find(is_hidden, false) - is_hidden.begin());
+    whole = {static_cast<Index>(std::ranges::find(is_hidden, false) - is_hidden.begin())};
   }
   Subdivision cells(rings_of(rondel::cells(triangulation, execution)), true, execution.threads);
   return Partition(
-      std::make_shared<const PartitionData>(std::move(cells), whole, execution.threads));
+      std::make_shared<const PartitionData>(std::move(cells), std::move(whole), execution.threads));
 }
 
 Partition Partition::triangles(const Triangulation& triangulation, const Execution& execution) {
@@ -234,6 +241,7 @@ CellRings Partition::rings() const {
     }
     result.cells.push_back(result.rings.size() - 1);
   }
+  result.whole = data_->all_whole();
   return result;
 }
 bool Partition::is_cover() const { return data_->is_cover(); }

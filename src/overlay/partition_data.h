@@ -16,7 +16,8 @@ namespace rondel::overlay {
 
 class PartitionData {
  public:
-  PartitionData(Subdivision subdivision, Index whole, unsigned threads);
+  // `whole` are the cells that are the whole sphere, increasing.
+  PartitionData(Subdivision subdivision, std::vector<Index> whole, unsigned threads);
   explicit PartitionData(Graticule grid);
 
   [[nodiscard]] static const PartitionData& of(const Partition& partition) {
@@ -27,8 +28,9 @@ class PartitionData {
   [[nodiscard]] const Graticule* grid() const { return grid_ ? &*grid_ : nullptr; }
   // Without a cell if there is a grid.
   [[nodiscard]] const Subdivision& subdivision() const { return subdivision_; }
-  // The cell that is the whole sphere; no_index: none is.
-  [[nodiscard]] Index whole() const { return whole_; }
+  // The first cell that is the whole sphere; no_index: none is.
+  [[nodiscard]] Index whole() const { return all_whole_.empty() ? no_index : all_whole_.front(); }
+  [[nodiscard]] const std::vector<Index>& all_whole() const { return all_whole_; }
   [[nodiscard]] bool is_cover() const { return is_cover_; }
   // By name.
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
@@ -39,7 +41,7 @@ class PartitionData {
  private:
   Subdivision subdivision_;
   std::optional<Graticule> grid_;
-  Index whole_;
+  std::vector<Index> all_whole_;
   bool is_cover_ = false;
   std::vector<double> areas_;
   std::vector<Point> moments_;

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -29,6 +31,7 @@ using overlay::PieceArc;
 using overlay::Subdivision;
 
 constexpr std::size_t cells_per_block = 64;
+constexpr double half_of_sphere = 2 * std::numbers::pi;
 
 // Of a piece of a cell of the first subdivision and one of the second, both by name.
 struct NamedArc {
@@ -134,6 +137,18 @@ void exchange(std::vector<NamedArc>& arcs) {
   for (NamedArc& arc : arcs) std::swap(arc.cell, arc.beyond);
 }
 
+// Of cells that have no ring although something was cut out of them: what is left of them is nothing or, where less than
+// half of the sphere is missing in both numbers by cell, the whole sphere.
+std::vector<Index> whole_cells_of(const CellRings& cells, const auto& covered) {
+  std::vector<Index> whole;
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    if (cells.cells[i] == cells.cells[i + 1] && covered(i) > half_of_sphere) {
+      whole.push_back(static_cast<Index>(i));
+    }
+  }
+  return whole;
+}
+
 // Of cells and regions of which neither covers the sphere. `beyond` are the regions.
 std::vector<NamedArc> overlay_of_parts(const Subdivision& cells, const Subdivision& regions,
                                        const Execution& execution) {
@@ -180,6 +195,15 @@ std::vector<Point> points_of(const CellRings& cells, std::uint64_t ring) {
   return points;
 }
 
+double area_of_cell(const CellRings& cells, std::size_t cell) {
+  if (cells.is_whole(cell)) return 2 * half_of_sphere;
+  overlay::RegionArea area;
+  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
+    area.add(points_of(cells, r));
+  }
+  return area.value();
+}
+
 }  // namespace
 
 RegionPieces intersection(const Partition& cells, const Partition& regions,
@@ -191,6 +215,11 @@ RegionPieces intersection(const Partition& cells, const Partition& regions,
   std::vector<Pair> pairs;
   pairs.reserve(arcs.size());
   for (const NamedArc& arc : arcs) pairs.emplace_back(arc.cell, arc.beyond);
+  for (const Index cell : PartitionData::of(cells).all_whole()) {
+    for (const Index region : PartitionData::of(regions).all_whole()) {
+      pairs.emplace_back(cell, region);
+    }
+  }
   std::ranges::sort(pairs);
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<KeyedArc> keyed;
@@ -205,7 +234,12 @@ RegionPieces intersection(const Partition& cells, const Partition& regions,
   result.rings.rings = all.rings;
   result.rings.corners = all.corners;
   for (std::size_t k = 0; k < pairs.size(); ++k) {
-    if (all.cells[k] == all.cells[k + 1]) continue;
+    if (all.cells[k] == all.cells[k + 1]) {
+      if (std::min(cells.areas()[pairs[k].first], regions.areas()[pairs[k].second]) <=
+          half_of_sphere)
+        continue;
+      result.rings.whole.push_back(static_cast<Index>(result.cells.size()));
+    }
     result.rings.cells.push_back(all.cells[k + 1]);
     result.cells.push_back(pairs[k].first);
     result.regions.push_back(pairs[k].second);
@@ -220,7 +254,12 @@ CellRings clip(const Partition& cells, const Partition& regions, const Execution
   std::vector<KeyedArc> keyed;
   keyed.reserve(arcs.size());
   for (const NamedArc& arc : arcs) keyed.push_back({arc.cell, arc.from, arc.to});
-  return overlay::rings_around(keyed, cells.num_cells(), execution.threads);
+  CellRings clipped = overlay::rings_around(keyed, cells.num_cells(), execution.threads);
+  const std::span<const double> of_regions = regions.areas();
+  const double covered = std::accumulate(of_regions.begin(), of_regions.end(), 0.0);
+  clipped.whole =
+      whole_cells_of(clipped, [&](std::size_t i) { return std::min(cells.areas()[i], covered); });
+  return clipped;
 }
 
 CellRings dissolve(const CellRings& cells, std::span<const Index> groups, std::size_t num_groups,
@@ -247,19 +286,23 @@ CellRings dissolve(const CellRings& cells, std::span<const Index> groups, std::s
       }
     }
   }
-  return overlay::rings_around(keyed, num_groups, execution.threads);
+  CellRings joined = overlay::rings_around(keyed, num_groups, execution.threads);
+  const auto is_without_rings = [&](std::size_t group) {
+    return joined.cells[group] == joined.cells[group + 1];
+  };
+  std::vector<double> covered(num_groups);
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    if (groups[i] == no_index || !is_without_rings(groups[i])) continue;
+    covered[groups[i]] += area_of_cell(cells, i);
+  }
+  joined.whole = whole_cells_of(joined, [&](std::size_t group) { return covered[group]; });
+  return joined;
 }
 
 std::vector<double> areas(const CellRings& cells) {
   std::vector<double> result;
   result.reserve(cells.num_cells());
-  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
-    overlay::RegionArea area;
-    for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + 1]; ++r) {
-      area.add(points_of(cells, r));
-    }
-    result.push_back(area.value());
-  }
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) result.push_back(area_of_cell(cells, i));
   return result;
 }
 

@@ -29,7 +29,7 @@ namespace {
 using overlay::PartitionData;
 using overlay::PieceRows;
 
-// One row, or one column, of whole cells.
+// One row, or one column, of a cell that is the whole sphere.
 PieceRows whole_cells(const PartitionData& cells, Index whole, std::size_t num_rows) {
   PieceRows pieces;
   pieces.offsets.assign(num_rows + 1, 0);
