@@ -67,7 +67,7 @@ RONDEL_API RegionPieces dissolve(const RegionPieces& pieces, std::span<const Ind
                                  std::span<const Index> region_groups,
                                  const Execution& execution = {});
 
-/// Two cells of which a side of one crosses a side of the other, or a cell with itself, and a place where they do.
+/// Two cells that cross or overlap, or a cell that does so with itself, and a place where they do.
 struct CrossingCells {
   Index first = no_index;
   Index second = no_index;  ///< not below first
@@ -79,6 +79,14 @@ struct CrossingCells {
 /// \throws InvalidInput if the offsets do not fit.
 RONDEL_API std::vector<CrossingCells> crossing_cells(const CellRings& cells,
                                                      const Execution& execution = {});
+
+/// Which cells overlap each other, or themselves, by more than rounding of their corners, in lexicographic order, each pair
+/// once: cells that cross, contain or repeat each other, wholly or in part, and rings that are not those of a region.
+/// `place` is the middle of what they share, or where a cell contradicts itself. Corners of one cell on the side of
+/// another are no overlap.
+/// \throws InvalidInput as Partition(cells).
+RONDEL_API std::vector<CrossingCells> overlapping_cells(const CellRings& cells,
+                                                        const Execution& execution = {});
 
 /// The area of each cell in steradians, whatever its size and form.
 RONDEL_API std::vector<double> areas(const CellRings& cells);

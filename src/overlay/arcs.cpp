@@ -4,8 +4,10 @@
 #include "overlay/arcs.h"
 
 #include <algorithm>
+#include <numbers>
 
 #include "exact/exact_sign.h"
+#include "map/ring_area.h"
 
 namespace rondel::overlay {
 namespace {
@@ -47,6 +49,7 @@ std::span<const PieceArc> ArcMaker::operator()(Index cell) {
   sort_passages(cells_.shapes[cell] == Shape::convex);
   follow_inwards();
   flood();
+  if (passages_.empty() && has_corners_of_cover(cell)) take_all_edges();
   return arcs_;
 }
 
@@ -133,6 +136,27 @@ void ArcMaker::flood() {
       }
       h = cover_.twins[cover_.previous(h)];
     } while (h != first);
+  }
+}
+
+// Of a cell of which no side crosses an edge: these are connected, so that all of them are inside, or none is. Each ring is
+// inside of one cell of the cover. If the edges are outside, then what is left of the rings there, negative where that is a
+// hole, adds up to the area; else it adds up to as much less the sphere.
+bool ArcMaker::has_corners_of_cover(Index cell) {
+  if (cells_.shapes[cell] != Shape::other) return false;
+  double inside_of_rings = 0;
+  for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
+    cells_.copy_ring(ring, ring_);
+    inside_of_rings += map::area_on_left(ring_);
+  }
+  return cells_.area_of_other(cell) - inside_of_rings > 2 * std::numbers::pi;
+}
+
+void ArcMaker::take_all_edges() {
+  for (Halfedge h = 0; h < cover_.num_halfedges(); ++h) {
+    if (h < cover_.twins[h]) {
+      add_edge(h, add_point(cover_.origin(h)), add_point(cover_.end(h)));
+    }
   }
 }
 

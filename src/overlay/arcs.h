@@ -54,6 +54,8 @@ class ArcMaker {
   [[nodiscard]] bool is_before(const Passage& a, const Passage& b) const;
   void follow_inwards();
   void flood();
+  [[nodiscard]] bool has_corners_of_cover(Index cell);
+  void take_all_edges();
   Index add_point(const Point& p) {
     points_.push_back(p);
     return static_cast<Index>(points_.size() - 1);
@@ -72,6 +74,7 @@ class ArcMaker {
   std::uint64_t passed_ = 0;        // digits_of() the edges that have passages
   std::vector<Halfedge> arrivals_;  // their ends are inside, and wait
   query::VisitedSet visited_;       // points of the cover
+  std::vector<Point> ring_;
 };
 
 }  // namespace rondel::overlay

@@ -14,6 +14,7 @@
 #include "exact/vector.h"
 #include "map/ring_area.h"
 #include "overlay/measure.h"
+#include "overlay/region_area.h"
 #include "overlay/same_nodes.h"
 #include "rondel/error.h"
 #include "system/parallel.h"
@@ -204,8 +205,9 @@ class RingMaker {
     }
     length += rough_length(border_.back(), border_.front());
     const double rounding = area_of_rounding(length);
-    return !map::is_surely_larger(border_, rounding) &&
-           std::abs(map::area_on_left(border_)) <= rounding;
+    if (map::is_surely_larger(border_, rounding)) return false;
+    const RingArea area = area_of_ring(border_);
+    return area.is_nothing() || std::abs(area.area) <= rounding;
   }
 
   const std::vector<Point>& points_;

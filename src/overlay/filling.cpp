@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "exact/vector.h"
 #include "overlay/side_table.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
@@ -45,9 +46,14 @@ class SideMesh {
     const Index end = names_[q];
     while (at != end) {
       const Index next = put_first(at, end, owner);
-      Index& there = sides_.make(at, next).owner;
-      if (there != no_index) refuse(owner, there);
-      there = owner;
+      Index& back = sides_.make(next, at).owner;
+      if (back == owner) {  // to and fro
+        back = no_index;
+      } else {
+        Index& there = sides_.make(at, next).owner;
+        if (there != no_index) refuse(owner, there, points_[at] + points_[next], false);
+        there = owner;
+      }
       at = next;
     }
   }
@@ -68,8 +74,9 @@ class SideMesh {
     around_[c] = a;
   }
   Index put_first(Index p, Index q, Index owner);
-  [[noreturn]] void refuse(Index owner, Index other) const;
-  void refuse_if_crossed(Index a, Index b, Index owner) const;
+  [[noreturn]] void refuse(Index owner, Index other, const Point& towards, bool is_crossing) const;
+  // The side from a to b is crossed on the way from p to q.
+  void refuse_if_crossed(Index a, Index b, Index p, Index q, Index owner) const;
   [[nodiscard]] std::vector<Index> owners_of(std::span<const Index> corners) const;
   void fill(std::vector<Index> ring);
   [[nodiscard]] bool is_ear(const std::vector<Index>& ring, std::size_t k) const;
@@ -81,17 +88,20 @@ class SideMesh {
   SideTable sides_;  // also those that were crossed: nobody asks for their apexes any more
 };
 
-void SideMesh::refuse(Index owner, Index other) const {
+void SideMesh::refuse(Index owner, Index other, const Point& towards, bool is_crossing) const {
   const auto [first, second] = std::minmax({names_of_cells_[owner], names_of_cells_[other]});
-  throw InvalidInput(first == second ? "cell " + std::to_string(first) + " overlaps itself"
-                                     : "cells " + std::to_string(first) + " and " +
-                                           std::to_string(second) + " overlap",
-                     second);
+  throw ConflictingSides({first, second, normalized(towards), is_crossing});
 }
 
-void SideMesh::refuse_if_crossed(Index a, Index b, Index owner) const {
+void SideMesh::refuse_if_crossed(Index a, Index b, Index p, Index q, Index owner) const {
   for (const TriangleSide& side : {sides_.at(a, b), sides_.at(b, a)}) {
-    if (side.owner != no_index) refuse(owner, side.owner);
+    if (side.owner == no_index) continue;
+    const Point& from = points_[p];
+    const Point& start = points_[a];
+    const Point place = cross(cross(from, points_[q] - from), cross(start, points_[b] - start));
+    const Point middle = start + points_[b];
+    refuse(owner, side.owner,
+           place == Point{} ? middle : (dot(place, middle) < 0 ? -1.0 : 1.0) * place, true);
   }
 }
 
@@ -110,7 +120,7 @@ Index SideMesh::put_first(Index p, Index q, Index owner) {
   std::vector<Index> left = {b};
   std::vector<Index> right = {a};
   for (;;) {
-    refuse_if_crossed(a, b, owner);
+    refuse_if_crossed(a, b, p, q, owner);
     const Index c = apex(b, a);
     const Sign at = turn(p, q, c);
     if (at == Sign::zero) {
@@ -216,8 +226,13 @@ std::vector<Index> SideMesh::owners_of(std::span<const Index> corners) const {
   for (Index triangle = 0; triangle < owners.size(); ++triangle) {
     const Index owner = owners[triangle];
     for (const auto& [left, right, beyond] : bounds_of(triangle)) {
-      if (left != no_index && left != owner) refuse(left, owner);
-      if (left == no_index && right != no_index && owner != no_index) refuse(right, owner);
+      const Point& a = points_[corners[3 * std::size_t{triangle}]];
+      const Point middle = a + points_[corners[3 * std::size_t{triangle} + 1]] +
+                           points_[corners[3 * std::size_t{triangle} + 2]];
+      if (left != no_index && left != owner) refuse(left, owner, middle, false);
+      if (left == no_index && right != no_index && owner != no_index) {
+        refuse(right, owner, middle, false);
+      }
     }
   }
   return owners;
@@ -225,7 +240,19 @@ std::vector<Index> SideMesh::owners_of(std::span<const Index> corners) const {
 
 }  // namespace
 
-Filling filling_of(const Subdivision& cells, const Execution& execution) {
+ConflictingSides::ConflictingSides(const SideConflict& conflict)
+    : InvalidInput(conflict.first == conflict.second
+                       ? "cell " + std::to_string(conflict.first) + " overlaps itself"
+                       : "cells " + std::to_string(conflict.first) + " and " +
+                             std::to_string(conflict.second) + " overlap",
+                   conflict.second),
+      conflict_(conflict) {}
+
+namespace {
+
+// The triangles and their owners.
+std::pair<CellRings, std::vector<Index>> filled_with(const Subdivision& cells,
+                                                     const Execution& execution) {
   std::vector<Point> points = cells.points;
   points.insert(points.end(),
                 {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}});
@@ -242,9 +269,24 @@ Filling filling_of(const Subdivision& cells, const Execution& execution) {
       progress.step();
     }
   }
-  CellRings triangles;
-  std::vector<Index> owners_by_name;
-  mesh.take(triangles, owners_by_name);
+  std::pair<CellRings, std::vector<Index>> filled;
+  mesh.take(filled.first, filled.second);
+  return filled;
+}
+
+}  // namespace
+
+std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execution& execution) {
+  try {
+    filled_with(cells, execution);
+  } catch (const ConflictingSides& error) {
+    return error.conflict();
+  }
+  return std::nullopt;
+}
+
+Filling filling_of(const Subdivision& cells, const Execution& execution) {
+  const auto [triangles, owners_by_name] = filled_with(cells, execution);
   Filling filling{Subdivision(triangles, false, execution.threads), {}};
   const auto none = static_cast<Index>(cells.num_cells());
   for (const Index name : filling.cover.names) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,25 @@ struct Filling {
   // Of each cell of the cover, the given cell that it is a part of; the number of these: none.
   std::vector<Index> owners;
 };
+
+// Where the sides of cells contradict each other: they cross, or a place is inside of two cells, or of one twice.
+struct SideConflict {
+  Index first;  // by name, not above the second
+  Index second;
+  Point place;
+  bool is_crossing;
+};
+class ConflictingSides : public InvalidInput {
+ public:
+  explicit ConflictingSides(const SideConflict& conflict);
+  [[nodiscard]] const SideConflict& conflict() const { return conflict_; }
+
+ private:
+  SideConflict conflict_;
+};
+
+// Whether any do, exactly. Whatever has one owner on both sides is no side.
+std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execution& execution);
 
 // The Delaunay triangulation of the corners and of the ends of the axes, into which the sides of the cells are put, all
 // of it exactly. Throws InvalidInput where cells overlap.

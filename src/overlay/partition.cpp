@@ -14,7 +14,6 @@
 #include "exact/vector.h"
 #include "overlay/measure.h"
 #include "overlay/partition_data.h"
-#include "overlay/region_area.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
@@ -32,17 +31,16 @@ bool is_wide(std::span<const BorderArc> border, const Point& center) {
                              [&](const BorderArc& arc) { return dot(center, arc.from) < 0; });
 }
 
-double area_of(const Subdivision& cells, std::size_t cell) {
-  RegionArea area;
-  std::vector<Point> points;
-  for (Index ring = cells.cells[cell]; ring < cells.cells[cell + 1]; ++ring) {
-    points.clear();
-    for (Halfedge h = cells.rings[ring]; h < cells.rings[ring + 1]; ++h) {
-      points.push_back(cells.origin(h));
-    }
-    area.add(points);
+// Of a region with this border, a cell of Shape::other with an area: which of the two sides of its rings is the inside is
+// decided there.
+double area_of(const Subdivision& cells, Index cell, std::span<const BorderArc> border,
+               double measured) {
+  const bool is_other = cells.shapes[cell] == Shape::other;
+  if (is_wide(border, cells.centers[cell])) {
+    return is_other ? cells.area_of_other(cell) : cells.area_of_rings(cell);
   }
-  return area.value();
+  const bool is_wrong = is_other && std::abs(measured - cells.area_of_other(cell)) > 1;
+  return is_wrong ? cells.area_of_other(cell) : measured;
 }
 
 }  // namespace
@@ -67,7 +65,7 @@ PartitionData::PartitionData(Subdivision subdivision, std::vector<Index> whole, 
       }
       const Measures measures = measures_of(border, subdivision_.centers[c]);
       areas_[subdivision_.names[c]] =
-          is_wide(border, subdivision_.centers[c]) ? area_of(subdivision_, c) : measures.area;
+          area_of(subdivision_, static_cast<Index>(c), border, measures.area);
       moments_[subdivision_.names[c]] = measures.moment;
       lengths_[subdivision_.names[c]] = measures.length;
     }

@@ -1,35 +1,39 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The areas of regions by their rings, whatever their size and form.
 #pragma once
 
 #include <cstddef>
-#include <numbers>
 #include <span>
+#include <vector>
 
-#include "map/ring_area.h"
-#include "overlay/measure.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
 
-// The area of a region by its rings, whatever its size and form. Each ring gives it but for a multiple of 4 pi, and their
-// sum lies between -4 pi and 4 pi.
+// What is left of a ring, but for a multiple of 4 pi: from -2 pi to 2 pi, and right to `rounding`.
+struct RingArea {
+  double area = 0;
+  double rounding = 0;
+
+  // Whether rounding of the corners may have made all of what is left, or right, of the ring.
+  [[nodiscard]] bool is_nothing() const { return area <= rounding && -area <= rounding; }
+};
+RingArea area_of_ring(std::span<const Point> ring);
+
+// Each ring gives the area but for a multiple of 4 pi, and it lies between 0 and 4 pi. So a sum that is surely negative is
+// the sphere's less that of what is missing. A sum that may be rounding is that of next to nothing, as rings have an inside
+// on their left only if they are wider than rounding of their corners.
 class RegionArea {
  public:
-  void add(std::span<const Point> ring) {
-    sum_ += map::area_on_left(ring);
-    num_corners_ += ring.size();
-  }
-  // No more below 0 than by rounding.
-  [[nodiscard]] double value() const {
-    const double rounding = area_of_rounding(static_cast<double>(num_corners_));
-    return sum_ < -rounding ? sum_ + 4 * std::numbers::pi : sum_;
-  }
+  void add(std::span<const Point> ring);
+  [[nodiscard]] double value() const;
 
  private:
   double sum_ = 0;
-  std::size_t num_corners_ = 0;
+  std::vector<Point> points_;
+  std::vector<std::size_t> ends_;  // of the rings among the points
 };
 
 }  // namespace rondel::overlay

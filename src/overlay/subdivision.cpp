@@ -12,6 +12,7 @@
 #include "order/place_keys.h"
 #include "order/radix_sort.h"
 #include "overlay/measure.h"
+#include "overlay/region_area.h"
 #include "predicates/bounds.h"
 #include "rondel/predicates.h"
 #include "system/parallel.h"
@@ -270,6 +271,48 @@ void Subdivision::find_twins() {
   }
 }
 
+// All edges turn counterclockwise around the center, by less than half a turn each, and all together once: only one of them
+// comes to the half circle through the first corner, or passes it.
+bool Subdivision::is_star(Index cell) const {
+  const Point& center = centers[cell];
+  const Point& first = origin(begin_of(cell));
+  const auto is_before_half = [&](const Point& p) {
+    const Sign side = orientation(center, first, p);
+    if (side != Sign::zero) return side == Sign::positive;
+    return dot(cross(center, first), cross(center, p)) > 0;
+  };
+  std::size_t num_turns = 0;
+  bool was_before_half = is_before_half(origin(end_of(cell) - 1));
+  for (Halfedge h = begin_of(cell); h < end_of(cell); ++h) {
+    if (!is_left_turn(center, origin(h), end(h))) return false;
+    const bool is_before = is_before_half(origin(h));
+    if (is_before && !was_before_half) ++num_turns;
+    was_before_half = is_before;
+  }
+  return num_turns == 1;
+}
+
+void Subdivision::find_areas_of_others() {
+  for (Index cell = 0; cell < num_cells(); ++cell) {
+    if (shapes[cell] == Shape::other) areas_of_others.emplace_back(cell, area_of_rings(cell));
+  }
+}
+
+double Subdivision::area_of_rings(Index cell) const {
+  RegionArea area;
+  std::vector<Point> corners_of_ring;
+  for (Index ring = cells[cell]; ring < cells[cell + 1]; ++ring) {
+    copy_ring(ring, corners_of_ring);
+    area.add(corners_of_ring);
+  }
+  return area.value();
+}
+
+double Subdivision::area_of_other(Index cell) const {
+  return std::ranges::lower_bound(areas_of_others, cell, {}, &std::pair<Index, double>::first)
+      ->second;
+}
+
 void Subdivision::find_shapes(unsigned threads) {
   shapes.resize(num_cells());
   const auto shape_of = [&](Index cell) {
@@ -285,10 +328,7 @@ void Subdivision::find_shapes(unsigned threads) {
                   (h == begin || h + 1 == end || is_left_turn(origin(begin), origin(h), b));
     }
     if (is_convex) return Shape::convex;
-    for (Halfedge h = begin; h < end; ++h) {
-      if (!is_left_turn(centers[cell], origin(h), this->end(h))) return Shape::other;
-    }
-    return Shape::star;
+    return is_star(cell) ? Shape::star : Shape::other;
   };
   system::parallel_for(threads, num_cells(), cells_per_piece,
                        [&](std::size_t begin, std::size_t end) {
@@ -298,6 +338,7 @@ void Subdivision::find_shapes(unsigned threads) {
                        });
   is_closed = !corners.empty() && std::ranges::find(twins, no_index) == twins.end() &&
               std::ranges::find(shapes, Shape::other) == shapes.end();
+  find_areas_of_others();
 }
 
 }  // namespace rondel::overlay

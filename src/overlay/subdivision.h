@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "rondel/cell_rings.h"
@@ -41,7 +42,9 @@ struct Subdivision {
   LargeVector<Halfedge> twins;  // no_index: nothing is beyond
   LargeVector<Index> cell_of;
   LargeVector<Shape> shapes;
-  std::vector<Point> centers;       // of mass
+  std::vector<Point> centers;  // of mass
+  // Of the cells of Shape::other, in their order.
+  std::vector<std::pair<Index, double>> areas_of_others;
   LargeVector<Index> names;         // the index of each cell in the input
   std::vector<std::uint64_t> keys;  // of the cells, increasing: their places along the curve
   bool is_closed = false;           // every halfedge has a twin, every cell is convex or a star
@@ -63,6 +66,15 @@ struct Subdivision {
   }
   [[nodiscard]] const Point& end(Halfedge h) const { return origin(next(h)); }
 
+  // Of any cell.
+  void copy_ring(Index ring, std::vector<Point>& corners_of_ring) const {
+    corners_of_ring.clear();
+    for (Halfedge h = rings[ring]; h < rings[ring + 1]; ++h) corners_of_ring.push_back(origin(h));
+  }
+  // Of Shape::other.
+  [[nodiscard]] double area_of_other(Index cell) const;
+  [[nodiscard]] double area_of_rings(Index cell) const;
+
  private:
   void sort_cells(const CellRings& input, unsigned threads);
   void take_rings(const CellRings& input);
@@ -71,6 +83,8 @@ struct Subdivision {
   void find_begins();
   void find_twins();
   void find_shapes(unsigned threads);
+  [[nodiscard]] bool is_star(Index cell) const;
+  void find_areas_of_others();
 };
 
 }  // namespace rondel::overlay

@@ -1,0 +1,314 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Cells are inside of balls around their centers; those whose balls meet are tried. Two convex cells are apart if a side of
+// one has all corners of the other to its right, which is exact. Of all others one is put into a triangulation, of which
+// the pieces that the other one has in it are measured.
+#include "overlay/overlaps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <tuple>
+
+#include "exact/vector.h"
+#include "map/arc.h"
+#include "overlay/filling.h"
+#include "overlay/measure.h"
+#include "overlay/partition_data.h"
+#include "overlay/pieces.h"
+#include "rondel/predicates.h"
+#include "system/job.h"
+#include "system/parallel.h"
+
+namespace rondel::overlay {
+namespace {
+
+constexpr std::size_t balls_per_piece = 1024;
+constexpr double around_everything = 4;  // a radius
+
+// A cell is inside of the part of the sphere that is in the ball.
+struct CellBall {
+  Index cell;
+  Point center;
+  double radius;
+
+  [[nodiscard]] double low() const { return center.x - radius; }
+  [[nodiscard]] bool may_meet(const CellBall& other) const {
+    const Point step = other.center - center;
+    const double reach = radius + other.radius;
+    return dot(step, step) <= reach * reach;
+  }
+};
+
+// A cell whose corners are less than a right angle from its center is nearer to it than they are: the center of mass of
+// what is beyond would be on the other side.
+CellBall ball_of(const Subdivision& cells, Index cell) {
+  constexpr double quarter = 1.4;       // less than the square root of 2
+  constexpr double rounding = 0x1p-50;  // of the center
+  CellBall ball{cell, cells.centers[cell], 0};
+  for (Halfedge h = cells.begin_of(cell); h < cells.end_of(cell); ++h) {
+    const Point step = cells.origin(h) - ball.center;
+    ball.radius = std::max(ball.radius, std::sqrt(dot(step, step)) + rounding);
+  }
+  if (ball.radius > quarter) ball.radius = around_everything;
+  return ball;
+}
+
+// Whether a side of a convex cell has all corners of another cell to its right, or on it.
+bool has_on_right(const Subdivision& cells, Index cell, Index other) {
+  for (Halfedge h = cells.begin_of(cell); h < cells.end_of(cell); ++h) {
+    const Halfedge twin = cells.twins[h];
+    if (twin != no_index && cells.cell_of[twin] == other && cells.shapes[other] == Shape::convex)
+      return true;
+    const Point& p = cells.origin(h);
+    const Point& q = cells.end(h);
+    bool is_right = true;
+    for (Halfedge g = cells.begin_of(other); is_right && g < cells.end_of(other); ++g) {
+      is_right = orientation(p, q, cells.origin(g)) != Sign::positive;
+    }
+    if (is_right) return true;
+  }
+  return false;
+}
+
+bool are_apart(const Subdivision& cells, Index a, Index b) {
+  const bool are_convex = cells.shapes[a] == Shape::convex && cells.shapes[b] == Shape::convex;
+  return are_convex && (has_on_right(cells, a, b) || has_on_right(cells, b, a));
+}
+
+// Cells that may overlap with a cell, which is put into a triangulation.
+struct Candidates {
+  Index filled;
+  Index other;
+  friend auto operator<=>(const Candidates&, const Candidates&) = default;
+};
+
+std::vector<Candidates> candidates_of(const Subdivision& cells, unsigned threads) {
+  std::vector<CellBall> balls;
+  for (Index c = 0; c < cells.num_cells(); ++c) {
+    if (cells.shapes[c] != Shape::empty) balls.push_back(ball_of(cells, c));
+  }
+  std::ranges::sort(balls, {}, [](const CellBall& ball) { return ball.low(); });
+  std::vector<std::vector<Candidates>> blocks(system::num_pieces(balls.size(), balls_per_piece));
+  system::parallel_for(
+      threads, balls.size(), balls_per_piece, [&](std::size_t begin, std::size_t end) {
+        std::vector<Candidates>& block = blocks[begin / balls_per_piece];
+        for (std::size_t i = begin; i < end; ++i) {
+          const double high = balls[i].center.x + balls[i].radius;
+          for (std::size_t k = i + 1; k < balls.size() && balls[k].low() <= high; ++k) {
+            if (!balls[i].may_meet(balls[k])) continue;
+            const auto [a, b] = std::minmax(balls[i].cell, balls[k].cell);
+            if (are_apart(cells, a, b)) continue;
+            // The larger one is filled, once for all that are near it.
+            const bool is_first =
+                cells.end_of(a) - cells.begin_of(a) >= cells.end_of(b) - cells.begin_of(b);
+            block.push_back(is_first ? Candidates{a, b} : Candidates{b, a});
+          }
+        }
+      });
+  std::vector<Candidates> all;
+  for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
+  std::ranges::sort(all);
+  return all;
+}
+
+CrossingCells named(Index a, Index b, const Point& place) {
+  const auto [first, second] = std::minmax(a, b);
+  return {first, second, place};
+}
+
+// Where an arc crosses another one, or an end of one is on the other to rounding.
+bool is_touch_by_rounding(const Point& a, const Point& b, const Point& p, const Point& q) {
+  constexpr double rounding = 32 * predicates::unit_roundoff;
+  const auto is_near = [&](const Point& from, const Point& to, const Point& x) {
+    const Point normal = cross(from, to - from);
+    const double height = dot(normal, x - from);
+    return height * height <= rounding * rounding * dot(normal, normal);
+  };
+  return is_near(a, b, p) || is_near(a, b, q) || is_near(p, q, a) || is_near(p, q, b);
+}
+
+bool are_on_both_sides(const Point& a, const Point& b, const Point& p, const Point& q) {
+  return orientation(a, b, p) * orientation(a, b, q) == Sign::negative;
+}
+
+// Whether sides cross each other by more than rounding of their ends.
+bool has_sure_crossing(const Subdivision& cells) {
+  struct Side {
+    Point a;
+    Point b;
+    double low;
+    double high;
+  };
+  std::vector<Side> sides;
+  for (Index ring = 0; ring + 1 < cells.rings.size(); ++ring) {
+    const Halfedge end = cells.rings[ring + 1];
+    for (Halfedge h = cells.rings[ring]; h < end; ++h) {
+      const Point& a = cells.origin(h);
+      const Point& b = cells.origin(h + 1 < end ? h + 1 : cells.rings[ring]);
+      const double bulge = dot(b - a, b - a) / 4;  // more than the arc is away from its chord
+      sides.push_back({a, b, std::min(a.x, b.x) - bulge, std::max(a.x, b.x) + bulge});
+    }
+  }
+  std::ranges::sort(sides, {}, &Side::low);
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const auto& [a, b, low, high] = sides[i];
+    for (std::size_t k = i + 1; k < sides.size() && sides[k].low <= high; ++k) {
+      const Point& p = sides[k].a;
+      const Point& q = sides[k].b;
+      if (are_on_both_sides(a, b, p, q) && are_on_both_sides(p, q, a, b) && dot(a + b, p + q) > 0 &&
+          !is_touch_by_rounding(a, b, p, q)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+CellRings rings_of(const Subdivision& cells, std::span<const Index> some) {
+  CellRings rings;
+  for (const Index cell : some) {
+    for (Index ring = cells.cells[cell]; ring < cells.cells[cell + 1]; ++ring) {
+      for (Halfedge h = cells.rings[ring]; h < cells.rings[ring + 1]; ++h) {
+        rings.corners.push_back(cells.corners[h]);
+      }
+      rings.rings.push_back(rings.corners.size());
+    }
+    rings.cells.push_back(rings.rings.size() - 1);
+  }
+  std::vector<Index> used = rings.corners;
+  std::ranges::sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  for (const Index p : used) rings.points.push_back(cells.points[p]);
+  for (Index& corner : rings.corners) {
+    corner = static_cast<Index>(std::ranges::lower_bound(used, corner) - used.begin());
+  }
+  return rings;
+}
+
+namespace {
+
+class OverlapFinder {
+ public:
+  OverlapFinder(const Subdivision& cells, const Execution& execution)
+      : cells_(cells), told_{.threads = execution.threads, .stop = execution.stop} {}
+
+  void find() {
+    const std::vector<Candidates> all = candidates_of(cells_, told_.threads);
+    for (Index cell = 0; cell < cells_.num_cells(); ++cell) {
+      if (cells_.shapes[cell] == Shape::other) find_in_itself(cell);
+    }
+    for (std::size_t k = 0; k < all.size();) {
+      std::size_t end = k;
+      std::vector<Index> others;
+      for (; end < all.size() && all[end].filled == all[k].filled; ++end) {
+        others.push_back(all[end].other);
+      }
+      system::obey_stop();
+      find_in(all[k].filled, others);
+      k = end;
+    }
+  }
+  [[nodiscard]] std::vector<CrossingCells> take() {
+    std::ranges::sort(found_, {}, [](const CrossingCells& pair) {
+      return std::tuple(pair.first, pair.second, pair.place.x, pair.place.y, pair.place.z);
+    });
+    return std::move(found_);
+  }
+
+ private:
+  // Whether nothing but rounding shows that the rings of a cell are not those of a region.
+  void find_in_itself(Index cell) {
+    const CellRings rings = rings_of(cells_, std::span(&cell, 1));
+    const Subdivision one(rings, false, 1);
+    const std::optional<SideConflict> conflict = side_conflict(one, told_);
+    if (!conflict) return;
+    if (conflict->is_crossing) {
+      if (!has_sure_crossing(one)) return;
+    }
+    found_.push_back(named(cells_.names[cell], cells_.names[cell], conflict->place));
+  }
+
+  void find_in(Index filled, std::span<const Index> others) {
+    const Subdivision cover(rings_of(cells_, std::span(&filled, 1)), false, 1);
+    if (side_conflict(cover, told_)) {
+      return find_crossing(filled,
+                           others);  // the cell itself is told already, or is so by rounding
+    }
+    const Subdivision laid(rings_of(cells_, others), false, told_.threads);
+    const PieceRows pieces = pieces_of_parts(laid, cover, true, told_);
+    for (std::size_t k = 0; k < others.size(); ++k) {
+      if (pieces.offsets[k] == pieces.offsets[k + 1]) continue;
+      const auto at = pieces.offsets[k];
+      if (!(pieces.areas[at] > 0)) continue;
+      found_.push_back(
+          named(cells_.names[filled], cells_.names[others[k]], normalized(pieces.moments[at])));
+    }
+  }
+  // The same the other way around.
+  void find_crossing(Index filled, std::span<const Index> others) {
+    const Subdivision laid(rings_of(cells_, std::span(&filled, 1)), false, 1);
+    for (const Index other : others) {
+      const Subdivision cover(rings_of(cells_, std::span(&other, 1)), false, 1);
+      if (side_conflict(cover, told_)) continue;
+      const PieceRows pieces = pieces_of_parts(laid, cover, true, told_);
+      if (pieces.areas.empty() || !(pieces.areas[0] > 0)) continue;
+      found_.push_back(
+          named(cells_.names[filled], cells_.names[other], normalized(pieces.moments[0])));
+    }
+  }
+
+  const Subdivision& cells_;
+  Execution told_;
+  std::vector<CrossingCells> found_;
+};
+
+}  // namespace
+
+std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
+                                       const Execution& execution) {
+  OverlapFinder finder(cells, execution);
+  finder.find();
+  std::vector<CrossingCells> found = finder.take();
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    for (std::size_t i = k + 1; i < whole.size(); ++i) {
+      found.push_back(named(whole[k], whole[i], {0, 0, 1}));
+    }
+    for (Index c = 0; c < cells.num_cells(); ++c) {
+      if (cells.shapes[c] == Shape::empty) continue;
+      found.push_back(named(whole[k], cells.names[c], cells.origin(cells.begin_of(c))));
+    }
+  }
+  std::ranges::stable_sort(
+      found, {}, [](const CrossingCells& pair) { return std::pair(pair.first, pair.second); });
+  return found;
+}
+
+std::string message_of(const CrossingCells& overlap) {
+  std::array<char, 64> at{};
+  const LonLat position = map::lonlat_of(overlap.place, true);
+  std::snprintf(at.data(), at.size(), " at %.4f %.4f", position.lon_deg, position.lat_deg);
+  const std::string first = std::to_string(overlap.first);
+  return (overlap.first == overlap.second
+              ? "cell " + first + " crosses or overlaps itself"
+              : "cells " + first + " and " + std::to_string(overlap.second) + " overlap") +
+         at.data();
+}
+
+}  // namespace rondel::overlay
+
+namespace rondel {
+
+std::vector<CrossingCells> overlapping_cells(const CellRings& cells, const Execution& execution) {
+  const system::Call call(execution);
+  const Partition partition(cells, execution);
+  const overlay::PartitionData& data = overlay::PartitionData::of(partition);
+  return overlay::overlaps_of(data.subdivision(), data.all_whole(), execution);
+}
+
+}  // namespace rondel
