@@ -71,6 +71,7 @@ class RONDEL_API Partition {
  private:
   friend class overlay::PartitionData;
   explicit Partition(std::shared_ptr<const overlay::PartitionData> data);
+  static Partition of_apart(const CellRings& cells, const Execution& execution);
   std::shared_ptr<const overlay::PartitionData> data_;
 };
 

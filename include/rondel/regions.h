@@ -39,15 +39,15 @@ struct RegionPieces {
 ///
 /// If neither partition is_cover(), one is filled up as remap() does it: sides of its cells get corners where those of
 /// other cells of it, or the ends of the axes, lie on them, and that takes longer.
-/// \throws InvalidInput if a partition is a grid of parallels, or neither is_cover() and cells of both overlap, with two
-///         of each.
+/// \throws InvalidInput if a partition is a grid of parallels, a cell crosses or overlaps itself, or neither is_cover() and
+///         cells of both overlap, with two of each.
 RONDEL_API RegionPieces intersection(const Partition& cells, const Partition& regions,
                                      const Execution& execution = {});
 
 /// The part of each cell that lies in any of the regions: the pieces of intersection(), joined to their
 /// cell. A cell of which nothing is left has no rings; `whole` names one of which the whole sphere is left. Regions that share a border have to name the same
 /// corners along it; otherwise it stays visible.
-/// \throws InvalidInput as intersection().
+/// \throws InvalidInput as intersection(), and if regions overlap each other (two of them and a place).
 RONDEL_API CellRings clip(const Partition& cells, const Partition& regions,
                           const Execution& execution = {});
 

@@ -23,6 +23,13 @@ enum class RemapNorm : std::uint8_t {
   fracarea,  ///< the area that sources cover: constants are kept
 };
 
+/// What becomes of a place that several cells of one partition have.
+enum class CellOverlap : std::uint8_t {
+  error,  ///< it is refused, with two of the cells and the place
+  first,  ///< the cell with the lowest index has it, as if the others ended there
+  share,  ///< it counts for each of them, divided by their number
+};
+
 struct RemapOptions {
   /// 1: the field is constant in each source cell. 2: it is linear, with a gradient by least squares over
   /// the neighbors (cells that share an edge) and the cell's mean kept; the integral is kept by both.
@@ -31,6 +38,9 @@ struct RemapOptions {
   /// 0 by cell: it takes no part, as if it were no cell of its partition. Empty: all take part.
   std::vector<std::int32_t> source_mask = {};
   std::vector<std::int32_t> target_mask = {};
+  /// Of cells that take part; what is no more than rounding of corners does not count. No rule mends a cell that overlaps
+  /// itself. Areas and fractions of the result are those that count.
+  CellOverlap overlap = CellOverlap::error;
 };
 
 struct Remap {
@@ -63,8 +73,9 @@ struct Remap {
 /// If neither partition is_cover() and none is a grid of parallels, the one with fewer sides, or else the source, is
 /// filled up with triangles, whose sides leave no trace in the pieces; if its cells overlap each
 /// other, the other one is. That takes longer.
-/// \throws InvalidInput if the order is neither 1 nor 2, a mask has another length than its partition, or
-///         a partition would have to be filled up and cells of both overlap, with two of each.
+/// \throws InvalidInput if the order is neither 1 nor 2, a mask has another length than its partition, cells of a
+///         partition overlap and the options do not say what then (the cells and a place), or a cell crosses or overlaps
+///         itself.
 RONDEL_API Remap remap(const Partition& source, const Partition& target,
                        const RemapOptions& options = {}, const Execution& execution = {});
 

@@ -77,6 +77,9 @@ class GridPieceMaker {
       }
       next = add_column(column, next, has_pole);
     }
+    if (grid_.is_cover()) {
+      require_sum(std::span<const GridPiece>(pieces_), area, cells_.lengths()[name], name);
+    }
     drop_rounding(pieces_);
     std::ranges::sort(pieces_, {}, &GridPiece::cell);
     return pieces_;

@@ -3,7 +3,12 @@
 
 #include "overlay/measure.h"
 
+#include <array>
+#include <cstdio>
+#include <string>
+
 #include "predicates/bounds.h"
+#include "rondel/error.h"
 
 namespace rondel::overlay {
 
@@ -36,6 +41,14 @@ Measures measures_of(std::span<const BorderArc> border, const Point& nearby) {
   if (norm(result.moment) <= 4 * predicates::unit_roundoff * result.length) return result;
   add_triangles(border, normalized(result.moment), result.area);
   return result;
+}
+
+void refuse_pieces(Index name, double sum, double area) {
+  std::array<char, 96> sizes{};
+  std::snprintf(sizes.data(), sizes.size(), "its parts add up to %.6g of %.6g steradians", sum,
+                area);
+  throw InvalidInput(
+      "cell " + std::to_string(name) + " crosses or overlaps itself: " + sizes.data(), name);
 }
 
 }  // namespace rondel::overlay

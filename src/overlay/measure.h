@@ -96,6 +96,9 @@ inline double rough_length(const Point& p, const Point& q) {
 // times the border.
 constexpr double area_of_rounding(double length) { return 16 * predicates::unit_roundoff * length; }
 
+// Throws InvalidInput with the cell, whose pieces add up to something else than its area.
+[[noreturn]] void refuse_pieces(Index name, double sum, double area);
+
 // Leaves out the pieces of a cell whose area is not larger than rounding of their corners may be, by their areas and
 // lengths. But a cell that is no larger keeps its largest piece.
 template <class Piece>
@@ -111,6 +114,29 @@ void drop_rounding(std::vector<Piece>& pieces) {
   } else {
     std::erase_if(pieces, is_rounding);
   }
+}
+
+// The pieces of a cell add up to it. A piece is off by area_of_rounding() of its border where the triangles are no larger than
+// a radian, and the cell by that of its own; large triangles lose some digits more, for which there are four times as much
+// and a share of 1e-9. Where an edge of the cover runs along a cell, triangles of one half may cancel each other: 64 times u
+// for what is left of them. Less than nothing of a piece, or another sum, shows that a cell is not what its border says: it
+// crosses or overlaps itself.
+template <class Piece>
+void require_sum(std::span<const Piece> pieces, double area, double length, Index name) {
+  constexpr double of_triangles = 4;
+  constexpr double of_large = 1e-9;
+  constexpr double of_sums = 64 * predicates::unit_roundoff;
+  double sum = 0;
+  double total = length;
+  double least = 0;
+  for (const Piece& piece : pieces) {
+    sum += piece.area;
+    total += piece.length;
+    least = std::min(least, piece.area + of_triangles * area_of_rounding(piece.length));
+  }
+  const double rounding = of_large * area + of_sums + of_triangles * area_of_rounding(total);
+  if (std::abs(sum - area) <= rounding && least >= -(of_large * area + of_sums)) return;
+  refuse_pieces(name, sum, area);
 }
 
 struct BorderArc {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <optional>
 #include <tuple>
@@ -200,17 +201,24 @@ class OverlapFinder {
 
   void find() {
     const std::vector<Candidates> all = candidates_of(cells_, told_.threads);
+    soundness_.assign(cells_.num_cells(), Soundness::sound);
     for (Index cell = 0; cell < cells_.num_cells(); ++cell) {
-      if (cells_.shapes[cell] == Shape::other) find_in_itself(cell);
+      if (cells_.shapes[cell] == Shape::other) soundness_[cell] = find_in_itself(cell);
     }
     for (std::size_t k = 0; k < all.size();) {
       std::size_t end = k;
       std::vector<Index> others;
       for (; end < all.size() && all[end].filled == all[k].filled; ++end) {
-        others.push_back(all[end].other);
+        if (soundness_[all[end].other] != Soundness::none) others.push_back(all[end].other);
       }
       system::obey_stop();
-      find_in(all[k].filled, others);
+      if (soundness_[all[k].filled] == Soundness::sound) {
+        find_in(all[k].filled, others);
+      } else if (soundness_[all[k].filled] == Soundness::to_rounding) {
+        for (const Index other : others) {
+          if (soundness_[other] == Soundness::sound) find_in(other, std::span(&all[k].filled, 1));
+        }
+      }
       k = end;
     }
   }
@@ -222,26 +230,26 @@ class OverlapFinder {
   }
 
  private:
-  // Whether nothing but rounding shows that the rings of a cell are not those of a region.
-  void find_in_itself(Index cell) {
+  enum class Soundness : std::uint8_t {
+    sound,
+    to_rounding,  // sides cross, but no end is beyond the other side by more than rounding
+    none,
+  };
+
+  Soundness find_in_itself(Index cell) {
     const CellRings rings = rings_of(cells_, std::span(&cell, 1));
     const Subdivision one(rings, false, 1);
     const std::optional<SideConflict> conflict = side_conflict(one, told_);
-    if (!conflict) return;
-    if (conflict->is_crossing) {
-      if (!has_sure_crossing(one)) return;
-    }
+    if (!conflict) return Soundness::sound;
+    if (conflict->is_crossing && !has_sure_crossing(one)) return Soundness::to_rounding;
     found_.push_back(named(cells_.names[cell], cells_.names[cell], conflict->place));
+    return Soundness::none;
   }
 
   void find_in(Index filled, std::span<const Index> others) {
+    if (others.empty()) return;
     const Subdivision cover(rings_of(cells_, std::span(&filled, 1)), false, 1);
-    if (side_conflict(cover, told_)) {
-      return find_crossing(filled,
-                           others);  // the cell itself is told already, or is so by rounding
-    }
-    const Subdivision laid(rings_of(cells_, others), false, told_.threads);
-    const PieceRows pieces = pieces_of_parts(laid, cover, true, told_);
+    const PieceRows pieces = pieces_in(cover, others);
     for (std::size_t k = 0; k < others.size(); ++k) {
       if (pieces.offsets[k] == pieces.offsets[k + 1]) continue;
       const auto at = pieces.offsets[k];
@@ -250,21 +258,15 @@ class OverlapFinder {
           named(cells_.names[filled], cells_.names[others[k]], normalized(pieces.moments[at])));
     }
   }
-  // The same the other way around.
-  void find_crossing(Index filled, std::span<const Index> others) {
-    const Subdivision laid(rings_of(cells_, std::span(&filled, 1)), false, 1);
-    for (const Index other : others) {
-      const Subdivision cover(rings_of(cells_, std::span(&other, 1)), false, 1);
-      if (side_conflict(cover, told_)) continue;
-      const PieceRows pieces = pieces_of_parts(laid, cover, true, told_);
-      if (pieces.areas.empty() || !(pieces.areas[0] > 0)) continue;
-      found_.push_back(
-          named(cells_.names[filled], cells_.names[other], normalized(pieces.moments[0])));
-    }
+  [[nodiscard]] PieceRows pieces_in(const Subdivision& cover, std::span<const Index> some) const {
+    const PartitionData laid(Subdivision(rings_of(cells_, some), false, told_.threads), {},
+                             told_.threads);
+    return pieces_of_parts(laid.subdivision(), laid.sizes(), cover, true, told_);
   }
 
   const Subdivision& cells_;
   Execution told_;
+  std::vector<Soundness> soundness_;
   std::vector<CrossingCells> found_;
 };
 

@@ -13,7 +13,9 @@
 
 #include "exact/vector.h"
 #include "overlay/measure.h"
+#include "overlay/overlaps.h"
 #include "overlay/partition_data.h"
+#include "overlay/tidy_rings.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
@@ -45,7 +47,8 @@ double area_of(const Subdivision& cells, Index cell, std::span<const BorderArc> 
 
 }  // namespace
 
-PartitionData::PartitionData(Subdivision subdivision, std::vector<Index> whole, unsigned threads)
+PartitionData::PartitionData(Subdivision subdivision, std::vector<Index> whole, unsigned threads,
+                             bool are_apart)
     : subdivision_(std::move(subdivision)),
       all_whole_(std::move(whole)),
       areas_(subdivision_.num_cells()),
@@ -76,15 +79,42 @@ PartitionData::PartitionData(Subdivision subdivision, std::vector<Index> whole, 
   const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
   is_cover_ = !all_whole_.empty() ||
               (subdivision_.is_closed && std::abs(total - 4 * std::numbers::pi) < std::numbers::pi);
+  are_apart_ = are_apart || (is_cover_ && all_whole_.empty());
 }
 
 PartitionData::PartitionData(Graticule grid)
     : subdivision_({}, false, 1),
       grid_(std::move(grid)),
       is_cover_(grid_->is_cover()),
+      are_apart_(true),
       areas_(grid_->areas()),
       moments_(grid_->moments()),
       lengths_(grid_->lengths()) {}
+
+const std::vector<CrossingCells>& PartitionData::overlaps(const Execution& execution) const {
+  std::call_once(are_overlaps_known_, [&] {
+    if (!are_apart_) overlaps_ = overlaps_of(subdivision_, all_whole_, execution);
+  });
+  return overlaps_;
+}
+
+CellRings rings_of(const PartitionData& data) {
+  const Subdivision& cells = data.subdivision();
+  std::vector<Index> places(data.areas().size());
+  for (Index c = 0; c < places.size(); ++c) places[cells.names[c]] = c;
+  CellRings result;
+  result.points = cells.points;
+  for (const Index c : places) {
+    for (Index ring = cells.cells[c]; ring < cells.cells[c + 1]; ++ring) {
+      result.corners.insert(result.corners.end(), cells.corners.begin() + cells.rings[ring],
+                            cells.corners.begin() + cells.rings[ring + 1]);
+      result.rings.push_back(result.corners.size());
+    }
+    result.cells.push_back(result.rings.size() - 1);
+  }
+  result.whole = data.all_whole();
+  return result;
+}
 
 void require_arcs(const PartitionData& cells) {
   if (cells.grid() == nullptr) return;
@@ -177,8 +207,14 @@ Partition::Partition(std::shared_ptr<const PartitionData> data) : data_(std::mov
 Partition::Partition(const CellRings& cells, const Execution& execution) {
   const system::Call call(execution);
   validate(cells);
-  data_ = std::make_shared<const PartitionData>(Subdivision(cells, false, execution.threads),
-                                                cells.whole, execution.threads);
+  Subdivision subdivision(cells, false, execution.threads);
+  std::vector<Index> whole = cells.whole;
+  if (const auto tidy = overlay::tidied(cells, subdivision)) {
+    subdivision = Subdivision(*tidy, false, execution.threads);
+    whole = tidy->whole;
+  }
+  data_ = std::make_shared<const PartitionData>(std::move(subdivision), std::move(whole),
+                                                execution.threads);
 }
 
 Partition Partition::voronoi(const Triangulation& triangulation, const Execution& execution) {
@@ -191,8 +227,16 @@ Partition Partition::voronoi(const Triangulation& triangulation, const Execution
     whole = {static_cast<Index>(std::ranges::find(is_hidden, false) - is_hidden.begin())};
   }
   Subdivision cells(rings_of(rondel::cells(triangulation, execution)), true, execution.threads);
-  return Partition(
-      std::make_shared<const PartitionData>(std::move(cells), std::move(whole), execution.threads));
+  return Partition(std::make_shared<const PartitionData>(std::move(cells), std::move(whole),
+                                                         execution.threads, true));
+}
+
+Partition Partition::of_apart(const CellRings& cells, const Execution& execution) {
+  const system::Call call(execution);
+  validate(cells);
+  Subdivision subdivision(cells, false, execution.threads);
+  return Partition(std::make_shared<const PartitionData>(
+      std::move(subdivision), std::vector<Index>{}, execution.threads, true));
 }
 
 Partition Partition::triangles(const Triangulation& triangulation, const Execution& execution) {
@@ -206,13 +250,15 @@ Partition Partition::triangles(const Triangulation& triangulation, const Executi
       rings.cells.push_back(rings.rings.size() - 1);
     }
   }
-  return Partition(rings, execution);
+  return of_apart(rings, execution);
 }
 
 Partition Partition::lonlat_grid(const LonLatGrid& grid, GridSides sides,
                                  const Execution& execution) {
   const system::Call call(execution);
-  if (sides == GridSides::great_circles) return Partition(overlay::rings_of(grid), execution);
+  if (sides == GridSides::great_circles) {
+    return of_apart(overlay::rings_of(grid), execution);
+  }
   return Partition(std::make_shared<const PartitionData>(overlay::Graticule(grid)));
 }
 
@@ -226,21 +272,7 @@ std::vector<Point> Partition::centers() const {
 }
 CellRings Partition::rings() const {
   overlay::require_arcs(*data_);
-  const Subdivision& cells = data_->subdivision();
-  CellRings result;
-  result.points = cells.points;
-  std::vector<Index> places(num_cells());
-  for (Index c = 0; c < places.size(); ++c) places[cells.names[c]] = c;
-  for (const Index c : places) {
-    for (Index ring = cells.cells[c]; ring < cells.cells[c + 1]; ++ring) {
-      result.corners.insert(result.corners.end(), cells.corners.begin() + cells.rings[ring],
-                            cells.corners.begin() + cells.rings[ring + 1]);
-      result.rings.push_back(result.corners.size());
-    }
-    result.cells.push_back(result.rings.size() - 1);
-  }
-  result.whole = data_->all_whole();
-  return result;
+  return overlay::rings_of(*data_);
 }
 bool Partition::is_cover() const { return data_->is_cover(); }
 

@@ -28,9 +28,11 @@ class PieceMaker {
  public:
   // A piece has the place of its cell of the cover, or, if there are any, of that one's owner; of these `names` are the
   // columns. What has no owner is measured, too: a cell may have nothing else but rounding.
-  PieceMaker(const Subdivision& cells, const Subdivision& cover, std::span<const Index> names,
-             std::span<const Index> owners, Index first_cell, Index end_cell, bool has_moments)
+  PieceMaker(const Subdivision& cells, const CellSizes& sizes, const Subdivision& cover,
+             std::span<const Index> names, std::span<const Index> owners, Index first_cell,
+             Index end_cell, bool has_moments)
       : cells_(cells),
+        sizes_(sizes),
         names_(names),
         owners_(owners),
         arcs_(cells, cover, first_cell, end_cell),
@@ -46,6 +48,9 @@ class PieceMaker {
       add_by_piece(arcs);
       if (!owners_.empty()) join_by_owner();
     }
+    const Index name = cells_.names[cell];
+    require_sum(std::span<const MeasuredPiece>(pieces_), sizes_.areas[name], sizes_.lengths[name],
+                name);
     drop_rounding(pieces_);
     std::erase_if(pieces_, [&](const MeasuredPiece& piece) { return !has_column(piece); });
     std::ranges::sort(pieces_, {}, [&](const MeasuredPiece& piece) { return column(piece); });
@@ -152,6 +157,7 @@ class PieceMaker {
   };
 
   const Subdivision& cells_;
+  CellSizes sizes_;
   std::span<const Index> names_;
   std::span<const Index> owners_;
   ArcMaker arcs_;
@@ -166,18 +172,19 @@ class PieceMaker {
 
 }  // namespace
 
-PieceRows pieces(const Subdivision& cells, const Subdivision& cover, bool has_moments,
-                 const Execution& execution) {
+PieceRows pieces(const Subdivision& cells, const CellSizes& sizes, const Subdivision& cover,
+                 bool has_moments, const Execution& execution) {
   return gathered_rows(cells, cover.names, has_moments, execution, [&](Index first, Index end) {
-    return PieceMaker(cells, cover, cover.names, {}, first, end, has_moments);
+    return PieceMaker(cells, sizes, cover, cover.names, {}, first, end, has_moments);
   });
 }
 
-PieceRows pieces_of_parts(const Subdivision& cells, const Subdivision& others, bool has_moments,
-                          const Execution& execution) {
+PieceRows pieces_of_parts(const Subdivision& cells, const CellSizes& sizes,
+                          const Subdivision& others, bool has_moments, const Execution& execution) {
   const Filling filling = filling_of(others, execution);
   return gathered_rows(cells, others.names, has_moments, execution, [&](Index first, Index end) {
-    return PieceMaker(cells, filling.cover, others.names, filling.owners, first, end, has_moments);
+    return PieceMaker(cells, sizes, filling.cover, others.names, filling.owners, first, end,
+                      has_moments);
   });
 }
 

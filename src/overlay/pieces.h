@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "exact/eft.h"
@@ -31,13 +32,20 @@ inline void add_term(double term, exact::DoubleDouble& sum) {
 }
 void find_sums(PieceRows& pieces, std::size_t num_columns);
 
-// Pieces not larger than what rounding of their corners may be are left out.
-PieceRows pieces(const Subdivision& cells, const Subdivision& cover, bool has_moments,
-                 const Execution& execution);
+// What the pieces of cells add up to, by name.
+struct CellSizes {
+  std::span<const double> areas;
+  std::span<const double> lengths;  // of their borders
+};
+
+// Pieces not larger than what rounding of their corners may be are left out. Throws InvalidInput if those of a cell do not
+// add up to it (require_sum()).
+PieceRows pieces(const Subdivision& cells, const CellSizes& sizes, const Subdivision& cover,
+                 bool has_moments, const Execution& execution);
 
 // The same of two that are parts of the sphere. Throws InvalidInput where cells of `others` overlap.
-PieceRows pieces_of_parts(const Subdivision& cells, const Subdivision& others, bool has_moments,
-                          const Execution& execution);
+PieceRows pieces_of_parts(const Subdivision& cells, const CellSizes& sizes,
+                          const Subdivision& others, bool has_moments, const Execution& execution);
 
 // With rows and columns exchanged.
 PieceRows transposed(const PieceRows& pieces, std::size_t num_columns);

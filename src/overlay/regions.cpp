@@ -13,6 +13,7 @@
 #include "overlay/arcs.h"
 #include "overlay/border_rings.h"
 #include "overlay/filling.h"
+#include "overlay/overlaps.h"
 #include "overlay/partition_data.h"
 #include "overlay/region_area.h"
 #include "rondel/error.h"
@@ -165,8 +166,6 @@ std::vector<NamedArc> overlay_of_parts(const Subdivision& cells, const Subdivisi
 // `beyond` are the regions.
 std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData& regions,
                                  const Execution& execution) {
-  overlay::require_arcs(cells);
-  overlay::require_arcs(regions);
   std::vector<NamedArc> arcs;
   if (cells.whole() != no_index) {
     arcs = arcs_within(regions.subdivision(), cells.whole());
@@ -184,6 +183,16 @@ std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData
     arcs = overlay_of_parts(cells.subdivision(), regions.subdivision(), execution);
   }
   return arcs;
+}
+
+// Throws InvalidInput if a cell of these overlaps itself or, where cells have to be apart, another one.
+void require_sound(const Partition& cells, const char* what, bool are_apart,
+                   const Execution& execution) {
+  const std::vector<CrossingCells>& found = PartitionData::of(cells).overlaps(execution);
+  const auto wrong = std::ranges::find_if(
+      found, [&](const CrossingCells& pair) { return are_apart || pair.first == pair.second; });
+  if (wrong == found.end()) return;
+  throw InvalidInput(std::string(what) + ' ' + overlay::message_of(*wrong), wrong->second);
 }
 
 std::vector<Point> points_of(const CellRings& cells, std::uint64_t ring) {
@@ -209,6 +218,10 @@ double area_of_cell(const CellRings& cells, std::size_t cell) {
 RegionPieces intersection(const Partition& cells, const Partition& regions,
                           const Execution& execution) {
   const system::Call call(execution);
+  overlay::require_arcs(PartitionData::of(cells));
+  overlay::require_arcs(PartitionData::of(regions));
+  require_sound(cells, "of the first partition,", false, execution);
+  require_sound(regions, "of the regions,", false, execution);
   const std::vector<NamedArc> arcs =
       overlay_of(PartitionData::of(cells), PartitionData::of(regions), execution);
   using Pair = std::pair<Index, Index>;
@@ -249,6 +262,10 @@ RegionPieces intersection(const Partition& cells, const Partition& regions,
 
 CellRings clip(const Partition& cells, const Partition& regions, const Execution& execution) {
   const system::Call call(execution);
+  overlay::require_arcs(PartitionData::of(cells));
+  overlay::require_arcs(PartitionData::of(regions));
+  require_sound(cells, "of the first partition,", false, execution);
+  require_sound(regions, "of the regions,", true, execution);
   const std::vector<NamedArc> arcs =
       overlay_of(PartitionData::of(cells), PartitionData::of(regions), execution);
   std::vector<KeyedArc> keyed;

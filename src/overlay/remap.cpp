@@ -17,6 +17,7 @@
 #include "overlay/measure.h"
 #include "overlay/partition_data.h"
 #include "overlay/pieces.h"
+#include "overlay/shared_places.h"
 #include "overlay/slopes_of_cells.h"
 #include "rondel/error.h"
 #include "system/job.h"
@@ -50,8 +51,11 @@ PieceRows overlay_of_parts(const PartitionData& source, const PartitionData& tar
   const overlay::Subdivision& sources = source.subdivision();
   const overlay::Subdivision& targets = target.subdivision();
   const auto with = [&](bool is_source_filled, const Execution& told) {
-    if (is_source_filled) return pieces_of_parts(targets, sources, has_moments, told);
-    return transposed(pieces_of_parts(sources, targets, has_moments, told), target.areas().size());
+    if (is_source_filled) {
+      return pieces_of_parts(targets, target.sizes(), sources, has_moments, told);
+    }
+    return transposed(pieces_of_parts(sources, source.sizes(), targets, has_moments, told),
+                      target.areas().size());
   };
   return overlay::with_one_filled(sources, targets, {"source", "target"}, execution, with);
 }
@@ -73,11 +77,13 @@ PieceRows overlay_of(const PartitionData& source, const PartitionData& target, b
     return transposed(pieces(source, *target.grid(), has_moments, execution), num_targets);
   }
   if (source.is_cover()) {
-    return pieces(target.subdivision(), source.subdivision(), has_moments, execution);
+    return pieces(target.subdivision(), target.sizes(), source.subdivision(), has_moments,
+                  execution);
   }
   if (target.is_cover()) {
-    return transposed(pieces(source.subdivision(), target.subdivision(), has_moments, execution),
-                      num_targets);
+    return transposed(
+        pieces(source.subdivision(), source.sizes(), target.subdivision(), has_moments, execution),
+        num_targets);
   }
   return overlay_of_parts(source, target, has_moments, execution);
 }
@@ -138,11 +144,12 @@ std::vector<Point> column_moments(const PieceRows& pieces, std::size_t num_colum
 // What pieces sum up to differs by rounding alone from the area of a cell that is covered, and is what keeps integrals.
 // Corners on the cell's border are off it by what area_of_rounding() says. So are pieces that are left out, but
 // they may be many: as much as a share of 1e-9 together.
-std::vector<double> areas_of(const std::vector<double>& covered, const PartitionData& cells) {
+std::vector<double> areas_of(const std::vector<double>& covered,
+                             const overlay::CountedSizes& sizes) {
   constexpr double of_many = 1e-9;
-  std::vector<double> areas = cells.areas();
+  std::vector<double> areas = sizes.areas;
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    const double rounding = of_many * areas[i] + overlay::area_of_rounding(cells.lengths()[i]);
+    const double rounding = of_many * areas[i] + overlay::area_of_rounding(sizes.lengths[i]);
     if (covered[i] > 0 && std::abs(covered[i] - areas[i]) <= rounding) areas[i] = covered[i];
   }
   return areas;
@@ -216,7 +223,14 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
   const bool is_second = options.order == 2;
   require_mask("source", options.source_mask, source.num_cells());
   require_mask("target", options.target_mask, target.num_cells());
-  PieceRows pieces = overlay_of(sources, targets, is_second, execution);
+  const overlay::TakingPart of_sources =
+      overlay::taking_part(sources, options.source_mask, options.overlap, "source", execution);
+  const overlay::TakingPart of_targets =
+      overlay::taking_part(targets, options.target_mask, options.overlap, "target", execution);
+  PieceRows pieces =
+      overlay::joined_parts(overlay_of(*of_sources.data, *of_targets.data, is_second, execution),
+                            of_targets, target.num_cells(), of_sources);
+  const overlay::CountedSizes source_sizes = counted_sizes(sources, of_sources);
   const std::size_t num_sources = source.num_cells();
   drop_masked(options, pieces);
   if (pieces.row_sums.empty()) find_sums(pieces, num_sources);
@@ -226,8 +240,8 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
   result.offsets = std::move(pieces.offsets);
   result.columns = std::move(pieces.columns);
   result.areas = std::move(pieces.areas);
-  result.source_areas = areas_of(pieces.column_sums, sources);
-  result.target_areas = areas_of(pieces.row_sums, targets);
+  result.source_areas = areas_of(pieces.column_sums, source_sizes);
+  result.target_areas = areas_of(pieces.row_sums, counted_sizes(targets, of_targets));
   result.source_fractions = fractions(pieces.column_sums, result.source_areas);
   result.target_fractions = fractions(pieces.row_sums, result.target_areas);
 
@@ -237,7 +251,7 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
     std::vector<Point> centers(num_sources);
     for (std::size_t i = 0; i < num_sources; ++i) {
       if (pieces.column_sums[i] > 0) means[i] = moments_of_sources[i] / pieces.column_sums[i];
-      if (sources.areas()[i] > 0) centers[i] = sources.moments()[i] / sources.areas()[i];
+      if (source_sizes.areas[i] > 0) centers[i] = source_sizes.moments[i] / source_sizes.areas[i];
     }
     result.moments = moments_around(means, result, std::move(pieces.moments));
     gradients = cell_gradients(sources, centers, options.source_mask, execution.threads);

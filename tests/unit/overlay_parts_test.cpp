@@ -277,7 +277,7 @@ TEST(overlay_parts, names_cells_that_overlap) {
   const RingOfPart apart = rectangle(-50, 0, -40, 10);
   const auto message_of = [&](const std::vector<std::vector<RingOfPart>>& cells) {
     const Partition source(cells_of_rings(cells));
-    const Partition target(cells_of_rings({{apart}, {box}, {apart}, {apart}, {apart}, {apart}}));
+    const Partition target(cells_of_rings({{apart}, {box}}));
     try {
       (void)remap(source, target);
     } catch (const InvalidInput& error) {
@@ -285,15 +285,14 @@ TEST(overlay_parts, names_cells_that_overlap) {
     }
     return std::string("nothing");
   };
-  const std::string rest =
-      ", of the target cells 0 and 2 overlap: one of the two must have none that do";
-  EXPECT_EQ(message_of({{apart}, {box}, {rectangle(10, 10, 30, 30)}}),
-            "of the source cells 1 and 2 overlap" + rest);
-  EXPECT_EQ(message_of({{box}, {apart}, {within}}), "of the source cells 0 and 2 overlap" + rest);
-  EXPECT_EQ(message_of({{within}, {box}}), "of the source cells 0 and 1 overlap" + rest);
-  EXPECT_EQ(message_of({{apart}, {box}, {box}}), "of the source cells 1 and 2 overlap" + rest);
-  EXPECT_EQ(message_of({{box, within}}), "of the source cell 0 overlaps itself" + rest);
-  EXPECT_EQ(message_of({{apart}, {box, box}}), "of the source cell 1 overlaps itself" + rest);
+  const std::string pair = "source cells 0 and 1 overlap at ";
+  EXPECT_EQ(message_of({{box}, {rectangle(10, 10, 30, 30)}}), pair + "14.9648 15.1233");
+  EXPECT_EQ(message_of({{apart}, {box}, {within}}).substr(0, 29), "source cells 1 and 2 overlap ");
+  EXPECT_EQ(message_of({{within}, {box}}).substr(0, pair.size()), pair);
+  EXPECT_EQ(message_of({{box}, {box}}).substr(0, pair.size()), pair);
+  const std::string alone = "source cell 0 crosses or overlaps itself at ";
+  EXPECT_EQ(message_of({{box, within}}).substr(0, alone.size()), alone);
+  EXPECT_EQ(message_of({{box, box}, {apart}}).substr(0, alone.size()), alone);
   EXPECT_EQ(message_of({{box, rectangular_hole(5, 5, 9, 9)}, {within}}), "nothing");
 }
 
@@ -310,23 +309,83 @@ TEST(overlay_parts, names_cells_of_two_covers) {
     (void)remap(twice, twice);
     ADD_FAILURE();
   } catch (const InvalidInput& error) {
-    EXPECT_EQ(std::string(error.what()).substr(0, 35), "of the source cells 1 and 4 overlap");
+    EXPECT_EQ(std::string(error.what()).substr(0, 31), "source cells 0 and 3 overlap at");
   }
 }
 
-// Then the other one is filled up, which has more sides.
-TEST(overlay_parts, one_of_the_two_may_overlap) {
-  const Partition twice(cells_of_rings({{rectangle(0, 0, 20, 20)}, {rectangle(10, 10, 30, 30)}}));
+// What two cells share is the first one's, or counts half for each.
+TEST(overlay_parts, places_of_two_cells) {
+  const CellRings both = cells_of_rings({{rectangle(0, 0, 20, 20)}, {rectangle(10, 10, 30, 30)}});
+  const Partition twice(both);
+  const auto alone = [&](Index i) {
+    return Partition(some_of(both, [&](std::size_t k) { return k == i; }));
+  };
+  const RegionPieces shared = intersection(alone(0), alone(1));
+  const Partition middle(shared.rings);
   const Partition plain(cells_of_rings(
       {{rectangle(8, 8, 12, 12)}, {rectangle(20, 20, 25, 25)}, {rectangle(12, 8, 19, 12)}}));
-  const Remap there = remap(twice, plain);
-  const Remap back = remap(plain, twice);
-  for (Index i = 0; i < 2; ++i) {
-    const Partition alone(some_of(twice.rings(), [&](std::size_t k) { return k == i; }));
-    const Remap expected = remap(alone, plain);
-    for (Index j = 0; j < 3; ++j) {
-      EXPECT_NEAR(piece_of(there, i, j), piece_of(expected, i, j), 1e-16) << i << ' ' << j;
-      EXPECT_NEAR(piece_of(back, j, i), piece_of(expected, i, j), 1e-16) << i << ' ' << j;
+  const Partition cover = Partition::voronoi(triangulation_of("uniform", 500, 9));
+  const Partition grid = Partition::lonlat_grid({{0, 5, 12, 18, 40}, {-5, 3, 11, 16, 45}});
+  for (const Partition* other : {&plain, &cover, &grid}) {
+    EXPECT_THROW((void)remap(twice, *other), InvalidInput);
+    EXPECT_THROW((void)remap(*other, twice), InvalidInput);
+    const Remap of_middle = remap(middle, *other);
+    for (const CellOverlap rule : {CellOverlap::first, CellOverlap::share}) {
+      const RemapOptions options{.overlap = rule};
+      const Remap there = remap(twice, *other, options);
+      const Remap back = remap(*other, twice, options);
+      for (Index i = 0; i < 2; ++i) {
+        const Remap whole = remap(alone(i), *other);
+        const double lost = rule == CellOverlap::share ? 0.5 : i;
+        EXPECT_NEAR(there.source_areas[i], twice.areas()[i] - lost * middle.areas()[0], 1e-15);
+        for (Index j = 0; j < other->num_cells(); ++j) {
+          const double expected = piece_of(whole, i, j) - lost * piece_of(of_middle, 0, j);
+          EXPECT_NEAR(piece_of(there, i, j), expected, 1e-15) << i << ' ' << j;
+          EXPECT_NEAR(piece_of(back, j, i), expected, 1e-15) << i << ' ' << j;
+        }
+      }
+    }
+  }
+}
+
+// A row of cells that is there twice, as the folds of ocean grids are.
+TEST(overlay_parts, cells_that_are_there_twice) {
+  const CellRings cells = Partition::voronoi(triangulation_of("uniform", 60, 10)).rings();
+  CellRings twice = cells;
+  for (const std::size_t i : {7U, 8U, 9U}) {
+    for (auto k = cells.rings[i]; k < cells.rings[i + 1]; ++k) {
+      twice.corners.push_back(cells.corners[k]);
+    }
+    twice.rings.push_back(twice.corners.size());
+    twice.cells.push_back(twice.rings.size() - 1);
+  }
+  const Partition source(twice);
+  const Partition grid = Partition::lonlat_grid({{0, 90, 180, 270, 360}, {-90, -30, 30, 90}});
+  const Partition other = Partition::voronoi(triangulation_of("uniform", 80, 11));
+  std::vector<double> values(63);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = static_cast<double>(i < 60 ? i : i - 53);
+  }
+  for (const Partition* target : {&grid, &other}) {
+    try {
+      (void)remap(source, *target);
+      ADD_FAILURE();
+    } catch (const InvalidInput& error) {
+      EXPECT_EQ(std::string(error.what()).substr(0, 30), "source cells 7 and 60 overlap ");
+    }
+    const Remap once = remap(Partition(cells), *target);
+    std::vector<double> expected(target->num_cells());
+    apply(once.weights, std::span(values).first(60), expected);
+    std::vector<std::int32_t> mask(63, 1);
+    mask[7] = mask[61] = mask[9] = 0;
+    for (const RemapOptions& options :
+         {RemapOptions{.overlap = CellOverlap::first}, RemapOptions{.overlap = CellOverlap::share},
+          RemapOptions{.source_mask = mask}}) {
+      const Remap found = remap(source, *target, options);
+      std::vector<double> out(target->num_cells());
+      apply(found.weights, values, out);
+      for (std::size_t j = 0; j < out.size(); ++j) EXPECT_NEAR(out[j], expected[j], 1e-12) << j;
+      for (const double fraction : found.target_fractions) EXPECT_NEAR(fraction, 1, 1e-13);
     }
   }
 }
@@ -338,7 +397,7 @@ TEST(overlay_parts, sides_that_bound_nothing) {
   const RingOfPart outwards = {{{0, 0}, {20, 0}, {20, 20}, {30, 33}, {20, 20}, {0, 20}}};
   const Partition other(cells_of_rings({{rectangle(-5, 3, 12, 50)},
                                         {rectangle(12, 3, 40, 50)},
-                                        {rectangle(-5, -9, 40, 3)},
+                                        {{{{-5, -9}, {40, -9}, {40, 3}, {12, 3}, {-5, 3}}}},
                                         {rectangle(50, 3, 60, 20)},
                                         {rectangle(60, 3, 70, 20)}}));
   const Remap expected = remap(Partition(cells_of_rings({{plain}})), other);

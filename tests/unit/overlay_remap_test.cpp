@@ -13,6 +13,7 @@
 
 #include "overlay_support.h"
 #include "rondel/error.h"
+#include "rondel/regions.h"
 #include "rondel/remap.h"
 
 namespace rondel::test {
@@ -306,17 +307,24 @@ TEST(overlay_remap, cells_with_holes) {
   parts.cells = {0, 1, 2, 3};  // without its holes, the hole as a cell turned around, the island
   std::reverse(parts.corners.begin() + 40, parts.corners.begin() + 70);
   const Partition part(parts);
+  const auto alone = [&](Index i) {
+    std::vector<Index> groups(3, no_index);
+    groups[i] = 0;
+    return Partition(dissolve(parts, groups, 1));
+  };
   EXPECT_NEAR(ring.areas()[0], part.areas()[0] - part.areas()[1] + part.areas()[2], 1e-14);
   for (const std::size_t n : {3U, 50U, 5000U}) {
     const Partition cells = voronoi_of("uniform", n, 14);
     const Remap of_ring = rondel::remap(ring, cells);
-    const Remap of_parts = rondel::remap(part, cells);
+    EXPECT_THROW((void)rondel::remap(part, cells), InvalidInput);
+    const Remap outer = rondel::remap(alone(0), cells);
+    const Remap hole = rondel::remap(alone(1), cells);
+    const Remap island = rondel::remap(alone(2), cells);
     EXPECT_NEAR(std::accumulate(of_ring.areas.begin(), of_ring.areas.end(), 0.0), ring.areas()[0],
                 1e-13);
     for (std::size_t j = 0; j < cells.num_cells(); ++j) {
       EXPECT_NEAR(piece_of(of_ring, 0, j),
-                  piece_of(of_parts, 0, j) - piece_of(of_parts, 1, j) + piece_of(of_parts, 2, j),
-                  1e-14)
+                  piece_of(outer, 0, j) - piece_of(hole, 0, j) + piece_of(island, 0, j), 1e-14)
           << n;
     }
   }

@@ -1,0 +1,217 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/shared_places.h"
+
+#include <algorithm>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "exact/vector.h"
+#include "overlay/overlaps.h"
+#include "rondel/error.h"
+#include "rondel/regions.h"
+
+namespace rondel::overlay {
+namespace {
+
+CellRings one_cell(const CellRings& cells, Index cell) {
+  CellRings one;
+  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + std::size_t{1}]; ++r) {
+    for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+      one.corners.push_back(static_cast<Index>(one.points.size()));
+      one.points.push_back(cells.points[cells.corners[k]]);
+    }
+    one.rings.push_back(one.corners.size());
+  }
+  one.cells.push_back(one.rings.size() - 1);
+  if (cells.is_whole(cell)) one.whole = {0};
+  return one;
+}
+
+// What is not in a cell.
+CellRings beyond_cell(CellRings one) {
+  for (std::size_t r = 0; r + 1 < one.rings.size(); ++r) {
+    std::reverse(one.corners.begin() + static_cast<std::ptrdiff_t>(one.rings[r]),
+                 one.corners.begin() + static_cast<std::ptrdiff_t>(one.rings[r + 1]));
+  }
+  const bool was_empty = one.whole.empty() && one.rings.size() == 1;
+  one.whole.clear();
+  if (was_empty) one.whole = {0};
+  return one;
+}
+
+bool has_any(const CellRings& one) { return one.rings.size() > 1 || !one.whole.empty(); }
+
+void append(const CellRings& one, CellRings& all) {
+  const auto first = static_cast<Index>(all.points.size());
+  const auto begin = all.corners.size();
+  all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+  for (const Index corner : one.corners) all.corners.push_back(first + corner);
+  for (std::size_t r = 1; r < one.rings.size(); ++r) all.rings.push_back(begin + one.rings[r]);
+  if (!one.whole.empty()) all.whole.push_back(static_cast<Index>(all.num_cells()));
+  all.cells.push_back(all.rings.size() - 1);
+}
+
+// A part of a cell, in so many cells of those that overlap with it, itself included.
+struct CountedPart {
+  CellRings rings;
+  unsigned count;
+};
+
+// The parts of a cell that count, as `others` that overlap with it, or come before it, leave them.
+std::vector<CountedPart> parts_of_cell(const CellRings& cells, Index cell,
+                                       const std::vector<Index>& others, CellOverlap rule,
+                                       const Execution& execution) {
+  std::vector<CountedPart> parts = {{one_cell(cells, cell), 1}};
+  for (const Index other : others) {
+    const CellRings there = one_cell(cells, other);
+    const Partition inside(there);
+    const Partition outside(beyond_cell(there));
+    std::vector<CountedPart> cut;
+    for (const CountedPart& part : parts) {
+      const Partition whole_part(part.rings);
+      CellRings left = clip(whole_part, outside, execution);
+      if (has_any(left)) cut.push_back({std::move(left), part.count});
+      if (rule != CellOverlap::share) continue;
+      CellRings both = clip(whole_part, inside, execution);
+      if (has_any(both)) cut.push_back({std::move(both), part.count + 1});
+    }
+    parts = std::move(cut);
+  }
+  return parts;
+}
+
+TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>& others,
+                  CellOverlap rule, const Execution& execution) {
+  const Execution told{.threads = execution.threads, .stop = execution.stop};
+  TakingPart result;
+  CellRings all;
+  all.points = cells.points;
+  const auto own = [&](Index cell, unsigned count) {
+    result.owners.push_back(cell);
+    result.shares.push_back(1.0 / count);
+  };
+  for (Index i = 0; i < cells.num_cells(); ++i) {
+    if (others[i].empty()) {
+      if (cells.is_whole(i)) all.whole.push_back(static_cast<Index>(all.num_cells()));
+      for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + std::size_t{1}]; ++r) {
+        for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+          all.corners.push_back(cells.corners[k]);
+        }
+        all.rings.push_back(all.corners.size());
+      }
+      all.cells.push_back(all.rings.size() - 1);
+      own(i, 1);
+      continue;
+    }
+    for (const CountedPart& part : parts_of_cell(cells, i, others[i], rule, told)) {
+      append(part.rings, all);
+      own(i, part.count);
+    }
+  }
+  result.parts = std::make_shared<const PartitionData>(Subdivision(all, false, execution.threads),
+                                                       all.whole, execution.threads);
+  result.data = result.parts.get();
+  return result;
+}
+
+bool is_masked(const std::vector<std::int32_t>& mask, Index cell) {
+  return !mask.empty() && mask[cell] == 0;
+}
+
+// Without what is masked, which is empty then.
+CellRings unmasked(const CellRings& cells, const std::vector<std::int32_t>& mask) {
+  CellRings result;
+  result.points = cells.points;
+  for (Index i = 0; i < cells.num_cells(); ++i) {
+    if (!is_masked(mask, i)) {
+      if (cells.is_whole(i)) result.whole.push_back(i);
+      for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + std::size_t{1}]; ++r) {
+        for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+          result.corners.push_back(cells.corners[k]);
+        }
+        result.rings.push_back(result.corners.size());
+      }
+    }
+    result.cells.push_back(result.rings.size() - 1);
+  }
+  return result;
+}
+
+}  // namespace
+
+TakingPart taking_part(const PartitionData& cells, const std::vector<std::int32_t>& mask,
+                       CellOverlap rule, const char* what, const Execution& execution) {
+  const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
+  if (overlaps.empty()) return {&cells};
+  const CellRings rings = unmasked(rings_of(cells), mask);
+  std::vector<std::vector<Index>> others(rings.num_cells());
+  for (const CrossingCells& pair : overlaps) {
+    if (is_masked(mask, pair.first) || is_masked(mask, pair.second)) continue;
+    if (pair.first == pair.second || rule == CellOverlap::error) {
+      throw InvalidInput(std::string(what) + ' ' + message_of(pair), pair.second);
+    }
+    others[pair.second].push_back(pair.first);
+    if (rule == CellOverlap::share) others[pair.first].push_back(pair.second);
+  }
+  return cut_up(rings, others, rule, execution);
+}
+
+PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
+                       const TakingPart& columns) {
+  if (rows.owners.empty() && columns.owners.empty()) return pieces;
+  struct Entry {
+    Index row;
+    Index column;
+    double area;
+    Point moment;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(pieces.columns.size());
+  for (std::size_t j = 0; j + 1 < pieces.offsets.size(); ++j) {
+    const auto row = rows.owners.empty() ? static_cast<Index>(j) : rows.owners[j];
+    const double of_row = rows.owners.empty() ? 1 : rows.shares[j];
+    for (std::uint64_t k = pieces.offsets[j]; k < pieces.offsets[j + 1]; ++k) {
+      const Index part = pieces.columns[k];
+      const double share = of_row * (columns.owners.empty() ? 1 : columns.shares[part]);
+      entries.push_back({row, columns.owners.empty() ? part : columns.owners[part],
+                         share * pieces.areas[k],
+                         pieces.moments.empty() ? Point{} : share * pieces.moments[k]});
+    }
+  }
+  std::ranges::stable_sort(entries, {}, [](const Entry& e) { return std::pair(e.row, e.column); });
+  PieceRows joined;
+  joined.offsets.assign(num_rows + 1, 0);
+  const Entry* last = nullptr;
+  for (const Entry& entry : entries) {
+    if (last != nullptr && last->row == entry.row && last->column == entry.column) {
+      joined.areas.back() += entry.area;
+      if (!pieces.moments.empty()) joined.moments.back() = joined.moments.back() + entry.moment;
+      continue;
+    }
+    last = &entry;
+    joined.columns.push_back(entry.column);
+    joined.areas.push_back(entry.area);
+    if (!pieces.moments.empty()) joined.moments.push_back(entry.moment);
+    ++joined.offsets[entry.row + std::size_t{1}];
+  }
+  for (std::size_t j = 0; j < num_rows; ++j) joined.offsets[j + 1] += joined.offsets[j];
+  return joined;
+}
+
+CountedSizes counted_sizes(const PartitionData& cells, const TakingPart& part) {
+  if (part.owners.empty()) return {cells.areas(), cells.lengths(), cells.moments()};
+  const std::size_t n = cells.areas().size();
+  CountedSizes sizes{std::vector<double>(n), std::vector<double>(n), std::vector<Point>(n)};
+  for (std::size_t k = 0; k < part.owners.size(); ++k) {
+    const Index owner = part.owners[k];
+    sizes.areas[owner] += part.shares[k] * part.data->areas()[k];
+    sizes.lengths[owner] += part.data->lengths()[k];
+    sizes.moments[owner] = sizes.moments[owner] + part.shares[k] * part.data->moments()[k];
+  }
+  return sizes;
+}
+
+}  // namespace rondel::overlay

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/tidy_rings.h"
+
+#include <algorithm>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "exact/vector.h"
+#include "overlay/border_rings.h"
+#include "overlay/region_area.h"
+#include "rondel/predicates.h"
+
+namespace rondel::overlay {
+namespace {
+
+bool is_less(const Point& a, const Point& b) {
+  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
+}
+
+// Whether the way from a by b to c turns back on itself: all on one great circle, with a and c on the same side of b.
+bool is_turned_back(const Point& a, const Point& b, const Point& c) {
+  if (a == c) return true;
+  const Point to_a = a - b;
+  const Point to_c = c - b;
+  const double height = dot(b, cross(to_a, to_c));
+  constexpr double surely = 0x1p-40;
+  if (height * height > surely * surely * dot(to_a, to_a) * dot(to_c, to_c)) return false;
+  return dot(cross(b, to_a), cross(b, to_c)) > 0 && orientation(a, b, c) == Sign::zero;
+}
+
+// A ring without the ends of ways that turn back: the way from a by b to c is then that from a to c.
+std::vector<Point> without_turns(std::span<const Point> ring) {
+  std::vector<Point> kept;
+  const auto take = [&](const Point& p) {
+    while (kept.size() > 1 && is_turned_back(kept[kept.size() - 2], kept.back(), p)) {
+      kept.pop_back();
+    }
+    if (kept.empty() || !(kept.back() == p)) kept.push_back(p);
+  };
+  for (const Point& p : ring) take(p);
+  // Where the ring closes.
+  for (bool has_changed = true; has_changed && kept.size() > 2;) {
+    has_changed = false;
+    const std::size_t n = kept.size();
+    if (kept.front() == kept.back() || is_turned_back(kept[n - 2], kept[n - 1], kept[0])) {
+      kept.pop_back();
+      has_changed = true;
+    } else if (is_turned_back(kept[n - 1], kept[0], kept[1])) {
+      kept.erase(kept.begin());
+      has_changed = true;
+    }
+  }
+  if (kept.size() < 3) kept.clear();
+  return kept;
+}
+
+std::vector<KeyedArc> arcs_of_cell(const CellRings& cells, std::size_t cell, Index key) {
+  std::vector<KeyedArc> arcs;
+  std::vector<Point> ring;
+  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
+    ring.clear();
+    for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+      ring.push_back(cells.points[cells.corners[k]]);
+    }
+    const std::vector<Point> kept = without_turns(ring);
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      arcs.push_back({key, kept[k], kept[k + 1 < kept.size() ? k + 1 : 0]});
+    }
+  }
+  return arcs;
+}
+
+// Of a cell whose sides have all run to and fro: both sides of a ring that has an area are inside.
+bool is_around_all(const CellRings& cells, std::size_t cell) {
+  std::vector<Point> ring;
+  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
+    ring.clear();
+    for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+      ring.push_back(cells.points[cells.corners[k]]);
+    }
+    if (!area_of_ring(ring).is_nothing()) return true;
+  }
+  return false;
+}
+
+std::size_t num_corners_of(const CellRings& cells, std::size_t cell) {
+  return cells.rings[cells.cells[cell + 1]] - cells.rings[cells.cells[cell]];
+}
+
+// Points of a cell by their coordinates.
+class NamesOfCorners {
+ public:
+  NamesOfCorners(const CellRings& cells, std::size_t cell) : points_(cells.points) {
+    for (std::uint64_t k = cells.rings[cells.cells[cell]]; k < cells.rings[cells.cells[cell + 1]];
+         ++k) {
+      names_.push_back(cells.corners[k]);
+    }
+    std::ranges::sort(names_, [&](Index a, Index b) {
+      const Point& p = points_[a];
+      const Point& q = points_[b];
+      return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
+    });
+  }
+  [[nodiscard]] Index operator[](const Point& p) const {
+    return *std::ranges::lower_bound(names_, p, is_less,
+                                     [&](Index name) -> const Point& { return points_[name]; });
+  }
+
+ private:
+  std::span<const Point> points_;
+  std::vector<Index> names_;
+};
+
+}  // namespace
+
+std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known) {
+  std::vector<Index> keys(cells.num_cells(), no_index);
+  std::vector<KeyedArc> arcs;
+  Index num_keys = 0;
+  for (const auto& [place, area] : known.areas_of_others) {
+    const Index cell = known.names[place];
+    keys[cell] = num_keys;
+    const std::vector<KeyedArc> of_cell = arcs_of_cell(cells, cell, num_keys++);
+    arcs.insert(arcs.end(), of_cell.begin(), of_cell.end());
+  }
+  const CellRings left = rings_around(arcs, num_keys, 1);
+  const auto has_changed = [&](std::size_t cell) {
+    return keys[cell] != no_index &&
+           num_corners_of(left, keys[cell]) != num_corners_of(cells, cell);
+  };
+  CellRings result;
+  bool has_any = false;
+  result.points = cells.points;
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    if (cells.is_whole(i)) result.whole.push_back(static_cast<Index>(i));
+    if (!has_changed(i)) {
+      for (std::uint64_t r = cells.cells[i]; r < cells.cells[i + 1]; ++r) {
+        result.corners.insert(
+            result.corners.end(),
+            cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r]),
+            cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r + 1]));
+        result.rings.push_back(result.corners.size());
+      }
+    } else {
+      has_any = true;
+      const bool is_left = left.cells[keys[i]] < left.cells[keys[i] + std::size_t{1}];
+      if (!is_left && is_around_all(cells, i)) result.whole.push_back(static_cast<Index>(i));
+      const NamesOfCorners names(cells, i);
+      for (std::uint64_t r = left.cells[keys[i]]; r < left.cells[keys[i] + std::size_t{1}]; ++r) {
+        for (std::uint64_t k = left.rings[r]; k < left.rings[r + 1]; ++k) {
+          result.corners.push_back(names[left.points[left.corners[k]]]);
+        }
+        result.rings.push_back(result.corners.size());
+      }
+    }
+    result.cells.push_back(result.rings.size() - 1);
+  }
+  if (!has_any) return std::nullopt;
+  return result;
+}
+
+}  // namespace rondel::overlay
