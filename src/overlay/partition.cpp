@@ -99,8 +99,13 @@ const std::vector<CrossingCells>& PartitionData::overlaps(const Execution& execu
 }
 
 CellRings rings_of(const PartitionData& data) {
-  const Subdivision& cells = data.subdivision();
-  std::vector<Index> places(data.areas().size());
+  CellRings result = rings_of(data.subdivision());
+  result.whole = data.all_whole();
+  return result;
+}
+
+CellRings rings_of(const Subdivision& cells) {
+  std::vector<Index> places(cells.num_cells());
   for (Index c = 0; c < places.size(); ++c) places[cells.names[c]] = c;
   CellRings result;
   result.points = cells.points;
@@ -112,7 +117,6 @@ CellRings rings_of(const PartitionData& data) {
     }
     result.cells.push_back(result.rings.size() - 1);
   }
-  result.whole = data.all_whole();
   return result;
 }
 
@@ -227,6 +231,9 @@ Partition Partition::voronoi(const Triangulation& triangulation, const Execution
     whole = {static_cast<Index>(std::ranges::find(is_hidden, false) - is_hidden.begin())};
   }
   Subdivision cells(rings_of(rondel::cells(triangulation, execution)), true, execution.threads);
+  if (const auto tidy = overlay::tidied(overlay::rings_of(cells), cells)) {
+    cells = Subdivision(*tidy, true, execution.threads);
+  }
   return Partition(std::make_shared<const PartitionData>(std::move(cells), std::move(whole),
                                                          execution.threads, true));
 }

@@ -61,6 +61,7 @@ class PartitionData {
 
 // The cells, by index.
 CellRings rings_of(const PartitionData& cells);
+CellRings rings_of(const Subdivision& cells);
 
 // Throws InvalidInput if the cells are those of a grid.
 void require_arcs(const PartitionData& cells);

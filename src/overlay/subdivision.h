@@ -26,7 +26,7 @@ inline constexpr std::size_t cells_per_piece = 4096;
 enum class Shape : std::uint8_t {
   empty,   // no ring
   convex,  // strictly, one ring
-  star,    // one ring; each halfedge makes a counterclockwise triangle with the cell's center
+  star,  // one ring in less than a hemisphere; each halfedge turns counterclockwise around the cell's center
   other,
 };
 

@@ -117,6 +117,7 @@ class NamesOfCorners {
 }  // namespace
 
 std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known) {
+  if (known.areas_of_others.empty()) return std::nullopt;
   std::vector<Index> keys(cells.num_cells(), no_index);
   std::vector<KeyedArc> arcs;
   Index num_keys = 0;
