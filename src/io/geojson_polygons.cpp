@@ -4,7 +4,9 @@
 #include "io/geojson_polygons.h"
 
 #include <array>
+#include <cmath>
 #include <string_view>
+#include <utility>
 
 #include "io/ending.h"
 #include "io/file_bytes.h"
@@ -95,12 +97,12 @@ class PolygonReader {
     if (!polygon.is_array()) throw BadValue("Polygon without an array of coordinates");
     bool is_hole = false;
     for (const JsonTree& ring : polygon.items) {
-      features_.rings.back().push_back({positions_of(ring), is_hole});
+      features_.rings.back().push_back(ring_of(ring, is_hole));
       is_hole = true;
     }
   }
 
-  static std::vector<LonLat> positions_of(const JsonTree& ring) {
+  static LonLatRing ring_of(const JsonTree& ring, bool is_hole) {
     if (!ring.is_array()) throw BadValue("a ring that is no array");
     std::vector<LonLat> positions;
     positions.reserve(ring.items.size());
@@ -108,9 +110,12 @@ class PolygonReader {
     if (positions.size() < 4) {
       throw BadValue("a ring of " + std::to_string(positions.size()) + " positions");
     }
-    if (!(positions.front() == positions.back())) throw BadValue("a ring that is not closed");
+    const LonLat &first = positions.front(), &last = positions.back();
+    const bool is_turn = first.lat_deg == last.lat_deg && first.lon_deg != last.lon_deg &&
+                         std::remainder(first.lon_deg - last.lon_deg, 360.0) == 0;
+    if (!is_turn && !(first == last)) throw BadValue("a ring that is not closed");
     positions.pop_back();
-    return positions;
+    return {std::move(positions), is_hole, is_turn};
   }
 
   static LonLat position_of(const JsonTree& item) {

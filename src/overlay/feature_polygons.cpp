@@ -1,0 +1,301 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/feature_polygons.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "exact/vector.h"
+#include "map/ring_area.h"
+#include "overlay/border_rings.h"
+#include "overlay/first_of_cells.h"
+#include "overlay/plane_arcs.h"
+#include "overlay/plane_sweep.h"
+#include "overlay/shared_corners.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/predicates.h"
+#include "rondel/regions.h"
+#include "rondel/weight_files.h"
+#include "system/parallel.h"
+
+namespace rondel::overlay {
+namespace {
+
+constexpr std::size_t swept_per_block = 16;
+
+std::string text_of_place(const LonLat& place) {
+  std::array<char, 80> text{};
+  std::snprintf(text.data(), text.size(), "%.10g %.10g", place.lon_deg, place.lat_deg);
+  return text.data();
+}
+std::string text_of_place(const Point& place) {
+  return text_of_place(lonlats(std::vector<Point>{place}).front());
+}
+
+std::string ring_name(const std::vector<io::LonLatRing>& rings, Index ring) {
+  std::size_t part = 0;
+  std::size_t in_part = 0;
+  for (std::size_t r = 1; r <= ring; ++r) {
+    part += rings[r].is_hole ? 0 : 1;
+    in_part = rings[r].is_hole ? in_part + 1 : 0;
+  }
+  return "ring " + std::to_string(in_part) + " of part " + std::to_string(part);
+}
+
+std::string text_of_fault(const std::vector<io::LonLatRing>& rings, const PlaneFault& fault) {
+  const std::string second = ring_name(rings, fault.second);
+  const std::string first = fault.first == no_index ? "" : ring_name(rings, fault.first);
+  const std::string at = " at " + text_of_place(fault.place);
+  switch (fault.kind) {
+    case PlaneFault::Kind::crossing:
+      return fault.first == fault.second ? first + " crosses itself" + at
+                                         : first + " and " + second + " cross" + at;
+    case PlaneFault::Kind::overlap:
+      return second + " lies in the polygon of " + first + at;
+    case PlaneFault::Kind::outside:
+      return second + ", a hole, does not lie inside of its polygon" +
+             (first.empty() ? "" : " but in " + first) + at;
+    case PlaneFault::Kind::no_area:
+      break;
+  }
+  return second + " runs to and fro along a line" + at;
+}
+
+// What to do with a ring around a pole; nothing for others.
+std::string advice_on(const io::LonLatRing& ring) {
+  const std::size_t n = ring.positions.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const LonLat& from = ring.positions[k];
+    const LonLat& to = ring.positions[k + 1 < n ? k + 1 : 0];
+    const bool is_at_pole = std::abs(from.lat_deg) == 90 && std::abs(to.lat_deg) == 90;
+    if (std::abs(to.lon_deg - from.lon_deg) <= 180 || is_at_pole) continue;
+    return "; its side from " + text_of_place(from) + " to " + text_of_place(to) +
+           " crosses the map: a ring around a pole has to be led there along the longitudes -180 "
+           "and "
+           "180, or to be read with geodesic edges";
+  }
+  return "";
+}
+
+class FeatureCells {
+ public:
+  FeatureCells(io::PolygonFeatures& features, const PolygonOptions& options,
+               const Execution& execution)
+      : features_(features), options_(options), execution_(execution) {}
+
+  CellRings operator()() {
+    const bool is_geodesic = options_.edges == PolygonEdges::geodesic;
+    CellRings cells = is_geodesic ? geodesic_cells() : plane_cells();
+    if (options_.overlap == PolygonOverlap::keep && !is_geodesic) return cells;
+    const std::vector<CrossingCells> overlaps = overlaps_in(cells);
+    for (const CrossingCells& pair : overlaps) {
+      if (pair.first == pair.second) {
+        refuse(pair.first,
+               "the polygon crosses or overlaps itself at " + text_of_place(pair.place));
+      }
+    }
+    if (overlaps.empty() || options_.overlap == PolygonOverlap::keep) return cells;
+    if (options_.overlap == PolygonOverlap::first) return first_of_cells(cells, overlaps, quiet());
+    throw FileError(
+        features_.name + ": features " + feature_name(features_.columns, overlaps[0].first) +
+        " and " + feature_name(features_.columns, overlaps[0].second) + " overlap at " +
+        text_of_place(overlaps[0].place) +
+        (overlaps.size() == 1
+             ? ""
+             : ", and " + std::to_string(overlaps.size() - 1) + " more pairs of features"));
+  }
+
+ private:
+  [[noreturn]] void refuse(std::size_t feature, const std::string& what) const {
+    throw FileError(features_.name + ": feature " + feature_name(features_.columns, feature) +
+                    ": " + what);
+  }
+  [[nodiscard]] Execution quiet() const {
+    return {.threads = execution_.threads, .stop = execution_.stop};
+  }
+
+  [[nodiscard]] std::vector<CrossingCells> overlaps_in(const CellRings& cells) const {
+    try {
+      return overlapping_cells(cells, quiet());
+    } catch (const InvalidInput& error) {
+      refuse(error.index(), error.what());
+    }
+  }
+
+  // Straight in longitude and latitude.
+  CellRings plane_cells() {
+    for (std::size_t f = 0; f < features_.rings.size(); ++f) require_turns(f);
+    share_corners(features_.rings, execution_.threads);
+    std::vector<PlaneSide> sides;
+    std::vector<Index> owners;
+    std::vector<std::size_t> turns(features_.rings.size());
+    sweep(sides, owners, turns);
+    const DividedSides divided =
+        divide_sides(sides, options_.tolerance_deg * (std::numbers::pi / 180), execution_.threads);
+    std::vector<Point> corners(divided.positions.size());
+    std::ranges::transform(divided.positions, corners.begin(),
+                           [](const LonLat& p) { return unit_vector(p); });
+    std::vector<KeyedArc> arcs;
+    for (std::size_t s = 0; s < sides.size(); ++s) {
+      const Point last = unit_vector(sides[s].to);
+      for (std::uint64_t k = divided.offsets[s]; k < divided.offsets[s + 1]; ++k) {
+        arcs.push_back(
+            {owners[s], corners[k], k + 1 < divided.offsets[s + 1] ? corners[k + 1] : last});
+      }
+    }
+    CellRings cells = rings_around(arcs, features_.rings.size(), execution_.threads);
+    // What has an area in the plane but no border on the sphere covers it.
+    for (std::size_t f = 0; f < turns.size(); ++f) {
+      if (turns[f] > 0 && cells.cells[f] == cells.cells[f + 1]) {
+        cells.whole.push_back(static_cast<Index>(f));
+      }
+    }
+    return cells;
+  }
+
+  void require_turns(std::size_t feature) const {
+    constexpr double most_turns = 10;
+    const std::vector<io::LonLatRing>& rings = features_.rings[feature];
+    for (Index r = 0; r < rings.size(); ++r) {
+      const std::vector<LonLat>& positions = rings[r].positions;
+      if (rings[r].is_turn) {
+        refuse(feature,
+               ring_name(rings, r) + " goes around the globe from " +
+                   text_of_place(positions.front()) +
+                   " and is not closed: a ring around a pole has to be led there along the "
+                   "longitudes -180 and 180, or to be read with geodesic edges");
+      }
+      for (const LonLat& p : positions) {
+        if (std::abs(p.lon_deg) > most_turns * 360) {
+          refuse(feature, ring_name(rings, r) + ": longitude " + text_of_place(p) +
+                              " is more than ten turns of the globe away");
+        }
+      }
+    }
+  }
+
+  // The sides of all features; of each, how often it covers the map, rounded.
+  void sweep(std::vector<PlaneSide>& sides, std::vector<Index>& owners,
+             std::vector<std::size_t>& turns) const {
+    std::vector<PlaneRegion> regions(features_.rings.size());
+    system::parallel_for(execution_.threads, regions.size(), swept_per_block,
+                         [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t f = begin; f < end; ++f) {
+                             regions[f] = sweep_rings(features_.rings[f]);
+                           }
+                         });
+    for (std::size_t f = 0; f < regions.size(); ++f) {
+      const std::vector<io::LonLatRing>& rings = features_.rings[f];
+      if (const auto& fault = regions[f].fault) {
+        refuse(f, text_of_fault(rings, *fault) + advice_on(rings[fault->second]));
+      }
+      double area = 0;
+      for (const PlaneSide& side : regions[f].sides) {
+        area += (side.to.lat_deg + side.from.lat_deg) * (side.from.lon_deg - side.to.lon_deg) / 2;
+      }
+      constexpr double map_area = 360.0 * 180;
+      if (area > map_area * (1 + 1e-9)) refuse(f, "the polygon covers more than the whole map");
+      turns[f] = static_cast<std::size_t>(std::max(0.0, std::round(area / map_area)));
+      sides.insert(sides.end(), regions[f].sides.begin(), regions[f].sides.end());
+      owners.insert(owners.end(), regions[f].sides.size(), static_cast<Index>(f));
+    }
+  }
+
+  CellRings geodesic_cells() const {
+    std::vector<KeyedArc> arcs;
+    for (std::size_t f = 0; f < features_.rings.size(); ++f) {
+      const std::vector<io::LonLatRing>& rings = features_.rings[f];
+      for (Index r = 0; r < rings.size(); ++r) append_geodesic(f, r, arcs);
+    }
+    return rings_around(arcs, features_.rings.size(), execution_.threads);
+  }
+
+  void append_geodesic(std::size_t feature, Index ring, std::vector<KeyedArc>& arcs) const {
+    const std::vector<io::LonLatRing>& rings = features_.rings[feature];
+    std::vector<LonLat> positions = rings[ring].positions;
+    const auto is_same = [](const LonLat& p, const LonLat& q) {
+      return unit_vector(p) == unit_vector(q);
+    };
+    positions.erase(std::unique(positions.begin(), positions.end(), is_same), positions.end());
+    while (positions.size() > 1 && is_same(positions.front(), positions.back()))
+      positions.pop_back();
+    std::vector<Point> corners(positions.size());
+    std::ranges::transform(positions, corners.begin(),
+                           [](const LonLat& p) { return unit_vector(p); });
+    if (goes_clockwise(positions, corners) != rings[ring].is_hole) std::ranges::reverse(corners);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Point& to = corners[k + 1 < corners.size() ? k + 1 : 0];
+      if (corners[k] == -1.0 * to) {
+        refuse(feature, ring_name(rings, ring) +
+                            " joins antipodes: there is no shortest way from " +
+                            text_of_place(corners[k]) + " to " + text_of_place(to));
+      }
+      arcs.push_back({static_cast<Index>(feature), corners[k], to});
+    }
+  }
+
+  // Of a ring within less than half a turn, without a pole, the direction at its westernmost corner, exactly: its meridian
+  // has the ring on one side. Of others, that of the larger side.
+  static bool goes_clockwise(const std::vector<LonLat>& positions,
+                             const std::vector<Point>& corners) {
+    const std::size_t n = positions.size();
+    double lon = 0;
+    double west = 0;
+    double east = 0;
+    std::size_t corner = 0;
+    for (std::size_t k = 1; k <= n; ++k) {
+      const LonLat& p = positions[k < n ? k : 0];
+      const double step = std::remainder(p.lon_deg - positions[k - 1].lon_deg, 360.0);
+      if (std::abs(p.lat_deg) == 90 || std::abs(step) == 180) return map::area_on_left(corners) < 0;
+      lon += step;
+      if (k == n) break;
+      if (lon < west || (lon == west && p.lat_deg < positions[corner].lat_deg)) corner = k;
+      west = std::min(west, lon);
+      east = std::max(east, lon);
+    }
+    if (east - west < 180 && std::abs(lon) < 180 && n > 2) {
+      const Sign sign = orientation(corners[corner > 0 ? corner - 1 : n - 1], corners[corner],
+                                    corners[corner + 1 < n ? corner + 1 : 0]);
+      if (sign != Sign::zero) return sign == Sign::negative;
+    }
+    return map::area_on_left(corners) < 0;
+  }
+
+  io::PolygonFeatures& features_;
+  const PolygonOptions& options_;
+  const Execution& execution_;
+};
+
+}  // namespace
+
+CellRings cells_of_features(io::PolygonFeatures& features, const PolygonOptions& options,
+                            const Execution& execution) {
+  return FeatureCells(features, options, execution)();
+}
+
+}  // namespace rondel::overlay
+
+namespace rondel {
+
+std::string feature_name(std::span<const Column> columns, std::size_t feature) {
+  std::string text = std::to_string(feature);
+  for (const Column& column : columns) {
+    if (column.name != "name" && column.name != "NAME") continue;
+    const std::uint64_t begin = feature == 0 ? 0 : column.ends[feature - 1];
+    if (column.ends[feature] == begin) continue;
+    return text + " (" + column.text.substr(begin, column.ends[feature] - begin) + ')';
+  }
+  return text;
+}
+
+}  // namespace rondel

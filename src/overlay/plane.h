@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Positions in the plane of longitude and latitude: exact signs, and their order from west to east.
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "rondel/predicates.h"
+#include "rondel/types.h"
+
+namespace rondel::overlay {
+
+// How far a corner may be from a side on which it was meant to be, in degrees: some roundings of a longitude.
+constexpr double on_side_deg = 0x1p-42;
+
+inline bool is_west_of(const LonLat& p, const LonLat& q) {
+  return std::tie(p.lon_deg, p.lat_deg) < std::tie(q.lon_deg, q.lat_deg);
+}
+
+// Whether c is to the left (positive) or to the right of the line from a to b; exact.
+inline Sign side_of_line(const LonLat& a, const LonLat& b, const LonLat& c) {
+  // The filter of Shewchuk's orient2d: its bound is (3 + 16 u) u times the sum of the products, u = 2^-53.
+  constexpr double u = std::numeric_limits<double>::epsilon() / 2;
+  constexpr double bound = (3 + 16 * u) * u;
+  const double left = (a.lon_deg - c.lon_deg) * (b.lat_deg - c.lat_deg);
+  const double right = (a.lat_deg - c.lat_deg) * (b.lon_deg - c.lon_deg);
+  const double determinant = left - right;
+  const double least = bound * (std::abs(left) + std::abs(right)) + 0x1p-1000;
+  if (determinant > least) return Sign::positive;
+  if (-determinant > least) return Sign::negative;
+  const auto lifted = [](const LonLat& p) { return Point{p.lon_deg, p.lat_deg, 1}; };
+  return orientation(lifted(a), lifted(b), lifted(c));
+}
+
+}  // namespace rondel::overlay

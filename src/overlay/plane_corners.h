@@ -1,0 +1,100 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Corners of the plane of longitude and latitude, found by place; longitudes are the same after a whole turn.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "rondel/types.h"
+
+namespace rondel::overlay {
+
+class PlaneCorners {
+ public:
+  struct Corner {
+    LonLat position;
+    Index owner;  // no_index: several
+  };
+
+  explicit PlaneCorners(std::vector<Corner> corners) {
+    for (Corner& corner : corners) {
+      if (corner.position.lon_deg < -180 || corner.position.lon_deg > 180) {
+        corner.position.lon_deg = std::remainder(corner.position.lon_deg, 360.0);
+      }
+      // Both ends of the map are one meridian.
+      if (corner.position.lon_deg == 180) corner.position.lon_deg = -180;
+      bands_[band_of(corner.position.lat_deg)].push_back(corner);
+    }
+    for (std::vector<Corner>& band : bands_) {
+      std::ranges::sort(band, [](const Corner& p, const Corner& q) { return key(p) < key(q); });
+      std::size_t kept = 0;
+      for (const Corner& corner : band) {
+        if (kept > 0 && band[kept - 1].position == corner.position) {
+          if (band[kept - 1].owner != corner.owner) band[kept - 1].owner = no_index;
+        } else {
+          band[kept++] = corner;
+        }
+      }
+      band.resize(kept);
+    }
+  }
+
+  // Calls visit(position, owner) for the corners near a line, which goes east or is a meridian: those whose distance in
+  // longitude and in latitude is below `margin_deg`, and some more. Positions are on the line's own turn of the globe.
+  template <class Visit>
+  void visit_near(const LonLat& west, const LonLat& east, double margin_deg,
+                  const Visit& visit) const {
+    const auto [south, north] = std::minmax(west.lat_deg, east.lat_deg);
+    const std::size_t last = band_of(north + margin_deg);
+    for (std::size_t band = band_of(south - margin_deg); band <= last; ++band) {
+      if (bands_[band].empty()) continue;
+      double low = west.lon_deg;
+      double high = east.lon_deg;
+      if (north > south) {
+        // Where the line is in the band, with room for rounding.
+        const double floor = static_cast<double>(band) - 90 - margin_deg;
+        const double ceiling = static_cast<double>(band) - 89 + margin_deg;
+        const double run = (east.lon_deg - west.lon_deg) / (east.lat_deg - west.lat_deg);
+        const double at_floor =
+            west.lon_deg + (std::clamp(floor, south, north) - west.lat_deg) * run;
+        const double at_ceiling =
+            west.lon_deg + (std::clamp(ceiling, south, north) - west.lat_deg) * run;
+        low = std::max(low, std::min(at_floor, at_ceiling) - 1e-9);
+        high = std::min(high, std::max(at_floor, at_ceiling) + 1e-9);
+      }
+      visit_band(bands_[band], low - margin_deg, high + margin_deg, visit);
+    }
+  }
+
+ private:
+  static std::pair<double, double> key(const Corner& corner) {
+    return {corner.position.lon_deg, corner.position.lat_deg};
+  }
+  static std::size_t band_of(double lat_deg) {
+    return static_cast<std::size_t>(std::clamp(std::floor(lat_deg + 90), 0.0, 179.0));
+  }
+
+  template <class Visit>
+  static void visit_band(const std::vector<Corner>& band, double low, double high,
+                         const Visit& visit) {
+    // Corners are at -180 and east of it, below 180.
+    const double first_turn = 360 * std::floor((low + 180) / 360);
+    for (double turn = first_turn; turn - 180 <= high; turn += 360) {
+      auto corner = std::ranges::lower_bound(band, low - turn, {},
+                                             [](const Corner& c) { return c.position.lon_deg; });
+      for (; corner != band.end() && corner->position.lon_deg + turn <= high; ++corner) {
+        visit(LonLat{corner->position.lon_deg + turn, corner->position.lat_deg}, corner->owner);
+      }
+    }
+  }
+
+  std::array<std::vector<Corner>, 180> bands_;  // a degree of latitude each; sorted
+};
+
+}  // namespace rondel::overlay

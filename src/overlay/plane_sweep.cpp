@@ -1,0 +1,283 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A line sweeps the plane from west to east (Shamos, Hoey 1976). It keeps the sides that it crosses in their order from
+// south to north, and knows of each what is above it: inside of which polygon, or outside and in which hole.
+//
+//       \ above: in polygon 0       What is above a side follows from what is below it, which is above the next side
+//     ---*------------------        to the south, and from whose side it is. A side that does not fit to what is below
+//       / below: outside            it is a fault: a shell in another polygon, a hole outside of its shell.
+//
+// Only corners are events. Corners that lie on sides divide them, and sides that coincide are merged, when the sweep comes
+// there, so what is left either crosses properly, which is found between neighbors, or meets in corners alone.
+#include "overlay/plane_sweep.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <set>
+#include <utility>
+
+#include "exact/vector.h"
+#include "overlay/plane.h"
+
+namespace rondel::overlay {
+namespace {
+
+// Inside of a polygon, by its number; or outside, in a hole, by its ring, or in none.
+struct PlaneState {
+  bool is_inside = false;
+  Index number = no_index;
+  friend bool operator==(const PlaneState&, const PlaneState&) = default;
+};
+
+// From a corner to one farther east (or north), by their numbers.
+struct SweptSide {
+  Index west;
+  Index east;
+  std::vector<Index> rings;  // of different polygons
+  PlaneState below{};
+  PlaneState above{};
+};
+
+class PlaneSweep {
+ public:
+  explicit PlaneSweep(std::span<const io::LonLatRing> rings)
+      : rings_(rings), has_sides_(rings.size(), false), active_(Southern{this}) {
+    number_corners();
+    add_sides();
+  }
+
+  PlaneRegion operator()() {
+    for (Index corner = 0; corner < corners_.size() && !fault_; ++corner) visit(corner);
+    if (!fault_) find_lines();
+    if (fault_) return {{}, fault_};
+    return {std::move(found_), std::nullopt};
+  }
+
+ private:
+  // The order of active sides, and of a corner among them.
+  struct Southern {
+    using is_transparent = void;
+    const PlaneSweep* sweep;
+    bool operator()(Index s, Index t) const { return sweep->is_south_of(s, t); }
+    bool operator()(Index side, const LonLat& p) const {
+      return sweep->side_of(side, p) == Sign::positive;
+    }
+    bool operator()(const LonLat& p, Index side) const {
+      return sweep->side_of(side, p) == Sign::negative;
+    }
+  };
+  using Active = std::set<Index, Southern>;
+
+  void number_corners() {
+    for (const io::LonLatRing& ring : rings_) {
+      corners_.insert(corners_.end(), ring.positions.begin(), ring.positions.end());
+    }
+    std::ranges::sort(corners_, is_west_of);
+    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
+    first_from_.assign(corners_.size(), no_index);
+  }
+  [[nodiscard]] Index number_of(const LonLat& p) const {
+    return static_cast<Index>(std::ranges::lower_bound(corners_, p, is_west_of) - corners_.begin());
+  }
+
+  void add_sides() {
+    Index part = no_index;
+    for (Index r = 0; r < rings_.size(); ++r) {
+      if (!rings_[r].is_hole || part == no_index) ++part;
+      parts_.push_back(part);
+      const std::vector<LonLat>& positions = rings_[r].positions;
+      if (positions.empty()) continue;
+      Index from = number_of(positions.back());
+      for (const LonLat& position : positions) {
+        const Index to = number_of(position);
+        if (from != to) start(std::min(from, to), std::max(from, to), {r});
+        from = to;
+      }
+    }
+    around_.assign(part == no_index ? 0 : part + std::size_t{1}, std::nullopt);
+  }
+
+  void start(Index west, Index east, std::vector<Index> rings) {
+    const auto side = static_cast<Index>(sides_.size());
+    sides_.push_back({west, east, std::move(rings)});
+    next_from_.push_back(first_from_[west]);
+    first_from_[west] = side;
+  }
+
+  [[nodiscard]] Sign side_of(Index side, const LonLat& p) const {
+    return side_of_line(corners_[sides_[side].west], corners_[sides_[side].east], p);
+  }
+  [[nodiscard]] bool is_south_of(Index s, Index t) const {
+    if (s == t) return false;
+    const SweptSide& first = sides_[s];
+    const SweptSide& second = sides_[t];
+    if (first.west == second.west) return side_of(s, corners_[second.east]) == Sign::positive;
+    if (first.west < second.west) return side_of(s, corners_[second.west]) == Sign::positive;
+    return side_of(t, corners_[first.west]) == Sign::negative;
+  }
+
+  void visit(Index corner) {
+    const LonLat place = corners_[corner];
+    const auto [first, last] = active_.equal_range(place);
+    for (auto side = first; side != last; side = active_.erase(side)) end_side(*side, corner);
+    std::vector<Index> begun = sides_from(corner);
+    auto above = last;
+    const auto below = above == active_.begin() ? active_.end() : std::prev(above);
+    PlaneState state = below == active_.end() ? PlaneState{} : sides_[*below].above;
+    Index south = below == active_.end() ? no_index : *below;
+    for (const Index side : begun) {
+      sides_[side].below = state;
+      if (!cross(side, state, place)) return;
+      sides_[side].above = state;
+      active_.insert(above, side);
+    }
+    if (begun.empty()) {
+      if (above != active_.end()) require_apart(south, *above);
+      return;
+    }
+    require_apart(south, begun.front());
+    if (above != active_.end() && !fault_) require_apart(begun.back(), *above);
+  }
+
+  // What of an active side is west of the corner is done; the rest begins there.
+  void end_side(Index side, Index corner) {
+    if (sides_[side].east != corner) {
+      const Index east = std::exchange(sides_[side].east, corner);
+      start(corner, east, sides_[side].rings);
+    }
+    const SweptSide& done = sides_[side];
+    if (done.below.is_inside == done.above.is_inside) return;
+    const LonLat& west = corners_[done.west];
+    const LonLat& east = corners_[done.east];
+    found_.push_back(done.above.is_inside ? PlaneSide{west, east} : PlaneSide{east, west});
+  }
+
+  // From south to north, each once. Where two coincide the longer one is divided.
+  std::vector<Index> sides_from(Index corner) {
+    std::vector<Index> sides;
+    for (Index s = first_from_[corner]; s != no_index; s = next_from_[s]) sides.push_back(s);
+    std::ranges::sort(sides, [&](Index s, Index t) {
+      const Sign side = side_of(s, corners_[sides_[t].east]);
+      if (side != Sign::zero) return side == Sign::positive;
+      return std::pair(sides_[s].east, s) < std::pair(sides_[t].east, t);
+    });
+    std::vector<Index> kept;
+    for (const Index side : sides) {
+      if (kept.empty() || side_of(kept.back(), corners_[sides_[side].east]) != Sign::zero) {
+        kept.push_back(side);
+        continue;
+      }
+      const std::vector<Index> rings = sides_[side].rings;
+      const Index nearer = sides_[kept.back()].east;
+      if (sides_[side].east != nearer) start(nearer, sides_[side].east, rings);
+      for (const Index ring : rings) add_ring(sides_[kept.back()].rings, ring);
+    }
+    std::erase_if(kept, [&](Index side) { return sides_[side].rings.empty(); });
+    for (const Index side : kept) {
+      for (const Index ring : sides_[side].rings) has_sides_[ring] = true;
+    }
+    return kept;
+  }
+  // Two of one polygon vanish.
+  void add_ring(std::vector<Index>& rings, Index ring) const {
+    const auto same =
+        std::ranges::find_if(rings, [&](Index r) { return parts_[r] == parts_[ring]; });
+    if (same == rings.end()) {
+      rings.push_back(ring);
+    } else {
+      rings.erase(same);
+    }
+  }
+
+  // Goes north across a side; whether it fits to what is south of it.
+  bool cross(Index side, PlaneState& state, const LonLat& place) {
+    std::vector<Index> rings = sides_[side].rings;
+    // Out of what the sweep is in comes first.
+    const auto is_left = [&](Index r) {
+      return state == (rings_[r].is_hole ? PlaneState{false, r} : PlaneState{true, parts_[r]}) ||
+             (rings_[r].is_hole && state == PlaneState{true, parts_[r]});
+    };
+    std::ranges::stable_partition(rings, is_left);
+    for (const Index ring : rings) {
+      if (!cross_ring(ring, state, place)) return false;
+    }
+    return true;
+  }
+  bool cross_ring(Index ring, PlaneState& state, const LonLat& place) {
+    const PlaneState own = {true, parts_[ring]};
+    if (rings_[ring].is_hole) {
+      const PlaneState hole = {false, ring};
+      if (state != own && state != hole)
+        return refuse(PlaneFault::Kind::outside, state, ring, place);
+      state = state == own ? hole : own;
+      return true;
+    }
+    if (state == own) {
+      state = *around_[parts_[ring]];
+      return true;
+    }
+    if (state.is_inside) return refuse(PlaneFault::Kind::overlap, state, ring, place);
+    if (state.number != no_index && parts_[state.number] == parts_[ring]) {
+      return refuse(PlaneFault::Kind::outside, {}, state.number, place);
+    }
+    around_[parts_[ring]] = state;
+    state = own;
+    return true;
+  }
+  bool refuse(PlaneFault::Kind kind, const PlaneState& state, Index ring, const LonLat& place) {
+    Index other = state.number;
+    if (state.is_inside) other = first_ring_of(state.number);
+    fault_ = PlaneFault{kind, other, ring, place};
+    return false;
+  }
+  [[nodiscard]] Index first_ring_of(Index part) const {
+    return static_cast<Index>(std::ranges::find(parts_, part) - parts_.begin());
+  }
+
+  void require_apart(Index s, Index t) {
+    if (s == no_index) return;
+    const LonLat &a = corners_[sides_[s].west], &b = corners_[sides_[s].east];
+    const LonLat &c = corners_[sides_[t].west], &d = corners_[sides_[t].east];
+    if (side_of_line(a, b, c) * side_of_line(a, b, d) != Sign::negative ||
+        side_of_line(c, d, a) * side_of_line(c, d, b) != Sign::negative) {
+      return;
+    }
+    const double along = b.lon_deg - a.lon_deg;
+    const double up = b.lat_deg - a.lat_deg;
+    const double before = along * (c.lat_deg - a.lat_deg) - up * (c.lon_deg - a.lon_deg);
+    const double after = along * (d.lat_deg - a.lat_deg) - up * (d.lon_deg - a.lon_deg);
+    const double t_of_place = before == after ? 0.5 : before / (before - after);
+    const LonLat place = {c.lon_deg + t_of_place * (d.lon_deg - c.lon_deg),
+                          c.lat_deg + t_of_place * (d.lat_deg - c.lat_deg)};
+    const auto [first, second] = std::minmax(sides_[s].rings.front(), sides_[t].rings.front());
+    fault_ = PlaneFault{PlaneFault::Kind::crossing, first, second, place};
+  }
+
+  void find_lines() {
+    for (Index r = 0; r < rings_.size() && !fault_; ++r) {
+      if (has_sides_[r]) continue;
+      const std::vector<LonLat>& positions = rings_[r].positions;
+      fault_ = PlaneFault{PlaneFault::Kind::no_area, r, r,
+                          positions.empty() ? LonLat{} : positions.front()};
+    }
+  }
+
+  std::span<const io::LonLatRing> rings_;
+  std::vector<Index> parts_;                       // of each ring the number of its polygon
+  std::vector<bool> has_sides_;                    // of each ring
+  std::vector<std::optional<PlaneState>> around_;  // of each polygon, what it lies in
+  std::vector<LonLat> corners_;
+  std::vector<SweptSide> sides_;
+  std::vector<Index> first_from_;  // of each corner a side that begins there
+  std::vector<Index> next_from_;   // of each side another one that begins where it does
+  Active active_;
+  std::vector<PlaneSide> found_;
+  std::optional<PlaneFault> fault_;
+};
+
+}  // namespace
+
+PlaneRegion sweep_rings(std::span<const io::LonLatRing> rings) { return PlaneSweep(rings)(); }
+
+}  // namespace rondel::overlay

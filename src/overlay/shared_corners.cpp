@@ -1,0 +1,101 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/shared_corners.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "overlay/plane.h"
+#include "overlay/plane_corners.h"
+#include "system/parallel.h"
+
+namespace rondel::overlay {
+namespace {
+
+constexpr std::size_t features_per_block = 16;
+
+bool is_near(const LonLat& p, const LonLat& q) {
+  return std::abs(p.lon_deg - q.lon_deg) <= 2 * on_side_deg &&
+         std::abs(p.lat_deg - q.lat_deg) <= 2 * on_side_deg;
+}
+
+// Corners on a side, from its beginning on.
+class SideCorners {
+ public:
+  SideCorners(const PlaneCorners& corners, Index feature) : corners_(corners), feature_(feature) {}
+
+  const std::vector<LonLat>& operator()(const LonLat& from, const LonLat& to) {
+    found_.clear();
+    const bool goes_east = is_west_of(from, to);
+    const LonLat& west = goes_east ? from : to;
+    const LonLat& east = goes_east ? to : from;
+    const double along = east.lon_deg - west.lon_deg;
+    const double up = east.lat_deg - west.lat_deg;
+    const double squared = along * along + up * up;
+    const double most = on_side_deg * std::sqrt(squared);
+    corners_.visit_near(west, east, on_side_deg, [&](const LonLat& p, Index owner) {
+      const double x = p.lon_deg - west.lon_deg;
+      const double y = p.lat_deg - west.lat_deg;
+      const double part = (x * along + y * up) / squared;
+      if (std::abs(along * y - up * x) > most || part <= 0 || part >= 1) return;
+      if (is_near(p, from) || is_near(p, to)) return;
+      // What a feature does to itself is for exact signs, but where a whole turn is rounded.
+      if (owner == feature_ && is_own(p)) return;
+      found_.emplace_back(goes_east ? part : 1 - part, p);
+    });
+    std::ranges::sort(found_, [](const auto& p, const auto& q) {
+      return p.first != q.first ? p.first < q.first : is_west_of(p.second, q.second);
+    });
+    positions_.clear();
+    for (const auto& [part, position] : found_) {
+      if (positions_.empty() || !is_near(positions_.back(), position))
+        positions_.push_back(position);
+    }
+    return positions_;
+  }
+
+ private:
+  // Whether it has not been turned.
+  static bool is_own(const LonLat& p) { return p.lon_deg > -180 && p.lon_deg < 180; }
+
+  const PlaneCorners& corners_;
+  Index feature_;
+  std::vector<std::pair<double, LonLat>> found_;
+  std::vector<LonLat> positions_;
+};
+
+}  // namespace
+
+void share_corners(std::vector<std::vector<io::LonLatRing>>& features, unsigned threads) {
+  std::vector<PlaneCorners::Corner> all;
+  for (std::size_t f = 0; f < features.size(); ++f) {
+    for (const io::LonLatRing& ring : features[f]) {
+      for (const LonLat& p : ring.positions) all.push_back({p, static_cast<Index>(f)});
+    }
+  }
+  const PlaneCorners corners(std::move(all));
+  system::parallel_for(
+      threads, features.size(), features_per_block, [&](std::size_t begin, std::size_t end) {
+        std::vector<LonLat> positions;
+        for (std::size_t f = begin; f < end; ++f) {
+          SideCorners corners_on(corners, static_cast<Index>(f));
+          for (io::LonLatRing& ring : features[f]) {
+            positions.clear();
+            for (std::size_t k = 0; k < ring.positions.size(); ++k) {
+              const LonLat& from = ring.positions[k];
+              const LonLat& to = ring.positions[k + 1 < ring.positions.size() ? k + 1 : 0];
+              positions.push_back(from);
+              if (from == to) continue;
+              const std::vector<LonLat>& between = corners_on(from, to);
+              positions.insert(positions.end(), between.begin(), between.end());
+            }
+            ring.positions = positions;
+          }
+        }
+      });
+}
+
+}  // namespace rondel::overlay
