@@ -132,8 +132,7 @@ std::vector<LonLat> corners_of(const LonLatGrid& grid) {
   for (std::size_t j = 0; j + 1 < grid.lat_deg.size(); ++j) {
     const auto [south, north] = std::minmax(grid.lat_deg[j], grid.lat_deg[j + 1]);
     for (std::size_t i = 0; i + 1 < grid.lon_deg.size(); ++i) {
-      const double west = grid.lon_deg[i];
-      const double east = grid.lon_deg[i + 1];
+      const auto [west, east] = std::minmax(grid.lon_deg[i], grid.lon_deg[i + 1]);
       corners.insert(corners.end(), {{west, south}, {east, south}, {east, north}, {west, north}});
     }
   }

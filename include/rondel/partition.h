@@ -26,7 +26,7 @@ namespace rondel {
 /// A grid in longitude and latitude, by its lines. Cell `row * (lon_deg.size() - 1) + column` is between parallels row
 /// and row + 1 and meridians column and column + 1.
 struct LonLatGrid {
-  std::vector<double> lon_deg;  ///< meridians, increasing, by 360 degrees at most
+  std::vector<double> lon_deg;  ///< meridians, increasing or decreasing, by 360 degrees at most
   std::vector<double> lat_deg;  ///< parallels, increasing or decreasing
 };
 

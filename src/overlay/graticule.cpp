@@ -21,7 +21,7 @@ namespace {
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
 bool goes_around(const std::vector<double>& lon) {
-  return std::abs(lon.back() - lon.front() - 360) <= same_line_degrees;
+  return std::abs(std::abs(lon.back() - lon.front()) - 360) <= same_line_degrees;
 }
 
 void validate(const LonLatGrid& grid) {
@@ -37,10 +37,14 @@ void validate(const LonLatGrid& grid) {
         std::string(what) + " " + std::to_string(k) + ", " + std::to_string(value) + ", " + why, k);
   };
   constexpr double most_degrees = 1080;
+  const bool is_westward = lon[1] < lon[0];
   for (std::size_t k = 0; k < lon.size(); ++k) {
     if (!(std::abs(lon[k]) <= most_degrees)) refuse("meridian", k, lon[k], "is no longitude");
-    if (k > 0 && !(lon[k] > lon[k - 1])) refuse("meridian", k, lon[k], "is not east of the last");
-    if (!(lon[k] - lon[0] <= 360 + same_line_degrees)) {
+    if (k > 0 && !(is_westward ? lon[k] < lon[k - 1] : lon[k] > lon[k - 1])) {
+      refuse("meridian", k, lon[k],
+             is_westward ? "is not west of the last" : "is not east of the last");
+    }
+    if (!(std::abs(lon[k] - lon[0]) <= 360 + same_line_degrees)) {
       refuse("meridian", k, lon[k], "is more than once around the globe");
     }
   }
@@ -73,11 +77,14 @@ Graticule::Graticule(const LonLatGrid& grid) {
 
 void Graticule::take_columns(std::vector<double> lon) {
   is_around_ = goes_around(lon);
+  const bool is_westward = lon.front() > lon.back();
+  if (is_westward) std::ranges::reverse(lon);
   if (is_around_) lon.back() = lon.front() + 360;
   for (std::size_t k = 0; k + 1 < lon.size(); ++k) {
+    const std::size_t of_grid = is_westward ? lon.size() - 2 - k : k;
     columns_.push_back({on_equator(lon[k]), (lon[k] - lon[0]) * radians_per_degree,
-                        (lon[k + 1] - lon[k]) * radians_per_degree, static_cast<Index>(k), lon[k],
-                        lon[k + 1]});
+                        (lon[k + 1] - lon[k]) * radians_per_degree, static_cast<Index>(of_grid),
+                        lon[k], lon[k + 1]});
   }
   if (is_around_) return;
   const double gap = 360 - (lon.back() - lon.front());
@@ -171,6 +178,7 @@ CellRings rings_of(const LonLatGrid& grid) {
   const std::size_t num_columns = grid.lon_deg.size() - 1;
   const bool is_around = goes_around(grid.lon_deg);
   const bool is_southward = grid.lat_deg[1] < grid.lat_deg[0];
+  const bool is_westward = grid.lon_deg[1] < grid.lon_deg[0];
   const std::size_t num_meridians = is_around ? num_columns : num_columns + 1;
   CellRings rings;
   std::vector<Index> firsts;  // of the points on each parallel
@@ -188,8 +196,10 @@ CellRings rings_of(const LonLatGrid& grid) {
     const std::size_t south = is_southward ? row + 1 : row;
     const std::size_t north = is_southward ? row : row + 1;
     for (std::size_t k = 0; k < num_columns; ++k) {
-      std::vector<Index> ring = {corner(south, k), corner(south, k + 1), corner(north, k + 1),
-                                 corner(north, k)};
+      const std::size_t west = is_westward ? k + 1 : k;
+      const std::size_t east = is_westward ? k : k + 1;
+      std::vector<Index> ring = {corner(south, west), corner(south, east), corner(north, east),
+                                 corner(north, west)};
       ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
       if (ring.front() == ring.back()) ring.pop_back();
       rings.corners.insert(rings.corners.end(), ring.begin(), ring.end());

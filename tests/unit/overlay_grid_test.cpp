@@ -282,6 +282,38 @@ TEST(overlay_grid, of_few_cells) {
   }
 }
 
+// Columns from east to west are those from west to east in reverse.
+TEST(overlay_grid, meridians_may_decrease) {
+  for (const bool is_around : {false, true}) {
+    LonLatGrid east = regular_grid(7, 5);
+    if (!is_around) east.lon_deg.pop_back();
+    LonLatGrid west = east;
+    std::ranges::reverse(west.lon_deg);
+    const std::size_t columns = east.lon_deg.size() - 1;
+    const auto mirrored = [&](std::size_t cell) {
+      return cell - cell % columns + columns - 1 - cell % columns;
+    };
+    const Partition cells = Partition::voronoi(triangulation_of("uniform", 60, 3));
+    for (const GridSides sides : {GridSides::parallels, GridSides::great_circles}) {
+      const Partition a = Partition::lonlat_grid(east, sides);
+      const Partition b = Partition::lonlat_grid(west, sides);
+      EXPECT_EQ(a.is_cover(), b.is_cover());
+      const Remap of_a = rondel::remap(cells, a, {.order = 2});
+      const Remap of_b = rondel::remap(cells, b, {.order = 2});
+      const Remap same = rondel::remap(a, b);
+      for (std::size_t i = 0; i < a.num_cells(); ++i) {
+        const std::size_t j = mirrored(i);
+        EXPECT_NEAR(a.areas()[i], b.areas()[j], 1e-15);
+        EXPECT_NEAR(of_a.target_fractions[i], of_b.target_fractions[j], 1e-13);
+        EXPECT_EQ(of_a.weights.offsets[i + 1] - of_a.weights.offsets[i],
+                  of_b.weights.offsets[j + 1] - of_b.weights.offsets[j]);
+        ASSERT_EQ(same.weights.offsets[j + 1] - same.weights.offsets[j], 1U);
+        EXPECT_EQ(same.weights.columns[same.weights.offsets[j]], i);
+      }
+    }
+  }
+}
+
 TEST(overlay_grid, names_what_is_wrong) {
   const auto message_of = [](const LonLatGrid& grid) -> std::string {
     try {
@@ -293,6 +325,7 @@ TEST(overlay_grid, names_what_is_wrong) {
   };
   EXPECT_EQ(message_of({{0}, {0, 1}}), "a grid of 1 meridians and 2 parallels has no cell");
   EXPECT_EQ(message_of({{0, 1, 1}, {0, 1}}), "meridian 2, 1.000000, is not east of the last");
+  EXPECT_EQ(message_of({{2, 1, 1}, {0, 1}}), "meridian 2, 1.000000, is not west of the last");
   EXPECT_EQ(message_of({{0, 361}, {0, 1}}),
             "meridian 1, 361.000000, is more than once around the globe");
   EXPECT_EQ(message_of({{0, NAN}, {0, 1}}), "meridian 1, nan, is no longitude");
