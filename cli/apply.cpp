@@ -73,7 +73,9 @@ ExitStatus run_apply(const ApplyCommandOptions& options) {
   WeightFile file = read_weights(common.source());
   const Weights& weights = file.weights;
   if (is_table(options.values_file)) require_places_of_table(options, file);
-  FieldSet in = read_fields(options.values_file, options.columns, weights.num_columns, common.read);
+  FieldSet in = read_fields(options.values_file, options.columns, weights.num_columns, common.read,
+                            file.source.shape);
+  tell(options.values_file, in.remarks);
   if (!in.points.empty()) require_places(options, file, in.points, false);
   FieldSet out;
   out.num_points = weights.num_rows();

@@ -3,9 +3,7 @@
 
 #include "rondel/remap.h"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <utility>
 
 #include "process.h"
@@ -23,30 +21,6 @@ struct CellSide {
   WeightSide side;
 };
 
-// The corners of cells with one ring and not many of them, the last one repeated where others have more.
-std::vector<LonLat> corners_of_rings(const CellRings& cells) {
-  constexpr std::size_t most_corners = 16;
-  std::size_t most = 0;
-  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
-    if (cells.cells[i + 1] != cells.cells[i] + 1) return {};
-    const std::uint64_t ring = cells.cells[i];
-    most = std::max<std::size_t>(most, cells.rings[ring + 1] - cells.rings[ring]);
-  }
-  if (most > most_corners) return {};
-  const std::vector<LonLat> places = lonlats(cells.points);
-  std::vector<LonLat> corners;
-  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
-    const std::span<const Index> ring =
-        std::span(cells.corners)
-            .subspan(cells.rings[cells.cells[i]],
-                     cells.rings[cells.cells[i] + 1] - cells.rings[cells.cells[i]]);
-    for (std::size_t k = 0; k < most; ++k) {
-      corners.push_back(places[ring[std::min(k, ring.size() - 1)]]);
-    }
-  }
-  return corners;
-}
-
 CellSide side_of_grid(const std::string& name, const RemapCommandOptions& options, const Job& job) {
   WeightSide side = grid_side(name);
   add_grid_cells(side);
@@ -59,13 +33,10 @@ CellSide side_of_grid(const std::string& name, const RemapCommandOptions& option
 }
 
 CellSide side_of_mesh(const FileName& file, const RemapCommandOptions& options, const Job& job) {
-  CellTable table = read_cells(file);
+  const CellTable table = read_cells(file);
+  tell(table.name, table.remarks);
   Partition partition = partition_of(table, options.sides, job.execution());
-  WeightSide side;
-  side.points = table.centers.empty() ? lonlats(partition.centers()) : std::move(table.centers);
-  side.mask = std::move(table.mask);
-  side.shape = std::move(table.shape);
-  side.corners = table.grid ? corners_of(*table.grid) : corners_of_rings(table.cells);
+  WeightSide side = weight_side(table, partition);
   return {std::move(partition), std::move(side)};
 }
 
@@ -98,7 +69,7 @@ CellSide side_of(const FileName& file, const RemapCommandOptions& options, Job& 
   named.output_format = file.format;
   const std::string format = named.format();
   if (file.path.starts_with("grid:")) return side_of_grid(file.path, options, job);
-  if (format == "nc") return side_of_mesh(file, options, job);
+  if (can_read_cells(file)) return side_of_mesh(file, options, job);
   if (format == "geojson" || format == "json") return side_of_polygons(file, options, job);
   return side_of_sites(file, options, job);
 }

@@ -77,6 +77,12 @@ std::string faces_line(const Counts& counts) {
 
 const char* name_of(Model model) { return model == Model::projected ? "projected" : "weighted"; }
 
+void tell(const std::string& file, const std::vector<std::string>& remarks) {
+  for (const std::string& remark : remarks) {
+    std::fprintf(stderr, "rondel: %s: %s\n", file.c_str(), remark.c_str());
+  }
+}
+
 std::string count(std::size_t number, const std::string& one, const std::string& many) {
   return std::to_string(number) + ' ' + (number == 1 ? one : many);
 }

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "command.h"
 #include "rondel/hull.h"
@@ -19,6 +20,9 @@ const char* name_of(Model model);
 
 /// "1 site", "2 sites".
 std::string count(std::size_t number, const std::string& one, const std::string& many);
+
+/// Writes what a reader says of a file to standard error, a line each: "rondel: mesh.nc: 3 of 162 cells are ...".
+void tell(const std::string& file, const std::vector<std::string>& remarks);
 
 /// The JSON object of a triangulation, with a newline. Its keys are a contract. `unlocated` counts
 /// the features of the input that have no geometry.

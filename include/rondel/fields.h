@@ -38,6 +38,7 @@ struct FieldSet {
   std::vector<FieldArray> arrays;
   std::vector<FieldArray> axes;
   std::vector<Point> points;  ///< of netCDF with longitudes and latitudes of the points; else empty
+  std::vector<std::string> remarks;  ///< sentences: which variables of netCDF are left out, and why
 };
 
 /// Reads values at points:
@@ -46,12 +47,18 @@ struct FieldSet {
 /// | --- | --- |
 /// | `.csv`, `.tsv` | the columns `names`, one at least; an empty cell and `nan` are missing |
 /// | `.npy` | shape (n,) or (fields, n); no `names` |
-/// | `.nc` | the variables `names` or all that fit: the last dimension, or the product of the last |
-/// |       | ones, is n; `_FillValue` and `missing_value` are missing, `scale_factor` is applied |
+/// | `.nc` | the variables `names`, or all that are fields at the points |
+///
+/// In netCDF the dimensions of the points are those of their longitudes and latitudes (rondel/conventions.h), in any order and at any
+/// place among the others, or else the dimension of that length, or dimensions that follow each other and multiply to it. Values are
+/// what the attributes `_FillValue`, `missing_value`, `valid_min`, `valid_max`, `valid_range`, `_Unsigned`, `scale_factor` and
+/// `add_offset` make of the numbers.
 ///
 /// \param num_points  n; 0 for tables: as many as there are rows
+/// \param shape  the lengths of the grid of the points, if they are one; a variable of netCDF with other lengths is refused
 RONDEL_API FieldSet read_fields(const FileName& file, std::span<const std::string> names,
-                                std::uint64_t num_points, const ReadOptions& options = {});
+                                std::uint64_t num_points, const ReadOptions& options = {},
+                                std::span<const std::uint64_t> shape = {});
 
 /// Writes values at the points of a side: `.csv` and `.tsv` with lon, lat and a column a field, `.npy` of
 /// the shape (n,) or (fields, n), `.nc` on the grid of the side if it has one, else along one dimension.

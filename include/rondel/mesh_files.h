@@ -17,6 +17,7 @@
 #include "rondel/io.h"
 #include "rondel/partition.h"
 #include "rondel/types.h"
+#include "rondel/weight_files.h"
 
 namespace rondel {
 
@@ -29,6 +30,8 @@ struct CellTable {
   std::vector<LonLat> centers;       ///< as the file has them; empty: it has none
   std::vector<std::int32_t> mask;    ///< 0: the cell takes no part; empty: all do
   std::vector<std::uint64_t> shape;  ///< of a grid, the last dimension changes fastest: nlat, nlon
+  std::vector<std::string>
+      remarks;  ///< sentences: what is masked or left out, which grid of several was read
 
   [[nodiscard]] RONDEL_API std::size_t num_cells() const;
 };
@@ -54,17 +57,31 @@ RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size
 /// | ICON | vertex_of_cell of vlon, vlat |
 /// | CF | coordinates of units degrees_east and degrees_north: along one dimension each, with bounds or between them; or of the same dimensions, with bounds |
 ///
-/// 1. Coordinates are degrees, unless the units begin with "rad".
+/// 1. Coordinates have the units that they say, in any of UDUNITS's spellings for degrees and radians; those without units are
+///    radians in MPAS and ICON, else degrees. Bounds without units have those of their coordinate.
 /// 2. Corners nearer than 1e-10 radians to each other are one, in single precision 1e-6: the same
 ///    corner may be 0 and 2 pi. A corner that repeats the one before it is left out; cells with
 ///    less than three corners have no ring. Rings that are clockwise are turned around.
 /// 3. Coordinates along lines and without bounds: cells end half way between them, the first and the last one as far
 ///    beyond as before, or at the pole if that is less than a cell away.
+/// 4. Cells that the file masks, and such with a corner that is missing (NaN, a fill value), have no ring, and their mask is 0.
+/// 5. `FILE.nc:NAME` names the grid of several by one of its variables: a coordinate, a UGRID topology, or values on it.
 /// \throws FileError for what cannot be read, with the file, and the cell or node.
 RONDEL_API CellTable read_cells(const FileName& file);
+
+/// Whether the format of the file, without the name of a grid, is one that read_cells() reads.
+RONDEL_API bool can_read_cells(const FileName& file);
 
 /// The partition that the cells are. \throws FileError with the file's name for cells that Partition refuses.
 RONDEL_API Partition partition_of(const CellTable& table, GridSides sides = GridSides::parallels,
                                   const Execution& execution = {});
+
+/// What a file of weights says of these cells: their centers, the file's or the centers of mass, the mask, the shape of the grid, and the
+/// corners.
+RONDEL_API WeightSide weight_side(const CellTable& table, const Partition& partition);
+
+/// The corners of cells with one ring each and 16 corners at most, as many for each: the last one is repeated, and (0, 0) those of cells
+/// without ring. Empty for other cells.
+RONDEL_API std::vector<LonLat> weight_corners(const Partition& partition);
 
 }  // namespace rondel

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "io/atomic_file.h"
-#include "io/netcdf_reader.h"
 #include "rondel/fields.h"
 
 namespace rondel::interpolation {
@@ -19,13 +18,8 @@ struct FieldsToRead {
   std::span<const std::string> names;
   std::uint64_t num_points;
   const ReadOptions& options;
+  std::span<const std::uint64_t> shape;  // of the points' grid; empty: not known
 };
-// The unit vectors of the points of a variable, whose last `num_dimensions` dimensions they are; none if
-// the file does not say where they are, or says it more than once.
-std::vector<Point> field_places(const io::NetcdfReader& file,
-                                const io::NetcdfReader::Variable& values,
-                                std::size_t num_dimensions);
-
 // Each reads the content of a file. Throws BadValue.
 FieldSet read_fields_csv(std::string_view bytes, const FieldsToRead& wanted);
 FieldSet read_fields_tsv(std::string_view bytes, const FieldsToRead& wanted);

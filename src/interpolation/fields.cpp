@@ -220,12 +220,13 @@ std::size_t FieldArray::num_fields() const {
 }
 
 FieldSet read_fields(const FileName& file, std::span<const std::string> names,
-                     std::uint64_t num_points, const ReadOptions& options) {
+                     std::uint64_t num_points, const ReadOptions& options,
+                     std::span<const std::uint64_t> shape) {
   const FieldReader& reader =
       io::require_format<FieldReader>(field_readers, file, "fields are read from");
   io::FileBytes bytes(file.path);
   return io::in_file(bytes.name(), [&] {
-    return reader.read(bytes.text(), {names, num_points, options});
+    return reader.read(bytes.text(), {names, num_points, options, shape});
   });
 }
 

@@ -7,51 +7,21 @@
 #include <limits>
 
 #include "interpolation/field_formats.h"
+#include "interpolation/field_layout.h"
 #include "interpolation/weight_formats.h"
 #include "io/bad_value.h"
+#include "io/cf_reader.h"
+#include "io/cf_values.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "io/number.h"
+#include "rondel/delaunay.h"
 
 namespace rondel::interpolation {
 namespace {
 
 using io::NetcdfType;
 using ReadVariable = io::NetcdfReader::Variable;
-
-// How many of the dimensions, from the last one on, hold the points; 0: the variable has others.
-std::size_t point_dimensions(const ReadVariable& variable, std::uint64_t num_points) {
-  if (variable.type == NetcdfType::text) return 0;
-  std::uint64_t product = 1;
-  for (std::size_t used = 1; used <= variable.shape.size(); ++used) {
-    const std::uint64_t length = variable.shape[variable.shape.size() - used];
-    if (__builtin_mul_overflow(product, length, &product)) return 0;
-    if (product == num_points) return used;
-  }
-  return 0;
-}
-
-double number_or(const ReadVariable& variable, const char* name, double otherwise) {
-  const io::NetcdfAttribute* const attribute = io::find_attribute(variable.attributes, name);
-  const bool has_one = attribute != nullptr && attribute->numbers.size() == 1;
-  return has_one ? attribute->numbers.front() : otherwise;
-}
-
-// Missing values become NaN, packed ones what they stand for.
-void unpack(const ReadVariable& variable, std::vector<double>& values) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const double fill = number_or(variable, "_FillValue", none);
-  const double missing = number_or(variable, "missing_value", none);
-  const double scale = number_or(variable, "scale_factor", 1);
-  const double offset = number_or(variable, "add_offset", 0);
-  for (double& value : values) {
-    if (value == fill || value == missing) {
-      value = none;
-    } else if (scale != 1 || offset != 0) {
-      value = value * scale + offset;
-    }
-  }
-}
 
 // What a field still is at other points.
 std::vector<std::pair<std::string, std::string>> kept_attributes(const ReadVariable& variable) {
@@ -67,15 +37,19 @@ std::vector<std::pair<std::string, std::string>> kept_attributes(const ReadVaria
   return kept;
 }
 
+// The numbers of a variable, those of its dimensions first that are `leading`, then the others.
 FieldArray array_of(const io::NetcdfReader& file, const ReadVariable& variable,
-                    std::size_t num_leading) {
+                    const FieldDimensions& layout, std::vector<std::string>& remarks) {
+  const io::ValueRules rules(variable);
+  if (!rules.remark().empty()) remarks.push_back(rules.remark());
   FieldArray array;
   array.name = variable.name;
-  for (std::size_t d = 0; d < num_leading; ++d) {
+  for (const std::size_t d : layout.leading) {
     array.dimensions.push_back(file.dimensions()[variable.dimensions[d]].name);
     array.shape.push_back(variable.shape[d]);
   }
-  array.values = file.numbers(variable);
+  array.values = io::transposed(variable.shape, layout.order(), file.numbers(variable));
+  rules.apply(array.values);
   array.attributes = kept_attributes(variable);
   return array;
 }
@@ -90,8 +64,50 @@ void add_axes(const io::NetcdfReader& file, FieldSet& fields) {
           variable->shape.size() != 1) {
         continue;
       }
-      fields.axes.push_back(array_of(file, *variable, 1));
+      fields.axes.push_back(array_of(file, *variable, {{0}, {}, {}}, fields.remarks));
     }
+  }
+}
+
+bool is_place(const LonLat& place) {
+  return std::abs(place.lon_deg) <= 1e6 && std::abs(place.lat_deg) <= 90;
+}
+
+[[noreturn]] void refuse_shape(const io::NetcdfReader& file, const ReadVariable& variable,
+                               const FieldsToRead& wanted) {
+  std::string lengths;
+  for (std::size_t d = 0; d < variable.shape.size(); ++d) {
+    lengths += (d == 0 ? "" : ", ") + file.dimensions()[variable.dimensions[d]].name + " " +
+               std::to_string(variable.shape[d]);
+  }
+  std::string grid;
+  for (const std::uint64_t length : wanted.shape) {
+    grid += (grid.empty() ? " on a grid of " : " x ") + std::to_string(length);
+  }
+  throw io::BadValue("no dimensions of variable " + io::in_quotes(variable.name) + " (" + lengths +
+                     ") have the " + std::to_string(wanted.num_points) + " points" + grid);
+}
+
+// All variables that are fields; of others those are told that are no coordinates.
+template <class Add>
+void add_all(const io::NetcdfReader& file, const FieldDimensionFinder& layouts, const Add& add,
+             std::vector<std::string>& remarks) {
+  std::string left_out;
+  std::size_t number = 0;
+  constexpr std::size_t most = 5;
+  for (const ReadVariable& variable : file.variables()) {
+    if (variable.shape.empty() || layouts.is_auxiliary(variable)) continue;
+    try {
+      if (add(variable)) continue;
+    } catch (const io::BadValue& bad) {
+      remarks.emplace_back(std::string(bad.what()) + "; it is left out");
+      continue;
+    }
+    if (++number <= most) left_out += (left_out.empty() ? "" : ", ") + variable.name;
+  }
+  if (number > most) left_out += " and " + std::to_string(number - most) + " more";
+  if (number > 0) {
+    remarks.push_back("left out, as they have no values at the points: " + left_out);
   }
 }
 
@@ -101,29 +117,24 @@ FieldSet read_fields_netcdf(std::string_view bytes, const FieldsToRead& wanted) 
   const io::NetcdfReader file(bytes);
   FieldSet fields;
   fields.num_points = wanted.num_points;
+  FieldDimensionFinder layouts(file, wanted.num_points, wanted.shape);
   const auto add = [&](const ReadVariable& variable) {
-    const std::size_t used = point_dimensions(variable, wanted.num_points);
-    if (used == 0) return false;
-    fields.arrays.push_back(array_of(file, variable, variable.shape.size() - used));
-    unpack(variable, fields.arrays.back().values);
-    if (fields.points.empty()) fields.points = field_places(file, variable, used);
+    const std::optional<FieldDimensions> layout = layouts.layout(variable);
+    if (!layout) return false;
+    fields.arrays.push_back(array_of(file, variable, *layout, fields.remarks));
+    if (fields.points.empty() && std::ranges::all_of(layout->places, is_place)) {
+      fields.points = unit_vectors(layout->places);
+    }
     return true;
   };
   for (const std::string& name : wanted.names) {
-    if (add(file.require(name))) continue;
-    throw io::BadValue("no last dimensions of variable " + io::in_quotes(name) + " have " +
-                       std::to_string(wanted.num_points) + " points");
+    if (!add(file.require(name))) refuse_shape(file, file.require(name), wanted);
   }
-  if (wanted.names.empty()) {
-    for (const ReadVariable& variable : file.variables()) {
-      const bool is_axis = variable.shape.size() == 1 &&
-                           file.dimensions()[variable.dimensions[0]].name == variable.name;
-      const std::string units = io::netcdf_text(variable.attributes, "units");
-      if (!is_axis && !units.starts_with("degree") && !units.starts_with("radian")) add(variable);
-    }
-    if (fields.arrays.empty()) {
-      throw io::BadValue("no variable has " + std::to_string(wanted.num_points) + " points");
-    }
+  if (wanted.names.empty()) add_all(file, layouts, add, fields.remarks);
+  if (fields.arrays.empty()) {
+    std::string why;
+    for (const std::string& remark : fields.remarks) why += "; " + remark;
+    throw io::BadValue("no variable has " + std::to_string(wanted.num_points) + " points" + why);
   }
   add_axes(file, fields);
   return fields;

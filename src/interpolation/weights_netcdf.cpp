@@ -8,6 +8,7 @@
 
 #include "interpolation/weight_formats.h"
 #include "io/bad_value.h"
+#include "io/cf_reader.h"
 #include "io/number.h"
 
 namespace rondel::interpolation {
@@ -55,8 +56,10 @@ std::vector<double> numbers_of(const io::NetcdfReader& file, const std::string& 
 void read_corners(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
                   WeightSide& side) {
   if (file.find(names.corner_lon) == nullptr || file.find(names.corner_lat) == nullptr) return;
-  const std::vector<double> lon = file.degrees(file.require(names.corner_lon));
-  const std::vector<double> lat = file.degrees(file.require(names.corner_lat));
+  const std::vector<double> lon =
+      io::degrees_of(file, file.require(names.corner_lon), io::UsualUnits::degrees);
+  const std::vector<double> lat =
+      io::degrees_of(file, file.require(names.corner_lat), io::UsualUnits::degrees);
   if (lon.size() <= size) return;
   if (size == 0 || lon.size() % size != 0) {
     throw io::BadValue("variable " + io::in_quotes(names.corner_lon) + " has " +
@@ -132,8 +135,10 @@ void read_own_attributes(const io::NetcdfReader& file, WeightFile& content) {
 void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
                WeightSide& side) {
   if (file.find(names.lon) != nullptr && file.find(names.lat) != nullptr) {
-    const std::vector<double> lon = file.degrees(file.require(names.lon));
-    const std::vector<double> lat = file.degrees(file.require(names.lat));
+    const std::vector<double> lon =
+        io::degrees_of(file, file.require(names.lon), io::UsualUnits::degrees);
+    const std::vector<double> lat =
+        io::degrees_of(file, file.require(names.lat), io::UsualUnits::degrees);
     require_size(names.lon, lon, size);
     require_size(names.lat, lat, size);
     side.points.resize(size);

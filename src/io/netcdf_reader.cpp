@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
-#include <numbers>
 
 #include "io/bad_value.h"
 #include "io/binary.h"
@@ -171,6 +170,8 @@ void NetcdfReader::read_numbers(const Variable& variable, std::uint64_t begin,
     copy<double>(variable, begin, out);
   } else if (variable.type == NetcdfType::float32) {
     copy<float>(variable, begin, out);
+  } else if (variable.type == NetcdfType::uint64) {  // also beyond 2^63: fill values
+    copy<std::uint64_t>(variable, begin, out);
   } else {
     std::vector<std::int64_t> whole(out.size());
     read_integers(variable, begin, whole);
@@ -183,14 +184,6 @@ std::vector<double> NetcdfReader::numbers(const Variable& variable) const {
   if (variable.type == NetcdfType::text) refuse(variable, "is a text where numbers are needed");
   std::vector<double> values(variable.num_values);
   read_numbers(variable, 0, values);
-  return values;
-}
-
-std::vector<double> NetcdfReader::degrees(const Variable& variable) const {
-  std::vector<double> values = numbers(variable);
-  if (netcdf_text(variable.attributes, "units").starts_with("rad")) {
-    for (double& value : values) value *= 180 / std::numbers::pi;
-  }
   return values;
 }
 

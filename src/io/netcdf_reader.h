@@ -50,8 +50,6 @@ class RONDEL_API NetcdfReader {
   void read_numbers(const Variable& variable, std::uint64_t begin, std::span<double> out) const;
   void read_integers(const Variable& variable, std::uint64_t begin,
                      std::span<std::int64_t> out) const;
-  // The same in degrees: as they are, unless the units begin with "rad".
-  [[nodiscard]] std::vector<double> degrees(const Variable& variable) const;
   // The same as integers. Throws BadValue if they are a text, are floating, or are beyond 2^63.
   [[nodiscard]] std::vector<std::int64_t> integers(const Variable& variable) const;
 

@@ -153,7 +153,11 @@ class MpasReader {
     throw BadValue(where + std::to_string(number) + " is not in 1 to " + std::to_string(end));
   }
 
-  // `may_lack`: 0 is none.
+  static bool is_none(std::int64_t number, std::size_t end) {
+    return number == 0 || (number > 0 && static_cast<std::uint64_t>(number) == end + 1);
+  }
+
+  // `may_lack`: 0 is none, and so is end + 1, which older programs write.
   template <class Row>
   void read_rows(const char* name, std::size_t size, std::size_t end, std::vector<Row>& rows,
                  bool may_lack) const {
@@ -166,7 +170,7 @@ class MpasReader {
       for (std::size_t k = 0; k < numbers.size(); ++k) {
         const std::size_t row = first + k / of_each;
         rows[row][k % of_each] =
-            may_lack && numbers[k] == 0 ? no_index : index_of(name, row, numbers[k], end);
+            may_lack && is_none(numbers[k], end) ? no_index : index_of(name, row, numbers[k], end);
       }
     });
   }

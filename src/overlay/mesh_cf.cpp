@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Grids as the Climate and Forecast conventions hold them (CF 1.11, sections 4.1, 4.2, 5.2, 7.1).
+// Grids as the Climate and Forecast conventions hold them (CF 1.11, sections 4.1, 4.2, 5.2, 7.1). Which variables are coordinates and
+// bounds rondel/conventions.h says; here they become cells.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -10,8 +11,10 @@
 #include <utility>
 
 #include "io/bad_value.h"
+#include "io/cf_reader.h"
 #include "io/number.h"
 #include "overlay/mesh_formats.h"
+#include "rondel/conventions.h"
 #include "rondel/error.h"
 #include "rondel/mesh_files.h"
 #include "system/arithmetic.h"
@@ -22,175 +25,258 @@ namespace {
 using io::BadValue;
 using io::NetcdfReader;
 
-// As shares of a cell's width: what rounding to single precision may have moved.
-constexpr double rounding_share = 1e-3;
+constexpr std::size_t no_variable = CoordinatePair::none;
 
-struct CoordinatePair {
-  const MeshVariable* lon = nullptr;
-  const MeshVariable* lat = nullptr;
-  const MeshVariable* lon_bounds = nullptr;
-  const MeshVariable* lat_bounds = nullptr;
-
-  [[nodiscard]] bool is_along_lines() const {
-    return lon->shape.size() == 1 && lat->shape.size() == 1 && lon->dimensions != lat->dimensions;
+class CfGrids {
+ public:
+  CfGrids(const NetcdfReader& file, const std::string& name, std::vector<std::string>& remarks)
+      : file_(file), headers_(io::headers_of(file)), remarks_(remarks) {
+    if (name.empty()) {
+      pairs_ = find_coordinates(headers_, {}, &remarks);
+      return;
+    }
+    // A coordinate, or a variable that has some.
+    for (const CoordinatePair& pair : find_coordinates(headers_, {}, &remarks)) {
+      if (headers_[pair.lon].name == name || headers_[pair.lat].name == name)
+        pairs_.push_back(pair);
+    }
+    if (pairs_.empty()) pairs_ = find_coordinates(headers_, {{}, {}, name}, &remarks);
+    if (pairs_.empty()) {
+      throw BadValue("variable " + io::in_quotes(name) + " has no longitudes and latitudes");
+    }
   }
+
+  // The first pair that has cells, those along which variables lie before others; null if there is no pair.
+  const CoordinatePair* best() {
+    if (pairs_.empty()) return nullptr;
+    const auto found =
+        std::ranges::find_if(pairs_, [](const CoordinatePair& pair) { return has_cells(pair); });
+    if (found == pairs_.end()) {
+      throw BadValue("its longitudes and latitudes have no bounds, so no cells");
+    }
+    if (found != pairs_.begin()) require_same_places(pairs_.front(), *found);
+    tell_of_others(*found);
+    return &*found;
+  }
+
+  const MeshVariable& variable(std::size_t index) const { return file_.variables()[index]; }
+
+ private:
+  static bool has_cells(const CoordinatePair& pair) {
+    return pair.are_axes || (pair.lon_bounds != no_variable && pair.lat_bounds != no_variable);
+  }
+
+  [[nodiscard]] std::vector<std::string> dimensions_of(const CoordinatePair& pair) const {
+    std::vector<std::string> names = headers_[pair.lat].dimensions;
+    for (const std::string& name : headers_[pair.lon].dimensions) {
+      if (std::ranges::count(names, name) == 0) names.push_back(name);
+    }
+    return names;
+  }
+
+  // Axes along the dimensions of coordinates that have no cells may be those of the same places, or only pretend to be degrees.
+  void require_same_places(const CoordinatePair& first, const CoordinatePair& axes) const {
+    const std::vector<std::string> own = dimensions_of(first);
+    const bool are_along = std::ranges::is_permutation(own, dimensions_of(axes));
+    if (!axes.are_axes || !are_along || first.are_axes) return;
+    const io::PlaceArrays places = io::places_of(file_, variable(first.lon), variable(first.lat));
+    const std::vector<double> lon = io::degrees_of(file_, variable(axes.lon));
+    const std::vector<double> lat = io::degrees_of(file_, variable(axes.lat));
+    const bool is_lon_last = places.dimensions.back() == variable(axes.lon).dimensions[0];
+    constexpr double most_apart = 1e-3;  // degrees
+    for (std::size_t i = 0; i < places.lon.size(); ++i) {
+      const std::size_t along = is_lon_last ? i % lon.size() : i / lat.size();
+      const std::size_t across = is_lon_last ? i / lon.size() : i % lat.size();
+      if (places.lon.size() == lon.size() * lat.size() &&
+          std::abs(std::remainder(places.lon[i] - lon[along], 360)) <= most_apart &&
+          std::abs(places.lat[i] - lat[across]) <= most_apart) {
+        continue;
+      }
+      throw BadValue("its longitudes " + io::in_quotes(headers_[first.lon].name) +
+                     " and latitudes " + io::in_quotes(headers_[first.lat].name) +
+                     " have no bounds, so no cells, and the axes " +
+                     io::in_quotes(headers_[axes.lon].name) + " and " +
+                     io::in_quotes(headers_[axes.lat].name) + " are other places");
+    }
+  }
+
+  void tell_of_others(const CoordinatePair& taken) {
+    std::string others;
+    constexpr std::size_t most = 3;
+    std::size_t number = 0;
+    for (const CoordinatePair& pair : pairs_) {
+      const bool is_other = pair.lon != taken.lon || pair.lat != taken.lat;
+      if (!is_other || !has_cells(pair) || !pair.is_used) continue;
+      if (std::ranges::is_permutation(dimensions_of(pair), dimensions_of(taken))) continue;
+      if (++number <= most) {
+        others += (others.empty() ? "" : ", ") + headers_[pair.lon].name + " and " +
+                  headers_[pair.lat].name;
+      }
+    }
+    if (number == 0) return;
+    if (number > most) others += " and more";
+    remarks_.push_back("the file has several grids; that of " + headers_[taken.lon].name + " and " +
+                       headers_[taken.lat].name + " is read, not that of " + others +
+                       "; FILE.nc:NAME names one by a variable");
+  }
+
+  const NetcdfReader& file_;
+  std::vector<VariableHeader> headers_;
+  std::vector<std::string>& remarks_;
+  std::vector<CoordinatePair> pairs_;
 };
 
-const MeshVariable* bounds_of(const NetcdfReader& file, const MeshVariable& variable) {
-  const std::string name = io::netcdf_text(variable.attributes, "bounds");
-  return name.empty() ? nullptr : &file.require(name);
-}
-
-// The first pair with bounds, or else the first along lines.
-CoordinatePair coordinates_of(const NetcdfReader& file) {
-  CoordinatePair along_lines;
-  bool has_any = false;
-  for (const MeshVariable& lon : file.variables()) {
-    if (!is_longitude(lon) || lon.shape.empty()) continue;
-    for (const MeshVariable& lat : file.variables()) {
-      if (!is_latitude(lat) || lat.shape.empty()) continue;
-      const CoordinatePair pair = {&lon, &lat, bounds_of(file, lon), bounds_of(file, lat)};
-      const bool has_bounds = pair.lon_bounds != nullptr && pair.lat_bounds != nullptr;
-      if (!pair.is_along_lines() && lon.dimensions != lat.dimensions) continue;
-      if (has_bounds) return pair;
-      has_any = true;
-      if (pair.is_along_lines() && along_lines.lon == nullptr) along_lines = pair;
-    }
+// The bounds of an axis in degrees, those of each cell one after the other; none if there are none.
+std::vector<double> bounds_of_axis(const NetcdfReader& file, const MeshVariable& axis,
+                                   const MeshVariable* bounds) {
+  if (bounds == nullptr) return {};
+  const bool are_lines = bounds->num_values == axis.num_values + 1;
+  if (bounds->num_values != 2 * axis.num_values && !are_lines) {
+    throw BadValue("variable " + io::in_quotes(bounds->name) + " has " +
+                   std::to_string(bounds->num_values) + " values instead of " +
+                   std::to_string(2 * axis.num_values));
   }
-  if (along_lines.lon == nullptr && has_any) {
-    throw BadValue("its longitudes and latitudes have no bounds, so no cells");
+  std::vector<double> values = io::degrees_of(file, *bounds, UsualUnits::of_name, &axis);
+  if (bounds->dimensions.size() == 2 && bounds->dimensions[1] == axis.dimensions[0] &&
+      bounds->dimensions[0] != axis.dimensions[0]) {
+    values =
+        io::in_order(*bounds, {bounds->dimensions[1], bounds->dimensions[0]}, std::move(values));
   }
-  return along_lines;
+  return values;
 }
 
-// Lines half way between the coordinates.
-std::vector<double> lines_between(const std::vector<double>& values) {
-  std::vector<double> lines;
-  const std::size_t n = values.size();
-  lines.push_back(values[0] - (values[1] - values[0]) / 2);
-  for (std::size_t i = 0; i + 1 < n; ++i) lines.push_back((values[i] + values[i + 1]) / 2);
-  lines.push_back(values[n - 1] + (values[n - 1] - values[n - 2]) / 2);
-  return lines;
-}
-
-// Lines from the two bounds of each cell. Throws BadValue if neighbors do not share one.
-std::vector<double> lines_of_bounds(const MeshVariable& variable, std::vector<double> bounds,
-                                    bool is_around) {
-  const std::size_t n = bounds.size() / 2;
-  const bool is_forward = n < 2 || std::abs(std::remainder(bounds[1] - bounds[2], 360)) <=
-                                       std::abs(std::remainder(bounds[0] - bounds[3], 360));
-  std::vector<double> lines = {bounds[is_forward ? 0 : 1]};
-  for (std::size_t i = 0; i < n; ++i) {
-    double low = bounds[2 * i + (is_forward ? 0 : 1)];
-    double high = bounds[2 * i + (is_forward ? 1 : 0)];
-    const double turns = is_around ? std::round((lines.back() - low) / 360) * 360 : 0;
-    low += turns;
-    high += turns;
-    if (is_around && high < low) high += 360;
-    if (!(std::abs(low - lines.back()) <= rounding_share * std::abs(high - low))) {
-      throw BadValue("bounds " + io::in_quotes(variable.name) + " leave a gap before cell " +
-                     std::to_string(i));
-    }
-    lines.push_back(high);
-  }
-  return lines;
-}
-
-// So that a grid around the globe has no gap of rounding.
-void close(std::vector<double>& meridians) {
-  const double gap = 360 - (meridians.back() - meridians.front());
-  if (std::abs(gap) <= rounding_share * (meridians[1] - meridians[0])) {
-    meridians.back() = meridians.front() + 360;
+std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
+                             const MeshVariable* bounds, bool is_longitude) {
+  const std::vector<double> values = io::degrees_of(file, axis);
+  try {
+    return axis_lines(values, bounds_of_axis(file, axis, bounds), is_longitude);
+  } catch (const InvalidInput& error) {
+    const std::string name = io::in_quotes(bounds == nullptr ? axis.name : bounds->name);
+    throw BadValue("variable " + name + ": " + error.what());
   }
 }
 
-std::vector<double> meridians_between(std::vector<double> values) {
-  for (std::size_t i = 1; i < values.size(); ++i) {
-    values[i] += std::ceil((values[i - 1] - values[i]) / 360) * 360;
-  }
-  std::vector<double> lines = lines_between(values);
-  close(lines);
-  return lines;
-}
-
-std::vector<double> parallels_between(const std::vector<double>& values) {
-  std::vector<double> lines = lines_between(values);
-  const auto to_pole = [](double line, double width) {
-    return 90 - std::abs(line) < std::abs(width) ? std::copysign(90, line) : line;
+// The corners of cells, those of each one after the other, from bounds with one more dimension than the coordinate, or from the corners
+// of all cells of a grid (ny + 1, nx + 1); `of_each` becomes their number.
+std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariable& coordinate,
+                                      const MeshVariable& bounds, const io::PlaceArrays& places,
+                                      std::size_t& of_each) {
+  std::vector<double> values = io::degrees_of(file, bounds, UsualUnits::of_name, &coordinate);
+  const std::size_t num_cells = places.lon.size();
+  const std::size_t rank = places.dimensions.size();
+  const auto is_of_bounds = [&](std::size_t dimension) {
+    return std::ranges::count(bounds.dimensions, dimension) == 1;
   };
-  const std::size_t n = lines.size();
-  const double last_width = lines[n - 1] - lines[n - 2];
-  lines[0] = to_pole(lines[0], lines[1] - lines[0]);
-  lines[n - 1] = to_pole(lines[n - 1], last_width);
-  return lines;
-}
-
-void require_two(const MeshVariable& bounds, const MeshVariable& of) {
-  if (bounds.num_values == 2 * of.num_values) return;
-  throw BadValue("variable " + io::in_quotes(bounds.name) + " has " +
-                 std::to_string(bounds.num_values) + " values instead of " +
-                 std::to_string(2 * of.num_values));
-}
-
-void require_finite(const MeshVariable& variable, const std::vector<double>& values) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isfinite(values[i])) continue;
-    throw BadValue("value " + std::to_string(i) + " of " + io::in_quotes(variable.name) +
-                   " is not finite");
+  if (std::ranges::all_of(places.dimensions, is_of_bounds)) {
+    // Time first, of which the first is taken, then the places, at last the corners.
+    std::vector<std::size_t> order;
+    for (const std::size_t d : places.repeated) {
+      if (is_of_bounds(d)) order.push_back(d);
+    }
+    order.insert(order.end(), places.dimensions.begin(), places.dimensions.end());
+    of_each = 1;
+    for (std::size_t d = 0; d < bounds.dimensions.size(); ++d) {
+      if (std::ranges::count(order, bounds.dimensions[d]) != 0) continue;
+      order.push_back(bounds.dimensions[d]);
+      of_each *= bounds.shape[d];
+    }
+    if (std::ranges::is_permutation(order, bounds.dimensions)) {
+      values = io::in_order(bounds, order, std::move(values));
+      values.resize(num_cells * of_each);
+      return values;
+    }
   }
+  const auto lengths = std::span(bounds.shape);
+  if (rank >= 2 && lengths.size() == rank && lengths[rank - 1] == places.shape[rank - 1] + 1 &&
+      lengths[rank - 2] == places.shape[rank - 2] + 1) {
+    std::vector<double> corners;
+    const std::size_t nx = places.shape[rank - 1];
+    const std::size_t ny = places.shape[rank - 2];
+    of_each = 4;
+    for (std::size_t tile = 0; tile < num_cells / (nx * ny); ++tile) {
+      for (std::size_t j = 0; j < ny; ++j) {
+        for (std::size_t i = 0; i < nx; ++i) {
+          const std::size_t at = (tile * (ny + 1) + j) * (nx + 1) + i;
+          for (const std::size_t k : {at, at + 1, at + nx + 2, at + nx + 1}) {
+            corners.push_back(values.at(k));
+          }
+        }
+      }
+    }
+    return corners;
+  }
+  if (num_cells == 0 || values.size() % num_cells != 0) {
+    throw BadValue("variable " + io::in_quotes(bounds.name) + " has " +
+                   std::to_string(bounds.num_values) + " values for " + std::to_string(num_cells) +
+                   " cells");
+  }
+  of_each = values.size() / num_cells;
+  return values;
 }
 
-std::vector<double> meridians_of(const NetcdfReader& file, const CoordinatePair& pair) {
-  if (pair.lon_bounds == nullptr) {
-    const std::vector<double> values = file.degrees(*pair.lon);
-    require_finite(*pair.lon, values);
-    if (values.size() < 2) throw BadValue("one longitude without bounds has no width");
-    return meridians_between(values);
+MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
+                               const CoordinatePair& pair) {
+  MeshContent mesh;
+  const MeshVariable& lon = grids.variable(pair.lon);
+  const MeshVariable& lat = grids.variable(pair.lat);
+  const MeshVariable& lon_bounds = grids.variable(pair.lon_bounds);
+  const MeshVariable& lat_bounds = grids.variable(pair.lat_bounds);
+  const io::PlaceArrays places = io::places_of(file, lon, lat);
+  std::size_t of_each = 0;
+  std::size_t of_each_lat = 0;
+  const std::vector<double> lons = corners_of_bounds(file, lon, lon_bounds, places, of_each);
+  const std::vector<double> lats = corners_of_bounds(file, lat, lat_bounds, places, of_each_lat);
+  if (of_each != of_each_lat || lons.size() != lats.size() || lons.size() >= no_index) {
+    throw BadValue("variables " + io::in_quotes(lon_bounds.name) + " and " +
+                   io::in_quotes(lat_bounds.name) + " have not as many corners");
   }
-  require_two(*pair.lon_bounds, *pair.lon);
-  const std::vector<double> bounds = file.degrees(*pair.lon_bounds);
-  require_finite(*pair.lon_bounds, bounds);
-  std::vector<double> lines = lines_of_bounds(*pair.lon_bounds, bounds, true);
-  close(lines);
-  return lines;
+  for (std::size_t i = 0; i < lons.size(); ++i) mesh.nodes.push_back({lons[i], lats[i]});
+  mesh.names = io::in_quotes(lon_bounds.name) + " and " + io::in_quotes(lat_bounds.name);
+  mesh.is_single = lon_bounds.type == io::NetcdfType::float32;
+  end_cells_of_nodes(of_each, places.dimensions.size() < 2, mesh);
+  for (std::size_t i = 0; i < places.lon.size(); ++i) {
+    mesh.centers.push_back({places.lon[i], places.lat[i]});
+  }
+  if (places.shape.size() > 1) mesh.shape = places.shape;
+  return mesh;
 }
 
-std::vector<double> parallels_of(const NetcdfReader& file, const CoordinatePair& pair) {
-  if (pair.lat_bounds != nullptr) {
-    require_two(*pair.lat_bounds, *pair.lat);
-    const std::vector<double> bounds = file.degrees(*pair.lat_bounds);
-    require_finite(*pair.lat_bounds, bounds);
-    return lines_of_bounds(*pair.lat_bounds, bounds, false);
+MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
+                             const CoordinatePair& pair) {
+  MeshContent mesh;
+  const MeshVariable& lon = grids.variable(pair.lon);
+  const MeshVariable& lat = grids.variable(pair.lat);
+  const auto bounds = [&](std::size_t index) {
+    return index == no_variable ? nullptr : &grids.variable(index);
+  };
+  mesh.grid = LonLatGrid{lines_of(file, lon, bounds(pair.lon_bounds), true),
+                         lines_of(file, lat, bounds(pair.lat_bounds), false)};
+  mesh.shape = {lat.num_values, lon.num_values};
+  const std::vector<double> lons = io::degrees_of(file, lon);
+  const std::vector<double> lats = io::degrees_of(file, lat);
+  const std::string name = io::in_quotes(lat.name);
+  for (std::size_t j = 0; j < lats.size(); ++j) {
+    for (const double at : lons) mesh.centers.push_back(require_position(name, j, {at, lats[j]}));
   }
-  const std::vector<double> values = file.degrees(*pair.lat);
-  require_finite(*pair.lat, values);
-  if (values.size() < 2) throw BadValue("one latitude without bounds has no width");
-  return parallels_between(values);
+  return mesh;
 }
 
 }  // namespace
 
-std::optional<MeshContent> read_cf_grid(const NetcdfReader& file) {
-  const CoordinatePair pair = coordinates_of(file);
-  if (pair.lon == nullptr) return std::nullopt;
-  MeshContent mesh;
+std::optional<MeshContent> read_cf_grid(const NetcdfReader& file, const std::string& name) {
+  std::vector<std::string> remarks;
+  CfGrids grids(file, name, remarks);
+  const CoordinatePair* const pair = grids.best();
+  if (pair == nullptr) return std::nullopt;
+  MeshContent mesh = pair->are_axes ? cells_along_axes(file, grids, *pair)
+                                    : cells_with_corners(file, grids, *pair);
   mesh.convention = "CF";
-  if (!pair.is_along_lines()) {
-    take_corners(file, *pair.lon_bounds, *pair.lat_bounds, pair.lon->num_values, mesh);
-    take_centers(file, pair.lon, pair.lat, mesh);
-    if (pair.lon->shape.size() > 1) mesh.shape = pair.lon->shape;
-    return mesh;
-  }
-  mesh.grid = LonLatGrid{meridians_of(file, pair), parallels_of(file, pair)};
-  mesh.shape = {pair.lat->num_values, pair.lon->num_values};
-  const std::vector<double> lons = file.degrees(*pair.lon);
-  const std::vector<double> lats = file.degrees(*pair.lat);
-  const std::string name = io::in_quotes(pair.lat->name);
-  for (std::size_t j = 0; j < lats.size(); ++j) {
-    for (const double lon : lons) {
-      mesh.centers.push_back(require_position(name, j, lon, lats[j]));
+  for (std::string& remark : remarks) {
+    if (remark.starts_with("there is no variable") && pair->are_axes) {
+      remark += ", so cells end half way between the coordinates";
     }
   }
+  mesh.remarks = std::move(remarks);
   return mesh;
 }
 
@@ -199,19 +285,7 @@ std::optional<MeshContent> read_cf_grid(const NetcdfReader& file) {
 namespace rondel {
 
 LonLatGrid grid_around(std::span<const double> lon_deg, std::span<const double> lat_deg) {
-  const system::ArithmeticScope arithmetic;
-  if (lon_deg.size() < 2 || lat_deg.size() < 2) {
-    throw InvalidInput("one longitude or latitude has no width", 0);
-  }
-  for (const std::span<const double> values : {lon_deg, lat_deg}) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      if (std::isfinite(values[i])) continue;
-      const char* const name = values.data() == lon_deg.data() ? "longitude " : "latitude ";
-      throw InvalidInput(name + std::to_string(i) + " is not finite", i);
-    }
-  }
-  return {overlay::meridians_between({lon_deg.begin(), lon_deg.end()}),
-          overlay::parallels_between({lat_deg.begin(), lat_deg.end()})};
+  return {axis_lines(lon_deg, {}, true), axis_lines(lat_deg, {}, false)};
 }
 
 }  // namespace rondel

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "io/bad_value.h"
+#include "io/cf_names.h"
 #include "io/number.h"
 #include "overlay/mesh_formats.h"
 
@@ -32,23 +33,27 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-// Longitudes first, unless the variables say otherwise.
+// Of the variables that the attribute names the longitudes and latitudes: as they say it, or else the first two.
 std::pair<const MeshVariable*, const MeshVariable*> coordinates_of(const NetcdfReader& file,
                                                                    const MeshVariable& of,
                                                                    const char* attribute) {
   const std::vector<std::string> names = words_of(io::netcdf_text(of.attributes, attribute));
   if (names.size() < 2) return {nullptr, nullptr};
-  const MeshVariable* lon = &file.require(names[0]);
-  const MeshVariable* lat = &file.require(names[1]);
-  if (is_latitude(*lon) || is_longitude(*lat)) std::swap(lon, lat);
+  const MeshVariable* lon = nullptr;
+  const MeshVariable* lat = nullptr;
+  for (const std::string& name : names) {
+    const MeshVariable& variable = file.require(name);
+    const VariableHeader header = io::header_of(file, variable);
+    if (lon == nullptr && io::coordinate_evidence(header, io::CoordinateKind::lon) > 0)
+      lon = &variable;
+    if (lat == nullptr && io::coordinate_evidence(header, io::CoordinateKind::lat) > 0)
+      lat = &variable;
+  }
+  const MeshVariable& first = file.require(names[0]);
+  const MeshVariable& second = file.require(names[1]);
+  if (lon == nullptr) lon = lat == &first ? &second : &first;
+  if (lat == nullptr) lat = lon == &second ? &first : &second;
   return {lon, lat};
-}
-
-const MeshVariable& require_rank(const MeshVariable& variable, std::size_t rank) {
-  if (variable.shape.size() == rank) return variable;
-  throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
-                 std::to_string(variable.shape.size()) + " dimensions instead of " +
-                 std::to_string(rank));
 }
 
 // One variable with both coordinates of each place, as ESMF has them.
@@ -57,31 +62,54 @@ std::vector<LonLat> pairs_of(const NetcdfReader& file, const MeshVariable& varia
     throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
                    std::to_string(variable.shape[1]) + " coordinates instead of 2");
   }
-  const std::vector<double> values = file.degrees(variable);
+  const std::vector<double> values = io::degrees_of(file, variable, UsualUnits::degrees);
   std::vector<LonLat> places;
   for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
-    places.push_back(
-        require_position(io::in_quotes(variable.name), i / 2, values[i], values[i + 1]));
+    places.push_back({values[i], values[i + 1]});
   }
   return places;
 }
 
+// The topology of faces that is named, or that a named variable is on, or the first one; null if there is none.
+const MeshVariable* topology_of(const NetcdfReader& file, const std::string& name,
+                                MeshContent& mesh) {
+  const MeshVariable* const named = file.find(name);
+  const std::string mesh_of_named =
+      named == nullptr ? std::string() : io::netcdf_text(named->attributes, "mesh");
+  const MeshVariable* found = nullptr;
+  std::string others;
+  for (const MeshVariable& variable : file.variables()) {
+    const bool is_topology =
+        (io::netcdf_text(variable.attributes, "cf_role") == "mesh_topology" ||
+         io::netcdf_text(variable.attributes, "standard_name") == "mesh_topology") &&
+        number_or(variable, "topology_dimension", 2) == 2;
+    if (!is_topology) continue;
+    if (!name.empty() && variable.name != name && variable.name != mesh_of_named) continue;
+    if (found == nullptr) {
+      found = &variable;
+    } else {
+      others += ", " + variable.name;
+    }
+  }
+  if (!others.empty()) {
+    mesh.remarks.push_back("the file has several meshes: " + found->name + others +
+                           "; the first one is read, and FILE.nc:NAME names another one");
+  }
+  return found;
+}
+
 }  // namespace
 
-std::optional<MeshContent> read_ugrid(const NetcdfReader& file) {
-  const auto is_topology = [](const MeshVariable& variable) {
-    return io::netcdf_text(variable.attributes, "cf_role") == "mesh_topology" &&
-           number_or(variable, "topology_dimension", 2) == 2;
-  };
-  const auto topology = std::ranges::find_if(file.variables(), is_topology);
-  if (topology == file.variables().end()) return std::nullopt;
+std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::string& name) {
+  MeshContent mesh;
+  const MeshVariable* const topology = topology_of(file, name, mesh);
+  if (topology == nullptr) return std::nullopt;
   const auto [lon, lat] = coordinates_of(file, *topology, "node_coordinates");
   if (lon == nullptr) {
     throw BadValue("variable " + io::in_quotes(topology->name) + " names no node_coordinates");
   }
-  MeshContent mesh;
   mesh.convention = "UGRID";
-  take_nodes(file, *lon, *lat, mesh);
+  take_nodes(file, *lon, *lat, UsualUnits::degrees, mesh);
   const MeshVariable& faces = require_rank(
       file.require(io::netcdf_text(topology->attributes, "face_node_connectivity")), 2);
   const std::string dimension = io::netcdf_text(topology->attributes, "face_dimension");
@@ -93,32 +121,53 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file) {
   const double first = number_or(faces, "start_index", 0);
   take_connectivity(file, {faces, num_cells, of_each, is_transposed, first, first}, {}, mesh);
   const auto [center_lon, center_lat] = coordinates_of(file, *topology, "face_coordinates");
-  take_centers(file, center_lon, center_lat, mesh);
+  take_centers(file, center_lon, center_lat, UsualUnits::degrees, mesh);
   return mesh;
 }
 
-std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file) {
+std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::string& name) {
   const MeshVariable* const lon = file.find("grid_corner_lon");
   const MeshVariable* const lat = file.find("grid_corner_lat");
-  if (lon == nullptr || lat == nullptr) return std::nullopt;
+  if (lon == nullptr || lat == nullptr || !name.empty()) return std::nullopt;
   MeshContent mesh;
   mesh.convention = "SCRIP";
-  take_corners(file, *lon, *lat, require_rank(*lon, 2).shape[0], mesh);
-  take_mask(file, "grid_imask", mesh);
-  take_centers(file, file.find("grid_center_lon"), file.find("grid_center_lat"), mesh);
-  if (const MeshVariable* const dims = file.find("grid_dims")) {
-    mesh.shape = io::shape_of_grid(file, *dims, mesh.cells.size() - 1);
+  (void)require_rank(*lon, 2);
+  const MeshVariable* const center_lon = file.find("grid_center_lon");
+  const bool is_transposed = center_lon != nullptr && center_lon->dimensions.size() == 1 &&
+                             center_lon->dimensions[0] == lon->dimensions[1] &&
+                             center_lon->dimensions[0] != lon->dimensions[0];
+  const std::uint64_t num_cells = lon->shape[is_transposed ? 1 : 0];
+  if (num_cells == 0 || lon->num_values >= no_index) {
+    throw BadValue("variable " + io::in_quotes(lon->name) + " has " +
+                   std::to_string(lon->num_values) + " values for " + std::to_string(num_cells) +
+                   " cells");
   }
+  take_nodes(file, *lon, *lat, UsualUnits::degrees, mesh);
+  const std::uint64_t of_each = lon->num_values / num_cells;
+  if (is_transposed) {
+    std::vector<LonLat> nodes;
+    for (std::uint64_t i = 0; i < num_cells; ++i) {
+      for (std::uint64_t k = 0; k < of_each; ++k) nodes.push_back(mesh.nodes[k * num_cells + i]);
+    }
+    mesh.nodes = std::move(nodes);
+  }
+  if (const MeshVariable* const dims = file.find("grid_dims")) {
+    mesh.shape = io::shape_of_grid(file, *dims, num_cells);
+  }
+  end_cells_of_nodes(of_each, mesh.shape.size() < 2, mesh);
+  take_mask(file, "grid_imask", mesh);
+  take_centers(file, center_lon, file.find("grid_center_lat"), UsualUnits::degrees, mesh);
   return mesh;
 }
 
-std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file) {
+std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::string& name) {
   const MeshVariable* const nodes = file.find("nodeCoords");
   const MeshVariable* const elements = file.find("elementConn");
-  if (nodes == nullptr || elements == nullptr) return std::nullopt;
+  if (nodes == nullptr || elements == nullptr || !name.empty()) return std::nullopt;
   MeshContent mesh;
   mesh.convention = "ESMF";
   mesh.nodes = pairs_of(file, *nodes);
+  mesh.names = io::in_quotes(nodes->name);
   mesh.is_single = nodes->type == io::NetcdfType::float32;
   const std::vector<double> counts = file.numbers(file.require("numElementConn"));
   const double first = number_or(*elements, "start_index", 1);
@@ -140,15 +189,15 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file) {
   return mesh;
 }
 
-std::optional<MeshContent> read_mpas(const NetcdfReader& file) {
+std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string& name) {
   const MeshVariable* const vertices = file.find("verticesOnCell");
-  if (vertices == nullptr) return std::nullopt;
+  if (vertices == nullptr || !name.empty()) return std::nullopt;
   if (io::netcdf_text(file.attributes(), "on_a_sphere").starts_with("NO")) {
     throw BadValue("the mesh is in the plane: on_a_sphere is NO");
   }
   MeshContent mesh;
   mesh.convention = "MPAS";
-  take_nodes(file, file.require("lonVertex"), file.require("latVertex"), mesh);
+  take_nodes(file, file.require("lonVertex"), file.require("latVertex"), UsualUnits::radians, mesh);
   const std::vector<double> counts = file.numbers(file.require("nEdgesOnCell"));
   require_rank(*vertices, 2);
   if (counts.size() != vertices->shape[0]) {
@@ -158,22 +207,24 @@ std::optional<MeshContent> read_mpas(const NetcdfReader& file) {
   }
   take_connectivity(file, {*vertices, vertices->shape[0], vertices->shape[1], false, 1, 1}, counts,
                     mesh);
-  take_centers(file, file.find("lonCell"), file.find("latCell"), mesh);
+  take_centers(file, file.find("lonCell"), file.find("latCell"), UsualUnits::radians, mesh);
   return mesh;
 }
 
-std::optional<MeshContent> read_icon(const NetcdfReader& file) {
+std::optional<MeshContent> read_icon(const NetcdfReader& file, const std::string& name) {
   const MeshVariable* const vertices = file.find("vertex_of_cell");
   const MeshVariable* const lon = file.find("vlon");
   const MeshVariable* const lat = file.find("vlat");
-  if (vertices == nullptr || lon == nullptr || lat == nullptr) return std::nullopt;
+  if (vertices == nullptr || lon == nullptr || lat == nullptr || !name.empty()) {
+    return std::nullopt;
+  }
   MeshContent mesh;
   mesh.convention = "ICON";
-  take_nodes(file, *lon, *lat, mesh);
+  take_nodes(file, *lon, *lat, UsualUnits::radians, mesh);
   require_rank(*vertices, 2);
   take_connectivity(file, {*vertices, vertices->shape[1], vertices->shape[0], true, 1, 1}, {},
                     mesh);
-  take_centers(file, file.find("clon"), file.find("clat"), mesh);
+  take_centers(file, file.find("clon"), file.find("clat"), UsualUnits::radians, mesh);
   return mesh;
 }
 

@@ -12,6 +12,8 @@
 #include "io/bad_value.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
+#include "io/file_part.h"
+#include "io/number.h"
 #include "map/ring_area.h"
 #include "overlay/mesh_formats.h"
 #include "overlay/same_nodes.h"
@@ -22,10 +24,14 @@
 namespace rondel {
 namespace {
 
-overlay::MeshContent read_mesh(const io::NetcdfReader& file) {
+overlay::MeshContent read_mesh(const io::NetcdfReader& file, const std::string& name) {
+  if (!name.empty()) (void)file.require(name);
   for (const auto read : {&overlay::read_ugrid, &overlay::read_scrip_grid, &overlay::read_esmf_mesh,
                           &overlay::read_mpas, &overlay::read_icon, &overlay::read_cf_grid}) {
-    if (std::optional<overlay::MeshContent> mesh = read(file)) return std::move(*mesh);
+    if (std::optional<overlay::MeshContent> mesh = read(file, name)) return std::move(*mesh);
+  }
+  if (!name.empty()) {
+    throw io::BadValue("it has no cells that variable " + io::in_quotes(name) + " is on");
   }
   throw io::BadValue(
       "it has no cells: it follows none of UGRID, SCRIP, ESMF, MPAS, ICON, and no longitudes and "
@@ -33,6 +39,7 @@ overlay::MeshContent read_mesh(const io::NetcdfReader& file) {
       "of CF");
 }
 
+constexpr std::string_view netcdf_ending = ".nc";
 constexpr double same_place = 1e-10;  // radians
 constexpr double same_single_place = 1e-6;
 
@@ -79,7 +86,8 @@ class RingsOfNodes {
   std::vector<Point> points_;
 };
 
-CellRings cells_of(const overlay::MeshContent& mesh) {
+CellRings cells_of(overlay::MeshContent& mesh) {
+  overlay::leave_out_cells_without_corners(mesh);
   RingsOfNodes maker(mesh.nodes, mesh.is_single ? same_single_place : same_place);
   maker.reserve(mesh.cells.size() - 1, mesh.rings.size() - 1, mesh.corners.size());
   for (std::size_t i = 0; i + 1 < mesh.cells.size(); ++i) {
@@ -91,7 +99,33 @@ CellRings cells_of(const overlay::MeshContent& mesh) {
     }
     maker.end_cell();
   }
-  return std::move(maker).take();
+  CellRings cells = std::move(maker).take();
+  std::size_t num_empty = 0;
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    const bool is_masked = !mesh.mask.empty() && mesh.mask[i] == 0;
+    if (cells.cells[i] == cells.cells[i + 1] && !is_masked) ++num_empty;
+  }
+  if (num_empty > 0) {
+    mesh.remarks.push_back(std::to_string(num_empty) + " of " + std::to_string(cells.num_cells()) +
+                           " cells have less than three different corners and are empty");
+  }
+  return cells;
+}
+
+// Centers of cells that are left out may be missing. Where others are, the file has none.
+void require_centers(overlay::MeshContent& mesh) {
+  for (std::size_t i = 0; i < mesh.centers.size(); ++i) {
+    const bool is_masked = !mesh.mask.empty() && mesh.mask[i] == 0;
+    LonLat& center = mesh.centers[i];
+    if (!overlay::is_missing_place(center) && !is_masked) {
+      center = overlay::require_position("the centers of cells", i, center);
+    } else if (is_masked) {
+      const bool is_place = std::isfinite(center.lon_deg) && std::abs(center.lat_deg) <= 90;
+      if (!is_place) center = {0, 0};
+    } else {
+      mesh.centers.clear();
+    }
+  }
 }
 
 }  // namespace
@@ -127,23 +161,29 @@ CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each)
   return std::move(maker).take();
 }
 
+bool can_read_cells(const FileName& file) {
+  return io::ending(io::split_part(file).first) == netcdf_ending;
+}
+
 CellTable read_cells(const FileName& file) {
   const system::ArithmeticScope arithmetic;
-  constexpr std::string_view netcdf = ".nc";
-  if (io::ending(file) != netcdf) {
-    io::throw_unknown_ending(file, "cells of models are read from", {&netcdf, 1});
+  const auto [whole, name] = io::split_part(file);
+  if (io::ending(whole) != netcdf_ending) {
+    io::throw_unknown_ending(whole, "cells of models are read from", {&netcdf_ending, 1});
   }
-  io::FileBytes bytes(file.path, true);
+  io::FileBytes bytes(whole.path, true);
   return io::in_file(bytes.name(), [&] {
-    overlay::MeshContent mesh = read_mesh(io::NetcdfReader(bytes.text()));
+    overlay::MeshContent mesh = read_mesh(io::NetcdfReader(bytes.text()), name);
     CellTable table;
     table.name = bytes.name();
     if (!mesh.grid) table.cells = cells_of(mesh);
+    require_centers(mesh);
     table.convention = std::move(mesh.convention);
     table.grid = std::move(mesh.grid);
     table.centers = std::move(mesh.centers);
     table.mask = std::move(mesh.mask);
     table.shape = std::move(mesh.shape);
+    table.remarks = std::move(mesh.remarks);
     return table;
   });
 }

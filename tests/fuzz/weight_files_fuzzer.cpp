@@ -87,9 +87,15 @@ void test(std::string_view bytes) {
   expect_answer([&] {
     const CellTable table = read_cells(path);
     require(table.mask.empty() || table.mask.size() == table.num_cells(), "a mask has all cells");
+    require(can_read_cells(path), "a file of cells has an ending of cells");
     const Partition partition = partition_of(table);
     require(partition.num_cells() == table.num_cells(), "cells are kept");
     require(partition.centers().size() == table.num_cells(), "a cell has a center");
+    const WeightSide side = weight_side(table, partition);
+    const std::size_t num_corners = weight_corners(partition).size();
+    require(side.points.size() == table.num_cells() && side.corners.size() == num_corners &&
+                (num_corners == 0 || num_corners % table.num_cells() == 0),
+            "a cell has a center and as many corners as others");
   });
   expect_answer([&] {
     const FieldSet fields = read_fields(path, {}, 4);

@@ -319,7 +319,7 @@ TEST_F(MeshFiles, damaged_lists_are_refused_with_their_place) {
     EXPECT_TRUE(what.starts_with(path("bad.nc") + ": ")) << what;
     return what.substr(std::min(what.size(), path("bad.nc").size() + 2));
   };
-  EXPECT_EQ(refusal("cellsOnEdge", 7, 51), "variable \"cellsOnEdge\", row 3: 51 is not in 1 to 50");
+  EXPECT_EQ(refusal("cellsOnEdge", 7, 52), "variable \"cellsOnEdge\", row 3: 52 is not in 1 to 50");
   EXPECT_EQ(refusal("cellsOnEdge", 7, 0), "the cells have 288 edges, and the edges 287 cells");
   EXPECT_EQ(refusal("verticesOnEdge", 7, 0), "variable \"verticesOnEdge\", row 3: nothing there");
   EXPECT_NE(refusal("cellsOnVertex", 0, 0), "");

@@ -369,15 +369,15 @@ TEST(overlay_mesh_files, names_what_is_wrong) {
   EXPECT_EQ(refusal_of([] {
               (void)lonlat_table({1}, {2, 3});
             }),
-            "one longitude without bounds has no width");
+            "variable \"lon\": one longitude without bounds has no width");
   EXPECT_EQ(refusal_of([] {
               (void)lonlat_table({1, 2}, {2, 3}, {0, 1, 2, 3});
             }),
-            "bounds \"lon_bnds\" leave a gap before cell 1");
+            "variable \"lon_bnds\": bounds leave a gap before cell 1");
   EXPECT_EQ(refusal_of([] {
               (void)lonlat_table({1, NAN}, {2, 3});
             }),
-            "value 1 of \"lon\" is not finite");
+            "variable \"lon\": longitude 1 is not finite");
   EXPECT_EQ(refusal_of([] {
               (void)lonlat_table({1, 2}, {80, 99});
             }),

@@ -18,6 +18,7 @@ void add_triangulation(nanobind::module_& module);
 void add_diagram(nanobind::module_& module);
 void add_query(nanobind::module_& module);
 void add_contours(nanobind::module_& module);
+void add_conventions(nanobind::module_& module);
 void add_dynamic(nanobind::module_& module);
 void add_files(nanobind::module_& module);
 void add_globe(nanobind::module_& module);

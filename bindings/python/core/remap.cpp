@@ -5,6 +5,7 @@
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include <cstdint>
 #include <span>
@@ -54,16 +55,18 @@ GridSides sides_of(bool are_arcs) {
   return are_arcs ? GridSides::great_circles : GridSides::parallels;
 }
 
+// The partition, its mask, its shape, the centers in degrees that the file has, and what the reader remarks.
 nb::tuple read_partition(const std::string& path, bool are_arcs, unsigned threads) {
-  auto [partition, mask, shape] = unlocked([&] {
-    CellTable table = read_cells(path);
-    return std::tuple(partition_of(table, sides_of(are_arcs), {.threads = threads}),
-                      std::move(table.mask), std::move(table.shape));
+  auto [partition, table] = unlocked([&] {
+    CellTable read = read_cells(path);
+    Partition made = partition_of(read, sides_of(are_arcs), {.threads = threads});
+    return std::tuple(std::move(made), std::move(read));
   });
   nb::list lengths;
-  for (const std::uint64_t length : shape) lengths.append(length);
-  return nb::make_tuple(std::move(partition), to_array<std::int32_t>(std::move(mask)),
-                        nb::tuple(lengths));
+  for (const std::uint64_t length : table.shape) lengths.append(length);
+  return nb::make_tuple(std::move(partition), to_array<std::int32_t>(std::move(table.mask)),
+                        nb::tuple(lengths), to_array<double>(std::move(table.centers)),
+                        table.remarks);
 }
 
 Partition read_polygon_partition(const std::string& path, bool is_geodesic, unsigned threads) {
@@ -76,12 +79,6 @@ Partition read_polygon_partition(const std::string& path, bool is_geodesic, unsi
 
 std::vector<double> numbers_of(const NumbersIn& array) {
   return {array.data(), array.data() + array.size()};
-}
-
-std::tuple<ArrayOut<double>, ArrayOut<double>> lines_around(const NumbersIn& lon,
-                                                            const NumbersIn& lat) {
-  LonLatGrid grid = grid_around(numbers_of(lon), numbers_of(lat));
-  return {to_array<double>(std::move(grid.lon_deg)), to_array<double>(std::move(grid.lat_deg))};
 }
 
 Partition corner_partition(const PairsIn& corners, std::size_t of_each, unsigned threads) {
@@ -154,10 +151,12 @@ void add_remap(nb::module_& module) {
                      return array_of<double>(self, nb::cast<const Partition&>(self).areas());
                    })
       .def("centers", [](const Partition& self) { return points_out(self.centers()); })
-      .def("rings", &rings_out);
+      .def("rings", &rings_out)
+      .def("weight_corners", [](const Partition& self) {
+        return to_array<double>(unlocked([&] { return weight_corners(self); }));
+      });
   module.def("read_partition", &read_partition, nb::arg("path"), nb::arg("are_arcs"),
              nb::arg("threads"));
-  module.def("lines_around", &lines_around, nb::arg("lon").noconvert(), nb::arg("lat").noconvert());
   module.def("corner_partition", &corner_partition, nb::arg("corners").noconvert(),
              nb::arg("of_each"), nb::arg("threads"));
   module.def("read_polygon_partition", &read_polygon_partition, nb::arg("path"),

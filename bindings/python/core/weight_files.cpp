@@ -19,21 +19,25 @@
 namespace rondel::python {
 namespace {
 
-// Degrees, areas, fractions and the shape of a grid; what is empty is not written.
-using SideIn = std::tuple<PairsIn, NumbersIn, NumbersIn, std::vector<std::uint64_t>>;
+// Degrees, areas, fractions, the shape of a grid, the mask and the corners of cells; what is empty is not written.
+using SideIn =
+    std::tuple<PairsIn, NumbersIn, NumbersIn, std::vector<std::uint64_t>, IndicesIn, PairsIn>;
 
 std::vector<double> vector_of(const NumbersIn& numbers) {
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 
 WeightSide side_of(const SideIn& in) {
-  const auto& [degrees, areas, fractions, shape] = in;
+  const auto& [degrees, areas, fractions, shape, mask, corners] = in;
   const auto points = rows_of<LonLat>(degrees);
   WeightSide side;
   side.points.assign(points.begin(), points.end());
   side.areas = vector_of(areas);
   side.fractions = vector_of(fractions);
   side.shape = shape;
+  side.mask = {mask.data(), mask.data() + mask.size()};
+  const auto places = rows_of<LonLat>(corners);
+  side.corners.assign(places.begin(), places.end());
   return side;
 }
 

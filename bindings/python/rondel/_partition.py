@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import operator
 import os
+import warnings
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
@@ -42,6 +43,8 @@ class Partition(Described):
     _mask: IntArray
     _shape: tuple[int, ...]
     _axes: tuple[FloatArray, FloatArray] | None
+    _file_centers: FloatArray | None
+    _has_corners: bool  # which files of weights get
 
     @classmethod
     def _of(
@@ -50,12 +53,16 @@ class Partition(Described):
         mask: IntArray | None = None,
         shape: tuple[int, ...] = (),
         axes: tuple[FloatArray, FloatArray] | None = None,
+        file_centers: FloatArray | None = None,
+        has_corners: bool = True,
     ) -> Partition:
         self = cls.__new__(cls)
         self._partition = partition
         self._mask = np.zeros(0, np.int32) if mask is None else mask
         self._shape = shape
         self._axes = axes
+        self._file_centers = file_centers
+        self._has_corners = has_corners
         return self
 
     @classmethod
@@ -74,7 +81,8 @@ class Partition(Described):
             circumcenters rounded to doubles.
 
         """
-        return cls._of(_core.Partition.voronoi(_triangulation_of(sites), as_threads(threads)))
+        made = _core.Partition.voronoi(_triangulation_of(sites), as_threads(threads))
+        return cls._of(made, has_corners=False)
 
     @classmethod
     def triangles(cls, sites: Any, *, threads: int | None = None) -> Partition:
@@ -86,7 +94,8 @@ class Partition(Described):
         threads : int, optional
 
         """
-        return cls._of(_core.Partition.triangles(_triangulation_of(sites), as_threads(threads)))
+        made = _core.Partition.triangles(_triangulation_of(sites), as_threads(threads))
+        return cls._of(made, has_corners=False)
 
     @classmethod
     def lonlat_grid(
@@ -102,7 +111,7 @@ class Partition(Described):
         Parameters
         ----------
         lon : array_like, shape (nlon + 1,)
-            The meridians in degrees, increasing by 360 at most.
+            The meridians in degrees, increasing or decreasing by 360 at most.
         lat : array_like, shape (nlat + 1,)
             The parallels in degrees, increasing or decreasing.
         sides : {'parallels', 'great_circles'}, optional
@@ -142,7 +151,8 @@ class Partition(Described):
         Parameters
         ----------
         lon : array_like, shape (nlon,)
-            Degrees, increasing but for whole turns; two or more.
+            Degrees, increasing or decreasing but for whole turns; two or more. Where the last is
+            the first one again, each of both has half of the cell.
         lat : array_like, shape (nlat,)
             Degrees. The first and the last cell end at a pole that is less than a cell away.
         sides, threads
@@ -150,7 +160,11 @@ class Partition(Described):
 
         """
         axes = _as_lines(lon, "lon"), _as_lines(lat, "lat")
-        made = cls.lonlat_grid(*_core.lines_around(*axes), sides=sides, threads=threads)
+        lines = [
+            _core.axis_lines(axis, np.zeros(0), is_longitude)
+            for axis, is_longitude in zip(axes, (True, False), strict=True)
+        ]
+        made = cls.lonlat_grid(*lines, sides=sides, threads=threads)
         made._axes = axes
         return made
 
@@ -211,7 +225,8 @@ class Partition(Described):
         ----------
         path : path-like
             ``.nc``: UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF, in one of netCDF's classic
-            formats. ``.geojson``: polygons, a feature a cell.
+            formats; of several grids ``FILE.nc:NAME`` names the one that variable NAME is of or
+            on. ``.geojson``: polygons, a feature a cell.
         sides : {'parallels', 'great_circles'}, optional
             As in `lonlat_grid`, for coordinates along lines.
         edges : {'lonlat', 'geodesic'}, optional
@@ -224,18 +239,28 @@ class Partition(Described):
         OSError
             If the file cannot be read, with what is wrong in it.
 
+        Warns
+        -----
+        UserWarning
+            For what the file has and the cells have not: how many are masked, or have corners that
+            are missing and are left out; which of several grids was read.
+
         """
         name = os.fspath(path)
         count_of_threads = as_threads(threads)
         if name.lower().endswith((".geojson", ".json")):
             return cls._of(read_polygons(name, edges, count_of_threads))
-        made: list[Partition] = []
-
-        def read(name: str) -> None:
-            made.append(cls._of(*_core.read_partition(name, _are_arcs(sides), count_of_threads)))
-
-        write_named(name, read)
-        return made[0]
+        found: list[Any] = []
+        write_named(
+            name,
+            lambda name: found.extend(
+                _core.read_partition(name, _are_arcs(sides), count_of_threads)
+            ),
+        )
+        partition, mask, shape, centers, remarks = found
+        for remark in remarks:
+            warnings.warn(f"{name}: {remark}", UserWarning, stacklevel=2)
+        return cls._of(partition, mask, shape, file_centers=centers if len(centers) else None)
 
     @classmethod
     def from_geometries(
@@ -337,7 +362,9 @@ class Partition(Described):
         return self._partition.rings()
 
     def _degrees(self) -> FloatArray:
-        """Longitudes and latitudes, shape (n, 2): of a grid's axes, or of the centers."""
+        """Longitudes and latitudes, shape (n, 2): of a grid's axes, the file's, or the centers."""
+        if self._file_centers is not None:
+            return self._file_centers
         if self._axes is None:
             return lonlat(self.centers)
         lon, lat = np.meshgrid(*self._axes)

@@ -4,45 +4,144 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Hashable, Mapping
 from typing import Any
 
 import numpy as np
 import xarray
 
-from ._arrays import lonlat, unit_vectors
+from . import _core
+from ._arrays import lonlat, point_set_hash, unit_vectors
+from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._partition import Partition
 from ._types import BoolArray, FloatArray
 from ._weights import Weights
 
-_MARKS = {
-    "lon": ("longitude", ("degrees_east", "degree_east"), ("lon", "longitude", "lons")),
-    "lat": ("latitude", ("degrees_north", "degree_north"), ("lat", "latitude", "lats")),
-}
-_CORNERS = ("_b", "_bnds", "_bounds", "_corners", "_vertices")
+_MARKS = {"lon": ("longitude", "degrees_east"), "lat": ("latitude", "degrees_north")}
 
 
-def _coordinate(data: Any, kind: str, name: Hashable | None) -> xarray.DataArray:
-    """The longitudes or latitudes of a Dataset or DataArray."""
-    if name is not None:
-        return data[name]
-    standard_name, units, names = _MARKS[kind]
-    known = {
-        key: data[key]
-        for key in (*data.coords, *getattr(data, "data_vars", ()))
-        if not str(key).endswith(_CORNERS)
-    }
-    for found in (
-        [k for k, v in known.items() if v.attrs.get("standard_name") == standard_name],
-        [k for k, v in known.items() if v.attrs.get("units") in units],
-        [k for k in known if str(k).lower() in names],
-    ):
-        if len(found) == 1:
-            return known[found[0]]
-        if found:
-            texts = " and ".join(map(str, found))
-            raise ValueError(f"{texts} may be the {standard_name}s: say {kind}=NAME")
-    raise ValueError(f"no coordinate has the {standard_name}s: say {kind}=NAME")
+def _headers(data: Any) -> list[tuple[Any, ...]]:
+    """What a Dataset, or a DataArray and its coordinates, says of each variable."""
+    variables = dict(data.variables if isinstance(data, xarray.Dataset) else data.coords)
+    if isinstance(data, xarray.DataArray):
+        variables[_VALUES if data.name is None else data.name] = data
+    headers = []
+    for name, variable in variables.items():
+        # xarray moves what it has understood of a file to `encoding`.
+        texts = {**variable.encoding, **variable.attrs}
+        headers.append(
+            (
+                str(name),
+                variable.dtype.kind in "iuf",
+                [str(dim) for dim in variable.dims],
+                list(variable.shape),
+                [(str(key), text) for key, text in texts.items() if isinstance(text, str)],
+            )
+        )
+    return headers
+
+
+_VALUES = "values of a DataArray"
+
+
+class Coordinates:
+    """Longitudes and latitudes of a Dataset or DataArray, by the rules of the C++ library."""
+
+    def __init__(self, data: Any, lon: Hashable | None, lat: Hashable | None) -> None:
+        headers = _headers(data)
+        for kind, name in (("lon", lon), ("lat", lat)):
+            if name is not None and str(name) not in [header[0] for header in headers]:
+                raise ValueError(f"there is no variable {name!r} ({kind}=)")
+        values = ""
+        if isinstance(data, xarray.DataArray) and lon is None and lat is None:
+            values = str(_VALUES if data.name is None else data.name)
+        chosen = ("" if lon is None else str(lon), "" if lat is None else str(lat))
+        pairs, remarks = _core.find_coordinates(headers, *chosen, values)
+        names = [header[0] for header in headers]
+        if not pairs:
+            raise ValueError(_not_found(headers, lon, lat))
+        for place, (kind, (standard_name, _)) in enumerate(_MARKS.items()):
+            found = list(dict.fromkeys(names[pair[0][place]] for pair in pairs))
+            if len(found) > 1:
+                texts = " and ".join(found)
+                raise ValueError(f"{texts} may be the {standard_name}s: say {kind}=NAME")
+        indices, units, self.are_axes, _ = pairs[0]
+        self.lon_name, self.lat_name = names[indices[0]], names[indices[1]]
+        self._data = data
+        self._bounds = [None if k < 0 else names[k] for k in indices[2:]]
+        self._units = units
+        self.remarks = [text for text in remarks if self.lon_name in text or self.lat_name in text]
+        self.lon = self._read(self.lon_name, units[0])
+        self.lat = self._read(self.lat_name, units[1])
+        self._drop_repeated()
+
+    def _read(self, name: str, unit: float) -> xarray.Variable:
+        variable = self._data[name].variable
+        if unit == 1:
+            return variable
+        degrees = np.asarray(variable.values, np.float64) * unit
+        standard_name, units = _MARKS["lon" if name == self.lon_name else "lat"]
+        attrs = {**variable.attrs, "standard_name": standard_name, "units": units}
+        return xarray.Variable(variable.dims, degrees, attrs)
+
+    def _drop_repeated(self) -> None:
+        """Takes the first along dimensions in which places do not change, as time of WRF."""
+        if self.are_axes or self.lon.ndim < 2:
+            return
+        self.lat = self.lat.transpose(*self.lon.dims)
+        flat = [
+            np.ascontiguousarray(array.values, np.float64).reshape(-1)
+            for array in (self.lon, self.lat)
+        ]
+        names = [str(dim) for dim in self.lon.dims]
+        repeated = _core.repeated_dimensions(names, list(self.lon.shape), *flat)
+        first = {dim: 0 for dim, is_same in zip(self.lon.dims, repeated, strict=True) if is_same}
+        self.lon, self.lat = self.lon.isel(first), self.lat.isel(first)
+
+    @property
+    def bounds_names(self) -> set[str]:
+        """Variables with bounds: of these coordinates, and what any variable calls so."""
+        named = {header[0]: dict(header[4]).get("bounds") for header in _headers(self._data)}
+        return {name for name in (*self._bounds, *named.values()) if name is not None}
+
+    def bounds(self) -> list[FloatArray | None]:
+        """Those of longitudes and of latitudes in degrees, the dimensions of the places first."""
+        made: list[FloatArray | None] = []
+        places = (self.lon, self.lat)
+        for name, unit, own in zip(self._bounds, self._units[2:], places, strict=True):
+            if name is None:
+                made.append(None)
+                continue
+            variable = self._data[name].variable
+            if set(own.dims) <= set(variable.dims):
+                dims = [dim for dim in variable.dims if dim not in own.dims]
+                first = dict.fromkeys(dims[: len(dims) - 1], 0)
+                variable = variable.isel(first)
+                variable = variable.transpose(*own.dims, *dims[len(dims) - 1 :])
+            made.append(np.asarray(variable.values, np.float64) * unit)
+        return made
+
+
+def _not_found(headers: list[tuple[Any, ...]], lon: Hashable | None, lat: Hashable | None) -> str:
+    if lon is not None and lat is not None:
+        return f"{lon} and {lat} must have the same dimensions, or one dimension each"
+    # Which of both there is.
+    for kind, other in (("lon", "lat"), ("lat", "lon")):
+        standard_name, units = _MARKS[kind]
+        is_there = any(
+            standard_name in dict(header[4]).get("standard_name", "")
+            or units in dict(header[4]).get("units", "")
+            for header in headers
+        )
+        if not is_there and (lon if kind == "lon" else lat) is None:
+            names = ", ".join(header[0] for header in headers if header[1] and header[3])
+            asked = f"say {kind}=NAME and {other}=NAME, of {names}"
+            return f"no coordinate has the {standard_name}s: {asked}"
+    return (
+        "no longitudes and latitudes have the same dimensions, or one dimension each: "
+        "say lon=NAME and lat=NAME"
+    )
 
 
 class Places:
@@ -66,65 +165,142 @@ class Places:
                 raise ValueError(f"a tuple is (lon, lat), not {len(data)} arrays")
             data = _dataset({"lon": data[0], "lat": data[1]}, are_points)
         self._data = data
-        self._lons, self._lats = _coordinate(data, "lon", lon), _coordinate(data, "lat", lat)
+        self._found = Coordinates(data, lon, lat)
+        lons, lats = self._found.lon, self._found.lat
         # Two axes of a grid: the latitudes come first, as usual.
-        south, west = xarray.broadcast(_bare(self._lats), _bare(self._lons))
-        self.coordinates = {
-            self._lats.name: self._lats.variable,
-            self._lons.name: self._lons.variable,
-        }
+        south, west = xarray.broadcast(xarray.DataArray(lats), xarray.DataArray(lons))
+        self.coordinates = {self._found.lat_name: lats, self._found.lon_name: lons}
         self.dims = south.dims
         self.shape = south.shape
         self.lon, self.lat = west.values, south.values
+        located = np.isfinite(self.lon) & np.isfinite(self.lat)
+        self._located = None if located.all() else located.reshape(-1)
+        if self._located is not None and not self.are_axes:
+            count = int(np.count_nonzero(~self._located))
+            _warn(
+                f"{count} of {self.lon.size} places have no longitude or latitude and are left out"
+            )
+
+    @property
+    def own_names(self) -> set[str]:
+        """Variables that are coordinates or bounds, and so no fields."""
+        return {*map(str, self.coordinates), *self._found.bounds_names}
 
     def points(self) -> FloatArray:
-        return unit_vectors(self.lon, self.lat)
+        """Unit vectors; anywhere for places without longitude or latitude."""
+        if self._located is None:
+            return unit_vectors(self.lon, self.lat)
+        located = self._located.reshape(self.shape)
+        return unit_vectors(np.where(located, self.lon, 0), np.where(located, self.lat, 0))
 
     @property
     def are_axes(self) -> bool:
-        return self._lons.ndim == self._lats.ndim == 1 and self._lons.dims != self._lats.dims
+        return self._found.are_axes
 
     @property
     def axes(self) -> tuple[FloatArray, FloatArray]:
-        return self._lons.values, self._lats.values
+        return self._found.lon.values, self._found.lat.values
 
     def mask(self) -> BoolArray | None:
-        """Which places take part: those where the variable `mask` is not 0, as of xESMF."""
+        """Which places take part: those with longitude and latitude where `mask` is not 0."""
         if self._partition is not None:
             return self._partition.mask
         if isinstance(self._data, xarray.DataArray) or "mask" not in self._data:
-            return None
-        return np.asarray(self._data["mask"].transpose(*self.dims) != 0).reshape(-1)
+            return self._located
+        mask = np.asarray(self._data["mask"].transpose(*self.dims) != 0).reshape(-1)
+        return mask if self._located is None else mask & self._located
 
-    def cells(self, threads: int | None) -> Partition:
-        """The cells around the places, by their bounds or, of a grid, half way between them."""
+    def triangulated(
+        self, mask: BoolArray | None = None, threads: int | None = None
+    ) -> tuple[SphericalDelaunay, Any]:
+        """The places that take part, and their numbers among all."""
+        numbers = np.arange(self.lon.size) if mask is None else np.flatnonzero(mask)
+        lon, lat = self.lon.reshape(-1)[numbers], self.lat.reshape(-1)[numbers]
+        return delaunay_lonlat(lon, lat, threads=threads), numbers
+
+    def weights_to(self, target: Places, method: Any, **options: Any) -> Weights:
+        """Of the places that are somewhere; targets that are nowhere have no entries."""
+        tri, numbers = self.triangulated(self._located, options.get("threads"))
+        made = tri.weights(target.points(), method, **options)
+        if self._located is None and target._located is None:
+            return made
+        offsets, columns, data = made.indptr, numbers[made.indices], made.data
+        if target._located is not None:
+            sizes = np.diff(offsets)
+            used = np.repeat(target._located, sizes)
+            columns, data = columns[used], data[used]
+            offsets = np.append(0, np.cumsum(np.where(target._located, sizes, 0)))
+        return Weights(
+            offsets.astype(np.int64),
+            columns,
+            data,
+            (target.lon.size, self.lon.size),
+            sites_hash=point_set_hash(self.points()),
+            targets_hash=point_set_hash(target.points()),
+        )
+
+    def cells(self, threads: int | None) -> tuple[Partition, BoolArray | None]:
+        """The cells around the places, by their bounds or, of a grid, half way between them; and
+        which of them take part.
+        """
         if self._partition is not None:
-            return self._partition
-        lon, lat = self._corners(self._lons), self._corners(self._lats)
+            return self._partition, self.mask()
+        for remark in self._found.remarks:
+            _warn(remark)
+        lon, lat = self._found.bounds()
+        if self.are_axes:
+            lines = [
+                _core.axis_lines(
+                    np.ascontiguousarray(axis, np.float64),
+                    np.zeros(0) if bounds is None else np.ascontiguousarray(bounds).reshape(-1),
+                    is_longitude,
+                )
+                for axis, bounds, is_longitude in zip(
+                    self.axes, (lon, lat), (True, False), strict=True
+                )
+            ]
+            return Partition.lonlat_grid(*lines, threads=threads), self.mask()
         if lon is None or lat is None:
-            if self.are_axes:
-                return Partition.lonlat_centers(*self.axes, threads=threads)
             raise ValueError(
                 "there are no corners of cells: name them lon_b and lat_b, or in the attribute "
                 "bounds of the coordinates"
             )
-        if self.are_axes:
-            lines = (_lines(lon, len(self.axes[0])), _lines(lat, len(self.axes[1])))
-            return Partition.lonlat_grid(np.unwrap(lines[0], period=360), lines[1], threads=threads)
-        if lon.shape != self.shape and lon.shape[: len(self.shape)] != self.shape:
+        if lon.shape[: len(self.shape)] != self.shape:
             lon, lat = _four(lon, self.shape), _four(lat, self.shape)
-        return Partition.corners(lon, lat, threads=threads)
-
-    def _corners(self, coordinate: xarray.DataArray) -> Any:
-        names = (coordinate.attrs.get("bounds"), f"{coordinate.name}_b", f"{coordinate.name}_bnds")
-        for name in names:
-            if name is not None and name in self._data:
-                return np.asarray(self._data[name].values, np.float64)
-        return None
+        return _cells_of_corners(lon, lat, self.mask(), threads)
 
 
-def _bare(coordinate: xarray.DataArray) -> xarray.DataArray:
-    return xarray.DataArray(coordinate.variable)
+def _cells_of_corners(
+    lon: FloatArray, lat: FloatArray, mask: BoolArray | None, threads: int | None
+) -> tuple[Partition, BoolArray | None]:
+    """Cells with a corner that is nowhere are left out, with a warning unless they are masked."""
+    missing = ~(np.isfinite(lon) & np.isfinite(lat))
+    if lon.ndim == 2:  # Cells with fewer corners than others end with missing ones.
+        lon, lat, missing = _filled_up(lon, lat, missing)
+    lacking = missing.any(axis=-1).reshape(-1)
+    if not lacking.any():
+        return Partition.corners(lon, lat, threads=threads), mask
+    untold = int(np.count_nonzero(lacking if mask is None else lacking & mask))
+    if lacking.all():
+        raise ValueError("no cell has corners: they are missing")
+    if untold:
+        _warn(f"{untold} of {lacking.size} cells have corners that are missing and are left out")
+    nowhere = lacking.reshape(lon.shape[:-1])[..., None]
+    made = Partition.corners(np.where(nowhere, 0, lon), np.where(nowhere, 0, lat), threads=threads)
+    return made, ~lacking if mask is None else mask & ~lacking
+
+
+def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[Any, Any, Any]:
+    last = lon.shape[1] - 1 - np.argmin(missing[:, ::-1], axis=1)  # the last one that is there
+    column = np.arange(lon.shape[1])
+    ends = missing & (column > last[:, None]) & (last >= 2)[:, None]
+    source = np.where(ends, last[:, None], column)
+    rows = np.arange(len(lon))[:, None]
+    return lon[rows, source], lat[rows, source], missing[rows, source]
+
+
+def _warn(text: str) -> None:
+    warnings.warn(text, UserWarning, stacklevel=5)
 
 
 def _centers(partition: Partition) -> xarray.Dataset:
@@ -158,22 +334,9 @@ def _dataset(arrays: dict[Any, Any], are_points: bool) -> xarray.Dataset:
 def _marked(variables: dict[Any, Any]) -> xarray.Dataset:
     made = xarray.Dataset(variables)
     made = made.set_coords([name for name in ("lon", "lat") if name in made])
-    for kind, (standard_name, units, _) in _MARKS.items():
-        made[kind].attrs.update(standard_name=standard_name, units=units[0])
+    for kind, (standard_name, units) in _MARKS.items():
+        made[kind].attrs.update(standard_name=standard_name, units=units)
     return made
-
-
-def _lines(bounds: Any, count: int) -> FloatArray:
-    """The lines of a grid, from these or from the two of each cell."""
-    if bounds.shape == (count + 1,):
-        return bounds
-    if bounds.shape != (count, 2):
-        raise ValueError(
-            f"bounds must have shape ({count + 1},) or ({count}, 2), not {bounds.shape}"
-        )
-    if not np.allclose(bounds[1:, 0], bounds[:-1, 1], atol=1e-5):
-        raise ValueError("bounds leave gaps between cells")
-    return np.append(bounds[:, 0], bounds[-1, 1])
 
 
 def _four(corners: Any, shape: tuple[int, ...]) -> FloatArray:
@@ -227,9 +390,10 @@ def carried(
         for name, array in data.data_vars.items()
         if set(source.dims) <= set(array.dims)
         and array.dtype.kind in "iuf"
-        and name not in source.coordinates
+        and str(name) not in source.own_names
     }
-    rest = data.drop_dims(source.dims)
+    rest = data.drop_vars([name for name in source.own_names if name in data.variables])
+    rest = rest.drop_dims(source.dims)
     whole = rest.assign(taken).assign_coords(wanted.coordinates)
     if not keep_attrs:
         whole = whole.drop_attrs(deep=False)

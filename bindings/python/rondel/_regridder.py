@@ -5,12 +5,12 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Hashable
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 
 from ._bilinear import bilinear_weights
-from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._geo import Path
 from ._remap import remap
 from ._repr import Described, count
@@ -52,16 +52,21 @@ class Regridder(Described):
     Parameters
     ----------
     ds_in, ds_out : Dataset, DataArray, dict, tuple or Partition
-        With longitudes and latitudes in degrees, found by their attributes or names: axes of a
-        grid, curvilinear, or of points. Conservative methods take the cells: by `lon_b` and
-        `lat_b`, or the coordinates' attribute `bounds`; of axes without these, half way between. A
-        variable `mask` is 0 where places take no part.
+        With longitudes and latitudes, found by their attributes or names as the tool finds them in
+        files (formats): axes of a grid, curvilinear, or of points; degrees, or radians where the
+        attribute `units` says so. Conservative methods take the cells: by the coordinates'
+        attribute `bounds`, or `lon_b` and `lat_b`; of axes without these, half way between. A
+        variable `mask` is 0 where places take no part. Places without longitude or latitude, and
+        cells with a corner that is missing, are left out with a warning that counts them.
     method : str
         'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' and
         'nearest_d2s' as in ESMF; or 'linear', 'laplace', 'sibson', 'hermite' and 'cubic' as in
         `SphericalDelaunay.weights`. 'bilinear' is, but for axes of a grid, 'linear'.
     locstream_in, locstream_out : bool, optional
         Whether a dictionary or tuple has places of points and not axes.
+    lon, lat, lon_out, lat_out : str, optional
+        The names of the longitudes and latitudes of `ds_in` and of `ds_out`, where they are not
+        found or there are several.
     extrap_method : {None, 'nearest_s2d'}, optional
         What targets get that no source covers.
     unmapped_to_nan : bool, optional
@@ -105,6 +110,10 @@ class Regridder(Described):
         locstream_in: bool = False,
         locstream_out: bool = False,
         *,
+        lon: Hashable | None = None,
+        lat: Hashable | None = None,
+        lon_out: Hashable | None = None,
+        lat_out: Hashable | None = None,
         extrap_method: Literal["nearest_s2d"] | None = None,
         unmapped_to_nan: bool = True,
         weights: Path | Weights | None = None,
@@ -122,8 +131,8 @@ class Regridder(Described):
             if name not in _NEEDLESS:
                 raise TypeError(f"Regridder() got an unexpected keyword argument {name!r}")
         self.method = method
-        self._source = Places(ds_in, are_points=locstream_in)
-        self._target = Places(ds_out, are_points=locstream_out)
+        self._source = Places(ds_in, lon, lat, are_points=locstream_in)
+        self._target = Places(ds_out, lon_out, lat_out, are_points=locstream_out)
         self._fill = np.nan if unmapped_to_nan else 0.0
         shape = (self._target.lon.size, self._source.lon.size)
         if weights is None:
@@ -242,13 +251,14 @@ def _made(
 ) -> Weights:
     if method in _CONSERVATIVE:
         order, norm = _CONSERVATIVE[method]
+        (cells, mask), (target_cells, target_mask) = source.cells(threads), target.cells(threads)
         return remap(
-            source.cells(threads),
-            target.cells(threads),
+            cells,
+            target_cells,
             order=order,
             norm=norm,
-            source_mask=source.mask(),
-            target_mask=target.mask(),
+            source_mask=mask,
+            target_mask=target_mask,
             threads=threads,
             progress=progress,
         ).weights
@@ -261,8 +271,7 @@ def _made(
             made = bilinear_weights(*source.axes, target.lon.reshape(-1), target.lat.reshape(-1))
         else:
             kind: Any = "linear" if method == "bilinear" else method
-            tri = delaunay_lonlat(source.lon, source.lat, threads=threads)
-            made = tri.weights(target.points(), kind, threads=threads, progress=progress)
+            made = source.weights_to(target, kind, threads=threads, progress=progress)
         mask = source.mask()
         if mask is not None:
             needs = np.add.reduceat(np.append(~mask[made.indices], False), made.indptr[:-1]) > 0
@@ -271,16 +280,9 @@ def _made(
     return made if mask is None else _with_rows(made, ~mask)
 
 
-def _triangulated(places: Places, mask: BoolArray | None) -> tuple[SphericalDelaunay, Any]:
-    """The places that take part, and their numbers among all."""
-    numbers = np.arange(places.lon.size) if mask is None else np.flatnonzero(mask)
-    lon, lat = places.lon.reshape(-1)[numbers], places.lat.reshape(-1)[numbers]
-    return delaunay_lonlat(lon, lat), numbers
-
-
 def _nearest(source: Places, target: Places) -> Weights:
     """For each target the nearest source that takes part; no row if none does."""
-    tri, numbers = _triangulated(source, source.mask())
+    tri, numbers = source.triangulated(source.mask())
     count_of_targets = target.lon.size
     shape = (count_of_targets, source.lon.size)
     if len(numbers) == 0:

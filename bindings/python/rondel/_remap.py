@@ -46,6 +46,7 @@ class Remap(Described):
         target: Partition,
         measures: Sequence[FloatArray],
         norm: str,
+        masks: tuple[IntArray, IntArray],
     ) -> None:
         self.weights = weights
         self.source = source
@@ -53,9 +54,10 @@ class Remap(Described):
         self.source_areas, self.target_areas = measures[:2]
         self.source_fractions, self.target_fractions = measures[2:]
         self._norm = norm
+        self._masks = masks
 
     def to_netcdf(self, path: Path, format: Literal["esmf", "scrip"] = "esmf") -> None:
-        """Writes a file that other programs apply, with the cells' centers and areas.
+        """Writes a file that other programs apply, with centers, areas, masks and corners.
 
         Parameters
         ----------
@@ -75,10 +77,17 @@ class Remap(Described):
 
         """
         sides = [
-            Side(cells._degrees(), areas, fractions, cells.shape)
-            for cells, areas, fractions in (
-                (self.source, self.source_areas, self.source_fractions),
-                (self.target, self.target_areas, self.target_fractions),
+            Side(
+                cells._degrees(),
+                areas,
+                fractions,
+                cells.shape,
+                mask if np.any(mask == 0) else None,
+                cells._partition.weight_corners() if cells._has_corners else None,
+            )
+            for cells, areas, fractions, mask in (
+                (self.source, self.source_areas, self.source_fractions, self._masks[0]),
+                (self.target, self.target_areas, self.target_fractions, self._masks[1]),
             )
         ]
         method = "Conservative remapping"
@@ -152,17 +161,17 @@ def remap(
     if operator.index(order) not in (1, 2):
         raise ValueError(f"order must be 1 or 2, not {order}")
     cells = [_as_partition(side, threads) for side in (source, target)]
+    masks = _as_mask(source_mask, cells[0]), _as_mask(target_mask, cells[1])
     weights, *measures = _core.remap(
         cells[0]._partition,
         cells[1]._partition,
         order,
         norm == "fracarea",
-        _as_mask(source_mask, cells[0]),
-        _as_mask(target_mask, cells[1]),
+        *masks,
         as_threads(threads),
         progress,
     )
-    return Remap(Weights._of(weights), cells[0], cells[1], measures, norm)
+    return Remap(Weights._of(weights), cells[0], cells[1], measures, norm, masks)
 
 
 def _as_partition(cells: Any, threads: int | None) -> Partition:

@@ -15,7 +15,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_floats, lonlat
 from ._geo import Path, write_named
-from ._types import ArrayLike, FloatArray
+from ._types import ArrayLike, FloatArray, IntArray
 
 
 def weights_to_netcdf(
@@ -80,6 +80,8 @@ class Side(NamedTuple):
     areas: ArrayLike | None = None
     fractions: ArrayLike | None = None
     shape: tuple[int, ...] = ()
+    mask: IntArray | None = None
+    corners: FloatArray | None = None
 
 
 def write_weights(
@@ -96,7 +98,9 @@ def write_weights(
 
     def made(side: Side) -> Any:
         grid = list(side.shape) if len(side.shape) > 1 else []
-        return side.degrees, _numbers(side.areas), _numbers(side.fractions), grid
+        mask = np.zeros(0, np.int32) if side.mask is None else side.mask
+        corners = np.zeros((0, 2)) if side.corners is None else side.corners
+        return side.degrees, _numbers(side.areas), _numbers(side.fractions), grid, mask, corners
 
     sides = made(source), made(target)
     write_named(

@@ -4,7 +4,7 @@
 
 ``import rondel.xarray`` gives every Dataset and DataArray the accessor `rondel`. Longitudes and
 latitudes are found by their attributes (CF conventions: `standard_name` or `units`), then by their
-names; in degrees, of cells, curvilinear or as the two axes of a grid.
+names, as the tool finds them in files; of cells, curvilinear or as the two axes of a grid.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from typing import Any
 
 import xarray
 
-from ._delaunay import delaunay_lonlat
 from ._interpolation import Method
 from ._places import Places, carried
 from ._weights import Weights
@@ -49,9 +48,7 @@ class RondelAccessor:
         Weights
 
         """
-        source = Places(self._data, lon, lat)
-        tri = delaunay_lonlat(source.lon, source.lat, threads=options.get("threads"))
-        return tri.weights(Places(target).points(), method, **options)
+        return Places(self._data, lon, lat).weights_to(Places(target), method, **options)
 
     def interpolate(
         self,
@@ -98,7 +95,7 @@ class RondelAccessor:
         """
         source, wanted = Places(self._data, lon, lat), Places(target)
         if weights is None:
-            weights = self.weights(target, method, lon=lon, lat=lat, **options)
+            weights = source.weights_to(wanted, method, **options)
         elif not _fits(weights, source, wanted):
             raise ValueError("the weights are of other places")
 

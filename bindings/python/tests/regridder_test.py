@@ -163,7 +163,7 @@ def test_cells_of_corners():
     assert np.array_equal(rondel.Regridder(pairs, expected, "conservative")(values), values)
     with pytest.raises(ValueError, match="no corners of cells: name them lon_b and lat_b"):
         rondel.Regridder({"lon": lon, "lat": lat}, COARSE, "conservative")
-    with pytest.raises(ValueError, match="leave gaps"):
+    with pytest.raises(ValueError, match="leave a gap before cell 1"):
         rondel.Regridder({**pairs, "lon_b": pairs["lon_b"] + [[0, -1]]}, COARSE, "conservative")
 
 

@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "rondel/conventions.h"
+
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "arrays.h"
+#include "module.h"
+
+namespace rondel::python {
+namespace {
+
+// Name, whether it holds numbers, dimensions, their lengths, attributes that are texts.
+using HeaderIn = std::tuple<std::string, bool, std::vector<std::string>, std::vector<std::uint64_t>,
+                            std::vector<std::pair<std::string, std::string>>>;
+// Indices of longitudes, latitudes and their bounds (-1: none), degrees in a unit of each, whether they are axes, and the rank.
+using PairOut = std::tuple<std::vector<std::int64_t>, std::vector<double>, bool, int>;
+
+std::vector<VariableHeader> headers_of(const std::vector<HeaderIn>& in) {
+  std::vector<VariableHeader> headers;
+  for (const auto& [name, is_number, dimensions, shape, texts] : in) {
+    headers.push_back({name, is_number, dimensions, shape, texts});
+  }
+  return headers;
+}
+
+PairOut pair_out(const std::vector<VariableHeader>& headers, const CoordinatePair& pair) {
+  PairOut out;
+  auto& [indices, units, are_axes, rank] = out;
+  for (const std::size_t index : {pair.lon, pair.lat, pair.lon_bounds, pair.lat_bounds}) {
+    indices.push_back(index == CoordinatePair::none ? -1 : static_cast<std::int64_t>(index));
+  }
+  units = {degrees_per_unit(headers[pair.lon]), degrees_per_unit(headers[pair.lat])};
+  for (const auto& [bounds, of] :
+       {std::pair(pair.lon_bounds, pair.lon), std::pair(pair.lat_bounds, pair.lat)}) {
+    units.push_back(
+        bounds == CoordinatePair::none ? 1 : degrees_per_unit(headers[bounds], &headers[of]));
+  }
+  are_axes = pair.are_axes;
+  rank = pair.rank;
+  return out;
+}
+
+std::vector<double> vector_of_axis(const NumbersIn& numbers) {
+  return {numbers.data(), numbers.data() + numbers.size()};
+}
+
+}  // namespace
+
+void add_conventions(nb::module_& module) {
+  module.def(
+      "find_coordinates",
+      [](const std::vector<HeaderIn>& in, const std::string& lon, const std::string& lat,
+         const std::string& values) {
+        const std::vector<VariableHeader> headers = headers_of(in);
+        std::vector<std::string> remarks;
+        std::vector<PairOut> pairs;
+        // Units of pairs that are not the best ones do not matter.
+        for (const CoordinatePair& pair : find_coordinates(headers, {lon, lat, values}, &remarks)) {
+          if (!pairs.empty() && pair.rank < std::get<3>(pairs.front())) break;
+          pairs.push_back(pair_out(headers, pair));
+        }
+        return std::pair(std::move(pairs), std::move(remarks));
+      },
+      nb::arg("headers"), nb::arg("lon"), nb::arg("lat"), nb::arg("values"));
+  module.def(
+      "repeated_dimensions",
+      [](const std::vector<std::string>& names, const std::vector<std::uint64_t>& shape,
+         const NumbersIn& lon, const NumbersIn& lat) {
+        return repeated_dimensions(names, shape, {lon.data(), lon.size()},
+                                   {lat.data(), lat.size()});
+      },
+      nb::arg("names"), nb::arg("shape"), nb::arg("lon").noconvert(), nb::arg("lat").noconvert());
+  module.def(
+      "axis_lines",
+      [](const NumbersIn& values, const NumbersIn& bounds, bool is_longitude) {
+        return to_array<double>(
+            axis_lines(vector_of_axis(values), vector_of_axis(bounds), is_longitude));
+      },
+      nb::arg("values").noconvert(), nb::arg("bounds").noconvert(), nb::arg("is_longitude"));
+}
+
+}  // namespace rondel::python

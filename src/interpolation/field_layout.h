@@ -1,0 +1,72 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Which dimensions of a variable are those of the points.
+//
+// 1. Where longitudes and latitudes are known, the dimensions are theirs, in the order latitude, longitude of axes, and else in that of
+//    the coordinates: a field stored as (time, lon, lat) is that of (time, lat, lon).
+// 2. Else it is the dimension with as many entries as there are points, wherever it stands, or dimensions that follow each other and
+//    multiply to that.
+// 3. Where the lengths of the points' grid are known and those of the dimensions are the same in reverse, the order is reversed; where
+//    they are others, the variable is no field at the points.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/netcdf_reader.h"
+#include "rondel/conventions.h"
+#include "rondel/types.h"
+
+namespace rondel::interpolation {
+
+struct FieldDimensions {
+  std::vector<std::size_t>
+      leading;  // places of dimensions in the variable: those of no points, in their order
+  std::vector<std::size_t> points;  // those of the points, the fastest one last
+  std::vector<LonLat>
+      places;  // degrees; empty if the file does not say where they are, or says it more than once
+
+  // All, the order of the values of a FieldArray.
+  [[nodiscard]] std::vector<std::size_t> order() const;
+};
+
+class FieldDimensionFinder {
+ public:
+  // `shape`: the lengths of the points' grid; empty: not known.
+  FieldDimensionFinder(const io::NetcdfReader& file, std::uint64_t num_points,
+                       std::span<const std::uint64_t> shape);
+
+  // Nothing if the variable is no field at the points.
+  [[nodiscard]] std::optional<FieldDimensions> layout(const io::NetcdfReader::Variable& variable);
+  // Whether the variable is a coordinate, bounds, or the numbers of neighbors: no field, unless it is named.
+  [[nodiscard]] bool is_auxiliary(const io::NetcdfReader::Variable& variable) const;
+
+ private:
+  struct KnownPlaces {
+    std::size_t lon;
+    std::size_t lat;
+    std::vector<std::size_t> dimensions;
+    std::vector<std::uint64_t> shape;
+    std::vector<LonLat> places;
+  };
+  const KnownPlaces& places_of_pair(const CoordinatePair& pair);
+  [[nodiscard]] std::optional<FieldDimensions> by_coordinates(
+      const io::NetcdfReader::Variable& variable);
+  [[nodiscard]] std::optional<FieldDimensions> by_lengths(
+      const io::NetcdfReader::Variable& variable) const;
+  [[nodiscard]] std::vector<std::size_t> run_of_points(
+      const io::NetcdfReader::Variable& variable) const;
+
+  const io::NetcdfReader& file_;
+  std::uint64_t num_points_;
+  std::vector<std::uint64_t> shape_;
+  std::vector<VariableHeader> headers_;
+  std::vector<KnownPlaces> known_;
+};
+
+}  // namespace rondel::interpolation

@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Which variables are longitudes and latitudes, and which belong together: sections 4.1, 4.2, 5 and 7.1 of CF 1.11.
+#include <algorithm>
+#include <sstream>
+#include <string>
+
+#include "io/cf_names.h"
+#include "rondel/conventions.h"
+#include "rondel/error.h"
+
+namespace rondel {
+namespace {
+
+using io::CoordinateKind;
+
+constexpr std::size_t none = CoordinatePair::none;
+
+// What a pair's rank is the sum of.
+constexpr int rank_of_listed = 32;
+constexpr int rank_of_attributes = 16;
+constexpr int rank_of_bounds = 8;
+constexpr int rank_of_axes = 4;
+constexpr int rank_of_used = 2;
+constexpr int rank_of_standard_names = 1;
+
+struct DirectionMarks {
+  std::string_view standard_name;
+  std::string_view axis_type;  // of netCDF-Java
+  std::vector<std::string_view> units;
+};
+
+const DirectionMarks& marks_of(CoordinateKind kind) {
+  static const DirectionMarks east = {
+      "longitude",
+      "Lon",
+      {"degrees_east", "degree_east", "degree_e", "degrees_e", "degreee", "degreese"}};
+  static const DirectionMarks north = {
+      "latitude",
+      "Lat",
+      {"degrees_north", "degree_north", "degree_n", "degrees_n", "degreen", "degreesn"}};
+  return kind == CoordinateKind::lon ? east : north;
+}
+
+bool has_unit(const DirectionMarks& marks, const std::string& units) {
+  const std::string lower = io::lower_case(io::without_blanks(units));
+  return std::ranges::find(marks.units, lower) != marks.units.end();
+}
+
+std::vector<std::string> words_of_text(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+bool has_same_dimensions(const VariableHeader& a, const VariableHeader& b) {
+  return a.dimensions.size() == b.dimensions.size() &&
+         std::ranges::is_permutation(a.dimensions, b.dimensions);
+}
+
+class CoordinateSearch {
+ public:
+  CoordinateSearch(std::span<const VariableHeader> variables, const CoordinateQuery& query,
+                   std::vector<std::string>* remarks)
+      : variables_(variables), remarks_(remarks) {
+    chosen_lon_ = chosen(query.lon);
+    chosen_lat_ = chosen(query.lat);
+    values_ = chosen(query.values);
+    for (const VariableHeader& variable : variables) {
+      const bool is_asked = values_ == none || &variable == &variables[values_];
+      std::vector<std::string> words = words_of_text(variable.text("coordinates"));
+      if (is_asked && words.size() > 1) lists_.push_back(std::move(words));
+    }
+  }
+
+  std::vector<CoordinatePair> pairs() const {
+    std::vector<CoordinatePair> found;
+    for (std::size_t lon = 0; lon < variables_.size(); ++lon) {
+      const int lon_evidence = evidence_of(lon, CoordinateKind::lon);
+      if (lon_evidence == 0) continue;
+      for (std::size_t lat = 0; lat < variables_.size(); ++lat) {
+        const int lat_evidence = lat == lon ? 0 : evidence_of(lat, CoordinateKind::lat);
+        if (lat_evidence == 0 || !belong_together(lon, lat)) continue;
+        found.push_back(pair_of(lon, lat, std::min(lon_evidence, lat_evidence)));
+      }
+    }
+    std::ranges::stable_sort(found, std::ranges::greater(), &CoordinatePair::rank);
+    return found;
+  }
+
+  // A sentence for each coordinate whose bounds are missing.
+  void remark_missing_bounds(const CoordinatePair& pair) const {
+    for (const std::size_t coordinate : {pair.lon, pair.lat}) {
+      const std::string name = variables_[coordinate].text("bounds");
+      if (remarks_ == nullptr || name.empty() || find(name) != none) continue;
+      const std::string text = "there is no variable '" + name +
+                               "', which the attribute bounds of '" + variables_[coordinate].name +
+                               "' names";
+      if (std::ranges::count(*remarks_, text) == 0) remarks_->push_back(text);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::size_t find(std::string_view name) const {
+    const auto at = std::ranges::find(variables_, name, &VariableHeader::name);
+    return at == variables_.end() ? none : static_cast<std::size_t>(at - variables_.begin());
+  }
+  [[nodiscard]] std::size_t chosen(const std::string& name) const {
+    if (name.empty()) return none;
+    const std::size_t index = find(name);
+    if (index == none) throw InvalidInput("there is no variable '" + name + "'", 0);
+    return index;
+  }
+
+  [[nodiscard]] int evidence_of(std::size_t index, CoordinateKind kind) const {
+    const std::size_t asked = kind == CoordinateKind::lon ? chosen_lon_ : chosen_lat_;
+    if (asked != none) return asked == index ? 2 : 0;
+    return is_bounds(variables_[index].name) ? 0 : io::coordinate_evidence(variables_[index], kind);
+  }
+
+  [[nodiscard]] bool is_bounds(const std::string& name) const {
+    return std::ranges::any_of(variables_, [&](const VariableHeader& other) {
+      return other.text("bounds") == name || io::is_name_of_bounds(name, other.name);
+    });
+  }
+
+  [[nodiscard]] bool are_axes(std::size_t lon, std::size_t lat) const {
+    const VariableHeader& a = variables_[lon];
+    const VariableHeader& b = variables_[lat];
+    return a.dimensions.size() == 1 && b.dimensions.size() == 1 && a.dimensions != b.dimensions;
+  }
+
+  [[nodiscard]] bool belong_together(std::size_t lon, std::size_t lat) const {
+    if (!are_axes(lon, lat) && !has_same_dimensions(variables_[lon], variables_[lat])) return false;
+    return values_ == none || (is_along_values(lon) && is_along_values(lat));
+  }
+  [[nodiscard]] bool is_along_values(std::size_t index) const {
+    const std::vector<std::string>& of_values = variables_[values_].dimensions;
+    return std::ranges::all_of(variables_[index].dimensions, [&](const std::string& name) {
+      return std::ranges::count(of_values, name) != 0;
+    });
+  }
+
+  [[nodiscard]] bool is_listed(std::size_t lon, std::size_t lat) const {
+    return std::ranges::any_of(lists_, [&](const std::vector<std::string>& words) {
+      return std::ranges::count(words, variables_[lon].name) != 0 &&
+             std::ranges::count(words, variables_[lat].name) != 0;
+    });
+  }
+
+  [[nodiscard]] std::size_t bounds_of(std::size_t coordinate) const {
+    const std::size_t named = find(variables_[coordinate].text("bounds"));
+    if (named != none && variables_[named].is_number) return named;
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+      const bool is_larger = variables_[i].shape.size() > variables_[coordinate].shape.size() ||
+                             variables_[i].name.starts_with("corner_") ||
+                             variables_[i].name.ends_with("_b");
+      if (variables_[i].is_number && is_larger &&
+          io::is_name_of_bounds(variables_[i].name, variables_[coordinate].name)) {
+        return i;
+      }
+    }
+    return none;
+  }
+
+  [[nodiscard]] CoordinatePair pair_of(std::size_t lon, std::size_t lat, int known_by) const {
+    CoordinatePair pair;
+    pair.lon = lon;
+    pair.lat = lat;
+    pair.are_axes = are_axes(lon, lat);
+    pair.lon_bounds = bounds_of(lon);
+    pair.lat_bounds = bounds_of(lat);
+    if (is_listed(lon, lat)) pair.rank += rank_of_listed;
+    if (known_by >= 2) pair.rank += rank_of_attributes;
+    if (known_by == 3) pair.rank += rank_of_standard_names;
+    if (pair.lon_bounds != none && pair.lat_bounds != none) pair.rank += rank_of_bounds;
+    if (pair.are_axes) pair.rank += rank_of_axes;
+    pair.is_used = is_used(pair);
+    if (pair.is_used) pair.rank += rank_of_used;
+    return pair;
+  }
+
+  // Whether another variable has all dimensions of the pair.
+  [[nodiscard]] bool is_used(const CoordinatePair& pair) const {
+    for (std::size_t i = 0; i < variables_.size(); ++i) {
+      if (i == pair.lon || i == pair.lat || i == pair.lon_bounds || i == pair.lat_bounds) continue;
+      const auto has = [&](const std::string& name) {
+        return std::ranges::count(variables_[i].dimensions, name) != 0;
+      };
+      if (std::ranges::all_of(variables_[pair.lon].dimensions, has) &&
+          std::ranges::all_of(variables_[pair.lat].dimensions, has)) {
+        return true;
+      }
+    }
+    return false;
+  }
+
+  std::span<const VariableHeader> variables_;
+  std::vector<std::string>* remarks_;
+  std::size_t chosen_lon_ = none;
+  std::size_t chosen_lat_ = none;
+  std::size_t values_ = none;
+  std::vector<std::vector<std::string>> lists_;  // the words of attributes `coordinates`
+};
+
+}  // namespace
+
+namespace io {
+
+int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind) {
+  if (!variable.is_number || variable.shape.empty()) return 0;
+  const DirectionMarks& marks = marks_of(kind);
+  const std::string standard_name = variable.text("standard_name");
+  if (standard_name == marks.standard_name) return 3;
+  const std::string units = variable.text("units");
+  if (has_unit(marks, units) || variable.text("_CoordinateAxisType") == marks.axis_type) return 2;
+  const bool is_denied =
+      !standard_name.empty() || (!io::without_blanks(units).empty() && !degrees_per_unit(units)) ||
+      has_unit(marks_of(kind == CoordinateKind::lon ? CoordinateKind::lat : CoordinateKind::lon),
+               units);
+  return !is_denied && io::is_known_name(variable.name, kind) ? 1 : 0;
+}
+
+}  // namespace io
+
+std::string VariableHeader::text(std::string_view attribute) const {
+  const auto at = std::ranges::find(texts, attribute, &std::pair<std::string, std::string>::first);
+  return at == texts.end() ? std::string() : at->second;
+}
+
+std::vector<CoordinatePair> find_coordinates(std::span<const VariableHeader> variables,
+                                             const CoordinateQuery& query,
+                                             std::vector<std::string>* remarks) {
+  const CoordinateSearch search(variables, query, remarks);
+  std::vector<CoordinatePair> pairs = search.pairs();
+  for (const CoordinatePair& pair : pairs) search.remark_missing_bounds(pair);
+  return pairs;
+}
+
+std::vector<bool> repeated_dimensions(std::span<const std::string> names,
+                                      std::span<const std::uint64_t> shape,
+                                      std::span<const double> lon, std::span<const double> lat) {
+  std::uint64_t size = 1;
+  for (const std::uint64_t length : shape) size *= length;
+  if (lon.size() != size || lat.size() != size || names.size() != shape.size()) {
+    throw InvalidInput(std::to_string(lon.size()) + " longitudes and " +
+                           std::to_string(lat.size()) + " latitudes are not " +
+                           std::to_string(size),
+                       0);
+  }
+  std::vector<bool> repeated(shape.size(), false);
+  if (shape.size() < 2) return repeated;
+  const auto is_same = [](double a, double b) { return a == b || (a != a && b != b); };
+  std::size_t stride = size;
+  std::size_t num_kept = shape.size();
+  for (std::size_t d = 0; d < shape.size(); ++d) {
+    const std::size_t block = stride;  // values of one index of the dimensions before this one
+    stride = shape[d] == 0 ? 0 : block / shape[d];
+    const bool is_time = io::is_name_of_time(names[d]);
+    if (shape[d] == 0 || (shape[d] == 1 && !is_time) || num_kept == 1) continue;
+    bool changes = false;
+    for (std::size_t i = 0; i < size && !changes; ++i) {
+      const std::size_t first = i - i % block + i % stride;
+      changes = !is_same(lon[i], lon[first]) || !is_same(lat[i], lat[first]);
+    }
+    if (changes && is_time && shape.size() > 2) {
+      throw InvalidInput("longitudes and latitudes change along '" + names[d] + "'", d);
+    }
+    repeated[d] = !changes;
+    if (!changes) --num_kept;
+  }
+  return repeated;
+}
+
+}  // namespace rondel

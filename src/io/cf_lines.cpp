@@ -1,0 +1,176 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The lines between the cells of an axis. All is done with coordinates that increase; others are turned around before and after.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "rondel/conventions.h"
+#include "rondel/error.h"
+#include "system/arithmetic.h"
+
+namespace rondel {
+namespace {
+
+// As shares of a cell's width: what rounding to single precision may have moved.
+constexpr double rounding_share = 1e-3;
+
+struct CellSides {
+  double low;
+  double high;
+};
+
+void require_finite_axis(std::span<const double> values, const std::string& what) {
+  constexpr double most_degrees = 1e6;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::abs(values[i]) <= most_degrees) continue;
+    throw InvalidInput(what + " " + std::to_string(i) + " is " +
+                           (std::isfinite(values[i]) ? "too large" : "not finite"),
+                       i);
+  }
+}
+
+// Adds whole turns so that each longitude is less than half a turn, or in the direction of `sign` less than a turn, from the last.
+void unroll(std::vector<double>& values, double sign) {
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    const double turns = std::ceil(sign * (values[i - 1] - values[i]) / 360);
+    values[i] += sign * turns * 360;
+  }
+}
+
+// Whether most steps, turned to the shorter way around, go west; not if all values increase.
+bool goes_west(const std::vector<double>& values) {
+  if (std::ranges::is_sorted(values)) return false;
+  std::size_t num_west = 0;
+  for (std::size_t i = 1; i < values.size(); ++i) {
+    num_west += std::remainder(values[i] - values[i - 1], 360) < 0 ? 1U : 0U;
+  }
+  return 2 * num_west > values.size() - 1;
+}
+
+std::vector<double> halves(const std::vector<double>& values) {
+  const std::size_t n = values.size();
+  std::vector<double> lines = {values[0] - (values[1] - values[0]) / 2};
+  for (std::size_t i = 0; i + 1 < n; ++i) lines.push_back((values[i] + values[i + 1]) / 2);
+  lines.push_back(values[n - 1] + (values[n - 1] - values[n - 2]) / 2);
+  return lines;
+}
+
+// So that a grid around the globe has no gap of rounding, and cells at both ends that are one have half of it each.
+void close_circle(std::vector<double>& lines, double first, double last) {
+  const std::size_t n = lines.size();
+  const double turn = lines.back() > lines.front() ? 360 : -360;
+  const double width = std::abs(lines[1] - lines[0]);
+  const double excess = std::abs(lines.back() - lines.front()) - 360;
+  if (std::abs(excess) <= rounding_share * width) {
+    lines.back() = lines.front() + turn;
+  } else if (n > 3 && excess > 0 &&
+             std::abs(std::abs(last - first) - 360) <= rounding_share * width) {
+    const double middle = (lines[0] + lines[1]) / 2;
+    lines.front() = first + std::round((middle - first) / 360) * 360;
+    lines.back() = lines.front() + turn;
+  }
+}
+
+void end_at_poles(std::vector<double>& lines) {
+  const auto to_pole = [](double line, double width) {
+    return 90 - std::abs(line) < std::abs(width) ? std::copysign(90, line) : line;
+  };
+  const std::size_t n = lines.size();
+  const double last_width = lines[n - 1] - lines[n - 2];
+  lines[0] = to_pole(lines[0], lines[1] - lines[0]);
+  lines[n - 1] = to_pole(lines[n - 1], last_width);
+}
+
+// The sides of each cell, the lower one first. Longitudes may jump by a turn within a cell, 350 to 10; what most cells do tells
+// which bound is the western one.
+std::vector<CellSides> sides_of_bounds(std::span<const double> bounds, bool is_longitude) {
+  std::vector<CellSides> cells;
+  std::ptrdiff_t num_forward = 0;
+  for (std::size_t i = 0; i + 1 < bounds.size(); i += 2) {
+    cells.push_back({bounds[i], bounds[i + 1]});
+    const double width = bounds[i + 1] - bounds[i];
+    if (std::abs(width) <= 180 && width != 0) num_forward += width > 0 ? 1 : -1;
+  }
+  for (CellSides& cell : cells) {
+    const double width = cell.high - cell.low;
+    const bool is_swapped = is_longitude && num_forward != 0 ? num_forward < 0
+                            : is_longitude                   ? width < 0 && width >= -180
+                                                             : width < 0;
+    if (is_swapped) std::swap(cell.low, cell.high);
+    if (is_longitude && cell.high < cell.low) cell.high += 360;
+  }
+  return cells;
+}
+
+// The lines from the sides of cells, in the order of the cells. Throws InvalidInput if neighbors do not share one.
+std::vector<double> joined(const std::vector<CellSides>& cells, bool is_longitude) {
+  const std::size_t n = cells.size();
+  const auto apart = [&](double a, double b) {
+    return std::abs(is_longitude ? std::remainder(a - b, 360) : a - b);
+  };
+  const bool is_upward =
+      n < 2 || apart(cells[0].high, cells[1].low) <= apart(cells[0].low, cells[1].high);
+  std::vector<double> lines = {is_upward ? cells[0].low : cells[0].high};
+  for (std::size_t i = 0; i < n; ++i) {
+    const double begin = is_upward ? cells[i].low : cells[i].high;
+    const double end = is_upward ? cells[i].high : cells[i].low;
+    const double turns = is_longitude ? std::round((lines.back() - begin) / 360) * 360 : 0;
+    if (!(std::abs(begin + turns - lines.back()) <= rounding_share * std::abs(end - begin))) {
+      throw InvalidInput("bounds leave a gap before cell " + std::to_string(i), i);
+    }
+    lines.push_back(end + turns);
+  }
+  return lines;
+}
+
+// Lines that are given may jump by whole turns.
+std::vector<double> lines_as_given(std::span<const double> bounds, bool is_longitude) {
+  std::vector<double> lines(bounds.begin(), bounds.end());
+  if (is_longitude) unroll(lines, goes_west(lines) ? -1 : 1);
+  return lines;
+}
+
+// pi / 2 in single precision is 90.0000025 degrees.
+void end_before_poles(std::vector<double>& lines) {
+  constexpr double rounding = 1e-5;
+  for (double& line : lines) {
+    if (std::abs(line) <= 90 + rounding) line = std::clamp(line, -90.0, 90.0);
+  }
+}
+
+}  // namespace
+
+std::vector<double> axis_lines(std::span<const double> values, std::span<const double> bounds,
+                               bool is_longitude) {
+  const system::ArithmeticScope arithmetic;
+  const std::string name = is_longitude ? "longitude" : "latitude";
+  require_finite_axis(values, name);
+  require_finite_axis(bounds, is_longitude ? "bound of longitudes" : "bound of latitudes");
+  std::vector<double> unrolled(values.begin(), values.end());
+  if (is_longitude && !values.empty()) unroll(unrolled, goes_west(unrolled) ? -1 : 1);
+  std::vector<double> lines;
+  const std::size_t n = values.size();
+  if (!bounds.empty()) {
+    if (n == 0 || (bounds.size() != 2 * n && bounds.size() != n + 1)) {
+      throw InvalidInput("bounds of " + std::to_string(n) + " cells have " +
+                             std::to_string(bounds.size()) + " values",
+                         0);
+    }
+    const bool are_lines = bounds.size() == n + 1 && n > 1;
+    lines = are_lines ? lines_as_given(bounds, is_longitude)
+                      : joined(sides_of_bounds(bounds, is_longitude), is_longitude);
+  } else {
+    if (n < 2) {
+      throw InvalidInput("one " + name + " without bounds has no width", 0);
+    }
+    lines = halves(unrolled);
+    if (!is_longitude) end_at_poles(lines);
+  }
+  if (!is_longitude) end_before_poles(lines);
+  if (is_longitude && lines.size() > 2) close_circle(lines, unrolled.front(), unrolled.back());
+  return lines;
+}
+
+}  // namespace rondel

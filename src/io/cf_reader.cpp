@@ -1,0 +1,153 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "io/cf_reader.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "io/bad_value.h"
+#include "io/cf_values.h"
+#include "io/number.h"
+#include "rondel/error.h"
+
+namespace rondel::io {
+
+VariableHeader header_of(const NetcdfReader& file, const NetcdfReader::Variable& variable) {
+  VariableHeader header;
+  header.name = variable.name;
+  header.is_number = variable.type != NetcdfType::text;
+  for (const std::size_t dimension : variable.dimensions) {
+    header.dimensions.push_back(file.dimensions()[dimension].name);
+  }
+  header.shape = variable.shape;
+  for (const NetcdfAttribute& attribute : variable.attributes) {
+    if (attribute.type == NetcdfType::text) {
+      header.texts.emplace_back(attribute.name, attribute.text);
+    }
+  }
+  return header;
+}
+
+std::vector<VariableHeader> headers_of(const NetcdfReader& file) {
+  std::vector<VariableHeader> headers;
+  for (const NetcdfReader::Variable& variable : file.variables()) {
+    headers.push_back(header_of(file, variable));
+  }
+  return headers;
+}
+
+std::vector<double> meant_numbers(const NetcdfReader& file,
+                                  const NetcdfReader::Variable& variable) {
+  std::vector<double> values = file.numbers(variable);
+  ValueRules(variable).apply(values);
+  return values;
+}
+
+std::vector<double> degrees_of(const NetcdfReader& file, const NetcdfReader::Variable& variable,
+                               UsualUnits usual, const NetcdfReader::Variable* coordinate) {
+  const bool has_units = !netcdf_text(variable.attributes, "units").empty();
+  double factor = 1;
+  try {
+    if (has_units || usual == UsualUnits::of_name) {
+      const VariableHeader own = header_of(file, variable);
+      if (coordinate == nullptr) {
+        factor = degrees_per_unit(own);
+      } else {
+        const VariableHeader of = header_of(file, *coordinate);
+        factor = degrees_per_unit(own, &of);
+      }
+    } else if (usual == UsualUnits::radians) {
+      factor = 180 / std::numbers::pi;
+    }
+  } catch (const InvalidInput& error) {
+    throw BadValue(error.what());
+  }
+  std::vector<double> values = meant_numbers(file, variable);
+  if (factor != 1) {
+    for (double& value : values) value *= factor;
+  }
+  return values;
+}
+
+std::vector<double> transposed(std::span<const std::uint64_t> shape,
+                               const std::vector<std::size_t>& order, std::vector<double> values) {
+  if (std::ranges::is_sorted(order) || values.empty()) return values;
+  const std::size_t rank = order.size();
+  // How far apart neighbors along each dimension are in `values`.
+  std::vector<std::size_t> steps(rank, 1);
+  for (std::size_t w = 0; w < rank; ++w) {
+    for (std::size_t after = order[w] + 1; after < rank; ++after) steps[w] *= shape[after];
+  }
+  std::vector<double> ordered;
+  ordered.reserve(values.size());
+  std::vector<std::size_t> at(rank, 0);
+  std::size_t place = 0;
+  while (ordered.size() < values.size()) {
+    ordered.push_back(values[place]);
+    for (std::size_t w = rank; w-- > 0;) {
+      const std::size_t length = shape[order[w]];
+      place += steps[w];
+      if (++at[w] < length) break;
+      place -= steps[w] * length;
+      at[w] = 0;
+    }
+  }
+  return ordered;
+}
+
+std::vector<double> in_order(const NetcdfReader::Variable& variable,
+                             const std::vector<std::size_t>& wanted, std::vector<double> values) {
+  std::vector<std::size_t> order;
+  for (const std::size_t dimension : wanted) {
+    const auto at = std::ranges::find(variable.dimensions, dimension);
+    order.push_back(static_cast<std::size_t>(at - variable.dimensions.begin()));
+  }
+  return transposed(variable.shape, order, std::move(values));
+}
+
+PlaceArrays places_of(const NetcdfReader& file, const NetcdfReader::Variable& lon,
+                      const NetcdfReader::Variable& lat, UsualUnits usual) {
+  PlaceArrays places{
+      lon.dimensions, lon.shape, {}, degrees_of(file, lon, usual), degrees_of(file, lat, usual)};
+  if (places.lon.size() != places.lat.size()) {
+    throw BadValue("variable " + in_quotes(lat.name) + " has " + std::to_string(lat.num_values) +
+                   " values instead of " + std::to_string(lon.num_values));
+  }
+  if (std::ranges::is_permutation(lon.dimensions, lat.dimensions)) {
+    places.lat = in_order(lat, lon.dimensions, std::move(places.lat));
+  }
+  if (places.dimensions.size() < 2) return places;
+  std::vector<bool> is_repeated;
+  try {
+    is_repeated =
+        repeated_dimensions(header_of(file, lon).dimensions, lon.shape, places.lon, places.lat);
+  } catch (const InvalidInput& error) {
+    throw BadValue(in_quotes(lon.name) + " and " + in_quotes(lat.name) + ": " + error.what());
+  }
+  std::vector<std::size_t> order;
+  std::vector<std::size_t> kept;
+  std::vector<std::uint64_t> shape;
+  std::size_t size = 1;
+  for (std::size_t d = 0; d < lon.dimensions.size(); ++d) {
+    if (is_repeated[d]) {
+      order.push_back(lon.dimensions[d]);
+      continue;
+    }
+    kept.push_back(lon.dimensions[d]);
+    shape.push_back(lon.shape[d]);
+    size *= lon.shape[d];
+  }
+  if (order.empty()) return places;
+  places.repeated = order;
+  order.insert(order.end(), kept.begin(), kept.end());
+  for (std::vector<double>* values : {&places.lon, &places.lat}) {
+    *values = in_order(lon, order, std::move(*values));
+    values->resize(size);
+  }
+  places.dimensions = std::move(kept);
+  places.shape = std::move(shape);
+  return places;
+}
+
+}  // namespace rondel::io

@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Variables of netCDF files by the rules of rondel/conventions.h and io/cf_values.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/netcdf_reader.h"
+#include "rondel/conventions.h"
+#include "rondel/export.h"
+
+namespace rondel::io {
+
+// What the file says of its variables, by their order.
+RONDEL_API std::vector<VariableHeader> headers_of(const NetcdfReader& file);
+RONDEL_API VariableHeader header_of(const NetcdfReader& file,
+                                    const NetcdfReader::Variable& variable);
+
+// The values as they are meant: unpacked, missing ones NaN. Throws BadValue.
+RONDEL_API std::vector<double> meant_numbers(const NetcdfReader& file,
+                                             const NetcdfReader::Variable& variable);
+
+// What has no units is in those of `coordinate`, or else in its convention's.
+enum class UsualUnits { of_name, degrees, radians };
+// Coordinates in degrees; missing ones NaN. Throws BadValue for units that are neither degrees nor radians.
+RONDEL_API std::vector<double> degrees_of(const NetcdfReader& file,
+                                          const NetcdfReader::Variable& variable,
+                                          UsualUnits usual = UsualUnits::of_name,
+                                          const NetcdfReader::Variable* coordinate = nullptr);
+
+// An array with its dimensions in another order: `order` has the place of each among those of `shape`.
+RONDEL_API std::vector<double> transposed(std::span<const std::uint64_t> shape,
+                                          const std::vector<std::size_t>& order,
+                                          std::vector<double> values);
+// The same by the numbers of a variable's dimensions, which differ.
+RONDEL_API std::vector<double> in_order(const NetcdfReader::Variable& variable,
+                                        const std::vector<std::size_t>& wanted,
+                                        std::vector<double> values);
+
+// Longitudes and latitudes of the same dimensions, in degrees; missing ones NaN.
+struct PlaceArrays {
+  std::vector<std::size_t> dimensions;  // those of the longitudes along which places differ
+  std::vector<std::uint64_t> shape;
+  std::vector<std::size_t> repeated;  // the others: time
+  std::vector<double> lon;
+  std::vector<double> lat;
+};
+// Throws BadValue.
+RONDEL_API PlaceArrays places_of(const NetcdfReader& file, const NetcdfReader::Variable& lon,
+                                 const NetcdfReader::Variable& lat,
+                                 UsualUnits usual = UsualUnits::of_name);
+
+}  // namespace rondel::io

@@ -1,0 +1,172 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "io/cf_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "io/bad_value.h"
+#include "io/cf_names.h"
+#include "io/netcdf_reader.h"
+#include "io/number.h"
+
+namespace rondel::io {
+namespace {
+
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool is_floating(NetcdfType type) {
+  return type == NetcdfType::float32 || type == NetcdfType::float64;
+}
+bool is_signed_integer(NetcdfType type) {
+  return type == NetcdfType::int8 || type == NetcdfType::int16 || type == NetcdfType::int32 ||
+         type == NetcdfType::int64;
+}
+bool is_unsigned_integer(NetcdfType type) {
+  return type == NetcdfType::uint8 || type == NetcdfType::uint16 || type == NetcdfType::uint32 ||
+         type == NetcdfType::uint64;
+}
+
+std::optional<double> number_of_text(const std::string& text) {
+  try {
+    return parse_number(text, "attribute");
+  } catch (const BadValue&) {
+    return std::nullopt;
+  }
+}
+
+// The numbers of an attribute, also where it is a text.
+std::vector<double> numbers_of_attribute(const NetcdfVariable& variable, std::string_view name) {
+  const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
+  if (attribute == nullptr) return {};
+  if (!attribute->numbers.empty()) return attribute->numbers;
+  const std::optional<double> number = number_of_text(attribute->text);
+  return number ? std::vector<double>{*number} : std::vector<double>{};
+}
+
+bool has_type(const NetcdfVariable& variable, std::string_view name, NetcdfType type) {
+  const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
+  return attribute != nullptr && attribute->type == type;
+}
+
+double packing(const NetcdfVariable& variable, std::string_view name, double otherwise) {
+  const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
+  if (attribute == nullptr) return otherwise;
+  const std::vector<double> numbers = numbers_of_attribute(variable, name);
+  if (numbers.size() == 1) return numbers.front();
+  throw BadValue("variable " + in_quotes(variable.name) + ": attribute " + std::string(name) +
+                 (attribute->numbers.empty()
+                      ? " is the text " + in_quotes(attribute->text) + " and no number"
+                      : " has " + std::to_string(numbers.size()) + " numbers instead of one"));
+}
+
+}  // namespace
+
+double default_fill(NetcdfType type) {
+  switch (type) {
+    case NetcdfType::int16:
+      return -32767;
+    case NetcdfType::int32:
+      return -2147483647;
+    case NetcdfType::uint16:
+      return 65535;
+    case NetcdfType::uint32:
+      return 4294967295;
+    case NetcdfType::int64:
+      return -9223372036854775806.0;
+    case NetcdfType::uint64:
+      return 18446744073709551614.0;
+    case NetcdfType::float32:
+    case NetcdfType::float64:
+      return 0x1.ep+122;  // 9.9692099683868690e+36
+    case NetcdfType::int8:
+    case NetcdfType::uint8:
+    case NetcdfType::text:
+      break;
+  }
+  return no_number;
+}
+
+ValueRules::ValueRules(const NetcdfVariable& variable)
+    : type_(variable.type), lowest_(-infinity), highest_(infinity) {
+  scale_ = packing(variable, "scale_factor", 1);
+  offset_ = packing(variable, "add_offset", 0);
+  for (const char* name : {"scale_factor", "add_offset"}) {
+    if (!has_type(variable, name, NetcdfType::text)) continue;
+    remark_ = "variable " + in_quotes(variable.name) + ": attribute " + name +
+              " is a text and taken for the number that it has";
+  }
+  const std::string unsignedness = lower_case(netcdf_text(variable.attributes, "_Unsigned"));
+  becomes_unsigned_ = unsignedness == "true" && is_signed_integer(type_);
+  if (becomes_unsigned_ || (unsignedness == "false" && is_unsigned_integer(type_))) {
+    wrapped_ = std::ldexp(1, static_cast<int>(8 * size_of(type_)));
+  }
+  for (const char* name : {"_FillValue", "missing_value"}) {
+    for (const double value : numbers_of_attribute(variable, name)) {
+      missing_.push_back(as_type(value));
+    }
+    is_single_ |= type_ == NetcdfType::float64 && has_type(variable, name, NetcdfType::float32);
+  }
+  if (find_attribute(variable.attributes, "_FillValue") == nullptr) {
+    missing_.push_back(as_type(default_fill(type_)));
+  }
+  const std::vector<double> range = numbers_of_attribute(variable, "valid_range");
+  const std::vector<double> least = numbers_of_attribute(variable, "valid_min");
+  const std::vector<double> most = numbers_of_attribute(variable, "valid_max");
+  if (range.size() == 2) {
+    lowest_ = range[0];
+    highest_ = range[1];
+  }
+  if (least.size() == 1) lowest_ = least[0];
+  if (most.size() == 1) highest_ = most[0];
+  for (const char* name : {"valid_range", "valid_min", "valid_max"}) {
+    for (const char* factor : {"scale_factor", "add_offset"}) {
+      const NetcdfAttribute* const unpacked = find_attribute(variable.attributes, factor);
+      has_unpacked_range_ |= unpacked != nullptr && is_floating(unpacked->type) &&
+                             !is_floating(type_) && has_type(variable, name, unpacked->type);
+    }
+  }
+  if (!has_unpacked_range_) {
+    lowest_ = as_type(lowest_);
+    highest_ = as_type(highest_);
+  }
+}
+
+// As the variable's type has it.
+double ValueRules::as_type(double value) const {
+  if (type_ == NetcdfType::float32 && std::abs(value) <= std::numeric_limits<float>::max()) {
+    return static_cast<double>(static_cast<float>(value));
+  }
+  if (wrapped_ == 0) return value;
+  if (becomes_unsigned_) return value < 0 ? value + wrapped_ : value;
+  return value >= wrapped_ / 2 ? value - wrapped_ : value;
+}
+
+bool ValueRules::is_missing(double value) const {
+  const auto is_one = [&](double missing) {
+    if (value == missing) return true;
+    return is_single_ && std::abs(value) >= std::numeric_limits<float>::min() &&
+           std::abs(value) <= std::numeric_limits<float>::max() &&
+           static_cast<double>(static_cast<float>(value)) == missing;
+  };
+  return std::ranges::any_of(missing_, is_one);
+}
+
+void ValueRules::apply(std::span<double> values) const {
+  const auto is_outside = [&](double value) { return value < lowest_ || value > highest_; };
+  for (double& value : values) {
+    if (wrapped_ != 0) value = as_type(value);
+    if (is_missing(value) || (!has_unpacked_range_ && is_outside(value))) {
+      value = no_number;
+      continue;
+    }
+    if (is_packed()) value = value * scale_ + offset_;
+    if (has_unpacked_range_ && is_outside(value)) value = no_number;
+  }
+}
+
+}  // namespace rondel::io

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the numbers of a variable stand for: which are missing, and how they are packed. CF 1.11, sections 2.5.1 and 8.1; NetCDF
+// User's Guide, "Attribute Conventions".
+//
+// 1. Missing are _FillValue, each number of missing_value, what lies outside of valid_min, valid_max or valid_range, NaN, and without
+//    _FillValue the fill that netCDF writes where nobody wrote (of types of one byte there is none).
+// 2. These attributes may have any type of numbers, or be a text that is a number; they are compared in the less precise of both types.
+// 3. They are of the packed numbers; valid_* are of the unpacked ones where their type is that of scale_factor or add_offset and not
+//    the variable's.
+// 4. _Unsigned = "true" makes signed integers unsigned, "false" the reverse.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/netcdf_format.h"
+#include "rondel/export.h"
+
+namespace rondel::io {
+
+class RONDEL_API ValueRules {
+ public:
+  // Throws BadValue if scale_factor or add_offset is no number, or several.
+  explicit ValueRules(const NetcdfVariable& variable);
+
+  // Numbers as they are in the file become what they stand for; missing ones NaN.
+  void apply(std::span<double> values) const;
+  // Whether apply() changes any number but fills.
+  [[nodiscard]] bool is_packed() const { return scale_ != 1 || offset_ != 0; }
+  // A sentence if scale_factor or add_offset is a text; else empty.
+  [[nodiscard]] const std::string& remark() const { return remark_; }
+
+ private:
+  [[nodiscard]] double as_type(double value) const;
+  [[nodiscard]] bool is_missing(double value) const;
+
+  NetcdfType type_;
+  double wrapped_ =
+      0;  // what is added to negative integers, or subtracted from those of its half and more
+  bool becomes_unsigned_ = false;
+  std::vector<double> missing_;
+  bool is_single_ = false;  // some of these are of single precision
+  double lowest_;
+  double highest_;
+  bool has_unpacked_range_ = false;
+  double scale_ = 1;
+  double offset_ = 0;
+  std::string remark_;
+};
+
+// What netCDF writes where nobody wrote; NaN for types that have none.
+RONDEL_API double default_fill(NetcdfType type);
+
+}  // namespace rondel::io

@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Variables with any of the names, units and attributes that conventions know, and axes of any numbers: what is found are pairs of
+// coordinates that belong together, and lines are as many as cells have, in order, with each coordinate of an axis that is one between
+// its two.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "fuzz/fuzz_input.h"
+#include "rondel/conventions.h"
+#include "rondel/error.h"
+
+namespace rondel::fuzz {
+namespace {
+
+template <std::size_t n>
+std::string one_of(ByteSource& source, const char* const (&words)[n]) {
+  return words[source.below(n)];
+}
+
+constexpr const char* names[] = {"lon",      "lat",     "nav_lon", "nav_lat", "clon",
+                                 "clat",     "x",       "lon_b",   "time",    "lon_bnds",
+                                 "lat_bnds", "lonCell", "latCell", "t"};
+constexpr const char* dimension_names[] = {"lon", "lat", "time", "y", "x", "nv"};
+constexpr const char* units[] = {
+    "", "degrees_east", "degrees_north", "degree_E", "Radian", "rad", "degrees", "K", "degreeN",
+    "m"};
+
+std::vector<VariableHeader> headers_from(ByteSource& source) {
+  std::vector<VariableHeader> headers(1 + source.below(8));
+  for (VariableHeader& header : headers) {
+    header.name = one_of(source, names);
+    header.is_number = source.below(8) != 0;
+    header.texts.emplace_back("units", one_of(source, units));
+    if (source.below(4) == 0) header.texts.emplace_back("bounds", one_of(source, names));
+    if (source.below(4) == 0) {
+      header.texts.emplace_back("coordinates", one_of(source, names) + " " + one_of(source, names));
+    }
+    for (std::size_t rank = source.below(4); rank > 0; --rank) {
+      header.dimensions.push_back(one_of(source, dimension_names));
+      header.shape.push_back(header.dimensions.back().size());
+    }
+  }
+  return headers;
+}
+
+void test_coordinates(ByteSource& source) {
+  const std::vector<VariableHeader> headers = headers_from(source);
+  std::vector<std::string> remarks;
+  int rank = 1 << 20;
+  for (const CoordinatePair& pair : find_coordinates(headers, {}, &remarks)) {
+    require(pair.lon < headers.size() && pair.lat < headers.size() && pair.lon != pair.lat,
+            "a pair is of two variables");
+    require(pair.rank <= rank, "the best pair comes first");
+    rank = pair.rank;
+    const VariableHeader& lon = headers[pair.lon];
+    const VariableHeader& lat = headers[pair.lat];
+    require(lon.is_number && lat.is_number, "coordinates are numbers");
+    require(pair.are_axes ? lon.shape.size() == 1 && lat.shape.size() == 1
+                          : lon.shape.size() == lat.shape.size(),
+            "a pair has the same dimensions, or one each");
+    const double unit = degrees_per_unit(lon);
+    require(unit == 1 || (unit > 57 && unit < 58), "a unit is degrees or radians");
+    const std::string text = lon.text("units");
+    require(text.empty() || degrees_per_unit(text) == unit, "units are those of the text");
+  }
+}
+
+void test_axis(ByteSource& source) {
+  const bool is_longitude = source.below(2) == 0;
+  std::vector<double> values(source.below(8));
+  double at = 10.0 * source.small();
+  const double step = source.below(3) == 0 ? 0.25 * source.small() : 1.0 + source.byte();
+  for (double& value : values) {
+    value = source.below(16) == 0 ? source.any_double() : at;
+    at += step;
+  }
+  std::vector<double> bounds;
+  if (source.below(2) == 0) {
+    for (const double value : values) {
+      const bool is_swapped = source.below(8) == 0;
+      bounds.push_back(value + (is_swapped ? step : -step) / 2);
+      bounds.push_back(value + (is_swapped ? -step : step) / 2);
+    }
+  }
+  const std::vector<double> lines = axis_lines(values, bounds, is_longitude);
+  require(lines.size() == values.size() + 1, "cells lie between lines");
+  require(std::ranges::all_of(lines, [](double line) { return std::isfinite(line); }),
+          "lines are finite");
+}
+
+void test_repeated(ByteSource& source) {
+  std::vector<std::string> of_dimensions;
+  std::vector<std::uint64_t> shape;
+  std::size_t size = 1;
+  for (std::size_t rank = source.below(4); rank > 0; --rank) {
+    of_dimensions.push_back(one_of(source, dimension_names));
+    shape.push_back(source.below(4));
+    size *= shape.back();
+  }
+  std::vector<double> lon(size);
+  std::vector<double> lat(size);
+  for (double& value : lon) value = static_cast<double>(source.below(2));
+  const std::vector<bool> repeated = repeated_dimensions(of_dimensions, shape, lon, lat);
+  require(repeated.size() == shape.size(), "each dimension has an answer");
+  require(shape.empty() || std::ranges::count(repeated, false) > 0, "one dimension is left");
+}
+
+}  // namespace
+}  // namespace rondel::fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  rondel::fuzz::ByteSource source(data, size);
+  try {
+    switch (source.below(3)) {
+      case 0:
+        rondel::fuzz::test_coordinates(source);
+        break;
+      case 1:
+        rondel::fuzz::test_axis(source);
+        break;
+      default:
+        rondel::fuzz::test_repeated(source);
+    }
+  } catch (const rondel::InvalidInput& error) {
+    const std::string what = error.what();
+    rondel::fuzz::require(!what.empty() && what.find('\n') == std::string::npos,
+                          "a message is one line: " + what);
+  }
+  return 0;
+}

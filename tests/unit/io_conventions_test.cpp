@@ -1,0 +1,279 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Units, coordinates, lines of axes and missing values, case by case. tests in Python hold the units against UDUNITS and whole files
+// against other readers.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "io/bad_value.h"
+#include "io/cf_reader.h"
+#include "io/cf_values.h"
+#include "rondel/conventions.h"
+#include "rondel/error.h"
+
+namespace rondel::test {
+namespace {
+
+using Doubles = std::vector<double>;
+using Texts = std::vector<std::pair<std::string, std::string>>;
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+VariableHeader header(const std::string& name, const std::vector<std::string>& dimensions,
+                      const Texts& texts = {}) {
+  return {name, true, dimensions, std::vector<std::uint64_t>(dimensions.size(), 4), texts};
+}
+
+// "lon/lat bounds/bounds" of the pairs of highest rank.
+std::vector<std::string> best(const std::vector<VariableHeader>& headers,
+                              const CoordinateQuery& query = {}) {
+  std::vector<std::string> found;
+  int rank = 0;
+  for (const CoordinatePair& pair : find_coordinates(headers, query)) {
+    if (!found.empty() && pair.rank < rank) break;
+    rank = pair.rank;
+    found.push_back(headers[pair.lon].name + "/" + headers[pair.lat].name);
+    if (pair.lon_bounds != CoordinatePair::none && pair.lat_bounds != CoordinatePair::none) {
+      found.back() += " " + headers[pair.lon_bounds].name + "/" + headers[pair.lat_bounds].name;
+    }
+  }
+  return found;
+}
+
+TEST(conventions, units_have_the_spellings_of_udunits) {
+  for (const char* text : {"degrees", "degree", "Degrees", "DEGREES_EAST", "degree_north",
+                           "degreeN", "degrees_E", "arcdeg", "arc_degree", " degrees ", "deg"}) {
+    EXPECT_EQ(degrees_per_unit(text), 1) << text;
+  }
+  for (const char* text : {"radian", "radians", "Radian", "RADIANS", "rad"}) {
+    EXPECT_EQ(degrees_per_unit(text), 57.29577951308232) << text;
+  }
+  EXPECT_EQ(degrees_per_unit("degrees_west"), -1);
+  // RAD is not the symbol; the others are no angles.
+  for (const char* text : {"", "RAD", "rads", "degC", "degrees_celsius", "K", "m", "1", "degF"}) {
+    EXPECT_FALSE(degrees_per_unit(text).has_value()) << text;
+  }
+}
+
+TEST(conventions, what_has_no_units_has_those_of_its_convention) {
+  EXPECT_NEAR(degrees_per_unit(header("lonCell", {"nCells"})), 57.3, 0.1);
+  EXPECT_NEAR(degrees_per_unit(header("vlat", {"vertex"}, {{"units", " "}})), 57.3, 0.1);
+  EXPECT_EQ(degrees_per_unit(header("lon", {"lon"})), 1);
+  const VariableHeader radians = header("clon", {"cell"}, {{"units", "radian"}});
+  EXPECT_NEAR(degrees_per_unit(header("clon_bnds", {"cell", "nv"}), &radians), 57.3, 0.1);
+  const VariableHeader own = header("clon_bnds", {"cell", "nv"}, {{"units", "degrees"}});
+  EXPECT_EQ(degrees_per_unit(own, &radians), 1);
+  EXPECT_THROW((void)degrees_per_unit(header("x", {"x"}, {{"units", "m"}})), InvalidInput);
+}
+
+TEST(conventions, coordinates_are_found_by_attributes_then_names) {
+  const Texts east = {{"units", "degrees_east"}};
+  const Texts north = {{"units", "degrees_north"}};
+  EXPECT_EQ(best({header("y", {"y"}, north), header("x", {"x"}, east)}),
+            (std::vector<std::string>{"x/y"}));
+  EXPECT_EQ(best({header("nav_lon", {"y", "x"}), header("nav_lat", {"x", "y"})}),
+            (std::vector<std::string>{"nav_lon/nav_lat"}));
+  // Units or a standard name deny what a name says.
+  EXPECT_TRUE(best({header("lon", {"n"}, {{"units", "m"}}), header("lat", {"n"})}).empty());
+  EXPECT_TRUE(
+      best({header("lon", {"n"}, {{"standard_name", "grid_longitude"}}), header("lat", {"n"})})
+          .empty());
+  // Of other lengths they do not belong together.
+  EXPECT_TRUE(best({header("lon", {"y", "x"}), header("lat", {"y"})}).empty());
+  EXPECT_EQ(best({header("lon", {"n"}), header("lat", {"n"}), header("longitude", {"n"})}),
+            (std::vector<std::string>{"lon/lat", "longitude/lat"}));
+  EXPECT_EQ(best({header("a", {"n"}), header("b", {"n"})}, {"a", "b", ""}),
+            (std::vector<std::string>{"a/b"}));
+  EXPECT_THROW((void)find_coordinates({}, {"a", "", ""}), InvalidInput);
+}
+
+TEST(conventions, listed_coordinates_come_before_axes_that_pretend) {
+  const Texts east = {{"units", "degrees_east"}};
+  const Texts north = {{"units", "degrees_north"}};
+  std::vector<VariableHeader> headers = {
+      header("Xdim", {"Xdim"}, east), header("Ydim", {"Ydim"}, north),
+      header("lons", {"nf", "Ydim", "Xdim"}, east), header("lats", {"nf", "Ydim", "Xdim"}, north),
+      header("T", {"time", "nf", "Ydim", "Xdim"})};
+  EXPECT_EQ(best(headers), (std::vector<std::string>{"Xdim/Ydim"}));
+  headers.back().texts.emplace_back("coordinates", "lons lats");
+  EXPECT_EQ(best(headers), (std::vector<std::string>{"lons/lats"}));
+  headers.push_back(header("corner_lons", {"nf", "YCdim", "XCdim"}, east));
+  headers.push_back(header("corner_lats", {"nf", "YCdim", "XCdim"}, north));
+  EXPECT_EQ(best(headers), (std::vector<std::string>{"lons/lats corner_lons/corner_lats"}));
+  // Of the staggered grid of a variable: its own.
+  headers.push_back(header("U", {"Ydim", "Xdim"}));
+  EXPECT_EQ(best(headers, {"", "", "U"}), (std::vector<std::string>{"Xdim/Ydim"}));
+}
+
+TEST(conventions, bounds_that_are_not_there_are_told) {
+  std::vector<std::string> remarks;
+  const std::vector<VariableHeader> headers = {header("lon", {"lon"}, {{"bounds", "lon_bnds"}}),
+                                               header("lat", {"lat"})};
+  const auto pairs = find_coordinates(headers, {}, &remarks);
+  ASSERT_EQ(pairs.size(), 1U);
+  EXPECT_EQ(pairs[0].lon_bounds, CoordinatePair::none);
+  EXPECT_EQ(remarks, (std::vector<std::string>{"there is no variable 'lon_bnds', which the "
+                                               "attribute bounds of 'lon' names"}));
+}
+
+TEST(conventions, lines_of_longitudes) {
+  const auto lines = [](const Doubles& values, const Doubles& bounds = {}) {
+    return axis_lines(values, bounds, true);
+  };
+  EXPECT_EQ(lines({0, 90, 180, -90}), (Doubles{-45, 45, 135, 225, 315}));
+  EXPECT_EQ(lines({3, 2, 1}), (Doubles{3.5, 2.5, 1.5, 0.5}));
+  EXPECT_EQ(lines({10, 0, 350}), (Doubles{15, 5, -5, -15}));
+  // Both ends: each has half of the cell.
+  EXPECT_EQ(lines({0, 120, 240, 360}), (Doubles{0, 60, 180, 300, 360}));
+  EXPECT_EQ(lines({180, 60, -60, -180}), (Doubles{180, 120, 0, -120, -180}));
+  EXPECT_EQ(lines({0, 120, 240, 360}, {-60, 60, 60, 180, 180, 300, 300, 420}),
+            (Doubles{0, 60, 180, 300, 360}));
+  // Bounds in either order, rolled, across the meridian where they jump, and decreasing under coordinates that do.
+  EXPECT_EQ(lines({5, 15}, {10, 0, 20, 10}), (Doubles{0, 10, 20}));
+  EXPECT_EQ(lines({-175, -5, 5, 175}, {180, 270, 270, 360, 0, 90, 90, 180}),
+            (Doubles{180, 270, 360, 450, 540}));
+  EXPECT_EQ(lines({355, 5}, {350, 0, 0, 10}), (Doubles{350, 360, 370}));
+  EXPECT_EQ(lines({355, 5}, {0, 350, 10, 0}), (Doubles{350, 360, 370}));
+  EXPECT_EQ(lines({15, 5}, {10, 20, 0, 10}), (Doubles{20, 10, 0}));
+  EXPECT_EQ(lines({15, 5}, {20, 10, 0}), (Doubles{20, 10, 0}));
+  EXPECT_EQ(lines({180}, {0, 360}), (Doubles{0, 360}));
+  EXPECT_EQ(lines({95, 275}, {0, 190, 190, 360}), (Doubles{0, 190, 360}));
+  EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30}), InvalidInput);
+  EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30, 40}), InvalidInput);
+  EXPECT_THROW((void)lines({5}), InvalidInput);
+  EXPECT_THROW((void)lines({5, nan}), InvalidInput);
+}
+
+TEST(conventions, lines_of_latitudes) {
+  const auto lines = [](const Doubles& values, const Doubles& bounds = {}) {
+    return axis_lines(values, bounds, false);
+  };
+  EXPECT_EQ(lines({60, 20, -20, -60}), (Doubles{90, 40, 0, -40, -90}));
+  EXPECT_EQ(lines({-90, 0, 90}), (Doubles{-90, -45, 45, 90}));
+  EXPECT_EQ(lines({5, -5}, {10, 0, 0, -10}), (Doubles{10, 0, -10}));
+  EXPECT_EQ(lines({5, -5}, {0, 10, -10, 0}), (Doubles{10, 0, -10}));
+  // Rounded to single precision from radians.
+  EXPECT_EQ(lines({0}, {-90.0000025, 90.0000025}), (Doubles{-90, 90}));
+}
+
+TEST(conventions, places_repeat_along_time) {
+  const auto repeated = [](const std::vector<std::string>& names,
+                           const std::vector<std::uint64_t>& shape, const Doubles& lon,
+                           const Doubles& lat) {
+    return repeated_dimensions(names, shape, lon, lat);
+  };
+  using Answers = std::vector<bool>;
+  const Doubles lon = {0, 1, 0, 1, 0, 1, 0, 1};
+  const Doubles lat = {5, 5, 6, 6, 5, 5, 6, 6};
+  EXPECT_EQ(repeated({"Time", "y", "x"}, {2, 2, 2}, lon, lat), (Answers{true, false, false}));
+  EXPECT_EQ(
+      repeated({"y", "x", "Time"}, {2, 2, 2}, {0, 0, 1, 1, 0, 0, 1, 1}, {5, 5, 5, 5, 6, 6, 6, 6}),
+      (Answers{false, false, true}));
+  // A face of a cube is no time, also if there is one only.
+  EXPECT_EQ(repeated({"nf", "y", "x"}, {1, 2, 2}, {0, 1, 0, 1}, {5, 5, 6, 6}),
+            (Answers{false, false, false}));
+  EXPECT_EQ(repeated({"time", "n"}, {1, 2}, {0, 1}, {5, 5}), (Answers{true, false}));
+  // A track moves; a grid that does is refused.
+  EXPECT_EQ(repeated({"time", "n"}, {2, 1}, {0, 1}, {5, 5}), (Answers{false, false}));
+  EXPECT_THROW((void)repeated({"Time", "y", "x"}, {2, 2, 2}, {0, 1, 0, 1, 0, 1, 0, 2}, lat),
+               InvalidInput);
+  EXPECT_THROW((void)repeated({"y", "x"}, {2, 2}, lon, lat), InvalidInput);
+}
+
+using io::NetcdfAttribute;
+using io::NetcdfType;
+
+Doubles meant(NetcdfType type, std::vector<NetcdfAttribute> attributes, Doubles values) {
+  io::ValueRules({"v", type, {}, std::move(attributes)}).apply(values);
+  return values;
+}
+NetcdfAttribute numbers(const char* name, NetcdfType type, Doubles values) {
+  return {name, type, {}, std::move(values)};
+}
+
+void expect_same(const Doubles& found, const Doubles& wanted) {
+  ASSERT_EQ(found.size(), wanted.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    EXPECT_TRUE(found[i] == wanted[i] || (std::isnan(found[i]) && std::isnan(wanted[i])))
+        << i << ": " << found[i] << " instead of " << wanted[i];
+  }
+}
+
+TEST(conventions, missing_values_of_any_type) {
+  const double single = static_cast<double>(1e20F);
+  expect_same(meant(NetcdfType::float32, {numbers("missing_value", NetcdfType::float64, {1e20})},
+                    {1, single}),
+              {1, nan});
+  expect_same(meant(NetcdfType::float64, {numbers("missing_value", NetcdfType::float32, {single})},
+                    {1, 1e20, single}),
+              {1, nan, nan});
+  expect_same(meant(NetcdfType::int16, {numbers("missing_value", NetcdfType::float64, {-9, -8})},
+                    {-9, -8, -7, -32767}),
+              {nan, nan, -7, nan});
+  expect_same(meant(NetcdfType::int16, {{"missing_value", NetcdfType::text, "-99", {}}}, {-99, 1}),
+              {nan, 1});
+  expect_same(meant(NetcdfType::float32, {}, {static_cast<double>(9.9692099683868690e+36F)}),
+              {nan});
+  expect_same(meant(NetcdfType::float32, {numbers("_FillValue", NetcdfType::float32, {-1})},
+                    {static_cast<double>(9.9692099683868690e+36F), -1}),
+              {static_cast<double>(9.9692099683868690e+36F), nan});
+  expect_same(meant(NetcdfType::int8, {}, {-127}), {-127});
+}
+
+TEST(conventions, valid_ranges_are_of_packed_numbers) {
+  expect_same(meant(NetcdfType::float32, {numbers("valid_max", NetcdfType::float32, {5})}, {5, 6}),
+              {5, nan});
+  expect_same(meant(NetcdfType::int16,
+                    {numbers("valid_range", NetcdfType::int16, {0, 10}),
+                     numbers("scale_factor", NetcdfType::float64, {0.5})},
+                    {-1, 4, 11}),
+              {nan, 2, nan});
+  // Of the type of scale_factor: they are of unpacked numbers.
+  expect_same(meant(NetcdfType::int16,
+                    {numbers("valid_range", NetcdfType::float64, {0, 10}),
+                     numbers("scale_factor", NetcdfType::float64, {0.5})},
+                    {-1, 4, 20, 21}),
+              {nan, 2, 10, nan});
+}
+
+TEST(conventions, unsigned_and_packed_numbers) {
+  expect_same(meant(NetcdfType::int8,
+                    {{"_Unsigned", NetcdfType::text, "true", {}},
+                     numbers("_FillValue", NetcdfType::int8, {-1})},
+                    {-56, 1, -1}),
+              {200, 1, nan});
+  expect_same(meant(NetcdfType::uint8, {{"_Unsigned", NetcdfType::text, "false", {}}}, {200}),
+              {-56});
+  expect_same(meant(NetcdfType::int16,
+                    {{"scale_factor", NetcdfType::text, " 0.5 ", {}},
+                     numbers("add_offset", NetcdfType::float32, {10})},
+                    {4}),
+              {12});
+  const io::NetcdfVariable two{
+      "v", NetcdfType::int16, {}, {numbers("scale_factor", NetcdfType::float64, {1, 2})}};
+  EXPECT_THROW(io::ValueRules{two}, io::BadValue);
+  const io::NetcdfVariable word{
+      "v", NetcdfType::int16, {}, {{"add_offset", NetcdfType::text, "none", {}}}};
+  EXPECT_THROW(io::ValueRules{word}, io::BadValue);
+}
+
+TEST(conventions, dimensions_in_another_order) {
+  Doubles values;
+  for (double value = 0; value < 24; ++value) values.push_back(value);
+  const std::vector<std::uint64_t> shape = {2, 3, 4};
+  const Doubles found = io::transposed(shape, {2, 0, 1}, values);
+  for (std::size_t k = 0; k < 24; ++k) {
+    const std::size_t of_2 = k / 6;
+    const std::size_t of_0 = k / 3 % 2;
+    const std::size_t of_1 = k % 3;
+    EXPECT_EQ(found[k], static_cast<double>((of_0 * 3 + of_1) * 4 + of_2));
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test
