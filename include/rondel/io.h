@@ -36,6 +36,11 @@ struct FileName {
   std::string format;  ///< "ply", "npy" ...; empty: by the ending of the path
 };
 
+/// Where the library netCDF-C is, which reads and writes netCDF-4 (HDF5): the path or the name of its file, which is tried before
+/// the names under which systems have it. For programs that bring it; to be called before the first file of netCDF-4. The
+/// environment's variable RONDEL_NETCDF is stronger.
+RONDEL_API void set_netcdf_library(const std::string& path);
+
 /// How to read sites.
 struct ReadOptions {
   char delimiter = '\0';  ///< of .csv and .tsv; 0: a comma, a tab

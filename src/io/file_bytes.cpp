@@ -47,13 +47,22 @@ FileBytes::Descriptor::~Descriptor() {
 std::string_view FileBytes::text() {
   std::size_t capacity = head_size;
   while (!is_at_end_) {
-    capacity = std::max<std::size_t>(2 * capacity, claimed_size_ + 1);
-    auto longer = system::make_large_array<char>(capacity);
-    std::copy_n(bytes_.get(), num_read_, longer.get());
-    bytes_ = std::move(longer);
-    read_up_to(capacity);
+    capacity = std::max<std::size_t>(2 * std::max(capacity, num_read_), claimed_size_ + 1);
+    grow(capacity);
   }
   return head();
+}
+
+std::string_view FileBytes::longer_head(std::size_t size) {
+  if (size > num_read_ && !is_at_end_) grow(size);
+  return head();
+}
+
+void FileBytes::grow(std::size_t capacity) {
+  auto longer = system::make_large_array<char>(capacity);
+  std::copy_n(bytes_.get(), num_read_, longer.get());
+  bytes_ = std::move(longer);
+  read_up_to(capacity);
 }
 
 void FileBytes::read_at(std::uint64_t place, char* bytes, std::size_t size) const {

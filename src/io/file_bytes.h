@@ -24,13 +24,15 @@ class RONDEL_API FileBytes {
 
   // The file in messages.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  // The first bytes, 128 KiB or all.
+  // The first bytes: 128 KiB, those that were asked for, or all.
   [[nodiscard]] std::string_view head() const noexcept { return {bytes_.get(), num_read_}; }
   // The number of bytes as the system tells it; 0 if it does not know.
   [[nodiscard]] std::uint64_t claimed_size() const noexcept { return claimed_size_; }
 
   // All bytes. Throws FileError.
   std::string_view text();
+  // At least so many of the first bytes, or all. Throws FileError.
+  std::string_view longer_head(std::size_t size);
 
   // Bytes of a file of known size, from this place on, without those before; several threads may ask.
   // Throws FileError, also where the file has ended by now.
@@ -45,6 +47,7 @@ class RONDEL_API FileBytes {
     ~Descriptor();
   };
 
+  void grow(std::size_t capacity);
   void read_up_to(std::size_t size);
   [[noreturn]] void fail(int error) const;
 

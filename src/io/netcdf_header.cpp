@@ -133,9 +133,6 @@ void read_variable(HeaderFields& fields, std::size_t num_dimensions,
 }
 
 int version_of(std::string_view bytes) {
-  if (bytes.starts_with("\x89HDF\r\n\x1a\n")) {
-    throw BadValue("netCDF-4 (HDF5) is not read; nccopy -k cdf5 makes a classic file of it");
-  }
   if (!bytes.starts_with("CDF")) throw BadValue("not a netCDF file");
   const int version = bytes.size() > 3 ? bytes[3] : 0;
   if (version != 1 && version != 2 && version != 5) {

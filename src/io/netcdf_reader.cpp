@@ -8,6 +8,7 @@
 
 #include "io/bad_value.h"
 #include "io/binary.h"
+#include "io/netcdf4_file.h"
 #include "io/netcdf_header.h"
 #include "io/number.h"
 
@@ -30,6 +31,14 @@ std::uint64_t sum(const NetcdfReader::Variable& variable, std::uint64_t a, std::
   return result;
 }
 
+constexpr const char* not_numbers = "is a text where numbers are needed";
+
+void require_signed(const NetcdfReader::Variable& variable, std::span<const std::int64_t> values) {
+  for (const std::int64_t value : values) {
+    if (value < 0) refuse(variable, "has an integer beyond 2^63");
+  }
+}
+
 // Where it ends of which `size` bytes are at `offset`, held against the file.
 void require_bytes(const NetcdfReader::Variable& variable, std::uint64_t size,
                    std::uint64_t file_size) {
@@ -42,27 +51,48 @@ void require_bytes(const NetcdfReader::Variable& variable, std::uint64_t size,
 
 }  // namespace
 
+bool is_netcdf(std::string_view head) { return head.starts_with("CDF") || is_hdf5(head); }
+
 NetcdfReader::NetcdfReader(std::string_view bytes) : bytes_(bytes), size_(bytes.size()) {
-  parse(bytes);
+  if (is_hdf5(bytes)) {
+    netcdf4_ = std::make_shared<const Netcdf4File>(bytes);
+    take(netcdf4_->header());
+  } else {
+    parse(bytes);
+  }
 }
 
 NetcdfReader::NetcdfReader(FileBytes& file) : file_(&file), size_(file.claimed_size()) {
-  try {
-    if (size_ > file.head().size()) {
+  if (size_ > 0 && is_hdf5(file.head())) {
+    netcdf4_ = std::make_shared<const Netcdf4File>(file.name());
+    take(netcdf4_->header());
+    return;
+  }
+  constexpr std::size_t growth = 8;
+  while (size_ > file.head().size()) {
+    try {
       parse(file.head());
       return;
+    } catch (const BadValue&) {
+      // It may be the head that is cut off, and not the file.
+      file.longer_head(growth * file.head().size());
     }
-  } catch (const BadValue&) {
-    // It may be the head that is cut off, and not the file.
   }
   *this = NetcdfReader(file.text());
 }
 
-void NetcdfReader::parse(std::string_view head) {
-  NetcdfHeader header = parse_netcdf_header(head);
+void NetcdfReader::take(NetcdfHeader&& header) {
   dimensions_ = std::move(header.dimensions);
   attributes_ = std::move(header.attributes);
   variables_ = std::move(header.variables);
+}
+
+void NetcdfReader::parse(std::string_view head) {
+  NetcdfHeader header = parse_netcdf_header(head);
+  record_size_ = 0;
+  const bool counts_records = header.counts_records;
+  const std::uint64_t num_records = header.num_records;
+  take(std::move(header));
   for (Variable& variable : variables_) {
     variable.record_values = 1;
     for (std::size_t i = 0; i < variable.dimensions.size(); ++i) {
@@ -80,8 +110,7 @@ void NetcdfReader::parse(std::string_view head) {
     variable.num_values = variable.record_values;
     if (!variable.has_records) require_bytes(variable, size, size_);
   }
-  place_records(header.counts_records ? header.num_records
-                                      : std::numeric_limits<std::uint64_t>::max());
+  place_records(counts_records ? num_records : std::numeric_limits<std::uint64_t>::max());
 }
 
 // The records of all variables follow each other; of a single variable they are not padded. Where the
@@ -166,7 +195,10 @@ void NetcdfReader::copy(const Variable& variable, std::uint64_t begin, std::span
 
 void NetcdfReader::read_numbers(const Variable& variable, std::uint64_t begin,
                                 std::span<double> out) const {
-  if (variable.type == NetcdfType::float64) {
+  if (netcdf4_ != nullptr) {
+    if (variable.type == NetcdfType::text) refuse(variable, not_numbers);
+    netcdf4_->read(variable, begin, out);
+  } else if (variable.type == NetcdfType::float64) {
     copy<double>(variable, begin, out);
   } else if (variable.type == NetcdfType::float32) {
     copy<float>(variable, begin, out);
@@ -179,17 +211,26 @@ void NetcdfReader::read_numbers(const Variable& variable, std::uint64_t begin,
   }
 }
 
+// Checked before there is room for the values.
+void NetcdfReader::require_room(const Variable& variable) const {
+  if (variable.type == NetcdfType::text) refuse(variable, not_numbers);
+  // Values that were never written take no bytes, and those that are all the same hardly any: this only keeps a damaged
+  // size from taking all of the memory.
+  constexpr std::uint64_t most_packed = std::uint64_t{1} << 20U;
+  if (netcdf4_ == nullptr || variable.num_values / most_packed <= size_) return;
+  refuse(variable, "has " + std::to_string(variable.num_values) + " values in a file of " +
+                       std::to_string(size_) + " bytes");
+}
+
 std::vector<double> NetcdfReader::numbers(const Variable& variable) const {
-  // Checked before there is room for them.
-  if (variable.type == NetcdfType::text) refuse(variable, "is a text where numbers are needed");
+  require_room(variable);
   std::vector<double> values(variable.num_values);
   read_numbers(variable, 0, values);
   return values;
 }
 
 std::vector<std::int64_t> NetcdfReader::integers(const Variable& variable) const {
-  // Checked before there is room for them.
-  if (variable.type == NetcdfType::text) refuse(variable, "is a text where numbers are needed");
+  require_room(variable);
   std::vector<std::int64_t> values(variable.num_values);
   read_integers(variable, 0, values);
   return values;
@@ -197,7 +238,14 @@ std::vector<std::int64_t> NetcdfReader::integers(const Variable& variable) const
 
 void NetcdfReader::read_integers(const Variable& variable, std::uint64_t begin,
                                  std::span<std::int64_t> out) const {
-  switch (variable.type) {
+  const NetcdfType type = variable.type;
+  const bool is_floating = type == NetcdfType::float32 || type == NetcdfType::float64;
+  if (netcdf4_ != nullptr && type != NetcdfType::text && !is_floating) {
+    netcdf4_->read(variable, begin, out);
+    if (type == NetcdfType::uint64) require_signed(variable, out);
+    return;
+  }
+  switch (type) {
     case NetcdfType::int8:
       copy<std::int8_t>(variable, begin, out);
       break;
@@ -221,12 +269,10 @@ void NetcdfReader::read_integers(const Variable& variable, std::uint64_t begin,
       break;
     case NetcdfType::uint64:
       copy<std::uint64_t>(variable, begin, out);
-      for (const std::int64_t value : out) {
-        if (value < 0) refuse(variable, "has an integer beyond 2^63");
-      }
+      require_signed(variable, out);
       break;
     case NetcdfType::text:
-      refuse(variable, "is a text where numbers are needed");
+      refuse(variable, not_numbers);
     case NetcdfType::float32:
     case NetcdfType::float64:
       refuse(variable, "is not of integers");

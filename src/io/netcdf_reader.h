@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Files of netCDF's classic formats, read in place.
+// Files of netCDF: of the classic formats, read in place; of netCDF-4 (HDF5), read by netCDF-C where it is installed.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,6 +18,17 @@
 
 namespace rondel::io {
 
+class Netcdf4File;
+struct NetcdfHeader;
+
+// Whether the bytes that a file begins with are those of a netCDF file, of any of its formats.
+RONDEL_API bool is_netcdf(std::string_view head);
+
+// A file of netCDF-4 has what the classic formats have, and more:
+// 1. Variables of a group are called "group/name", and come after those of the file itself, as do dimensions.
+// 2. A variable of strings is of the type text. Its values are not read.
+// 3. An attribute of several strings is a text with spaces between them.
+// 4. Variables and attributes of types that the file defines itself are left out.
 class RONDEL_API NetcdfReader {
  public:
   struct Variable : NetcdfVariable {
@@ -25,14 +37,16 @@ class RONDEL_API NetcdfReader {
     bool has_records = false;
     std::uint64_t record_values = 0;  // values in a record; else all
     std::uint64_t num_values = 0;
+    int group = 0;  // netCDF-4: the numbers that netCDF-C has for its group and for itself
+    int number = 0;
   };
 
   // Reads the header and holds it against the bytes, which live as long as this. Throws BadValue:
   // nothing is allocated for what a count claims before the bytes can have it, and every value of every
-  // variable is there.
+  // variable is there. netCDF-4 is compressed, and is held against what compression can do.
   explicit NetcdfReader(std::string_view bytes);
-  // The same of a file, of which only the header is in memory, and values are read when they are asked for; all of
-  // it, where its size is not known or its header is longer than its head. Throws FileError, too.
+  // The same of a file, which lives as long as this, of which only the header is in memory, and values are read when they are
+  // asked for; all of it, where its size is not known. Throws FileError, too.
   explicit NetcdfReader(FileBytes& file);
 
   [[nodiscard]] std::uint64_t num_bytes() const { return size_; }
@@ -54,7 +68,9 @@ class RONDEL_API NetcdfReader {
   [[nodiscard]] std::vector<std::int64_t> integers(const Variable& variable) const;
 
  private:
+  void take(NetcdfHeader&& header);
   void parse(std::string_view head);
+  void require_room(const Variable& variable) const;
   [[nodiscard]] std::uint64_t place(const Variable& variable, std::uint64_t index) const;
   template <typename T, typename Out>
   void copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const;
@@ -62,6 +78,7 @@ class RONDEL_API NetcdfReader {
 
   std::string_view bytes_;
   const FileBytes* file_ = nullptr;  // where the bytes are not in memory
+  std::shared_ptr<const Netcdf4File> netcdf4_;
   std::uint64_t size_ = 0;
   std::vector<NetcdfDimension> dimensions_;
   std::vector<NetcdfAttribute> attributes_;

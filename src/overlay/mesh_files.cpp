@@ -173,7 +173,7 @@ CellTable read_cells(const FileName& file) {
   }
   io::FileBytes bytes(whole.path, true);
   return io::in_file(bytes.name(), [&] {
-    overlay::MeshContent mesh = read_mesh(io::NetcdfReader(bytes.text()), name);
+    overlay::MeshContent mesh = read_mesh(io::NetcdfReader(bytes), name);
     CellTable table;
     table.name = bytes.name();
     if (!mesh.grid) table.cells = cells_of(mesh);

@@ -88,7 +88,6 @@ TEST(netcdf_reader, counts_records_that_the_header_does_not_count) {
 }
 
 TEST(netcdf_reader, says_what_it_does_not_read) {
-  EXPECT_NE(refusal("\x89HDF\r\n\x1a\nmore").find("nccopy -k cdf5"), std::string::npos);
   EXPECT_EQ(refusal("text"), "not a netCDF file");
   EXPECT_NE(refusal("CDF\3").find("classic"), std::string::npos);
   EXPECT_EQ(refusal("CDF\1"), "the header is cut off");

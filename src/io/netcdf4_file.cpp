@@ -1,0 +1,238 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/netcdf4_file.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "io/bad_value.h"
+#include "io/netcdf_slabs.h"
+#include "io/number.h"
+
+namespace rondel::io {
+namespace {
+
+using NetcdfLock = std::lock_guard<system::Mutex>;
+using NetcdfName = std::array<char, netcdf_largest_name + 1>;
+
+constexpr std::string_view hdf5_signature = "\x89HDF\r\n\x1a\n";
+
+// An attribute that is longer is damaged, or nothing that a reader of fields and meshes asks for.
+constexpr std::size_t longest_attribute = std::size_t{1} << 24U;
+
+// Opens the file by `open`, and says why it could not.
+template <class Open>
+int opened(const NetcdfLibrary& library, const Open& open) {
+  const NetcdfLock lock(netcdf_library_lock());
+  int number = 0;
+  if (const int error = open(number); error != 0) {
+    throw BadValue(std::string("not netCDF-4, or damaged; netCDF-C says: ") +
+                   library.error_text(error));
+  }
+  return number;
+}
+
+// Reads what the header of a file tells, group by group. Errors are those of single things, which are left out.
+class Netcdf4Header {
+ public:
+  explicit Netcdf4Header(const NetcdfLibrary& library) : library_(library) {}
+
+  void add_group(int group, const std::string& prefix) {
+    int num_dimensions = 0;
+    int num_variables = 0;
+    int num_attributes = 0;
+    int unlimited = 0;
+    require_netcdf(library_, library_.inquire(group, &num_dimensions, &num_variables,
+                                              &num_attributes, &unlimited));
+    add_dimensions(group, prefix);
+    if (prefix.empty()) {
+      header_.attributes = attributes_of(group, netcdf_whole_file, num_attributes);
+    }
+    for (int number = 0; number < num_variables; ++number) add_variable(group, number, prefix);
+    int num_groups = 0;
+    require_netcdf(library_, library_.group_ids(group, &num_groups, nullptr));
+    std::vector<int> groups(static_cast<std::size_t>(num_groups));
+    if (num_groups > 0) require_netcdf(library_, library_.group_ids(group, nullptr, groups.data()));
+    for (const int inner : groups) {
+      NetcdfName name{};
+      if (library_.group_name(inner, name.data()) != 0) continue;
+      add_group(inner, prefix + name.data() + '/');
+    }
+  }
+
+  NetcdfHeader take() { return std::move(header_); }
+
+ private:
+  void add_dimensions(int group, const std::string& prefix) {
+    int count = 0;
+    require_netcdf(library_, library_.dimension_ids(group, &count, nullptr, 0));
+    std::vector<int> numbers(static_cast<std::size_t>(count));
+    if (count > 0) {
+      require_netcdf(library_, library_.dimension_ids(group, nullptr, numbers.data(), 0));
+    }
+    for (const int number : numbers) {
+      NetcdfName name{};
+      std::size_t size = 0;
+      require_netcdf(library_, library_.dimension(group, number, name.data(), &size));
+      numbers_.push_back(number);
+      header_.dimensions.push_back({prefix + name.data(), size});
+    }
+  }
+
+  void add_variable(int group, int number, const std::string& prefix) {
+    NetcdfName name{};
+    int type = 0;
+    int rank = 0;
+    int num_attributes = 0;
+    std::vector<int> dimensions(netcdf_most_dimensions);
+    if (library_.variable(group, number, name.data(), &type, &rank, dimensions.data(),
+                          &num_attributes) != 0 ||
+        type <= 0 || type > netcdf_string_type) {
+      return;
+    }
+    NetcdfReader::Variable variable;
+    variable.name = prefix + name.data();
+    variable.type =
+        type == netcdf_string_type ? NetcdfType::text : static_cast<NetcdfType>(type);
+    variable.group = group;
+    variable.number = number;
+    variable.num_values = 1;
+    for (int d = 0; d < rank; ++d) {
+      const auto at = std::ranges::find(numbers_, dimensions[static_cast<std::size_t>(d)]);
+      if (at == numbers_.end()) return;
+      variable.dimensions.push_back(static_cast<std::size_t>(at - numbers_.begin()));
+      const std::uint64_t size = header_.dimensions[variable.dimensions.back()].size;
+      variable.shape.push_back(size);
+      if (__builtin_mul_overflow(variable.num_values, size, &variable.num_values)) return;
+    }
+    std::uint64_t num_bytes = 0;
+    if (__builtin_mul_overflow(variable.num_values, sizeof(double), &num_bytes)) return;
+    variable.record_values = variable.num_values;
+    variable.attributes = attributes_of(group, number, num_attributes);
+    header_.variables.push_back(std::move(variable));
+  }
+
+  std::vector<NetcdfAttribute> attributes_of(int group, int variable, int count) {
+    std::vector<NetcdfAttribute> attributes;
+    for (int i = 0; i < count; ++i) {
+      NetcdfName name{};
+      int type = 0;
+      std::size_t size = 0;
+      if (library_.attribute_name(group, variable, i, name.data()) != 0 ||
+          library_.attribute(group, variable, name.data(), &type, &size) != 0 ||
+          size > longest_attribute) {
+        continue;
+      }
+      NetcdfAttribute attribute{name.data(), NetcdfType::text, {}, {}};
+      if (read_attribute(group, variable, type, size, attribute)) {
+        attributes.push_back(std::move(attribute));
+      }
+    }
+    return attributes;
+  }
+
+  bool read_attribute(int group, int variable, int type, std::size_t size,
+                      NetcdfAttribute& attribute) {
+    const char* const name = attribute.name.c_str();
+    if (type == netcdf_string_type) return read_strings(group, variable, size, attribute);
+    if (type == static_cast<int>(NetcdfType::text)) {
+      attribute.text.resize(size);
+      if (library_.attribute_text(group, variable, name, attribute.text.data()) != 0) return false;
+      attribute.text.resize(std::min(size, attribute.text.find('\0')));
+      return true;
+    }
+    if (type <= 0 || type > netcdf_string_type) return false;
+    attribute.type = static_cast<NetcdfType>(type);
+    attribute.numbers.resize(size);
+    return library_.attribute_numbers(group, variable, name, attribute.numbers.data()) == 0;
+  }
+
+  bool read_strings(int group, int variable, std::size_t size, NetcdfAttribute& attribute) {
+    std::vector<char*> strings(size, nullptr);
+    if (library_.attribute_strings(group, variable, attribute.name.c_str(), strings.data()) != 0) {
+      return false;
+    }
+    for (std::size_t i = 0; i < size; ++i) {
+      if (i > 0) attribute.text += ' ';
+      if (strings[i] != nullptr) attribute.text += strings[i];
+    }
+    library_.free_strings(size, strings.data());
+    return true;
+  }
+
+  const NetcdfLibrary& library_;
+  NetcdfHeader header_;
+  std::vector<int> numbers_;  // netCDF-C's, of the dimensions
+};
+
+}  // namespace
+
+bool is_hdf5(std::string_view head) {
+  if (head.starts_with(hdf5_signature)) return true;
+  for (std::size_t at = 512; at < head.size(); at *= 2) {
+    if (head.substr(at).starts_with(hdf5_signature)) return true;
+  }
+  return false;
+}
+
+// A whole path is never taken for an address in a network.
+Netcdf4File::Netcdf4File(const std::string& path) : library_(netcdf_library()) {
+  const std::string whole = std::filesystem::absolute(path).string();
+  number_ =
+      opened(library_, [&](int& number) { return library_.open(whole.c_str(), 0, &number); });
+}
+
+Netcdf4File::Netcdf4File(std::string_view bytes) : library_(netcdf_library()) {
+  number_ = opened(library_, [&](int& number) {
+    // It is opened to be read: nobody changes the bytes.
+    return library_.open_memory("memory", 0, bytes.size(), const_cast<char*>(bytes.data()),
+                                &number);
+  });
+}
+
+Netcdf4File::~Netcdf4File() {
+  const NetcdfLock lock(netcdf_library_lock());
+  library_.close(number_);
+}
+
+NetcdfHeader Netcdf4File::header() const {
+  const NetcdfLock lock(netcdf_library_lock());
+  Netcdf4Header reader(library_);
+  reader.add_group(number_, {});
+  return reader.take();
+}
+
+void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t begin,
+                       std::span<double> out) const {
+  const NetcdfLock lock(netcdf_library_lock());
+  for_each_slab(variable.shape, begin, out.size(),
+                [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
+                  require_netcdf(library_, library_.read_doubles(variable.group, variable.number,
+                                                                 start.data(), count.data(),
+                                                                 out.data() + offset));
+                });
+}
+
+void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t begin,
+                       std::span<std::int64_t> out) const {
+  static_assert(sizeof(long long) == sizeof(std::int64_t));
+  const bool is_natural = variable.type == NetcdfType::uint64;
+  const NetcdfLock lock(netcdf_library_lock());
+  const auto read = [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
+    std::int64_t* const at = out.data() + offset;
+    require_netcdf(library_,
+                   is_natural
+                       ? library_.read_naturals(variable.group, variable.number, start.data(),
+                                                count.data(),
+                                                reinterpret_cast<unsigned long long*>(at))
+                       : library_.read_integers(variable.group, variable.number, start.data(),
+                                                count.data(), reinterpret_cast<long long*>(at)));
+  };
+  for_each_slab(variable.shape, begin, out.size(), read);
+}
+
+}  // namespace rondel::io

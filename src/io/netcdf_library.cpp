@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/netcdf_library.h"
+
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "io/bad_value.h"
+#include "rondel/io.h"
+#include "system/dynamic_library.h"
+
+namespace rondel {
+namespace io {
+namespace {
+
+std::string& named_netcdf_library() {
+  static std::string name;
+  return name;
+}
+
+// Of the library's versions of its interface, from those that may come on down to that of 4.4.
+void* open_netcdf_library() {
+  if (const char* const name = std::getenv("RONDEL_NETCDF"); name != nullptr && *name != '\0') {
+    return system::open_library(name);
+  }
+  if (!named_netcdf_library().empty()) {
+    if (void* const library = system::open_library(named_netcdf_library())) return library;
+  }
+  for (int version = 40; version >= 11; --version) {
+    if (void* const library = system::open_library("libnetcdf.so." + std::to_string(version))) {
+      return library;
+    }
+  }
+  for (const char* const name :
+       {"libnetcdf.so", "libnetcdf.dylib", "/opt/homebrew/lib/libnetcdf.dylib",
+        "/usr/local/lib/libnetcdf.dylib", "netcdf.dll", "libnetcdf.dll"}) {
+    if (void* const library = system::open_library(name)) return library;
+  }
+  return nullptr;
+}
+
+class NetcdfSymbols {
+ public:
+  explicit NetcdfSymbols(void* library) : library_(library) {}
+
+  template <class Function>
+  void get(Function& function, const char* name) {
+    void* const address = system::symbol_of(library_, name);
+    has_all_ = has_all_ && address != nullptr;
+    std::memcpy(&function, &address, sizeof function);
+  }
+  [[nodiscard]] bool has_all() const { return has_all_; }
+
+ private:
+  void* library_;
+  bool has_all_ = true;
+};
+
+bool load_netcdf(void* library, NetcdfLibrary& netcdf) {
+  NetcdfSymbols from(library);
+  from.get(netcdf.error_text, "nc_strerror");
+  from.get(netcdf.open, "nc_open");
+  from.get(netcdf.open_memory, "nc_open_mem");
+  from.get(netcdf.close, "nc_close");
+  from.get(netcdf.inquire, "nc_inq");
+  from.get(netcdf.dimension_ids, "nc_inq_dimids");
+  from.get(netcdf.dimension, "nc_inq_dim");
+  from.get(netcdf.group_ids, "nc_inq_grps");
+  from.get(netcdf.group_name, "nc_inq_grpname");
+  from.get(netcdf.variable, "nc_inq_var");
+  from.get(netcdf.attribute_name, "nc_inq_attname");
+  from.get(netcdf.attribute, "nc_inq_att");
+  from.get(netcdf.attribute_text, "nc_get_att_text");
+  from.get(netcdf.attribute_strings, "nc_get_att_string");
+  from.get(netcdf.attribute_numbers, "nc_get_att_double");
+  from.get(netcdf.free_strings, "nc_free_string");
+  from.get(netcdf.read_doubles, "nc_get_vara_double");
+  from.get(netcdf.read_integers, "nc_get_vara_longlong");
+  from.get(netcdf.read_naturals, "nc_get_vara_ulonglong");
+  from.get(netcdf.create, "nc_create");
+  from.get(netcdf.add_dimension, "nc_def_dim");
+  from.get(netcdf.add_variable, "nc_def_var");
+  from.get(netcdf.put_text, "nc_put_att_text");
+  from.get(netcdf.put_numbers, "nc_put_att_double");
+  from.get(netcdf.set_chunks, "nc_def_var_chunking");
+  from.get(netcdf.set_deflate, "nc_def_var_deflate");
+  from.get(netcdf.set_fill, "nc_def_var_fill");
+  from.get(netcdf.end_definitions, "nc_enddef");
+  from.get(netcdf.write, "nc_put_vara");
+  return from.has_all();
+}
+
+}  // namespace
+
+system::Mutex& netcdf_library_lock() {
+  static system::Mutex lock;
+  return lock;
+}
+
+const NetcdfLibrary& netcdf_library() {
+  static NetcdfLibrary netcdf{};
+  static const bool is_loaded = [] {
+    void* const library = open_netcdf_library();
+    return library != nullptr && load_netcdf(library, netcdf);
+  }();
+  if (!is_loaded) {
+    throw BadValue(
+        "netCDF-4 (HDF5) needs the library netCDF-C, which is not found: install libnetcdf19 (Debian), netcdf (Homebrew, "
+        "conda) or, for Python, netCDF4 (pip); or name the file of the library by RONDEL_NETCDF");
+  }
+  return netcdf;
+}
+
+void require_netcdf(const NetcdfLibrary& library, int error) {
+  if (error != 0) throw BadValue(std::string("netCDF-C says: ") + library.error_text(error));
+}
+
+}  // namespace io
+
+void set_netcdf_library(const std::string& path) { io::named_netcdf_library() = path; }
+
+}  // namespace rondel

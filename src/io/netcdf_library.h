@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// netCDF-C, loaded when a file of netCDF-4 is to be read or written: nothing needs it to be built or to run. These are
+// functions of its C interface, whose binary form is the same since netCDF-C 4.4.
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+
+#include "system/mutex.h"
+
+namespace rondel::io {
+
+struct NetcdfLibrary {
+  const char* (*error_text)(int);
+  int (*open)(const char*, int, int*);
+  int (*open_memory)(const char*, int, std::size_t, void*, int*);
+  int (*close)(int);
+  int (*inquire)(int, int*, int*, int*, int*);
+  int (*dimension_ids)(int, int*, int*, int);
+  int (*dimension)(int, int, char*, std::size_t*);
+  int (*group_ids)(int, int*, int*);
+  int (*group_name)(int, char*);
+  int (*variable)(int, int, char*, int*, int*, int*, int*);
+  int (*attribute_name)(int, int, int, char*);
+  int (*attribute)(int, int, const char*, int*, std::size_t*);
+  int (*attribute_text)(int, int, const char*, char*);
+  int (*attribute_strings)(int, int, const char*, char**);
+  int (*attribute_numbers)(int, int, const char*, double*);
+  int (*free_strings)(std::size_t, char**);
+  int (*read_doubles)(int, int, const std::size_t*, const std::size_t*, double*);
+  int (*read_integers)(int, int, const std::size_t*, const std::size_t*, long long*);
+  int (*read_naturals)(int, int, const std::size_t*, const std::size_t*, unsigned long long*);
+  int (*create)(const char*, int, int*);
+  int (*add_dimension)(int, const char*, std::size_t, int*);
+  int (*add_variable)(int, const char*, int, int, const int*, int*);
+  int (*put_text)(int, int, const char*, std::size_t, const char*);
+  int (*put_numbers)(int, int, const char*, int, std::size_t, const double*);
+  int (*set_chunks)(int, int, int, const std::size_t*);
+  int (*set_deflate)(int, int, int, int, int);
+  int (*set_fill)(int, int, int, const void*);
+  int (*end_definitions)(int);
+  int (*write)(int, int, const std::size_t*, const std::size_t*, const void*);
+};
+
+// Calls of the library come one at a time: it is made for one thread, and all its users here hold this lock.
+system::Mutex& netcdf_library_lock();
+
+// The library that the variable RONDEL_NETCDF names, or set_netcdf_library(), or the newest that the system finds.
+// Throws BadValue if there is none.
+const NetcdfLibrary& netcdf_library();
+
+// Throws BadValue with what the library says of the error, if it is one.
+void require_netcdf(const NetcdfLibrary& library, int error);
+
+// Numbers of the interface.
+inline constexpr int netcdf_largest_name = 256;
+inline constexpr int netcdf_most_dimensions = 1024;
+inline constexpr int netcdf_whole_file = -1;  // in place of a variable that has an attribute
+inline constexpr int netcdf_string_type = 12;
+inline constexpr int netcdf_create_netcdf4 = 0x1000;  // replaces a file of the name
+
+}  // namespace rondel::io

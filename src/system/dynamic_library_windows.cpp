@@ -1,0 +1,21 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "system/dynamic_library.h"
+
+#include <windows.h>
+
+#include "system/wide_path.h"
+
+namespace rondel::system {
+
+// What a library that is named by its whole path needs is looked for beside it.
+void* open_library(const std::string& name) noexcept {
+  const bool is_path = name.find_first_of("/\\") != std::string::npos;
+  return ::LoadLibraryExW(wide_path(name).c_str(), nullptr,
+                          is_path ? LOAD_WITH_ALTERED_SEARCH_PATH : 0);
+}
+void* symbol_of(void* library, const char* name) noexcept {
+  return reinterpret_cast<void*>(::GetProcAddress(static_cast<HMODULE>(library), name));
+}
+
+}  // namespace rondel::system
