@@ -17,8 +17,7 @@ class HelpFormatter : public CLI::Formatter {
 
   std::string make_option_opts(const CLI::Option* option) const override {
     const std::string type = option->get_items_expected_max() == 0 ? "" : option->get_type_name();
-    const std::size_t end = type.find(':');  // what the parser adds of its checks
-    return type.empty() ? "" : " " + type.substr(0, end);
+    return type.empty() ? "" : " " + type;
   }
 
   std::string make_usage(const CLI::App* app, std::string name) const override {

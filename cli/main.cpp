@@ -107,8 +107,11 @@ int run(int argc, const char* const* argv) {
     print(tool.help());
     return done;
   } catch (const CLI::ParseError& error) {
-    const Command* command = selected(commands);
-    const std::string name = command == nullptr ? "" : " " + command->parser->get_name();
+    std::string name;
+    for (const CLI::App* part : tool.get_subcommands()) {
+      name = " " + part->get_name();
+      for (const CLI::App* of_group : part->get_subcommands()) name += " " + of_group->get_name();
+    }
     throw UsageError(error.what() + std::string(" (see rondel") + name + " --help)" +
                      file_like_an_option(argc, argv));
   }

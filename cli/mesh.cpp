@@ -8,6 +8,8 @@
 #include <unordered_map>
 
 #include "mesh_make.h"
+#include "process.h"
+#include "report.h"
 #include "validate.h"
 #include "words.h"
 
@@ -21,6 +23,12 @@ const std::unordered_map<std::string, mesh::MeshFormat>& mesh_formats() {
       {"esmf", mesh::MeshFormat::esmf},   {"exodus", mesh::MeshFormat::exodus},
       {"exo", mesh::MeshFormat::exodus}};
   return formats;
+}
+
+std::string radius_error(const std::string& text) {
+  std::string error = positive_error(text);
+  if (!error.empty()) return error;
+  return range_error(text, mesh::least_radius, mesh::largest_radius);
 }
 
 }  // namespace
@@ -45,39 +53,79 @@ mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
   return arrays;
 }
 
-void require_mesh_output(const CommonOptions& common) {
-  require_output(common, mesh_formats().contains(common.format()),
-                 ".nc .exo, mpas ugrid scrip esmf exodus");
+bool is_mesh_file(const CommonOptions& common) { return mesh_formats().contains(common.format()); }
+
+mesh::MeshFormat mesh_format(const CommonOptions& common) {
+  return mesh_formats().at(common.format());
 }
 
-void write_mesh(const CommonOptions& common, const mesh::MeshArrays& arrays, mesh::NetcdfKind kind,
-                const Job& job) {
-  mesh::write(common.output, arrays, {mesh_formats().at(common.format()), kind}, job.execution());
+void require_mesh_output(const CommonOptions& common, MeshOutputKind kind) {
+  const bool may_be_sites = kind == MeshOutputKind::mesh_or_sites;
+  const std::string of_meshes = ".nc .exo (mpas ugrid scrip esmf exodus)";
+  require_output(common, is_mesh_file(common) || (may_be_sites && can_write_sites(common.target())),
+                 of_meshes + (may_be_sites ? " .csv .tsv .xyz .txt .npy" : ""));
+  if (is_mesh_file(common) && common.output == "-") {
+    throw UsageError("--output: a mesh is written to a file");
+  }
 }
 
-void add_mesh_output_options(CLI::App& parser, MeshConvertOptions& options) {
-  add_output_option(parser, options.common,
-                    "Where to write the mesh, netCDF: .nc is mpas (MPAS), .exo exodus; --format\n"
-                    "ugrid, scrip, esmf for the others")
+void write_mesh_report(const std::string& path, const mesh::MeshArrays& arrays,
+                       const mesh::Quality& quality, const Execution& execution) {
+  if (path.ends_with(".svg")) {
+    write_file(path, mesh::quality_picture(arrays, quality, 100, execution));
+  } else if (path.ends_with(".txt")) {
+    write_file(path, mesh::quality_text(quality));
+  } else {
+    write_file(path, mesh::quality_json(quality));
+  }
+}
+
+void write_mesh_files(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job) {
+  const CommonOptions& common = output.common;
+  job.time(Stage::write, [&] {
+    if (!output.report.empty()) {
+      write_mesh_report(output.report, arrays, mesh::quality(arrays, job.execution()),
+                        job.execution());
+    }
+    if (!output.graph.empty()) mesh::write_graph(output.graph, arrays, job.execution());
+    if (is_mesh_file(common)) {
+      mesh::write(common.output, arrays, {mesh_format(common), output.kind}, job.execution());
+    }
+  });
+}
+
+void add_mesh_report_option(CLI::App& parser, std::string& report, const std::string& names) {
+  parser
+      .add_option(names, report,
+                  "Where to write the report of 'rondel mesh quality': .svg draws histograms\n"
+                  "and a map of the worst cells, .txt is the text, other endings are JSON")
+      ->type_name("FILE");
+}
+
+void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKind kind) {
+  const std::string of_meshes =
+      "Where to write the mesh, netCDF: .nc is mpas (MPAS), .exo exodus; --format\n"
+      "ugrid, scrip, esmf for the others";
+  add_output_option(parser, output.common,
+                    kind == MeshOutputKind::mesh
+                        ? of_meshes
+                        : of_meshes + ". Or its sites: .csv .tsv .xyz .txt .npy")
       ->required();
   add_word<mesh::NetcdfKind>(
-      parser, "--kind", options.kind,
+      parser, "--kind", output.kind,
       {{"cdf5", mesh::NetcdfKind::cdf5}, {"cdf2", mesh::NetcdfKind::cdf2}},
       "The format of netCDF: cdf5 (default) or cdf2 (64-bit offset; less than 4 GiB a\n"
       "variable)");
   parser
-      .add_option("--graph", options.graph,
+      .add_option("--graph", output.graph,
                   "Where to write which cells are neighbors, for METIS: MPAS's graph.info")
       ->type_name("FILE");
   parser
-      .add_option("--sphere-radius", options.radius,
+      .add_option("--sphere-radius", output.radius,
                   "The radius of the sphere, in metres for most models (default: 1)")
-      ->check(positive_error)
+      ->check(radius_error)
       ->type_name("R");
-  parser
-      .add_option("--report", options.report,
-                  "Where to write the report of 'rondel mesh quality', as JSON")
-      ->type_name("FILE");
+  add_mesh_report_option(parser, output.report);
 }
 
 Command add_mesh_command(CLI::App& tool) {

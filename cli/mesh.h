@@ -17,27 +17,32 @@
 
 namespace rondel::cli {
 
-struct MeshConvertOptions {
-  CommonOptions common;  ///< INPUT: sites or a mesh; output, --format, threads
+/// What of a mesh is written: OUTPUT and what goes beside it.
+struct MeshOutput {
+  CommonOptions common;  ///< INPUT where the command has one; output, --format, threads
   mesh::NetcdfKind kind = mesh::NetcdfKind::cdf5;
   std::string graph;   ///< --graph; empty: not written
   std::string report;  ///< --report; empty: not written
   double radius = 1;   ///< --sphere-radius
+};
+
+struct MeshConvertOptions {
+  MeshOutput written;  ///< INPUT: sites or a mesh
   bool allow_zero_edges = false;
 };
 
 struct MeshQualityOptions {
   CommonOptions common;  ///< INPUT: sites or a mesh
-  std::string picture;   ///< --picture; empty: not written
+  std::string report;    ///< --report; empty: not written
   /// --require: a name of quality_value() and its bound.
   std::vector<std::pair<std::string, double>> required;
 };
 
 struct MeshCullOptions {
-  MeshConvertOptions written;  ///< INPUT, the mesh that is left
-  std::string mask;            ///< --mask: FILE, FILE.nc:NAME or FILE.csv:COLUMN
-  std::string inside;          ///< --inside: polygons
-  std::string outside;         ///< --outside: polygons
+  MeshOutput written;   ///< INPUT, the mesh that is left
+  std::string mask;     ///< --mask: FILE, FILE.nc:NAME or FILE.csv:COLUMN
+  std::string inside;   ///< --inside: polygons
+  std::string outside;  ///< --outside: polygons
   PolygonEdges polygon_edges = PolygonEdges::lonlat;
   std::string cell_map;    ///< --cell-map; empty: not written
   std::string edge_map;    ///< --edge-map
@@ -49,19 +54,31 @@ ExitStatus run_mesh_cull(const MeshCullOptions& options);
 ExitStatus run_mesh_quality(const MeshQualityOptions& options);
 
 /// Writes the mesh, and graph and report if they are wanted; says so.
-void write_all_of_mesh(const MeshConvertOptions& options, const mesh::MeshArrays& arrays, Job& job);
+void write_and_report_mesh(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job);
 
 /// The mesh of a file, of .nc by read_mesh(), of sites by arrays(). \throws FileError with the place of a site
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
                                     const mesh::MeshOptions& options);
-/// Writes the mesh in the format of --format, or of the ending: nc is mpas, exo exodus.
-void write_mesh(const CommonOptions& common, const mesh::MeshArrays& arrays, mesh::NetcdfKind kind,
-                const Job& job);
-/// \throws UsageError for a format that write_mesh() does not have
-void require_mesh_output(const CommonOptions& common);
+
+/// What OUTPUT may be.
+enum class MeshOutputKind { mesh, mesh_or_sites };
 
 /// What the commands that write a mesh have: --output, --format, --kind, --graph, --sphere-radius, --report.
-void add_mesh_output_options(CLI::App& parser, MeshConvertOptions& options);
+void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKind kind);
+/// \throws UsageError for a format of OUTPUT that is no mesh's, nor sites' where these may be written
+void require_mesh_output(const CommonOptions& common, MeshOutputKind kind);
+/// Whether OUTPUT is a mesh, not sites.
+bool is_mesh_file(const CommonOptions& common);
+/// The format of --format, or of the ending: nc is mpas, exo exodus. \pre is_mesh_file()
+mesh::MeshFormat mesh_format(const CommonOptions& common);
+/// Writes graph and report if they are wanted, and OUTPUT if it is a mesh.
+void write_mesh_files(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job);
+
+/// The report of 'rondel mesh quality' in the format of its ending: .svg a picture, .txt as it is printed, else JSON.
+void write_mesh_report(const std::string& path, const mesh::MeshArrays& arrays,
+                       const mesh::Quality& quality, const Execution& execution);
+void add_mesh_report_option(CLI::App& parser, std::string& report,
+                            const std::string& names = "--report");
 
 /// FILE and what is behind its last colon, but that of C:\.
 std::pair<std::string, std::string> split_at_colon(const std::string& text);

@@ -17,22 +17,7 @@ namespace {
 std::string sites_error(const std::string& text) { return whole_error(text, 1, max_sites); }
 
 void add_mesh_output(CLI::App& parser, MeshOutput& output) {
-  add_output_option(parser, output.common,
-                    "The mesh: .nc, of MPAS or as --format says (mpas, ugrid, scrip,\n"
-                    "esmf, exodus); or its sites: .csv .tsv .xyz .txt .npy")
-      ->required();
-  parser
-      .add_option("--report", output.report, "Write the quality of the mesh: .json, .txt or .svg")
-      ->type_name("FILE");
-  parser
-      .add_option("--graph", output.graph,
-                  "Write which cells are neighbors, for METIS: MPAS's graph.info")
-      ->type_name("FILE");
-  parser
-      .add_option("--sphere-radius", output.radius,
-                  "Radius in the file of MPAS (default: 1, as MPAS-A has it)")
-      ->check(positive_error)
-      ->type_name("M");
+  add_mesh_output_options(parser, output, MeshOutputKind::mesh_or_sites);
   add_threads_option(parser, output.common);
   add_report_options(parser, output.common);
 }
@@ -65,6 +50,11 @@ void add_places_that_stay(CLI::App& parser, ScvtCommandOptions& options) {
                   "sites on both sides never move; may be repeated")
       ->allow_extra_args(false)
       ->type_name("FILE");
+  add_word<PolygonEdges>(
+      parser, "--edges", options.edges,
+      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
+      "What joins positions of --refine and --along: lonlat (default; straight in\n"
+      "longitude and latitude, RFC 7946) or geodesic (great circles)");
 }
 
 Command add_scvt_command(CLI::App& group) {
@@ -140,7 +130,8 @@ Command add_points_command(CLI::App& group) {
   CLI::App* parser = group.add_subcommand("points", "Make the mesh of sites of a known kind");
   parser->add_option("KIND", options->kind, "healpix, reduced-gaussian, cubed-sphere or poisson")
       ->required()
-      ->check(CLI::IsMember({"healpix", "reduced-gaussian", "cubed-sphere", "poisson"}))
+      ->check(
+          CLI::IsMember({"healpix", "reduced-gaussian", "cubed-sphere", "poisson"}).description(""))
       ->type_name("");
   parser
       ->add_option("--size", options->size,

@@ -14,13 +14,14 @@ namespace rondel::cli {
 Command add_mesh_convert_command(CLI::App& mesh) {
   auto options = std::make_shared<MeshConvertOptions>();
   CLI::App* parser = mesh.add_subcommand("convert", "Write the mesh of sites, or of another file");
-  add_input_options(*parser, options->common);
-  add_mesh_output_options(*parser, *options);
+  MeshOutput& written = options->written;
+  add_input_options(*parser, written.common);
+  add_mesh_output_options(*parser, written, MeshOutputKind::mesh);
   parser->add_flag("--allow-zero-edges", options->allow_zero_edges,
                    "Accept sites on one circle, whose cells meet in one point: MPAS's edges have\n"
                    "length 0 there, by which models divide; in other formats it is one corner");
-  add_threads_option(*parser, options->common);
-  add_report_options(*parser, options->common);
+  add_threads_option(*parser, written.common);
+  add_report_options(*parser, written.common);
   parser->footer(
       "INPUT may be a mesh as well, .nc: MPAS, or UGRID, SCRIP and ESMF, which are made\n"
       "again of the centers of their cells, and at a border of their corners. Sites have to\n"
@@ -33,25 +34,18 @@ Command add_mesh_convert_command(CLI::App& mesh) {
 }
 
 ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
-  require_mesh_output(options.common);
-  Job job(options.common);
+  const MeshOutput& written = options.written;
+  require_mesh_output(written.common, MeshOutputKind::mesh);
+  Job job(written.common);
   const mesh::MeshArrays arrays =
-      read_mesh_or_sites(job, options.common,
-                         {.radius = options.radius, .allow_zero_edges = options.allow_zero_edges});
-  write_all_of_mesh(options, arrays, job);
+      read_mesh_or_sites(job, written.common,
+                         {.radius = written.radius, .allow_zero_edges = options.allow_zero_edges});
+  write_and_report_mesh(written, arrays, job);
   return done;
 }
 
-void write_all_of_mesh(const MeshConvertOptions& options, const mesh::MeshArrays& arrays,
-                       Job& job) {
-  const CommonOptions& common = options.common;
-  job.time(Stage::write, [&] {
-    write_mesh(common, arrays, options.kind, job);
-    if (!options.graph.empty()) mesh::write_graph(options.graph, arrays, job.execution());
-  });
-  if (!options.report.empty()) {
-    write_file(options.report, mesh::quality_json(mesh::quality(arrays, job.execution())));
-  }
+void write_and_report_mesh(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job) {
+  write_mesh_files(output, arrays, job);
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {{"cells", arrays.num_cells()},
                                        {"edges", arrays.num_edges()},
@@ -66,7 +60,7 @@ void write_all_of_mesh(const MeshConvertOptions& options, const mesh::MeshArrays
   job.report(json.dump(2) + '\n', count(arrays.num_cells(), "cell", "cells") + ", " +
                                       count(arrays.num_edges(), "edge", "edges") + ", " +
                                       count(arrays.num_vertices(), "vertex", "vertices") +
-                                      "\nwrote the mesh to " + common.output + '\n');
+                                      "\nwrote the mesh to " + output.common.output + '\n');
 }
 
 }  // namespace rondel::cli

@@ -105,7 +105,7 @@ Command add_mesh_cull_command(CLI::App& mesh) {
       {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
       "What joins positions of polygons: lonlat (default; straight in longitude and\n"
       "latitude, RFC 7946) or geodesic (great circles)");
-  add_mesh_output_options(*parser, options->written);
+  add_mesh_output_options(*parser, options->written, MeshOutputKind::mesh);
   add_map_options(*parser, *options);
   add_threads_option(*parser, options->written.common);
   add_report_options(*parser, options->written.common);
@@ -121,7 +121,7 @@ Command add_mesh_cull_command(CLI::App& mesh) {
 
 ExitStatus run_mesh_cull(const MeshCullOptions& options) {
   const CommonOptions& common = options.written.common;
-  require_mesh_output(common);
+  require_mesh_output(common, MeshOutputKind::mesh);
   require_map_output("--cell-map", options.cell_map);
   require_map_output("--edge-map", options.edge_map);
   require_map_output("--vertex-map", options.vertex_map);
@@ -148,7 +148,7 @@ ExitStatus run_mesh_cull(const MeshCullOptions& options) {
     write_map(options.edge_map, culled.edges);
     write_map(options.vertex_map, culled.vertices);
   });
-  write_all_of_mesh(options.written, culled.arrays, job);
+  write_and_report_mesh(options.written, culled.arrays, job);
   return done;
 }
 

@@ -27,43 +27,6 @@
 namespace rondel::cli {
 namespace {
 
-bool is_mesh_file(const CommonOptions& common) {
-  const std::string format = common.format();
-  for (const std::string_view known : {"nc", "mpas", "ugrid", "scrip", "esmf", "exodus", "exo"}) {
-    if (format == known) return true;
-  }
-  return false;
-}
-
-mesh::MeshFormat mesh_format(const CommonOptions& common) {
-  const std::string format = common.format();
-  if (format == "ugrid") return mesh::MeshFormat::ugrid;
-  if (format == "scrip") return mesh::MeshFormat::scrip;
-  if (format == "esmf") return mesh::MeshFormat::esmf;
-  if (format == "exodus" || format == "exo") return mesh::MeshFormat::exodus;
-  return mesh::MeshFormat::mpas;
-}
-
-void require_made_output(const CommonOptions& common) {
-  require_output(common, is_mesh_file(common) || can_write_sites(common.target()),
-                 ".nc .exo (mpas ugrid scrip esmf exodus) .csv .tsv .xyz .txt .npy");
-  if (is_mesh_file(common) && common.output == "-") {
-    throw UsageError("--output: a mesh is written to a file");
-  }
-}
-
-void write_report(const MeshOutput& output, const mesh::MeshArrays& arrays,
-                  const mesh::Quality& quality, const Execution& execution) {
-  const std::string& path = output.report;
-  if (path.ends_with(".svg")) {
-    write_file(path, quality_picture(arrays, quality, 100, execution));
-  } else if (path.ends_with(".json")) {
-    write_file(path, quality_json(quality));
-  } else {
-    write_file(path, quality_text(quality));
-  }
-}
-
 nlohmann::ordered_json json_of(const mesh::ScvtDefects& defects) {
   return {{"odd_cells", defects.odd_cells},
           {"short_edges", defects.short_edges},
@@ -88,15 +51,9 @@ nlohmann::ordered_json write_made(const MeshOutput& output, const std::vector<Po
         .radius = output.radius, .density = density, .allow_zero_edges = !is_for_model};
     const Triangulation triangulation = delaunay(Sites::view(sites), {}, job.execution());
     const mesh::MeshArrays made = mesh::arrays(triangulation, options, job.execution());
-    const mesh::Quality quality = mesh::quality(made, job.execution());
-    quality_of_mesh = nlohmann::ordered_json::parse(mesh::quality_json(quality));
-    job.time(Stage::write, [&] {
-      if (!output.report.empty()) write_report(output, made, quality, job.execution());
-      if (!output.graph.empty()) mesh::write_graph(output.graph, made, job.execution());
-      if (is_mesh_file(common)) {
-        mesh::write(common.output, made, {.format = mesh_format(common)}, job.execution());
-      }
-    });
+    quality_of_mesh =
+        nlohmann::ordered_json::parse(mesh::quality_json(mesh::quality(made, job.execution())));
+    write_mesh_files(output, made, job);
   }
   if (!is_mesh_file(common)) {
     job.time(Stage::write, [&] { write_sites(common.target(), sites, {}, {}, job.execution()); });
@@ -114,12 +71,12 @@ void report_mesh(const MeshOutput& output, std::size_t num_sites, const std::str
                                       output.common.output + '\n');
 }
 
-void show(const mesh::ScvtStep& step, int most_steps, const Execution& execution) {
+void show(const mesh::ScvtStep& step, const Execution& execution) {
   if (!execution.progress) return;
   std::array<char, 120> text{};
-  std::snprintf(text.data(), text.size(), "%zu cells, energy %.6g, offset %.2g, of %d steps",
-                step.sites, step.energy, step.mean_offset, most_steps);
-  execution.progress(text.data(), static_cast<double>(step.iteration) / std::max(1, most_steps));
+  std::snprintf(text.data(), text.size(), "%zu cells, step %d, energy %.6g, offset %.2g",
+                step.sites, step.iteration, step.energy, step.mean_offset);
+  execution.progress(text.data(), step.done);
 }
 
 void show(const mesh::PartitionStep& step, const mesh::AreaPartitionOptions& options,
@@ -131,29 +88,52 @@ void show(const mesh::PartitionStep& step, const mesh::AreaPartitionOptions& opt
   execution.progress(text.data(), static_cast<double>(step.step) / options.max_steps);
 }
 
+// What is asked for.
+struct ScvtTask {
+  mesh::ScvtOptions scvt;
+  SiteTable start;  // no sites: none are given
+  FixedSites fixed;
+};
+
+ScvtTask scvt_task(const ScvtCommandOptions& options, Job& job, const Execution& execution) {
+  ScvtTask task;
+  task.scvt = options.scvt;
+  task.scvt.size = size_of(options, execution);
+  task.scvt.repair = !options.no_repair;
+  if (!options.start.empty()) task.start = job.read({options.start, {}}, {});
+  task.fixed = fixed_sites(options, task.scvt, task.start.sites.size(), job, execution);
+  return task;
+}
+
+mesh::Scvt solve(const ScvtTask& task, const Execution& execution) {
+  mesh::ScvtOptions scvt = task.scvt;
+  scvt.fixed = task.fixed.sites;
+  scvt.seen = [&](const mesh::ScvtStep& step) { show(step, execution); };
+  if (task.start.sites.empty()) return mesh::scvt(scvt, execution);
+  return with_places(task.start, [&] { return mesh::relaxed(task.start.sites, scvt, execution); });
+}
+
 }  // namespace
 
 ExitStatus run_scvt(const ScvtCommandOptions& options) {
   const MeshOutput& output = options.output;
-  require_made_output(output.common);
+  require_mesh_output(output.common, MeshOutputKind::mesh_or_sites);
   if (options.scvt.count == 0 && options.spacing.empty() && options.start.empty()) {
     throw UsageError("-n, --spacing or --start says how many cells there shall be");
   }
   Job job(output.common);
-  mesh::ScvtOptions scvt = options.scvt;
-  scvt.size = size_of(options, job);
-  scvt.repair = !options.no_repair;
   Execution execution = job.execution();
   execution.stop = &interrupted_by_user();
-  scvt.seen = [&](const mesh::ScvtStep& step) { show(step, scvt.max_iterations, execution); };
-  SiteTable start;
-  if (!options.start.empty()) start = job.read({options.start, {}}, {});
-  const FixedSites fixed = fixed_sites(options, scvt, start.sites.size(), job);
-  scvt.fixed = fixed.sites;
-  const mesh::Scvt made =
-      options.start.empty()
-          ? mesh::scvt(scvt, execution)
-          : with_places(start, [&] { return mesh::relaxed(start.sites, scvt, execution); });
+  ScvtTask task;
+  mesh::Scvt made;
+  try {
+    task = scvt_task(options, job, execution);
+    made = solve(task, execution);
+    if (execution.progress) execution.progress("write", 1);
+  } catch (const Interrupted&) {
+    throw std::runtime_error("interrupted before there was a mesh: nothing is written");
+  }
+  const mesh::ScvtOptions& scvt = task.scvt;
   nlohmann::ordered_json quality =
       write_made(output, made.sites, scvt.size ? &*scvt.size : nullptr, job);
   const bool is_whole = made.end == mesh::ScvtEnd::converged || made.end == mesh::ScvtEnd::stuck;
@@ -170,7 +150,7 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
   }
   if (!made.fixed.empty()) {
     json["fixed"] = made.fixed.size();
-    json["left_out"] = fixed.num_left_out;
+    json["left_out"] = task.fixed.num_left_out;
   }
   std::string how = is_whole ? "" : std::string(mesh::name_of(made.end)) + "; ";
   if (!made.fixed.empty()) how += count(made.fixed.size(), "site", "sites") + " fixed; ";
@@ -179,7 +159,7 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
 }
 
 ExitStatus run_icosahedral(const IcosahedralCommandOptions& options) {
-  require_made_output(options.output.common);
+  require_mesh_output(options.output.common, MeshOutputKind::mesh_or_sites);
   Job job(options.output.common);
   const std::size_t count = (std::size_t{10} << (2 * options.levels)) + 2;
   const std::vector<Point> sites = options.keep
@@ -192,7 +172,7 @@ ExitStatus run_icosahedral(const IcosahedralCommandOptions& options) {
 }
 
 ExitStatus run_mesh_points(const MeshPointsOptions& options) {
-  require_made_output(options.output.common);
+  require_mesh_output(options.output.common, MeshOutputKind::mesh_or_sites);
   const bool is_poisson = options.kind == "poisson";
   if (is_poisson != (options.radius_km > 0) || is_poisson == (options.size > 0)) {
     throw UsageError(options.kind + (is_poisson ? " takes --radius" : " takes --size"));

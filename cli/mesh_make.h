@@ -12,20 +12,13 @@
 #include <vector>
 
 #include "command.h"
+#include "mesh.h"
 #include "rondel/scvt.h"
 
 namespace rondel::cli {
 
 /// Kilometers on the Earth, a sphere of 6371.229 km as MPAS has it, for a radian.
 inline constexpr double kilometers_per_radian = 6371.229;
-
-/// What of a mesh is written: OUTPUT, .nc as --format says, or its sites.
-struct MeshOutput {
-  CommonOptions common;
-  std::string report;  ///< --report
-  std::string graph;   ///< --graph
-  double radius = 1;   ///< --sphere-radius
-};
 
 struct ScvtCommandOptions {
   MeshOutput output;
@@ -36,6 +29,7 @@ struct ScvtCommandOptions {
   std::string density;              ///< --density: FILE:NAME
   std::string fixed;                ///< --fixed: sites
   std::vector<std::string> along;   ///< --along: lines
+  PolygonEdges edges = PolygonEdges::lonlat;
   bool no_repair = false;
   mesh::ScvtOptions scvt;
 };
@@ -70,10 +64,11 @@ struct FixedSites {
 };
 
 /// The spacings of --spacing, --refine and --density; none: the same everywhere.
-std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options, const Job& job);
+std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
+                                          const Execution& execution);
 /// Rows have the spacing of a mesh of `scvt`, which starts with so many sites; 0: with none.
 FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOptions& scvt,
-                       std::size_t num_start, Job& job);
+                       std::size_t num_start, Job& job, const Execution& execution);
 
 ExitStatus run_scvt(const ScvtCommandOptions& options);
 ExitStatus run_icosahedral(const IcosahedralCommandOptions& options);

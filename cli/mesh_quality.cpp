@@ -64,10 +64,7 @@ Command add_mesh_quality_command(CLI::App& mesh) {
       ->check(requirement_error)
       ->allow_extra_args(false)
       ->type_name("NAME=NUMBER");
-  parser
-      ->add_option("--picture", options->picture,
-                   "Where to draw histograms and a map of the worst cells: .svg")
-      ->type_name("FILE");
+  add_mesh_report_option(*parser, options->report, "--report,--picture");
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
@@ -83,8 +80,8 @@ ExitStatus run_mesh_quality(const MeshQualityOptions& options) {
   const mesh::MeshArrays arrays =
       read_mesh_or_sites(job, options.common, {.allow_zero_edges = true});
   const mesh::Quality quality = mesh::quality(arrays, job.execution());
-  if (!options.picture.empty()) {
-    write_file(options.picture, mesh::quality_picture(arrays, quality, 100, job.execution()));
+  if (!options.report.empty()) {
+    write_mesh_report(options.report, arrays, quality, job.execution());
   }
   job.report(mesh::quality_json(quality), mesh::quality_text(quality));
   const std::string text = unmet(options, quality);

@@ -4,7 +4,9 @@
 // What `rondel mesh scvt` is asked for: spacings, and places that are sites.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <numbers>
@@ -21,10 +23,29 @@ namespace {
 
 constexpr double usual_slope = 0.05;
 
-bool as_kilometers(const std::string& text, double& kilometers) {
-  if (!positive_error(text).empty()) return false;
-  kilometers = std::strtod(text.c_str(), nullptr);
-  return true;
+// Half of the circumference, the farthest that two places are from each other.
+constexpr double most_kilometers = std::numbers::pi * kilometers_per_radian;
+
+// Nothing if the text is no number but the name of a file.
+std::optional<double> as_kilometers(const std::string& option, const std::string& text) {
+  char* end = nullptr;
+  const double kilometers = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0') return std::nullopt;
+  if (kilometers > 0 && kilometers < most_kilometers) return kilometers;
+  throw UsageError(option + ": '" + text + "' is not a positive number of kilometers below 20015");
+}
+
+// Without -n the spacings say how many cells there are.
+void require_possible_count(const std::string& what, const mesh::SizeFunction& size) {
+  const double cells = size.count();
+  if (cells < static_cast<double>(max_sites) + 1) return;
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(),
+                ": spacings of %.3g to %.3g kilometers are those of %.2g cells, more than %zu: are "
+                "they kilometers?",
+                size.smallest() * kilometers_per_radian, size.largest() * kilometers_per_radian,
+                cells, max_sites);
+  throw FileError(what + text.data());
 }
 
 // Half of the smallest spacing for a step of the raster, in the middle of a face of the cube.
@@ -57,48 +78,52 @@ std::pair<std::string, std::string> split_at_colon(const std::string& text) {
   return {text.substr(0, at), text.substr(at + 1)};
 }
 
-std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options, const Job& job) {
+std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
+                                          const Execution& execution) {
   if (!options.density.empty()) {
     const auto [file, name] = split_at_colon(options.density);
-    return mesh::read_density({file, {}}, name, mesh::SizeFunction::usual_steps, job.execution());
+    return mesh::read_density({file, {}}, name, mesh::SizeFunction::usual_steps, execution);
   }
   if (options.spacing.empty()) return std::nullopt;
-  double kilometers = 0;
   std::optional<mesh::SizeFunction> size;
-  if (as_kilometers(options.spacing, kilometers)) {
-    size = mesh::SizeFunction::constant(kilometers / kilometers_per_radian, raster_steps(options));
+  if (const auto kilometers = as_kilometers("--spacing", options.spacing)) {
+    size = mesh::SizeFunction::constant(*kilometers / kilometers_per_radian, raster_steps(options));
   } else {
     const auto [file, name] = split_at_colon(options.spacing);
     size = mesh::read_spacings({file, {}}, name, 1 / kilometers_per_radian,
-                               mesh::SizeFunction::usual_steps, job.execution());
+                               mesh::SizeFunction::usual_steps, execution);
   }
   for (const std::string& refinement : options.refine) {
     const auto [file, text] = split_at_colon(refinement);
-    if (!as_kilometers(text, kilometers)) {
-      throw UsageError("--refine: '" + refinement + "' is not FILE:KM");
-    }
-    const double near = kilometers / kilometers_per_radian;
-    size = size->refined(mesh::read_refinement({file, {}}, 0.5 * near, job.execution()), near,
-                         options.slope.value_or(usual_slope), job.execution());
+    const auto kilometers = as_kilometers("--refine", text);
+    if (!kilometers) throw UsageError("--refine: '" + refinement + "' is not FILE:KM");
+    const double near = *kilometers / kilometers_per_radian;
+    size = size->refined(
+        mesh::read_refinement({file, {}}, 0.5 * near, {.edges = options.edges}, execution), near,
+        options.slope.value_or(usual_slope), execution);
   }
   if (options.slope || !options.refine.empty()) {
     size = size->limited(options.slope.value_or(usual_slope));
+  }
+  if (options.scvt.count == 0 && options.start.empty()) {
+    require_possible_count(options.spacing, *size);
   }
   return size;
 }
 
 FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOptions& scvt,
-                       std::size_t num_start, Job& job) {
+                       std::size_t num_start, Job& job, const Execution& execution) {
   FixedSites fixed;
   if (!options.fixed.empty()) fixed.sites = job.read({options.fixed, {}}, {}).sites;
   if (options.along.empty()) return fixed;
   const mesh::SizeFunction size = size_along(scvt, num_start);
   std::vector<std::vector<Point>> lines;
   for (const std::string& file : options.along) {
-    std::vector<std::vector<Point>> more = mesh::read_lines({file, {}});
+    std::vector<std::vector<Point>> more =
+        mesh::read_lines({file, {}}, {.edges = options.edges}, execution);
     std::ranges::move(more, std::back_inserter(lines));
   }
-  const mesh::LineSites rows = mesh::sites_along(lines, size, job.execution());
+  const mesh::LineSites rows = mesh::sites_along(lines, size, execution);
   fixed.sites.insert(fixed.sites.end(), rows.sites.begin(), rows.sites.end());
   fixed.num_left_out = rows.num_left_out;
   return fixed;

@@ -72,9 +72,13 @@ struct MeshArrays {
   friend bool operator==(const MeshArrays&, const MeshArrays&) = default;
 };
 
+/// The radii that a mesh can have: squares of lengths are numbers.
+inline constexpr double least_radius = 1e-30;
+inline constexpr double largest_radius = 1e30;
+
 /// What arrays() does beside the triangulation's doing.
 struct MeshOptions {
-  double radius = 1;
+  double radius = 1;  ///< from least_radius to largest_radius
   /// The density of each cell, if the mesh was made for one, as MPAS has it: (least spacing / spacing)^4.
   std::span<const double> density{};
   /// Sites on one circle without a site inside share one vertex, which is here two or more, with
@@ -86,7 +90,7 @@ struct MeshOptions {
 /// spacing, areas to a few ulp of the cells', however small, and the sums of the areas to 1e-13.
 /// \throws InvalidInput if the model is weighted (what is built on these meshes takes the cells of Voronoi), the hull does
 ///         not surround the center of the sphere (meshes of a region are not made), two sites are in one place, or four on
-///         one circle (see MeshOptions): with the site; for a radius or a density that is no positive number.
+///         one circle (see MeshOptions): with the site; for a radius that is out of range, or a density that is no positive number.
 RONDEL_API MeshArrays arrays(const Triangulation& triangulation, const MeshOptions& options = {},
                              const Execution& execution = {});
 

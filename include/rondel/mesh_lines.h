@@ -12,6 +12,7 @@
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/mesh_size.h"
+#include "rondel/polygon_files.h"
 #include "rondel/types.h"
 
 namespace rondel::mesh {
@@ -36,8 +37,15 @@ struct LineSites {
 RONDEL_API LineSites sites_along(std::span<const std::vector<Point>> lines,
                                  const SizeFunction& size, const Execution& execution = {});
 
-/// The lines of a GeoJSON file, and the outlines of its polygons, which are closed.
+/// The lines of a GeoJSON file, and the outlines of its polygons, which are closed, as read_features() reads them: in arcs
+/// that are as near to what joins two positions as the options say.
+///
+/// Sides along which the file has cut a polygon at the antimeridian, or has led it around a pole, are no outlines: those
+/// where there is a polygon of the file, or a closed line, on both sides of longitude 180. The outlines go on across it.
 /// \throws FileError with one line that names the file.
-RONDEL_API std::vector<std::vector<Point>> read_lines(const FileName& file);
+/// \throws InvalidInput if the tolerance is not positive.
+RONDEL_API std::vector<std::vector<Point>> read_lines(const FileName& file,
+                                                      const PolygonOptions& options = {},
+                                                      const Execution& execution = {});
 
 }  // namespace rondel::mesh

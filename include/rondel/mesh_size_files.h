@@ -11,14 +11,16 @@
 #include "rondel/export.h"
 #include "rondel/io.h"
 #include "rondel/mesh_size.h"
+#include "rondel/polygon_files.h"
 #include "rondel/types.h"
 
 namespace rondel::mesh {
 
 /// The points to refine() at, closer than `distance` radians along lines: those of a GeoJSON file, along its
-/// lines and the outlines of its polygons, which are arcs of great circles; of other formats the sites
-/// (read_sites()).
+/// lines and the outlines of its polygons, as read_lines() reads them; of other formats the sites (read_sites()).
+/// \throws InvalidInput if the distance or the tolerance of the options is not positive.
 RONDEL_API std::vector<Point> read_refinement(const FileName& file, double distance,
+                                              const PolygonOptions& options = {},
                                               const Execution& execution = {});
 
 /// Spacings at the places of a file, linear between them on their triangulation and at the nearest outside of

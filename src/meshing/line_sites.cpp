@@ -17,7 +17,7 @@
 
 #include "exact/vector.h"
 #include "meshing/fixed_sites.h"
-#include "meshing/line_files.h"
+#include "meshing/outlines.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_lines.h"
@@ -243,11 +243,11 @@ LineSites sites_along(std::span<const std::vector<Point>> lines, const SizeFunct
   return sites_apart(candidates, execution);
 }
 
-std::vector<std::vector<Point>> read_lines(const FileName& file) {
-  std::vector<std::vector<Point>> lines;
-  for (const std::vector<LonLat>& line : meshing::lines_of(file)) {
-    if (line.size() > 1) lines.push_back(unit_vectors(line));
-  }
+std::vector<std::vector<Point>> read_lines(const FileName& file, const PolygonOptions& options,
+                                           const Execution& execution) {
+  std::vector<std::vector<Point>> lines =
+      meshing::outlines_of(read_features(file, options, execution));
+  std::erase_if(lines, [](const std::vector<Point>& line) { return line.size() < 2; });
   if (lines.empty()) throw FileError(file.path + ": it has no lines");
   return lines;
 }

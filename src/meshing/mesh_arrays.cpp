@@ -283,8 +283,8 @@ MeshArrays arrays(const Triangulation& triangulation, const MeshOptions& options
 namespace rondel::meshing {
 
 void require_options(const mesh::MeshOptions& options, std::size_t num_sites) {
-  if (!(options.radius > 0) || options.radius > 1e30) {
-    throw InvalidInput("the radius is not positive or not finite", 0);
+  if (!(options.radius >= mesh::least_radius && options.radius <= mesh::largest_radius)) {
+    throw InvalidInput("the radius is not from 1e-30 to 1e30", 0);
   }
   if (options.density.empty()) return;
   if (options.density.size() != num_sites) {

@@ -32,6 +32,20 @@ constexpr int num_starts = 8;
 constexpr int num_starts_of_density = 3;
 constexpr double tolerance_of_starts = 1e-3;
 
+constexpr ScvtEnd end_of(MinimizerEnd end) {
+  switch (end) {
+    case MinimizerEnd::converged:
+      return ScvtEnd::converged;
+    case MinimizerEnd::iterations:
+      return ScvtEnd::iterations;
+    case MinimizerEnd::stopped:
+      return ScvtEnd::stopped;
+    case MinimizerEnd::stuck:
+      break;
+  }
+  return ScvtEnd::stuck;
+}
+
 class Levels {
  public:
   Levels(const ScvtOptions& options, const Execution& execution)
@@ -42,6 +56,7 @@ class Levels {
 
   Scvt solve(std::size_t count) {
     const std::vector<std::size_t> counts = counts_of_levels(count, fewest(count));
+    for (const std::size_t of_level : counts) all_work_ += static_cast<double>(of_level);
     Scvt result;
     result.sites = start(counts.front());
     for (std::size_t k = 0; k < counts.size(); ++k) {
@@ -57,6 +72,14 @@ class Levels {
     return result;
   }
 
+  // Of sites that somebody has given.
+  void finish_given(Scvt& result) {
+    is_given_ = true;
+    fix(result);
+    finish(result);
+  }
+
+ private:
   // Puts sites at the fixed places.
   void fix(Scvt& result) {
     result.fixed = take_nearest(result.sites, options_.fixed, execution_.threads);
@@ -73,26 +96,46 @@ class Levels {
     }
   }
 
- private:
   void relax(Scvt& result, bool is_last) {
-    Minimizer minimizer(std::move(result.sites), energy_, execution_.threads, is_fixed_);
+    Minimizer minimizer = minimizer_of(std::move(result.sites), execution_.threads, is_fixed_);
     MinimizerLimits limits{.mean_offset = options_.mean_tolerance,
                            .largest_offset = options_.largest_tolerance,
                            .energy_change = options_.energy_tolerance,
                            .iterations = options_.max_iterations,
                            .lloyd = options_.method == ScvtMethod::lloyd};
     if (!is_last) limits.largest_offset = std::numeric_limits<double>::infinity();
+    const EnergyReport first = minimizer.report();
+    const auto work = static_cast<double>(minimizer.sites().size());
     const auto see = [&](int iteration, const EnergyReport& report) {
+      const double part = part_of_level(limits, first, report, iteration);
+      done_ = std::max(done_, is_last ? 1 - (1 - part) * work / std::max(work, all_work_)
+                                      : (past_work_ + part * work) / all_work_);
       result.last = {minimizer.sites().size(), iteration, report.energy, report.mean_offset,
-                     report.largest_offset};
+                     report.largest_offset,    done_};
       if (options_.seen) options_.seen(result.last);
       return execution_.stop == nullptr || !execution_.stop->load();
     };
     const bool goes_on = see(0, minimizer.report());
-    result.end = goes_on ? static_cast<ScvtEnd>(minimizer.run(limits, see)) : ScvtEnd::stopped;
+    result.end = goes_on ? end_of(minimizer.run(limits, see)) : ScvtEnd::stopped;
+    past_work_ += work;
     result.sites = minimizer.sites();
     result.builds += minimizer.surface().num_builds();
     result.flips += minimizer.surface().num_flips();
+  }
+
+  // Offsets fall by about the same factor from step to step.
+  static double part_of_level(const MinimizerLimits& limits, const EnergyReport& first,
+                              const EnergyReport& now, int iteration) {
+    const auto part = [](double at_first, double at_last, double present) {
+      if (present <= at_last) return 1.0;
+      if (!(present < at_first)) return 0.0;
+      return std::log(at_first / present) / std::log(at_first / at_last);
+    };
+    const double of_steps =
+        limits.iterations == 0 ? 1 : static_cast<double>(iteration) / limits.iterations;
+    return std::max(
+        of_steps, std::min(part(first.mean_offset, limits.mean_offset, now.mean_offset),
+                           part(first.largest_offset, limits.largest_offset, now.largest_offset)));
   }
 
   static bool is_of_icosahedron(std::size_t count) {
@@ -106,6 +149,23 @@ class Levels {
     return coarsest_of_density;
   }
 
+  // Sites that the spacings have put in a part of the sphere have no tessellation.
+  [[nodiscard]] Minimizer minimizer_of(std::vector<Point> sites, unsigned threads,
+                                       std::vector<std::uint8_t> is_fixed = {}) const {
+    const std::size_t count = sites.size();
+    try {
+      return Minimizer(std::move(sites), energy_, threads, std::move(is_fixed));
+    } catch (const InvalidInput&) {
+      if (size_ == nullptr || is_given_) throw;
+      throw InvalidInput("the spacings change too fast: from " + std::to_string(size_->smallest()) +
+                             " to " + std::to_string(size_->largest()) +
+                             " radians, they leave the " + std::to_string(count) +
+                             " sites of a level on one side of the sphere; let them grow more "
+                             "slowly (--gradient, gradient=, SizeFunction::limited())",
+                         0);
+    }
+  }
+
   // Of several starts the one of least energy.
   [[nodiscard]] std::vector<Point> start(std::size_t count) const {
     if (size_ == nullptr && count == fewest_sites) return icosahedron();
@@ -116,9 +176,8 @@ class Levels {
     std::vector<Point> best;
     double least = std::numeric_limits<double>::infinity();
     for (int seed = 1; seed <= (size_ == nullptr ? num_starts : num_starts_of_density); ++seed) {
-      Minimizer minimizer(
-          in_spatial_order(sampled_sites(count, size_, static_cast<std::uint64_t>(seed)), 1),
-          energy_, 1);
+      Minimizer minimizer = minimizer_of(
+          in_spatial_order(sampled_sites(count, size_, static_cast<std::uint64_t>(seed)), 1), 1);
       (void)minimizer.run(limits, [](int, const EnergyReport&) { return true; });
       if (minimizer.report().energy >= least) continue;
       least = minimizer.report().energy;
@@ -132,6 +191,11 @@ class Levels {
   const SizeFunction* size_;
   CentroidalEnergy energy_;
   std::vector<std::uint8_t> is_fixed_;  // of the last level; empty: no site is
+  // Sites of all levels, of those that are solved, and what ScvtStep::done was last.
+  double all_work_ = 0;
+  double past_work_ = 0;
+  double done_ = 0;
+  bool is_given_ = false;
 };
 
 void require_fixed(std::span<const Point> fixed, std::size_t count) {
@@ -182,8 +246,7 @@ Scvt relaxed(std::span<const Point> sites, const ScvtOptions& options, const Exe
   if (sites.size() < 4) throw InvalidInput("a tessellation that is relaxed has 4 sites or more", 0);
   require_fixed(options.fixed, sites.size());
   Levels levels(options, execution);
-  levels.fix(result);
-  levels.finish(result);
+  levels.finish_given(result);
   return result;
 }
 

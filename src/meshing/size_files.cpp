@@ -6,10 +6,11 @@
 #include <cstddef>
 #include <utility>
 
+#include "exact/vector.h"
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
-#include "meshing/line_files.h"
+#include "meshing/outlines.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
@@ -39,37 +40,109 @@ struct Spacings {
 constexpr double least_density = 1e-100;
 constexpr double largest_density = 1e100;
 
-// Its values are those of cells, whose places no attribute names.
-bool is_mpas(const FileName& file) {
+// Where the cells of a mesh are: the centers that its file has, else the directions of the sums of their corners.
+std::vector<Point> places_of_cells(const CellTable& table) {
+  if (!table.centers.empty()) return unit_vectors(table.centers);
+  const CellRings& cells = table.cells;
+  std::vector<Point> places;
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    exact::Vector3<double> sum = {0, 0, 0};
+    for (std::uint64_t k = cells.rings[cells.cells[i]]; k < cells.rings[cells.cells[i + 1]]; ++k) {
+      sum = sum + exact::to_vector(cells.points[cells.corners[k]]);
+    }
+    if (!(norm(sum) > 0)) return {};
+    places.push_back(exact::to_point(normalized(sum)));
+  }
+  return places;
+}
+
+// What a variable of netCDF may be a field on: its last dimension, or its last two.
+struct NamedField {
+  std::string name;
+  std::vector<std::uint64_t> num_points;
+};
+
+struct NetcdfFields {
+  std::vector<NamedField> fields;
+  bool is_mesh = false;  // of MPAS, SCRIP, ESMF or ICON: no attribute says where its cells are
+};
+
+NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
   io::FileBytes bytes(file.path, true);
   return io::in_file(bytes.name(), [&] {
     const io::NetcdfReader reader(bytes);
-    return reader.find("cellsOnEdge") != nullptr && reader.find("verticesOnCell") != nullptr;
+    NetcdfFields found;
+    for (const char* of_meshes :
+         {"verticesOnCell", "grid_corner_lon", "elementConn", "vertex_of_cell"}) {
+      found.is_mesh = found.is_mesh || reader.find(of_meshes) != nullptr;
+    }
+    const auto add = [&](const io::NetcdfReader::Variable& variable) {
+      NamedField field = {variable.name, {}};
+      std::uint64_t product = 1;
+      for (std::size_t used = 1; used <= std::min<std::size_t>(2, variable.shape.size()); ++used) {
+        product *= variable.shape[variable.shape.size() - used];
+        field.num_points.push_back(product);
+      }
+      if (product > 0 && variable.type != io::NetcdfType::text) found.fields.push_back(field);
+    };
+    if (!name.empty()) {
+      add(reader.require(name));
+      return found;
+    }
+    for (const io::NetcdfReader::Variable& variable : reader.variables()) {
+      const std::string units = io::netcdf_text(variable.attributes, "units");
+      const bool is_axis = variable.shape.size() == 1 &&
+                           reader.dimensions()[variable.dimensions[0]].name == variable.name;
+      if (!is_axis && !units.starts_with("degree") && !units.starts_with("rad")) add(variable);
+    }
+    return found;
   });
 }
 
-Spacings spacings_of(const FileName& file, const std::string& name, const Execution& execution) {
+// The places of the field, by its coordinates or as the cells of the mesh, and its values; none if nothing says where.
+Spacings spacings_of_field(const FileName& file, const NamedField& field,
+                           const std::vector<Point>& cells) {
   Spacings result;
-  std::vector<std::string> names;
-  if (!name.empty()) names.push_back(name);
-  const bool is_netcdf =
-      file.format == "nc" || (file.format.empty() && ends_with(file.path, ".nc"));
-  if (!is_netcdf) {
-    SiteTable table = read_sites(file, {}, execution);
-    if (names.empty()) throw FileError(table.name + ": which column is meant is not said");
-    result.places = std::move(table.sites);
+  for (const std::uint64_t num_points : field.num_points) {
+    FieldSet fields = read_fields(file, {&field.name, 1}, num_points);
+    if (fields.arrays.size() != 1 || fields.arrays.front().num_fields() != 1) continue;
+    if (fields.points.size() != num_points) fields.points.clear();
+    if (fields.points.empty() && num_points == cells.size()) fields.points = cells;
+    if (fields.points.empty()) continue;
+    result.places = std::move(fields.points);
+    result.values = std::move(fields.arrays.front().values);
+    return result;
   }
-  const bool is_mesh = is_netcdf && is_mpas(file);
-  if (is_mesh) result.places = unit_vectors(read_cells(file).centers);
-  FieldSet fields = read_fields(file, names, result.places.size());
-  if (is_netcdf && !is_mesh) result.places = std::move(fields.points);
-  if (fields.arrays.size() != 1 || fields.arrays.front().num_fields() != 1) {
-    throw FileError(file.path + ": it has not one field of numbers" +
-                    (name.empty() ? ": name it" : ""));
+  return result;
+}
+
+Spacings spacings_of_netcdf(const FileName& file, const std::string& name) {
+  const NetcdfFields known = netcdf_fields(file, name);
+  const std::vector<Point> cells =
+      known.is_mesh ? places_of_cells(read_cells(file)) : std::vector<Point>{};
+  std::vector<Spacings> found;
+  for (const NamedField& field : known.fields) {
+    Spacings one = spacings_of_field(file, field, cells);
+    if (!one.places.empty()) found.push_back(std::move(one));
+    if (found.size() > 1)
+      throw FileError(file.path + ": it has several fields of numbers: name one");
   }
-  if (result.places.size() != fields.num_points) {
-    throw FileError(file.path + ": its values have no longitudes and latitudes");
+  if (found.size() == 1) return std::move(found.front());
+  if (name.empty()) throw FileError(file.path + ": it has no field with longitudes and latitudes");
+  throw FileError(file.path + ": variable \"" + name +
+                  "\" is not one number at each of the places that the file has: longitudes and "
+                  "latitudes of points, of a grid, or the cells of a mesh");
+}
+
+Spacings spacings_of(const FileName& file, const std::string& name, const Execution& execution) {
+  if (file.format == "nc" || (file.format.empty() && ends_with(file.path, ".nc"))) {
+    return spacings_of_netcdf(file, name);
   }
+  SiteTable table = read_sites(file, {}, execution);
+  if (name.empty()) throw FileError(table.name + ": which column is meant is not said");
+  FieldSet fields = read_fields(file, {&name, 1}, table.sites.size());
+  Spacings result;
+  result.places = std::move(table.sites);
   result.values = std::move(fields.arrays.front().values);
   return result;
 }
@@ -104,15 +177,16 @@ SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Exec
 }  // namespace
 
 std::vector<Point> read_refinement(const FileName& file, double distance,
-                                   const Execution& execution) {
+                                   const PolygonOptions& options, const Execution& execution) {
   if (!is_geojson(file)) {
     std::vector<Point> points = read_sites(file, {}, execution).sites;
     if (points.empty()) throw FileError(file.path + ": it has no points");
     return points;
   }
   std::vector<Point> points;
-  for (const std::vector<LonLat>& line : meshing::lines_of(file)) {
-    const std::vector<Point> dense = densified(unit_vectors(line), distance);
+  for (const std::vector<Point>& line :
+       meshing::outlines_of(read_features(file, options, execution))) {
+    const std::vector<Point> dense = densified(line, distance);
     points.insert(points.end(), dense.begin(), dense.end());
   }
   if (points.empty()) throw FileError(file.path + ": it has no points");

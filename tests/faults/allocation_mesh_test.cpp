@@ -103,7 +103,8 @@ TEST(allocation_of_meshes, files_are_read_or_bad_alloc) {
     }
   }
   expect_result_or_bad_alloc([&] {
-    return mesh::read_refinement((corpus / "good" / "features.geojson").string(), 0.1, one_thread);
+    return mesh::read_refinement((corpus / "good" / "features.geojson").string(), 0.1, {},
+                                 one_thread);
   });
 }
 

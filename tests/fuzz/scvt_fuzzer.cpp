@@ -130,7 +130,7 @@ void test_files(std::string_view bytes) {
     const std::string path = scratch().file(name);
     std::ofstream(path, std::ios::binary) << bytes;
     try {
-      (void)mesh::read_refinement(path, 0.1, {.threads = 1});
+      (void)mesh::read_refinement(path, 0.1, {}, {.threads = 1});
     } catch (const FileError&) {
     } catch (const InvalidInput&) {
     }

@@ -108,6 +108,51 @@ TEST(scvt, energy_never_grows) {
   EXPECT_GT(num_steps, 20);
 }
 
+// From 0 to 1, with sites of every level, of a density, and of one's own.
+TEST(scvt, part_of_the_work_that_is_done_grows_to_one) {
+  const std::vector<Point> start = sampled_sites(700, nullptr, 2);
+  ScvtOptions options{.count = 3000};
+  std::vector<double> done;
+  options.seen = [&](const ScvtStep& step) { done.push_back(step.done); };
+  const auto check = [&](const Scvt& made) {
+    EXPECT_TRUE(std::ranges::is_sorted(done));
+    EXPECT_GE(done.front(), 0);
+    EXPECT_EQ(done.back(), 1) << name_of(made.end);
+    const auto half_way = std::ranges::count_if(done, [](double x) { return 0.2 < x && x < 0.8; });
+    EXPECT_GT(half_way, 3);
+    done.clear();
+  };
+  check(scvt(options));
+  options.size = fourfold();
+  check(scvt(options));
+  check(relaxed(start, options));
+  options.mean_tolerance = 1e-9;
+  options.max_iterations = 40;
+  check(scvt(options));
+}
+
+TEST(scvt, spacings_that_jump_are_told_from_sites_that_somebody_gave) {
+  const auto message = [](const auto& make) {
+    try {
+      make();
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const SizeFunction jump = SizeFunction::from_function(
+      [](std::span<const Point> at, std::span<double> out) {
+        for (std::size_t i = 0; i < at.size(); ++i) out[i] = at[i].z > 0.999 ? 1e-4 : 0.5;
+      },
+      64);
+  const std::string of_spacings = message([&] { (void)scvt({.size = jump}); });
+  EXPECT_NE(of_spacings.find("the spacings change too fast: from 0.000100 to 0.500000 radians"),
+            std::string::npos);
+  const std::vector<Point> cap = {{0, 0, 1}, {0.1, 0, 1}, {0, 0.1, 1}, {-0.1, -0.1, 1}};
+  const std::string of_sites = message([&] { (void)relaxed(cap, {.size = jump}); });
+  EXPECT_NE(of_sites.find("do not surround the center"), std::string::npos);
+}
+
 TEST(scvt, bytes_do_not_depend_on_threads) {
   for (const bool with_size : {false, true}) {
     ScvtOptions options{.count = test::is_shortened() ? 5000U : 9000U};

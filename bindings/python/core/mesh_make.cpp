@@ -59,10 +59,13 @@ ScvtOut make_scvt(std::size_t count, const NumbersIn& spacings, std::size_t step
     options.size = size_of(rows_of<double>(spacings), steps, gradient);
     options.seen = [&](const mesh::ScvtStep& step) {
       if (!execution.progress) return;
-      execution.progress(std::to_string(step.sites) + " cells",
-                         static_cast<double>(step.iteration) / std::max(1, max_steps));
+      execution.progress(std::to_string(step.sites) + " cells", step.done);
     };
-    return mesh::scvt(options, execution);
+    mesh::Scvt found = mesh::scvt(options, execution);
+    if (execution.progress) {
+      execution.progress(std::to_string(found.sites.size()) + " cells", 1);
+    }
+    return found;
   });
   std::vector<double> density;
   if (options.size) {

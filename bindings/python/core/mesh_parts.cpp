@@ -85,9 +85,14 @@ std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mes
           indices_out(std::move(found.owners))};
 }
 
-std::vector<ArrayOut<double>> lines_of_file(const std::string& path) {
+std::vector<ArrayOut<double>> lines_of_file(const std::string& path, bool is_geodesic,
+                                            unsigned threads) {
+  const PolygonOptions options{.edges =
+                                   is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat};
   std::vector<ArrayOut<double>> lines;
-  for (std::vector<Point>& line : unlocked([&] { return mesh::read_lines({path, {}}); })) {
+  for (std::vector<Point>& line : watched_quietly(0, threads, [&](const Execution& execution) {
+         return mesh::read_lines({path, {}}, options, execution);
+       })) {
     lines.push_back(points_out(std::move(line)));
   }
   return lines;
@@ -104,7 +109,8 @@ void add_mesh_parts(nb::module_& module) {
              nb::arg("spacings").noconvert(), nb::arg("steps"), nb::arg("gradient"),
              nb::arg("threads"));
   module.def("mesh_polygons", &mesh_polygons, nb::arg("arrays"), nb::arg("tolerance_deg"));
-  module.def("read_lines", &lines_of_file, nb::arg("path"));
+  module.def("read_lines", &lines_of_file, nb::arg("path"), nb::arg("is_geodesic"),
+             nb::arg("threads"));
 }
 
 }  // namespace rondel::python

@@ -11,6 +11,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_floats, as_points, as_threads, frozen
+from ._geometries import Edges
 from ._mesh_parts import Lines, fixed_points
 from ._types import ArrayLike, FloatArray, IntArray, Progress
 
@@ -65,6 +66,19 @@ class Partition(NamedTuple):
     largest_error: float
 
 
+def _whole(value: float, name: str) -> int:
+    if isinstance(value, (int, np.integer)):
+        return int(value)
+    if not float(value).is_integer():
+        raise ValueError(f"{name} must be a whole number, not {value}")
+    return int(value)
+
+
+def _require_positive(value: float, name: str) -> None:
+    if not (np.isfinite(value) and value > 0):
+        raise ValueError(f"{name} must be positive and finite, not {value}")
+
+
 def raster_of(spacing: Spacing | None, steps: int) -> FloatArray:
     """The spacings at the nodes of the raster; empty where all are the same and not given."""
     if spacing is None:
@@ -96,6 +110,7 @@ def scvt_points(
     density: Density | None,
     fixed: ArrayLike | None,
     along: Lines | None,
+    edges: Edges,
     gradient: float | None,
     tolerance: float,
     largest_tolerance: float,
@@ -112,11 +127,13 @@ def scvt_points(
         spacing = spacing_of_density(density)
     if n is None and spacing is None:
         raise TypeError("scvt() needs n or spacing")
-    count = 0 if n is None else int(n)
-    steps = int(raster_steps) if callable(spacing) else 1
+    count = 0 if n is None else _whole(n, "n")
+    _require_positive(tolerance, "tolerance")
+    _require_positive(largest_tolerance, "largest_tolerance")
+    steps = _whole(raster_steps, "raster_steps") if callable(spacing) else 1
     spacings = raster_of(spacing, steps)
     slope = 0.0 if gradient is None else float(gradient)
-    places, left_out = fixed_points(fixed, along, count, spacings, steps, slope, threads)
+    places, left_out = fixed_points(fixed, along, edges, count, spacings, steps, slope, threads)
     points, densities, end, made_steps, mean, largest, before, after, moved, sites = (
         _core.make_scvt(
             count,
@@ -125,7 +142,7 @@ def scvt_points(
             slope,
             float(tolerance),
             float(largest_tolerance),
-            int(max_steps),
+            _whole(max_steps, "max_steps"),
             bool(repair),
             places,
             as_threads(threads),
@@ -165,6 +182,8 @@ def partition(
     ------
     InvalidInput
         For points in one place and areas that are not positive.
+    ValueError
+        If the tolerance is not positive and finite.
 
     Examples
     --------
@@ -179,6 +198,7 @@ def partition(
     True
 
     """
+    _require_positive(tolerance, "tolerance")
     sites = as_points(points)
     targets = np.empty(0)
     if areas is not None:

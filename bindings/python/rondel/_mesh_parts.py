@@ -4,14 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
 
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, as_name, as_points, as_threads, lonlat
-from ._geometries import Edges, is_file
+from ._arrays import as_floats, as_points, as_threads, lonlat
+from ._geometries import Edges, features_of, is_file
 from ._lonlat import arcs
 from ._plot import draw_coast_lines, line_options, make_map
 from ._projection import LonLatMap
@@ -21,7 +21,7 @@ from ._types import ArrayLike, FloatArray, IntArray, Path
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-Lines: TypeAlias = Path | Sequence[ArrayLike]
+Lines: TypeAlias = Path | Sequence[ArrayLike] | Any
 
 
 class Drawn(Protocol):
@@ -70,6 +70,7 @@ def removed_cells(
 def fixed_points(
     fixed: ArrayLike | None,
     along: Lines | None,
+    edges: Edges,
     count: int,
     spacings: FloatArray,
     steps: int,
@@ -80,12 +81,25 @@ def fixed_points(
     places = np.empty((0, 3)) if fixed is None else as_points(fixed, "fixed")
     if along is None:
         return places, 0
-    if is_file(along):
-        lines = _core.read_lines(as_name(along))  # type: ignore[arg-type]
+    if _is_arrays(along):
+        lines = [as_points(line, "a line") for line in along]
     else:
-        lines = [as_points(line, "a line") for line in along]  # type: ignore[union-attr]
+        lines = features_of(
+            along,
+            edges,
+            lambda name, is_geodesic: _core.read_lines(name, is_geodesic, as_threads(threads)),
+        )
     rows, left_out = _core.sites_along(lines, count, spacings, steps, gradient, as_threads(threads))
     return np.ascontiguousarray(np.concatenate([places, rows])), left_out
+
+
+def _is_arrays(lines: Lines) -> bool:
+    """Whether they are the points of each line, rather than a file or geometries."""
+    if is_file(lines) or hasattr(lines, "__geo_interface__") or not isinstance(lines, Sequence):
+        return isinstance(lines, np.ndarray)
+    return not any(
+        hasattr(line, "__geo_interface__") or isinstance(line, Mapping) for line in lines
+    )
 
 
 def plot_mesh(

@@ -9,6 +9,7 @@ import numpy as np
 from . import _core
 from ._arrays import as_floats, as_name, as_threads, frozen
 from ._delaunay import SphericalDelaunay, delaunay
+from ._geometries import Edges
 from ._mesh_making import (
     Defects,
     Density,
@@ -131,6 +132,7 @@ def scvt(
     gradient: float | None = None,
     fixed: ArrayLike | None = None,
     along: Lines | None = None,
+    edges: Edges = "lonlat",
     radius: float = 1.0,
     tolerance: float = 1e-4,
     largest_tolerance: float = 1e-2,
@@ -156,9 +158,14 @@ def scvt(
         How much the spacing grows over its own distance, at most.
     fixed : array_like, shape (k, 3), optional
         Places that are sites, and never move; they count among the `n`.
-    along : path_like, or sequence of array_like, shape (m, 3), optional
-        Lines that edges of cells follow: a GeoJSON file, or the points of each line, of which the
-        last is the first if it is closed. Two rows of sites beside each never move.
+    along : path_like, geometries, or sequence of array_like, shape (m, 3), optional
+        Lines that edges of cells follow: a GeoJSON file; geometries as `rondel.feature_cells` takes
+        them; or the points of each line, joined by great circles, of which the last is the first if
+        it is closed. Two rows of sites beside each never move. The sides along which a file has cut
+        polygons at the antimeridian are no lines.
+    edges : {'lonlat', 'geodesic'}, optional
+        What joins positions of a file or of geometries: straight lines in longitude and latitude
+        (RFC 7946), or great circles.
     radius : float, optional
         Of the sphere, in metres for most models.
     tolerance, largest_tolerance : float, optional
@@ -175,7 +182,8 @@ def scvt(
     threads : int, optional
         At most so many threads; by default one for each core. The result does not depend on it.
     progress : callable, optional
-        Called with the name of the stage and the fraction of `max_steps`.
+        Called with the name of the stage and an estimate of the part of the work that is done, in
+        the end 1.
 
     Returns
     -------
@@ -197,6 +205,7 @@ def scvt(
         density,
         fixed,
         along,
+        edges,
         gradient,
         tolerance,
         largest_tolerance,

@@ -32,7 +32,10 @@ def test_spacing_of_a_function_is_met():
     assert np.percentile(abs(found - 1), 90) < 0.05
     assert mesh.density.max() <= 1
     assert mesh.density.min() < 0.1
-    assert calls
+    parts = [part for _, part in calls]
+    assert parts == sorted(parts)
+    assert parts[0] < 0.1
+    assert parts[-1] == 1
 
 
 def test_one_spacing_and_the_radius():
@@ -74,6 +77,34 @@ def test_what_is_no_request_is_refused():
         rondel.mesh.scvt(spacing=lambda p: -p[:, 0], raster_steps=8)
     with pytest.raises(ValueError, match="shape"):
         rondel.mesh.scvt(spacing=lambda p: p, raster_steps=8)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"n": 200.5}, "n must be a whole number, not 200.5"),
+        ({"n": np.nan}, "n must be a whole number, not nan"),
+        ({"tolerance": np.nan}, "tolerance must be positive and finite, not nan"),
+        ({"tolerance": -1}, "tolerance must be positive and finite, not -1"),
+        ({"largest_tolerance": 0}, "largest_tolerance must be positive"),
+        ({"max_steps": 1.5}, "max_steps must be a whole number"),
+    ],
+)
+def test_numbers_that_are_none_are_named(options, message):
+    with pytest.raises(ValueError, match=message):
+        rondel.mesh.scvt(**{"n": 100, **options})
+
+
+def test_whole_numbers_of_every_kind_are_taken():
+    assert len(rondel.mesh.scvt(np.int64(42), max_steps=1).points) == 42
+    assert len(rondel.mesh.scvt(42.0, max_steps=1).points) == 42
+
+
+@pytest.mark.parametrize("tolerance", [np.nan, -1, 0, np.inf])
+def test_a_tolerance_of_areas_is_positive(tolerance):
+    points = np.random.default_rng(1).normal(size=(20, 3))
+    with pytest.raises(ValueError, match="tolerance must be positive and finite"):
+        rondel.mesh.partition(points, tolerance=tolerance)
 
 
 def test_areas_are_as_wanted():

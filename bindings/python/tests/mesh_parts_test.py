@@ -142,6 +142,50 @@ def test_edges_follow_a_line(tmp_path):
     assert 20 < len(half.fixed) < 80
 
 
+def test_lines_are_files_geometries_or_points(tmp_path):
+    parallel = {"type": "LineString", "coordinates": [[-180, 50], [180, 50]]}
+    path = tmp_path / "parallel.geojson"
+    path.write_text(json.dumps(parallel))
+    turns = np.radians(np.linspace(-180, 180, 721))
+    turns[-1] = turns[0]
+    lat = np.radians(50)
+    points = [
+        np.cos(turns) * np.cos(lat),
+        np.sin(turns) * np.cos(lat),
+        np.full(721, np.sin(lat)),
+    ]
+
+    def rows(along, edges="lonlat"):
+        mesh = rondel.mesh.scvt(1500, along=along, edges=edges, max_steps=1)
+        return mesh.points[mesh.fixed]
+
+    by_file = rows(path)
+    assert abs(np.degrees(np.arcsin(by_file[:, 2])) - 50).max() < 3
+    assert np.array_equal(rows(parallel), by_file)
+    assert np.array_equal(rows([parallel]), by_file)
+    by_points = rows([np.column_stack(points)])
+    assert len(by_points) == len(by_file)
+    assert abs(by_points - by_file).max() < 1e-4
+    over_the_pole = {"type": "LineString", "coordinates": [[-90, 50], [80, 50]]}
+    assert rows(over_the_pole, "geodesic")[:, 2].max() > 0.98
+    assert rows(over_the_pole)[:, 2].max() < 0.85
+    with pytest.raises(ValueError, match="edges must be"):
+        rows(path, "straight")
+
+
+def test_a_coast_goes_on_across_the_antimeridian():
+    def box(west, east):
+        corners = [[west, -20], [east, -20], [east, 20], [west, 20], [west, -20]]
+        return {"type": "Polygon", "coordinates": [corners]}
+
+    mesh = rondel.mesh.scvt(2000, along=[box(150, 180), box(-180, -150)], max_steps=1)
+    fixed = mesh.points[mesh.fixed]
+    lat = np.degrees(np.arcsin(fixed[:, 2]))
+    beside = (abs(np.arctan2(fixed[:, 1], -fixed[:, 0])) < 0.3) & (abs(lat) < 14)
+    assert len(fixed) > 60
+    assert not beside.any()
+
+
 def test_a_density_is_the_spacing_to_the_power_of_minus_4():
     def spacing(points):
         return 0.1 + 0.05 * points[:, 0]

@@ -1,0 +1,224 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Files cut polygons at longitude 180: what crosses it is two polygons, one with a side up the antimeridian, one with a
+// side down it. Nobody says that the two sides have the same corners:
+//
+//            |   b           the antimeridian is the half of a great circle where y = 0 and x <= 0; a place on it has
+//     a      |  ^ |          the number z / (1 - x), the tangent of half of its latitude. What sides go up (of polygons
+//     |  up  v  | v down     to the west) and what sides go down (to the east) are intervals of that number; where both
+//     v      |               are, is a cut.
+
+#include "meshing/outlines.h"
+
+#include <algorithm>
+#include <array>
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+namespace rondel::meshing {
+namespace {
+
+using OutlinePoints = std::vector<Point>;
+
+bool is_on_antimeridian(const Point& p) { return p.y == 0 && p.x <= 0; }
+
+struct MeridianPlace {
+  double number;
+  Point point;
+};
+MeridianPlace meridian_place(const Point& p) { return {p.z / (1 - p.x), p}; }
+
+// Intervals without common parts, in order.
+struct MeridianInterval {
+  MeridianPlace low;
+  MeridianPlace high;
+};
+using MeridianIntervals = std::vector<MeridianInterval>;
+
+MeridianIntervals united(MeridianIntervals all) {
+  std::ranges::sort(all, {}, [](const MeridianInterval& one) { return one.low.number; });
+  MeridianIntervals result;
+  for (const MeridianInterval& one : all) {
+    if (result.empty() || result.back().high.number < one.low.number) {
+      result.push_back(one);
+    } else if (result.back().high.number < one.high.number) {
+      result.back().high = one.high;
+    }
+  }
+  return result;
+}
+
+MeridianIntervals common(const MeridianIntervals& a, const MeridianIntervals& b) {
+  MeridianIntervals result;
+  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
+    const MeridianPlace low = a[i].low.number < b[j].low.number ? b[j].low : a[i].low;
+    const bool a_ends_first = a[i].high.number < b[j].high.number;
+    const MeridianPlace high = a_ends_first ? a[i].high : b[j].high;
+    if (low.number < high.number) result.push_back({low, high});
+    ++(a_ends_first ? i : j);
+  }
+  return result;
+}
+
+class AntimeridianCut {
+ public:
+  // Closed: the last point is the first.
+  explicit AntimeridianCut(const std::vector<OutlinePoints>& closed_lines) {
+    MeridianIntervals up;
+    MeridianIntervals down;
+    for (const OutlinePoints& line : closed_lines) {
+      for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+        if (!is_on_antimeridian(line[k]) || !is_on_antimeridian(line[k + 1])) continue;
+        const MeridianPlace from = meridian_place(line[k]);
+        const MeridianPlace to = meridian_place(line[k + 1]);
+        if (from.number < to.number) up.push_back({from, to});
+        if (to.number < from.number) down.push_back({to, from});
+      }
+    }
+    cuts_ = common(united(std::move(up)), united(std::move(down)));
+  }
+
+  // Appends what is left of a closed line: itself, or parts of it.
+  void append_rest(const OutlinePoints& line, std::vector<OutlinePoints>& whole,
+                   std::vector<OutlinePoints>& parts) const {
+    std::vector<OutlinePoints> found = {{}};
+    for (std::size_t k = 0; k + 1 < line.size(); ++k) append_side(line[k], line[k + 1], found);
+    if (found.size() == 1) {
+      whole.push_back(line);
+      return;
+    }
+    // The first part began where the line does, which is nowhere in particular.
+    OutlinePoints& last = found.back();
+    if (!last.empty() && !found.front().empty()) {
+      last.insert(last.end(), found.front().begin() + 1, found.front().end());
+      found.front().clear();
+    } else if (last.empty()) {
+      std::swap(last, found.front());
+    }
+    for (OutlinePoints& part : found) {
+      if (part.size() > 1) parts.push_back(std::move(part));
+    }
+  }
+
+ private:
+  // A new part begins behind each cut.
+  void append_side(const Point& from, const Point& to, std::vector<OutlinePoints>& found) const {
+    const auto append = [&](const Point& p, const Point& q) {
+      if (found.back().empty()) found.back().push_back(p);
+      found.back().push_back(q);
+    };
+    if (from == to) return;  // all positions at a pole are one place
+    if (!is_on_antimeridian(from) || !is_on_antimeridian(to)) {
+      append(from, to);
+      return;
+    }
+    const double begin = meridian_place(from).number;
+    const double end = meridian_place(to).number;
+    const bool is_up = begin < end;
+    Point at = from;
+    for (std::size_t k = 0; k < cuts_.size(); ++k) {
+      const MeridianInterval& cut = cuts_[is_up ? k : cuts_.size() - 1 - k];
+      if (cut.high.number <= std::min(begin, end) || cut.low.number >= std::max(begin, end)) {
+        continue;
+      }
+      const MeridianPlace& first = is_up ? cut.low : cut.high;
+      const MeridianPlace& second = is_up ? cut.high : cut.low;
+      const bool begins_inside = is_up ? first.number > begin : first.number < begin;
+      const bool ends_inside = is_up ? second.number < end : second.number > end;
+      if (begins_inside) append(at, first.point);
+      found.emplace_back();
+      at = ends_inside ? second.point : to;
+    }
+    if (at != to) append(at, to);
+  }
+
+  MeridianIntervals cuts_;
+};
+
+// Parts that end where others begin become one, closed where they come back.
+class PartJoin {
+ public:
+  explicit PartJoin(std::vector<OutlinePoints> parts) : parts_(std::move(parts)) {
+    std::vector<std::pair<std::array<double, 3>, std::size_t>> starts;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      starts.emplace_back(key(parts_[i].front()), i);
+    }
+    std::ranges::sort(starts);
+    std::vector<char> is_used(starts.size(), 0);
+    next_.assign(parts_.size(), none);
+    has_previous_.assign(parts_.size(), 0);
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      auto at = std::ranges::lower_bound(starts, std::pair(key(parts_[i].back()), std::size_t{0}));
+      const auto number = [&] { return static_cast<std::size_t>(at - starts.begin()); };
+      while (at != starts.end() && at->first == key(parts_[i].back()) && is_used[number()] != 0) {
+        ++at;
+      }
+      if (at == starts.end() || at->first != key(parts_[i].back())) continue;
+      is_used[number()] = 1;
+      next_[i] = at->second;
+      has_previous_[at->second] = 1;
+    }
+  }
+
+  void append_all(std::vector<OutlinePoints>& lines) {
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (has_previous_[i] == 0) append_chain(i, lines);
+    }
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      if (!parts_[i].empty()) append_chain(i, lines);
+    }
+  }
+
+ private:
+  static constexpr std::size_t none = static_cast<std::size_t>(-1);
+  static std::array<double, 3> key(const Point& p) { return {p.x, p.y, p.z}; }
+
+  void append_chain(std::size_t first, std::vector<OutlinePoints>& lines) {
+    OutlinePoints line = std::exchange(parts_[first], {});
+    for (std::size_t i = next_[first]; i != none && !parts_[i].empty(); i = next_[i]) {
+      line.insert(line.end(), parts_[i].begin() + 1, parts_[i].end());
+      parts_[i].clear();
+    }
+    lines.push_back(std::move(line));
+  }
+
+  std::vector<OutlinePoints> parts_;
+  std::vector<std::size_t> next_;
+  std::vector<char> has_previous_;
+};
+
+}  // namespace
+
+std::vector<std::vector<Point>> outlines_of(const FeatureTable& features) {
+  std::vector<OutlinePoints> lines;
+  std::vector<OutlinePoints> closed;
+  const FeatureLines& given = features.lines;
+  for (std::size_t i = 0; i + 1 < given.lines.size(); ++i) {
+    const auto at = [&](std::uint64_t p) {
+      return given.points.begin() + static_cast<std::ptrdiff_t>(p);
+    };
+    OutlinePoints line(at(given.lines[i]), at(given.lines[i + 1]));
+    const bool is_closed = line.size() > 3 && line.front() == line.back();
+    (is_closed ? closed : lines).push_back(std::move(line));
+  }
+  const CellRings& cells = features.polygons;
+  for (std::size_t r = 0; r + 1 < cells.rings.size(); ++r) {
+    OutlinePoints ring;
+    for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+      ring.push_back(cells.points[cells.corners[k]]);
+    }
+    if (ring.empty()) continue;
+    ring.push_back(Point(ring.front()));
+    closed.push_back(std::move(ring));
+  }
+  const AntimeridianCut cut(closed);
+  std::vector<OutlinePoints> parts;
+  for (const OutlinePoints& line : closed) cut.append_rest(line, lines, parts);
+  PartJoin(std::move(parts)).append_all(lines);
+  return lines;
+}
+
+}  // namespace rondel::meshing

@@ -1,0 +1,184 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Spacings of files, against the function that the files were written from.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <numbers>
+#include <string>
+
+#include "meshing/scvt_levels.h"
+#include "rondel/delaunay.h"
+#include "rondel/error.h"
+#include "rondel/mesh_io.h"
+#include "rondel/mesh_size_files.h"
+#include "unit/mesh_support.h"
+#include "unit/mesh_writer.h"
+
+namespace rondel::mesh {
+namespace {
+
+using test::MeshWriter;
+
+// Kilometers on a sphere of 1000 km.
+double wanted(const Point& p) { return 100 + 40 * p.z + 20 * p.x; }
+double wanted(double lon, double lat) { return wanted(unit_vector(LonLat{lon, lat})); }
+
+const MeshWriter::Texts east = {{"units", "degrees_east"}};
+const MeshWriter::Texts north = {{"units", "degrees_north"}};
+
+std::string path_of(const std::string& name) { return testing::TempDir() + "rondel_" + name; }
+
+void expect_wanted(const SizeFunction& size, double relative) {
+  for (const Point& p : sampled_sites(2000, nullptr, 3)) {
+    EXPECT_NEAR(size.spacing(p) * 1000, wanted(p), relative * wanted(p));
+  }
+}
+
+// The spacing of a tessellation of density h^-4, the largest being 1.
+void expect_proportions(const SizeFunction& size, double relative) {
+  const double scale = size.spacing({1, 0, 0}) / wanted(Point{1, 0, 0});
+  for (const Point& p : sampled_sites(2000, nullptr, 3)) {
+    EXPECT_NEAR(size.spacing(p), scale * wanted(p), relative * scale * wanted(p));
+  }
+}
+
+struct Axes {
+  std::vector<double> lon;
+  std::vector<double> lat;
+};
+Axes axes_of(double step) {
+  Axes axes;
+  for (double x = 0; x < 360; x += step) axes.lon.push_back(x);
+  for (double y = 90; y >= -90; y -= step) axes.lat.push_back(y);
+  return axes;
+}
+
+TEST(mesh_spacing_files, grid_of_netcdf) {
+  const Axes axes = axes_of(5);
+  std::vector<double> spacings;
+  std::vector<double> densities;
+  for (const double y : axes.lat) {
+    for (const double x : axes.lon) {
+      spacings.push_back(wanted(x, y));
+      densities.push_back(1e9 * std::pow(wanted(x, y), -4));
+    }
+  }
+  const std::uint64_t rows = axes.lat.size();
+  const std::uint64_t columns = axes.lon.size();
+  const std::string path = path_of("grid.nc");
+  MeshWriter file;
+  file.add("lat", {{"lat", rows}}, axes.lat, north);
+  file.add("lon", {{"lon", columns}}, axes.lon, east);
+  file.add("h", {{"lat", rows}, {"lon", columns}}, spacings, {{"units", "km"}});
+  file.write(path);
+  expect_wanted(read_spacings({path, {}}, "h", 1e-3, 256), 2e-3);
+  expect_wanted(read_spacings({path, {}}, "", 1e-3, 256), 2e-3);
+  file.add("rho", {{"time", 1}, {"lat", rows}, {"lon", columns}}, densities);
+  file.write(path);
+  expect_proportions(read_density({path, {}}, "rho", 256), 2e-3);
+  EXPECT_THROW((void)read_spacings({path, {}}, "", 1e-3, 256), FileError);
+  EXPECT_THROW((void)read_spacings({path, {}}, "lat", 1e-3, 256), FileError);
+  EXPECT_THROW((void)read_spacings({path, {}}, "none", 1e-3, 256), FileError);
+}
+
+TEST(mesh_spacing_files, points_of_netcdf_and_tables) {
+  const std::vector<Point> places = sampled_sites(4000, nullptr, 1);
+  std::vector<double> lon;
+  std::vector<double> lat;
+  std::vector<double> spacings;
+  std::ofstream table(path_of("spacings.csv"));
+  table.precision(17);
+  table << "lon,lat,h\n";
+  for (const Point& p : places) {
+    lon.push_back(std::atan2(p.y, p.x) * 180 / std::numbers::pi);
+    lat.push_back(std::asin(p.z) * 180 / std::numbers::pi);
+    spacings.push_back(wanted(p));
+    table << lon.back() << ',' << lat.back() << ',' << spacings.back() << '\n';
+  }
+  table.close();
+  const std::uint64_t n = places.size();
+  MeshWriter file;
+  file.add("x", {{"place", n}}, lon, east);
+  file.add("y", {{"place", n}}, lat, north);
+  file.add("h", {{"place", n}}, spacings, {{"coordinates", "x y"}});
+  file.write(path_of("points.nc"));
+  expect_wanted(read_spacings({path_of("points.nc"), {}}, "h", 1e-3, 256), 2e-3);
+  expect_wanted(read_spacings({path_of("spacings.csv"), {}}, "h", 1e-3, 256), 2e-3);
+}
+
+// Of meshes of the formats that the library writes: the cells are where the values are.
+TEST(mesh_spacing_files, cells_of_meshes) {
+  const std::vector<Point> sites = sampled_sites(2000, nullptr, 5);
+  std::vector<double> density;
+  for (const Point& p : sites) density.push_back(std::pow(60 / wanted(p), 4));
+  const MeshArrays made = arrays(delaunay(Sites::view(sites)), {.density = density});
+  const std::string path = path_of("spacing_mesh.nc");
+  write(path, made, {.format = MeshFormat::mpas});
+  expect_proportions(read_density({path, {}}, "meshDensity", 256), 5e-3);
+
+  // A face has a spacing; the file says where faces are in the topology alone.
+  MeshWriter file;
+  const std::uint64_t n = sites.size();
+  std::vector<double> lon;
+  std::vector<double> lat;
+  std::vector<double> spacings;
+  for (const Point& p : sites) {
+    lon.push_back(std::atan2(p.y, p.x) * 180 / std::numbers::pi);
+    lat.push_back(std::asin(p.z) * 180 / std::numbers::pi);
+    spacings.push_back(wanted(p));
+  }
+  std::vector<double> node_lon;
+  std::vector<double> node_lat;
+  for (const Point& p : made.vertex_points) {
+    node_lon.push_back(std::atan2(p.y, p.x) * 180 / std::numbers::pi);
+    node_lat.push_back(std::asin(p.z) * 180 / std::numbers::pi);
+  }
+  const std::uint64_t room = made.max_edges();
+  std::vector<double> nodes(n * room, -1);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::uint64_t k = made.offsets[i]; k < made.offsets[i + 1]; ++k) {
+      nodes[i * room + k - made.offsets[i]] = made.vertices_on_cell[k];
+    }
+  }
+  file.add_whole("mesh", {}, {0},
+                 {{"cf_role", "mesh_topology"},
+                  {"node_coordinates", "node_x node_y"},
+                  {"face_coordinates", "face_x face_y"},
+                  {"face_node_connectivity", "faces"}},
+                 {{"topology_dimension", 2}});
+  file.add("node_x", {{"node", node_lon.size()}}, node_lon, east);
+  file.add("node_y", {{"node", node_lon.size()}}, node_lat, north);
+  file.add("face_x", {{"face", n}}, lon, east);
+  file.add("face_y", {{"face", n}}, lat, north);
+  file.add_whole("faces", {{"face", n}, {"corner", room}}, nodes, {},
+                 {{"start_index", 0}, {"_FillValue", -1}});
+  file.add("h", {{"face", n}}, spacings, {{"mesh", "mesh"}, {"location", "face"}});
+  file.write(path);
+  expect_wanted(read_spacings({path, {}}, "h", 1e-3, 256), 4e-3);
+}
+
+TEST(mesh_spacing_files, values_that_are_no_spacings_are_named) {
+  const std::string path = path_of("bad_spacings.nc");
+  const auto message = [&](std::vector<double> values) {
+    MeshWriter file;
+    file.add("lon", {{"place", 4}}, {0, 90, 180, 270}, east);
+    file.add("lat", {{"place", 4}}, {-30, 30, -30, 30}, north);
+    file.add("h", {{"place", 4}}, std::move(values));
+    file.write(path);
+    try {
+      (void)read_spacings({path, {}}, "h", 1e-3, 16);
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_EQ(message({100, 100, 100, 200}), "");
+  EXPECT_NE(message({100, 100, -5, 200}).find("spacing -5.000000 at place 2"), std::string::npos);
+  EXPECT_NE(message({100, 9000, 5, 200}).find("at place 1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace rondel::mesh
