@@ -12,6 +12,7 @@
 #include "interpolation/field_formats.h"
 #include "io/bad_value.h"
 #include "io/binary.h"
+#include "io/csv_columns.h"
 #include "io/csv_records.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
@@ -25,24 +26,24 @@ namespace interpolation {
 namespace {
 
 double value_of(std::string_view cell, const std::string& name) {
-  const bool is_missing = cell.find_first_not_of(" \t") == std::string_view::npos ||
-                          cell == "nan" || cell == "NaN" || cell == "NA";
+  const std::string_view text = io::trim(cell);
+  const bool is_missing = text.empty() || text == "nan" || text == "NaN" || text == "NA";
   return is_missing ? std::numeric_limits<double>::quiet_NaN() : io::parse_number(cell, name);
 }
 
 FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& wanted) {
   if (wanted.names.empty()) throw io::BadValue("no column of the table is named (--value)");
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  io::CsvRecords records(bytes,
+  io::CsvRecords records(io::table_text(bytes),
                          wanted.options.delimiter == '\0' ? delimiter : wanted.options.delimiter);
   if (!records.next()) throw io::BadValue("the table has no header");
   FieldSet fields;
-  const std::vector<std::string> header(records.fields().begin(), records.fields().end());
+  const std::vector<std::string> header = io::column_names(records.fields());
+  io::require_different_names(header);
   std::vector<std::size_t> columns;
   for (const std::string& name : wanted.names) {
-    const auto at = std::ranges::find(header, name);
-    if (at == header.end()) throw io::BadValue("no column " + io::in_quotes(name));
-    columns.push_back(static_cast<std::size_t>(at - header.begin()));
+    const auto at = io::find_column(header, name);
+    if (!at) throw io::BadValue("no column " + io::in_quotes(name));
+    columns.push_back(*at);
     FieldArray array;
     array.name = name;
     fields.arrays.push_back(std::move(array));

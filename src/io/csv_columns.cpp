@@ -6,13 +6,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/number.h"
 
 namespace rondel::io {
 namespace {
 
-using Header = std::vector<std::string_view>;
+using Header = std::vector<std::string>;
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -23,15 +24,15 @@ bool equal_but_for_case(std::string_view a, std::string_view b) {
 // What may be wrong with a table whose header has not the columns.
 std::string hint(const Header& header) {
   if (is_comment(header.front())) return "; a table has no lines of comments";
-  if (std::ranges::all_of(header, [](auto name) { return is_json_number(trim(name)); })) {
+  if (std::ranges::all_of(header, is_json_number)) {
     return "; the first line must name the columns";
   }
-  if (std::ranges::any_of(header, [](auto name) { return name.find('\r') != name.npos; })) {
+  if (std::ranges::any_of(header, [](const auto& name) { return name.find('\r') != name.npos; })) {
     return "; lines end with CR alone, not LF";
   }
   if (header.size() > 1) return {};
   for (const char c : {';', '\t', '|', ','}) {
-    if (header.front().find(c) == std::string_view::npos) continue;
+    if (header.front().find(c) == std::string::npos) continue;
     const std::string name = c == '\t' ? "a tab" : std::string("\"") + c + '"';
     return "; is the delimiter " + name + "? (--delimiter)";
   }
@@ -42,7 +43,7 @@ std::string found(const Header& header) {
   constexpr std::size_t most = 30;
   std::string text = "; found: ";
   for (std::size_t i = 0; i < header.size() && i < most; ++i) {
-    const std::string name = in_quotes(trim(header[i]));
+    const std::string name = in_quotes(header[i]);
     text += (i == 0 ? "" : ", ") + name.substr(1, name.size() - 2);
   }
   return (header.size() > most ? text + ", ..." : text) + hint(header);
@@ -54,23 +55,51 @@ struct Coordinate {
   std::vector<std::string_view> usual;
 };
 
+std::vector<std::size_t> all_equal_to(const Header& header, std::string_view name) {
+  std::vector<std::size_t> equal;
+  for (std::size_t i = 0; i < header.size(); ++i) {
+    if (header[i] == name) equal.push_back(i);
+  }
+  return equal;
+}
+
+// `"lon" (column 1) and "longitude" (column 3)`
+std::string with_positions(const Header& header, std::span<const std::size_t> columns) {
+  std::string text;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    if (k > 0) text += k + 1 == columns.size() ? " and " : ", ";
+    text += in_quotes(header[columns[k]]) + " (column " + std::to_string(columns[k] + 1) + ")";
+  }
+  return text;
+}
+
+[[noreturn]] void refuse_equal(const Header& header, std::span<const std::size_t> columns) {
+  throw BadValue("two columns have the same name: " + with_positions(header, columns.first(2)));
+}
+
 // The column of a coordinate. An exact fit goes before one that differs in case.
 std::optional<std::size_t> find(const Header& header, const Coordinate& coordinate) {
+  const std::string_view chosen = trim(coordinate.chosen);
+  std::vector<std::size_t> fitting;
+  if (!chosen.empty()) {
+    fitting = all_equal_to(header, chosen);
+    if (fitting.size() > 1) refuse_equal(header, fitting);
+    if (!fitting.empty()) return fitting.front();
+  }
   const auto fits = [&](std::string_view name) {
-    if (!coordinate.chosen.empty()) return equal_but_for_case(name, trim(coordinate.chosen));
+    if (!chosen.empty()) return equal_but_for_case(name, chosen);
     return std::ranges::any_of(coordinate.usual,
                                [&](auto usual) { return equal_but_for_case(name, usual); });
   };
-  std::vector<std::size_t> fitting;
   for (std::size_t i = 0; i < header.size(); ++i) {
-    if (trim(header[i]) == coordinate.chosen) return i;
-    if (fits(trim(header[i]))) fitting.push_back(i);
+    if (fits(header[i])) fitting.push_back(i);
   }
   if (fitting.size() > 1) {
-    throw BadValue("more than one column may be the " + std::string(coordinate.word) +
-                   "; name one" + found(header));
+    const bool are_equal = header[fitting[0]] == header[fitting[1]];
+    throw BadValue("more than one column may be the " + std::string(coordinate.word) + ": " +
+                   with_positions(header, fitting) + (are_equal ? "" : "; name one of them"));
   }
-  if (fitting.empty() && !coordinate.chosen.empty()) {
+  if (fitting.empty() && !chosen.empty()) {
     throw BadValue("no column " + in_quotes(coordinate.chosen) + found(header));
   }
   return fitting.empty() ? std::nullopt : std::optional(fitting.front());
@@ -119,6 +148,27 @@ bool is_xyz(const Header& header, std::span<const Coordinate> lonlat,
 }  // namespace
 
 bool is_comment(std::string_view first_field) { return trim(first_field).starts_with('#'); }
+
+std::vector<std::string> column_names(const std::vector<std::string_view>& header) {
+  std::vector<std::string> names;
+  for (const std::string_view field : header) {
+    const std::string_view name = trim(field);
+    names.push_back(name.empty() ? "column_" + std::to_string(names.size() + 1)
+                                 : std::string(name));
+  }
+  return names;
+}
+
+std::optional<std::size_t> find_column(const std::vector<std::string>& names,
+                                       std::string_view name) {
+  const std::vector<std::size_t> equal = all_equal_to(names, trim(name));
+  if (equal.size() > 1) refuse_equal(names, equal);
+  return equal.empty() ? std::nullopt : std::optional(equal.front());
+}
+
+void require_different_names(const std::vector<std::string>& names) {
+  for (const std::string& name : names) find_column(names, name);
+}
 
 CoordinateColumns find_columns(const Header& header, const ReadOptions& options) {
   const Coordinate lonlat[] = {{"longitude", options.lon, {"lon", "lng", "long", "longitude"}},

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "io/column_text.h"
@@ -13,14 +15,6 @@
 
 namespace rondel::io {
 namespace {
-
-std::string_view without_bom(std::string_view bytes) {
-  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
-    throw BadValue("the file is UTF-16, not UTF-8");
-  }
-  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
-  return bytes;
-}
 
 // Every line may be a site, and a site takes at least four bytes: "1,2\n".
 std::size_t most_sites(std::string_view text) {
@@ -41,13 +35,32 @@ void require_width(const CsvRecords& records, std::size_t header) {
                  " where the header has " + std::to_string(header) + hint);
 }
 
+std::vector<bool> named_columns(const std::vector<std::string_view>& header) {
+  std::vector<bool> is_named;
+  for (const std::string_view name : header) is_named.push_back(!trim(name).empty());
+  return is_named;
+}
+
+// A comma at the end of each line makes a column with neither a name nor a text.
+void drop_empty_columns(const std::vector<bool>& is_named, SiteTable& table) {
+  std::vector<Column> kept;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    Column& column = table.columns[i];
+    if (is_named[i] || trim(column.text) != "") kept.push_back(std::move(column));
+  }
+  table.columns = std::move(kept);
+}
+
 void read_rows(CsvRecords& records, std::string_view text, const ReadJob& options,
                SiteTable& table) {
-  const CoordinateColumns coordinates = find_columns(records.fields(), options);
-  const std::size_t width = records.fields().size();
+  const std::vector<std::string> names = column_names(records.fields());
+  const CoordinateColumns coordinates = find_columns(names, options);
+  const std::size_t width = names.size();
+  require_different_names(names);
   if (options.keep_columns) {
-    for (const auto name : records.fields()) table.columns.push_back(make_column(trim(name)));
+    for (const std::string& name : names) table.columns.push_back(make_column(name));
   }
+  const std::vector<bool> is_named = named_columns(records.fields());
   SiteCollector collector(table, options);
   collector.reserve(most_sites(text.substr(records.position())), coordinates.is_lonlat);
   const auto [a, b, c] = coordinates.columns;
@@ -71,6 +84,7 @@ void read_rows(CsvRecords& records, std::string_view text, const ReadJob& option
     }
     collector.report_progress(records.position(), text.size());
   }
+  drop_empty_columns(is_named, table);
 }
 
 void read_delimited(std::string_view bytes, char usual_delimiter, const ReadJob& options,
@@ -78,7 +92,7 @@ void read_delimited(std::string_view bytes, char usual_delimiter, const ReadJob&
   const char delimiter = options.delimiter != '\0' ? options.delimiter : usual_delimiter;
   CsvRecords records({}, delimiter);
   at_line_of(records, [&] {
-    const std::string_view text = without_bom(bytes);
+    const std::string_view text = table_text(bytes);
     records = CsvRecords(text, delimiter);
     if (!records.next()) throw FileError(table.name + ": the file is empty");
     read_rows(records, text, options, table);

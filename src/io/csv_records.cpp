@@ -9,6 +9,14 @@
 
 namespace rondel::io {
 
+std::string_view table_text(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF")) {
+    throw BadValue("the file is UTF-16, not UTF-8");
+  }
+  if (bytes.starts_with("\xEF\xBB\xBF")) bytes.remove_prefix(3);
+  return bytes;
+}
+
 bool CsvRecords::next() {
   fields_.clear();
   unescaped_.clear();

@@ -15,6 +15,9 @@
 
 namespace rondel::io {
 
+// The bytes of a table without the byte order mark of UTF-8. Throws BadValue for UTF-16.
+RONDEL_API std::string_view table_text(std::string_view bytes);
+
 // 1. Records end with LF or CRLF, the last one also with the text. Empty lines are skipped.
 // 2. A field that starts with a quote ends with the next single quote; inside, two quotes stand for
 //    one and line ends are part of it. Elsewhere quotes are ordinary characters.

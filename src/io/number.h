@@ -59,6 +59,6 @@ double checked_radius(double radius, bool is_radians);
 Point checked_point(const Point& point);
 
 // Without the blanks and tabs around it.
-std::string_view trim(std::string_view text);
+RONDEL_API std::string_view trim(std::string_view text);
 
 }  // namespace rondel::io
