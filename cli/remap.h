@@ -54,7 +54,7 @@ std::vector<LonLat> corners_of(const LonLatGrid& grid);
 struct RemapCommandOptions {
   CommonOptions common;  ///< INPUT: the source's cells; OUTPUT: the weights
   std::string target;    ///< TARGET
-  RemapOptions remap;    ///< --order --norm
+  RemapOptions remap;    ///< --order --norm --overlap
   GridSides sides = GridSides::parallels;
   PolygonEdges edges = PolygonEdges::lonlat;
 };

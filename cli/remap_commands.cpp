@@ -166,6 +166,12 @@ Command add_remap_command(CLI::App& tool) {
       {{"destarea", RemapNorm::destarea}, {"fracarea", RemapNorm::fracarea}},
       "What sums are divided by: destarea (default: the target's area, so integrals are\n"
       "kept) or fracarea (the part that sources cover, so constants are)");
+  add_word<CellOverlap>(
+      *parser, "--overlap", options->remap.overlap,
+      {{"error", CellOverlap::error}, {"first", CellOverlap::first}, {"share", CellOverlap::share}},
+      "What becomes of a place that several cells of one side have: error (default: two of\n"
+      "them are named), first (the cell with the lowest number has it) or share (each has its\n"
+      "part)");
   add_word<GridSides>(
       *parser, "--sides", options->sides,
       {{"parallels", GridSides::parallels}, {"great-circles", GridSides::great_circles}},

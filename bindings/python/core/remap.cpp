@@ -93,12 +93,13 @@ std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
 
 RemapOut remap_of(const Partition& source, const Partition& target, unsigned order,
                   bool is_fracarea, const IndicesIn& source_mask, const IndicesIn& target_mask,
-                  unsigned threads, const nb::object& listener) {
+                  unsigned overlap, unsigned threads, const nb::object& listener) {
   const RemapOptions options{
       .order = order,
       .norm = is_fracarea ? RemapNorm::fracarea : RemapNorm::destarea,
       .source_mask = mask_of(source_mask),
       .target_mask = mask_of(target_mask),
+      .overlap = static_cast<CellOverlap>(overlap),
   };
   Remap found = watched(
       source.num_cells() + target.num_cells(), threads, listener,
@@ -163,7 +164,8 @@ void add_remap(nb::module_& module) {
              nb::arg("is_geodesic"), nb::arg("threads"));
   module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::arg("order"),
              nb::arg("is_fracarea"), nb::arg("source_mask").noconvert(),
-             nb::arg("target_mask").noconvert(), nb::arg("threads"), nb::arg("progress").none());
+             nb::arg("target_mask").noconvert(), nb::arg("overlap"), nb::arg("threads"),
+             nb::arg("progress").none());
 }
 
 }  // namespace rondel::python

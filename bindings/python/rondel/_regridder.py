@@ -73,6 +73,8 @@ class Regridder(Described):
         Whether targets without a value are NaN, or else 0.
     weights : path-like or Weights, optional
         Those of `to_netcdf` of a former one, with the same grids.
+    overlap : {'error', 'first', 'share'}, optional
+        What conservative methods do where cells of one grid overlap; as in `remap`.
     threads : int, optional
     progress : callable, optional
     **needless
@@ -117,6 +119,7 @@ class Regridder(Described):
         extrap_method: Literal["nearest_s2d"] | None = None,
         unmapped_to_nan: bool = True,
         weights: Path | Weights | None = None,
+        overlap: Literal["error", "first", "share"] = "error",
         threads: int | None = None,
         progress: Progress = None,
         **needless: Any,
@@ -136,7 +139,7 @@ class Regridder(Described):
         self._fill = np.nan if unmapped_to_nan else 0.0
         shape = (self._target.lon.size, self._source.lon.size)
         if weights is None:
-            made = _made(self._source, self._target, method, threads, progress)
+            made = _made(self._source, self._target, method, overlap, threads, progress)
             if extrap_method is not None:
                 made = _filled(made, self._source, self._target)
         else:
@@ -247,7 +250,12 @@ def _labeled(data: Any, dims: tuple[Any, ...]) -> Any:
 
 
 def _made(
-    source: Places, target: Places, method: str, threads: int | None, progress: Progress
+    source: Places,
+    target: Places,
+    method: str,
+    overlap: Literal["error", "first", "share"],
+    threads: int | None,
+    progress: Progress,
 ) -> Weights:
     if method in _CONSERVATIVE:
         order, norm = _CONSERVATIVE[method]
@@ -259,6 +267,7 @@ def _made(
             norm=norm,
             source_mask=mask,
             target_mask=target_mask,
+            overlap=overlap,
             threads=threads,
             progress=progress,
         ).weights

@@ -105,6 +105,9 @@ class Remap(Described):
         return f"{source} to {target}, {weights}"
 
 
+_OVERLAPS = ("error", "first", "share")
+
+
 def remap(
     source: Any,
     target: Any,
@@ -113,6 +116,7 @@ def remap(
     norm: Literal["destarea", "fracarea"] = "destarea",
     source_mask: ArrayLike | None = None,
     target_mask: ArrayLike | None = None,
+    overlap: Literal["error", "first", "share"] = "error",
     threads: int | None = None,
     progress: Progress = None,
 ) -> Remap:
@@ -132,6 +136,10 @@ def remap(
         part that sources cover, so that constants are.
     source_mask, target_mask : array_like of bool, optional
         Which cells take part; by default what the partition's file says.
+    overlap : {'error', 'first', 'share'}, optional
+        What becomes of a place that several cells of one side have. By default two of the cells
+        and the place are named in an error. 'first' gives the place to the cell with the lowest
+        index, 'share' to each of them its part. Cells that take no part do not count.
     threads : int, optional
     progress : callable, optional
 
@@ -143,8 +151,8 @@ def remap(
     Raises
     ------
     InvalidInput
-        If a mask has another length, or, where neither partition covers the sphere or is a grid
-        of parallels, cells of both overlap.
+        If a mask has another length, cells of one side overlap and `overlap` is 'error', or a cell
+        crosses or overlaps itself.
 
     Examples
     --------
@@ -158,6 +166,8 @@ def remap(
     """
     if norm not in ("destarea", "fracarea"):
         raise ValueError(f"norm must be 'destarea' or 'fracarea', not {norm!r}")
+    if overlap not in _OVERLAPS:
+        raise ValueError(f"overlap must be 'error', 'first' or 'share', not {overlap!r}")
     if operator.index(order) not in (1, 2):
         raise ValueError(f"order must be 1 or 2, not {order}")
     cells = [_as_partition(side, threads) for side in (source, target)]
@@ -168,6 +178,7 @@ def remap(
         order,
         norm == "fracarea",
         *masks,
+        _OVERLAPS.index(overlap),
         as_threads(threads),
         progress,
     )

@@ -203,6 +203,31 @@ def test_uxarray_applies_weights(tmp_path):
     assert np.abs(found[there] - expected[there]).max() < 1e-14
 
 
+def test_cells_that_overlap():
+    lon, lat = (
+        np.array([0.0, 20, 20, 0, 10, 30, 30, 10]),
+        np.array([0.0, 0, 20, 20, 10, 10, 30, 30]),
+    )
+    twice = rondel.Partition.polygons(
+        [0, 1, 2], [0, 4, 8], np.arange(8), rondel.unit_vectors(lon, lat)
+    )
+    grid = rondel.lonlat_grid(36, 18)
+    with pytest.raises(rondel.InvalidInput, match=r"^source cells 0 and 1 overlap at 14"):
+        rondel.remap(twice, grid)
+    with pytest.raises(rondel.InvalidInput, match=r"^target cells 0 and 1 overlap at 14"):
+        rondel.remap(grid, twice)
+    with pytest.raises(ValueError, match="'error', 'first' or 'share', not 'last'"):
+        rondel.remap(twice, grid, overlap="last")
+    union = {rule: rondel.remap(twice, grid, overlap=rule) for rule in ("first", "share")}
+    covered = {rule: found.target_fractions @ grid.areas for rule, found in union.items()}
+    assert covered["first"] == pytest.approx(covered["share"], abs=1e-14)
+    assert covered["first"] < twice.areas.sum() - 0.02
+    assert union["first"].source_areas[0] == pytest.approx(twice.areas[0], abs=1e-15)
+    assert union["share"].source_areas[0] < twice.areas[0] - 0.01
+    masked = rondel.remap(twice, grid, source_mask=[True, False])
+    assert masked.target_fractions @ grid.areas == pytest.approx(twice.areas[0], abs=1e-14)
+
+
 def test_what_is_refused():
     with pytest.raises(ValueError, match="norm must be"):
         rondel.remap(CELLS, GRID, norm="none")
