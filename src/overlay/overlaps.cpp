@@ -20,6 +20,7 @@
 #include "overlay/measure.h"
 #include "overlay/partition_data.h"
 #include "overlay/pieces.h"
+#include "overlay/sure_crossing.h"
 #include "rondel/predicates.h"
 #include "system/job.h"
 #include "system/parallel.h"
@@ -121,54 +122,6 @@ CrossingCells named(Index a, Index b, const Point& place) {
   return {first, second, place};
 }
 
-// Where an arc crosses another one, or an end of one is on the other to rounding.
-bool is_touch_by_rounding(const Point& a, const Point& b, const Point& p, const Point& q) {
-  constexpr double rounding = 32 * predicates::unit_roundoff;
-  const auto is_near = [&](const Point& from, const Point& to, const Point& x) {
-    const Point normal = cross(from, to - from);
-    const double height = dot(normal, x - from);
-    return height * height <= rounding * rounding * dot(normal, normal);
-  };
-  return is_near(a, b, p) || is_near(a, b, q) || is_near(p, q, a) || is_near(p, q, b);
-}
-
-bool are_on_both_sides(const Point& a, const Point& b, const Point& p, const Point& q) {
-  return orientation(a, b, p) * orientation(a, b, q) == Sign::negative;
-}
-
-// Whether sides cross each other by more than rounding of their ends.
-bool has_sure_crossing(const Subdivision& cells) {
-  struct Side {
-    Point a;
-    Point b;
-    double low;
-    double high;
-  };
-  std::vector<Side> sides;
-  for (Index ring = 0; ring + 1 < cells.rings.size(); ++ring) {
-    const Halfedge end = cells.rings[ring + 1];
-    for (Halfedge h = cells.rings[ring]; h < end; ++h) {
-      const Point& a = cells.origin(h);
-      const Point& b = cells.origin(h + 1 < end ? h + 1 : cells.rings[ring]);
-      const double bulge = dot(b - a, b - a) / 4;  // more than the arc is away from its chord
-      sides.push_back({a, b, std::min(a.x, b.x) - bulge, std::max(a.x, b.x) + bulge});
-    }
-  }
-  std::ranges::sort(sides, {}, &Side::low);
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    const auto& [a, b, low, high] = sides[i];
-    for (std::size_t k = i + 1; k < sides.size() && sides[k].low <= high; ++k) {
-      const Point& p = sides[k].a;
-      const Point& q = sides[k].b;
-      if (are_on_both_sides(a, b, p, q) && are_on_both_sides(p, q, a, b) && dot(a + b, p + q) > 0 &&
-          !is_touch_by_rounding(a, b, p, q)) {
-        return true;
-      }
-    }
-  }
-  return false;
-}
-
 }  // namespace
 
 CellRings rings_of(const Subdivision& cells, std::span<const Index> some) {
@@ -193,6 +146,17 @@ CellRings rings_of(const Subdivision& cells, std::span<const Index> some) {
 }
 
 namespace {
+
+std::vector<BorderArc> sides_of(const Subdivision& cells) {
+  std::vector<BorderArc> sides;
+  for (Index ring = 0; ring + 1 < cells.rings.size(); ++ring) {
+    const Halfedge end = cells.rings[ring + 1];
+    for (Halfedge h = cells.rings[ring]; h < end; ++h) {
+      sides.push_back({cells.origin(h), cells.origin(h + 1 < end ? h + 1 : cells.rings[ring])});
+    }
+  }
+  return sides;
+}
 
 class OverlapFinder {
  public:
@@ -241,7 +205,7 @@ class OverlapFinder {
     const Subdivision one(rings, false, 1);
     const std::optional<SideConflict> conflict = side_conflict(one, told_);
     if (!conflict) return Soundness::sound;
-    if (conflict->is_crossing && !has_sure_crossing(one)) return Soundness::to_rounding;
+    if (conflict->is_crossing && !has_sure_crossing(sides_of(one))) return Soundness::to_rounding;
     found_.push_back(named(cells_.names[cell], cells_.names[cell], conflict->place));
     return Soundness::none;
   }

@@ -11,6 +11,7 @@
 #include "exact/vector.h"
 #include "overlay/border_rings.h"
 #include "overlay/region_area.h"
+#include "overlay/sure_crossing.h"
 #include "rondel/predicates.h"
 
 namespace rondel::overlay {
@@ -57,7 +58,19 @@ std::vector<Point> without_turns(std::span<const Point> ring) {
   return kept;
 }
 
-std::vector<KeyedArc> arcs_of_cell(const CellRings& cells, std::size_t cell, Index key) {
+// Whether a ring has no area although it is wider than rounding, as a bow tie with two loops of one size.
+bool is_balanced_crossing(std::span<const Point> ring) {
+  if (!area_of_ring(ring).is_nothing()) return false;
+  std::vector<BorderArc> sides;
+  for (std::size_t k = 0; k < ring.size(); ++k) {
+    sides.push_back({ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]});
+  }
+  return has_sure_crossing(sides);
+}
+
+// None of a cell that crosses itself: whoever overlays it says so.
+std::optional<std::vector<KeyedArc>> arcs_of_cell(const CellRings& cells, std::size_t cell,
+                                                  Index key) {
   std::vector<KeyedArc> arcs;
   std::vector<Point> ring;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
@@ -66,6 +79,7 @@ std::vector<KeyedArc> arcs_of_cell(const CellRings& cells, std::size_t cell, Ind
       ring.push_back(cells.points[cells.corners[k]]);
     }
     const std::vector<Point> kept = without_turns(ring);
+    if (!kept.empty() && is_balanced_crossing(kept)) return std::nullopt;
     for (std::size_t k = 0; k < kept.size(); ++k) {
       arcs.push_back({key, kept[k], kept[k + 1 < kept.size() ? k + 1 : 0]});
     }
@@ -123,9 +137,10 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
   Index num_keys = 0;
   for (const auto& [place, area] : known.areas_of_others) {
     const Index cell = known.names[place];
-    keys[cell] = num_keys;
-    const std::vector<KeyedArc> of_cell = arcs_of_cell(cells, cell, num_keys++);
-    arcs.insert(arcs.end(), of_cell.begin(), of_cell.end());
+    const std::optional<std::vector<KeyedArc>> of_cell = arcs_of_cell(cells, cell, num_keys);
+    if (!of_cell) continue;
+    keys[cell] = num_keys++;
+    arcs.insert(arcs.end(), of_cell->begin(), of_cell->end());
   }
   const CellRings left = rings_around(arcs, num_keys, 1);
   const auto has_changed = [&](std::size_t cell) {
