@@ -20,6 +20,8 @@ namespace rondel::overlay {
 namespace {
 
 constexpr Halfedge sides_per_step = 1024;
+constexpr std::array<Point, 6> axis_ends = {
+    {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
 
 // Triangles by their directed sides.
 class SideMesh {
@@ -254,8 +256,7 @@ namespace {
 std::pair<CellRings, std::vector<Index>> filled_with(const Subdivision& cells,
                                                      const Execution& execution) {
   std::vector<Point> points = cells.points;
-  points.insert(points.end(),
-                {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}});
+  points.insert(points.end(), axis_ends.begin(), axis_ends.end());
   SideMesh mesh(std::move(points), cells.names, execution);
   system::StageProgress progress(execution.progress, "fill",
                                  system::num_pieces(cells.num_halfedges(), sides_per_step));
@@ -283,6 +284,25 @@ std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execut
     return error.conflict();
   }
   return std::nullopt;
+}
+
+bool is_region(std::span<const BorderArc> sides, const Execution& execution) {
+  std::vector<Point> points;
+  for (const auto& [from, to] : sides) {
+    points.push_back(from);
+    points.push_back(to);
+  }
+  points.insert(points.end(), axis_ends.begin(), axis_ends.end());
+  const Index owner = 0;
+  SideMesh mesh(std::move(points), std::span(&owner, 1), execution);
+  try {
+    for (Index k = 0; k < sides.size(); ++k) mesh.put(2 * k, 2 * k + 1, owner);
+    std::pair<CellRings, std::vector<Index>> filled;
+    mesh.take(filled.first, filled.second);
+  } catch (const ConflictingSides&) {
+    return false;
+  }
+  return true;
 }
 
 Filling filling_of(const Subdivision& cells, const Execution& execution) {

@@ -6,9 +6,11 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "overlay/measure.h"
 #include "overlay/subdivision.h"
 #include "rondel/error.h"
 #include "rondel/types.h"
@@ -39,6 +41,8 @@ class ConflictingSides : public InvalidInput {
 
 // Whether any do, exactly. Whatever has one owner on both sides is no side.
 std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execution& execution);
+// The same of one cell that has all of the sides.
+bool is_region(std::span<const BorderArc> sides, const Execution& execution);
 
 // The Delaunay triangulation of the corners and of the ends of the axes, into which the sides of the cells are put, all
 // of it exactly. Throws InvalidInput where cells overlap.

@@ -11,9 +11,11 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <numbers>
 #include <optional>
 #include <tuple>
 
+#include "exact/triangle_area.h"
 #include "exact/vector.h"
 #include "map/arc.h"
 #include "overlay/filling.h"
@@ -164,11 +166,12 @@ class OverlapFinder {
       : cells_(cells), told_{.threads = execution.threads, .stop = execution.stop} {}
 
   void find() {
-    const std::vector<Candidates> all = candidates_of(cells_, told_.threads);
     soundness_.assign(cells_.num_cells(), Soundness::sound);
     for (Index cell = 0; cell < cells_.num_cells(); ++cell) {
       if (cells_.shapes[cell] == Shape::other) soundness_[cell] = find_in_itself(cell);
     }
+    if (is_one_region()) return;
+    const std::vector<Candidates> all = candidates_of(cells_, told_.threads);
     for (std::size_t k = 0; k < all.size();) {
       std::size_t end = k;
       std::vector<Index> others;
@@ -200,6 +203,37 @@ class OverlapFinder {
     none,
   };
 
+  // Whether all cells together are a region: how many cells have a point changes nowhere but at sides of one cell alone. If
+  // these are the border of a region, it is one number inside and one less outside, which is 0 if the cells have the
+  // region's area, and not the sphere's more.
+  [[nodiscard]] bool is_one_region() const {
+    constexpr double whole_area = 4 * std::numbers::pi;
+    constexpr double surely = 1e-6;
+    constexpr Point origin{0.48, 0.6, 0.64};
+    const auto is_sound = [](Soundness soundness) { return soundness == Soundness::sound; };
+    if (!std::ranges::all_of(soundness_, is_sound)) return false;
+    std::vector<BorderArc> sides;
+    double difference = 0;
+    double of_border = 0;
+    for (Index ring = 0; ring + 1 < cells_.rings.size(); ++ring) {
+      const Halfedge end = cells_.rings[ring + 1];
+      for (Halfedge h = cells_.rings[ring]; h < end; ++h) {
+        if (cells_.twins[h] != no_index) continue;
+        const Point& from = cells_.origin(h);
+        const Point& to = cells_.origin(h + 1 < end ? h + 1 : cells_.rings[ring]);
+        sides.push_back({from, to});
+        of_border += exact::triangle_area(origin, from, to);
+      }
+    }
+    for (Index cell = 0; cell < cells_.num_cells(); ++cell) {
+      if (cells_.shapes[cell] != Shape::empty) difference += cells_.area_of_rings(cell);
+    }
+    of_border = std::remainder(of_border, whole_area);
+    if (std::abs(of_border) < surely) return false;  // nearly nothing, or nearly everything
+    if (of_border < 0) of_border += whole_area;
+    return std::abs(difference - of_border) < surely && is_region(sides, told_);
+  }
+
   Soundness find_in_itself(Index cell) {
     const CellRings rings = rings_of(cells_, std::span(&cell, 1));
     const Subdivision one(rings, false, 1);
@@ -217,10 +251,21 @@ class OverlapFinder {
     for (std::size_t k = 0; k < others.size(); ++k) {
       if (pieces.offsets[k] == pieces.offsets[k + 1]) continue;
       const auto at = pieces.offsets[k];
-      if (!(pieces.areas[at] > 0)) continue;
+      if (!(pieces.areas[at] > area_of_rounding(length_of(others[k])))) continue;
       found_.push_back(
           named(cells_.names[filled], cells_.names[others[k]], normalized(pieces.moments[at])));
     }
+  }
+  [[nodiscard]] double length_of(Index cell) const {
+    double length = 0;
+    for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
+      const Halfedge end = cells_.rings[ring + 1];
+      for (Halfedge h = cells_.rings[ring]; h < end; ++h) {
+        length +=
+            rough_length(cells_.origin(h), cells_.origin(h + 1 < end ? h + 1 : cells_.rings[ring]));
+      }
+    }
+    return length;
   }
   [[nodiscard]] PieceRows pieces_in(const Subdivision& cover, std::span<const Index> some) const {
     const PartitionData laid(Subdivision(rings_of(cells_, some), false, told_.threads), {},

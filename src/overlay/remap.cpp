@@ -147,9 +147,9 @@ std::vector<Point> column_moments(const PieceRows& pieces, std::size_t num_colum
 std::vector<double> areas_of(const std::vector<double>& covered,
                              const overlay::CountedSizes& sizes) {
   constexpr double of_many = 1e-9;
-  std::vector<double> areas = sizes.areas;
+  std::vector<double> areas = sizes.areas();
   for (std::size_t i = 0; i < areas.size(); ++i) {
-    const double rounding = of_many * areas[i] + overlay::area_of_rounding(sizes.lengths[i]);
+    const double rounding = of_many * areas[i] + overlay::area_of_rounding(sizes.lengths()[i]);
     if (covered[i] > 0 && std::abs(covered[i] - areas[i]) <= rounding) areas[i] = covered[i];
   }
   return areas;
@@ -230,7 +230,7 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
   PieceRows pieces =
       overlay::joined_parts(overlay_of(*of_sources.data, *of_targets.data, is_second, execution),
                             of_targets, target.num_cells(), of_sources);
-  const overlay::CountedSizes source_sizes = counted_sizes(sources, of_sources);
+  const overlay::CountedSizes source_sizes(sources, of_sources);
   const std::size_t num_sources = source.num_cells();
   drop_masked(options, pieces);
   if (pieces.row_sums.empty()) find_sums(pieces, num_sources);
@@ -241,7 +241,7 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
   result.columns = std::move(pieces.columns);
   result.areas = std::move(pieces.areas);
   result.source_areas = areas_of(pieces.column_sums, source_sizes);
-  result.target_areas = areas_of(pieces.row_sums, counted_sizes(targets, of_targets));
+  result.target_areas = areas_of(pieces.row_sums, overlay::CountedSizes(targets, of_targets));
   result.source_fractions = fractions(pieces.column_sums, result.source_areas);
   result.target_fractions = fractions(pieces.row_sums, result.target_areas);
 
@@ -251,7 +251,8 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
     std::vector<Point> centers(num_sources);
     for (std::size_t i = 0; i < num_sources; ++i) {
       if (pieces.column_sums[i] > 0) means[i] = moments_of_sources[i] / pieces.column_sums[i];
-      if (source_sizes.areas[i] > 0) centers[i] = source_sizes.moments[i] / source_sizes.areas[i];
+      if (source_sizes.areas()[i] > 0)
+        centers[i] = source_sizes.moments()[i] / source_sizes.areas()[i];
     }
     result.moments = moments_around(means, result, std::move(pieces.moments));
     gradients = cell_gradients(sources, centers, options.source_mask, execution.threads);

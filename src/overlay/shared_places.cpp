@@ -201,17 +201,19 @@ PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num
   return joined;
 }
 
-CountedSizes counted_sizes(const PartitionData& cells, const TakingPart& part) {
-  if (part.owners.empty()) return {cells.areas(), cells.lengths(), cells.moments()};
+CountedSizes::CountedSizes(const PartitionData& cells, const TakingPart& part)
+    : cells_(cells), of_parts_(!part.owners.empty()) {
+  if (!of_parts_) return;
   const std::size_t n = cells.areas().size();
-  CountedSizes sizes{std::vector<double>(n), std::vector<double>(n), std::vector<Point>(n)};
+  areas_.resize(n);
+  lengths_.resize(n);
+  moments_.resize(n);
   for (std::size_t k = 0; k < part.owners.size(); ++k) {
     const Index owner = part.owners[k];
-    sizes.areas[owner] += part.shares[k] * part.data->areas()[k];
-    sizes.lengths[owner] += part.data->lengths()[k];
-    sizes.moments[owner] = sizes.moments[owner] + part.shares[k] * part.data->moments()[k];
+    areas_[owner] += part.shares[k] * part.data->areas()[k];
+    lengths_[owner] += part.data->lengths()[k];
+    moments_[owner] = moments_[owner] + part.shares[k] * part.data->moments()[k];
   }
-  return sizes;
 }
 
 }  // namespace rondel::overlay

@@ -33,12 +33,26 @@ TakingPart taking_part(const PartitionData& cells, const std::vector<std::int32_
 PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
                        const TakingPart& columns);
 
-// By cell: the area that counts, and its first moment.
-struct CountedSizes {
-  std::vector<double> areas;
-  std::vector<double> lengths;
-  std::vector<Point> moments;
+// By cell: the area that counts, its first moment, and the length of its borders.
+class CountedSizes {
+ public:
+  CountedSizes(const PartitionData& cells, const TakingPart& part);
+  [[nodiscard]] const std::vector<double>& areas() const {
+    return of_parts_ ? areas_ : cells_.areas();
+  }
+  [[nodiscard]] const std::vector<double>& lengths() const {
+    return of_parts_ ? lengths_ : cells_.lengths();
+  }
+  [[nodiscard]] const std::vector<Point>& moments() const {
+    return of_parts_ ? moments_ : cells_.moments();
+  }
+
+ private:
+  const PartitionData& cells_;
+  bool of_parts_;
+  std::vector<double> areas_;
+  std::vector<double> lengths_;
+  std::vector<Point> moments_;
 };
-CountedSizes counted_sizes(const PartitionData& cells, const TakingPart& part);
 
 }  // namespace rondel::overlay
