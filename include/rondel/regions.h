@@ -45,9 +45,9 @@ RONDEL_API RegionPieces intersection(const Partition& cells, const Partition& re
                                      const Execution& execution = {});
 
 /// The part of each cell that lies in any of the regions: the pieces of intersection(), joined to their
-/// cell. A cell of which nothing is left has no rings; `whole` names one of which the whole sphere is left. Regions that share a border have to name the same
-/// corners along it; otherwise it stays visible.
-/// \throws InvalidInput as intersection(), and if regions overlap each other (two of them and a place).
+/// cell. A cell of which nothing is left has no rings; `whole` names one of which the whole sphere is left. Regions that overlap are united first. Regions that share a
+/// border have to name the same corners along it; otherwise it stays visible.
+/// \throws InvalidInput as intersection().
 RONDEL_API CellRings clip(const Partition& cells, const Partition& regions,
                           const Execution& execution = {});
 

@@ -16,6 +16,7 @@
 #include "overlay/overlaps.h"
 #include "overlay/partition_data.h"
 #include "overlay/region_area.h"
+#include "overlay/united.h"
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/parallel.h"
@@ -185,12 +186,11 @@ std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData
   return arcs;
 }
 
-// Throws InvalidInput if a cell of these overlaps itself or, where cells have to be apart, another one.
-void require_sound(const Partition& cells, const char* what, bool are_apart,
-                   const Execution& execution) {
+// Throws InvalidInput if a cell of these overlaps itself.
+void require_sound(const Partition& cells, const char* what, const Execution& execution) {
   const std::vector<CrossingCells>& found = PartitionData::of(cells).overlaps(execution);
   const auto wrong = std::ranges::find_if(
-      found, [&](const CrossingCells& pair) { return are_apart || pair.first == pair.second; });
+      found, [](const CrossingCells& pair) { return pair.first == pair.second; });
   if (wrong == found.end()) return;
   throw InvalidInput(std::string(what) + ' ' + overlay::message_of(*wrong), wrong->second);
 }
@@ -213,6 +213,21 @@ double area_of_cell(const CellRings& cells, std::size_t cell) {
   return area.value();
 }
 
+// Of regions that are apart.
+CellRings clipped_to(const Partition& cells, const Partition& regions, const Execution& execution) {
+  const std::vector<NamedArc> arcs =
+      overlay_of(PartitionData::of(cells), PartitionData::of(regions), execution);
+  std::vector<KeyedArc> keyed;
+  keyed.reserve(arcs.size());
+  for (const NamedArc& arc : arcs) keyed.push_back({arc.cell, arc.from, arc.to});
+  CellRings clipped = overlay::rings_around(keyed, cells.num_cells(), execution.threads);
+  const std::span<const double> of_regions = regions.areas();
+  const double covered = std::accumulate(of_regions.begin(), of_regions.end(), 0.0);
+  clipped.whole =
+      whole_cells_of(clipped, [&](std::size_t i) { return std::min(cells.areas()[i], covered); });
+  return clipped;
+}
+
 }  // namespace
 
 RegionPieces intersection(const Partition& cells, const Partition& regions,
@@ -220,8 +235,8 @@ RegionPieces intersection(const Partition& cells, const Partition& regions,
   const system::Call call(execution);
   overlay::require_arcs(PartitionData::of(cells));
   overlay::require_arcs(PartitionData::of(regions));
-  require_sound(cells, "of the first partition,", false, execution);
-  require_sound(regions, "of the regions,", false, execution);
+  require_sound(cells, "of the first partition,", execution);
+  require_sound(regions, "of the regions,", execution);
   const std::vector<NamedArc> arcs =
       overlay_of(PartitionData::of(cells), PartitionData::of(regions), execution);
   using Pair = std::pair<Index, Index>;
@@ -264,19 +279,9 @@ CellRings clip(const Partition& cells, const Partition& regions, const Execution
   const system::Call call(execution);
   overlay::require_arcs(PartitionData::of(cells));
   overlay::require_arcs(PartitionData::of(regions));
-  require_sound(cells, "of the first partition,", false, execution);
-  require_sound(regions, "of the regions,", true, execution);
-  const std::vector<NamedArc> arcs =
-      overlay_of(PartitionData::of(cells), PartitionData::of(regions), execution);
-  std::vector<KeyedArc> keyed;
-  keyed.reserve(arcs.size());
-  for (const NamedArc& arc : arcs) keyed.push_back({arc.cell, arc.from, arc.to});
-  CellRings clipped = overlay::rings_around(keyed, cells.num_cells(), execution.threads);
-  const std::span<const double> of_regions = regions.areas();
-  const double covered = std::accumulate(of_regions.begin(), of_regions.end(), 0.0);
-  clipped.whole =
-      whole_cells_of(clipped, [&](std::size_t i) { return std::min(cells.areas()[i], covered); });
-  return clipped;
+  require_sound(cells, "of the first partition,", execution);
+  const auto united = overlay::united(PartitionData::of(regions), "of the regions,", execution);
+  return clipped_to(cells, united ? *united : regions, execution);
 }
 
 CellRings dissolve(const CellRings& cells, std::span<const Index> groups, std::size_t num_groups,

@@ -9,50 +9,13 @@
 #include <utility>
 
 #include "exact/vector.h"
+#include "overlay/cell_sets.h"
 #include "overlay/overlaps.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
 
 namespace rondel::overlay {
 namespace {
-
-CellRings one_cell(const CellRings& cells, Index cell) {
-  CellRings one;
-  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + std::size_t{1}]; ++r) {
-    for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
-      one.corners.push_back(static_cast<Index>(one.points.size()));
-      one.points.push_back(cells.points[cells.corners[k]]);
-    }
-    one.rings.push_back(one.corners.size());
-  }
-  one.cells.push_back(one.rings.size() - 1);
-  if (cells.is_whole(cell)) one.whole = {0};
-  return one;
-}
-
-// What is not in a cell.
-CellRings beyond_cell(CellRings one) {
-  for (std::size_t r = 0; r + 1 < one.rings.size(); ++r) {
-    std::reverse(one.corners.begin() + static_cast<std::ptrdiff_t>(one.rings[r]),
-                 one.corners.begin() + static_cast<std::ptrdiff_t>(one.rings[r + 1]));
-  }
-  const bool was_empty = one.whole.empty() && one.rings.size() == 1;
-  one.whole.clear();
-  if (was_empty) one.whole = {0};
-  return one;
-}
-
-bool has_any(const CellRings& one) { return one.rings.size() > 1 || !one.whole.empty(); }
-
-void append(const CellRings& one, CellRings& all) {
-  const auto first = static_cast<Index>(all.points.size());
-  const auto begin = all.corners.size();
-  all.points.insert(all.points.end(), one.points.begin(), one.points.end());
-  for (const Index corner : one.corners) all.corners.push_back(first + corner);
-  for (std::size_t r = 1; r < one.rings.size(); ++r) all.rings.push_back(begin + one.rings[r]);
-  if (!one.whole.empty()) all.whole.push_back(static_cast<Index>(all.num_cells()));
-  all.cells.push_back(all.rings.size() - 1);
-}
 
 // A part of a cell, in so many cells of those that overlap with it, itself included.
 struct CountedPart {
@@ -111,6 +74,7 @@ TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>&
       own(i, part.count);
     }
   }
+  merge_equal_points(all);
   result.parts = std::make_shared<const PartitionData>(Subdivision(all, false, execution.threads),
                                                        all.whole, execution.threads);
   result.data = result.parts.get();

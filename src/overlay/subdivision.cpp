@@ -274,7 +274,7 @@ void Subdivision::find_twins() {
 // All corners are on the center's hemisphere, and all edges turn counterclockwise around it, by less than half a turn each and
 // all together once: only one of them comes to the half circle through the first corner, or passes it.
 bool Subdivision::is_star(Index cell) const {
-  constexpr double surely = 0x1p-10;
+  constexpr double behind = -0x1p-10;  // cells of a diagram end at a right angle to rounding
   const Point& center = centers[cell];
   const Point& first = origin(begin_of(cell));
   const auto is_before_half = [&](const Point& p) {
@@ -285,7 +285,7 @@ bool Subdivision::is_star(Index cell) const {
   std::size_t num_turns = 0;
   bool was_before_half = is_before_half(origin(end_of(cell) - 1));
   for (Halfedge h = begin_of(cell); h < end_of(cell); ++h) {
-    if (dot(center, origin(h)) < surely || !is_left_turn(center, origin(h), end(h))) return false;
+    if (dot(center, origin(h)) < behind || !is_left_turn(center, origin(h), end(h))) return false;
     const bool is_before = is_before_half(origin(h));
     if (is_before && !was_before_half) ++num_turns;
     was_before_half = is_before;

@@ -95,6 +95,7 @@ void add_lines(const std::string& name, const SiteSet& set, std::size_t num_othe
     half.cells.resize(half.num_cells() / 2 + 1);
     half.rings.resize(half.cells.back() + 1);
     half.corners.resize(half.rings.back());
+    std::erase_if(half.whole, [&](Index cell) { return cell >= half.num_cells(); });
     return Partition(half);
   };
   record_remaps("parts", half_of(cells), half_of(others));

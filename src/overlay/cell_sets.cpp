@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/cell_sets.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "overlay/same_nodes.h"
+
+namespace rondel::overlay {
+
+CellRings one_cell(const CellRings& cells, Index cell) {
+  CellRings one;
+  for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + std::size_t{1}]; ++r) {
+    for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+      one.corners.push_back(static_cast<Index>(one.points.size()));
+      one.points.push_back(cells.points[cells.corners[k]]);
+    }
+    one.rings.push_back(one.corners.size());
+  }
+  one.cells.push_back(one.rings.size() - 1);
+  if (cells.is_whole(cell)) one.whole = {0};
+  return one;
+}
+
+CellRings beyond_cell(CellRings one) {
+  for (std::size_t r = 0; r + 1 < one.rings.size(); ++r) {
+    std::reverse(one.corners.begin() + static_cast<std::ptrdiff_t>(one.rings[r]),
+                 one.corners.begin() + static_cast<std::ptrdiff_t>(one.rings[r + 1]));
+  }
+  const bool was_empty = one.whole.empty() && one.rings.size() == 1;
+  one.whole.clear();
+  if (was_empty) one.whole = {0};
+  return one;
+}
+
+bool has_any(const CellRings& one) { return one.rings.size() > 1 || !one.whole.empty(); }
+
+void append(const CellRings& one, CellRings& all) {
+  const auto first = static_cast<Index>(all.points.size());
+  const auto begin = all.corners.size();
+  all.points.insert(all.points.end(), one.points.begin(), one.points.end());
+  for (const Index corner : one.corners) all.corners.push_back(first + corner);
+  for (std::size_t r = 1; r < one.rings.size(); ++r) all.rings.push_back(begin + one.rings[r]);
+  if (!one.whole.empty()) all.whole.push_back(static_cast<Index>(all.num_cells()));
+  all.cells.push_back(all.rings.size() - 1);
+}
+
+void merge_equal_points(CellRings& cells) {
+  Distinct<Point> places = distinct(cells.points);
+  for (Index& corner : cells.corners) corner = places.numbers[corner];
+  cells.points = std::move(places.values);
+}
+
+}  // namespace rondel::overlay

@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/united.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "overlay/cell_sets.h"
+#include "overlay/overlaps.h"
+#include "rondel/error.h"
+
+namespace rondel::overlay {
+namespace {
+
+// A cell and what is beyond it.
+Partition both_sides(const CellRings& one) {
+  CellRings both = one;
+  append(beyond_cell(one), both);
+  return Partition(both);
+}
+
+// One overlay gives all pieces, so that they have the same corners where they meet.
+CellRings union_of(const CellRings& a, const CellRings& b, const Execution& execution) {
+  const RegionPieces pieces = intersection(both_sides(a), both_sides(b), execution);
+  std::vector<Index> groups;
+  for (std::size_t k = 0; k < pieces.num_pieces(); ++k) {
+    const bool is_in_any = pieces.cells[k] == 0 || pieces.regions[k] == 0;
+    groups.push_back(is_in_any ? 0 : no_index);
+  }
+  return dissolve(pieces.rings, groups, 1, execution);
+}
+
+}  // namespace
+
+std::optional<Partition> united(const PartitionData& cells, const char* what,
+                                const Execution& execution) {
+  const std::vector<CrossingCells>& overlaps = cells.overlaps(execution);
+  if (overlaps.empty()) return std::nullopt;
+  std::vector<Index> firsts(cells.areas().size());
+  std::iota(firsts.begin(), firsts.end(), Index{0});
+  const auto first_of = [&](Index i) {
+    while (firsts[i] != i) i = firsts[i] = firsts[firsts[i]];
+    return i;
+  };
+  for (const CrossingCells& pair : overlaps) {
+    if (pair.first == pair.second) {
+      throw InvalidInput(std::string(what) + ' ' + message_of(pair), pair.second);
+    }
+    const auto [low, high] = std::minmax({first_of(pair.first), first_of(pair.second)});
+    firsts[high] = low;
+  }
+  const Execution told{.threads = execution.threads, .stop = execution.stop};
+  const CellRings all = rings_of(cells);
+  std::vector<CellRings> unions;
+  for (Index i = 0; i < firsts.size(); ++i) {
+    unions.push_back(one_cell(all, i));
+    const Index first = first_of(i);
+    if (first == i) continue;
+    unions[first] = union_of(unions[first], unions[i], told);
+    unions[i] = one_cell({.cells = {0, 0}, .rings = {0}, .corners = {}, .points = {}}, 0);
+  }
+  CellRings result;
+  for (const CellRings& one : unions) append(one, result);
+  merge_equal_points(result);
+  return Partition(result, told);
+}
+
+}  // namespace rondel::overlay
