@@ -126,13 +126,13 @@ TakingPart taking_part(const PartitionData& cells, const std::vector<std::int32_
 PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
                        const TakingPart& columns) {
   if (rows.owners.empty() && columns.owners.empty()) return pieces;
-  struct Entry {
+  struct PartPiece {
     Index row;
     Index column;
     double area;
     Point moment;
   };
-  std::vector<Entry> entries;
+  std::vector<PartPiece> entries;
   entries.reserve(pieces.columns.size());
   for (std::size_t j = 0; j + 1 < pieces.offsets.size(); ++j) {
     const auto row = rows.owners.empty() ? static_cast<Index>(j) : rows.owners[j];
@@ -145,11 +145,12 @@ PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num
                          pieces.moments.empty() ? Point{} : share * pieces.moments[k]});
     }
   }
-  std::ranges::stable_sort(entries, {}, [](const Entry& e) { return std::pair(e.row, e.column); });
+  std::ranges::stable_sort(entries, {},
+                           [](const PartPiece& e) { return std::pair(e.row, e.column); });
   PieceRows joined;
   joined.offsets.assign(num_rows + 1, 0);
-  const Entry* last = nullptr;
-  for (const Entry& entry : entries) {
+  const PartPiece* last = nullptr;
+  for (const PartPiece& entry : entries) {
     if (last != nullptr && last->row == entry.row && last->column == entry.column) {
       joined.areas.back() += entry.area;
       if (!pieces.moments.empty()) joined.moments.back() = joined.moments.back() + entry.moment;
