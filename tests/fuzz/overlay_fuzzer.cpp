@@ -259,13 +259,33 @@ void test_parts(const Partition& cells, const Partition& others, ByteSource& sou
   for (const double area : areas) require(std::abs(area) < 1e-9, "pieces do not see gaps");
 }
 
+// Cells that are not refused have their own area over a cover, and no place twice.
+void test_shares(const Remap& there, const Partition& cells, const Partition& cover) {
+  std::vector<double> shares(cells.num_cells());
+  for (std::size_t j = 0; j < cover.num_cells(); ++j) {
+    double sum = 0;
+    for (auto k = there.offsets[j]; k < there.offsets[j + 1]; ++k) {
+      shares[there.columns[k]] += there.areas[k];
+      sum += there.areas[k];
+    }
+    require(sum < cover.areas()[j] + 1e-9, "no place counts twice");
+  }
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    require(std::abs(shares[i] - cells.areas()[i]) < 1e-9, "pieces add up to their cell");
+  }
+  for (const double weight : there.weights.values) require(std::isfinite(weight), "finite weights");
+}
+
 void test_any_cells(const CellRings& rings, const Partition& target) {
   try {
     const Partition cells(rings);
+    const std::vector<CrossingCells> overlaps = overlapping_cells(rings);
     require(cells.num_cells() == rings.num_cells() && cells.areas().size() == cells.num_cells(),
             "an area for each cell");
     const Remap there = remap(cells, target, {.norm = RemapNorm::fracarea});
     require(there.weights.num_columns == cells.num_cells(), "columns are sources");
+    require(overlaps.empty(), "cells that overlap are refused");
+    test_shares(there, cells, target);
     require(clip(target, cells).num_cells() == target.num_cells(), "a part of each cell");
     const Remap of_parts = remap(cells, without_some(target, 2), {.order = 2});
     require(of_parts.weights.num_columns == cells.num_cells(), "of two parts, too");
