@@ -5,6 +5,7 @@ rondel_add_test(overlay_test
   overlay_hostile_test.cpp
   overlay_inside_test.cpp
   overlay_mesh_files_test.cpp
+  overlay_overlaps_test.cpp
   overlay_parts_test.cpp
   overlay_plane_test.cpp
   overlay_polygons_test.cpp

@@ -1,0 +1,140 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Which cells overlap, by more than rounding.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "exact/vector.h"
+#include "overlay_support.h"
+#include "rondel/error.h"
+#include "rondel/regions.h"
+
+namespace rondel::test {
+namespace {
+
+using Positions = std::vector<std::pair<double, double>>;
+
+Point place_of(const std::pair<double, double>& position) {
+  constexpr double degree = std::numbers::pi / 180;
+  const auto [lon, lat] = position;
+  return normalized(Point{std::cos(lat * degree) * std::cos(lon * degree),
+                          std::cos(lat * degree) * std::sin(lon * degree), std::sin(lat * degree)});
+}
+
+// A cell of one ring each, no point shared.
+CellRings cells_of_positions(const std::vector<Positions>& rings) {
+  CellRings cells;
+  for (const Positions& ring : rings) {
+    for (const auto& position : ring) {
+      cells.corners.push_back(static_cast<Index>(cells.points.size()));
+      cells.points.push_back(place_of(position));
+    }
+    cells.rings.push_back(cells.corners.size());
+    cells.cells.push_back(cells.rings.size() - 1);
+  }
+  return cells;
+}
+
+using Pairs = std::vector<std::pair<Index, Index>>;
+
+Pairs pairs_of(const CellRings& cells) {
+  Pairs pairs;
+  for (const CrossingCells& pair : overlapping_cells(cells)) {
+    pairs.emplace_back(pair.first, pair.second);
+    EXPECT_NEAR(dot(pair.place, pair.place), 1, 1e-12);
+  }
+  return pairs;
+}
+
+const Positions box = {{0, 0}, {20, 0}, {20, 20}, {0, 20}};
+
+TEST(overlay_overlaps, cells_that_cross_contain_and_repeat_each_other) {
+  const Positions crossing = {{10, 10}, {30, 10}, {30, 30}, {10, 30}};
+  const Positions within = {{2, 2}, {4, 2}, {4, 4}, {2, 4}};
+  const Positions beside = {{20, 0}, {30, 0}, {30, 9}, {20, 20}};
+  const Positions apart = {{50, 0}, {60, 0}, {60, 9}};
+  EXPECT_EQ(pairs_of(cells_of_positions({box, crossing})), (Pairs{{0, 1}}));
+  EXPECT_EQ(pairs_of(cells_of_positions({apart, within, box})), (Pairs{{1, 2}}));
+  EXPECT_EQ(pairs_of(cells_of_positions({box, apart, box})), (Pairs{{0, 2}}));
+  EXPECT_EQ(pairs_of(cells_of_positions({box, beside, apart})), Pairs{});
+  EXPECT_EQ(pairs_of(cells_of_positions({box, crossing, within, box, apart})),
+            (Pairs{{0, 1}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}));
+}
+
+TEST(overlay_overlaps, cells_that_are_no_regions) {
+  EXPECT_EQ(pairs_of(cells_of_positions({{{0, 0}, {10, 10}, {10, 0}, {0, 9}}})), (Pairs{{0, 0}}));
+  EXPECT_EQ(pairs_of(cells_of_positions({{{0, 0}, {10, 10}, {10, 0}, {0, 10}}})), (Pairs{{0, 0}}));
+  // Five corners, each second one next: once around twice.
+  Positions star;
+  for (int k = 0; k < 5; ++k)
+    star.emplace_back(40.0 * std::cos(k * 2.513), 40.0 * std::sin(k * 2.513));
+  EXPECT_EQ(pairs_of(cells_of_positions({star})), (Pairs{{0, 0}}));
+  CellRings nested = cells_of_positions({box, {{2, 2}, {4, 2}, {4, 4}, {2, 4}}});
+  nested.cells = {0, 2};
+  EXPECT_EQ(pairs_of(nested), (Pairs{{0, 0}}));
+  CellRings hole_outside = cells_of_positions({box, {{50, 0}, {60, 9}, {60, 0}}});
+  hole_outside.cells = {0, 2};
+  EXPECT_EQ(pairs_of(hole_outside), (Pairs{{0, 0}}));
+}
+
+// Where one has a corner on the side of the other, the corner is off it by rounding.
+TEST(overlay_overlaps, corners_on_sides_are_none) {
+  for (int seed = 0; seed < 200; ++seed) {
+    Random random(static_cast<std::uint64_t>(seed));
+    const auto at = [&] { return std::pair(50 * random.signed_unit(), 50 * random.signed_unit()); };
+    CellRings cells = cells_of_positions({{at(), at(), at()}, {at(), at(), at(), at()}});
+    // The first cell a triangle, the second one on the other side of its first side, with a corner in between.
+    if (dot(cells.points[0], cross(cells.points[1], cells.points[2])) < 0) {
+      std::swap(cells.points[0], cells.points[1]);
+    }
+    const double part = 0.1 + 0.8 * random.unit();
+    cells.points[3] = cells.points[1];
+    cells.points[4] = normalized((1 - part) * cells.points[1] + part * cells.points[0]);
+    cells.points[5] = cells.points[0];
+    cells.points[6] = normalized(cells.points[0] + cells.points[1] - 0.5 * cells.points[2]);
+    EXPECT_EQ(pairs_of(cells), Pairs{}) << seed;
+  }
+}
+
+TEST(overlay_overlaps, the_sphere_overlaps_all) {
+  CellRings cells = cells_of_positions({box, {{50, 0}, {60, 0}, {60, 9}}});
+  cells.cells.push_back(cells.cells.back());
+  cells.cells.push_back(cells.cells.back());
+  cells.whole = {2};
+  EXPECT_EQ(pairs_of(cells), (Pairs{{0, 2}, {1, 2}}));
+  cells.whole = {2, 3};
+  EXPECT_EQ(pairs_of(cells), (Pairs{{0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}));
+}
+
+// Cells and the sphere less cells.
+TEST(overlay_overlaps, of_complements) {
+  const Positions around(box.rbegin(), box.rend());
+  const Positions within = {{2, 2}, {4, 2}, {4, 4}, {2, 4}};
+  EXPECT_EQ(pairs_of(cells_of_positions({box, around})), Pairs{});
+  EXPECT_EQ(pairs_of(cells_of_positions({within, around})), Pairs{});
+  EXPECT_EQ(pairs_of(cells_of_positions({{{50, 0}, {60, 0}, {60, 9}}, around})), (Pairs{{0, 1}}));
+  EXPECT_EQ(pairs_of(cells_of_positions({box, around, within})), (Pairs{{0, 2}}));
+}
+
+// A cover, and a few of its cells once more.
+TEST(overlay_overlaps, of_covers_with_cells_twice) {
+  const CellRings all = Partition::voronoi(triangulation_of("uniform", 300, 5)).rings();
+  EXPECT_EQ(pairs_of(all), Pairs{});
+  CellRings twice = all;
+  Pairs expected;
+  for (const Index i : {3U, 40U, 41U, 200U}) {
+    for (auto k = all.rings[i]; k < all.rings[i + 1]; ++k) twice.corners.push_back(all.corners[k]);
+    twice.rings.push_back(twice.corners.size());
+    expected.emplace_back(i, static_cast<Index>(twice.num_cells()));
+    twice.cells.push_back(twice.rings.size() - 1);
+  }
+  EXPECT_EQ(pairs_of(twice), expected);
+}
+
+}  // namespace
+}  // namespace rondel::test
