@@ -33,6 +33,11 @@ void add_map_options(CLI::App& parser, MeshCullOptions& options) {
   add("--vertex-map", options.vertex_map, "vertex");
 }
 
+// Of MPAS-Tools' masks of regions, (nCells, nRegions), the cells of all regions go. Times are no regions.
+bool are_regions(const FieldArray& array) {
+  return array.dimensions.size() == 1 && array.dimensions.front().find("ime") == std::string::npos;
+}
+
 // 1 for each cell that goes.
 std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_cells) {
   const auto [file, name] = split_at_colon(text);
@@ -43,17 +48,20 @@ std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_
   std::vector<std::string> wanted;
   if (!name.empty()) wanted.push_back(name);
   const FieldSet fields = read_fields({file, {}}, wanted, num_cells);
-  if (fields.arrays.size() != 1 || fields.arrays.front().num_fields() != 1) {
+  const FieldArray* const array = fields.arrays.size() == 1 ? &fields.arrays.front() : nullptr;
+  if (array == nullptr || (array->num_fields() != 1 && !are_regions(*array))) {
     throw FileError(file + ": it has not one number for each cell" +
                     (name.empty() ? ": name it, " + file + ":NAME" : ""));
   }
-  const std::vector<double>& values = fields.arrays.front().values;
-  std::vector<std::uint8_t> mask(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (values[i] != 0 && values[i] != 1) {
-      throw FileError(file + ": the number of cell " + std::to_string(i) + " is neither 0 nor 1");
+  std::vector<std::uint8_t> mask(num_cells);
+  for (std::size_t k = 0; k < array->values.size(); ++k) {
+    const double value = array->values[k];
+    const std::size_t cell = k % num_cells;
+    if (value != 0 && value != 1) {
+      throw FileError(file + ": the number of cell " + std::to_string(cell) +
+                      " is neither 0 nor 1");
     }
-    mask[i] = values[i] == 1 ? 1 : 0;
+    if (value == 1) mask[cell] = 1;
   }
   return mask;
 }
@@ -98,7 +106,7 @@ Command add_mesh_cull_command(CLI::App& mesh) {
   parser
       ->add_option("--mask", options->mask,
                    "Remove the cells that have 1 in this file; the others have 0: .npy,\n"
-                   "FILE.nc:NAME, FILE.csv:COLUMN")
+                   "FILE.nc:NAME, FILE.csv:COLUMN; of NAME(nCells, nRegions) those in any region")
       ->type_name("FILE");
   add_word<PolygonEdges>(
       *parser, "--edges", options->polygon_edges,

@@ -107,4 +107,20 @@ RONDEL_API std::vector<bool> repeated_dimensions(std::span<const std::string> na
 RONDEL_API std::vector<double> axis_lines(std::span<const double> values,
                                           std::span<const double> bounds, bool is_longitude);
 
+/// An attribute of a variable that tells which numbers are missing: `_FillValue`, `missing_value`, `valid_min`, `valid_max`,
+/// `valid_range`, `_Unsigned`, `scale_factor`, `add_offset`.
+struct ValueAttribute {
+  std::string name;
+  std::string type;  ///< of NumPy, "f4", "i2" ...; empty: a text
+  std::string text;
+  std::vector<double> numbers;
+};
+
+/// Makes NaN of the missing among values that another reader has already unpacked, by the rules of read_fields(). Without
+/// `_FillValue` the number that netCDF writes where nobody wrote is missing, too.
+/// \param type  that of the numbers in the file, "f4", "i2" ...
+/// \throws InvalidInput for another type, and for a scale_factor or add_offset that is not one number
+RONDEL_API void mark_missing(std::span<double> values, std::string_view type,
+                             std::span<const ValueAttribute> attributes);
+
 }  // namespace rondel

@@ -24,7 +24,7 @@ namespace rondel {
 /// The cells of a file: in `cells`, or, if it has coordinates along lines, in `grid`.
 struct CellTable {
   std::string name;        ///< the file, for messages
-  std::string convention;  ///< "UGRID", "SCRIP", "ESMF", "MPAS", "ICON" or "CF"
+  std::string convention;  ///< "UGRID", "SCRIP", "ESMF", "MPAS", "ICON", "OASIS", "Exodus" or "CF"
   CellRings cells;
   std::optional<LonLatGrid> grid;
   std::vector<LonLat> centers;       ///< as the file has them; empty: it has none
@@ -55,6 +55,8 @@ RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size
 /// | ESMF | elementConn of nodeCoords, with polybreak_value; the mask elementMask |
 /// | MPAS | verticesOnCell of lonVertex, latVertex |
 /// | ICON | vertex_of_cell of vlon, vlat |
+/// | OASIS | NAME.clo, NAME.cla; the mask NAME.msk |
+/// | Exodus | connect1, connect2 ... of coord, or of coordx, coordy, coordz |
 /// | CF | coordinates of units degrees_east and degrees_north: along one dimension each, with bounds or between them; or of the same dimensions, with bounds |
 ///
 /// 1. Coordinates have the units that they say, in any of UDUNITS's spellings for degrees and radians; those without units are

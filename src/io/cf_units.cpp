@@ -50,7 +50,6 @@ constexpr std::array unit_names = {
     UnitName{"angular_second", "angular_seconds", 1.0 / 3600},
     UnitName{"arcsecond", "arcseconds", 1.0 / 3600},
     UnitName{"arcsec", "arcsecs", 1.0 / 3600},
-    UnitName{"gon", "gons", 0.9},
     UnitName{"grade", "grades", 0.9},
 };
 

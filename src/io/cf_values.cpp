@@ -7,11 +7,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "io/bad_value.h"
 #include "io/cf_names.h"
 #include "io/netcdf_reader.h"
 #include "io/number.h"
+#include "rondel/conventions.h"
+#include "rondel/error.h"
 
 namespace rondel::io {
 namespace {
@@ -169,4 +172,59 @@ void ValueRules::apply(std::span<double> values) const {
   }
 }
 
+// Integers that differ are a scale_factor apart, of which unpacking in single precision moves them by less than a quarter.
+void ValueRules::apply_to_unpacked(std::span<double> values) const {
+  const double slack = is_packed() && !is_floating(type_) ? std::abs(scale_) / 4 : 0;
+  const auto unpacked = [&](double value) { return value * scale_ + offset_; };
+  double lowest = has_unpacked_range_ ? lowest_ : unpacked(scale_ < 0 ? highest_ : lowest_);
+  double highest = has_unpacked_range_ ? highest_ : unpacked(scale_ < 0 ? lowest_ : highest_);
+  if (!has_unpacked_range_) {
+    lowest -= slack;
+    highest += slack;
+  }
+  for (double& value : values) {
+    const auto is_one = [&](double missing) {
+      return is_packed() ? std::abs(value - unpacked(missing)) <= slack : value == missing;
+    };
+    const bool is_lost =
+        std::ranges::any_of(missing_, is_one) || (!is_packed() && is_missing(value));
+    if (is_lost || value < lowest || value > highest) value = no_number;
+  }
+}
+
 }  // namespace rondel::io
+
+namespace rondel {
+namespace {
+
+io::NetcdfType type_of(std::string_view name) {
+  constexpr std::pair<std::string_view, io::NetcdfType> types[] = {
+      {"i1", io::NetcdfType::int8},    {"i2", io::NetcdfType::int16},
+      {"i4", io::NetcdfType::int32},   {"i8", io::NetcdfType::int64},
+      {"u1", io::NetcdfType::uint8},   {"u2", io::NetcdfType::uint16},
+      {"u4", io::NetcdfType::uint32},  {"u8", io::NetcdfType::uint64},
+      {"f4", io::NetcdfType::float32}, {"f8", io::NetcdfType::float64},
+      {"", io::NetcdfType::text}};
+  for (const auto& [known, type] : types) {
+    if (name == known) return type;
+  }
+  throw InvalidInput("there is no type '" + std::string(name) + "'", 0);
+}
+
+}  // namespace
+
+void mark_missing(std::span<double> values, std::string_view type,
+                  std::span<const ValueAttribute> attributes) {
+  io::NetcdfVariable variable{"values", type_of(type), {}, {}};
+  for (const ValueAttribute& attribute : attributes) {
+    variable.attributes.push_back(
+        {attribute.name, type_of(attribute.type), attribute.text, attribute.numbers});
+  }
+  try {
+    io::ValueRules(variable).apply_to_unpacked(values);
+  } catch (const io::BadValue& bad) {
+    throw InvalidInput(bad.what(), 0);
+  }
+}
+
+}  // namespace rondel

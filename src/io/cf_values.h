@@ -28,6 +28,8 @@ class RONDEL_API ValueRules {
 
   // Numbers as they are in the file become what they stand for; missing ones NaN.
   void apply(std::span<double> values) const;
+  // The same of numbers that are unpacked already; missing ones may be NaN.
+  void apply_to_unpacked(std::span<double> values) const;
   // Whether apply() changes any number but fills.
   [[nodiscard]] bool is_packed() const { return scale_ != 1 || offset_ != 0; }
   // A sentence if scale_factor or add_offset is a text; else empty.

@@ -66,6 +66,11 @@ class CfGrids {
     return pair.are_axes || (pair.lon_bounds != no_variable && pair.lat_bounds != no_variable);
   }
 
+  static bool are_among(const std::vector<std::string>& some, const std::vector<std::string>& all) {
+    return std::ranges::all_of(
+        some, [&](const std::string& name) { return std::ranges::count(all, name) != 0; });
+  }
+
   [[nodiscard]] std::vector<std::string> dimensions_of(const CoordinatePair& pair) const {
     std::vector<std::string> names = headers_[pair.lat].dimensions;
     for (const std::string& name : headers_[pair.lon].dimensions) {
@@ -77,8 +82,7 @@ class CfGrids {
   // Axes along the dimensions of coordinates that have no cells may be those of the same places, or only pretend to be degrees.
   void require_same_places(const CoordinatePair& first, const CoordinatePair& axes) const {
     const std::vector<std::string> own = dimensions_of(first);
-    const bool are_along = std::ranges::is_permutation(own, dimensions_of(axes));
-    if (!axes.are_axes || !are_along || first.are_axes) return;
+    if (!axes.are_axes || !are_among(dimensions_of(axes), own) || first.are_axes) return;
     const io::PlaceArrays places = io::places_of(file_, variable(first.lon), variable(first.lat));
     const std::vector<double> lon = io::degrees_of(file_, variable(axes.lon));
     const std::vector<double> lat = io::degrees_of(file_, variable(axes.lat));
@@ -107,7 +111,7 @@ class CfGrids {
     for (const CoordinatePair& pair : pairs_) {
       const bool is_other = pair.lon != taken.lon || pair.lat != taken.lat;
       if (!is_other || !has_cells(pair) || !pair.is_used) continue;
-      if (std::ranges::is_permutation(dimensions_of(pair), dimensions_of(taken))) continue;
+      if (are_among(dimensions_of(pair), dimensions_of(taken))) continue;
       if (++number <= most) {
         others += (others.empty() ? "" : ", ") + headers_[pair.lon].name + " and " +
                   headers_[pair.lat].name;
@@ -264,6 +268,7 @@ MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
 }  // namespace
 
 std::optional<MeshContent> read_cf_grid(const NetcdfReader& file, const std::string& name) {
+  if (!name.empty() && file.find(name) == nullptr) return std::nullopt;
   std::vector<std::string> remarks;
   CfGrids grids(file, name, remarks);
   const CoordinatePair* const pair = grids.best();

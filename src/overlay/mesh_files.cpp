@@ -25,18 +25,20 @@ namespace rondel {
 namespace {
 
 overlay::MeshContent read_mesh(const io::NetcdfReader& file, const std::string& name) {
-  if (!name.empty()) (void)file.require(name);
+  const bool is_oasis = file.find(name + ".clo") != nullptr;
+  if (!name.empty() && !is_oasis) (void)file.require(name);
   for (const auto read : {&overlay::read_ugrid, &overlay::read_scrip_grid, &overlay::read_esmf_mesh,
-                          &overlay::read_mpas, &overlay::read_icon, &overlay::read_cf_grid}) {
+                          &overlay::read_mpas, &overlay::read_icon, &overlay::read_oasis,
+                          &overlay::read_exodus, &overlay::read_cf_grid}) {
     if (std::optional<overlay::MeshContent> mesh = read(file, name)) return std::move(*mesh);
   }
   if (!name.empty()) {
     throw io::BadValue("it has no cells that variable " + io::in_quotes(name) + " is on");
   }
   throw io::BadValue(
-      "it has no cells: it follows none of UGRID, SCRIP, ESMF, MPAS, ICON, and no longitudes and "
-      "latitudes "
-      "of CF");
+      "it has no cells: it follows none of UGRID, SCRIP, ESMF, MPAS, ICON, OASIS and Exodus, and "
+      "has "
+      "no longitudes and latitudes of CF");
 }
 
 constexpr std::string_view netcdf_ending = ".nc";

@@ -43,6 +43,8 @@ std::optional<MeshContent> read_scrip_grid(const io::NetcdfReader& file, const s
 std::optional<MeshContent> read_esmf_mesh(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_mpas(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_icon(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_oasis(const io::NetcdfReader& file, const std::string& name);
+std::optional<MeshContent> read_exodus(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_cf_grid(const io::NetcdfReader& file, const std::string& name);
 
 using MeshVariable = io::NetcdfReader::Variable;

@@ -110,13 +110,47 @@ void test_repeated(ByteSource& source) {
   require(shape.empty() || std::ranges::count(repeated, false) > 0, "one dimension is left");
 }
 
+void test_missing(ByteSource& source) {
+  constexpr const char* types[] = {"i1", "i2", "i4", "i8", "u1", "u2", "u4", "u8", "f4", "f8"};
+  constexpr const char* attribute_names[] = {"_FillValue",   "missing_value", "valid_min",
+                                             "valid_max",    "valid_range",   "_Unsigned",
+                                             "scale_factor", "add_offset"};
+  std::vector<ValueAttribute> attributes(source.below(4));
+  for (ValueAttribute& attribute : attributes) {
+    attribute.name = one_of(source, attribute_names);
+    if (source.below(4) == 0) {
+      attribute.text = source.below(2) == 0 ? "true" : "0.5";
+      continue;
+    }
+    attribute.type = one_of(source, types);
+    attribute.numbers.resize(1 + source.below(2));
+    for (double& number : attribute.numbers) number = source.small();
+  }
+  const std::string type = one_of(source, types);
+  std::vector<double> values(source.below(8));
+  for (double& value : values) value = source.below(4) == 0 ? source.any_double() : source.small();
+  std::vector<double> marked = values;
+  mark_missing(marked, type, attributes);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    require(std::isnan(marked[i]) || marked[i] == values[i], "a value stays or is missing");
+  }
+  std::vector<double> again = marked;
+  mark_missing(again, type, attributes);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    require(std::isnan(marked[i]) == std::isnan(again[i]), "what is there is not missing");
+  }
+}
+
 }  // namespace
 }  // namespace rondel::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   rondel::fuzz::ByteSource source(data, size);
   try {
-    switch (source.below(3)) {
+    switch (source.below(4)) {
+      case 3:
+        rondel::fuzz::test_missing(source);
+        break;
       case 0:
         rondel::fuzz::test_coordinates(source);
         break;

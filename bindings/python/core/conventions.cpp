@@ -57,6 +57,19 @@ std::vector<double> vector_of_axis(const NumbersIn& numbers) {
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 
+// Name, type, text and numbers.
+using ValueAttributeIn = std::tuple<std::string, std::string, std::string, std::vector<double>>;
+using NumbersInOut = nb::ndarray<double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
+
+void mark_missing_of(const NumbersInOut& values, const std::string& type,
+                     const std::vector<ValueAttributeIn>& in) {
+  std::vector<ValueAttribute> attributes;
+  for (const auto& [name, of_type, text, numbers] : in) {
+    attributes.push_back({name, of_type, text, numbers});
+  }
+  mark_missing({values.data(), values.size()}, type, attributes);
+}
+
 }  // namespace
 
 void add_conventions(nb::module_& module) {
@@ -83,6 +96,8 @@ void add_conventions(nb::module_& module) {
                                    {lat.data(), lat.size()});
       },
       nb::arg("names"), nb::arg("shape"), nb::arg("lon").noconvert(), nb::arg("lat").noconvert());
+  module.def("mark_missing", &mark_missing_of, nb::arg("values").noconvert(), nb::arg("type"),
+             nb::arg("attributes"));
   module.def(
       "axis_lines",
       [](const NumbersIn& values, const NumbersIn& bounds, bool is_longitude) {

@@ -340,11 +340,55 @@ def _marked(variables: dict[Any, Any]) -> xarray.Dataset:
 
 
 def _four(corners: Any, shape: tuple[int, ...]) -> FloatArray:
-    """Those of each cell, of an array of all of a curvilinear grid."""
-    if len(shape) != 2 or corners.shape != (shape[0] + 1, shape[1] + 1):
+    """Those of each cell, of an array of all of a curvilinear grid, or of several such."""
+    wanted = (*shape[:-2], *(length + 1 for length in shape[-2:]))
+    if len(shape) < 2 or corners.shape != wanted:
         raise ValueError(f"corners of cells of shape {shape} cannot have shape {corners.shape}")
-    around = (corners[:-1, :-1], corners[:-1, 1:], corners[1:, 1:], corners[1:, :-1])
+    around = (
+        corners[..., :-1, :-1],
+        corners[..., :-1, 1:],
+        corners[..., 1:, 1:],
+        corners[..., 1:, :-1],
+    )
     return np.stack(around, axis=-1)
+
+
+_OF_VALUES = ("_FillValue", "missing_value", "valid_min", "valid_max", "valid_range", "_Unsigned")
+_PACKING = ("scale_factor", "add_offset")
+
+
+def _missing_marker(array: xarray.DataArray) -> Any:
+    """A function that makes NaN of what the attributes call missing, or None; xarray heeds
+    `_FillValue` and `missing_value` when it opens a file, but no `valid_range`, nor the numbers
+    that netCDF writes where nobody wrote.
+    """
+    of_file = array.encoding.get("dtype")
+    stored = np.dtype(of_file if isinstance(of_file, (np.dtype, type)) else array.dtype)
+    texts = {**array.encoding, **array.attrs}
+    # What xarray has unpacked it remembers in `encoding`.
+    known = {name: texts[name] for name in _OF_VALUES if texts.get(name) is not None}
+    known |= {name: array.encoding[name] for name in _PACKING if name in array.encoding}
+    if stored.kind not in "iuf" or (of_file is None and not known):
+        return None
+    attributes = []
+    for name, value in known.items():
+        if isinstance(value, str):
+            attributes.append((name, "", value, []))
+            continue
+        numbers = np.atleast_1d(np.asarray(value))
+        if numbers.dtype.kind in "iuf":
+            kind = f"{numbers.dtype.kind}{numbers.dtype.itemsize}"
+            attributes.append((name, kind, "", numbers.astype(np.float64).tolist()))
+    if of_file is None and "_FillValue" not in known:
+        attributes.append(("_FillValue", "f8", "", [np.nan]))
+    kind = f"{stored.kind}{stored.itemsize}"
+
+    def marked(values: Any) -> Any:
+        found = np.array(values, np.float64, order="C")
+        _core.mark_missing(found.reshape(-1), kind, attributes)
+        return found
+
+    return marked
 
 
 def carried(
@@ -360,11 +404,14 @@ def carried(
 ) -> Any:
     """A Dataset or DataArray at other places."""
 
-    def applied(values: Any) -> Any:
+    def applied(values: Any, marker: Any) -> Any:
+        dtype = _kind(values)
+        if marker is not None:
+            values = marker(values)
         fields = values.reshape(*values.shape[: values.ndim - len(source.dims)], -1)
         found = weights.apply(fields, skipna=skipna, most_missing=most_missing, fill=fill)
         shape = (*found.shape[:-1], *wanted.shape)
-        return found.reshape(shape).astype(_kind(values), copy=False)
+        return found.reshape(shape).astype(dtype, copy=False)
 
     def moved(array: xarray.DataArray) -> xarray.DataArray:
         found = xarray.apply_ufunc(
@@ -376,6 +423,7 @@ def carried(
             keep_attrs=keep_attrs,
             dask="parallelized",
             output_dtypes=[_kind(array)],
+            kwargs={"marker": _missing_marker(array)},
             dask_gufunc_kwargs={
                 "output_sizes": dict(zip(wanted.dims, wanted.shape, strict=True)),
                 "allow_rechunk": True,

@@ -1,0 +1,162 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Cells of coupled models and of finite elements:
+//
+// 1. OASIS: grids.nc, several grids in one file by the beginnings of their variables' names (OASIS3-MCT user guide, section 5.1)
+// 2. Exodus II: blocks of elements with as many corners each, at points in space (Schoof and Yarberry, SAND92-2137)
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "io/bad_value.h"
+#include "io/cf_reader.h"
+#include "io/number.h"
+#include "overlay/mesh_formats.h"
+#include "rondel/weight_files.h"
+
+namespace rondel::overlay {
+namespace {
+
+using io::BadValue;
+using io::NetcdfReader;
+
+// The beginnings of names that have corners: "bt42" of bt42.clo and bt42.cla.
+std::vector<std::string> oasis_grids(const NetcdfReader& file) {
+  std::vector<std::string> names;
+  for (const MeshVariable& variable : file.variables()) {
+    if (!variable.name.ends_with(".clo")) continue;
+    const std::string name = variable.name.substr(0, variable.name.size() - 4);
+    if (file.find(name + ".cla") != nullptr) names.push_back(name);
+  }
+  return names;
+}
+
+// The place of the dimension of corners: the one that centers have not, or else the last one.
+std::size_t corner_dimension(const MeshVariable& corners, const MeshVariable* centers) {
+  for (std::size_t d = 0; centers != nullptr && d < corners.dimensions.size(); ++d) {
+    if (std::ranges::count(centers->dimensions, corners.dimensions[d]) == 0) return d;
+  }
+  return corners.dimensions.size() - 1;
+}
+
+// Positions with the corners of each cell one after the other.
+std::vector<LonLat> corners_last(const MeshVariable& variable, std::size_t corner,
+                                 const std::vector<double>& lon, const std::vector<double>& lat) {
+  std::vector<std::size_t> order;
+  for (std::size_t d = 0; d < variable.shape.size(); ++d) {
+    if (d != corner) order.push_back(d);
+  }
+  order.push_back(corner);
+  const std::vector<double> lons = io::transposed(variable.shape, order, lon);
+  const std::vector<double> lats = io::transposed(variable.shape, order, lat);
+  std::vector<LonLat> positions(lons.size());
+  for (std::size_t i = 0; i < lons.size(); ++i) positions[i] = {lons[i], lats[i]};
+  return positions;
+}
+
+// 1 is masked.
+void take_oasis_mask(const NetcdfReader& file, const std::string& name, MeshContent& mesh) {
+  if (file.find(name) == nullptr) return;
+  take_mask(file, name, mesh);
+  if (mesh.mask.empty()) mesh.mask.assign(mesh.cells.size() - 1, 1);
+  for (std::int32_t& part : mesh.mask) part = 1 - part;
+  if (!mesh.remarks.empty()) mesh.remarks.pop_back();
+  const auto masked = std::ranges::count(mesh.mask, 0);
+  if (masked == 0) {
+    mesh.mask.clear();
+  } else {
+    mesh.remarks.push_back(std::to_string(masked) + " of " + std::to_string(mesh.mask.size()) +
+                           " cells are masked by " + io::in_quotes(name));
+  }
+}
+
+std::vector<Point> points_of_exodus(const NetcdfReader& file) {
+  std::vector<Point> points;
+  if (const MeshVariable* const all = file.find("coord")) {
+    if (require_rank(*all, 2).shape[0] != 3) {
+      throw BadValue("variable \"coord\" has not three coordinates");
+    }
+    const std::vector<double> values = io::meant_numbers(file, *all);
+    const std::size_t n = values.size() / 3;
+    for (std::size_t i = 0; i < n; ++i) {
+      points.push_back({values[i], values[n + i], values[2 * n + i]});
+    }
+    return points;
+  }
+  const std::vector<double> x = io::meant_numbers(file, file.require("coordx"));
+  const std::vector<double> y = io::meant_numbers(file, file.require("coordy"));
+  const std::vector<double> z = io::meant_numbers(file, file.require("coordz"));
+  if (x.size() != y.size() || x.size() != z.size()) {
+    throw BadValue("variables \"coordx\", \"coordy\" and \"coordz\" have not as many values");
+  }
+  for (std::size_t i = 0; i < x.size(); ++i) points.push_back({x[i], y[i], z[i]});
+  return points;
+}
+
+}  // namespace
+
+std::optional<MeshContent> read_oasis(const NetcdfReader& file, const std::string& name) {
+  const std::vector<std::string> grids = oasis_grids(file);
+  if (grids.empty()) return std::nullopt;
+  const auto chosen = std::ranges::find_if(grids, [&](const std::string& grid) {
+    return name.empty() || name == grid || name.starts_with(grid + '.');
+  });
+  if (chosen == grids.end()) return std::nullopt;
+  MeshContent mesh;
+  mesh.convention = "OASIS";
+  if (name.empty() && grids.size() > 1) {
+    std::string others;
+    for (const std::string& grid : grids) {
+      if (grid != *chosen) others += (others.empty() ? "" : ", ") + grid;
+    }
+    mesh.remarks.push_back("the file has several grids; " + *chosen + " is read, not " + others +
+                           "; FILE.nc:NAME names one");
+  }
+  const MeshVariable& lon = file.require(*chosen + ".clo");
+  const MeshVariable& lat = file.require(*chosen + ".cla");
+  const MeshVariable* const center_lon = file.find(*chosen + ".lon");
+  if (lon.shape.size() < 2 || lon.shape != lat.shape || lon.num_values >= no_index) {
+    throw BadValue("variables " + io::in_quotes(lon.name) + " and " + io::in_quotes(lat.name) +
+                   " are no corners of cells");
+  }
+  const std::size_t corner = corner_dimension(lon, center_lon);
+  mesh.nodes = corners_last(lon, corner, io::degrees_of(file, lon, UsualUnits::degrees),
+                            io::degrees_of(file, lat, UsualUnits::degrees));
+  mesh.names = io::in_quotes(lon.name) + " and " + io::in_quotes(lat.name);
+  mesh.is_single = lon.type == io::NetcdfType::float32;
+  if (mesh.nodes.empty()) throw BadValue("grid " + *chosen + " has no cells");
+  for (std::size_t d = 0; d < lon.shape.size() && lon.shape.size() > 2; ++d) {
+    if (d != corner) mesh.shape.push_back(lon.shape[d]);
+  }
+  end_cells_of_nodes(lon.shape[corner], mesh.shape.empty(), mesh);
+  take_oasis_mask(file, *chosen + ".msk", mesh);
+  take_centers(file, center_lon, file.find(*chosen + ".lat"), UsualUnits::degrees, mesh);
+  return mesh;
+}
+
+std::optional<MeshContent> read_exodus(const NetcdfReader& file, const std::string& name) {
+  if (file.find("connect1") == nullptr || !name.empty()) return std::nullopt;
+  MeshContent mesh;
+  mesh.convention = "Exodus";
+  mesh.nodes = lonlats(points_of_exodus(file));
+  mesh.names = "the coordinates";
+  std::size_t num_along_parallels = 0;
+  for (std::size_t block = 1;; ++block) {
+    const MeshVariable* const corners = file.find("connect" + std::to_string(block));
+    if (corners == nullptr) break;
+    const auto& shape = require_rank(*corners, 2).shape;
+    take_connectivity(file, {*corners, shape[0], shape[1], false, 1, 1}, {}, mesh);
+    if (const MeshVariable* const kinds = file.find("edge_type" + std::to_string(block))) {
+      for (const double kind : file.numbers(*kinds)) num_along_parallels += kind == 1 ? 1U : 0U;
+    }
+  }
+  if (num_along_parallels > 0) {
+    mesh.remarks.push_back(std::to_string(num_along_parallels) +
+                           " sides along parallels (edge_type) are taken for great circles");
+  }
+  return mesh;
+}
+
+}  // namespace rondel::overlay
