@@ -135,7 +135,9 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(
     const LayoutVariable& variable) const {
   FieldDimensions layout;
   layout.points = run_of_points(variable);
+  const std::vector<std::size_t> before = layout.points;
   if (layout.points.empty() || !fit(shape_, variable, layout.points)) return std::nullopt;
+  layout.is_reversed = layout.points != before;
   take_rest(variable, layout);
   return layout;
 }

@@ -30,6 +30,7 @@ struct FieldDimensions {
   std::vector<std::size_t> points;  // those of the points, the fastest one last
   std::vector<LonLat>
       places;  // degrees; empty if the file does not say where they are, or says it more than once
+  bool is_reversed = false;  // by their lengths alone: nothing says which dimension is which
 
   // All, the order of the values of a FieldArray.
   [[nodiscard]] std::vector<std::size_t> order() const;

@@ -42,6 +42,10 @@ FieldArray array_of(const io::NetcdfReader& file, const ReadVariable& variable,
                     const FieldDimensions& layout, std::vector<std::string>& remarks) {
   const io::ValueRules rules(variable);
   if (!rules.remark().empty()) remarks.push_back(rules.remark());
+  if (layout.is_reversed) {
+    remarks.push_back("variable " + io::in_quotes(variable.name) +
+                      " has the lengths of the grid in reverse, and is taken so");
+  }
   FieldArray array;
   array.name = variable.name;
   for (const std::size_t d : layout.leading) {
@@ -64,7 +68,7 @@ void add_axes(const io::NetcdfReader& file, FieldSet& fields) {
           variable->shape.size() != 1) {
         continue;
       }
-      fields.axes.push_back(array_of(file, *variable, {{0}, {}, {}}, fields.remarks));
+      fields.axes.push_back(array_of(file, *variable, {{0}, {}, {}, false}, fields.remarks));
     }
   }
 }

@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import inspect
 import warnings
 from collections.abc import Hashable, Mapping
 from typing import Any
@@ -188,10 +189,14 @@ class Places:
 
     def points(self) -> FloatArray:
         """Unit vectors; anywhere for places without longitude or latitude."""
+        return unit_vectors(*self.degrees())
+
+    def degrees(self) -> tuple[FloatArray, FloatArray]:
+        """Longitudes and latitudes; 0 for places that have none."""
         if self._located is None:
-            return unit_vectors(self.lon, self.lat)
+            return self.lon, self.lat
         located = self._located.reshape(self.shape)
-        return unit_vectors(np.where(located, self.lon, 0), np.where(located, self.lat, 0))
+        return np.where(located, self.lon, 0), np.where(located, self.lat, 0)
 
     @property
     def are_axes(self) -> bool:
@@ -300,7 +305,11 @@ def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[An
 
 
 def _warn(text: str) -> None:
-    warnings.warn(text, UserWarning, stacklevel=5)
+    """As if the line warned that called this package."""
+    frame, level = inspect.currentframe(), 1
+    while frame is not None and frame.f_globals.get("__package__") == __package__:
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, UserWarning, stacklevel=level)
 
 
 def _centers(partition: Partition) -> xarray.Dataset:
@@ -357,6 +366,12 @@ _OF_VALUES = ("_FillValue", "missing_value", "valid_min", "valid_max", "valid_ra
 _PACKING = ("scale_factor", "add_offset")
 
 
+def _code(dtype: Any) -> str | None:
+    """Such as "f4", of the types that netCDF has."""
+    is_known = dtype.kind in "iu" or (dtype.kind == "f" and dtype.itemsize in (4, 8))
+    return f"{dtype.kind}{dtype.itemsize}" if is_known else None
+
+
 def _missing_marker(array: xarray.DataArray) -> Any:
     """A function that makes NaN of what the attributes call missing, or None; xarray heeds
     `_FillValue` and `missing_value` when it opens a file, but no `valid_range`, nor the numbers
@@ -368,7 +383,7 @@ def _missing_marker(array: xarray.DataArray) -> Any:
     # What xarray has unpacked it remembers in `encoding`.
     known = {name: texts[name] for name in _OF_VALUES if texts.get(name) is not None}
     known |= {name: array.encoding[name] for name in _PACKING if name in array.encoding}
-    if stored.kind not in "iuf" or (of_file is None and not known):
+    if _code(stored) is None or (of_file is None and not known):
         return None
     attributes = []
     for name, value in known.items():
@@ -376,12 +391,12 @@ def _missing_marker(array: xarray.DataArray) -> Any:
             attributes.append((name, "", value, []))
             continue
         numbers = np.atleast_1d(np.asarray(value))
-        if numbers.dtype.kind in "iuf":
-            kind = f"{numbers.dtype.kind}{numbers.dtype.itemsize}"
+        kind = _code(numbers.dtype)
+        if kind is not None:
             attributes.append((name, kind, "", numbers.astype(np.float64).tolist()))
     if of_file is None and "_FillValue" not in known:
         attributes.append(("_FillValue", "f8", "", [np.nan]))
-    kind = f"{stored.kind}{stored.itemsize}"
+    kind = _code(stored)
 
     def marked(values: Any) -> Any:
         found = np.array(values, np.float64, order="C")

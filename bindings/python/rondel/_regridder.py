@@ -277,7 +277,8 @@ def _made(
         made = _transposed(_nearest(target, source), source.mask())
     else:
         if method == "bilinear" and source.are_axes:
-            made = bilinear_weights(*source.axes, target.lon.reshape(-1), target.lat.reshape(-1))
+            lon, lat = target.degrees()
+            made = bilinear_weights(*source.axes, lon.reshape(-1), lat.reshape(-1))
         else:
             kind: Any = "linear" if method == "bilinear" else method
             made = source.weights_to(target, kind, threads=threads, progress=progress)

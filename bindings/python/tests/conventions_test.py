@@ -598,3 +598,82 @@ def test_units_are_those_of_udunits():
             found = None
         assert (found is None) == (expected is None), word
         assert found is None or np.isclose(found, expected, rtol=1e-15), word
+
+
+@pytest.mark.skipif(TOOL is None, reason="needs the tool")
+def test_weight_files_are_those_of_the_tool(tmp_path):
+    """With centers, masks and corners."""
+    lon_b, lat_b, lon, lat = quadrilaterals()
+    corners = [four(c) for c in (lon_b, lat_b)]
+    corners[0][1, 2] = np.nan
+    ds = xarray.Dataset()
+    for name, own, values, unit in (
+        ("lon", lon, corners[0], "degrees_east"),
+        ("lat", lat, corners[1], "degrees_north"),
+    ):
+        ds[f"{name}_b"] = (("y", "x", "nv"), values)
+        ds[name] = (("y", "x"), own, {"units": unit, "bounds": f"{name}_b"})
+    write(tmp_path / "source.nc", ds)
+    write(tmp_path / "target.nc", axes_file(np.arange(160.0, 210, 10), np.arange(10.0, -50, -20)))
+    run("remap", tmp_path / "source.nc", tmp_path / "target.nc", "-o", tmp_path / "tool.nc")
+    with pytest.warns(UserWarning, match="1 of 35 cells"):
+        source = rondel.Partition.read(tmp_path / "source.nc")
+    target = rondel.Partition.read(tmp_path / "target.nc")
+    rondel.remap(source, target).to_netcdf(tmp_path / "python.nc")
+    with netCDF4.Dataset(tmp_path / "tool.nc") as a, netCDF4.Dataset(tmp_path / "python.nc") as b:
+        assert set(a.variables) == set(b.variables)
+        assert {"xv_a", "yv_b", "mask_a"} < set(a.variables)
+        assert a["mask_a"][:].sum() == 34
+        for name in a.variables:
+            assert np.array_equal(a[name][:].data, b[name][:].data), name
+
+
+@pytest.mark.parametrize("method", ["bilinear", "nearest_s2d", "nearest_d2s", "sibson"])
+def test_places_that_are_nowhere(method):
+    """Swaths have NaN for longitudes and latitudes at their edges, land in models has no place."""
+    lon, lat = np.meshgrid(np.linspace(0, 30, 31), np.linspace(60, 80, 21))
+    values = lat.copy()
+    swath = {"lon": np.where(lon > 28, np.nan, lon), "lat": np.where(lat < 62, np.nan, lat)}
+    target = {"lon": np.array([[15.0, 20], [np.nan, 25]]), "lat": np.array([[70.0, 71], [72, 75]])}
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        found = rondel.Regridder(swath, target, method)(values)
+    nowhere = int(np.isnan(swath["lon"] + swath["lat"]).sum())
+    texts = [str(warning.message) for warning in told]
+    assert texts == [
+        f"{nowhere} of 651 places have no longitude or latitude and are left out",
+        "1 of 4 places have no longitude or latitude and are left out",
+    ]
+    assert {warning.filename for warning in told} == {__file__}
+    assert np.isnan(found[1, 0])
+    if method != "nearest_d2s":
+        wanted = [70, 71, 75]
+        assert np.allclose(found[[0, 0, 1], [0, 1, 1]], wanted, atol=0.1)
+
+
+def test_names_are_given():
+    lon, lat = np.meshgrid(np.linspace(0, 20, 21), np.linspace(-5, 5, 11))
+    data = {"v": (("j", "i"), lat)}
+    for name in ("u", "t"):
+        data |= {f"{name}_east": (("j", "i"), lon), f"{name}_north": (("j", "i"), lat)}
+    ds = xarray.Dataset(data)
+    with pytest.raises(ValueError, match=r"say lon=NAME and lat=NAME, of v, u_east, u_north"):
+        rondel.Regridder(ds, {"lon": [5, 6], "lat": [1, 2]}, "bilinear")
+    names = {"lon": "t_east", "lat": "t_north", "lon_out": "u_east", "lat_out": "u_north"}
+    found = rondel.Regridder(ds, ds, "nearest_s2d", **names)(ds)
+    assert np.array_equal(found.v, lat)
+    assert {"u_east", "u_north"} <= set(found.coords)
+    with pytest.raises(ValueError, match=r"there is no variable 'w' \(lon=\)"):
+        rondel.Regridder(ds, ds, "bilinear", lon="w")
+
+
+def test_bounds_are_no_fields():
+    lines = np.stack([LON_LINES[:-1], LON_LINES[1:]], -1)
+    ds = xarray.Dataset(
+        {"lon_bnds": (("lon", "two"), lines), "t": (("lat", "lon"), np.ones((4, 6)))},
+        {
+            "lon": ("lon", LON, {"units": "degrees_east", "bounds": "lon_bnds"}),
+            "lat": ("lat", LAT, {"units": "degrees_north"}),
+        },
+    )
+    assert list(rondel.Regridder(ds, OTHER, "conservative")(ds).data_vars) == ["t"]
