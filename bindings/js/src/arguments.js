@@ -29,6 +29,9 @@ export function numbers(values, width, what) {
   if (!(ArrayBuffer.isView(values) || Array.isArray(values)) || values instanceof DataView) {
     throw new TypeError(`${what}: an array of numbers is wanted, one after the other`);
   }
+  if (Array.isArray(values) && values.some((value) => typeof value === "object")) {
+    throw new TypeError(`${what}: the array is flat, [a, b, c, d, ...]; points.flat() makes it of an array of points`);
+  }
   const result = values instanceof Float64Array ? values : Float64Array.from(values);
   if (result.length % width === 0) return result;
   throw new RondelError(

@@ -7,6 +7,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { geoArea, geoCentroid, geoDistance } from "d3-geo";
 import * as d3 from "d3-geo-voronoi";
+import { scaleLinear } from "d3-scale";
 import * as rondel from "rondel/d3";
 import { randomLonLat, randomNumbers, sum } from "./support.mjs";
 
@@ -153,10 +154,35 @@ test("contours and bands agree with d3's, as areas", () => {
   assert.throws(() => rondel.geoContour().value(() => NaN)(data), RangeError);
 });
 
+test("a number of thresholds gives d3's", () => {
+  const sites = randomLonLat(150, 12);
+  for (const [offset, height] of [[0, 100], [-3, 0.02], [1e4, 7], [0.5, 3e-7]]) {
+    const data = sites.map(([lon, lat]) => [lon, lat, offset + (height * (lat + lon / 10)) / 100]);
+    for (const n of [1, 2, 3, 4, 7, 10, 20]) {
+      const levels = ({ geoContour }) => geoContour().thresholds(n)(data).map((c) => c.value);
+      assert.deepEqual(levels(rondel), levels(d3), `${offset} ${height} ${n}`);
+    }
+  }
+});
+
+test("ticks are those of d3-scale", async () => {
+  const { niceTicks } = await import("../node_modules/rondel/src/d3/ticks.js");
+  const random = randomNumbers(13);
+  for (let k = 0; k < 20000; ++k) {
+    const size = 10 ** Math.floor(20 * random() - 10);
+    const least = (2 * random() - 1) * size;
+    const most = least + random() * size * 10 ** Math.floor(6 * random() - 3);
+    const n = 1 + Math.floor(30 * random());
+    const theirs = scaleLinear().domain([least, most]).nice().ticks(n);
+    assert.deepEqual(niceTicks(least, most, n).map((v) => v + 0), theirs.map((v) => v + 0), `${least} ${most} ${n}`);
+  }
+});
+
 test("ticks are round numbers", async () => {
   const { niceTicks } = await import("../node_modules/rondel/src/d3/ticks.js");
   assert.deepEqual(niceTicks(0, 1, 10), [0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1]);
-  assert.deepEqual(niceTicks(-3, 18, 5), [-5, 0, 5, 10, 15, 20]);
+  assert.deepEqual(niceTicks(-3, 18, 5), [0, 5, 10, 15]);
+  assert.deepEqual(niceTicks(0, 1, 0), []);
   assert.deepEqual(niceTicks(3, 3, 10), [3]);
   assert.deepEqual(niceTicks(Infinity, -Infinity, 10), []);
 });

@@ -51,6 +51,10 @@ test("errors name the first bad element", () => {
     assert.match(error.message, message);
   }
   assert.throws(() => delaunay("1, 0, 0"), TypeError);
+  const points = [[2, 48], [13, 52], [12, 41], [0, 0]];
+  for (const call of [() => delaunay.lonLat(points), () => unitVectors(points), () => delaunay(points)]) {
+    assert.throws(call, { name: "TypeError", message: /the array is flat, .* points.flat\(\) makes it/ });
+  }
   assert.throws(() => delaunay(new DataView(new ArrayBuffer(24))), TypeError);
 });
 

@@ -1,30 +1,78 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Round numbers that divide an interval into about so many parts.
+// Round numbers that divide an interval into about so many parts: those of d3-scale, scaleLinear().domain([least,
+// most]).nice().ticks(n).
 
-/** The step 1, 2 or 5 times a power of ten whose ratio to the exact one is nearest to 1. @param {number} exact */
-function roundStep(exact) {
-  const power = 10 ** Math.floor(Math.log10(exact));
-  const ratio = exact / power;
-  if (ratio >= Math.sqrt(50)) return 10 * power;
-  if (ratio >= Math.sqrt(10)) return 5 * power;
-  return ratio >= Math.sqrt(2) ? 2 * power : power;
+/**
+ * A step is 1, 2 or 5 times a power of ten: `times` / `over`, of which one is 1, so that multiples of a step below 1 are
+ * quotients, which round correctly: 3 / 10, not 3 * 0.1.
+ * @typedef {{times: number, over: number}} Step
+ */
+
+/**
+ * The step whose ratio to the exact one, extent / n, is nearest to 1.
+ * @param {number} extent
+ * @param {number} n
+ * @returns {Step}
+ */
+function stepOf(extent, n) {
+  const exact = extent / n;
+  const power = Math.floor(Math.log10(exact));
+  const ratio = exact / 10 ** power;
+  const factor = [50, 10, 2].findIndex((square) => ratio >= Math.sqrt(square));
+  const digit = factor < 0 ? 1 : [10, 5, 2][factor];
+  return power < 0 ? { times: 1, over: 10 ** -power / digit } : { times: digit * 10 ** power, over: 1 };
+}
+
+/** @param {Step} step @param {number} k */
+const multiple = ({ times, over }, k) => (times * k) / over;
+
+/** @param {Step} step @param {number} value */
+const quotient = ({ times, over }, value) => (over === 1 ? value / times : value * over);
+
+/**
+ * The interval whose ends are multiples of its own step for ten parts.
+ * @param {number} least
+ * @param {number} most
+ */
+function widened(least, most) {
+  const parts = 10;
+  let [low, high, last] = [least, most, NaN];
+  for (let round = 0; round < 10; ++round) {
+    const step = stepOf(high - low, parts);
+    if (multiple(step, 1) === last) return [low, high];
+    last = multiple(step, 1);
+    [low, high] = [multiple(step, Math.floor(quotient(step, low))), multiple(step, Math.ceil(quotient(step, high)))];
+  }
+  return [least, most];
 }
 
 /**
- * About n multiples of a round step from below `least` to above `most`.
+ * The multiples of the step that lie in an interval.
+ * @param {number} low
+ * @param {number} high
+ * @param {number} n
+ * @returns {number[]}
+ */
+function ticks(low, high, n) {
+  const step = stepOf(high - low, n);
+  let first = Math.round(quotient(step, low));
+  let last = Math.round(quotient(step, high));
+  if (multiple(step, first) < low) ++first;
+  if (multiple(step, last) > high) --last;
+  if (last < first && n >= 0.5 && n < 2) return ticks(low, high, 2 * n);
+  return Array.from({ length: Math.max(0, last - first + 1) }, (_, i) => multiple(step, first + i));
+}
+
+/**
+ * About n multiples of a round step, from `least` and `most` widened to round numbers.
  * @param {number} least
  * @param {number} most
  * @param {number} n
  * @returns {number[]}
  */
 export function niceTicks(least, most, n) {
-  if (!(most > least)) return least === most ? [least] : [];
-  const step = roundStep((most - least) / n);
-  const begin = Math.floor(least / step);
-  const end = Math.ceil(most / step);
-  // Of a step below 1 the multiples are quotients, which round correctly: 3 / 10, not 3 * 0.1.
-  const inverse = Math.round(1 / step);
-  return Array.from({ length: end - begin + 1 }, (_, i) => (step < 1 ? (begin + i) / inverse : (begin + i) * step));
+  if (!(n > 0) || !(most >= least)) return [];
+  return least === most ? [least] : ticks(...widened(least, most), n);
 }
