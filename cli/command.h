@@ -140,7 +140,8 @@ auto with_places(const SiteTable& table, Work&& work) {
   try {
     return work();
   } catch (const InvalidInput& error) {
-    throw FileError(table.where(error.index()) + ": " + error.what());
+    const bool has_place = error.index() != InvalidInput::no_index;
+    throw FileError((has_place ? table.where(error.index()) : table.name) + ": " + error.what());
   }
 }
 

@@ -7,8 +7,10 @@
 
 #include <cstddef>
 #include <exception>
+#include <limits>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 #include "rondel/export.h"
 
@@ -18,12 +20,15 @@ namespace rondel {
 /// the center of the sphere, an array of the wrong length, too many sites.
 class RONDEL_API InvalidInput : public std::invalid_argument {
  public:
-  InvalidInput(const std::string& message, std::size_t index);
+  /// The index of an argument that is no array.
+  static constexpr std::size_t no_index = std::numeric_limits<std::size_t>::max();
+
+  explicit InvalidInput(const std::string& message, std::size_t index = no_index);
   InvalidInput(const InvalidInput&) = default;
   InvalidInput& operator=(const InvalidInput&) = default;
   ~InvalidInput() override;
 
-  /// The first offending position of the array that the message names.
+  /// The first offending position of the array that the message names; no_index where it is about no array.
   [[nodiscard]] std::size_t index() const noexcept { return index_; }
 
  private:
@@ -32,13 +37,22 @@ class RONDEL_API InvalidInput : public std::invalid_argument {
 
 /// A file cannot be read, understood or written. what() is one line that
 /// starts with the file's name and, where there is one, the line's number:
-/// "stations.csv:17: latitude 95.2 is outside [-90, 90]".
+/// "stations.csv:17: latitude 95.2 is outside [-90, 90]". Where the system refused, code() is its
+/// error and what() is the file's name and the text of that error.
 class RONDEL_API FileError : public std::runtime_error {
  public:
   explicit FileError(const std::string& message);
+  /// What the system says of a file: errno in the generic category.
+  FileError(const std::string& file, const std::error_code& code);
   FileError(const FileError&) = default;
   FileError& operator=(const FileError&) = default;
   ~FileError() override;
+
+  /// The error of the system; false in a condition if the system did not refuse.
+  [[nodiscard]] const std::error_code& code() const noexcept { return code_; }
+
+ private:
+  std::error_code code_;
 };
 
 /// Somebody set the flag of an Execution before the work was done.

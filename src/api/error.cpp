@@ -14,6 +14,9 @@ InvalidInput::~InvalidInput() = default;
 
 FileError::FileError(const std::string& message) : std::runtime_error(message) {}
 
+FileError::FileError(const std::string& file, const std::error_code& code)
+    : std::runtime_error(file + ": " + code.message()), code_(code) {}
+
 FileError::~FileError() = default;
 
 const char* Interrupted::what() const noexcept { return "interrupted"; }

@@ -8,6 +8,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
+#include "system/shortest_text.h"
 
 namespace rondel {
 
@@ -26,9 +27,10 @@ std::vector<Point> unit_vectors(std::span<const LonLat> positions) {
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const LonLat& p = positions[i];
     if (!std::isfinite(p.lon_deg) || !(std::abs(p.lat_deg) <= 90)) {
-      const std::string what = std::isfinite(p.lon_deg) ? "latitude " + std::to_string(p.lat_deg) +
-                                                              " is outside [-90, 90]"
-                                                        : "longitude is not finite";
+      const std::string what =
+          std::isfinite(p.lon_deg)
+              ? "latitude " + system::shortest_text(p.lat_deg) + " is outside [-90, 90]"
+              : "longitude is not finite";
       throw InvalidInput("site " + std::to_string(i) + ": " + what, i);
     }
     result[i] = unit_vector(p);

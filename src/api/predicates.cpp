@@ -27,7 +27,7 @@ void require_points(std::initializer_list<Point> points, Model model, const Sphe
   const auto is_finite = [](const Point& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
   };
-  if (!is_finite(sphere.center)) throw InvalidInput("the center of the sphere is not finite", 0);
+  if (!is_finite(sphere.center)) throw InvalidInput("the center of the sphere is not finite");
   std::size_t i = 0;
   for (const Point& p : points) {
     if (!is_finite(p)) throw InvalidInput("point " + std::to_string(i) + " is not finite", i);
@@ -54,7 +54,7 @@ void require_distinct_sites(const std::array<Point, 4>& p, Model model, const Sp
     return is_zero(cross(v[i], v[j]));
   };
   if (are_parallel(0, 1) && are_parallel(1, 2) && are_parallel(2, 0)) {
-    throw InvalidInput("the first three points are in line with the center", 0);
+    throw InvalidInput("the first three points are in line with the center");
   }
 }
 

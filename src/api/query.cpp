@@ -31,8 +31,7 @@ using query::Limit;
 
 void check_angle(double angle) {
   if (angle >= 0) return;
-  throw InvalidInput("the angle " + system::shortest_text(angle) + " is negative or not a number",
-                     0);
+  throw InvalidInput("the angle " + system::shortest_text(angle) + " is negative or not a number");
 }
 
 // No limit from 180 degrees on.
@@ -153,7 +152,7 @@ class Locator::Impl {
  private:
   void require_current() const {
     if (asked_ == nullptr || asked_->num_changes == num_changes_) return;
-    throw InvalidInput("the triangulation has changed since the locator was made", 0);
+    throw InvalidInput("the triangulation has changed since the locator was made");
   }
 
   Model model_;
@@ -269,8 +268,7 @@ std::vector<Index> Locator::k_nearest(std::span<const Point> queries, std::size_
   std::vector<Index> result;
   if (!queries.empty() && k > result.max_size() / queries.size()) {
     throw InvalidInput("k = " + std::to_string(k) + " for " + std::to_string(queries.size()) +
-                           " queries is more than an array can hold",
-                       0);
+                       " queries is more than an array can hold");
   }
   result.assign(queries.size() * k, no_index);
   if (impl_->is_empty() || k == 0) return result;

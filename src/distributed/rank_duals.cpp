@@ -23,7 +23,7 @@ using FaceCorners = std::array<bulk::BucketCorner, 3>;
 
 void require_points(const Impl& t) {
   if (!t.has_points) {
-    throw InvalidInput("the points were not kept: see DistributedOptions::keep_points", 0);
+    throw InvalidInput("the points were not kept: see DistributedOptions::keep_points");
   }
 }
 

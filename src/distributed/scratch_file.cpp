@@ -53,7 +53,7 @@ void ScratchFile::write_bytes(std::uint64_t place, std::span<const char> bytes) 
 }
 
 void ScratchFile::fail(int error) const {
-  throw FileError(path_ + ": " + std::generic_category().message(error));
+  throw FileError(path_, std::error_code(error, std::generic_category()));
 }
 
 }  // namespace rondel::distributed

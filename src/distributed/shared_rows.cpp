@@ -105,7 +105,7 @@ void SharedRows::close() {
 }
 
 void SharedRows::fail(int error) const {
-  throw FileError(path_ + ": " + std::generic_category().message(error));
+  throw FileError(path_, std::error_code(error, std::generic_category()));
 }
 
 }  // namespace rondel::distributed

@@ -23,12 +23,11 @@ using interpolation::TracedLines;
 void require_values_and_levels(const Triangulation& triangulation, std::span<const double> values,
                                std::span<const double> levels) {
   if (triangulation.model() == Model::weighted) {
-    throw InvalidInput("weighted sites have no isolines", 0);
+    throw InvalidInput("weighted sites have no isolines");
   }
   if (values.size() != triangulation.num_sites()) {
     throw InvalidInput("there are " + std::to_string(values.size()) + " values for " +
-                           std::to_string(triangulation.num_sites()) + " sites",
-                       0);
+                       std::to_string(triangulation.num_sites()) + " sites");
   }
   for (std::size_t i = 0; i < values.size(); ++i) {
     if (std::isinf(values[i])) throw InvalidInput("a value is infinite", i);

@@ -99,9 +99,9 @@ void Interpolator::Impl::validate(std::span<const Point> targets,
                        no_index);
   }
   api::validate_queries(targets, ground_.center(), true, "target");
-  if (options.method > Method::cubic) throw InvalidInput("there is no such method", 0);
+  if (options.method > Method::cubic) throw InvalidInput("there is no such method");
   if (ground_.model() == Model::weighted && options.method != Method::nearest) {
-    throw InvalidInput("weighted sites have no method but nearest", 0);
+    throw InvalidInput("weighted sites have no method but nearest");
   }
   if (options.shared_place == SharedPlace::error && !triangulation.duplicates().empty()) {
     const auto& [site, representative] = triangulation.duplicates().front();
@@ -245,7 +245,7 @@ std::vector<double> Interpolator::values(std::span<const double> field,
   const system::Call call(execution);
   impl_->validate(targets, options);
   if (options.method != Method::hermite && options.method != Method::cubic) {
-    throw InvalidInput("only hermite and cubic take gradients", 0);
+    throw InvalidInput("only hermite and cubic take gradients");
   }
   const Ground& ground = impl_->ground();
   const std::size_t num_fields = impl_->num_fields("field", field.size());
@@ -268,7 +268,7 @@ std::vector<double> Interpolator::values(std::span<const double> field,
 Weights Interpolator::gradient(const GradientOptions& options, const Execution& execution) const {
   const system::Call call(execution);
   const Ground& ground = impl_->ground();
-  if (ground.model() == Model::weighted) throw InvalidInput("weighted sites have no gradients", 0);
+  if (ground.model() == Model::weighted) throw InvalidInput("weighted sites have no gradients");
   Weights weights;
   if (ground.triangulation().dimension() == 2) {
     weights = gradient_weights(ground, *impl_->gradient_rows(options, execution.threads),

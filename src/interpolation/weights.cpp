@@ -33,8 +33,7 @@ std::uint64_t hashed(std::uint64_t hash, double coordinate) {
 void require_length(std::string_view name, std::size_t length, std::size_t wanted) {
   if (length == wanted) return;
   throw InvalidInput(std::string(name) + " has " + std::to_string(length) + " numbers instead of " +
-                         std::to_string(wanted),
-                     0);
+                     std::to_string(wanted));
 }
 
 // The numbers of so many fields.
@@ -42,8 +41,7 @@ std::size_t product(std::size_t num_fields, std::size_t length) {
   if (length == 0 || num_fields <= std::numeric_limits<std::size_t>::max() / length)
     return num_fields * length;
   throw InvalidInput(std::to_string(num_fields) + " fields of " + std::to_string(length) +
-                         " numbers are more than an array can hold",
-                     0);
+                     " numbers are more than an array can hold");
 }
 
 void require_rows(const Weights& weights) {
@@ -51,7 +49,7 @@ void require_rows(const Weights& weights) {
   require_length("values", weights.values.size(), num_entries);
   const auto& offsets = weights.offsets;
   if (offsets.empty() || offsets.front() != 0 || offsets.back() != num_entries) {
-    throw InvalidInput("the offsets do not go from 0 to " + std::to_string(num_entries), 0);
+    throw InvalidInput("the offsets do not go from 0 to " + std::to_string(num_entries));
   }
   for (std::size_t r = 0; r < weights.num_rows(); ++r) {
     if (offsets[r] > offsets[r + 1]) throw InvalidInput("the offsets decrease", r + 1);
@@ -125,8 +123,8 @@ void apply(const Weights& weights, std::span<const double> in, std::span<double>
   require_length("the input", in.size(), product(num_fields, weights.num_columns));
   require_length("the output", out.size(), product(num_fields, weights.num_rows()));
   if (!(options.most_missing >= 0 && options.most_missing <= 1)) {
-    throw InvalidInput(
-        "most_missing is " + system::shortest_text(options.most_missing) + ", not in [0, 1]", 0);
+    throw InvalidInput("most_missing is " + system::shortest_text(options.most_missing) +
+                       ", not in [0, 1]");
   }
   // All fields of some rows, as long as these rows are in the cache.
   system::parallel_for(execution.threads, weights.num_rows(), rows_per_piece,

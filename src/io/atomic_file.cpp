@@ -90,7 +90,7 @@ int AtomicFile::close() noexcept {
 
 void AtomicFile::fail(int error) {
   discard();
-  throw FileError(path_ + ": " + std::generic_category().message(error));
+  throw FileError(path_, std::error_code(error, std::generic_category()));
 }
 
 }  // namespace rondel::io

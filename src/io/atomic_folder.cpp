@@ -193,7 +193,7 @@ void AtomicFolder::discard() noexcept {
 
 void AtomicFolder::fail(int error) {
   discard();
-  throw FileError(path_ + ": " + std::generic_category().message(error));
+  throw FileError(path_, std::error_code(error, std::generic_category()));
 }
 
 }  // namespace rondel::io

@@ -23,7 +23,7 @@ void require_sites(const SiteTable& table, const Triangulation& triangulation) {
 
 double checked_tolerance(double tolerance_deg) {
   if (tolerance_deg > 0) return std::max(tolerance_deg, least_tolerance_deg);
-  throw InvalidInput("the tolerance is not positive", 0);
+  throw InvalidInput("the tolerance is not positive");
 }
 
 void require_diagram(const Triangulation& triangulation, const Diagram& diagram) {
@@ -38,7 +38,7 @@ void require_diagram(const Triangulation& triangulation, const Diagram& diagram)
   if (!is_sized || !std::ranges::is_sorted(cells.offsets) ||
       !std::ranges::all_of(cells.points, is_unit) ||
       std::ranges::any_of(cells.rings, [&](Index i) { return i >= cells.points.size(); })) {
-    throw InvalidInput("the diagram is not that of the triangulation", 0);
+    throw InvalidInput("the diagram is not that of the triangulation");
   }
 }
 

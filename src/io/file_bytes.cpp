@@ -89,7 +89,7 @@ void FileBytes::read_up_to(std::size_t size) {
 }
 
 void FileBytes::fail(int error) const {
-  throw FileError(name_ + ": " + std::generic_category().message(error));
+  throw FileError(name_, std::error_code(error, std::generic_category()));
 }
 
 }  // namespace rondel::io

@@ -33,7 +33,7 @@ inline bool are_unit_vectors(std::span<const Point> points) {
 }
 
 inline void require_fit(bool is_right, const std::string& what) {
-  if (!is_right) throw InvalidInput("the arrays of the " + what + " do not fit together", 0);
+  if (!is_right) throw InvalidInput("the arrays of the " + what + " do not fit together");
 }
 
 }  // namespace rondel::io

@@ -157,7 +157,7 @@ void NpyRows::read_bytes(std::uint64_t place, std::span<char> bytes) const {
 }
 
 void NpyRows::fail(int error) const {
-  throw FileError(path_ + ": " + std::generic_category().message(error));
+  throw FileError(path_, std::error_code(error, std::generic_category()));
 }
 
 }  // namespace rondel::io

@@ -19,6 +19,7 @@
 #include "rondel/predicates.h"
 #include "system/job.h"
 #include "system/large_vector.h"
+#include "system/shortest_text.h"
 
 namespace rondel::mesh {
 namespace {
@@ -284,7 +285,8 @@ namespace rondel::meshing {
 
 void require_options(const mesh::MeshOptions& options, std::size_t num_sites) {
   if (!(options.radius >= mesh::least_radius && options.radius <= mesh::largest_radius)) {
-    throw InvalidInput("the radius is not from 1e-30 to 1e30", 0);
+    throw InvalidInput("the radius " + system::shortest_text(options.radius) +
+                       " of the sphere is not from 1e-30 to 1e30");
   }
   if (options.density.empty()) return;
   if (options.density.size() != num_sites) {

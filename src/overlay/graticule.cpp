@@ -14,6 +14,7 @@
 #include "exact/degrees.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "system/shortest_text.h"
 
 namespace rondel::overlay {
 namespace {
@@ -33,8 +34,9 @@ void validate(const LonLatGrid& grid) {
                        0);
   }
   const auto refuse = [](const char* what, std::size_t k, double value, const char* why) {
-    throw InvalidInput(
-        std::string(what) + " " + std::to_string(k) + ", " + std::to_string(value) + ", " + why, k);
+    throw InvalidInput(std::string(what) + " " + std::to_string(k) + ", " +
+                           system::shortest_text(value) + ", " + why,
+                       k);
   };
   constexpr double most_degrees = 1080;
   const bool is_westward = lon[1] < lon[0];

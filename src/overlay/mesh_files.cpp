@@ -20,6 +20,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/job.h"
+#include "system/shortest_text.h"
 
 namespace rondel {
 namespace {
@@ -147,8 +148,8 @@ CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each)
     const auto [lon, lat] = corners[k];
     if (std::isfinite(lon) && std::abs(lat) <= 90) continue;
     throw InvalidInput("cell " + std::to_string(k / of_each) + " has a corner at longitude " +
-                           std::to_string(lon) + " and latitude " + std::to_string(lat) +
-                           ", which is no place",
+                           system::shortest_text(lon) + " and latitude " +
+                           system::shortest_text(lat) + ", which is no place",
                        k / of_each);
   }
   RingsOfNodes maker(corners, same_place);

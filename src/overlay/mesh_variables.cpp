@@ -10,6 +10,7 @@
 #include "io/cf_values.h"
 #include "io/number.h"
 #include "overlay/mesh_formats.h"
+#include "system/shortest_text.h"
 
 namespace rondel::overlay {
 namespace {
@@ -82,7 +83,8 @@ std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshVariabl
 LonLat require_position(const std::string& names, std::size_t i, const LonLat& place) {
   if (!is_place(place)) {
     throw BadValue("value " + std::to_string(i) + " of " + names + ", " +
-                   std::to_string(place.lon_deg) + " and " + std::to_string(place.lat_deg) +
+                   system::shortest_text(place.lon_deg) + " and " +
+                   system::shortest_text(place.lat_deg) +
                    " degrees, is no place");
   }
   return {place.lon_deg, std::clamp(place.lat_deg, -90.0, 90.0)};

@@ -17,6 +17,7 @@
 #include "rondel/feature_cells.h"
 #include "rondel/types.h"
 #include "system/job.h"
+#include "system/shortest_text.h"
 
 namespace rondel {
 namespace {
@@ -27,7 +28,7 @@ io::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
                                 const PolygonOptions& options) {
   if (!(options.tolerance_deg > 0)) {
     throw InvalidInput(
-        "the tolerance " + std::to_string(options.tolerance_deg) + " is not positive", 0);
+        "the tolerance " + system::shortest_text(options.tolerance_deg) + " is not positive", 0);
   }
   return io::read_polygon_features(file, kinds);
 }

@@ -32,17 +32,17 @@ void require_input(const SiteTable& table, const Triangulation& triangulation,
                    const Diagram& diagram, const GlobeOptions& options) {
   const std::size_t n = triangulation.num_sites();
   if (!std::ranges::equal(table.sites, triangulation.sites().points())) {
-    throw InvalidInput("the sites of the table are not those of the triangulation", 0);
+    throw InvalidInput("the sites of the table are not those of the triangulation");
   }
   if (!table.radii_deg.empty() && table.radii_deg.size() != n) {
     throw InvalidInput("there is not one radius for each site", table.radii_deg.size());
   }
   if (!has_shape_of(triangulation, diagram)) {
-    throw InvalidInput("the diagram is not that of the triangulation", 0);
+    throw InvalidInput("the diagram is not that of the triangulation");
   }
   for (const Column& column : table.columns) {
     if (!are_parts(column.ends, n, column.text.size())) {
-      throw InvalidInput("a column does not have one cell for each site", 0);
+      throw InvalidInput("a column does not have one cell for each site");
     }
   }
   if (!options.values.empty() && options.values.size() != n) {
@@ -52,12 +52,12 @@ void require_input(const SiteTable& table, const Triangulation& triangulation,
   if (lines != nullptr &&
       (!are_parts(lines->line_offsets, lines->num_lines() + 1, lines->points.size()) ||
        lines->line_offsets.front() != 0)) {
-    throw InvalidInput("the arrays of the isolines do not fit together", 0);
+    throw InvalidInput("the arrays of the isolines do not fit together");
   }
   const LonLat view = options.view.value_or(LonLat{});
   const double all = view.lon_deg + view.lat_deg + options.up_deg + options.graticule_deg;
   if (!std::isfinite(all) || options.graticule_deg < 0) {
-    throw InvalidInput("an option of the globe is not finite, or negative", 0);
+    throw InvalidInput("an option of the globe is not finite, or negative");
   }
 }
 

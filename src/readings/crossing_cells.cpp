@@ -67,7 +67,7 @@ std::vector<BoxedSide> sides_of_cells(const CellRings& cells) {
   if (cells.rings.empty() || !fits(cells.cells, cells.rings.size() - 1) ||
       !fits(cells.rings, cells.corners.size()) ||
       !std::ranges::all_of(cells.corners, [&](Index p) { return p < cells.points.size(); })) {
-    throw InvalidInput("the arrays of the cells do not fit", 0);
+    throw InvalidInput("the arrays of the cells do not fit");
   }
   std::vector<BoxedSide> sides;
   for (std::size_t c = 0; c < cells.num_cells(); ++c) {

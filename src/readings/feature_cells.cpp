@@ -21,6 +21,7 @@
 #include "rondel/regions.h"
 #include "rondel/weight_files.h"
 #include "system/job.h"
+#include "system/shortest_text.h"
 
 namespace rondel {
 namespace {
@@ -76,8 +77,8 @@ void require_no_crossing(const CellRings& polygons, const Execution& execution) 
   throw InvalidInput("polygon " + std::to_string(one.first) + " crosses " +
                          (one.first == one.second ? std::string("itself")
                                                   : "polygon " + std::to_string(one.second)) +
-                         " at " + std::to_string(place.lon_deg) + ' ' +
-                         std::to_string(place.lat_deg),
+                         " at " + system::shortest_text(place.lon_deg) + ' ' +
+                         system::shortest_text(place.lat_deg),
                      one.first);
 }
 
@@ -88,7 +89,7 @@ void require_cover(const CellRings& cells) {
   double sum = 0;
   for (const double area : areas(cells)) sum += area;
   if (std::abs(sum - 4 * std::numbers::pi) > rounding) {
-    throw InvalidInput("polygons overlap, so that their cells are not a cover of the sphere", 0);
+    throw InvalidInput("polygons overlap, so that their cells are not a cover of the sphere");
   }
 }
 

@@ -71,7 +71,7 @@ void require_lines(const FeatureLines& lines) {
   };
   if (lines.lines.empty() || !fits(lines.features, lines.lines.size() - 1) ||
       !fits(lines.lines, lines.points.size())) {
-    throw InvalidInput("the offsets of the lines do not fit", 0);
+    throw InvalidInput("the offsets of the lines do not fit");
   }
   for (std::size_t i = 0; i < lines.points.size(); ++i) {
     constexpr double rounding = 1e-9;
@@ -138,7 +138,7 @@ FeatureSites feature_sites(const FeatureLines& lines, double tolerance,
                            const Execution& execution) {
   const system::Call call(execution);
   require_lines(lines);
-  if (!(tolerance > 0)) throw InvalidInput("the tolerance is not positive", 0);
+  if (!(tolerance > 0)) throw InvalidInput("the tolerance is not positive");
   LinePoints all = points_of_lines(lines);
   while (true) {
     if (all.points.size() >= std::numeric_limits<Index>::max() / 2) {

@@ -41,7 +41,7 @@ struct OutlineToWrite {
 using Circles = std::span<const EmptyCircle>;
 
 double tolerance_of(double degrees) {
-  if (!(degrees > 0)) throw InvalidInput("the tolerance is not positive", 0);
+  if (!(degrees > 0)) throw InvalidInput("the tolerance is not positive");
   return degrees / map::degrees_per_radian;
 }
 
@@ -233,7 +233,7 @@ void write_outline(const FileName& file, const Triangulation& triangulation, con
   if (!are_offsets(outline.ring_offsets, outline.sites.size()) ||
       !are_offsets(outline.polygon_offsets, outline.ring_offsets.size() - 1) ||
       !std::ranges::all_of(outline.sites, is_site)) {
-    throw InvalidInput("the arrays of the outline do not fit together", 0);
+    throw InvalidInput("the arrays of the outline do not fit together");
   }
   const double tolerance = tolerance_of(tolerance_deg);
   io::write_whole<OutlineToWrite>(outline_writers, file, "outlines are written as",

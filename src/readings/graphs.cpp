@@ -200,7 +200,7 @@ SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
                      const Execution& execution) {
   const system::Call call(execution);
   if (triangulation.model() == Model::weighted) {
-    throw InvalidInput("weighted sites have no graphs of distances", 0);
+    throw InvalidInput("weighted sites have no graphs of distances");
   }
   const Chords chords(triangulation, execution);
   std::vector<NearPair> candidates = triangulation.dimension() < 2

@@ -17,7 +17,7 @@ namespace {
 
 void require_no_weights(const Triangulation& triangulation) {
   if (triangulation.model() == Model::weighted) {
-    throw InvalidInput("the circles of weighted faces are not empty", 0);
+    throw InvalidInput("the circles of weighted faces are not empty");
   }
 }
 
@@ -133,7 +133,7 @@ Outline hull_polygon(const Triangulation& triangulation) {
 Outline alpha_shape(const Triangulation& triangulation, double radius, const Execution& execution) {
   const system::Call call(execution);
   require_no_weights(triangulation);
-  if (!(radius >= 0)) throw InvalidInput("the radius is negative or not a number", 0);
+  if (!(radius >= 0)) throw InvalidInput("the radius is negative or not a number");
   const readings::FaceCircles circles = readings::face_circles(triangulation, execution);
   std::vector<std::uint8_t> is_in(triangulation.num_faces());
   for (Index f = 0; f < is_in.size(); ++f) {

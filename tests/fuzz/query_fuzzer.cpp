@@ -233,7 +233,7 @@ void refuse_wrong_calls(const Locator& locator, const Scene& scene) {
   refuse(first, [&] { return locator.k_nearest(bad, 2); });
   refuse(first, [&] { return locator.within(bad, 1.0); });
   refuse(size, [&] { return locator.neighbors(size); });
-  refuse(0, [&] { return locator.within(scene.queries[0], -1); });
+  refuse(InvalidInput::no_index, [&] { return locator.within(scene.queries[0], -1); });
   refuse(size, [&] { return locator.distance(scene.queries[0], size); });
 }
 

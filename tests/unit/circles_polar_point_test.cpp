@@ -103,7 +103,7 @@ TEST(polar_points, name_the_first_bad_index) {
   expect_invalid(points, {0, -0.5, 95, 0}, 1, "site 1: radius -0.5 is not in [0, 90)");
   expect_invalid(points, {0, 1, 2}, 3, "3 radii for 4 centers");
   positions[3].lat_deg = 91;
-  expect_invalid(positions, {0, 1, 2, 3}, 3, "site 3: latitude 91.000000 is outside [-90, 90]");
+  expect_invalid(positions, {0, 1, 2, 3}, 3, "site 3: latitude 91 is outside [-90, 90]");
   EXPECT_TRUE(polar_points(std::vector<Point>{}, {}).empty());
 }
 

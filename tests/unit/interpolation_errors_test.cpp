@@ -43,7 +43,7 @@ TEST(interpolation_errors, what_breaks_the_contract_is_refused) {
   expect_refused(3, "field has 3 values, which are no fields of 4 sites",
                  [&] { ask(std::span(field).first(3), sites); });
   expect_refused(0, "field has 0 values, which are no fields of 4 sites", [&] { ask({}, sites); });
-  expect_refused(0, "there is no such method",
+  expect_refused(InvalidInput::no_index, "there is no such method",
                  [&] { ask(field, sites, {.method = static_cast<Method>(17)}); });
   expect_refused(1, "field has 1 values, which are no fields of 0 sites", [&] {
     static_cast<void>(Interpolator(Triangulation()).values(std::array{1.0}, sites));
@@ -58,11 +58,11 @@ TEST(interpolation_errors, gradients_are_as_many_as_values_and_for_who_takes_the
     static_cast<void>(
         interpolator.values(field, std::span(sites).first(3), sites, {.method = Method::cubic}));
   });
-  expect_refused(0, "only hermite and cubic take gradients", [&] {
+  expect_refused(InvalidInput::no_index, "only hermite and cubic take gradients", [&] {
     static_cast<void>(interpolator.values(field, sites, sites, {.method = Method::linear}));
   });
   const Interpolator weighted(delaunay(sites, {.model = Model::weighted}));
-  expect_refused(0, "weighted sites have no gradients",
+  expect_refused(InvalidInput::no_index, "weighted sites have no gradients",
                  [&] { static_cast<void>(weighted.gradient()); });
 }
 
@@ -74,7 +74,7 @@ TEST(interpolation_errors, weighted_sites_have_the_nearest_by_power_distance) {
   const std::vector<Point> targets = {{1, 1.5, 0}, {1, 2.5, 0}};
   EXPECT_EQ(interpolator.values(field, targets, {.method = Method::nearest}),
             std::vector<double>({0, 1}));
-  expect_refused(0, "weighted sites have no method but nearest", [&] {
+  expect_refused(InvalidInput::no_index, "weighted sites have no method but nearest", [&] {
     static_cast<void>(interpolator.weights(targets, {.method = Method::linear}));
   });
 }

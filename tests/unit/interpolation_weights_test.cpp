@@ -106,14 +106,14 @@ void expect_refused(std::size_t index, const std::string& message, const Weights
 TEST(interpolation_weights, what_is_not_in_compressed_rows_is_refused) {
   Weights bad = some;
   bad.values.pop_back();
-  expect_refused(0, "values has 4 numbers instead of 5", bad, 4, 3);
+  expect_refused(InvalidInput::no_index, "values has 4 numbers instead of 5", bad, 4, 3);
   bad = some;
   bad.offsets = {};
-  expect_refused(0, "the offsets do not go from 0 to 5", bad, 4, 3);
+  expect_refused(InvalidInput::no_index, "the offsets do not go from 0 to 5", bad, 4, 3);
   bad.offsets = {1, 2, 2, 5};
-  expect_refused(0, "the offsets do not go from 0 to 5", bad, 4, 3);
+  expect_refused(InvalidInput::no_index, "the offsets do not go from 0 to 5", bad, 4, 3);
   bad.offsets = {0, 2, 2, 4};
-  expect_refused(0, "the offsets do not go from 0 to 5", bad, 4, 3);
+  expect_refused(InvalidInput::no_index, "the offsets do not go from 0 to 5", bad, 4, 3);
   bad.offsets = {0, 3, 2, 5};
   expect_refused(2, "the offsets decrease", bad, 4, 3);
   bad = some;
@@ -122,14 +122,17 @@ TEST(interpolation_weights, what_is_not_in_compressed_rows_is_refused) {
 }
 
 TEST(interpolation_weights, arrays_of_other_lengths_are_refused) {
-  expect_refused(0, "the input has 5 numbers instead of 4", some, 5, 3);
-  expect_refused(0, "the output has 4 numbers instead of 3", some, 4, 4);
-  expect_refused(0, "the input has 4 numbers instead of 8", some, 4, 6, 2);
-  expect_refused(0, "most_missing is 1.5, not in [0, 1]", some, 4, 3, 1, {.most_missing = 1.5});
-  expect_refused(0, "most_missing is nan, not in [0, 1]", some, 4, 3, 1, {.most_missing = nan});
+  expect_refused(InvalidInput::no_index, "the input has 5 numbers instead of 4", some, 5, 3);
+  expect_refused(InvalidInput::no_index, "the output has 4 numbers instead of 3", some, 4, 4);
+  expect_refused(InvalidInput::no_index, "the input has 4 numbers instead of 8", some, 4, 6, 2);
+  expect_refused(InvalidInput::no_index, "most_missing is 1.5, not in [0, 1]", some, 4, 3, 1,
+                 {.most_missing = 1.5});
+  expect_refused(InvalidInput::no_index, "most_missing is nan, not in [0, 1]", some, 4, 3, 1,
+                 {.most_missing = nan});
   // So many fields that their number times 4 is 0 again.
   constexpr std::size_t wraps = std::numeric_limits<std::size_t>::max() / 4 + 1;
-  expect_refused(0, std::to_string(wraps) + " fields of 4 numbers are more than an array can hold",
+  expect_refused(InvalidInput::no_index,
+                 std::to_string(wraps) + " fields of 4 numbers are more than an array can hold",
                  some, 0, 0, wraps);
 }
 

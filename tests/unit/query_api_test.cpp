@@ -88,14 +88,15 @@ TEST(query_misuse, names_the_first_bad_query) {
 TEST(query_misuse, rejects_angles_sites_and_sizes_that_are_none) {
   const Asked s(octahedron());
   const Point p = {1, 2, 3};
-  expect_invalid(0, "the angle -1 is negative",
+  expect_invalid(InvalidInput::no_index, "the angle -1 is negative",
                  [&] { static_cast<void>(s.locator.within(p, -1)); });
-  expect_invalid(0, "the angle nan", [&] { static_cast<void>(s.locator.within(p, nan)); });
+  expect_invalid(InvalidInput::no_index, "the angle nan",
+                 [&] { static_cast<void>(s.locator.within(p, nan)); });
   expect_invalid(6, "no site 6", [&] { static_cast<void>(s.locator.neighbors(6)); });
   expect_invalid(7, "no site 7", [&] { static_cast<void>(s.locator.distance(p, 7)); });
   const std::vector<Point> queries(3, p);
   const std::size_t huge = std::numeric_limits<std::size_t>::max() / 2;
-  expect_invalid(0, "is more than an array can hold",
+  expect_invalid(InvalidInput::no_index, "is more than an array can hold",
                  [&] { static_cast<void>(s.locator.k_nearest(queries, huge)); });
 }
 

@@ -52,7 +52,8 @@ rondel_status status_of_exception() noexcept {
   try {
     throw;
   } catch (const InvalidInput& error) {
-    return failed(RONDEL_INVALID_INPUT, error.what(), error.index());
+    return failed(RONDEL_INVALID_INPUT, error.what(),
+                  error.index() == InvalidInput::no_index ? 0 : error.index());
   } catch (const Interrupted& error) {
     return failed(RONDEL_INTERRUPTED, error.what());
   } catch (const std::bad_alloc&) {
@@ -69,7 +70,7 @@ rondel_status status_of_exception() noexcept {
 void set_message(const std::string& message) { keep(message, 0); }
 
 void require(const void* argument, const char* name) {
-  if (argument == nullptr) throw InvalidInput(std::string(name) + " is NULL", 0);
+  if (argument == nullptr) throw InvalidInput(std::string(name) + " is NULL");
 }
 
 std::vector<Point> copied_points(const double* points, std::size_t n, const char* name) {
@@ -90,10 +91,10 @@ std::span<const Index> indices_at(const std::uint32_t* indices, std::size_t n, c
 Options options_of(const rondel_options* options) {
   if (options == nullptr) return {};
   if (options->size != sizeof(rondel_options)) {
-    throw InvalidInput("the options were not made by rondel_options_init()", 0);
+    throw InvalidInput("the options were not made by rondel_options_init()");
   }
   if (options->model != RONDEL_PROJECTED && options->model != RONDEL_WEIGHTED) {
-    throw InvalidInput("model " + std::to_string(options->model) + " is unknown", 0);
+    throw InvalidInput("model " + std::to_string(options->model) + " is unknown");
   }
   const double* center = options->center;
   return {options->model == RONDEL_PROJECTED ? Model::projected : Model::weighted,
@@ -103,7 +104,7 @@ Options options_of(const rondel_options* options) {
 Execution execution_of(const rondel_execution* execution) {
   if (execution == nullptr) return {};
   if (execution->size != sizeof(rondel_execution)) {
-    throw InvalidInput("the execution was not made by rondel_execution_init()", 0);
+    throw InvalidInput("the execution was not made by rondel_execution_init()");
   }
   Execution result;
   result.threads = execution->threads;

@@ -4,6 +4,8 @@
 #include "module.h"
 
 #include <exception>
+#include <string>
+#include <system_error>
 
 #include "rondel/distributed.h"
 #include "rondel/error.h"
@@ -16,8 +18,24 @@ namespace nb = nanobind;
 // rondel.InvalidInput(message, index), a ValueError that the package defines.
 void raise_invalid_input(const rondel::InvalidInput& error) {
   const nb::object type = nb::module_::import_("rondel._errors").attr("InvalidInput");
-  const nb::object value = type(error.what(), error.index());
+  const bool has_index = error.index() != rondel::InvalidInput::no_index;
+  const nb::object value =
+      type(error.what(), has_index ? nb::object(nb::int_(error.index())) : nb::none());
   PyErr_SetObject(type.ptr(), value.ptr());
+}
+
+// OSError(errno, reason, file), of which Python makes a FileNotFoundError and the like.
+void raise_os_error(const rondel::FileError& error) {
+  if (error.code().category() != std::generic_category() || !error.code()) {
+    PyErr_SetString(PyExc_OSError, error.what());
+    return;
+  }
+  const std::string reason = error.code().message();
+  const std::string text = error.what();
+  const nb::str file(text.substr(0, text.size() - reason.size() - 2).c_str());
+  const nb::object type = nb::borrow(PyExc_OSError);
+  const nb::object value = type(error.code().value(), reason.c_str(), file);
+  PyErr_SetObject(value.type().ptr(), value.ptr());
 }
 
 // rondel.distributed.DistributedError(message, rank).
@@ -33,7 +51,7 @@ void translate(const std::exception_ptr& pointer, void* /*payload*/) {
   } catch (const rondel::InvalidInput& error) {
     raise_invalid_input(error);
   } catch (const rondel::FileError& error) {
-    PyErr_SetString(PyExc_OSError, error.what());
+    raise_os_error(error);
   } catch (const rondel::DistributedError& error) {
     raise_distributed_error(error);
   } catch (const rondel::Interrupted& /*error*/) {

@@ -12,14 +12,15 @@ class InvalidInput(ValueError):
 
     Attributes
     ----------
-    index : int
-        The first offending position in the array that the message names.
+    index : int or None
+        The first offending position in the array that the message names; None where the message
+        is about no array.
 
     """
 
-    def __init__(self, message: str, index: int = 0) -> None:
+    def __init__(self, message: str, index: int | None = None) -> None:
         super().__init__(message, index)
-        self.index: int = index
+        self.index: int | None = index
 
     def __str__(self) -> str:
         return str(self.args[0])

@@ -7,7 +7,6 @@ The functions are methods of `SphericalDelaunay`, `SphericalVoronoi` and `PowerD
 
 from __future__ import annotations
 
-import errno
 import io
 import json
 import os
@@ -133,11 +132,11 @@ def written(path: Path | io.IOBase | None, write: Callable[[str], None]) -> Any:
         name = os.fspath(path)
         if not name.endswith(".geojson"):
             raise ValueError(f"the name of a GeoJSON file ends in .geojson: {name}")
-        write_named(name, write)
+        write(name)
         return None
     with tempfile.TemporaryDirectory() as folder:
         made = pathlib.Path(folder) / "rondel.geojson"
-        write_named(str(made), write)
+        write(str(made))
         if path is None:
             # A function is called for each object, so that Ctrl-C ends the reading.
             return json.loads(made.read_bytes(), object_hook=lambda found: found)
@@ -151,14 +150,8 @@ def written(path: Path | io.IOBase | None, write: Callable[[str], None]) -> Any:
 
 
 def write_named(name: str, write: Callable[[str], None]) -> None:
-    """An error of a file has its number, as everywhere in Python, and so its own class."""
-    try:
-        write(name)
-    except OSError as error:
-        for number in errno.errorcode:
-            if str(error) == f"{name}: {os.strerror(number)}":
-                raise OSError(number, os.strerror(number), name) from None
-        raise
+    """Reads or writes a file; the library's errors have the number that the system gave."""
+    write(name)
 
 
 def triangles_to_geopandas(self: Triangulated) -> geopandas.GeoDataFrame:

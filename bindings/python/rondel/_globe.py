@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from . import _core
-from ._geo import Path, write_named
+from ._geo import Path
 from ._properties import checked_properties, json_cells
 from ._types import ArrayLike, Divided, Triangulated
 
@@ -88,7 +88,7 @@ def save_html(
 
     """
     text = _page(self, values, name, isolines, properties, title, show, sites, circles, view)
-    write_named(os.fspath(path), lambda file: _core.write_file(file, text))
+    _core.write_file(os.fspath(path), text)
 
 
 def view(

@@ -5,9 +5,7 @@
 from __future__ import annotations
 
 import dataclasses
-import errno
 import operator
-import os
 import re
 from fractions import Fraction
 
@@ -16,6 +14,10 @@ from ._arrays import as_center, as_name, as_result_name, as_threads
 from ._types import ArrayLike, Model, Path, Progress
 
 __all__ = ["Report", "delaunay"]
+
+
+def __dir__() -> list[str]:
+    return list(__all__)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -143,22 +145,19 @@ def delaunay(
     files = [as_result_name(file, argument) for argument, file in results.items()]
     if not files[0]:
         raise ValueError("out has no name")
-    try:
-        found = _core.delaunay_file(
-            as_name(path),
-            files,
-            _bytes(memory),
-            as_name(scratch),
-            bool(resume),
-            bool(radians),
-            model == "weighted",
-            as_center(center),
-            float(radius) ** 2,
-            as_threads(threads),
-            progress,
-        )
-    except OSError as error:
-        raise _with_number(error) from None
+    found = _core.delaunay_file(
+        as_name(path),
+        files,
+        _bytes(memory),
+        as_name(scratch),
+        bool(resume),
+        bool(radians),
+        model == "weighted",
+        as_center(center),
+        float(radius) ** 2,
+        as_threads(threads),
+        progress,
+    )
     return Report(**found)
 
 
@@ -176,12 +175,3 @@ def _bytes(memory: int | str) -> int:
     if number < 0:
         raise ValueError(f"memory is {memory!r}, which is not a number of bytes, as '2G' or '500M'")
     return min(number, 2**63)
-
-
-def _with_number(error: OSError) -> OSError:
-    """An error of the system has its number, as everywhere in Python, and so its own class."""
-    name, _, reason = str(error).rpartition(": ")
-    for number in errno.errorcode:
-        if reason == os.strerror(number):
-            return OSError(number, reason, name)
-    return error
