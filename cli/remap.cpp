@@ -42,11 +42,12 @@ CellSide side_of_mesh(const FileName& file, const RemapCommandOptions& options, 
 
 CellSide side_of_polygons(const FileName& file, const RemapCommandOptions& options,
                           const Job& job) {
-  const PolygonTable table = read_polygons(file, {.edges = options.edges}, job.execution());
+  PolygonTable table = read_polygons(file, {.edges = options.edges}, job.execution());
   try {
     Partition partition(table.cells, job.execution());
     WeightSide side;
     side.points = lonlats(partition.centers());
+    side.columns = std::move(table.columns);
     return {std::move(partition), std::move(side)};
   } catch (const InvalidInput& error) {
     throw FileError(table.name + ": " + error.what());
@@ -128,7 +129,8 @@ ExitStatus run_remap(const RemapCommandOptions& options) {
     file.source.fractions = std::move(remap.source_fractions);
     file.target.fractions = std::move(remap.target_fractions);
   });
-  file.method = "Conservative remapping";
+  file.method =
+      options.remap.order == 2 ? "Conservative remapping, second order" : "Conservative remapping";
   file.normalization = options.remap.norm == RemapNorm::destarea ? "destarea" : "fracarea";
   job.time(Stage::write, [&] { write_weights(common.target(), file); });
   report(job, file, common.output);

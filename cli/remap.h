@@ -15,6 +15,7 @@
 #include "rondel/partition.h"
 #include "rondel/polygon_files.h"
 #include "rondel/remap.h"
+#include "rondel/weight_check.h"
 
 namespace rondel::cli {
 
@@ -23,6 +24,11 @@ struct ApplyCommandOptions {
   std::string values_file;           ///< VALUES
   std::vector<std::string> columns;  ///< --value
   ApplyOptions apply;                ///< --fill --most-missing
+};
+
+struct CheckWeightsOptions {
+  CommonOptions common;      ///< INPUT: the weights
+  WeightCheckOptions check;  ///< --allow-negative
 };
 
 struct InterpolateOptions {
@@ -60,7 +66,7 @@ struct RemapCommandOptions {
 };
 
 ExitStatus run_apply(const ApplyCommandOptions& options);
-ExitStatus run_check_weights(const CommonOptions& options);
+ExitStatus run_check_weights(const CheckWeightsOptions& options);
 ExitStatus run_interpolate(const InterpolateOptions& options);
 ExitStatus run_remap(const RemapCommandOptions& options);
 

@@ -91,16 +91,30 @@ Command add_apply_command(CLI::App& tool) {
 }
 
 Command add_check_weights_command(CLI::App& tool) {
-  auto options = std::make_shared<CommonOptions>();
+  auto options = std::make_shared<CheckWeightsOptions>();
   CLI::App* parser = tool.add_subcommand("check-weights", "Check a file of weights");
-  add_weights_input(*parser, *options);
-  add_report_options(*parser, *options);
+  add_weights_input(*parser, options->common);
+  parser->add_flag("--allow-negative", options->check.allow_negative,
+                   "Negative weights are right whatever the file says of its method");
+  add_report_options(*parser, options->common);
   parser->footer(
-      "Wrong are weights that are not finite, a source twice in one row, and rows with entries\n"
-      "whose sum is not 1 to 1e-9, or, where they are normalized by destarea, not the fraction\n"
-      "of the target. Exit status: 0 if nothing is wrong, 1 if something is or the file cannot\n"
-      "be read. Told, but not judged: empty rows, the range, the areas that are given away (with\n"
-      "areas), and the length of u x (sum of w x), u a target and x the sources (with points).\n\n"
+      "A file is wrong if\n"
+      "- a weight is not finite, or a source stands twice in one row;\n"
+      "- a row with entries does not sum up to 1 or, normalized by destarea, to the fraction\n"
+      "  of its target;\n"
+      "- a fraction is above 1, negative or not a number, or an area negative or not finite;\n"
+      "- a weight is negative although the method is an average: conservative of first order,\n"
+      "  nearest, linear, laplace, sibson, largest share. Weights of second order, bilinear,\n"
+      "  patch, hermite and cubic may be negative, and those of methods that are not known;\n"
+      "- a conservative method gives nothing to a target with a fraction, or takes of a source\n"
+      "  another area than its own times its fraction.\n"
+      "Sums and fractions may be off by 1e-9 + (m + 1) 8 pi 2^-52 / A: m is the number of\n"
+      "entries of the row or column, A the area of the cell in steradians, where it is known,\n"
+      "and 8 pi 2^-52 what rounding makes of an area that is a difference of angles.\n\n"
+      "Each kind of fault is one line with its number and the first place. Exit status: 0 if\n"
+      "nothing is wrong, 1 if something is or the file cannot be read. Told, but not judged:\n"
+      "empty rows, the range, and the length of u x (sum of w x), u a target and x the sources\n"
+      "(with points).\n\n"
       "Example:\n"
       "  rondel check-weights weights.nc");
   return {parser, [options] { return run_check_weights(*options); }};

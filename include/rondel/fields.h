@@ -60,7 +60,8 @@ RONDEL_API FieldSet read_fields(const FileName& file, std::span<const std::strin
                                 std::uint64_t num_points, const ReadOptions& options = {},
                                 std::span<const std::uint64_t> shape = {});
 
-/// Writes values at the points of a side: `.csv` and `.tsv` with lon, lat and a column a field, `.npy` of
+/// Writes values at the points of a side: `.csv` and `.tsv` with lon, lat, the columns of the side, and a
+/// column a field, named by its time or place on other axes, "tas_2001-07-15" or "tas_850"; `.npy` of
 /// the shape (n,) or (fields, n), `.nc` on the grid of the side if it has one, else along one dimension.
 RONDEL_API void write_fields(const FileName& file, const FieldSet& fields,
                              const WeightSide& points);

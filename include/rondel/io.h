@@ -69,7 +69,7 @@ struct SiteTable {
                                      ///< of circles the polar points
   std::vector<LonLat> positions;     ///< degrees as given; empty for xyz input
   std::vector<double> radii_deg;     ///< of circles; empty without a radius column
-  std::vector<Column> columns;       ///< if kept
+  std::vector<Column> columns;       ///< if kept; one without a name is "column_3" by its place
   std::vector<std::uint64_t> lines;  ///< the line of each site; empty where every line is a site
   /// The line of site 0 when `lines` is empty; 0: the format has none.
   std::uint64_t first_line = 1;

@@ -26,6 +26,7 @@ struct WeightSide {
   std::vector<std::int32_t> mask;    ///< 0: takes no part
   std::vector<std::uint64_t> shape;  ///< of a grid, the last dimension changes fastest: nlat, nlon
   std::vector<LonLat> corners;       ///< of cells, counterclockwise, as many for each
+  std::vector<Column> columns;       ///< texts and numbers of each, as the properties of polygons
 };
 
 /// Weights and what a file says beside them.

@@ -8,10 +8,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "interpolation/field_formats.h"
+#include "interpolation/field_names.h"
 #include "io/bad_value.h"
 #include "io/binary.h"
+#include "io/column_text.h"
 #include "io/csv_columns.h"
 #include "io/csv_records.h"
 #include "io/ending.h"
@@ -69,51 +72,62 @@ FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& 
   return fields;
 }
 
-// The names of the columns: of an array of several fields each has its number.
-std::vector<std::string> column_names(const FieldArray& array) {
-  const std::size_t count = array.num_fields();
-  if (count == 1) return {array.name};
-  std::vector<std::string> names;
-  for (std::size_t f = 0; f < count; ++f) names.push_back(array.name + "_" + std::to_string(f));
-  return names;
-}
-
-void append_cell(std::string& text, std::string_view name, char separator) {
-  if (name.find_first_of(std::string("\"\r\n") + separator) == std::string_view::npos) {
-    text += name;
-    return;
+// A name for each column: one that a column before has gets a number.
+class ColumnNames {
+ public:
+  std::string unique(const std::string& name) {
+    std::string text = name;
+    for (std::size_t k = 2; !used_.insert(text).second; ++k) {
+      text = name + "_" + std::to_string(k);
+    }
+    return text;
   }
-  text += '"';
-  for (const char c : name) text.append(c == '"' ? 2 : 1, c);
-  text += '"';
+
+ private:
+  std::set<std::string> used_;
+};
+
+std::string header_of(const FieldsToWrite& job, char separator) {
+  ColumnNames names;
+  std::string text;
+  const auto append = [&](const std::string& name) {
+    if (!text.empty()) text += separator;
+    io::append_csv_field(text, names.unique(name), separator);
+  };
+  if (!job.side.points.empty()) {
+    append("lon");
+    append("lat");
+  }
+  for (const Column& column : job.side.columns) append(column.name);
+  for (const FieldArray& array : job.fields.arrays) {
+    for (const std::string& name : names_of_fields(array, job.fields.axes)) append(name);
+  }
+  return text + '\n';
 }
 
 void write_table(io::AtomicFile& file, const FieldsToWrite& job, char separator) {
   const std::vector<LonLat>& points = job.side.points;
-  std::string text;
-  const auto separate = [&] {
-    if (!text.empty() && text.back() != '\n') text += separator;
-  };
-  if (!points.empty()) text += std::string("lon") + separator + "lat";
-  for (const FieldArray& array : job.fields.arrays) {
-    for (const std::string& name : column_names(array)) {
-      separate();
-      append_cell(text, name, separator);
-    }
-  }
-  text += '\n';
+  std::string text = header_of(job, separator);
   const std::size_t n = job.fields.num_points;
   for (std::size_t i = 0; i < n; ++i) {
-    bool is_first = points.empty();
+    bool is_first = true;
+    const auto separate = [&] {
+      if (!is_first) text += separator;
+      is_first = false;
+    };
     if (!points.empty()) {
+      separate();
       io::append_number(text, points[i].lon_deg);
-      text += separator;
+      separate();
       io::append_number(text, points[i].lat_deg);
+    }
+    for (const Column& column : job.side.columns) {
+      separate();
+      io::append_csv_field(text, io::cell_of(column, i), separator);
     }
     for (const FieldArray& array : job.fields.arrays) {
       for (std::size_t f = 0; f < array.num_fields(); ++f) {
-        if (!is_first) text += separator;
-        is_first = false;
+        separate();
         const double value = array.values[f * n + i];
         if (!std::isnan(value)) io::append_number(text, value);
       }
@@ -238,13 +252,17 @@ bool can_write_fields(const FileName& file) {
 void write_fields(const FileName& file, const FieldSet& fields, const WeightSide& points) {
   for (const FieldArray& array : fields.arrays) {
     if (array.values.size() == array.num_fields() * fields.num_points) continue;
-    throw InvalidInput(
-        "array '" + array.name + "' has " + std::to_string(array.values.size()) + " values", 0);
+    throw InvalidInput("array '" + array.name + "' has " + std::to_string(array.values.size()) +
+                       " values");
+  }
+  for (const Column& column : points.columns) {
+    if (column.ends.size() == fields.num_points) continue;
+    throw InvalidInput("column '" + column.name + "' has " + std::to_string(column.ends.size()) +
+                       " cells for values at " + std::to_string(fields.num_points));
   }
   if (!points.points.empty() && points.points.size() != fields.num_points) {
     throw InvalidInput(std::to_string(points.points.size()) + " points for values at " +
-                           std::to_string(fields.num_points),
-                       0);
+                       std::to_string(fields.num_points));
   }
   io::write_whole<interpolation::FieldsToWrite>(field_writers, file, "fields are written as",
                                                 {fields, points});

@@ -38,8 +38,7 @@ constexpr std::array<WeightReader, 4> weight_readers = {
 void require_number(const char* what, std::size_t length, std::size_t wanted) {
   if (length == 0 || length == wanted) return;
   throw InvalidInput(std::string(what) + " are " + std::to_string(length) + " instead of " +
-                         std::to_string(wanted),
-                     0);
+                     std::to_string(wanted));
 }
 
 void require_side(const WeightSide& side, std::size_t size) {
@@ -47,10 +46,13 @@ void require_side(const WeightSide& side, std::size_t size) {
   require_number("areas", side.areas.size(), size);
   require_number("fractions", side.fractions.size(), size);
   require_number("the mask's numbers", side.mask.size(), size);
+  for (const Column& column : side.columns) {
+    require_number("the cells of a column", column.ends.size(), size);
+  }
   const bool has_cells = size > 0 && side.corners.size() % size == 0;
   if (!side.corners.empty() && !has_cells) {
-    throw InvalidInput(
-        std::to_string(side.corners.size()) + " corners of " + std::to_string(size) + " cells", 0);
+    throw InvalidInput(std::to_string(side.corners.size()) + " corners of " + std::to_string(size) +
+                       " cells");
   }
   if (side.shape.empty()) return;
   std::uint64_t product = 1;

@@ -9,6 +9,7 @@
 #include "interpolation/weight_formats.h"
 #include "io/bad_value.h"
 #include "io/cf_reader.h"
+#include "io/column_text.h"
 #include "io/number.h"
 
 namespace rondel::interpolation {
@@ -17,6 +18,8 @@ namespace {
 constexpr const char* source_hash_name = "rondel_source_hash";
 constexpr const char* target_hash_name = "rondel_target_hash";
 constexpr const char* method_name = "rondel_method";
+constexpr const char* source_table_name = "rondel_source_table";
+constexpr const char* target_table_name = "rondel_target_table";
 
 std::string hexadecimal(std::uint64_t hash) {
   std::array<char, 16> digits;
@@ -34,6 +37,23 @@ std::uint64_t hash_of(const io::NetcdfReader& file, const char* name) {
                        ", not a hash");
   }
   return hash;
+}
+
+// Texts of cells are a table in one attribute: the classic formats know no strings.
+void add_table(io::NetcdfWriter& out, const char* name, const WeightSide& side) {
+  constexpr std::size_t most_bytes = std::size_t{1} << 28U;  // an attribute is read at once
+  const std::string table = io::csv_of(side.columns);
+  if (!table.empty() && table.size() <= most_bytes) out.add_attribute(name, table);
+}
+
+void read_table(const io::NetcdfReader& file, const char* name, std::size_t size,
+                WeightSide& side) {
+  const std::string table = io::netcdf_text(file.attributes(), name);
+  try {
+    side.columns = io::columns_of_csv(table, size);
+  } catch (const io::BadValue& bad) {
+    throw io::BadValue("attribute " + std::string(name) + ": " + bad.what());
+  }
 }
 
 template <typename Values>
@@ -122,14 +142,21 @@ void add_own_attributes(io::NetcdfWriter& out, const WeightFile& content) {
   if (weights.targets_hash != 0) {
     out.add_attribute(target_hash_name, hexadecimal(weights.targets_hash));
   }
+  add_table(out, source_table_name, content.source);
+  add_table(out, target_table_name, content.target);
 }
 
 void read_own_attributes(const io::NetcdfReader& file, WeightFile& content) {
   content.weights.sites_hash = hash_of(file, source_hash_name);
   content.weights.targets_hash = hash_of(file, target_hash_name);
+  read_table(file, source_table_name, content.weights.num_columns, content.source);
+  read_table(file, target_table_name, content.weights.num_rows(), content.target);
   content.normalization = io::netcdf_text(file.attributes(), "normalization");
   content.method = io::netcdf_text(file.attributes(), method_name);
-  if (content.method.empty()) content.method = io::netcdf_text(file.attributes(), "map_method");
+  // ESMF says "Conservative remapping" of both orders in map_method.
+  for (const char* name : {"ESMF_regrid_method", "map_method"}) {
+    if (content.method.empty()) content.method = io::netcdf_text(file.attributes(), name);
+  }
 }
 
 void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t size,

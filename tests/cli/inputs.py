@@ -5,6 +5,7 @@
 import math
 import os
 import struct
+import zipfile
 
 OCTAHEDRON = [1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1]
 
@@ -15,6 +16,22 @@ def npy(numbers, shape, dtype="<f8", code="d"):
     header += " " * (63 - (10 + len(header)) % 64) + "\n"
     return (b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode()
             + struct.pack(f"<{len(numbers)}{code}", *numbers))
+
+
+def npz(path, **arrays):
+    """A file of arrays, which are in NumPy's format already."""
+    with zipfile.ZipFile(path, "w") as archive:
+        for name, content in arrays.items():
+            archive.writestr(name + ".npy", content)
+
+
+def make_wrong_weights(path):
+    """Three targets of four sources: a sum of 1.25, a source twice, and a weight that is no number."""
+    header = "{'descr': '|S3', 'fortran_order': False, 'shape': (), }"
+    header += " " * (63 - (10 + len(header)) % 64) + "\n"
+    npz(path, indices=npy([0, 1, 2, 2, 3], (5,), "<i4", "i"), indptr=npy([0, 2, 4, 5], (4,), "<i8", "q"),
+        format=b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header.encode() + b"csr",
+        shape=npy([3, 4], (2,), "<i8", "q"), data=npy([0.5, 0.75, 0.5, 0.5, math.nan], (5,)))
 
 
 def make(directory):
@@ -48,6 +65,7 @@ def make(directory):
                                   2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5], (8, 3), "<u4", "I"),
     }.items():
         (directory / name).write_bytes(content)
+    make_wrong_weights(directory / "wrong.npz")
     (directory / "folder").mkdir()
     (directory / "folder.npy").mkdir()
     for ending in ("npy", "geojson", "png", "csv", "nc", "exo"):

@@ -174,7 +174,7 @@ void refuse_wrong_calls(const Question& q, const Interpolator& interpolator) {
   refuse(q.targets.size(), [&] { return interpolator.values(q.field, bad, q.how); });
   refuse(q.targets.size(), [&] { return interpolator.vectors(q.sites, bad, q.how); });
   std::vector<double> out(1);
-  refuse(0, [&] {
+  refuse(InvalidInput::no_index, [&] {
     apply(Weights{}, q.field, out);
     return 0;
   });
@@ -184,7 +184,7 @@ void test(const Question& q) {
   const Triangulation triangulation = delaunay(q.sites, q.options);
   const Interpolator interpolator(triangulation);
   if (q.options.model == Model::weighted && q.how.method != Method::nearest) {
-    refuse(0, [&] { return interpolator.weights(q.targets, q.how); });
+    refuse(InvalidInput::no_index, [&] { return interpolator.weights(q.targets, q.how); });
     return;
   }
   const Weights weights = interpolator.weights(q.targets, q.how);

@@ -36,6 +36,46 @@ WeightFile example() {
   return content;
 }
 
+Column column(std::string name, const std::vector<std::string>& cells, bool is_numeric) {
+  Column made;
+  made.name = std::move(name);
+  made.is_numeric = is_numeric;
+  for (const std::string& cell : cells) {
+    made.text += cell;
+    made.ends.push_back(made.text.size());
+  }
+  return made;
+}
+
+TEST(weight_files, keep_the_texts_of_cells) {
+  const TemporaryDirectory directory;
+  for (const char* format : {"esmf", "scrip"}) {
+    WeightFile content = example();
+    content.source.columns = {column("only", {"", "a", ""}, false)};
+    content.target.columns = {
+        column("name, \"it\"", {"\u00c9ire", "a,b", "\"q\"", "two\nlines"}, false),
+        column("pop", {"1", "", "-2.5e3", "0"}, true)};
+    const FileName file(directory.file("w.nc"), format);
+    write_weights(file, content);
+    const WeightFile read = read_weights(file.path);
+    const auto expect_equal = [](const std::vector<Column>& found,
+                                 const std::vector<Column>& wanted) {
+      ASSERT_EQ(found.size(), wanted.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].name, wanted[i].name);
+        EXPECT_EQ(found[i].text, wanted[i].text);
+        EXPECT_EQ(found[i].ends, wanted[i].ends);
+        EXPECT_EQ(found[i].is_numeric, wanted[i].is_numeric);
+      }
+    };
+    expect_equal(read.source.columns, content.source.columns);
+    expect_equal(read.target.columns, content.target.columns);
+  }
+  WeightFile content = example();
+  content.target.columns = {column("short", {"a"}, false)};
+  EXPECT_THROW(write_weights(FileName(directory.file("w.nc"), "esmf"), content), InvalidInput);
+}
+
 TEST(weight_files, come_back_from_both_kinds_of_netcdf) {
   const TemporaryDirectory directory;
   for (const char* format : {"esmf", "scrip"}) {
@@ -177,7 +217,7 @@ TEST(fields, come_back) {
   write_fields(directory.file("f.npy"), fields, side);
   EXPECT_EQ(read_fields(directory.file("f.npy"), {}, 4).arrays[0].values, fields.arrays[0].values);
   write_fields(directory.file("f.csv"), fields, side);
-  const std::vector<std::string> names = {"t_1"};
+  const std::vector<std::string> names = {"t_2000-01-01T06:00:00"};
   EXPECT_EQ(read_fields(directory.file("f.csv"), names, 4).arrays[0].values,
             (std::vector<double>{5, 6, 7, 0.1}));
 }

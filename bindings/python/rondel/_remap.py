@@ -47,6 +47,7 @@ class Remap(Described):
         measures: Sequence[FloatArray],
         norm: str,
         masks: tuple[IntArray, IntArray],
+        order: int = 1,
     ) -> None:
         self.weights = weights
         self.source = source
@@ -55,6 +56,7 @@ class Remap(Described):
         self.source_fractions, self.target_fractions = measures[2:]
         self._norm = norm
         self._masks = masks
+        self._order = order
 
     def to_netcdf(self, path: Path, format: Literal["esmf", "scrip"] = "esmf") -> None:
         """Writes a file that other programs apply, with centers, areas, masks and corners.
@@ -90,7 +92,7 @@ class Remap(Described):
                 (self.target, self.target_areas, self.target_fractions, self._masks[1]),
             )
         ]
-        method = "Conservative remapping"
+        method = "Conservative remapping" + (", second order" if self._order == 2 else "")
         write_weights(path, format, self.weights, sides[0], sides[1], method, self._norm)
 
     def _facts(self) -> list[tuple[str, str]]:
@@ -182,7 +184,7 @@ def remap(
         as_threads(threads),
         progress,
     )
-    return Remap(Weights._of(weights), cells[0], cells[1], measures, norm, masks)
+    return Remap(Weights._of(weights), cells[0], cells[1], measures, norm, masks, int(order))
 
 
 def _as_partition(cells: Any, threads: int | None) -> Partition:

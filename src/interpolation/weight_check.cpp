@@ -1,0 +1,277 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// check_weights: one pass over the entries, one over the cells of each side.
+#include "rondel/weight_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <numbers>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "rondel/delaunay.h"
+#include "system/shortest_text.h"
+
+namespace rondel {
+namespace interpolation {
+namespace {
+
+// See the header.
+constexpr double least_tolerance = 1e-9;
+constexpr double error_of_area = 8 * std::numbers::pi * 0x1p-52;
+
+double tolerance_of(std::size_t num_entries, const std::vector<double>& areas, std::size_t cell) {
+  const double area = areas.empty() ? 0 : areas[cell];
+  if (!(area > 0)) return least_tolerance;
+  return least_tolerance + static_cast<double>(num_entries + 1) * error_of_area / area;
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+bool has_word(const std::string& text, std::string_view word) {
+  return text.find(word) != std::string::npos;
+}
+
+// What the name of a method tells.
+struct MethodFacts {
+  explicit MethodFacts(const std::string& method) {
+    const std::string name = lower_case(method);
+    is_conservative = has_word(name, "conserv");
+    const bool is_higher = has_word(name, "second") || has_word(name, "2nd") ||
+                           has_word(name, "higher") || has_word(name, "order 2");
+    constexpr std::array<std::string_view, 5> averages = {"nearest", "linear", "laplace", "sibson",
+                                                          "largest"};
+    const bool is_average = std::ranges::any_of(
+        averages, [&](std::string_view word) { return name.starts_with(word); });
+    is_never_negative = (is_conservative && !is_higher) || is_average;
+  }
+  bool is_conservative = false;
+  bool is_never_negative = false;
+};
+
+// The faults of one kind.
+class FaultCounter {
+ public:
+  FaultCounter(std::string kind, std::string one, std::string many)
+      : kind_(std::move(kind)), one_(std::move(one)), many_(std::move(many)) {}
+
+  void add(const std::string& place, double value) {
+    if (count_++ == 0) first_ = place + ": " + system::shortest_text(value);
+  }
+  void move_to(std::vector<WeightFault>& faults) const {
+    if (count_ == 0) return;
+    const std::string text = std::to_string(count_) + ' ' + (count_ == 1 ? one_ : many_);
+    faults.push_back({kind_, count_, text + " (" + (count_ == 1 ? "" : "first ") + first_ + ")"});
+  }
+
+ private:
+  std::string kind_, one_, many_;
+  std::size_t count_ = 0;
+  std::string first_;
+};
+
+class WeightChecker {
+ public:
+  WeightChecker(const WeightFile& file, const WeightCheckOptions& options)
+      : file_(file),
+        weights_(file.weights),
+        method_(file.method),
+        allow_negative_(options.allow_negative || !method_.is_never_negative) {
+    report_.sums_are_fractions = file.normalization == "destarea" && !file.target.fractions.empty();
+    const std::string wanted =
+        report_.sums_are_fractions ? "the fraction of the target" : "something else than 1";
+    const bool is_negated = report_.sums_are_fractions;
+    row_sums_ = FaultCounter("row sum",
+                             (is_negated ? "row does not sum up to " : "row sums up to ") + wanted,
+                             (is_negated ? "rows do not sum up to " : "rows sum up to ") + wanted);
+  }
+
+  WeightReport run() {
+    check_rows();
+    check_columns();
+    check_side("target", file_.target, entries_of_rows());
+    check_side("source", file_.source, entries_of_column_);
+    for (const FaultCounter& faults : {not_finite_, repeated_, negative_, row_sums_, missing_}) {
+      faults.move_to(report_.faults);
+    }
+    std::ranges::move(side_faults_, std::back_inserter(report_.faults));
+    conservation_.move_to(report_.faults);
+    report_.worst_direction = worst_direction();
+    return std::move(report_);
+  }
+
+ private:
+  [[nodiscard]] std::string place_of(std::size_t row, std::uint64_t k) const {
+    return "target " + std::to_string(row) + ", source " + std::to_string(weights_.columns[k]);
+  }
+
+  void check_rows() {
+    std::vector<std::size_t> last_row(weights_.num_columns);
+    entries_of_column_.assign(weights_.num_columns, 0);
+    for (std::size_t row = 0; row < weights_.num_rows(); ++row) check_row(row, last_row);
+  }
+
+  void check_row(std::size_t row, std::vector<std::size_t>& last_row) {
+    const std::uint64_t begin = weights_.offsets[row];
+    const std::uint64_t end = weights_.offsets[row + 1];
+    const double tolerance = tolerance_of(end - begin, file_.target.areas, row);
+    const double wanted = report_.sums_are_fractions ? file_.target.fractions[row] : 1;
+    if (begin == end) {
+      ++report_.empty_rows;
+      const std::vector<double>& fractions = file_.target.fractions;
+      const double fraction = fractions.empty() ? 0 : fractions[row];
+      if (method_.is_conservative && std::abs(fraction) > tolerance) {
+        missing_.add("target " + std::to_string(row), fraction);
+      }
+      return;
+    }
+    double sum = 0;
+    for (std::uint64_t k = begin; k < end; ++k) {
+      const double weight = weights_.values[k];
+      sum += weight;
+      if (!std::isfinite(weight)) not_finite_.add(place_of(row, k), weight);
+      if (!allow_negative_ && weight < -tolerance) negative_.add(place_of(row, k), weight);
+      report_.least = k == 0 ? weight : std::min(report_.least, weight);
+      report_.greatest = k == 0 ? weight : std::max(report_.greatest, weight);
+      std::size_t& last = last_row[weights_.columns[k]];
+      if (last == row + 1) repeated_.add(place_of(row, k), weight);
+      last = row + 1;
+      ++entries_of_column_[weights_.columns[k]];
+    }
+    const double deviation = std::abs(sum - wanted);
+    report_.worst_row = std::max(report_.worst_row, deviation);
+    if (!(deviation <= tolerance)) row_sums_.add("target " + std::to_string(row), sum);
+  }
+
+  // What all targets take of a source is the part of it that they cover.
+  void check_columns() {
+    const std::vector<double>& to = file_.target.areas;
+    const std::vector<double>& from = file_.source.areas;
+    if (to.empty() || from.empty()) return;
+    std::vector<double> taken(weights_.num_columns);
+    for (std::size_t r = 0; r < weights_.num_rows(); ++r) {
+      const bool is_shared = file_.normalization == "fracarea" && !file_.target.fractions.empty();
+      const double area = to[r] * (is_shared ? file_.target.fractions[r] : 1);
+      for (std::uint64_t k = weights_.offsets[r]; k < weights_.offsets[r + 1]; ++k) {
+        taken[weights_.columns[k]] += weights_.values[k] * area;
+      }
+    }
+    report_.worst_column = 0;
+    for (std::size_t c = 0; c < taken.size(); ++c) {
+      if (!(from[c] > 0)) continue;
+      const std::vector<double>& fractions = file_.source.fractions;
+      const double given = taken[c] / from[c];
+      const double wanted = fractions.empty() ? 1 : fractions[c];
+      report_.worst_column = std::max(*report_.worst_column, std::abs(given - wanted));
+      const double tolerance = tolerance_of(entries_of_column_[c], from, c);
+      const bool is_right =
+          fractions.empty() ? given <= 1 + tolerance : std::abs(given - wanted) <= tolerance;
+      if (method_.is_conservative && !is_right) {
+        conservation_.add("source " + std::to_string(c), given);
+      }
+    }
+  }
+
+  [[nodiscard]] std::vector<std::size_t> entries_of_rows() const {
+    std::vector<std::size_t> entries;
+    for (std::size_t r = 0; r < weights_.num_rows(); ++r) {
+      entries.push_back(weights_.offsets[r + 1] - weights_.offsets[r]);
+    }
+    return entries;
+  }
+
+  void check_side(const std::string& word, const WeightSide& side,
+                  const std::vector<std::size_t>& entries) {
+    FaultCounter above(word + " fraction", "fraction of a " + word + " is above 1",
+                       "fractions of " + word + "s are above 1");
+    FaultCounter below(word + " fraction", "fraction of a " + word + " is negative or not a number",
+                       "fractions of " + word + "s are negative or not numbers");
+    for (std::size_t i = 0; i < side.fractions.size(); ++i) {
+      const double tolerance = tolerance_of(entries[i], side.areas, i);
+      const std::string place = word + ' ' + std::to_string(i);
+      if (side.fractions[i] > 1 + tolerance) {
+        above.add(place, side.fractions[i]);
+      } else if (!(side.fractions[i] >= -tolerance)) {
+        below.add(place, side.fractions[i]);
+      }
+    }
+    FaultCounter areas(word + " area", "area of a " + word + " is negative or not finite",
+                       "areas of " + word + "s are negative or not finite");
+    for (std::size_t i = 0; i < side.areas.size(); ++i) {
+      if (side.areas[i] >= 0 && std::isfinite(side.areas[i])) continue;
+      areas.add(word + ' ' + std::to_string(i), side.areas[i]);
+    }
+    for (const FaultCounter& faults : {above, below, areas}) faults.move_to(side_faults_);
+  }
+
+  [[nodiscard]] std::optional<double> worst_direction() const {
+    const auto are_places = [](const std::vector<LonLat>& points) {
+      return !points.empty() && std::ranges::all_of(points, [](const LonLat& place) {
+        return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90;
+      });
+    };
+    if (!are_places(file_.source.points) || !are_places(file_.target.points)) return std::nullopt;
+    const std::vector<Point> sources = unit_vectors(file_.source.points);
+    const std::vector<Point> targets = unit_vectors(file_.target.points);
+    double worst = 0;
+    for (std::size_t r = 0; r < weights_.num_rows(); ++r) {
+      Point sum;
+      for (std::uint64_t k = weights_.offsets[r]; k < weights_.offsets[r + 1]; ++k) {
+        const Point& x = sources[weights_.columns[k]];
+        sum.x += weights_.values[k] * x.x;
+        sum.y += weights_.values[k] * x.y;
+        sum.z += weights_.values[k] * x.z;
+      }
+      const Point& u = targets[r];
+      const double x = u.y * sum.z - u.z * sum.y;
+      const double y = u.z * sum.x - u.x * sum.z;
+      const double z = u.x * sum.y - u.y * sum.x;
+      worst = std::max(worst, std::sqrt(x * x + y * y + z * z));
+    }
+    return worst;
+  }
+
+  const WeightFile& file_;
+  const Weights& weights_;
+  MethodFacts method_;
+  bool allow_negative_;
+  WeightReport report_;
+  std::vector<std::size_t> entries_of_column_;
+  std::vector<WeightFault> side_faults_;
+  FaultCounter not_finite_{"not finite", "weight is not finite", "weights are not finite"};
+  FaultCounter repeated_{"repeated", "entry repeats a source of its row",
+                         "entries repeat a source of their row"};
+  FaultCounter negative_{"negative", "weight is negative", "weights are negative"};
+  FaultCounter row_sums_{"row sum", "", ""};
+  FaultCounter missing_{"missing row", "target has a fraction and no weight",
+                        "targets have a fraction and no weight"};
+  FaultCounter conservation_{"conservation",
+                             "source does not give away its area times its fraction",
+                             "sources do not give away their area times their fraction"};
+};
+
+}  // namespace
+}  // namespace interpolation
+
+std::size_t WeightReport::count(const std::string& kind) const {
+  std::size_t sum = 0;
+  for (const WeightFault& fault : faults) sum += fault.kind == kind ? fault.count : 0;
+  return sum;
+}
+
+WeightReport check_weights(const WeightFile& file, const WeightCheckOptions& options) {
+  return interpolation::WeightChecker(file, options).run();
+}
+
+}  // namespace rondel

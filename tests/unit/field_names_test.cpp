@@ -1,0 +1,115 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What fields are called where each is a column.
+#include "interpolation/field_names.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace rondel::test {
+namespace {
+
+using interpolation::names_of_fields;
+using interpolation::places_on_axis;
+using Names = std::vector<std::string>;
+
+FieldArray axis(std::string name, std::vector<double> values,
+                std::vector<std::pair<std::string, std::string>> attributes = {}) {
+  FieldArray array;
+  array.name = name;
+  array.dimensions = {std::move(name)};
+  array.shape = {values.size()};
+  array.values = std::move(values);
+  array.attributes = std::move(attributes);
+  return array;
+}
+
+// The dates are those of cftime 1.6, rounded to seconds.
+TEST(field_names, are_dates_by_the_units_and_calendars_of_cf) {
+  struct Case {
+    std::string units, calendar;
+    std::vector<double> values;
+    Names dates;
+  };
+  const std::vector<Case> cases = {
+      {"days since 1850-01-01",
+       "standard",
+       {0.0, 161000.5847, 161588.1579},
+       {"1850-01-01T00:00:00", "2290-10-21T14:01:58", "2292-05-31T03:47:23"}},
+      {"hours since 1583-12-31 23:00:00",
+       "gregorian",
+       {0.0, 103065.1122, 57160.276},
+       {"1583-12-31T23:00:00", "1595-10-04T08:06:44", "1590-07-09T15:16:34"}},
+      {"minutes since 2000-02-28 12:30",
+       "proleptic_gregorian",
+       {0.0, 10786.1405, 76673.7762},
+       {"2000-02-28T12:30:00", "2000-03-07T00:16:08", "2000-04-21T18:23:47"}},
+      {"seconds since 1970-01-01T00:00:00Z",
+       "standard",
+       {0.0, 81694.6411, 9055.0388},
+       {"1970-01-01T00:00:00", "1970-01-01T22:41:35", "1970-01-01T02:30:55"}},
+      {"days since 0001-01-01",
+       "noleap",
+       {0.0, 9751.5421, 199835.223},
+       {"0001-01-01T00:00:00", "0027-09-19T13:00:37", "0548-06-30T05:21:07"}},
+      {"days since 2000-02-29",
+       "360_day",
+       {0.0, 130473.8223, 46902.0403},
+       {"2000-02-29T00:00:00", "2362-08-02T19:44:07", "2130-06-11T00:58:02"}},
+      {"d since 1900-2-1",
+       "365_day",
+       {0.0, 86989.5104, 194837.2387},
+       {"1900-02-01T00:00:00", "2138-05-31T12:14:59", "2433-11-20T05:43:44"}},
+      {"hours since 1999-12-31 00:00:0.0",
+       "standard",
+       {0.0, 179535.5216, 168846.2075},
+       {"1999-12-31T00:00:00", "2020-06-23T15:31:18", "2019-04-05T06:12:27"}},
+  };
+  for (const Case& c : cases) {
+    const FieldArray time = axis("time", c.values, {{"units", c.units}, {"calendar", c.calendar}});
+    EXPECT_EQ(places_on_axis(time), c.dates) << c.units;
+  }
+}
+
+TEST(field_names, have_no_clock_where_all_times_are_midnight) {
+  EXPECT_EQ(places_on_axis(axis("time", {0, 59, 366}, {{"units", "days since 2000-01-01"}})),
+            (Names{"2000-01-01", "2000-02-29", "2001-01-01"}));
+}
+
+TEST(field_names, are_numbers_where_units_or_calendars_are_not_known) {
+  for (const char* units : {"fortnights since 2000-01-01", "days since then", "days", "hPa",
+                            "days since 2000-13-01", "days since 2000-02-30",
+                            "days since 2000-01-01 00:00:00 +05:00", "days since 1200-01-01"}) {
+    EXPECT_EQ(places_on_axis(axis("time", {0.5, 1000}, {{"units", units}})), (Names{"0.5", "1000"}))
+        << units;
+  }
+  EXPECT_EQ(places_on_axis(
+                axis("time", {1, 2}, {{"units", "days since 2000-01-01"}, {"calendar", "julian"}})),
+            (Names{"1", "2"}));
+}
+
+TEST(field_names, fall_back_to_what_differs) {
+  EXPECT_EQ(places_on_axis(axis("time", {0, 1e-6}, {{"units", "days since 2000-01-01"}})),
+            (Names{"0", "1e-06"}));
+  EXPECT_EQ(places_on_axis(axis("lev", {5, 5})), Names{});
+}
+
+TEST(field_names, have_a_part_for_each_axis) {
+  FieldArray array;
+  array.name = "tas";
+  EXPECT_EQ(names_of_fields(array, {}), Names{"tas"});
+  array.dimensions = {"time", "lev"};
+  array.shape = {2, 2};
+  const std::vector<FieldArray> axes = {axis("lev", {850, 500.5}),
+                                        axis("time", {0, 1}, {{"units", "days since 2001-07-15"}})};
+  EXPECT_EQ(names_of_fields(array, axes), (Names{"tas_2001-07-15_850", "tas_2001-07-15_500.5",
+                                                 "tas_2001-07-16_850", "tas_2001-07-16_500.5"}));
+  EXPECT_EQ(names_of_fields(array, {}), (Names{"tas_0_0", "tas_0_1", "tas_1_0", "tas_1_1"}));
+}
+
+}  // namespace
+}  // namespace rondel::test
