@@ -10,7 +10,7 @@ set(RONDEL_PACKAGES rondel)
 set(RONDEL_HEADERS_LEFT_OUT PATTERN io.h EXCLUDE PATTERN polygons.h EXCLUDE PATTERN globe.h EXCLUDE
                             PATTERN out_of_core.h EXCLUDE PATTERN distributed.h EXCLUDE PATTERN mpi.h EXCLUDE
                             PATTERN weights.h EXCLUDE PATTERN interpolate.h EXCLUDE PATTERN contours.h EXCLUDE
-                            PATTERN weight_files.h EXCLUDE PATTERN fields.h EXCLUDE PATTERN cell_rings.h EXCLUDE
+                            PATTERN weight_files.h EXCLUDE PATTERN weight_check.h EXCLUDE PATTERN fields.h EXCLUDE PATTERN cell_rings.h EXCLUDE
                             PATTERN partition.h EXCLUDE PATTERN remap.h EXCLUDE PATTERN regions.h EXCLUDE PATTERN polygon_files.h EXCLUDE PATTERN mesh_files.h EXCLUDE PATTERN graphs.h EXCLUDE
                             PATTERN outlines.h EXCLUDE PATTERN feature_cells.h EXCLUDE PATTERN mesh.h EXCLUDE
                             PATTERN mesh_quality.h EXCLUDE PATTERN mesh_io.h EXCLUDE PATTERN mesh_partition.h EXCLUDE PATTERN mesh_size.h EXCLUDE
@@ -43,6 +43,7 @@ install(EXPORT rondelTargets NAMESPACE rondel::
         DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondel COMPONENT development)
 get_target_property(RONDEL_LIBRARY_TYPE rondel TYPE)
 string(COMPARE EQUAL "${RONDEL_LIBRARY_TYPE}" STATIC_LIBRARY RONDEL_IS_STATIC)
+string(REPLACE "rondel-" "" RONDEL_COMPONENTS "${RONDEL_PACKAGES}")
 configure_package_config_file(cmake/rondelConfig.cmake.in ${PROJECT_BINARY_DIR}/rondelConfig.cmake
                               INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/rondel)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/rondelConfigVersion.cmake

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Clients of the installed package that do not use CMake, of a plugin, and of the shared libraries.
 
-    clients_test.py pkg_config|c|distributed|globe|mesh|plugin|remap|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARIES...
+    clients_test.py pkg_config|c|components|distributed|globe|mesh|plugin|remap|shared CMAKE BUILD_FOLDER SOURCE_FOLDER COMPILER LIBRARIES...
 
 Each compiles client.cpp, that in C examples/c_interface.c, those of other libraries theirs, as globe/globe.cpp, and
 compares what it prints. The libraries are those of rondel, rondel::io, rondel::distributed, rondel::remap and
@@ -13,6 +13,7 @@ import os
 import pathlib
 import re
 import shlex
+import subprocess
 import sys
 import tempfile
 
@@ -22,7 +23,7 @@ from commands import run
 # What rondel::distributed, rondel::remap and rondel::mesh use of the core and of rondel::io.
 USED_ABOVE = re.compile(
     r"rondel::(api::(make_triangulation|require_delaunay|validate|validate_queries)|bulk::(AllSites|Bucket|bucket_of|join_buckets|quadrant|triangulate_bucket)"
-    r"|dual::((areas|circumcenters)_within|exact_normal|exact_projected_difference|exact_weights|SplitSites)|io::(Atomic(File|Folder)|BadValue|CsvRecords|FileBytes|Netcdf\w+|NpyRows|Zip\w+|Zarr\w+|is_zarr|zarr_\w+|append_number|ending|find_attribute|in_quotes|make_npy_header|netcdf_text|open_replacement|parse_n(py_header|umber)|read_polygon_features|shape_(of_grid|text)|throw_unknown_ending|zip_member|replaced_by|temporary_name|write_in_parallel)|map::(area_on_left|is_clockwise|is_surely_larger|line_parts|lonlat_of|region_polygons)|order::(place_keys|radix_sort|spatial_order)|query::(Built|Engine|order_ties_by_place))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
+    r"|dual::((areas|circumcenters)_within|exact_normal|exact_projected_difference|exact_weights|SplitSites)|io::(Atomic(File|Folder)|BadValue|CsvRecords|FileBytes|Netcdf\w+|NpyRows|Zip\w+|Zarr\w+|is_zarr|zarr_\w+|append_(csv_field|number)|cell_of|column_names|columns_of_csv|csv_of|ending|find_(attribute|column)|in_quotes|make_npy_header|netcdf_text|open_replacement|parse_n(py_header|umber)|read_polygon_features|require_different_names|shape_(of_grid|text)|table_text|throw_unknown_ending|trim|zip_member|replaced_by|temporary_name|write_in_parallel)|map::(area_on_left|is_clockwise|is_surely_larger|line_parts|lonlat_of|region_polygons)|order::(place_keys|radix_sort|spatial_order)|query::(Built|Engine|order_ties_by_place))\b|rondel::api::validate_some|rondel::bulk::Bucket(Counts|Faces)"
 )
 
 
@@ -85,6 +86,24 @@ class Client:
     def mesh(self):
         """A program that makes a mesh, by pkg-config and by CMake."""
         self.of_library("mesh", "12 cells, an error\n")
+
+    def components(self):
+        """Components that the package has are found, and others named."""
+        run([self.cmake, "--install", self.build, "--prefix", self.work / "prefix"])
+        for components, expected in (("rondel io remap mesh globe distributed", "found 1"),
+                                     ("io sphere remap torus", "no component sphere, torus; its components are rondel, io")):
+            folder = self.work / ("known" if expected.startswith("found") else "unknown")
+            folder.mkdir()
+            (folder / "CMakeLists.txt").write_text(
+                "cmake_minimum_required(VERSION 3.25)\nproject(client LANGUAGES CXX)\n"
+                f"find_package(rondel REQUIRED COMPONENTS {components})\n"
+                'message(STATUS "found ${rondel_FOUND}")\n', encoding="utf-8")
+            done = subprocess.run([self.cmake, "-S", folder, "-B", folder / "build", f"-DCMAKE_PREFIX_PATH={self.work}/prefix",
+                                   f"-DCMAKE_CXX_COMPILER={self.compile[0]}", "-DCMAKE_FIND_USE_PACKAGE_REGISTRY=OFF"],
+                                  capture_output=True, text=True, check=False)
+            said = " ".join((done.stdout + done.stderr).split())
+            if expected not in said or (done.returncode == 0) != expected.startswith("found"):
+                sys.exit(f"{components}: {said}")
 
     def of_library(self, name, expected):
         """The client of one library, which has a folder."""
