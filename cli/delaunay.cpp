@@ -68,15 +68,19 @@ ExitStatus run_delaunay(const DelaunayOptions& options) {
   Job job(common);
   const SiteTable table = job.read();
   const Triangulation triangulation = job.triangulate(table);
+  std::vector<double> cell_areas;
+  std::vector<Point> centers;
+  job.time(Stage::dual, [&] {
+    if (!options.areas.empty() && !content.areas) {
+      cell_areas = areas(triangulation, job.execution());
+    }
+    if (!options.circumcenters.empty()) centers = circumcenters(triangulation, job.execution());
+  });
   job.time(Stage::write, [&] {
     if (!options.neighbors.empty() && !content.neighbors)
       write_rows<3>(options.neighbors, triangulation.neighbors());
-    if (!options.areas.empty() && !content.areas) {
-      const std::vector<double> all = areas(triangulation, job.execution());
-      write_numbers(options.areas, all);
-    }
-    if (!options.circumcenters.empty())
-      write_points(options.circumcenters, circumcenters(triangulation, job.execution()));
+    if (!options.areas.empty() && !content.areas) write_numbers(options.areas, cell_areas);
+    if (!options.circumcenters.empty()) write_points(options.circumcenters, centers);
     if (!options.duplicates.empty() && !content.duplicates)
       write_rows<2>(options.duplicates, triangulation.duplicates());
     if (common.format() == "zarr") {

@@ -25,11 +25,17 @@ class HelpFormatter : public CLI::Formatter {
     if (!app->get_subcommands({}).empty()) return usage + " COMMAND [OPTIONS]\n";
     for (const CLI::Option* option : app->get_options()) {
       if (!option->get_required()) continue;
-      const bool is_named = !option->get_snames().empty();
-      usage += is_named ? " -" + option->get_snames().front() + make_option_opts(option)
-                        : " " + option->get_name();
+      usage += ' ' + shortest_name(*option);
+      if (!option->get_positional()) usage += make_option_opts(option);
     }
     return usage + " [OPTIONS]\n";
+  }
+
+ private:
+  static std::string shortest_name(const CLI::Option& option) {
+    if (option.get_positional()) return option.get_name();
+    if (!option.get_snames().empty()) return '-' + option.get_snames().front();
+    return "--" + option.get_lnames().front();
   }
 };
 

@@ -12,6 +12,7 @@
 #include <new>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -54,7 +55,7 @@ void configure(CLI::App& tool) {
   tool.set_help_flag("--help,-h", "Print this help");
   tool.formatter(std::make_shared<HelpFormatter>());
   tool.footer(
-      "'rondel COMMAND --help' explains a command.\n\n"
+      "'rondel help COMMAND' explains a command, as 'rondel COMMAND --help' does.\n\n"
       "A first try:\n"
       "  rondel generate uniform -n 1000 -o sites.csv\n"
       "  rondel delaunay sites.csv -o triangles.ply\n"
@@ -93,6 +94,26 @@ std::string file_like_an_option(int argc, const char* const* argv) {
   return {};
 }
 
+// The command, "mesh scvt", that the arguments chose.
+std::string name_of_parsed(const CLI::App& tool) {
+  std::string name;
+  const CLI::App* app = &tool;
+  while (!app->get_subcommands().empty()) {
+    app = app->get_subcommands().front();
+    name += ' ' + app->get_name();
+  }
+  return name;
+}
+
+// "help COMMAND" is "COMMAND --help".
+std::vector<const char*> without_help_command(std::span<const char* const> arguments) {
+  std::vector<const char*> result(arguments.begin(), arguments.end());
+  if (result.size() < 2 || std::string_view(result[1]) != "help") return result;
+  result.erase(result.begin() + 1);
+  result.push_back("--help");
+  return result;
+}
+
 int run(int argc, const char* const* argv) {
   CLI::App tool{"Exact Delaunay triangulations and Voronoi diagrams on the sphere."};
   configure(tool);
@@ -107,13 +128,8 @@ int run(int argc, const char* const* argv) {
     print(tool.help());
     return done;
   } catch (const CLI::ParseError& error) {
-    std::string name;
-    for (const CLI::App* part : tool.get_subcommands()) {
-      name = " " + part->get_name();
-      for (const CLI::App* of_group : part->get_subcommands()) name += " " + of_group->get_name();
-    }
-    throw UsageError(error.what() + std::string(" (see rondel") + name + " --help)" +
-                     file_like_an_option(argc, argv));
+    throw UsageError(error.what() + std::string(" (see rondel") + name_of_parsed(tool) +
+                     " --help)" + file_like_an_option(argc, argv));
   }
   const Command* command = selected(commands);
   if (command == nullptr) throw UsageError("no command (see rondel --help)");
@@ -137,6 +153,7 @@ int run_and_report(int argc, const char* const* argv) {
 
 int main(int argc, char** argv) {
   rondel::cli::prepare_process();
-  const std::vector<const char*> arguments = rondel::cli::arguments_of_process(argc, argv);
+  const std::vector<const char*> arguments =
+      rondel::cli::without_help_command(rondel::cli::arguments_of_process(argc, argv));
   return rondel::cli::run_and_report(static_cast<int>(arguments.size()), arguments.data());
 }

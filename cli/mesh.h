@@ -17,6 +17,11 @@
 
 namespace rondel::cli {
 
+/// What INPUT is, for the help.
+inline constexpr const char* mesh_input_help =
+    "The mesh, .nc (MPAS, UGRID, SCRIP, ESMF), or its sites: .csv .tsv .xyz .txt .npy\n"
+    ".geojson, or - for standard input. Longitude and latitude in degrees, or x, y, z.";
+
 /// What of a mesh is written: OUTPUT and what goes beside it.
 struct MeshOutput {
   CommonOptions common;  ///< INPUT where the command has one; output, --format, threads

@@ -15,7 +15,7 @@ Command add_mesh_convert_command(CLI::App& mesh) {
   auto options = std::make_shared<MeshConvertOptions>();
   CLI::App* parser = mesh.add_subcommand("convert", "Write the mesh of sites, or of another file");
   MeshOutput& written = options->written;
-  add_input_options(*parser, written.common);
+  add_input_options(*parser, written.common, mesh_input_help);
   add_mesh_output_options(*parser, written, MeshOutputKind::mesh);
   parser->add_flag("--allow-zero-edges", options->allow_zero_edges,
                    "Accept sites on one circle, whose cells meet in one point: MPAS's edges have\n"

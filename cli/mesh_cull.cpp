@@ -93,7 +93,7 @@ void write_map(const std::string& path, const std::vector<Index>& numbers) {
 Command add_mesh_cull_command(CLI::App& mesh) {
   auto options = std::make_shared<MeshCullOptions>();
   CLI::App* parser = mesh.add_subcommand("cull", "Remove cells of a mesh: those on land, a region");
-  add_input_options(*parser, options->written.common);
+  add_input_options(*parser, options->written.common, mesh_input_help);
   parser
       ->add_option("--inside", options->inside,
                    "Remove cells whose sites lie in the polygons of this file, .geojson, or on\n"

@@ -50,7 +50,7 @@ std::string unmet(const MeshQualityOptions& options, const mesh::Quality& qualit
 Command add_mesh_quality_command(CLI::App& mesh) {
   auto options = std::make_shared<MeshQualityOptions>();
   CLI::App* parser = mesh.add_subcommand("quality", "Report how good a mesh is");
-  add_input_options(*parser, options->common);
+  add_input_options(*parser, options->common, mesh_input_help);
   parser
       ->add_option_function<std::vector<std::string>>(
           "--require",

@@ -13,6 +13,8 @@
 namespace rondel::cli {
 namespace {
 
+constexpr const char* letters = "abcdefghijklmnopqrstuvwxyz";
+
 std::string model_error(const std::string& text) {
   if (text == "projected" || text == "weighted") return {};
   return "'" + text + "' is not a model (projected, weighted)";
@@ -108,9 +110,13 @@ void add_point_input_options(CLI::App& command, CommonOptions& options) {
 }
 
 CLI::Option* add_output_option(CLI::App& command, CommonOptions& options, const std::string& what) {
+  // The first ending that the help names is an example of a format.
+  const std::size_t dot = what.find(" .") + 2;
+  const std::string example = what.substr(dot, what.find_first_not_of(letters, dot) - dot);
   command
-      .add_option("--format", options.output_format,
-                  "Format of the output, 'ply' for example (default: by the ending of FILE)")
+      .add_option(
+          "--format", options.output_format,
+          "Format of the output, '" + example + "' for example (default: by the ending of FILE)")
       ->type_name("FORMAT");
   return command
       .add_option_function<std::string>(
