@@ -129,3 +129,8 @@ if not TYPE_CHECKING:
         import importlib
 
         return importlib.import_module(f"rondel.{name}")
+
+
+def __dir__() -> list[str]:
+    """What is for users, and the modules."""
+    return sorted([*__all__, "__version__", "distributed", "mesh", "out_of_core"])

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import operator
 import os
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -23,6 +23,8 @@ Number = TypeVar("Number", bound=np.generic)
 MODELS = ("projected", "weighted")
 ORIGIN = (0.0, 0.0, 0.0)
 
+HINT_OF_DEGREES = "rondel.unit_vectors(lon, lat) makes them of longitudes and latitudes"
+
 
 def as_floats(values: ArrayLike, name: str) -> FloatArray:
     """C-contiguous float64, the same memory if it is that already."""
@@ -30,10 +32,23 @@ def as_floats(values: ArrayLike, name: str) -> FloatArray:
         first = int(np.flatnonzero(np.ma.getmaskarray(np.ma.asarray(values)))[0])
         row = first // max(1, int(np.prod(np.shape(values)[1:])))
         raise InvalidInput(f"{name}[{row}] is masked", row)
+    if hasattr(values, "geom_type"):
+        hint = "; points have x (longitude) and y (latitude)"
+        raise TypeError(f"{name} must be real numbers, not geometries{hint}")
     array = np.asarray(values)
     if array.dtype.kind not in "biufO":
-        raise TypeError(f"{name} must be real numbers, not {array.dtype}")
-    return np.require(array, np.float64, ["C", "A"])
+        raise TypeError(f"{name} must be real numbers, not {_in_words(array)}")
+    try:
+        return np.require(array, np.float64, ["C", "A"])
+    except (TypeError, ValueError) as error:
+        if array.dtype.kind != "O":
+            raise
+        raise TypeError(f"{name} must be real numbers: {error}") from None
+
+
+def _in_words(array: npt.NDArray[Any]) -> str:
+    words = {"U": "text", "S": "bytes", "T": "text", "c": "complex numbers", "M": "times"}
+    return words.get(array.dtype.kind, str(array.dtype))
 
 
 def as_rows(values: ArrayLike, columns: int, name: str) -> FloatArray:
@@ -42,7 +57,9 @@ def as_rows(values: ArrayLike, columns: int, name: str) -> FloatArray:
     if array.shape == (0,):
         array = array.reshape(0, columns)
     if array.ndim != 2 or array.shape[1] != columns:
-        raise ValueError(f"{name} must have shape (n, {columns}), not {array.shape}")
+        are_degrees = columns == 3 and array.ndim == 2 and array.shape[1] == 2
+        hint = f"; {HINT_OF_DEGREES}" if are_degrees else ""
+        raise ValueError(f"{name} must have shape (n, {columns}), not {array.shape}{hint}")
     return array
 
 
@@ -91,7 +108,7 @@ def as_queries(xi: ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
     """Query points as (q, 3), and the shape of the answers."""
     array = as_floats(xi, "xi")
     if array.ndim == 0 or array.shape[-1] != 3:
-        raise ValueError(f"xi must have shape (..., 3), not {array.shape}")
+        raise ValueError(f"xi must have shape (..., 3), not {array.shape}; {HINT_OF_DEGREES}")
     return array.reshape(-1, 3), array.shape[:-1]
 
 
@@ -167,6 +184,17 @@ def unit_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
     """
     lon, lat = np.broadcast_arrays(as_floats(lon, "lon"), as_floats(lat, "lat"))
     return _core.unit_vectors(as_lonlat(lon, lat)).reshape(*lon.shape, 3)
+
+
+def target_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
+    """Those of targets: errors say so, and not that a site is wrong."""
+    try:
+        return unit_vectors(lon, lat)
+    except InvalidInput as error:
+        text = str(error)
+        if text.startswith("site "):
+            text = "target " + text.removeprefix("site ")
+        raise InvalidInput(text, error.index) from None
 
 
 def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:

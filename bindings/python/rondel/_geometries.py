@@ -49,7 +49,10 @@ def _read(name: str, read: Callable[[str], Any]) -> Any:
 
 
 def _of_objects(geometries: Any, read: Callable[[str], Any]) -> Any:
-    text = json.dumps(_collection(geometries))
+    try:
+        text = json.dumps(_collection(geometries), allow_nan=False)
+    except ValueError:
+        raise ValueError("geometries: a number is not finite") from None
     with tempfile.TemporaryDirectory() as folder:
         name = str(pathlib.Path(folder) / "geometries.geojson")
         pathlib.Path(name).write_text(text, "utf-8")

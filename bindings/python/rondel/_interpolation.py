@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 
 from . import _core
-from ._arrays import as_fields, as_floats, as_threads
+from ._arrays import HINT_OF_DEGREES, as_fields, as_floats, as_threads
 from ._types import ArrayLike, FloatArray, Progress
 from ._weights import Weights
 
@@ -60,10 +60,7 @@ def as_targets(targets: ArrayLike) -> tuple[FloatArray, tuple[int, ...]]:
     if array.shape == (0,):
         array = array.reshape(0, 3)
     if array.ndim == 0 or array.shape[-1] != 3:
-        raise ValueError(
-            f"targets must have shape (..., 3), not {array.shape}; "
-            "rondel.unit_vectors(lon, lat) makes them of degrees"
-        )
+        raise ValueError(f"targets must have shape (..., 3), not {array.shape}; {HINT_OF_DEGREES}")
     return array.reshape(-1, 3), array.shape[:-1]
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import as_fields, as_floats, as_points, unit_vectors
+from ._arrays import as_fields, as_floats, as_points, target_vectors
 from ._delaunay import SphericalDelaunay, delaunay, delaunay_lonlat
 from ._interpolation import METHODS, Method
 from ._repr import Described, count
@@ -36,12 +36,12 @@ def _as_rays(xi: tuple[Any, ...]) -> FloatArray:
     if len(xi) == 1 and isinstance(xi[0], tuple):
         xi = xi[0]
     if len(xi) == 2:
-        return unit_vectors(*xi)
+        return target_vectors(*xi)
     if len(xi) != 1:
         raise TypeError(f"targets are points, or longitudes and latitudes, not {len(xi)} arrays")
     array = as_floats(xi[0], "targets")
     if array.ndim and array.shape[-1] == 2:
-        return unit_vectors(array[..., 0], array[..., 1])
+        return target_vectors(array[..., 0], array[..., 1])
     return array
 
 
@@ -176,4 +176,4 @@ def interpolate(
     if len(shape) > 1 and np.shape(values)[-len(shape) :] == shape:
         values = np.ma.asanyarray(values) if np.ma.isMaskedArray(values) else np.asarray(values)
         values = values.reshape(*values.shape[: -len(shape)], -1)
-    return tri.interpolate(values, unit_vectors(to_lon, to_lat), method, **options)
+    return tri.interpolate(values, target_vectors(to_lon, to_lat), method, **options)

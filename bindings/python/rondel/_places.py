@@ -20,6 +20,8 @@ from ._types import BoolArray, FloatArray
 from ._weights import Weights
 
 _MARKS = {"lon": ("longitude", "degrees_east"), "lat": ("latitude", "degrees_north")}
+# Of tables, as files of them have.
+_COLUMNS = {"lon": ("lon", "lng", "long", "longitude"), "lat": ("lat", "latitude")}
 
 
 def _headers(data: Any) -> list[tuple[Any, ...]]:
@@ -155,6 +157,7 @@ class Places:
         lat: Hashable | None = None,
         *,
         are_points: bool = False,
+        are_pairs: bool = False,
     ) -> None:
         self._partition = data if isinstance(data, Partition) else None
         if self._partition is not None:
@@ -164,7 +167,17 @@ class Places:
         elif isinstance(data, tuple):
             if len(data) != 2:
                 raise ValueError(f"a tuple is (lon, lat), not {len(data)} arrays")
-            data = _dataset({"lon": data[0], "lat": data[1]}, are_points)
+            if are_pairs:
+                data = _paired(*data)
+            else:
+                data = _dataset({"lon": data[0], "lat": data[1]}, are_points)
+        elif hasattr(data, "columns") and hasattr(data, "to_numpy"):
+            data = _of_table(data)
+        elif not isinstance(data, (xarray.Dataset, xarray.DataArray)):
+            raise TypeError(
+                "places are a Dataset, a DataArray, a dictionary or table with lon and lat, a "
+                f"tuple (lon, lat) or a Partition, not {type(data).__name__}"
+            )
         self._data = data
         self._found = Coordinates(data, lon, lat)
         lons, lats = self._found.lon, self._found.lat
@@ -273,6 +286,46 @@ class Places:
         if lon.shape[: len(self.shape)] != self.shape:
             lon, lat = _four(lon, self.shape), _four(lat, self.shape)
         return _cells_of_corners(lon, lat, self.mask(), threads)
+
+
+def _paired(lon: Any, lat: Any) -> xarray.Dataset:
+    """Longitudes and latitudes of points, broadcast against each other; of arrays with names of
+    their dimensions by these.
+    """
+    if isinstance(lon, xarray.DataArray) and isinstance(lat, xarray.DataArray):
+        return _marked({"lon": lon.variable, "lat": lat.variable})
+    lons, lats = np.asarray(lon), np.asarray(lat)
+    try:
+        lons, lats = np.broadcast_arrays(lons, lats)
+    except ValueError:
+        raise ValueError(
+            f"lon and lat have shapes {lons.shape} and {lats.shape}, but are pairs; grid=True "
+            "takes them as the axes of a grid"
+        ) from None
+    dims = {0: (), 1: ("point",), 2: ("y", "x")}.get(lons.ndim)
+    if dims is None:
+        raise ValueError(f"lon and lat must have at most 2 dimensions, not shape {lons.shape}")
+    return _marked({"lon": (dims, lons), "lat": (dims, lats)})
+
+
+def _of_table(table: Any) -> xarray.Dataset:
+    """The points of a DataFrame: by its columns, or of a GeoDataFrame with points."""
+    found = {}
+    for kind, names in _COLUMNS.items():
+        columns = [name for name in table.columns if str(name).lower() in names]
+        if len(columns) > 1:
+            texts = " and ".join(map(str, columns))
+            raise ValueError(f"the columns {texts} may be the {kind}: leave one")
+        found[kind] = table[columns[0]].to_numpy() if columns else None
+    if found["lon"] is None and found["lat"] is None and hasattr(table, "geometry"):
+        points = table.geometry if table.crs is None else table.geometry.to_crs(4326)
+        if not (points.geom_type == "Point").all():
+            raise TypeError("geometries that are places must be points; a Partition has cells")
+        found = {"lon": points.x.to_numpy(), "lat": points.y.to_numpy()}
+    for kind, column in found.items():
+        if column is None:
+            raise ValueError(f"no column of the table has the {_MARKS[kind][0]}s ({kind})")
+    return _paired(found["lon"], found["lat"])
 
 
 def _cells_of_corners(

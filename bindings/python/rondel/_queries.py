@@ -6,11 +6,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import IntEnum
-from typing import Any, overload
+from typing import Any, NoReturn, overload
 
 import numpy as np
 
-from ._arrays import as_indices, as_queries, as_threads
+from ._arrays import HINT_OF_DEGREES, as_indices, as_queries, as_threads
 from ._mesh import Lists
 from ._types import ArrayLike, FloatArray, IntArray
 
@@ -30,7 +30,7 @@ class Queries:
     def _locator(self) -> Any:
         raise NotImplementedError
 
-    def nearest(self, xi: ArrayLike, *, threads: int | None = None) -> IntArray:
+    def nearest(self, xi: ArrayLike, *rest: NoReturn, threads: int | None = None) -> IntArray:
         """The nearest vertex of each query point, exactly; of several the lowest index.
 
         Parameters
@@ -52,6 +52,8 @@ class Queries:
             If a query is not finite or is the center.
 
         """
+        if rest:
+            raise TypeError("nearest() takes points of shape (..., 3); " + HINT_OF_DEGREES)
         queries, shape = as_queries(xi)
         return self._locator().nearest(queries, as_threads(threads)).reshape(shape)[()]
 

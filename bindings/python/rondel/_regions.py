@@ -358,7 +358,9 @@ def feature_cells(
     """
     tolerance = float(tolerance_km) / float(radius_km)
     if not tolerance > 0:
-        raise ValueError(f"tolerance_km / radius_km must be positive, not {tolerance}")
+        raise ValueError(
+            f"tolerance_km and radius_km must be positive, not {tolerance_km} and {radius_km}"
+        )
     area = None if within is None else as_partition(within, edges, threads)._partition
     found = features_of(
         features,

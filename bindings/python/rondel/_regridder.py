@@ -75,6 +75,10 @@ class Regridder(Described):
         Those of `to_netcdf` of a former one, with the same grids.
     overlap : {'error', 'first', 'share'}, optional
         What conservative methods do where cells of one grid overlap; as in `remap`.
+    filename : path-like, optional
+        The file that `to_netcdf` writes and `reuse_weights` reads, as in xESMF.
+    reuse_weights : bool, optional
+        Whether the weights are those of `filename` (or `weights`), as in xESMF.
     threads : int, optional
     progress : callable, optional
     **needless
@@ -84,6 +88,7 @@ class Regridder(Described):
     ----------
     weights : Weights
     method : str
+    filename : path-like or None
     shape_in, shape_out : tuple of int
 
     Notes
@@ -120,6 +125,8 @@ class Regridder(Described):
         unmapped_to_nan: bool = True,
         weights: Path | Weights | None = None,
         overlap: Literal["error", "first", "share"] = "error",
+        filename: Path | None = None,
+        reuse_weights: bool = False,
         threads: int | None = None,
         progress: Progress = None,
         **needless: Any,
@@ -133,6 +140,13 @@ class Regridder(Described):
         for name in needless:
             if name not in _NEEDLESS:
                 raise TypeError(f"Regridder() got an unexpected keyword argument {name!r}")
+        if reuse_weights and weights is None:
+            if filename is None:
+                raise ValueError(
+                    "reuse_weights needs filename or weights, which say where they are"
+                )
+            weights = filename
+        self.filename = filename
         self.method = method
         self._source = Places(ds_in, lon, lat, are_points=locstream_in)
         self._target = Places(ds_out, lon_out, lat_out, are_points=locstream_out)
@@ -219,15 +233,19 @@ class Regridder(Described):
         if shape != wanted:
             raise ValueError(f"data must have shape (..., {str(wanted)[1:]}, not {data.shape}")
 
-    def to_netcdf(self, path: Path) -> None:
+    def to_netcdf(self, path: Path | None = None) -> None:
         """Writes the weights as a file that ESMF, CDO and `weights` know.
 
         Parameters
         ----------
-        path : path-like
-            Ends in .nc. The file appears when it is complete, and replaces the one that is there.
+        path : path-like, optional
+            Ends in .nc; by default `filename`. The file appears when it is complete, and replaces
+            the one that is there.
 
         """
+        path = self.filename if path is None else path
+        if path is None:
+            raise ValueError("to_netcdf() needs the name of a file: the Regridder has no filename")
         self.weights.to_netcdf(os.fspath(path))
 
     def _facts(self) -> list[tuple[str, str]]:

@@ -140,7 +140,8 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
         else:
             mesh, attributes = circle_diagram(points, radius, center, threads)
             off = np.abs(np.linalg.norm(points - center, axis=1) - radius).max()
-            _check_radius(off, threshold * radius)
+            hint = "; SphericalVoronoi.from_lonlat(lon, lat) takes longitudes and latitudes"
+            _check_radius(off, threshold * radius, hint)
             _check_duplicates(mesh.duplicates, duplicates)
         self._keep(mesh)
         self.__dict__.update(attributes)
@@ -197,11 +198,11 @@ class SphericalVoronoi(Diagram[SphericalDelaunay], model="projected"):
         return self.areas.copy()
 
 
-def _check_radius(off: float, threshold: float) -> None:
+def _check_radius(off: float, threshold: float, hint: str = "") -> None:
     if not off < threshold:
         raise ValueError(
             f"Radius inconsistent with generators: a point is {off:.3g} off the sphere, the "
-            f"threshold is {threshold:.3g}"
+            f"threshold is {threshold:.3g}{hint}"
         )
 
 

@@ -14,7 +14,8 @@ import numpy as np
 
 from . import _core
 from ._arrays import as_floats, lonlat
-from ._geo import Path, write_named
+from ._errors import InvalidInput
+from ._geo import Path
 from ._types import ArrayLike, FloatArray, IntArray
 
 
@@ -68,8 +69,8 @@ def weights_to_netcdf(
         if known and not self.is_of(**{name: points}):
             raise ValueError(f"the {name} are not those of the weights")
     shape: tuple[int, ...] = () if targets is None else np.shape(targets)[:-1]
-    source = Side(_degrees(sites), site_areas)
-    target = Side(_degrees(targets), target_areas, shape=shape)
+    source = Side(_degrees(sites), _areas(site_areas))
+    target = Side(_degrees(targets), _areas(target_areas), shape=shape)
     write_weights(path, format, self, source, target, method, "none")
 
 
@@ -103,18 +104,23 @@ def write_weights(
         return side.degrees, _numbers(side.areas), _numbers(side.fractions), grid, mask, corners
 
     sides = made(source), made(target)
-    write_named(
-        os.fspath(path),
-        lambda name: _core.write_weights(
-            name, format, weights._weights, *sides, method, normalization
-        ),
-    )
+    name = os.fspath(path)
+    _core.write_weights(name, format, weights._weights, *sides, method, normalization)
 
 
 def _degrees(points: ArrayLike | None) -> FloatArray:
     if points is None:
         return np.zeros((0, 2))
     return np.ascontiguousarray(lonlat(as_floats(points, "points").reshape(-1, 3)))
+
+
+def _areas(values: ArrayLike | None) -> FloatArray:
+    areas = _numbers(values)
+    bad = np.flatnonzero(~(areas >= 0))
+    if bad.size:
+        first = int(bad[0])
+        raise InvalidInput(f"areas[{first}] is {areas[first]}, which is no area", first)
+    return areas
 
 
 def _numbers(values: ArrayLike | None) -> FloatArray:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import zipfile
 from typing import Any
 
 import numpy as np
@@ -12,7 +13,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_fields, as_floats, as_threads, point_set_hash
-from ._geo import Path, write_named
+from ._geo import Path
 from ._repr import Described, count
 from ._tables import _replaced
 from ._types import ArrayLike, FloatArray, IntArray
@@ -66,6 +67,9 @@ class Weights(Described):
         targets_hash: int = 0,
     ) -> None:
         rows, columns = shape
+        most = np.iinfo(np.int32).max
+        if not 0 <= columns <= most:
+            raise ValueError(f"shape {tuple(shape)} must have from 0 to {most} columns")
         offsets = _as_integers(indptr, np.int64, "indptr")
         if len(offsets) != rows + 1:
             raise ValueError(f"indptr must have shape ({rows + 1},), not {offsets.shape}")
@@ -228,6 +232,14 @@ class Weights(Described):
         Weights
 
         """
+        if (
+            isinstance(path, (str, os.PathLike))
+            and os.path.isfile(path)
+            and not zipfile.is_zipfile(path)
+        ):
+            raise ValueError(
+                f"{os.fspath(path)}: no .npz file; rondel.read_weights() reads netCDF, too"
+            )
         with np.load(path, allow_pickle=False) as file:
             names = ("indptr", "indices", "data", "shape", "format")
             if any(name not in file for name in names) or file["format"].item() != b"csr":
@@ -235,7 +247,10 @@ class Weights(Described):
             hashes = file["hashes"].tolist() if "hashes" in file else [0, 0]
             rows, columns = file["shape"].tolist()
             arrays = (file["indptr"], file["indices"], file["data"])
-        return cls(*arrays, (rows, columns), sites_hash=hashes[0], targets_hash=hashes[1])
+        try:
+            return cls(*arrays, (rows, columns), sites_hash=hashes[0], targets_hash=hashes[1])
+        except ValueError as error:
+            raise ValueError(f"{os.fspath(path)}: {error}") from None
 
     to_netcdf = weights_to_netcdf
 
@@ -284,6 +299,4 @@ def read_weights(path: Path) -> Weights:
         If the file cannot be read, or holds no weights.
 
     """
-    found: list[_core.Weights] = []
-    write_named(os.fspath(path), lambda name: found.append(_core.read_weights(name)))
-    return Weights._of(found[0])
+    return Weights._of(_core.read_weights(os.fspath(path)))

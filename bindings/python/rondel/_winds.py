@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arrays import as_fields, as_floats, as_threads, unit_vectors
+from ._arrays import as_fields, as_floats, as_threads, target_vectors
 from ._interpolation import (
     Interpolation,
     Method,
@@ -109,6 +109,6 @@ class VectorInterpolation(Interpolation):
         to_east, to_north = directions(*np.moveaxis(self.lonlat, -1, 0))
         vectors = u[..., None] * to_east + v[..., None] * to_north
         lon, lat = np.broadcast_arrays(as_floats(lon, "lon"), as_floats(lat, "lat"))
-        found = self.interpolate_vectors(vectors, unit_vectors(lon, lat), method, **options)
+        found = self.interpolate_vectors(vectors, target_vectors(lon, lat), method, **options)
         to_east, to_north = directions(lon, lat)
         return (found * to_east).sum(axis=-1), (found * to_north).sum(axis=-1)

@@ -43,6 +43,11 @@ __all__ = [
     "delaunay_file",
 ]
 
+
+def __dir__() -> list[str]:
+    return list(__all__)
+
+
 FloatArray: TypeAlias = npt.NDArray[np.float64]
 LongArray: TypeAlias = npt.NDArray[np.int64]
 

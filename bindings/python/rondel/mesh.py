@@ -37,6 +37,10 @@ __all__ = [
 ]
 
 
+def __dir__() -> list[str]:
+    return list(__all__)
+
+
 def from_points(
     points: ArrayLike | SphericalDelaunay,
     *,

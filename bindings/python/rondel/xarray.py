@@ -21,6 +21,10 @@ from ._weights import Weights
 __all__ = ["RondelAccessor"]
 
 
+def __dir__() -> list[str]:
+    return list(__all__)
+
+
 class RondelAccessor:
     """What ``ds.rondel`` and ``da.rondel`` are."""
 
@@ -32,6 +36,7 @@ class RondelAccessor:
         target: Any,
         method: Method = "sibson",
         *,
+        grid: bool = False,
         lon: Hashable | None = None,
         lat: Hashable | None = None,
         **options: Any,
@@ -40,7 +45,7 @@ class RondelAccessor:
 
         Parameters
         ----------
-        target, method, lon, lat, **options
+        target, method, grid, lon, lat, **options
             As in `interpolate`.
 
         Returns
@@ -48,13 +53,15 @@ class RondelAccessor:
         Weights
 
         """
-        return Places(self._data, lon, lat).weights_to(Places(target), method, **options)
+        target = _target(target, grid=grid)
+        return Places(self._data, lon, lat).weights_to(target, method, **options)
 
     def interpolate(
         self,
         target: Any,
         method: Method = "sibson",
         *,
+        grid: bool = False,
         lon: Hashable | None = None,
         lat: Hashable | None = None,
         weights: Weights | None = None,
@@ -66,10 +73,14 @@ class RondelAccessor:
 
         Parameters
         ----------
-        target : Dataset, DataArray or tuple of array_like
+        target : Dataset, DataArray, DataFrame or tuple of array_like
             What has the longitudes and latitudes of the result: of points, of a curvilinear grid,
-            or as axes; or a tuple (lon, lat) of axes, in degrees.
+            or as axes; or a tuple (lon, lat) in degrees, whose arrays are pairs, broadcast against
+            each other as in `rondel.interpolate`.
         method : str, optional
+        grid : bool, optional
+            Whether the two arrays of a tuple are the axes of a grid: a value for each longitude
+            with each latitude.
         lon, lat : str, optional
             The names of the longitudes and latitudes of the source, if they are not found.
         weights : Weights, optional
@@ -93,7 +104,7 @@ class RondelAccessor:
             If longitudes or latitudes are not found, or the weights are of other places.
 
         """
-        source, wanted = Places(self._data, lon, lat), Places(target)
+        source, wanted = Places(self._data, lon, lat), _target(target, grid=grid)
         if weights is None:
             weights = source.weights_to(wanted, method, **options)
         elif not _fits(weights, source, wanted):
@@ -110,6 +121,10 @@ _REGISTERS: tuple[Any, ...] = (
 )
 for _register in _REGISTERS:
     _register("rondel")(RondelAccessor)
+
+
+def _target(target: Any, *, grid: bool) -> Places:
+    return Places(target, are_pairs=not grid)
 
 
 def _fits(weights: Weights, source: Places, wanted: Places) -> bool:

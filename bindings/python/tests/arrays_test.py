@@ -311,3 +311,96 @@ ctypes.pythonapi.Py_IncRef(ctypes.py_object(held))
 """
     ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
+
+
+def test_messages_name_the_right_function():
+    tri = rondel.delaunay_lonlat([0, 90, 180, 270, 0], [0, 0, 0, 0, 90])
+    degrees = np.array([[2.3, 48.8], [13, 52], [12, 41]])
+    for call, error, message in (
+        (lambda: tri.nearest(2.3, 48.8), TypeError, r"rondel.unit_vectors\(lon, lat\)"),
+        (lambda: tri.nearest([2.3, 48.8]), ValueError, r"rondel.unit_vectors\(lon, lat\)"),
+        (lambda: tri.k_nearest([2.3, 48.8], 2), ValueError, r"rondel.unit_vectors\(lon, lat\)"),
+        (lambda: rondel.delaunay(degrees), ValueError, r"rondel.unit_vectors\(lon, lat\)"),
+        (lambda: rondel.SphericalVoronoi(degrees), ValueError, "SphericalVoronoi.from_lonlat"),
+        (lambda: rondel.delaunay_lonlat(["2", "3"], [1, 2]), TypeError, "lon .* numbers, not text"),
+        (lambda: rondel.unit_vectors([1j], [2]), TypeError, "not complex numbers"),
+    ):
+        with pytest.raises(error, match=message):
+            call()
+
+
+def test_geometries_are_no_numbers():
+    shapely = pytest.importorskip("shapely")
+    points = [shapely.Point(1, 2), shapely.Point(3, 4)]
+    with pytest.raises(TypeError, match="lon must be real numbers"):
+        rondel.delaunay_lonlat(points, [1, 2])
+    geopandas = pytest.importorskip("geopandas")
+    with pytest.raises(TypeError, match="lon must be real numbers, not geometries"):
+        rondel.delaunay_lonlat(geopandas.GeoSeries(points), [1, 2])
+
+
+def test_tables_are_rows_of_numbers():
+    pandas = pytest.importorskip("pandas")
+    table = pandas.DataFrame(np.eye(3), columns=list("xyz"))
+    assert rondel.delaunay(table).npoints == 3
+
+
+def test_errors_about_no_array_have_no_index():
+    tri = rondel.delaunay(clouds.uniform(20))
+    with pytest.raises(rondel.InvalidInput, match="angle -1 is negative") as caught:
+        tri.within([0, 0, 1], -1)
+    assert caught.value.index is None
+    assert rondel.InvalidInput("wrong").index is None
+    with pytest.raises(rondel.InvalidInput, match="not finite") as caught:
+        tri.nearest([[0, 0, 1], [0, 0, np.nan]])
+    assert caught.value.index == 1
+
+
+def test_targets_are_called_targets():
+    lon, lat = [0, 90, 180, 270, 0], [0, 0, 0, 0, 90]
+    tri = rondel.delaunay_lonlat(lon, lat)
+    values = np.arange(5.0)
+    far = np.zeros(20)
+    far[17] = 91
+    for call in (
+        lambda: tri.interpolate_winds(values, values, np.zeros(20), far),
+        lambda: rondel.SphericalInterpolator((lon, lat), values)(np.zeros(20), far),
+        lambda: rondel.SphericalInterpolator((lon, lat), values)(np.stack([far, far], axis=-1)),
+        lambda: rondel.interpolate(lon, lat, values, np.zeros(20), far),
+    ):
+        with pytest.raises(
+            rondel.InvalidInput, match=r"^target 17: latitude 91 is outside"
+        ) as caught:
+            call()
+        assert caught.value.index == 17
+    with pytest.raises(rondel.InvalidInput, match=r"^site 4: latitude 90.5 is outside"):
+        rondel.interpolate(lon, [0, 0, 0, 0, 90.5], values, 0, 0)
+
+
+def test_errors_of_files_have_the_number_of_the_system(tmp_path):
+    lost = tmp_path / "lost" / "w.nc"
+    with pytest.raises(FileNotFoundError) as caught:
+        rondel.read_weights(lost)
+    assert (caught.value.errno, caught.value.filename) == (2, str(lost))
+    folder = tmp_path / "folder.nc"
+    folder.mkdir()
+    with pytest.raises(IsADirectoryError):
+        rondel.read_weights(folder)
+    empty = tmp_path / "empty.nc"
+    empty.write_bytes(b"")
+    with pytest.raises(OSError, match="empty") as caught:
+        rondel.read_weights(empty)
+    assert caught.value.errno is None
+
+
+def test_completion_shows_what_is_for_users():
+    import rondel.distributed
+    import rondel.mesh
+    import rondel.out_of_core
+
+    assert {"delaunay", "mesh", "distributed", "__version__"} < set(dir(rondel))
+    for module in (rondel, rondel.mesh, rondel.distributed, rondel.out_of_core):
+        names = dir(module)
+        assert set(module.__all__) <= set(names)
+        assert not {"np", "Any", "TYPE_CHECKING", "annotations", "as_floats", "Path"} & set(names)
+        assert all(hasattr(module, name) for name in names)

@@ -232,6 +232,34 @@ def test_weights_are_kept(tmp_path):
     assert repr(regridder).startswith("<rondel.Regridder: 36 x 72 to 18 x 36, conservative, ")
 
 
+def test_files_as_in_xesmf(tmp_path):
+    path = tmp_path / "weights.nc"
+    with pytest.raises(ValueError, match="reuse_weights needs filename or weights"):
+        rondel.Regridder(FINE, COARSE, "conservative", reuse_weights=True)
+    with pytest.raises(FileNotFoundError):
+        rondel.Regridder(FINE, COARSE, "conservative", filename=path, reuse_weights=True)
+    first = rondel.Regridder(FINE, COARSE, "conservative", filename=path)
+    assert not path.exists()
+    assert first.filename == path
+    first.to_netcdf()
+    again = rondel.Regridder(FINE, COARSE, "conservative", filename=path, reuse_weights=True)
+    values = np.random.default_rng(8).normal(size=(36, 72))
+    assert np.array_equal(again(values), first(values))
+    kept = rondel.Regridder(FINE, COARSE, "conservative", reuse_weights=True, weights=first.weights)
+    assert np.array_equal(kept(values), first(values))
+    with pytest.raises(ValueError, match="to_netcdf\\(\\) needs the name of a file"):
+        kept.to_netcdf()
+
+
+def test_tables_are_points():
+    pandas = pytest.importorskip("pandas")
+    table = pandas.DataFrame({"lon": [2.0, 90], "lat": [48.0, -33]})
+    regridder = rondel.Regridder(FINE, table, "nearest_s2d")
+    assert regridder.shape_out == (2,)
+    with pytest.raises(TypeError, match=r"places are a Dataset.*, not ndarray"):
+        rondel.Regridder(FINE, np.zeros((3, 2)), "bilinear")
+
+
 def test_refused():
     with pytest.raises(ValueError, match="method must be one of"):
         rondel.Regridder(FINE, COARSE, "patch")

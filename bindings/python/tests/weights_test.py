@@ -142,3 +142,30 @@ def test_wrong_arrays():
         WEIGHTS.apply(np.ones(3))
     with pytest.raises(ValueError, match="most_missing must be from 0 to 1"):
         WEIGHTS.apply(VALUES, skipna=True, most_missing=2)
+
+
+def test_files_of_another_kind_are_named(tmp_path):
+    path = tmp_path / "weights.nc"
+    WEIGHTS.to_netcdf(path)
+    with pytest.raises(
+        ValueError, match=r"weights.nc: no .npz file; rondel.read_weights\(\) reads"
+    ):
+        rondel.Weights.load(path)
+    wide = tmp_path / "wide.npz"
+    arrays = {"indptr": np.zeros(73, int), "indices": np.zeros(0, int), "data": np.zeros(0)}
+    np.savez(wide, **arrays, shape=np.array([72, 2**40]), format=np.array(b"csr"))
+    with pytest.raises(
+        ValueError, match=r"wide.npz: shape .* must have from 0 to 2147483647 columns"
+    ):
+        rondel.Weights.load(wide)
+
+
+def test_negative_areas_are_refused(tmp_path):
+    areas = np.ones(WEIGHTS.shape[1])
+    areas[3] = -1
+    with pytest.raises(
+        rondel.InvalidInput, match=r"areas\[3\] is -1.0, which is no area"
+    ) as caught:
+        WEIGHTS.to_netcdf(tmp_path / "weights.nc", site_areas=areas)
+    assert caught.value.index == 3
+    assert not (tmp_path / "weights.nc").exists()

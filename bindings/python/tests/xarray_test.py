@@ -19,6 +19,11 @@ pytestmark = pytest.mark.skipif(xarray is None, reason="needs xarray")
 LON, LAT = rondel.lonlat(clouds.uniform(120)).T
 TEMPERATURE = np.random.default_rng(0).normal(size=(3, 120))
 AXES = (np.arange(0, 360, 30.0), np.arange(-90, 91, 30.0))
+EAST = {"standard_name": "longitude", "units": "degrees_east"}
+NORTH = {"standard_name": "latitude", "units": "degrees_north"}
+GRID = xarray and xarray.Dataset(
+    coords={"lon": ("lon", AXES[0], EAST), "lat": ("lat", AXES[1], NORTH)}
+)
 
 
 def unstructured(**names):
@@ -41,7 +46,7 @@ def expected(values, method="sibson"):
 
 def test_to_a_grid():
     ds = unstructured()
-    found = ds.rondel.interpolate(AXES)
+    found = ds.rondel.interpolate(GRID)
     assert list(found.data_vars) == ["t", "height", "hour"]
     assert found.t.dims == ("time", "lat", "lon")
     assert found.t.dtype == np.float32
@@ -52,13 +57,13 @@ def test_to_a_grid():
     assert found.lon.attrs == {"standard_name": "longitude", "units": "degrees_east"}
     assert found.time.values.tolist() == [10, 20, 30]
     assert found.hour.identical(ds.hour)
-    one = ds.t.rondel.interpolate(AXES, "cubic")
-    assert one.identical(ds.rondel.interpolate(AXES, "cubic").t)
+    one = ds.t.rondel.interpolate(GRID, "cubic")
+    assert one.identical(ds.rondel.interpolate(GRID, "cubic").t)
 
 
 def test_between_all_kinds_of_grids():
     ds = unstructured()
-    grid = ds.rondel.interpolate(AXES)
+    grid = ds.rondel.interpolate(GRID)
     turned = xarray.broadcast(grid.lat, grid.lon)
     curved = xarray.Dataset(
         coords={
@@ -80,47 +85,102 @@ def test_between_all_kinds_of_grids():
 
 def test_weights_are_kept(tmp_path):
     ds = unstructured()
-    weights = ds.rondel.weights(AXES, "linear")
+    weights = ds.rondel.weights(GRID, "linear")
     weights.save(tmp_path / "weights.npz")
     for kept in (weights, rondel.Weights.load(tmp_path / "weights.npz")):
-        found = ds.rondel.interpolate(AXES, weights=kept)
-        assert found.identical(ds.rondel.interpolate(AXES, "linear"))
+        found = ds.rondel.interpolate(GRID, weights=kept)
+        assert found.identical(ds.rondel.interpolate(GRID, "linear"))
     for other in (ds.isel(cell=slice(None, None, -1)), ds.isel(cell=slice(50))):
         with pytest.raises(ValueError, match="weights are of other places"):
-            other.rondel.interpolate(AXES, weights=weights)
+            other.rondel.interpolate(GRID, weights=weights)
     with pytest.raises(ValueError, match="weights are of other places"):
-        ds.rondel.interpolate((AXES[0] + 1, AXES[1]), weights=weights)
+        ds.rondel.interpolate((AXES[0] + 1, AXES[1]), grid=True, weights=weights)
 
 
 def test_missing_values():
     ds = unstructured()
     ds.t[1, 40] = np.nan
-    assert np.isnan(ds.rondel.interpolate(AXES).t).any()
-    assert not np.isnan(ds.rondel.interpolate(AXES, skipna=True).t).any()
+    assert np.isnan(ds.rondel.interpolate(GRID).t).any()
+    assert not np.isnan(ds.rondel.interpolate(GRID, skipna=True).t).any()
     away = ds.isel(cell=LAT > 40).rondel
-    assert np.isnan(away.interpolate(AXES).t.sel(lat=-60)).all()
-    assert not np.isnan(away.interpolate(AXES, outside="nearest", skipna=True).t).any()
+    assert np.isnan(away.interpolate(GRID).t.sel(lat=-60)).all()
+    assert not np.isnan(away.interpolate(GRID, outside="nearest", skipna=True).t).any()
 
 
 def test_dask_stays_lazy():
     dask = pytest.importorskip("dask.array")
     ds = unstructured()
-    lazy = ds.chunk(time=1, cell=50).rondel.interpolate(AXES)
+    lazy = ds.chunk(time=1, cell=50).rondel.interpolate(GRID)
     assert isinstance(lazy.t.data, dask.Array)
     assert lazy.t.dtype == np.float32
-    assert np.array_equal(lazy.t, ds.rondel.interpolate(AXES).t)
+    assert np.array_equal(lazy.t, ds.rondel.interpolate(GRID).t)
 
 
 def test_what_is_not_found():
     ds = unstructured(lon="a", lat="b")
     with pytest.raises(ValueError, match="no coordinate has the longitudes: say lon=NAME"):
-        ds.rondel.interpolate(AXES)
-    found = ds.rondel.interpolate(AXES, lon="a", lat="b")
-    assert found.t.identical(unstructured().rondel.interpolate(AXES).t)
+        ds.rondel.interpolate(GRID)
+    found = ds.rondel.interpolate(GRID, lon="a", lat="b")
+    assert found.t.identical(unstructured().rondel.interpolate(GRID).t)
     twice = unstructured().assign_coords(longitude=("cell", LON))
     with pytest.raises(ValueError, match="lon and longitude may be the longitudes"):
-        twice.rondel.interpolate(AXES)
+        twice.rondel.interpolate(GRID)
     with pytest.raises(ValueError, match=r"lat of a grid must have shape \(n,\)"):
-        unstructured().rondel.interpolate((AXES[0], AXES[1][:, None]))
+        unstructured().rondel.interpolate((AXES[0], AXES[1][:, None]), grid=True)
     with pytest.raises(ValueError, match="method must be one of"):
-        unstructured().rondel.interpolate(AXES, "bilinear")
+        unstructured().rondel.interpolate(GRID, "bilinear")
+
+
+@pytest.mark.parametrize("shape", [(), (7,), (2, 3)])
+def test_tuples_are_pairs(shape):
+    rng = np.random.default_rng(4)
+    lon, lat = rng.uniform(-180, 180, shape), rng.uniform(-80, 80, shape)
+    ds = unstructured()
+    found = ds.rondel.interpolate((lon, lat), "linear")
+    assert found.t.shape == (*ds.t.shape[:-1], *shape)
+    assert np.array_equal(
+        found.t, rondel.interpolate(LON, LAT, ds.t, lon, lat, "linear").astype("f4")
+    )
+    weights = ds.rondel.weights((lon, lat), "linear")
+    assert ds.rondel.interpolate((lon, lat), weights=weights).identical(found)
+
+
+def test_tuples_are_broadcast_or_axes_of_a_grid():
+    ds = unstructured()
+    grid = ds.rondel.interpolate(GRID)
+    asked = ds.rondel.interpolate(AXES, grid=True)
+    assert asked.t.dims == ("time", "lat", "lon")
+    assert np.array_equal(asked.t, grid.t)
+    lists = tuple(values.tolist() for values in AXES)
+    assert ds.rondel.interpolate(lists, grid=True).identical(asked)
+    curved = ds.rondel.interpolate((AXES[0], AXES[1][:, None]))
+    assert curved.t.dims == ("time", "y", "x")
+    assert np.array_equal(curved.t, grid.t)
+    named = ds.rondel.interpolate((GRID.lon, GRID.lat))
+    assert np.array_equal(named.t, grid.t)
+    with pytest.raises(ValueError, match=r"shapes \(12,\) and \(7,\), but are pairs; grid=True"):
+        ds.rondel.interpolate(AXES)
+    same = AXES[0][:7], AXES[1]
+    assert ds.rondel.interpolate(same).t.shape == (len(ds.time), 7)
+    assert ds.rondel.interpolate(same, grid=True).t.shape == (len(ds.time), 7, 7)
+
+
+def test_tables_are_points():
+    pandas = pytest.importorskip("pandas")
+    ds = unstructured()
+    wanted = ds.rondel.interpolate(([2.5, -70], [48.5, 10]), "linear").t
+    table = pandas.DataFrame({"name": ["a", "b"], "Latitude": [48.5, 10], "Lon": [2.5, -70]})
+    assert np.array_equal(ds.rondel.interpolate(table, "linear").t, wanted)
+    with pytest.raises(ValueError, match="no column of the table has the longitudes"):
+        ds.rondel.interpolate(table[["name", "Latitude"]])
+    with pytest.raises(ValueError, match="columns Lon and longitude may be the lon"):
+        ds.rondel.interpolate(table.assign(longitude=1.0))
+    with pytest.raises(TypeError, match="not list"):
+        ds.rondel.interpolate([[2.5, 48.5]])
+    geopandas = pytest.importorskip("geopandas")
+    points = geopandas.GeoSeries.from_xy(table["Lon"], table["Latitude"], crs=4326)
+    frame = geopandas.GeoDataFrame(geometry=points)
+    for known in (frame, frame.to_crs(3857)):
+        assert np.allclose(ds.rondel.interpolate(known, "linear").t, wanted, rtol=1e-6)
+    with pytest.raises(TypeError, match="places must be points"):
+        ds.rondel.interpolate(frame.to_crs(3857).set_geometry(points.to_crs(3857).buffer(1)))
