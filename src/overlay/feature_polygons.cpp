@@ -213,9 +213,23 @@ class FeatureCells {
 
   CellRings geodesic_cells() const {
     std::vector<KeyedArc> arcs;
+    CellRings given;
     for (std::size_t f = 0; f < features_.rings.size(); ++f) {
       const std::vector<io::LonLatRing>& rings = features_.rings[f];
-      for (Index r = 0; r < rings.size(); ++r) append_geodesic(f, r, arcs);
+      for (Index r = 0; r < rings.size(); ++r) {
+        const std::size_t first = arcs.size();
+        append_geodesic(f, r, arcs);
+        for (std::size_t k = first; k < arcs.size(); ++k) {
+          given.corners.push_back(static_cast<Index>(k));
+          given.points.push_back(arcs[k].from);
+        }
+        given.rings.push_back(arcs.size());
+      }
+      given.cells.push_back(given.rings.size() - 1);
+    }
+    for (const CrossingCells& pair : crossing_cells(given, quiet())) {
+      if (pair.first != pair.second) continue;
+      refuse(pair.first, "the polygon crosses itself at " + text_of_place(pair.place));
     }
     return rings_around(arcs, features_.rings.size(), execution_.threads);
   }

@@ -79,7 +79,8 @@ struct LinePiece {
 double bulge_deg(const LonLat& west, const LonLat& east) {
   const double width = (east.lon_deg - west.lon_deg) * rad_per_deg;
   const double height = std::abs(east.lat_deg - west.lat_deg) * rad_per_deg;
-  const auto [near, far] = std::minmax(std::abs(west.lat_deg), std::abs(east.lat_deg));
+  const double near = std::min(std::abs(west.lat_deg), std::abs(east.lat_deg));
+  const double far = std::max(std::abs(west.lat_deg), std::abs(east.lat_deg));
   const bool meets_equator = west.lat_deg * east.lat_deg < 0;
   const auto [sine, cosine] = exact::sine_cosine_of_degrees(far);
   const double most_cosine = meets_equator ? 1 : exact::sine_cosine_of_degrees(near).cosine;
