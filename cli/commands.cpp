@@ -163,6 +163,11 @@ Command add_voronoi_command(CLI::App& tool) {
       {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
       "What joins positions of --clip and --densify: lonlat (default; straight in\n"
       "longitude and latitude, RFC 7946) or geodesic (great circles)");
+  add_word<PolygonOverlap>(
+      *parser, "--overlap", options->overlap,
+      {{"error", PolygonOverlap::error}, {"first", PolygonOverlap::first}},
+      "What becomes of a place that several polygons of --clip-value or --densify have:\n"
+      "error (default: two of them are named) or first (it is of the first one)");
   parser
       ->add_option("--group", options->group,
                    "Join the cells of all sites with the same text in this column; sites without\n"

@@ -42,7 +42,13 @@ CellSide side_of_mesh(const FileName& file, const RemapCommandOptions& options, 
 
 CellSide side_of_polygons(const FileName& file, const RemapCommandOptions& options,
                           const Job& job) {
-  PolygonTable table = read_polygons(file, {.edges = options.edges}, job.execution());
+  // Features are told by their names, cells by their numbers.
+  const bool is_refused = options.remap.overlap == CellOverlap::error;
+  PolygonTable table =
+      read_polygons(file,
+                    {.edges = options.edges,
+                     .overlap = is_refused ? PolygonOverlap::error : PolygonOverlap::keep},
+                    job.execution());
   try {
     Partition partition(table.cells, job.execution());
     WeightSide side;

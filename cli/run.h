@@ -32,6 +32,7 @@ struct VoronoiOptions {
   std::string clip;        ///< --clip; empty: whole cells
   std::string clip_value;  ///< --clip-value; empty: what lies in any of the polygons
   PolygonEdges edges = PolygonEdges::lonlat;
+  PolygonOverlap overlap = PolygonOverlap::error;
   std::string group;           ///< --group; empty: a cell a site
   double densify_km = 0;       ///< --densify; 0: the input has sites, otherwise lines and polygons
   double earth_radius_km = 0;  ///< --earth-radius; 0: not given, and no areas in square kilometres

@@ -138,45 +138,21 @@ Features features_of(const VoronoiOptions& options, Cut cut, const Groups& group
   return made;
 }
 
-std::string feature_name(const PolygonTable& polygons, Index feature) {
-  std::string text = std::to_string(feature);
-  for (const Column& column : polygons.columns) {
-    if (column.name != "name" && column.name != "NAME") continue;
-    const std::uint64_t begin = feature == 0 ? 0 : column.ends[feature - 1];
-    return text + " (" + column.text.substr(begin, column.ends[feature] - begin) + ')';
-  }
-  return text;
-}
-
-// Polygons that overlap are an error of the file, but of few cells.
-void warn_of_crossings(const PolygonTable& polygons, const Execution& execution) {
-  const std::vector<CrossingCells> found = crossing_cells(polygons.cells, execution);
-  if (found.empty()) return;
-  const CrossingCells& one = found.front();
-  const LonLat place = lonlats(std::vector<Point>{one.place})[0];
-  const std::string what = one.first == one.second
-                               ? "feature " + feature_name(polygons, one.first) + " crosses itself"
-                               : "features " + feature_name(polygons, one.first) + " and " +
-                                     feature_name(polygons, one.second) + " cross";
-  const std::string more =
-      found.size() > 1 ? ", and others (" + std::to_string(found.size()) + " in all)" : "";
-  std::fprintf(stderr, "rondel: %s: %s at %.4f %.4f%s; cells overlap there\n",
-               polygons.name.c_str(), what.c_str(), place.lon_deg, place.lat_deg, more.c_str());
-}
-
 struct Regions {
   Partition partition;
   Groups values;  ///< by --clip-value
 };
 Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
+  // What lies in any of them does not depend on which of them it is.
+  const PolygonOverlap overlap =
+      options.clip_value.empty() ? PolygonOverlap::first : options.overlap;
   const PolygonTable polygons =
-      read_polygons({options.clip, {}}, {.edges = options.edges}, execution);
+      read_polygons({options.clip, {}}, {.edges = options.edges, .overlap = overlap}, execution);
   Groups values;
   if (!options.clip_value.empty()) {
     values =
         groups_of(column_of(polygons.columns, polygons.name, options.clip_value, "--clip-value"));
   }
-  if (!options.common.quiet) warn_of_crossings(polygons, execution);
   return {Partition(polygons.cells, execution), std::move(values)};
 }
 
@@ -268,7 +244,8 @@ ExitStatus write_cells_of_features(const VoronoiOptions& options) {
   Features made;
   job.time(Stage::dual, [&] {
     const Execution execution = job.execution();
-    table = read_features(options.common.source(), {.edges = options.edges}, execution);
+    table = read_features(options.common.source(),
+                          {.edges = options.edges, .overlap = options.overlap}, execution);
     Groups groups;
     if (!options.group.empty()) {
       groups = groups_of(column_of(table.columns, table.name, options.group, "--group"));

@@ -1,32 +1,51 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells are put into layers in which none overlap, as few as a first fit finds. Layer after layer is laid over those
-// before, each filled up to a cover: every piece belongs to the least cell that it is of.
+// Cells that overlap others are put into layers in which none do, as few as a first fit finds. Layer after layer is laid
+// over those before, each filled up to a cover: every piece belongs to the least cell that it is of. Where sides of two
+// cells cross, each cell on either side overlaps one of the two, or ends there: so the others keep their corners.
 #include "overlay/first_of_cells.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "overlay/same_nodes.h"
 #include "rondel/partition.h"
 
 namespace rondel::overlay {
 namespace {
 
-// The layer of each cell.
+constexpr std::size_t no_layer = static_cast<std::size_t>(-1);
+
+// The layer of each cell that overlaps another one.
 std::vector<std::size_t> layers_of(std::size_t num_cells, std::span<const CrossingCells> overlaps) {
+  std::vector<std::size_t> layers(num_cells, no_layer);
   std::vector<std::vector<Index>> earlier(num_cells);
+  for (const CrossingCells& pair : overlaps) layers[pair.first] = layers[pair.second] = 0;
   for (const CrossingCells& pair : overlaps) earlier[pair.second].push_back(pair.first);
-  std::vector<std::size_t> layers(num_cells, 0);
   std::vector<std::size_t> taken;
   for (std::size_t c = 0; c < num_cells; ++c) {
+    if (layers[c] == no_layer) continue;
     taken.clear();
     for (const Index other : earlier[c]) taken.push_back(layers[other]);
     while (std::ranges::find(taken, layers[c]) != taken.end()) ++layers[c];
   }
   return layers;
+}
+
+// Appends a cell of `from`, whose points begin at `first_point`.
+void append_cell(const CellRings& from, std::size_t cell, std::size_t first_point, CellRings& to) {
+  if (from.is_whole(cell)) to.whole.push_back(static_cast<Index>(to.num_cells()));
+  for (std::uint64_t r = from.cells[cell]; r < from.cells[cell + 1]; ++r) {
+    for (std::uint64_t k = from.rings[r]; k < from.rings[r + 1]; ++k) {
+      to.corners.push_back(static_cast<Index>(first_point + from.corners[k]));
+    }
+    to.rings.push_back(to.corners.size());
+  }
+  to.cells.push_back(to.rings.size() - 1);
 }
 
 // Those of one layer; the others are empty.
@@ -36,15 +55,10 @@ CellRings cells_of_layer(const CellRings& cells, const std::vector<std::size_t>&
   kept.points = cells.points;
   for (std::size_t c = 0; c < cells.num_cells(); ++c) {
     if (layers[c] == layer) {
-      if (cells.is_whole(c)) kept.whole.push_back(static_cast<Index>(c));
-      for (std::uint64_t r = cells.cells[c]; r < cells.cells[c + 1]; ++r) {
-        kept.corners.insert(
-            kept.corners.end(), cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r]),
-            cells.corners.begin() + static_cast<std::ptrdiff_t>(cells.rings[r + 1]));
-        kept.rings.push_back(kept.corners.size());
-      }
+      append_cell(cells, c, 0, kept);
+    } else {
+      kept.cells.push_back(kept.rings.size() - 1);
     }
-    kept.cells.push_back(kept.rings.size() - 1);
   }
   return kept;
 }
@@ -71,7 +85,10 @@ CellRings first_of_cells(const CellRings& cells, std::span<const CrossingCells> 
   if (overlaps.empty()) return cells;
   const std::size_t n = cells.num_cells();
   const std::vector<std::size_t> layers = layers_of(n, overlaps);
-  const std::size_t num_layers = *std::ranges::max_element(layers) + 1;
+  std::size_t num_layers = 1;
+  for (const std::size_t layer : layers) {
+    if (layer != no_layer) num_layers = std::max(num_layers, layer + 1);
+  }
   CellRings all = with_outside(cells_of_layer(cells, layers, 0), execution);
   for (std::size_t layer = 1; layer < num_layers; ++layer) {
     const CellRings next = with_outside(cells_of_layer(cells, layers, layer), execution);
@@ -83,10 +100,17 @@ CellRings first_of_cells(const CellRings& cells, std::span<const CrossingCells> 
     }
     all = dissolve(pieces.rings, owners, n + 1, execution);
   }
-  std::vector<Index> numbers(n + 1);
-  for (std::size_t c = 0; c < n; ++c) numbers[c] = static_cast<Index>(c);
-  numbers[n] = no_index;
-  return dissolve(all, numbers, n, execution);
+  CellRings result;
+  result.points = cells.points;
+  result.points.insert(result.points.end(), all.points.begin(), all.points.end());
+  for (std::size_t c = 0; c < n; ++c) {
+    const bool is_kept = layers[c] == no_layer;
+    append_cell(is_kept ? cells : all, c, is_kept ? 0 : cells.points.size(), result);
+  }
+  Distinct<Point> places = distinct(result.points);
+  for (Index& corner : result.corners) corner = places.numbers[corner];
+  result.points = std::move(places.values);
+  return result;
 }
 
 }  // namespace rondel::overlay

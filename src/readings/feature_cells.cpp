@@ -5,16 +5,14 @@
 // of them and joined to its feature.
 #include "rondel/feature_cells.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "overlay/first_of_cells.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/partition.h"
@@ -54,43 +52,18 @@ FeatureLines with_borders(const FeatureLines& lines, const CellRings& polygons) 
   return all;
 }
 
-// The cells, and one more that is all that is in none of them, if there is any.
-CellRings with_outside(CellRings cells, const Execution& execution) {
-  const std::size_t n = cells.num_cells();
-  const CellRings all = dissolve(cells, std::vector<Index>(n, 0), 1, execution);
-  for (std::size_t r = 0; r + 1 < all.rings.size(); ++r) {
-    for (std::uint64_t k = all.rings[r + 1]; k-- > all.rings[r];) {
-      cells.corners.push_back(static_cast<Index>(cells.points.size()) + all.corners[k]);
-    }
-    cells.rings.push_back(cells.corners.size());
-  }
-  cells.points.insert(cells.points.end(), all.points.begin(), all.points.end());
-  cells.cells.push_back(cells.rings.size() - 1);
-  return cells;
-}
-
-void require_no_crossing(const CellRings& polygons, const Execution& execution) {
-  const std::vector<CrossingCells> crossed = crossing_cells(polygons, execution);
-  if (crossed.empty()) return;
-  const CrossingCells& one = crossed.front();
+void require_disjoint(const CellRings& polygons, const Execution& execution) {
+  const std::vector<CrossingCells> overlaps =
+      overlapping_cells(polygons, {.threads = execution.threads, .stop = execution.stop});
+  if (overlaps.empty()) return;
+  const CrossingCells& one = overlaps.front();
   const LonLat place = lonlats(std::vector<Point>{one.place}).front();
-  throw InvalidInput("polygon " + std::to_string(one.first) + " crosses " +
+  throw InvalidInput("polygon " + std::to_string(one.first) + " overlaps " +
                          (one.first == one.second ? std::string("itself")
                                                   : "polygon " + std::to_string(one.second)) +
                          " at " + system::shortest_text(place.lon_deg) + ' ' +
                          system::shortest_text(place.lat_deg),
                      one.first);
-}
-
-// Polygons of which one lies in another do not cross.
-void require_cover(const CellRings& cells) {
-  constexpr double rounding = 1e-9;
-  if (cells.corners.empty()) return;
-  double sum = 0;
-  for (const double area : areas(cells)) sum += area;
-  if (std::abs(sum - 4 * std::numbers::pi) > rounding) {
-    throw InvalidInput("polygons overlap, so that their cells are not a cover of the sphere");
-  }
 }
 
 // Cells, or pieces of them, and which feature each belongs to.
@@ -102,27 +75,26 @@ struct OwnedCells {
 OwnedCells owned_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
                        const Execution& execution) {
   const std::size_t n = lines.num_features();
-  const bool has_polygons = !polygons.corners.empty();
+  const bool has_polygons = !polygons.corners.empty() || !polygons.whole.empty();
   if (has_polygons && polygons.num_cells() != n) {
     throw InvalidInput("there are " + std::to_string(polygons.num_cells()) + " cells for " +
                            std::to_string(n) + " features",
                        polygons.num_cells());
   }
-  require_no_crossing(polygons, execution);
+  if (has_polygons) require_disjoint(polygons, execution);
   FeatureSites found =
       feature_sites(has_polygons ? with_borders(lines, polygons) : lines, tolerance, execution);
   Partition cells =
       Partition::voronoi(delaunay(Sites::view(found.sites), {}, execution), execution);
   if (!has_polygons) return {std::move(cells), std::move(found.features), std::nullopt};
-  const RegionPieces pieces =
-      intersection(cells, Partition(with_outside(polygons, execution), execution), execution);
+  const RegionPieces pieces = intersection(
+      cells, Partition(overlay::with_outside(polygons, execution), execution), execution);
   std::vector<Index> owners(pieces.num_pieces());
   for (std::size_t k = 0; k < owners.size(); ++k) {
     const bool is_outside = pieces.regions[k] == n;
     owners[k] = is_outside ? found.features[pieces.cells[k]] : pieces.regions[k];
   }
   CellRings joined = dissolve(pieces.rings, owners, n, execution);
-  require_cover(joined);
   return {Partition(pieces.rings, execution), std::move(owners), std::move(joined)};
 }
 

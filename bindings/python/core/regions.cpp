@@ -3,12 +3,10 @@
 
 #include "rondel/regions.h"
 
-#include <nanobind/stl/array.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -62,24 +60,12 @@ void add_region_functions(nb::module_& module) {
       nb::arg("cells"), nb::arg("regions"), nb::arg("groups").noconvert(), nb::arg("threads"),
       nb::arg("progress").none());
   module.def(
-      "crossing_cells",
-      [](const Partition& partition, unsigned threads) {
-        const auto found =
-            unlocked([&] { return crossing_cells(partition.rings(), {.threads = threads}); });
-        std::vector<std::tuple<Index, Index, std::array<double, 3>>> pairs;
-        pairs.reserve(found.size());
-        for (const auto& [first, second, place] : found) {
-          pairs.emplace_back(first, second, std::array{place.x, place.y, place.z});
-        }
-        return pairs;
-      },
-      nb::arg("partition"), nb::arg("threads"));
-  module.def(
       "feature_cells",
-      [](const std::string& path, double tolerance, bool is_geodesic, const Partition* within,
-         unsigned threads, const nb::object& listener) {
-        const PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic
-                                                          : PolygonEdges::lonlat};
+      [](const std::string& path, double tolerance, bool is_geodesic, unsigned overlap,
+         const Partition* within, unsigned threads, const nb::object& listener) {
+        const PolygonOptions options{
+            .edges = is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat,
+            .overlap = static_cast<PolygonOverlap>(overlap)};
         return watched(0, threads, listener, [&](const Execution& execution) {
           const FeatureTable table = read_features(path, options, execution);
           return within == nullptr
@@ -88,8 +74,8 @@ void add_region_functions(nb::module_& module) {
                                              execution);
         });
       },
-      nb::arg("path"), nb::arg("tolerance"), nb::arg("is_geodesic"), nb::arg("within").none(),
-      nb::arg("threads"), nb::arg("progress").none());
+      nb::arg("path"), nb::arg("tolerance"), nb::arg("is_geodesic"), nb::arg("overlap"),
+      nb::arg("within").none(), nb::arg("threads"), nb::arg("progress").none());
   module.def(
       "cell_rings",
       [](const Partition& partition) { return unlocked([&] { return partition.rings(); }); },

@@ -69,10 +69,12 @@ nb::tuple read_partition(const std::string& path, bool are_arcs, unsigned thread
                         table.remarks);
 }
 
-Partition read_polygon_partition(const std::string& path, bool is_geodesic, unsigned threads) {
+Partition read_polygon_partition(const std::string& path, bool is_geodesic, unsigned overlap,
+                                 unsigned threads) {
+  const PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat,
+                               .overlap = static_cast<PolygonOverlap>(overlap)};
   return unlocked([&] {
-    const PolygonEdges edges = is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat;
-    return Partition(read_polygons(path, {.edges = edges}, {.threads = threads}).cells,
+    return Partition(read_polygons(path, options, {.threads = threads}).cells,
                      {.threads = threads});
   });
 }
@@ -161,7 +163,7 @@ void add_remap(nb::module_& module) {
   module.def("corner_partition", &corner_partition, nb::arg("corners").noconvert(),
              nb::arg("of_each"), nb::arg("threads"));
   module.def("read_polygon_partition", &read_polygon_partition, nb::arg("path"),
-             nb::arg("is_geodesic"), nb::arg("threads"));
+             nb::arg("is_geodesic"), nb::arg("overlap"), nb::arg("threads"));
   module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::arg("order"),
              nb::arg("is_fracarea"), nb::arg("source_mask").noconvert(),
              nb::arg("target_mask").noconvert(), nb::arg("overlap"), nb::arg("threads"),

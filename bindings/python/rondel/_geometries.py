@@ -7,33 +7,51 @@ from __future__ import annotations
 import json
 import os
 import pathlib
+import re
 import tempfile
 from collections.abc import Callable, Iterable, Mapping
 from typing import Any, Literal, TypeAlias
+
+import numpy as np
 
 from . import _core
 from ._geo import write_named
 
 Edges: TypeAlias = Literal["lonlat", "geodesic"]
+PolygonOverlap: TypeAlias = Literal["keep", "error", "first"]
+
+_OVERLAPS = ("keep", "error", "first")  # in the order of the C++ enumeration
 
 
-def read_polygons(name: str, edges: Edges, threads: int) -> _core.Partition:
+def read_polygons(
+    name: str, edges: Edges, overlap: PolygonOverlap, threads: int
+) -> _core.Partition:
     """The polygons of a file of GeoJSON."""
-    is_geodesic = _is_geodesic(edges)
-    return _read(name, lambda file: _core.read_polygon_partition(file, is_geodesic, threads))
+    rules = _is_geodesic(edges), _number_of(overlap)
+    return _read(name, lambda file: _core.read_polygon_partition(file, *rules, threads))
 
 
-def polygons_of(geometries: Any, edges: Edges, threads: int) -> _core.Partition:
+def polygons_of(
+    geometries: Any, edges: Edges, overlap: PolygonOverlap, threads: int
+) -> _core.Partition:
     """The polygons of objects: a cell for each of them."""
-    return _of_objects(geometries, lambda name: read_polygons(name, edges, threads))
+    return _of_objects(geometries, lambda name: read_polygons(name, edges, overlap, threads))
 
 
-def features_of(features: Any, edges: Edges, read: Callable[[str, bool], Any]) -> Any:
-    """What is read of a file of GeoJSON, or of objects: `read` gets a file and the edges."""
-    is_geodesic = _is_geodesic(edges)
+def features_of(
+    features: Any, edges: Edges, overlap: PolygonOverlap, read: Callable[[str, bool, int], Any]
+) -> Any:
+    """What is read of a file of GeoJSON, or of objects: `read` gets a file and the rules."""
+    rules = _is_geodesic(edges), _number_of(overlap)
     if is_file(features):
-        return _read(os.fspath(features), lambda file: read(file, is_geodesic))
-    return _of_objects(features, lambda file: read(file, is_geodesic))
+        return _read(os.fspath(features), lambda file: read(file, *rules))
+    return _of_objects(features, lambda file: read(file, *rules))
+
+
+def _number_of(overlap: PolygonOverlap) -> int:
+    if overlap not in _OVERLAPS:
+        raise ValueError(f"overlap must be 'keep', 'error' or 'first', not {overlap!r}")
+    return _OVERLAPS.index(overlap)
 
 
 def _is_geodesic(edges: Edges) -> bool:
@@ -49,18 +67,36 @@ def _read(name: str, read: Callable[[str], Any]) -> Any:
 
 
 def _of_objects(geometries: Any, read: Callable[[str], Any]) -> Any:
+    collection = _collection(geometries)
     try:
-        text = json.dumps(_collection(geometries), allow_nan=False)
+        text = json.dumps(collection, allow_nan=False)
     except ValueError:
-        raise ValueError("geometries: a number is not finite") from None
+        raise ValueError(
+            f"{_first_not_finite(collection)} has a position that is not finite"
+        ) from None
     with tempfile.TemporaryDirectory() as folder:
         name = str(pathlib.Path(folder) / "geometries.geojson")
         pathlib.Path(name).write_text(text, "utf-8")
         try:
             return read(name)
         except OSError as error:
-            problem = str(error).partition(name)[2].lstrip("0123456789: ")
+            problem = re.sub(r"^[:0-9]*: ", "", str(error).partition(name)[2])
+            problem = re.sub(r"^feature(s?) (?=[0-9])", _word_of, problem)
             raise ValueError(f"geometries: {problem}") from None
+
+
+def _word_of(match: re.Match[str]) -> str:
+    return "geometries " if match[1] else "geometry "
+
+
+def _first_not_finite(collection: Mapping[str, Any]) -> str:
+    items = collection.get("features", collection.get("geometries", [collection]))
+    for i, item in enumerate(items):
+        try:
+            json.dumps(item, allow_nan=False)
+        except ValueError:
+            return f"geometry {i}"
+    return "what is beside the geometries"
 
 
 def is_file(regions: Any) -> bool:
@@ -73,6 +109,8 @@ def _collection(geometries: Any) -> dict[str, Any]:
     if crs is not None and not crs.is_geographic:
         geometries = geometries.to_crs(4326)
     geometries = getattr(geometries, "geometry", geometries)  # of a GeoDataFrame
+    if _is_box(geometries):
+        return _box(*map(float, geometries))
     known = _interface(geometries)
     if known is not None:
         return known
@@ -80,6 +118,25 @@ def _collection(geometries: Any) -> dict[str, Any]:
         kind = type(geometries).__name__
         raise TypeError(f"polygons must be geometries, a file, or a Partition, not {kind}")
     return {"type": "FeatureCollection", "features": [_feature(g) for g in geometries]}
+
+
+def _is_box(bounds: Any) -> bool:
+    """Whether it is west, south, east and north, as of shapely's and GeoPandas' bounds."""
+    return (
+        isinstance(bounds, (tuple, list, np.ndarray))
+        and len(bounds) == 4
+        and all(isinstance(bound, (int, float, np.number)) for bound in bounds)
+    )
+
+
+def _box(west: float, south: float, east: float, north: float) -> dict[str, Any]:
+    """Across the antimeridian if the west is east of the east (RFC 7946, section 5.2)."""
+    if east < west:
+        east += 360
+    if not (south < north and west < east):
+        raise ValueError(f"the box {west:g} {south:g} {east:g} {north:g} has no area")
+    corners = [(west, south), (east, south), (east, north), (west, north), (west, south)]
+    return {"type": "Polygon", "coordinates": [corners]}
 
 
 def _from_arrow(geometries: Any) -> Any:

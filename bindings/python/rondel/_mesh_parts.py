@@ -61,7 +61,7 @@ def removed_cells(
     for regions, value in ((inside, 1), (outside, 0)):
         if regions is None:
             continue
-        polygons = as_partition(regions, edges, threads)._partition
+        polygons = as_partition(regions, edges, "keep", threads)._partition
         found = _core.points_inside(points, polygons, as_threads(threads))
         removed |= found == value
     return removed.astype(np.uint8)

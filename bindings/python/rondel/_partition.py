@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, lonlat
 from ._geo import Path, write_named
-from ._geometries import Edges, polygons_of, read_polygons
+from ._geometries import Edges, PolygonOverlap, polygons_of, read_polygons
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 
@@ -217,6 +217,7 @@ class Partition(Described):
         *,
         sides: Sides = "parallels",
         edges: Edges = "lonlat",
+        overlap: PolygonOverlap = "keep",
         threads: int | None = None,
     ) -> Partition:
         """The cells of a file.
@@ -232,12 +233,16 @@ class Partition(Described):
         edges : {'lonlat', 'geodesic'}, optional
             What joins positions of polygons: straight lines in longitude and latitude (RFC 7946),
             or great circles.
+        overlap : {'keep', 'error', 'first'}, optional
+            What becomes of a place that several features of polygons have: cells overlap there, it
+            is refused with two of them, or it belongs to the first one.
         threads : int, optional
 
         Raises
         ------
         OSError
-            If the file cannot be read, with what is wrong in it.
+            If the file cannot be read, with what is wrong in it: rings that cross, holes outside of
+            their polygon, parts that overlap.
 
         Warns
         -----
@@ -249,7 +254,7 @@ class Partition(Described):
         name = os.fspath(path)
         count_of_threads = as_threads(threads)
         if name.lower().endswith((".geojson", ".json")):
-            return cls._of(read_polygons(name, edges, count_of_threads))
+            return cls._of(read_polygons(name, edges, overlap, count_of_threads))
         found: list[Any] = []
         write_named(
             name,
@@ -264,7 +269,12 @@ class Partition(Described):
 
     @classmethod
     def from_geometries(
-        cls, geometries: Any, *, edges: Edges = "lonlat", threads: int | None = None
+        cls,
+        geometries: Any,
+        *,
+        edges: Edges = "lonlat",
+        overlap: PolygonOverlap = "keep",
+        threads: int | None = None,
     ) -> Partition:
         """Polygons of other libraries, with holes and in several parts; each is a cell.
 
@@ -273,18 +283,18 @@ class Partition(Described):
         geometries : GeoDataFrame, GeoSeries, sequence or mapping
             Of GeoPandas; a sequence of geometries of shapely; a mapping of GeoJSON, or whatever
             has `__geo_interface__`; arrays and tables of GeoArrow. A projected
-            `crs` is undone.
-        edges : {'lonlat', 'geodesic'}, optional
+            `crs` is undone. Or a box: west, south, east, north in degrees.
+        edges, overlap
             As in `read`.
         threads : int, optional
 
         Raises
         ------
         ValueError
-            If a geometry is no polygon, or no place on the sphere.
+            If a geometry is no polygon, not valid, or no place on the sphere, with its number.
 
         """
-        return cls._of(polygons_of(geometries, edges, as_threads(threads)))
+        return cls._of(polygons_of(geometries, edges, overlap, as_threads(threads)))
 
     @classmethod
     def corners(cls, lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None) -> Partition:
@@ -416,7 +426,13 @@ def lonlat_grid(
     )
 
 
-def polygons(areas: Any, *, edges: Edges = "lonlat", threads: int | None = None) -> Partition:
+def polygons(
+    areas: Any,
+    *,
+    edges: Edges = "lonlat",
+    overlap: PolygonOverlap = "keep",
+    threads: int | None = None,
+) -> Partition:
     """Polygons as cells, with holes and in several parts, from a file or from another library.
 
     Parameters
@@ -424,7 +440,7 @@ def polygons(areas: Any, *, edges: Edges = "lonlat", threads: int | None = None)
     areas : path-like, GeoDataFrame, GeoSeries, sequence or mapping
         The name of a file, as `Partition.read` takes it, or what `Partition.from_geometries`
         takes.
-    edges : {'lonlat', 'geodesic'}, optional
+    edges, overlap
         As in `Partition.read`.
     threads : int, optional
 
@@ -437,8 +453,8 @@ def polygons(areas: Any, *, edges: Edges = "lonlat", threads: int | None = None)
 
     """
     if isinstance(areas, (str, os.PathLike)):
-        return Partition.read(areas, edges=edges, threads=threads)
-    return Partition.from_geometries(areas, edges=edges, threads=threads)
+        return Partition.read(areas, edges=edges, overlap=overlap, threads=threads)
+    return Partition.from_geometries(areas, edges=edges, overlap=overlap, threads=threads)
 
 
 def _as_lines(values: ArrayLike, name: str) -> FloatArray:

@@ -5,16 +5,15 @@
 from __future__ import annotations
 
 import io
-import warnings
 from collections.abc import Hashable, Sequence
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
 from . import _core
-from ._arrays import as_threads, lonlat
+from ._arrays import as_threads
 from ._geo import Path, Properties, polygon_frame, written
-from ._geometries import Edges, features_of, is_file, polygons_of
+from ._geometries import Edges, PolygonOverlap, features_of, is_file, polygons_of
 from ._partition import Partition
 from ._plot import plot_regions
 from ._properties import checked_properties, is_missing, json_cells
@@ -233,6 +232,7 @@ def clip_cells(
     *,
     values: ArrayLike | None = None,
     edges: Edges = "lonlat",
+    overlap: Literal["error", "first"] = "error",
     threads: int | None = None,
     progress: Progress = None,
 ) -> Regions:
@@ -242,13 +242,18 @@ def clip_cells(
     ----------
     regions : path-like, geometries or Partition
         A file of GeoJSON; a GeoDataFrame or GeoSeries; a geometry of shapely, a mapping of
-        GeoJSON, whatever has `__geo_interface__`, or a sequence of these; or a partition.
+        GeoJSON, whatever has `__geo_interface__`, or a sequence of these; a box of west, south,
+        east and north in degrees; or a partition.
     values : sequence, one for each of `regions`, optional
         Names of countries, kinds of soil: cells are cut where these change. None, NaN and NA: what
         is there is left out.
     edges : {'lonlat', 'geodesic'}, optional
         What joins positions of polygons: straight lines in longitude and latitude (RFC 7946), or
         great circles.
+    overlap : {'error', 'first'}, optional
+        What becomes of a place that several of the regions have, if there are `values`: it is
+        refused with two of them, or it belongs to the first one. Without values that makes no
+        difference.
     threads : int, optional
     progress : callable, optional
 
@@ -259,21 +264,18 @@ def clip_cells(
         that have something in common, sorted by site. Which lines cross is decided exactly;
         where two parts meet they have the same corners, bit by bit.
 
-    Warns
-    -----
-    UserWarning
-        If polygons cross each other, or themselves.
-
     Raises
     ------
     ValueError
-        If a geometry is no polygon, or no place on the sphere.
+        If a geometry is no polygon, not valid, or no place on the sphere, or geometries with values
+        overlap.
     OSError
         If the file cannot be read.
 
     """
     cells = Partition.voronoi(self, threads=threads)._partition
-    within = as_partition(regions, edges, threads)._partition
+    shared: PolygonOverlap = "first" if values is None else overlap
+    within = as_partition(regions, edges, shared, threads)._partition
     if values is None:
         found = _core.clip(cells, within, as_threads(threads), progress)
         return Regions._of(found, np.arange(len(self.points)), "site")
@@ -311,6 +313,7 @@ def feature_cells(
     *,
     radius_km: float = EARTH_RADIUS_KM,
     edges: Edges = "lonlat",
+    overlap: Literal["error", "first"] = "error",
     within: Any = None,
     threads: int | None = None,
     progress: Progress = None,
@@ -329,6 +332,9 @@ def feature_cells(
         Of the sphere on which that is measured.
     edges : {'lonlat', 'geodesic'}, optional
         What joins positions: straight lines in longitude and latitude (RFC 7946), or great circles.
+    overlap : {'error', 'first'}, optional
+        What becomes of a place that several polygons have: it is refused with two of them, or it
+        belongs to the first one.
     within : path-like, geometries or Partition, optional
         Regions to which the cells are cut, as `SphericalVoronoi.clip` takes them.
     threads : int, optional
@@ -343,7 +349,8 @@ def feature_cells(
     Raises
     ------
     ValueError
-        If something is no geometry, polygons cross or overlap, or the tolerance is not positive.
+        If something is no geometry, polygons are not valid or overlap, or the tolerance is not
+        positive.
     OSError
         If the file cannot be read.
 
@@ -356,35 +363,30 @@ def feature_cells(
     [340000000.0, 170000000.0]
 
     """
+    for name, value in (("tolerance_km", tolerance_km), ("radius_km", radius_km)):
+        if not float(value) > 0:
+            raise ValueError(f"{name} must be positive, not {float(value):g}")
     tolerance = float(tolerance_km) / float(radius_km)
-    if not tolerance > 0:
-        raise ValueError(
-            f"tolerance_km and radius_km must be positive, not {tolerance_km} and {radius_km}"
-        )
-    area = None if within is None else as_partition(within, edges, threads)._partition
+    area = None if within is None else as_partition(within, edges, "first", threads)._partition
     found = features_of(
         features,
         edges,
-        lambda name, is_geodesic: _core.feature_cells(
-            name, tolerance, is_geodesic, area, as_threads(threads), progress
+        overlap,
+        lambda name, is_geodesic, rule: _core.feature_cells(
+            name, tolerance, is_geodesic, rule, area, as_threads(threads), progress
         ),
     )
     return Regions._of(found, np.arange(found.num_cells), "feature")
 
 
-def as_partition(regions: Any, edges: Edges, threads: int | None) -> Partition:
+def as_partition(
+    regions: Any, edges: Edges, overlap: PolygonOverlap, threads: int | None
+) -> Partition:
     if isinstance(regions, Partition):
         return regions
     if is_file(regions):
-        found = Partition.read(regions, edges=edges, threads=threads)
-    else:
-        found = Partition._of(polygons_of(regions, edges, as_threads(threads)))
-    for first, second, place in _core.crossing_cells(found._partition, as_threads(threads))[:1]:
-        what = "itself" if first == second else f"polygon {second}"
-        lon, lat = lonlat(np.array(place))
-        message = f"polygon {first} crosses {what} at {lon:.4f} {lat:.4f}: cells overlap there"
-        warnings.warn(message, stacklevel=3)
-    return found
+        return Partition.read(regions, edges=edges, overlap=overlap, threads=threads)
+    return Partition._of(polygons_of(regions, edges, overlap, as_threads(threads)))
 
 
 def _dissolved(
