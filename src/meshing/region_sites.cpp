@@ -92,6 +92,7 @@ class RegionSites {
           static_cast<std::size_t>(begins[i]), static_cast<std::size_t>(begins[i + 1] - begins[i]));
       for (std::size_t k = 0; k < poles.size(); ++k) depths_[k] += depth_of_pole(of_region, k);
     }
+    for (int& depth : depths_) depth += static_cast<int>(regions.whole.size());
   }
 
   [[nodiscard]] bool has(const Point& q) const {
