@@ -87,7 +87,8 @@ def fixed_points(
         lines = features_of(
             along,
             edges,
-            lambda name, is_geodesic: _core.read_lines(name, is_geodesic, as_threads(threads)),
+            "keep",
+            lambda name, is_geodesic, _: _core.read_lines(name, is_geodesic, as_threads(threads)),
         )
     rows, left_out = _core.sites_along(lines, count, spacings, steps, gradient, as_threads(threads))
     return np.ascontiguousarray(np.concatenate([places, rows])), left_out

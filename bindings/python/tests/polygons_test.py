@@ -162,12 +162,12 @@ def test_polygons_are_what_they_are_or_an_error(kind):
         assert abs(clipped - area) <= 1e-12, polygon.wkt
 
 
-def test_unions_of_stars_and_slivers():
+def test_unions_of_disks():
     rng = np.random.default_rng(2)
     for _ in range(12):
         middle = rng.uniform((-100, -50), (100, 50))
-        given = [shapely.Polygon(star(rng, middle + rng.uniform(-5, 5, 2), 6, 7)) for _ in range(5)]
-        given = [g for g in given if g.is_valid]
+        middles = middle + rng.uniform(-4, 4, (5, 2))
+        given = [shapely.Point(p).buffer(rng.uniform(1, 6), quad_segs=3) for p in middles]
         given.append(given[0])
         union = shapely.union_all(given)
         area = CELLS.clip(given).areas.sum()
@@ -189,7 +189,8 @@ def test_neighbors_with_other_corners_share_their_borders():
         north = shapely.Polygon([a, *border, b, (b[0], 80), (a[0], 80)])
         south = shapely.Polygon([a, b, (b[0], -80), (a[0], -80)])
         cells = rondel.polygons([north, south], overlap="error")
-        assert len(CELLS.clip(cells).dissolve([0] * 40)._rings.partition(1).rings[1]) == 2
+        rings = CELLS.clip(cells).dissolve([0] * 40).partition().rings[1]
+        assert len(rings) == 2
         area = area_of(north) + area_of(south)
         assert abs(CELLS.clip([south, north]).areas.sum() - area) < 1e-5
 
@@ -226,7 +227,7 @@ def test_the_world_and_what_is_in_it():
     world, island = shapely.box(-180, -90, 180, 90), shapely.box(10, 10, 11, 11)
     cells = rondel.feature_cells([island, shapely.Polygon(world.exterior, [island.exterior])], 50)
     assert np.isclose(cells.areas.sum(), 4 * math.pi, rtol=1e-13)
-    assert np.isclose(cells.areas[0], area_of(island), rtol=1e-5)
+    assert np.isclose(cells.areas[0], area_of(island), rtol=1e-4)
     alone = rondel.feature_cells([world, {"type": "Point", "coordinates": [0, 0]}], 50)
     assert alone.areas.tolist() == [4 * math.pi, 0]
     both = rondel.polygons([island, world], overlap="first").areas
