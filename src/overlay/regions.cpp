@@ -33,7 +33,9 @@ using overlay::PieceArc;
 using overlay::Subdivision;
 
 constexpr std::size_t cells_per_block = 64;
-constexpr double half_of_sphere = 2 * std::numbers::pi;
+constexpr double sphere_area = 4 * std::numbers::pi;
+// Two cells that are larger have half of the sphere in common, so what has no border is all of it.
+constexpr double most_of_sphere = 3 * std::numbers::pi;
 
 // Of a piece of a cell of the first subdivision and one of the second, both by name.
 struct NamedArc {
@@ -139,12 +141,12 @@ void exchange(std::vector<NamedArc>& arcs) {
   for (NamedArc& arc : arcs) std::swap(arc.cell, arc.beyond);
 }
 
-// Of cells that have no ring although something was cut out of them: what is left of them is nothing or, where less than
-// half of the sphere is missing in both numbers by cell, the whole sphere.
+// Of cells that have no ring although something was cut out of them: what is left is nothing or the whole sphere, and it is
+// the sphere where both of what met there, or all that was joined, are most of it.
 std::vector<Index> whole_cells_of(const CellRings& cells, const auto& covered) {
   std::vector<Index> whole;
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
-    if (cells.cells[i] == cells.cells[i + 1] && covered(i) > half_of_sphere) {
+    if (cells.cells[i] == cells.cells[i + 1] && covered(i) > most_of_sphere) {
       whole.push_back(static_cast<Index>(i));
     }
   }
@@ -205,7 +207,7 @@ std::vector<Point> points_of(const CellRings& cells, std::uint64_t ring) {
 }
 
 double area_of_cell(const CellRings& cells, std::size_t cell) {
-  if (cells.is_whole(cell)) return 2 * half_of_sphere;
+  if (cells.is_whole(cell)) return sphere_area;
   overlay::RegionArea area;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
     area.add(points_of(cells, r));
@@ -264,7 +266,7 @@ RegionPieces intersection(const Partition& cells, const Partition& regions,
   for (std::size_t k = 0; k < pairs.size(); ++k) {
     if (all.cells[k] == all.cells[k + 1]) {
       if (std::min(cells.areas()[pairs[k].first], regions.areas()[pairs[k].second]) <=
-          half_of_sphere)
+          most_of_sphere)
         continue;
       result.rings.whole.push_back(static_cast<Index>(result.cells.size()));
     }

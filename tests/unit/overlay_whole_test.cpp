@@ -4,6 +4,7 @@
 // A cell that is the whole sphere has no border, and is not the same as a cell of which nothing is left.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 #include <numeric>
 #include <vector>
@@ -57,6 +58,26 @@ TEST(overlay_whole, clipping_by_it_changes_nothing) {
   ASSERT_EQ(pieces.num_pieces(), 1U);
   EXPECT_EQ(pieces.rings.whole, std::vector<Index>{0});
   EXPECT_EQ(areas(pieces.rings)[0], sphere);
+}
+
+// Two halves of the sphere with one border, each a little more than a half by rounding.
+TEST(overlay_whole, halves_are_apart) {
+  CellRings halves;
+  constexpr double angle = 0.4;
+  for (int k = 0; k < 5; ++k) {
+    const double at = 1.2 * k;
+    halves.points.push_back(unit_vector({at * 60, 10 * std::sin(at + angle)}));
+  }
+  halves.corners = {0, 1, 2, 3, 4, 4, 3, 2, 1, 0};
+  halves.rings = {0, 5, 10};
+  halves.cells = {0, 1, 2};
+  const Partition cells(halves);
+  const RegionPieces pieces = intersection(cells, cells);
+  EXPECT_EQ(pieces.num_pieces(), 2U);
+  EXPECT_TRUE(pieces.rings.whole.empty());
+  const Partition equator = Partition::voronoi(delaunay(std::vector<Point>{{0, 0, 1}, {0, 0, -1}}));
+  const RegionPieces of_equator = intersection(equator, equator);
+  EXPECT_TRUE(of_equator.rings.whole.empty());
 }
 
 TEST(overlay_whole, nothing_is_not_the_sphere) {
