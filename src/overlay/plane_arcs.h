@@ -17,7 +17,7 @@ namespace rondel::overlay {
 void append_divided(const LonLat& from, const LonLat& to, double tolerance,
                     std::vector<LonLat>& positions);
 
-// Sides divided further, until arcs lie to each other as the straight lines do (docs/theory/overlay.md): where one comes
+// Sides divided further, until arcs lie to each other as the straight lines do (docs/theory/polygons.md): where one comes
 // nearer to a corner than its arc may be from it, it gets a corner on that meridian.
 struct DividedSides {
   std::vector<LonLat> positions;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // read_polygons and read_features on files of any bytes: cells whose arrays fit, or a message of one line that begins
-// with the file's name; the cells have an area, and can be clipped to; the features have sites and cells.
+// with the file's name; the cells have an area, and can be clipped to; cells that were made disjoint do not overlap, and
+// are what the others cover; the features have sites and cells.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -31,7 +32,7 @@ void test_cells(const PolygonTable& table) {
     require(column.ends.size() == cells.num_cells(), "a property of each cell");
   }
   for (const double area : areas(cells)) {
-    require(area > -1e-9 && area < 4 * std::numbers::pi + 1e-9, "an area");
+    require(area > -1e-12 && area < 4 * std::numbers::pi + 1e-9, "an area");
   }
   const std::vector<CrossingCells> crossed = crossing_cells(cells);
   for (std::size_t i = 0; i < crossed.size(); ++i) {
@@ -49,6 +50,24 @@ void test_cells(const PolygonTable& table) {
     require(clip(Partition(clipped), Partition(cells)).num_cells() == sites.size(), "and again");
   } catch (const InvalidInput&) {  // polygons that cross themselves may have no sides
   }
+}
+
+double sum_of_areas(const CellRings& cells) {
+  double sum = 0;
+  for (const double area : areas(cells)) sum += area;
+  return sum;
+}
+
+void test_overlaps(const std::string& path, PolygonOptions options) {
+  const PolygonTable kept = read_polygons(path, options);
+  options.overlap = PolygonOverlap::first;
+  const PolygonTable first = read_polygons(path, options);
+  require(first.cells.num_cells() == kept.cells.num_cells(), "a cell of each feature");
+  require(sum_of_areas(first.cells) < 4 * std::numbers::pi + 1e-6, "not more than the sphere");
+  require(sum_of_areas(first.cells) < sum_of_areas(kept.cells) + 1e-6, "not more than all of them");
+  options.overlap = PolygonOverlap::error;
+  const PolygonTable apart = read_polygons(path, options);
+  require(apart.cells.corners == kept.cells.corners, "what does not overlap is as it was");
 }
 
 void test_features(const FeatureTable& table) {
@@ -95,6 +114,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const PolygonOptions options = {.edges = edges, .tolerance_deg = 1};
     fuzz::test_reader(path, [&] { fuzz::test_cells(read_polygons(path, options)); });
     fuzz::test_reader(path, [&] { fuzz::test_features(read_features(path, options)); });
+    fuzz::test_reader(path, [&] { fuzz::test_overlaps(path, options); });
   }
   return 0;
 }
