@@ -57,15 +57,15 @@ std::string text_of_fault(const std::vector<io::LonLatRing>& rings, const PlaneF
   const std::string first = fault.first == no_index ? "" : ring_name(rings, fault.first);
   const std::string at = " at " + text_of_place(fault.place);
   switch (fault.kind) {
-    case PlaneFault::Kind::crossing:
+    case PlaneFaultKind::crossing:
       return fault.first == fault.second ? first + " crosses itself" + at
                                          : first + " and " + second + " cross" + at;
-    case PlaneFault::Kind::overlap:
+    case PlaneFaultKind::overlap:
       return second + " lies in the polygon of " + first + at;
-    case PlaneFault::Kind::outside:
+    case PlaneFaultKind::outside:
       return second + ", a hole, does not lie inside of its polygon" +
              (first.empty() ? "" : " but in " + first) + at;
-    case PlaneFault::Kind::no_area:
+    case PlaneFaultKind::no_area:
       break;
   }
   return second + " runs to and fro along a line" + at;

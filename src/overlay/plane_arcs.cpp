@@ -140,7 +140,7 @@ std::vector<LonLat> divide_at(const PlaneCorners& corners, std::vector<LinePiece
 }
 
 PlaneCorners corners_at(std::span<const LonLat> positions) {
-  std::vector<PlaneCorners::Corner> corners;
+  std::vector<PlaneCorners::OwnedCorner> corners;
   corners.reserve(positions.size());
   for (const LonLat& p : positions) {
     if (!is_pole(p)) corners.push_back({p, no_index});

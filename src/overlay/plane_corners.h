@@ -17,13 +17,13 @@ namespace rondel::overlay {
 
 class PlaneCorners {
  public:
-  struct Corner {
+  struct OwnedCorner {
     LonLat position;
     Index owner;  // no_index: several
   };
 
-  explicit PlaneCorners(std::vector<Corner> corners) {
-    for (Corner& corner : corners) {
+  explicit PlaneCorners(std::vector<OwnedCorner> corners) {
+    for (OwnedCorner& corner : corners) {
       if (corner.position.lon_deg < -180 || corner.position.lon_deg > 180) {
         corner.position.lon_deg = std::remainder(corner.position.lon_deg, 360.0);
       }
@@ -31,10 +31,11 @@ class PlaneCorners {
       if (corner.position.lon_deg == 180) corner.position.lon_deg = -180;
       bands_[band_of(corner.position.lat_deg)].push_back(corner);
     }
-    for (std::vector<Corner>& band : bands_) {
-      std::ranges::sort(band, [](const Corner& p, const Corner& q) { return key(p) < key(q); });
+    for (std::vector<OwnedCorner>& band : bands_) {
+      std::ranges::sort(band,
+                        [](const OwnedCorner& p, const OwnedCorner& q) { return key(p) < key(q); });
       std::size_t kept = 0;
-      for (const Corner& corner : band) {
+      for (const OwnedCorner& corner : band) {
         if (kept > 0 && band[kept - 1].position == corner.position) {
           if (band[kept - 1].owner != corner.owner) band[kept - 1].owner = no_index;
         } else {
@@ -73,7 +74,7 @@ class PlaneCorners {
   }
 
  private:
-  static std::pair<double, double> key(const Corner& corner) {
+  static std::pair<double, double> key(const OwnedCorner& corner) {
     return {corner.position.lon_deg, corner.position.lat_deg};
   }
   static std::size_t band_of(double lat_deg) {
@@ -81,20 +82,20 @@ class PlaneCorners {
   }
 
   template <class Visit>
-  static void visit_band(const std::vector<Corner>& band, double low, double high,
+  static void visit_band(const std::vector<OwnedCorner>& band, double low, double high,
                          const Visit& visit) {
     // Corners are at -180 and east of it, below 180.
     const double first_turn = 360 * std::floor((low + 180) / 360);
     for (double turn = first_turn; turn - 180 <= high; turn += 360) {
-      auto corner = std::ranges::lower_bound(band, low - turn, {},
-                                             [](const Corner& c) { return c.position.lon_deg; });
+      auto corner = std::ranges::lower_bound(
+          band, low - turn, {}, [](const OwnedCorner& c) { return c.position.lon_deg; });
       for (; corner != band.end() && corner->position.lon_deg + turn <= high; ++corner) {
         visit(LonLat{corner->position.lon_deg + turn, corner->position.lat_deg}, corner->owner);
       }
     }
   }
 
-  std::array<std::vector<Corner>, 180> bands_;  // a degree of latitude each; sorted
+  std::array<std::vector<OwnedCorner>, 180> bands_;  // a degree of latitude each; sorted
 };
 
 }  // namespace rondel::overlay

@@ -208,8 +208,7 @@ class PlaneSweep {
     const PlaneState own = {true, parts_[ring]};
     if (rings_[ring].is_hole) {
       const PlaneState hole = {false, ring};
-      if (state != own && state != hole)
-        return refuse(PlaneFault::Kind::outside, state, ring, place);
+      if (state != own && state != hole) return refuse(PlaneFaultKind::outside, state, ring, place);
       state = state == own ? hole : own;
       return true;
     }
@@ -217,15 +216,15 @@ class PlaneSweep {
       state = *around_[parts_[ring]];
       return true;
     }
-    if (state.is_inside) return refuse(PlaneFault::Kind::overlap, state, ring, place);
+    if (state.is_inside) return refuse(PlaneFaultKind::overlap, state, ring, place);
     if (state.number != no_index && parts_[state.number] == parts_[ring]) {
-      return refuse(PlaneFault::Kind::outside, {}, state.number, place);
+      return refuse(PlaneFaultKind::outside, {}, state.number, place);
     }
     around_[parts_[ring]] = state;
     state = own;
     return true;
   }
-  bool refuse(PlaneFault::Kind kind, const PlaneState& state, Index ring, const LonLat& place) {
+  bool refuse(PlaneFaultKind kind, const PlaneState& state, Index ring, const LonLat& place) {
     Index other = state.number;
     if (state.is_inside) other = first_ring_of(state.number);
     fault_ = PlaneFault{kind, other, ring, place};
@@ -251,14 +250,14 @@ class PlaneSweep {
     const LonLat place = {c.lon_deg + t_of_place * (d.lon_deg - c.lon_deg),
                           c.lat_deg + t_of_place * (d.lat_deg - c.lat_deg)};
     const auto [first, second] = std::minmax(sides_[s].rings.front(), sides_[t].rings.front());
-    fault_ = PlaneFault{PlaneFault::Kind::crossing, first, second, place};
+    fault_ = PlaneFault{PlaneFaultKind::crossing, first, second, place};
   }
 
   void find_lines() {
     for (Index r = 0; r < rings_.size() && !fault_; ++r) {
       if (has_sides_[r]) continue;
       const std::vector<LonLat>& positions = rings_[r].positions;
-      fault_ = PlaneFault{PlaneFault::Kind::no_area, r, r,
+      fault_ = PlaneFault{PlaneFaultKind::no_area, r, r,
                           positions.empty() ? LonLat{} : positions.front()};
     }
   }

@@ -20,15 +20,16 @@ struct PlaneSide {
   LonLat to;
 };
 
+enum class PlaneFaultKind : std::uint8_t {
+  crossing,  // sides of both rings cross, or of one with itself
+  overlap,   // the second ring's polygon lies in that of the first one
+  outside,  // the second ring is a hole that does not lie in its shell, or lies in the first one, a hole, too
+  no_area,  // the ring is a line to and fro
+};
+
 // What is wrong with the rings, and where. Rings are numbered as they were given.
 struct PlaneFault {
-  enum class Kind : std::uint8_t {
-    crossing,  // sides of both rings cross, or of one with itself
-    overlap,   // the second ring's polygon lies in that of the first one
-    outside,  // the second ring is a hole that does not lie in its shell, or lies in the first one, a hole, too
-    no_area,  // the ring is a line to and fro
-  };
-  Kind kind;
+  PlaneFaultKind kind;
   Index first;
   Index second;
   LonLat place;

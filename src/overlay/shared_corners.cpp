@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::size_t features_per_block = 16;
 
-bool is_near(const LonLat& p, const LonLat& q) {
+bool is_one_place(const LonLat& p, const LonLat& q) {
   return std::abs(p.lon_deg - q.lon_deg) <= 2 * on_side_deg &&
          std::abs(p.lat_deg - q.lat_deg) <= 2 * on_side_deg;
 }
@@ -41,7 +41,7 @@ class SideCorners {
       const double y = p.lat_deg - west.lat_deg;
       const double part = (x * along + y * up) / squared;
       if (std::abs(along * y - up * x) > most || part <= 0 || part >= 1) return;
-      if (is_near(p, from) || is_near(p, to)) return;
+      if (is_one_place(p, from) || is_one_place(p, to)) return;
       // What a feature does to itself is for exact signs, but where a whole turn is rounded.
       if (owner == feature_ && is_own(p)) return;
       found_.emplace_back(goes_east ? part : 1 - part, p);
@@ -51,7 +51,7 @@ class SideCorners {
     });
     positions_.clear();
     for (const auto& [part, position] : found_) {
-      if (positions_.empty() || !is_near(positions_.back(), position))
+      if (positions_.empty() || !is_one_place(positions_.back(), position))
         positions_.push_back(position);
     }
     return positions_;
@@ -70,7 +70,7 @@ class SideCorners {
 }  // namespace
 
 void share_corners(std::vector<std::vector<io::LonLatRing>>& features, unsigned threads) {
-  std::vector<PlaneCorners::Corner> all;
+  std::vector<PlaneCorners::OwnedCorner> all;
   for (std::size_t f = 0; f < features.size(); ++f) {
     for (const io::LonLatRing& ring : features[f]) {
       for (const LonLat& p : ring.positions) all.push_back({p, static_cast<Index>(f)});

@@ -31,6 +31,9 @@ void test_cells(const PolygonTable& table) {
   for (const Column& column : table.columns) {
     require(column.ends.size() == cells.num_cells(), "a property of each cell");
   }
+  for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+    require(feature_name(table.columns, i).starts_with(std::to_string(i)), "a name");
+  }
   for (const double area : areas(cells)) {
     require(area > -1e-12 && area < 4 * std::numbers::pi + 1e-9, "an area");
   }
