@@ -36,6 +36,7 @@ bool fit(std::span<const std::uint64_t> wanted, const LayoutVariable& variable,
          std::vector<std::size_t>& points) {
   if (wanted.size() < 2) return true;
   std::vector<std::uint64_t> lengths;
+  lengths.reserve(points.size());
   for (const std::size_t d : points) lengths.push_back(variable.shape[d]);
   if (agree(lengths, wanted)) return true;
   std::ranges::reverse(lengths);

@@ -75,7 +75,7 @@ class CoordinateSearch {
     }
   }
 
-  std::vector<CoordinatePair> pairs() const {
+  [[nodiscard]] std::vector<CoordinatePair> pairs() const {
     std::vector<CoordinatePair> found;
     for (std::size_t lon = 0; lon < variables_.size(); ++lon) {
       const int lon_evidence = evidence_of(lon, CoordinateKind::lon);

@@ -76,7 +76,7 @@ std::vector<Point> points_of_exodus(const NetcdfReader& file) {
   std::vector<Point> points;
   if (const MeshVariable* const all = file.find("coord")) {
     if (require_rank(*all, 2).shape[0] != 3) {
-      throw BadValue("variable \"coord\" has not three coordinates");
+      throw BadValue(R"(variable "coord" has not three coordinates)");
     }
     const std::vector<double> values = io::meant_numbers(file, *all);
     const std::size_t n = values.size() / 3;
@@ -89,7 +89,7 @@ std::vector<Point> points_of_exodus(const NetcdfReader& file) {
   const std::vector<double> y = io::meant_numbers(file, file.require("coordy"));
   const std::vector<double> z = io::meant_numbers(file, file.require("coordz"));
   if (x.size() != y.size() || x.size() != z.size()) {
-    throw BadValue("variables \"coordx\", \"coordy\" and \"coordz\" have not as many values");
+    throw BadValue(R"(variables "coordx", "coordy" and "coordz" have not as many values)");
   }
   for (std::size_t i = 0; i < x.size(); ++i) points.push_back({x[i], y[i], z[i]});
   return points;

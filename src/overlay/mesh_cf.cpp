@@ -59,7 +59,9 @@ class CfGrids {
     return &*found;
   }
 
-  const MeshVariable& variable(std::size_t index) const { return file_.variables()[index]; }
+  [[nodiscard]] const MeshVariable& variable(std::size_t index) const {
+    return file_.variables()[index];
+  }
 
  private:
   static bool has_cells(const CoordinatePair& pair) {

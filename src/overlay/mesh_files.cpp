@@ -170,13 +170,14 @@ bool can_read_cells(const FileName& file) {
 
 CellTable read_cells(const FileName& file) {
   const system::ArithmeticScope arithmetic;
-  const auto [whole, name] = io::split_part(file);
+  const std::pair<FileName, std::string> part = io::split_part(file);
+  const FileName& whole = part.first;
   if (io::ending(whole) != netcdf_ending) {
     io::throw_unknown_ending(whole, "cells of models are read from", {&netcdf_ending, 1});
   }
   io::FileBytes bytes(whole.path, true);
   return io::in_file(bytes.name(), [&] {
-    overlay::MeshContent mesh = read_mesh(io::NetcdfReader(bytes), name);
+    overlay::MeshContent mesh = read_mesh(io::NetcdfReader(bytes), part.second);
     CellTable table;
     table.name = bytes.name();
     if (!mesh.grid) table.cells = cells_of(mesh);

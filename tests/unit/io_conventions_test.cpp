@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Units, coordinates, lines of axes and missing values, case by case. tests in Python hold the units against UDUNITS and whole files
+// Units, coordinates, lines of axes and missing values, case by case. Tests in Python hold the units against UDUNITS and whole files
 // against other readers.
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace {
 
 using Doubles = std::vector<double>;
 using Texts = std::vector<std::pair<std::string, std::string>>;
-constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 VariableHeader header(const std::string& name, const std::vector<std::string>& dimensions,
                       const Texts& texts = {}) {
@@ -146,7 +146,7 @@ TEST(conventions, lines_of_longitudes) {
   EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30}), InvalidInput);
   EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30, 40}), InvalidInput);
   EXPECT_THROW((void)lines({5}), InvalidInput);
-  EXPECT_THROW((void)lines({5, nan}), InvalidInput);
+  EXPECT_THROW((void)lines({5, missing}), InvalidInput);
 }
 
 TEST(conventions, lines_of_latitudes) {
@@ -208,37 +208,37 @@ TEST(conventions, missing_values_of_any_type) {
   const double single = static_cast<double>(1e20F);
   expect_same(meant(NetcdfType::float32, {numbers("missing_value", NetcdfType::float64, {1e20})},
                     {1, single}),
-              {1, nan});
+              {1, missing});
   expect_same(meant(NetcdfType::float64, {numbers("missing_value", NetcdfType::float32, {single})},
                     {1, 1e20, single}),
-              {1, nan, nan});
+              {1, missing, missing});
   expect_same(meant(NetcdfType::int16, {numbers("missing_value", NetcdfType::float64, {-9, -8})},
                     {-9, -8, -7, -32767}),
-              {nan, nan, -7, nan});
+              {missing, missing, -7, missing});
   expect_same(meant(NetcdfType::int16, {{"missing_value", NetcdfType::text, "-99", {}}}, {-99, 1}),
-              {nan, 1});
+              {missing, 1});
   expect_same(meant(NetcdfType::float32, {}, {static_cast<double>(9.9692099683868690e+36F)}),
-              {nan});
+              {missing});
   expect_same(meant(NetcdfType::float32, {numbers("_FillValue", NetcdfType::float32, {-1})},
                     {static_cast<double>(9.9692099683868690e+36F), -1}),
-              {static_cast<double>(9.9692099683868690e+36F), nan});
+              {static_cast<double>(9.9692099683868690e+36F), missing});
   expect_same(meant(NetcdfType::int8, {}, {-127}), {-127});
 }
 
 TEST(conventions, valid_ranges_are_of_packed_numbers) {
   expect_same(meant(NetcdfType::float32, {numbers("valid_max", NetcdfType::float32, {5})}, {5, 6}),
-              {5, nan});
+              {5, missing});
   expect_same(meant(NetcdfType::int16,
                     {numbers("valid_range", NetcdfType::int16, {0, 10}),
                      numbers("scale_factor", NetcdfType::float64, {0.5})},
                     {-1, 4, 11}),
-              {nan, 2, nan});
+              {missing, 2, missing});
   // Of the type of scale_factor: they are of unpacked numbers.
   expect_same(meant(NetcdfType::int16,
                     {numbers("valid_range", NetcdfType::float64, {0, 10}),
                      numbers("scale_factor", NetcdfType::float64, {0.5})},
                     {-1, 4, 20, 21}),
-              {nan, 2, 10, nan});
+              {missing, 2, 10, missing});
 }
 
 TEST(conventions, unsigned_and_packed_numbers) {
@@ -246,7 +246,7 @@ TEST(conventions, unsigned_and_packed_numbers) {
                     {{"_Unsigned", NetcdfType::text, "true", {}},
                      numbers("_FillValue", NetcdfType::int8, {-1})},
                     {-56, 1, -1}),
-              {200, 1, nan});
+              {200, 1, missing});
   expect_same(meant(NetcdfType::uint8, {{"_Unsigned", NetcdfType::text, "false", {}}}, {200}),
               {-56});
   expect_same(meant(NetcdfType::int16,

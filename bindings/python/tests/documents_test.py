@@ -27,7 +27,7 @@ def modules():
 
 @pytest.mark.parametrize("name", modules())
 def test_docstrings(name):
-    if name in ("rondel.xarray", "rondel._places"):
+    if name in ("rondel.xarray", "rondel._coordinates", "rondel._places"):
         pytest.importorskip("xarray")
     if name != "rondel._core":
         failed, _ = doctest.testmod(__import__(name, fromlist=["_"]), optionflags=OPTIONS)

@@ -1,0 +1,183 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""What the C++ library finds in a Dataset: coordinates, bounds and missing values."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+from typing import Any
+
+import numpy as np
+import xarray
+
+from . import _core
+from ._types import FloatArray
+
+MARKS = {"lon": ("longitude", "degrees_east"), "lat": ("latitude", "degrees_north")}
+
+
+def _headers(data: Any) -> list[tuple[Any, ...]]:
+    """What a Dataset, or a DataArray and its coordinates, says of each variable."""
+    variables = dict(data.variables if isinstance(data, xarray.Dataset) else data.coords)
+    if isinstance(data, xarray.DataArray):
+        variables[_VALUES if data.name is None else data.name] = data
+    headers = []
+    for name, variable in variables.items():
+        # xarray moves what it has understood of a file to `encoding`.
+        texts = {**variable.encoding, **variable.attrs}
+        headers.append(
+            (
+                str(name),
+                variable.dtype.kind in "iuf",
+                [str(dim) for dim in variable.dims],
+                list(variable.shape),
+                [(str(key), text) for key, text in texts.items() if isinstance(text, str)],
+            )
+        )
+    return headers
+
+
+_VALUES = "values of a DataArray"
+
+
+class Coordinates:
+    """Longitudes and latitudes of a Dataset or DataArray, by the rules of the C++ library."""
+
+    def __init__(self, data: Any, lon: Hashable | None, lat: Hashable | None) -> None:
+        headers = _headers(data)
+        for kind, name in (("lon", lon), ("lat", lat)):
+            if name is not None and str(name) not in [header[0] for header in headers]:
+                raise ValueError(f"there is no variable {name!r} ({kind}=)")
+        values = ""
+        if isinstance(data, xarray.DataArray) and lon is None and lat is None:
+            values = str(_VALUES if data.name is None else data.name)
+        chosen = ("" if lon is None else str(lon), "" if lat is None else str(lat))
+        pairs, remarks = _core.find_coordinates(headers, *chosen, values)
+        names = [header[0] for header in headers]
+        if not pairs:
+            raise ValueError(_not_found(headers, lon, lat))
+        for place, (kind, (standard_name, _)) in enumerate(MARKS.items()):
+            found = list(dict.fromkeys(names[pair[0][place]] for pair in pairs))
+            if len(found) > 1:
+                texts = " and ".join(found)
+                raise ValueError(f"{texts} may be the {standard_name}s: say {kind}=NAME")
+        indices, units, self.are_axes, _ = pairs[0]
+        self.lon_name, self.lat_name = names[indices[0]], names[indices[1]]
+        self._data = data
+        self._bounds = [None if k < 0 else names[k] for k in indices[2:]]
+        self._units = units
+        self.remarks = [text for text in remarks if self.lon_name in text or self.lat_name in text]
+        self.lon = self._read(self.lon_name, units[0])
+        self.lat = self._read(self.lat_name, units[1])
+        self._drop_repeated()
+
+    def _read(self, name: str, unit: float) -> xarray.Variable:
+        variable = self._data[name].variable
+        if unit == 1:
+            return variable
+        degrees = np.asarray(variable.values, np.float64) * unit
+        standard_name, units = MARKS["lon" if name == self.lon_name else "lat"]
+        attrs = {**variable.attrs, "standard_name": standard_name, "units": units}
+        return xarray.Variable(variable.dims, degrees, attrs)
+
+    def _drop_repeated(self) -> None:
+        """Takes the first along dimensions in which places do not change, as time of WRF."""
+        if self.are_axes or self.lon.ndim < 2:
+            return
+        self.lat = self.lat.transpose(*self.lon.dims)
+        flat = [
+            np.ascontiguousarray(array.values, np.float64).reshape(-1)
+            for array in (self.lon, self.lat)
+        ]
+        names = [str(dim) for dim in self.lon.dims]
+        repeated = _core.repeated_dimensions(names, list(self.lon.shape), *flat)
+        first = {dim: 0 for dim, is_same in zip(self.lon.dims, repeated, strict=True) if is_same}
+        self.lon, self.lat = self.lon.isel(first), self.lat.isel(first)
+
+    @property
+    def bounds_names(self) -> set[str]:
+        """Variables with bounds: of these coordinates, and what any variable calls so."""
+        named = {header[0]: dict(header[4]).get("bounds") for header in _headers(self._data)}
+        return {name for name in (*self._bounds, *named.values()) if name is not None}
+
+    def bounds(self) -> list[FloatArray | None]:
+        """Those of longitudes and of latitudes in degrees, the dimensions of the places first."""
+        made: list[FloatArray | None] = []
+        places = (self.lon, self.lat)
+        for name, unit, own in zip(self._bounds, self._units[2:], places, strict=True):
+            if name is None:
+                made.append(None)
+                continue
+            variable = self._data[name].variable
+            if set(own.dims) <= set(variable.dims):
+                dims = [dim for dim in variable.dims if dim not in own.dims]
+                first = dict.fromkeys(dims[: len(dims) - 1], 0)
+                variable = variable.isel(first)
+                variable = variable.transpose(*own.dims, *dims[len(dims) - 1 :])
+            made.append(np.asarray(variable.values, np.float64) * unit)
+        return made
+
+
+def _not_found(headers: list[tuple[Any, ...]], lon: Hashable | None, lat: Hashable | None) -> str:
+    if lon is not None and lat is not None:
+        return f"{lon} and {lat} must have the same dimensions, or one dimension each"
+    # Which of both there is.
+    for kind, other in (("lon", "lat"), ("lat", "lon")):
+        standard_name, units = MARKS[kind]
+        is_there = any(
+            standard_name in dict(header[4]).get("standard_name", "")
+            or units in dict(header[4]).get("units", "")
+            for header in headers
+        )
+        if not is_there and (lon if kind == "lon" else lat) is None:
+            names = ", ".join(header[0] for header in headers if header[1] and header[3])
+            asked = f"say {kind}=NAME and {other}=NAME, of {names}"
+            return f"no coordinate has the {standard_name}s: {asked}"
+    return (
+        "no longitudes and latitudes have the same dimensions, or one dimension each: "
+        "say lon=NAME and lat=NAME"
+    )
+
+
+_OF_VALUES = ("_FillValue", "missing_value", "valid_min", "valid_max", "valid_range", "_Unsigned")
+_PACKING = ("scale_factor", "add_offset")
+
+
+def _code(dtype: Any) -> str | None:
+    """Such as "f4", of the types that netCDF has."""
+    is_known = dtype.kind in "iu" or (dtype.kind == "f" and dtype.itemsize in (4, 8))
+    return f"{dtype.kind}{dtype.itemsize}" if is_known else None
+
+
+def missing_marker(array: xarray.DataArray) -> Any:
+    """A function that makes NaN of what the attributes call missing, or None; xarray heeds
+    `_FillValue` and `missing_value` when it opens a file, but no `valid_range`, nor the numbers
+    that netCDF writes where nobody wrote.
+    """
+    of_file = array.encoding.get("dtype")
+    stored = np.dtype(of_file if isinstance(of_file, (np.dtype, type)) else array.dtype)
+    texts = {**array.encoding, **array.attrs}
+    # What xarray has unpacked it remembers in `encoding`.
+    known = {name: texts[name] for name in _OF_VALUES if texts.get(name) is not None}
+    known |= {name: array.encoding[name] for name in _PACKING if name in array.encoding}
+    if _code(stored) is None or (of_file is None and not known):
+        return None
+    attributes = []
+    for name, value in known.items():
+        if isinstance(value, str):
+            attributes.append((name, "", value, []))
+            continue
+        numbers = np.atleast_1d(np.asarray(value))
+        kind = _code(numbers.dtype)
+        if kind is not None:
+            attributes.append((name, kind, "", numbers.astype(np.float64).tolist()))
+    if of_file is None and "_FillValue" not in known:
+        attributes.append(("_FillValue", "f8", "", [np.nan]))
+    kind = _code(stored)
+
+    def marked(values: Any) -> Any:
+        found = np.array(values, np.float64, order="C")
+        _core.mark_missing(found.reshape(-1), kind, attributes)
+        return found
+
+    return marked
