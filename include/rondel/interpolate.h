@@ -53,21 +53,31 @@ enum class SharedPlace : std::uint8_t {
 
 /// What the weights of a target sum up to.
 enum class Normalization : std::uint8_t {
-  unity,        ///< 1: constants come back
-  homogeneous,  ///< what makes their sum times sites u: x, y, z come back, and so do rotations
+  unity,  ///< 1: constants come back
+  /// what makes their sum times sites u: x, y, z come back, and so do rotations; of linear, laplace and sibson
+  homogeneous,
+};
+
+/// What a gradient is along directions in which the neighbors of a site do not determine it: across a track, a meridian, a
+/// circle (docs/theory/cubic.md).
+enum class Undetermined : std::uint8_t {
+  zero,     ///< 0 across; along the track it is estimated
+  missing,  ///< there is no gradient: hermite is sibson there, and cubic linear
 };
 
 /// How gradients are estimated.
 struct GradientOptions {
   /// The neighbors of a site up to so many edges away count.
   unsigned rings = 2;
+  Undetermined undetermined = Undetermined::zero;
+  friend bool operator==(const GradientOptions&, const GradientOptions&) = default;
 };
 
 struct InterpolationOptions {
   Method method = Method::sibson;
   Outside outside = Outside::missing;
   SharedPlace shared_place = SharedPlace::first;
-  Normalization normalization = Normalization::unity;  ///< not of Method::nearest
+  Normalization normalization = Normalization::unity;  ///< nearest does not heed it
   GradientOptions gradient{};                          ///< of Method::hermite and Method::cubic
   /// Whether Interpolator::weights() computes the hashes of sites and targets, about 30 ns a point.
   bool hashes = true;
@@ -109,7 +119,8 @@ class RONDEL_API Interpolator {
   /// One row a target, one column a site.
   /// \throws InvalidInput, like all functions that take targets, with the first bad index and before
   ///         any work, if one is not finite or the center of the sphere, or because of 6 or
-  ///         SharedPlace::error; after it because of Outside::error.
+  ///         SharedPlace::error; after it because of Outside::error. Also for Normalization::homogeneous of hermite and
+  ///         cubic: their weights do not point to u, so that no factor makes them bring x, y, z back.
   [[nodiscard]] Weights weights(std::span<const Point> targets,
                                 const InterpolationOptions& options = {},
                                 const Execution& execution = {}) const;
@@ -132,14 +143,14 @@ class RONDEL_API Interpolator {
                                            const Execution& execution = {}) const;
 
   /// What makes tangent gradients of a field: rows 3i, 3i + 1, 3i + 2 for x, y, z at site i, three empty
-  /// ones where none can be had. Sites in one place have the same ones, of the value of the first.
+  /// ones where none can be had: in dimensions below 2, and as GradientOptions::undetermined says. Sites in one place have the same ones, of the value of the first.
   /// \throws InvalidInput in Model::weighted.
   [[nodiscard]] Weights gradient(const GradientOptions& options = {},
                                  const Execution& execution = {}) const;
 
   /// Tangent vectors (winds) at the sites, Cartesian, carried to tangent vectors at the targets by
   /// homogeneous weights: by linear, laplace and sibson a rigid rotation w x x comes back as w x u,
-  /// across the poles too. Shape (num_fields, targets).
+  /// across the poles too; by hermite and cubic to the order of the method. Shape (num_fields, targets).
   [[nodiscard]] std::vector<Point> vectors(std::span<const Point> field,
                                            std::span<const Point> targets,
                                            const InterpolationOptions& options = {},

@@ -91,7 +91,7 @@ GradientRows joined(const std::vector<GradientRows>& pieces, unsigned threads) {
 GradientRows gradient_rows(const Ground& ground, const GradientOptions& options, unsigned threads) {
   constexpr std::size_t grain = GradientBlocks::vertices_per_piece;
   std::vector<GradientRows> pieces(system::num_pieces(ground.num_vertices(), grain));
-  for_each_range_of_blocks(ground, options.rings, threads,
+  for_each_range_of_blocks(ground, options, threads,
                            [&](GradientBlocks& blocks, std::size_t begin) {
                              pieces[begin / grain] = rows_of(blocks, begin);
                            });

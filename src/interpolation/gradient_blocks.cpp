@@ -19,13 +19,17 @@ constexpr std::size_t num_sizes = 64;
 
 }  // namespace
 
-GradientBlocks::GradientBlocks(const Ground& ground, SolidRings& finder, unsigned rings,
-                               std::size_t begin, std::size_t end)
-    : ground_(ground), begin_(begin), num_near_(end - begin), order_(end - begin) {
+GradientBlocks::GradientBlocks(const Ground& ground, SolidRings& finder,
+                               const GradientOptions& options, std::size_t begin, std::size_t end)
+    : ground_(ground),
+      with_lines_(options.undetermined == Undetermined::zero),
+      begin_(begin),
+      num_near_(end - begin),
+      order_(end - begin) {
   neighbors_.reserve(usual_neighbors * (end - begin));
   starts_.reserve(end - begin + 1);
   for (std::size_t v = begin; v < end; ++v) {
-    const std::span<const Index> found = finder.find(static_cast<Index>(v), rings);
+    const std::span<const Index> found = finder.find(static_cast<Index>(v), options.rings);
     neighbors_.insert(neighbors_.end(), found.begin(), found.end());
     starts_.push_back(neighbors_.size());
   }
@@ -45,7 +49,7 @@ void GradientBlocks::fit(std::span<const Index> members) {
   for (const Index i : members) most = std::max(most, most_neighbors(i));
   fits_.start(most);
   for (std::size_t lane = 0; lane < members.size(); ++lane) add_neighbors(lane, members[lane]);
-  fits_.find();
+  fits_.find(with_lines_);
 }
 
 void GradientBlocks::add_neighbors(std::size_t lane, std::size_t i) {

@@ -16,6 +16,7 @@
 #include "interpolation/ground.h"
 #include "interpolation/local_fit.h"
 #include "interpolation/solid_rings.h"
+#include "rondel/interpolate.h"
 #include "rondel/types.h"
 #include "system/parallel.h"
 
@@ -27,8 +28,8 @@ class GradientBlocks {
   // So many vertices are one thread's work at a time: what they need fits the fastest cache.
   static constexpr std::size_t vertices_per_piece = 256;
 
-  GradientBlocks(const Ground& ground, SolidRings& finder, unsigned rings, std::size_t begin,
-                 std::size_t end);
+  GradientBlocks(const Ground& ground, SolidRings& finder, const GradientOptions& options,
+                 std::size_t begin, std::size_t end);
 
   [[nodiscard]] std::size_t size() const { return starts_.size() - 1; }
   // No more neighbors than these has the vertex of this number in the range.
@@ -56,6 +57,7 @@ class GradientBlocks {
   void add_neighbors(std::size_t lane, std::size_t i);
 
   const Ground& ground_;
+  bool with_lines_;
   std::size_t begin_;
   std::vector<Index> neighbors_;  // of one after the other; those too far are taken out in blocks
   std::vector<std::size_t> starts_ = {0};
@@ -66,16 +68,16 @@ class GradientBlocks {
 
 // Calls work(blocks, begin) for the ranges of all vertices, in parallel.
 template <class Work>
-void for_each_range_of_blocks(const Ground& ground, unsigned rings, unsigned threads,
-                              const Work& work) {
+void for_each_range_of_blocks(const Ground& ground, const GradientOptions& options,
+                              unsigned threads, const Work& work) {
   const SolidStars stars(ground, threads);
   bulk::BuilderPool<SolidRings> finders;
   system::parallel_for(threads, ground.num_vertices(), GradientBlocks::vertices_per_piece,
                        [&](std::size_t begin, std::size_t end) {
                          finders.with_builder([&] { return std::make_unique<SolidRings>(stars); },
                                               [&](SolidRings& finder) {
-                                                GradientBlocks blocks(ground, finder, rings, begin,
-                                                                      end);
+                                                GradientBlocks blocks(ground, finder, options,
+                                                                      begin, end);
                                                 work(blocks, begin);
                                               });
                        });

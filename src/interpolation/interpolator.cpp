@@ -57,6 +57,7 @@ class Interpolator::Impl {
   void validate(std::span<const Point> targets, const InterpolationOptions& options) const;
   // The number of fields of so many values.
   [[nodiscard]] std::size_t num_fields(std::string_view name, std::size_t size) const;
+  static void require_normalization(const InterpolationOptions& options);
 
   [[nodiscard]] std::shared_ptr<const GradientRows> gradient_rows(const GradientOptions& options,
                                                                   unsigned threads) const;
@@ -87,7 +88,7 @@ class Interpolator::Impl {
   mutable std::uint64_t sites_hash_ = 0;
   // The last ones that were asked for.
   mutable system::Mutex gradients_mutex_;
-  mutable unsigned gradients_rings_ = 0;
+  mutable GradientOptions gradients_options_;
   mutable std::shared_ptr<const GradientRows> gradients_;
 };
 
@@ -111,6 +112,14 @@ void Interpolator::Impl::validate(std::span<const Point> targets,
   }
 }
 
+void Interpolator::Impl::require_normalization(const InterpolationOptions& options) {
+  const bool has_gradients = options.method == Method::hermite || options.method == Method::cubic;
+  if (!has_gradients || options.normalization == Normalization::unity) return;
+  throw InvalidInput(std::string(options.method == Method::cubic ? "cubic" : "hermite") +
+                         " has no homogeneous normalization: linear, laplace and sibson have",
+                     0);
+}
+
 std::size_t Interpolator::Impl::num_fields(std::string_view name, std::size_t size) const {
   const std::size_t num_sites = ground_.num_sites();
   if (num_sites == 0 && size == 0) return 1;
@@ -130,14 +139,14 @@ std::shared_ptr<const GradientRows> Interpolator::Impl::gradient_rows(
       std::make_shared<const GradientRows>(interpolation::gradient_rows(ground_, options, threads));
   const std::lock_guard lock(gradients_mutex_);
   gradients_ = rows;
-  gradients_rings_ = options.rings;
+  gradients_options_ = options;
   return rows;
 }
 
 std::shared_ptr<const GradientRows> Interpolator::Impl::known_rows(
     const GradientOptions& options) const {
   const std::lock_guard lock(gradients_mutex_);
-  return gradients_rings_ == options.rings ? gradients_ : nullptr;
+  return gradients_options_ == options ? gradients_ : nullptr;
 }
 
 Fields Interpolator::Impl::fields(FieldLayout layout, std::size_t num_targets,
@@ -206,6 +215,7 @@ Weights Interpolator::weights(std::span<const Point> targets, const Interpolatio
                               const Execution& execution) const {
   const system::Call call(execution);
   impl_->validate(targets, options);
+  Impl::require_normalization(options);
   CollectedRows rows(impl_->ground(), options.shared_place);
   std::shared_ptr<const GradientRows> gradients;
   std::vector<std::uint8_t> has_gradient;
@@ -229,6 +239,7 @@ std::vector<double> Interpolator::values(std::span<const double> field,
                                          const Execution& execution) const {
   const system::Call call(execution);
   impl_->validate(targets, options);
+  Impl::require_normalization(options);
   std::vector<double> values(impl_->num_fields("field", field.size()) * targets.size(), nan);
   const Fields fields = impl_->fields(scalar_fields(field, impl_->ground().num_sites()),
                                       targets.size(), options, execution);
@@ -244,6 +255,7 @@ std::vector<double> Interpolator::values(std::span<const double> field,
                                          const Execution& execution) const {
   const system::Call call(execution);
   impl_->validate(targets, options);
+  Impl::require_normalization(options);
   if (options.method != Method::hermite && options.method != Method::cubic) {
     throw InvalidInput("only hermite and cubic take gradients");
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "interpolation/settled_fit.h"
 #include "system/wide_vectors.h"
 
 namespace rondel::interpolation {
@@ -50,7 +51,8 @@ RONDEL_ALWAYS_INLINE inline bool both(bool a, bool b) {
 
 // The moments of degree s begin here, a^s first.
 RONDEL_ALWAYS_INLINE constexpr std::size_t first_of(std::size_t s) { return (s * (s + 1)) / 2 - 3; }
-constexpr std::size_t num_moments = first_of(7);
+constexpr std::size_t num_moments = first_of(8);
+static_assert(num_moments == num_fit_moments);
 
 // That of the product of two terms.
 RONDEL_ALWAYS_INLINE constexpr std::size_t moment_of(std::size_t i, std::size_t j) {
@@ -67,7 +69,7 @@ RONDEL_ALWAYS_INLINE inline void raise(double a, double b, std::index_sequence<Q
   products[first_of(S) + S] = products[first_of(S - 1) + S - 1] * b;
 }
 
-// The weighted a^(s-q) b^q of one neighbor, s = 2 ... 6.
+// The weighted a^(s-q) b^q of one neighbor, s = 2 ... 7.
 RONDEL_ALWAYS_INLINE inline Products products_of(double weight, double a, double b) {
   Products products;
   products[0] = weight * (a * a);
@@ -77,6 +79,7 @@ RONDEL_ALWAYS_INLINE inline Products products_of(double weight, double a, double
   raise<4>(a, b, std::make_index_sequence<4>(), products);
   raise<5>(a, b, std::make_index_sequence<5>(), products);
   raise<6>(a, b, std::make_index_sequence<6>(), products);
+  raise<7>(a, b, std::make_index_sequence<7>(), products);
   return products;
 }
 
@@ -99,6 +102,8 @@ struct Fit {
   Lanes counts;
   Lanes num_terms{};
   Lanes is_found{};
+  Lanes is_line{};
+  bool with_lines = true;
   Lanes scale{};  // the unit of the plane's coordinates
   Lanes farthest{};
   LaneVectors first_axis{};
@@ -336,6 +341,67 @@ RONDEL_ALWAYS_INLINE inline void set_gradient_weights(Fit& fit, const Solution& 
   }
 }
 
+// The sums of excess_of_cubic(), a monomial in each row.
+struct LaneExcess {
+  system::PlainArray<Lanes, 5> of_a{};
+  system::PlainArray<Lanes, 5> of_b{};
+};
+RONDEL_ALWAYS_INLINE inline void add_excess(const Moments& moments, const Solution& s,
+                                            LaneExcess& sums) {
+  for (std::size_t k = 0; k < 5; ++k) {
+    for (std::size_t t = 0; t < max_terms; ++t) {
+      const Lanes& moment = moments[first_of(4 + degrees[t]) + k + powers_of_b[t]];
+      RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
+        sums.of_a[k][l] += s.by_a[t][l] * moment[l];
+        sums.of_b[k][l] += s.by_b[t][l] * moment[l];
+      }
+    }
+  }
+}
+
+// Fits of which the neighbors determine less than was tried, one after the other: they are few.
+void settle_lanes(Fit& fit, const Moments& moments, const LaneExcess& sums, Solution& s) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (fit.counts[l] == 0 || !(fit.scale[l] >= least_scale)) {
+      fit.is_found[l] = 0;
+      continue;
+    }
+    SettledFit one{.moments = {},
+                   .round_a = fit.round_a[l],
+                   .round_b = fit.round_b[l],
+                   .shear = fit.shear[l],
+                   .radius = std::sqrt(fit.largest[l]),
+                   .num_neighbors = static_cast<std::size_t>(fit.counts[l]),
+                   .is_plane = fit.is_found[l] != 0,
+                   .num_terms = static_cast<std::size_t>(fit.num_terms[l]),
+                   .by_a = {},
+                   .by_b = {}};
+    if (one.is_plane && one.num_terms == max_terms) {
+      CubicExcess of_lane{};
+      for (std::size_t k = 0; k < 5; ++k) {
+        of_lane.of_a[k] = sums.of_a[k][l];
+        of_lane.of_b[k] = sums.of_b[k][l];
+      }
+      if (excess_of_cubic(one, of_lane) <= most_excess) continue;
+    }
+    for (std::size_t k = 0; k < num_moments; ++k) one.moments[k] = moments[k][l];
+    for (std::size_t t = 0; t < max_terms; ++t) {
+      one.by_a[t] = s.by_a[t][l];
+      one.by_b[t] = s.by_b[t][l];
+    }
+    const std::size_t tried = one.num_terms;
+    settle(one);
+    if (one.is_plane && one.num_terms == tried) continue;
+    for (std::size_t t = 0; t < max_terms; ++t) {
+      s.by_a[t][l] = one.by_a[t];
+      s.by_b[t][l] = one.by_b[t];
+    }
+    fit.num_terms[l] = static_cast<double>(one.num_terms);
+    fit.is_line[l] = one.is_plane ? 0 : 1;
+    fit.is_found[l] = one.is_plane || fit.with_lines ? 1 : 0;
+  }
+}
+
 RONDEL_ALWAYS_INLINE inline void find_in_lanes(Fit& fit) {
   set_axes(fit);
   set_chart(fit);
@@ -353,6 +419,9 @@ RONDEL_ALWAYS_INLINE inline void find_in_lanes(Fit& fit) {
   }
   factor(solution);
   keep_terms(fit, solution);
+  LaneExcess sums;
+  add_excess(moments, solution, sums);
+  settle_lanes(fit, moments, sums, solution);
   set_gradient_weights(fit, solution);
 }
 
@@ -372,11 +441,13 @@ void LocalFits::set_site(std::size_t lane, const Vec& x, std::size_t num_neighbo
   counts_[lane] = static_cast<double>(num_neighbors);
 }
 
-void LocalFits::find() {
+void LocalFits::find(bool with_lines) {
   Fit fit{points_.data(), points_.size(), sites_, counts_};
+  fit.with_lines = with_lines;
   system::with_wide_vectors([&fit]() RONDEL_ALWAYS_INLINE { find_in_lanes(fit); });
   num_terms_ = fit.num_terms;
   is_found_ = fit.is_found;
+  is_line_ = fit.is_line;
 }
 
 LocalFits::LaneVectors LocalFits::gradients(const std::vector<Lanes>& values,

@@ -7,7 +7,8 @@
 //
 //     w = ((1 - r) / max(r, 1/4))^4,   r = the distance over 1.2 times that of the farthest neighbor.
 //
-// The fit is cubic, and quadratic or linear where the neighbors do not determine it well. (GRADL in
+// The fit is cubic, and quadratic, linear or of one variable where the neighbors do not determine it well
+// (settled_fit.h). (GRADL in
 // Renka's SSRFPACK, ACM TOMS 23, 1997, has a quadratic fit and the square of (1 - r) / r; what is best
 // for smooth functions was measured: docs/theory/cubic.md. The bound keeps noise small, above all that
 // of pairs of sites much nearer than others.)
@@ -58,10 +59,11 @@ class LocalFits {
   }
   // The site, and how many neighbors have been set.
   void set_site(std::size_t lane, const Vec& x, std::size_t num_neighbors);
-  // Afterwards lanes can be asked.
-  void find();
+  // Afterwards lanes can be asked. Where the neighbors determine the slope along a line alone, the gradient is along it,
+  // or, without lines, there is none.
+  void find(bool with_lines = true);
 
-  // None if the neighbors are all in line with x, or so near that weights are above 2^500, or none.
+  // None if there are no neighbors, or some are so near that weights are above 2^500.
   [[nodiscard]] bool has_gradient(std::size_t lane) const { return is_found_[lane] != 0; }
   // The gradient is the sum of weight(lane, k) (f_k - f(x)), k over the neighbors in their order. The
   // weights are tangent at x.
@@ -71,7 +73,8 @@ class LocalFits {
   [[nodiscard]] std::size_t num_neighbors(std::size_t lane) const {
     return static_cast<std::size_t>(counts_[lane]);
   }
-  // How many terms the polynomial had.
+  [[nodiscard]] bool is_line(std::size_t lane) const { return is_line_[lane] != 0; }
+  // How many terms the polynomial had, of two variables or, on a line, of one.
   [[nodiscard]] std::size_t num_terms(std::size_t lane) const {
     return static_cast<std::size_t>(num_terms_[lane]);
   }
@@ -90,6 +93,7 @@ class LocalFits {
   Lanes counts_{};  // numbers and truth as doubles, so that they fit the lanes
   Lanes num_terms_{};
   Lanes is_found_{};
+  Lanes is_line_{};
 };
 
 }  // namespace rondel::interpolation

@@ -88,7 +88,7 @@ PlaceGradients::PlaceGradients(const Ground& ground, const GradientOptions& opti
   by_vertex_.assign(num_fields_ * n, Point{});
   has_gradient.assign(n, 0);
   for_each_range_of_blocks(
-      ground, options.rings, threads, [&](GradientBlocks& blocks, std::size_t begin) {
+      ground, options, threads, [&](GradientBlocks& blocks, std::size_t begin) {
         estimate_blocks(blocks, values, begin, &by_vertex_[begin * num_fields_],
                         &has_gradient[begin]);
       });

@@ -222,7 +222,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   q.how.method = static_cast<Method>(source.below(6));
   q.how.outside = source.below(2) == 0 ? Outside::missing : Outside::nearest;
   q.how.shared_place = source.below(3) == 2 ? SharedPlace::mean : SharedPlace::first;
-  q.how.normalization = source.below(4) == 3 ? Normalization::homogeneous : Normalization::unity;
+  const bool has_gradients = q.how.method == Method::hermite || q.how.method == Method::cubic;
+  const bool is_homogeneous = source.below(4) == 3 && !has_gradients;
+  q.how.normalization = is_homogeneous ? Normalization::homogeneous : Normalization::unity;
   q.how.gradient.rings = 1 + static_cast<unsigned>(source.below(3));
   const fuzz::Scales scales = fuzz::next_scales(source);
   const std::size_t limit = fuzz::next_limit(source, 40);

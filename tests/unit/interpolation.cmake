@@ -19,6 +19,7 @@ rondel_add_test(interpolation_slopes_test
   interpolation_fit_test.cpp
   interpolation_gradient_test.cpp
   interpolation_hermite_test.cpp
+  interpolation_tracks_test.cpp
   LIBS rondel_remap rondel_dual_support rondel_test_support)
 
 rondel_add_test(weight_files_test field_names_test.cpp weight_check_test.cpp weight_files_test.cpp LIBS rondel_remap)

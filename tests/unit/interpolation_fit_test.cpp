@@ -47,6 +47,18 @@ Spots random_spots(std::size_t count, double thinness, Random& random) {
   return spots;
 }
 
+// A thin cloud that determines both slopes: each spot has its mirror image across the long axis.
+Spots mirrored_spots(std::size_t count, double thinness, Random& random) {
+  Spots spots;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double p = random.signed_unit();
+    const double q = thinness * random.signed_unit();
+    spots.push_back({p, q});
+    spots.push_back({p, -q});
+  }
+  return spots;
+}
+
 std::vector<Vec> steps_to(const Spots& spots, double size, const Plane& plane) {
   std::vector<Vec> steps;
   for (const auto& [p, q] : spots) steps.push_back(plane.step(size * p, size * q));
@@ -66,6 +78,7 @@ struct OneFit {
     for (std::size_t k = 0; k < steps.size(); ++k) fits.set_neighbor(lane, k, steps[k]);
     fits.find();
     has_gradient = fits.has_gradient(lane);
+    is_line = fits.is_line(lane);
     num_terms = fits.num_terms(lane);
     for (std::size_t k = 0; k < steps.size(); ++k) weights.push_back(fits.weight(lane, k));
     for (std::size_t other = 0; other < LocalFits::lanes; ++other) {
@@ -73,6 +86,7 @@ struct OneFit {
     }
   }
   bool has_gradient;
+  bool is_line;
   std::size_t num_terms;
   std::vector<Vec> weights;
 };
@@ -86,9 +100,10 @@ TEST(interpolation_fit, fits_are_exact_on_their_polynomials) {
     for (const double thinness : {1.0, 1e-2, 1e-4}) {
       for (std::size_t i = 0; i < scaled(200); ++i) {
         const Plane plane = Plane::at(exact::to_vector(random.direction()));
-        const Spots spots = random_spots(2 + random.below(25), thinness, random);
+        const Spots spots = mirrored_spots(1 + random.below(13), thinness, random);
         const OneFit fit(plane.x, steps_to(spots, size, plane), i % LocalFits::lanes);
         ASSERT_TRUE(fit.has_gradient);
+        if (fit.is_line) continue;
         ++seen[fit.num_terms];
         std::array<double, 9> coefficients{};
         for (std::size_t t = 0; t < fit.num_terms; ++t) coefficients[t] = random.signed_unit();
@@ -111,9 +126,9 @@ TEST(interpolation_fit, fits_are_exact_on_their_polynomials) {
       }
     }
   }
-  EXPECT_GT(seen[2], 0);
-  EXPECT_GT(seen[5], 0);
-  EXPECT_GT(seen[9], 0);
+  EXPECT_GT(seen[2], scaled(100));
+  EXPECT_GT(seen[5], scaled(100));
+  EXPECT_GT(seen[9], scaled(100));
 }
 
 // Least squares by Givens rotations on the rows, as LocalFits never sees them, with its weights.
@@ -159,6 +174,7 @@ TEST(interpolation_fit, fits_are_least_squares) {
     spots[0] = {1e-5 * spots[0][0], 1e-5 * spots[0][1]};  // so near that its weight is bounded
     const OneFit fit(plane.x, steps_to(spots, 0.1, plane), i % LocalFits::lanes);
     ASSERT_TRUE(fit.has_gradient);
+    if (fit.is_line) continue;
     std::vector<double> values;
     Vec gradient{0, 0, 0};
     for (std::size_t k = 0; k < spots.size(); ++k) {
@@ -171,16 +187,114 @@ TEST(interpolation_fit, fits_are_least_squares) {
   }
 }
 
-TEST(interpolation_fit, neighbors_in_line_have_no_fit) {
+// settled_fit.h, by least squares of the monomials themselves.
+double excess(const Spots& given, std::size_t num_terms) {
+  double farthest = 0;
+  std::array<double, 2> axis{};
+  for (const auto& [p, q] : given) {
+    if (std::hypot(p, q) <= farthest) continue;
+    farthest = std::hypot(p, q);
+    axis = {p / farthest, q / farthest};
+  }
+  Spots spots;
+  for (const auto& [p, q] : given) {
+    spots.push_back({p * axis[0] + q * axis[1], q * axis[0] - p * axis[1]});
+  }
+  double most = 0;
+  for (int degree = num_terms == 2 ? 2 : (num_terms == 5 ? 3 : 4); degree <= 4; ++degree) {
+    double square = 0;
+    for (int power = 0; power <= degree; ++power) {
+      std::vector<double> values;
+      for (const auto& [p, q] : spots) {
+        values.push_back(std::pow(p / farthest, degree - power) * std::pow(q / farthest, power));
+      }
+      const auto [a, b] = slopes_by_rotations(spots, values, num_terms);
+      square += farthest * farthest * (a * a + b * b);
+    }
+    most = std::max(most, std::sqrt(square));
+  }
+  return most;
+}
+
+// The highest degree whose excess is at most 1, and a line if that of none is.
+TEST(interpolation_fit, degree_is_what_the_neighbors_determine) {
+  Random random(9);
+  std::array<int, 10> seen{};
+  for (std::size_t i = 0; i < scaled(2000); ++i) {
+    const Plane plane = Plane::at(exact::to_vector(random.direction()));
+    const double thinness = std::pow(10.0, -2 * std::abs(random.signed_unit()));
+    const Spots spots = random_spots(2 + random.below(25), thinness, random);
+    const OneFit fit(plane.x, steps_to(spots, 1e-3, plane), i % LocalFits::lanes);
+    std::size_t expected = 0;
+    bool is_near = false;
+    for (const auto& [terms, least] : {std::pair{9U, 11U}, {5U, 6U}, {2U, 2U}}) {
+      if (spots.size() < least) continue;
+      const double found = excess(spots, terms);
+      is_near = is_near || std::abs(found - 1) < 1e-4;
+      expected = terms;
+      if (found <= 1) break;
+      expected = 0;
+    }
+    if (is_near) continue;
+    ASSERT_TRUE(fit.has_gradient);
+    ASSERT_EQ(fit.is_line ? 0 : fit.num_terms, expected) << spots.size() << " " << thinness;
+    ++seen[expected];
+  }
+  for (const std::size_t terms : {0U, 2U, 5U, 9U}) EXPECT_GT(seen[terms], 20) << terms;
+}
+
+// Across a line the slope is 0, along it that of a polynomial of one variable.
+TEST(interpolation_fit, neighbors_in_line_have_the_slope_along_it) {
   const Plane plane = Plane::at({0, 0, 1});
   EXPECT_FALSE(OneFit(plane.x, {}, 0).has_gradient);
-  const Spots one = {{0.6, 0.8}};
-  EXPECT_FALSE(OneFit(plane.x, steps_to(one, 0.1, plane), 1).has_gradient);
-  const Spots line = {{0.6, 0.8}, {-1.2, -1.6}, {0.3, 0.4}, {2.4, 3.2}};
-  EXPECT_FALSE(OneFit(plane.x, steps_to(line, 0.1, plane), 7).has_gradient);
-  Spots bent = line;
-  bent[3] = {2.4, 3.3};
-  EXPECT_TRUE(OneFit(plane.x, steps_to(bent, 0.1, plane), 7).has_gradient);
+  Random random(10);
+  std::array<int, 4> seen{};
+  for (const double breadth : {0.0, 1e-14, 1e-9, 1e-5}) {
+    for (std::size_t n = 1; n < 20; ++n) {
+      const double turn = random.signed_unit() * 3;
+      const Vec along = std::cos(turn) * plane.a + std::sin(turn) * plane.b;
+      const Vec across = cross(plane.x, along);
+      Spots spots;
+      std::vector<double> places;
+      for (std::size_t k = 0; k < n; ++k) {
+        const double s = (k % 2 == 0 ? 1 : -1) * (0.1 + std::abs(random.signed_unit()));
+        const double t = breadth * random.signed_unit();
+        places.push_back(s);
+        spots.push_back(
+            {s * std::cos(turn) - t * std::sin(turn), s * std::sin(turn) + t * std::cos(turn)});
+      }
+      const OneFit fit(plane.x, steps_to(spots, 1e-3, plane), n % LocalFits::lanes);
+      ASSERT_TRUE(fit.has_gradient);
+      ASSERT_TRUE(fit.is_line) << breadth << " " << n;
+      ASSERT_LE(fit.num_terms, n < 4 ? 1U : (n < 6 ? 2U : 3U));
+      ++seen[fit.num_terms];
+      Vec gradient{0, 0, 0};
+      for (std::size_t k = 0; k < n; ++k) {
+        const double s = places[k];
+        const double value =
+            s * (3 + (fit.num_terms > 1 ? 2 * s : 0) + (fit.num_terms > 2 ? s * s : 0));
+        gradient = gradient + (1e-3 * value) * fit.weights[k];
+      }
+      ASSERT_NEAR(dot(gradient, along), 3, 1e-3 * breadth + 1e-6);
+      ASSERT_NEAR(dot(gradient, across), 0, 100 * breadth + 1e-9);
+    }
+  }
+  EXPECT_GT(seen[1], 0);
+  EXPECT_GT(seen[2], 0);
+  EXPECT_GT(seen[3], 0);
+}
+
+TEST(interpolation_fit, without_lines_there_is_no_gradient_across) {
+  const Plane plane = Plane::at({0, 0, 1});
+  const std::vector<Vec> steps = steps_to({{0.6, 0.8}, {-1.2, -1.6}, {0.3, 0.4}}, 0.1, plane);
+  LocalFits fits;
+  for (const bool with_lines : {false, true}) {
+    fits.start(steps.size());
+    fits.set_site(4, plane.x, steps.size());
+    for (std::size_t k = 0; k < steps.size(); ++k) fits.set_neighbor(4, k, steps[k]);
+    fits.find(with_lines);
+    EXPECT_EQ(fits.has_gradient(4), with_lines);
+  }
 }
 
 // On a conic through the site one quadratic polynomial vanishes: there the quadratic fit is anything.

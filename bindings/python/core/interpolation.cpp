@@ -137,13 +137,17 @@ void add_interpolation(nb::module_& module) {
            nb::arg("choices"), nb::arg("threads"), nb::arg("progress").none())
       .def(
           "gradient",
-          [](const Interpolator& self, std::size_t size, unsigned rings, unsigned threads,
-             const nb::object& listener) {
+          [](const Interpolator& self, std::size_t size, unsigned rings, bool is_zero,
+             unsigned threads, const nb::object& listener) {
+            const GradientOptions options{
+                .rings = rings,
+                .undetermined = is_zero ? Undetermined::zero : Undetermined::missing};
             return watched(size, threads, listener, [&](const Execution& execution) {
-              return self.gradient({.rings = rings}, execution);
+              return self.gradient(options, execution);
             });
           },
-          nb::arg("size"), nb::arg("rings"), nb::arg("threads"), nb::arg("progress").none())
+          nb::arg("size"), nb::arg("rings"), nb::arg("is_zero"), nb::arg("threads"),
+          nb::arg("progress").none())
       .def(
           "vectors",
           [](const Interpolator& self, const VectorsIn& fields, const PointsIn& targets,

@@ -18,6 +18,7 @@ Method: TypeAlias = Literal["nearest", "linear", "laplace", "sibson", "hermite",
 Outside: TypeAlias = Literal["nan", "nearest", "error"]
 SharedPlace: TypeAlias = Literal["first", "mean", "error"]
 Normalization: TypeAlias = Literal["unity", "homogeneous"]
+Undetermined: TypeAlias = Literal["zero", "missing"]
 
 METHODS = ("nearest", "linear", "laplace", "sibson", "hermite", "cubic")
 _OUTSIDE = ("nan", "nearest", "error")
@@ -45,6 +46,12 @@ def choices_of(
         _position("normalization", normalization, _NORMALIZATION),
         _as_rings(rings),
     )
+
+
+def _is_zero(undetermined: Undetermined) -> bool:
+    if undetermined not in ("zero", "missing"):
+        raise ValueError(f"undetermined must be 'zero' or 'missing', not {undetermined!r}")
+    return undetermined == "zero"
 
 
 def _as_rings(rings: int) -> int:
@@ -114,7 +121,8 @@ class Interpolation:
             Which value counts where several sites are in one place.
         normalization : {'unity', 'homogeneous'}, optional
             Whether the weights of a target have the sum 1, so that constants come back, or give
-            its unit vector if they are applied to those of the sites, so that x, y, z come back.
+            its unit vector if they are applied to those of the sites, so that x, y, z come back:
+            'linear', 'laplace' and 'sibson' alone.
         rings : int, optional
             Gradients are estimated from sites up to so many edges away.
         threads : int, optional
@@ -202,6 +210,7 @@ class Interpolation:
         values: ArrayLike,
         *,
         rings: int = 2,
+        undetermined: Undetermined = "zero",
         threads: int | None = None,
         progress: Progress = None,
     ) -> FloatArray:
@@ -212,6 +221,9 @@ class Interpolation:
         values : array_like, shape (..., n)
         rings : int, optional
             The sites up to so many edges away count.
+        undetermined : {'zero', 'missing'}, optional
+            Where the sites around one do not determine the slope across a line, as on a track, it
+            is 0 across and estimated along the line, or the gradient is NaN.
         threads : int, optional
         progress : callable, optional
 
@@ -219,13 +231,18 @@ class Interpolation:
         -------
         ndarray of float64, shape (..., n, 3)
             Tangent vectors, in units of the values a radian; divide by the radius for units a
-            length. NaN where there is none: below dimension 2, and around missing values.
+            length. NaN where there is none: below dimension 2, around missing values, and as
+            `undetermined` says.
 
         """
         fields = as_fields(values, self.npoints)
         weights = Weights._of(
             self._interpolator().gradient(
-                self.npoints, _as_rings(rings), as_threads(threads), progress
+                self.npoints,
+                _as_rings(rings),
+                _is_zero(undetermined),
+                as_threads(threads),
+                progress,
             )
         )
         return weights.apply(fields, threads=threads).reshape(*fields.shape, 3)

@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Which polynomial a local fit (local_fit.h) has where its neighbors do not determine the one that was asked for.
+//
+// The gradient of a fit of degree d is right for polynomials of degree d. What it makes of those of a degree D > d, whose
+// gradient at the site is 0, is its *excess*: with the neighbors at p_k, their slopes' weights q_k, R the distance of the
+// farthest, and the first axis towards it,
+//
+//     E_D^2 = sum over the monomials m of degree D of |R sum of q_k m(p_k / R)|^2,     E the largest for D = d + 1 ... 4.
+//
+// If the terms of degree D of a function change it by up to M in the neighborhood, the gradient is wrong by up to E_D M / R;
+// if it is taken for 0 it is wrong by what it is. E is a number without unit, and the same in every scale. Around
+// sites that cover a part of the sphere, at random or as a grid, it is less than 1 (docs/theory/cubic.md). It grows as 1/t where
+// the neighbors are nearly on a line, t the breadth of that cloud over its length, and likewise where they are nearly on a conic.
+//
+// So the degree is lowered until E is no more than most_excess. If the linear fit has more than that, the neighbors do not
+// determine the slope across the line of their greatest extent: it is 0, and the slope along that line is that of a
+// polynomial of one variable, of degree up to 3.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+namespace rondel::interpolation {
+
+inline constexpr double most_excess = 1;
+// Of the slope across a line, what the slope along it may take.
+inline constexpr double most_slope_across = 0.5;
+
+// Sums over the neighbors of weight a^(s-q) b^q, s = 2 ... 7, in the coordinates that make their cloud round.
+inline constexpr std::size_t num_fit_moments = 33;
+using FitMoments = std::array<double, num_fit_moments>;
+using FitTerms = std::array<double, 9>;  // a, b, a^2, ab, b^2, a^3 ...
+
+struct SettledFit {
+  FitMoments moments;
+  // The coordinates of the plane are a / round_a and b / round_b + shear a / round_a.
+  double round_a;
+  double round_b;
+  double shear;
+  double radius;  // of the farthest neighbor, in the plane
+  std::size_t num_neighbors;
+  bool is_plane;  // false: the cloud is a line
+  // The polynomials whose values times the weights are the weights of the slopes along a and b. For a plane those of the
+  // fit that is tried first.
+  std::size_t num_terms;
+  FitTerms by_a;
+  FitTerms by_b;
+};
+
+// Those of degree 4 that a cubic fit makes: the sums of weight by_a m over the monomials m, and by_b.
+struct CubicExcess {
+  std::array<double, 5> of_a;
+  std::array<double, 5> of_b;
+};
+double excess_of_cubic(const SettledFit& fit, const CubicExcess& sums);
+
+// Lowers the degree, or leaves a line: then is_plane becomes false, and num_terms is the number of its terms.
+// Precondition: there is a neighbor, and not all are in the place of the site.
+void settle(SettledFit& fit);
+
+}  // namespace rondel::interpolation
