@@ -4,7 +4,6 @@
 #include "meshing/scvt_minimizer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -33,6 +32,7 @@ Minimizer::Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, u
       tried_sites_(sites_.size()),
       tried_sums_(sites_.size()),
       direction_(sites_.size()),
+      memory_(threads),
       surface_(threads),
       springs_(threads) {
   std::ranges::transform(sites_, axes_.begin(), far_axis);
@@ -40,10 +40,6 @@ Minimizer::Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, u
     throw InvalidInput("the sites have duplicates, or do not surround the center of the sphere", 0);
   }
   report_ = energy_(surface_, sites_, axes_, sums_, is_fixed_);
-}
-
-Minimizer::Pair& Minimizer::pair(std::size_t age) {
-  return pairs_[(newest_ + memory - age) % memory];
 }
 
 template <class Change>
@@ -62,30 +58,10 @@ void Minimizer::scale_by_mass() {
   });
 }
 
-// The two loops of L-BFGS (Nocedal and Wright, algorithm 7.4).
 void Minimizer::direct(bool lloyd) {
-  const std::size_t n = sites_.size();
   for_all([&](std::size_t i) { direction_[i] = {-sums_[i].gradient.u, -sums_[i].gradient.v}; });
-  if (lloyd) num_pairs_ = 0;
-  const auto dot_with_direction = [&](const std::vector<TangentVector>& a) {
-    return sum_in_order(threads_, n, [&](std::size_t begin, std::size_t end) {
-      double sum = 0;
-      for (std::size_t i = begin; i < end; ++i) sum += dot(a[i], direction_[i]);
-      return sum;
-    });
-  };
-  const auto add = [&](double factor, const std::vector<TangentVector>& a) {
-    for_all([&](std::size_t i) {
-      direction_[i].u += factor * a[i].u;
-      direction_[i].v += factor * a[i].v;
-    });
-  };
-  std::array<double, memory> alpha{};
-  for (std::size_t age = 0; age < num_pairs_; ++age) {
-    const Pair& p = pair(age);
-    alpha[age] = dot_with_direction(p.step) / p.curvature;
-    add(-alpha[age], p.change);
-  }
+  if (lloyd) memory_.forget();
+  memory_.begin_product(direction_);
   if (lloyd) {
     scale_by_mass();
   } else {
@@ -95,11 +71,7 @@ void Minimizer::direct(bool lloyd) {
       if (is_fixed(i)) direction_[i] = {0, 0};
     });
   }
-  for (std::size_t age = num_pairs_; age-- > 0;) {
-    const Pair& p = pair(age);
-    const double beta = dot_with_direction(p.change) / p.curvature;
-    add(alpha[age] - beta, p.step);
-  }
+  memory_.end_product(direction_);
 }
 
 double Minimizer::slope() const {
@@ -108,28 +80,6 @@ double Minimizer::slope() const {
     for (std::size_t i = begin; i < end; ++i) sum += dot(sums_[i].gradient, direction_[i]);
     return sum;
   });
-}
-
-// Keeps the step just made, of this length along the direction, where the gradient has grown along it.
-void Minimizer::remember(double length) {
-  if (pairs_.size() < memory) pairs_.resize(memory);
-  const std::size_t place = (newest_ + 1) % memory;
-  Pair& p = pairs_[place];
-  p.step.resize(sites_.size());
-  p.change.resize(sites_.size());
-  for_all([&](std::size_t i) {
-    p.step[i] = {length * direction_[i].u, length * direction_[i].v};
-    p.change[i] = {tried_sums_[i].gradient.u - sums_[i].gradient.u,
-                   tried_sums_[i].gradient.v - sums_[i].gradient.v};
-  });
-  p.curvature = sum_in_order(threads_, sites_.size(), [&](std::size_t begin, std::size_t end) {
-    double sum = 0;
-    for (std::size_t i = begin; i < end; ++i) sum += dot(p.step[i], p.change[i]);
-    return sum;
-  });
-  if (!(p.curvature > 0)) return;
-  newest_ = place;
-  num_pairs_ = std::min(num_pairs_ + 1, memory);
 }
 
 // The longest step of a site over the spacing of its cell.
@@ -163,7 +113,7 @@ bool Minimizer::search() {
       tried_report_ = energy_(surface_, tried_sites_, axes_, tried_sums_, is_fixed_);
       const double rise = tried_report_.energy - report_.energy;
       if (rise <= sufficient_fall * length * along + energy_.noise(report_.energy)) {
-        remember(length);
+        memory_.remember(length, direction_, sums_, tried_sums_);
         sites_.swap(tried_sites_);
         sums_.swap(tried_sums_);
         report_ = tried_report_;
@@ -193,7 +143,7 @@ MinimizerEnd Minimizer::run(const MinimizerLimits& limits, const StepSeen& seen)
     if (i == limits.iterations) return MinimizerEnd::iterations;
     const double before = report_.energy;
     direct(limits.lloyd);
-    if (!search() && (num_pairs_ == 0 || !search_anew())) {
+    if (!search() && (memory_.size() == 0 || !search_anew())) {
       if (!surface_.follow(sites_)) throw std::logic_error("sites lost their triangulation");
       return MinimizerEnd::stuck;
     }

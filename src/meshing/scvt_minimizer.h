@@ -15,6 +15,7 @@
 #include "meshing/edge_springs.h"
 #include "meshing/scvt_energy.h"
 #include "meshing/scvt_surface.h"
+#include "meshing/step_memory.h"
 #include "meshing/tangent.h"
 #include "rondel/types.h"
 
@@ -47,13 +48,6 @@ class Minimizer {
   [[nodiscard]] int iterations() const { return iterations_; }
 
  private:
-  static constexpr std::size_t memory = 7;
-  struct Pair {
-    std::vector<TangentVector> step;
-    std::vector<TangentVector> change;  // of the gradient
-    double curvature = 0;               // step . change
-  };
-
   void direct(bool lloyd);
   template <class Change>
   void for_all(const Change& change);  // change(i) for every site
@@ -65,8 +59,6 @@ class Minimizer {
   [[nodiscard]] double most_relative_step() const;
   bool search();
   bool search_anew();
-  void remember(double length);
-  [[nodiscard]] Pair& pair(std::size_t age);
 
   const CentroidalEnergy& energy_;
   unsigned threads_;
@@ -79,9 +71,7 @@ class Minimizer {
   std::vector<SiteSums> tried_sums_;
   EnergyReport tried_report_;
   std::vector<TangentVector> direction_;
-  std::vector<Pair> pairs_;
-  std::size_t num_pairs_ = 0;  // that are remembered
-  std::size_t newest_ = 0;
+  StepMemory memory_;
   MovingSurface surface_;
   EdgeSprings springs_;
   int iterations_ = 0;

@@ -8,6 +8,7 @@ rondel_add_test(scvt_test
   point_sets_test.cpp
   scvt_energy_test.cpp
   scvt_fixed_test.cpp
+  scvt_memory_test.cpp
   scvt_repair_test.cpp
   scvt_steps_test.cpp
   scvt_test.cpp

@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING, Any, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 
 import numpy as np
 
@@ -82,7 +82,7 @@ def fixed_points(
     if along is None:
         return places, 0
     if _is_arrays(along):
-        lines = [as_points(line, "a line") for line in along]
+        lines = [as_points(line, "a line") for line in cast(Sequence[ArrayLike], along)]
     else:
         lines = features_of(
             along,

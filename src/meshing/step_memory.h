@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The last steps of a minimizer and what they changed of the gradient: L-BFGS's approximation of the inverse Hessian, in
+// the two loops of Nocedal and Wright, algorithm 7.4.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "meshing/scvt_energy.h"
+#include "meshing/tangent.h"
+
+namespace rondel::mesh {
+
+class StepMemory {
+ public:
+  static constexpr std::size_t most_pairs = 7;
+
+  explicit StepMemory(unsigned threads) : threads_(threads) {}
+
+  [[nodiscard]] std::size_t size() const { return num_pairs_; }
+  void forget() { num_pairs_ = 0; }
+
+  // Keeps the step length * direction, in the place of the oldest one if there are most_pairs, if the gradient has grown along
+  // it; otherwise nothing changes.
+  void remember(double length, std::span<const TangentVector> direction,
+                std::span<const SiteSums> before, std::span<const SiteSums> after);
+
+  // Between the two calls stands what begins the approximation. They leave in `vector` the product with it.
+  void begin_product(std::span<TangentVector> vector);
+  void end_product(std::span<TangentVector> vector) const;
+
+ private:
+  struct Pair {
+    std::vector<TangentVector> step;
+    std::vector<TangentVector> change;  // of the gradient
+    double curvature = 0;               // step . change
+  };
+  // The latest has the age 0.
+  [[nodiscard]] const Pair& pair(std::size_t age) const {
+    return pairs_[(newest_ + most_pairs - age) % most_pairs];
+  }
+
+  unsigned threads_;
+  std::array<Pair, most_pairs> pairs_;
+  std::array<double, most_pairs> alpha_{};
+  std::size_t num_pairs_ = 0;
+  std::size_t newest_ = 0;
+};
+
+}  // namespace rondel::mesh
