@@ -32,7 +32,8 @@ struct WeightReport {
   std::optional<double> worst_direction;  ///< the largest |u x sum of w x|, u a target, x its sources
   bool sums_are_fractions = false;        ///< rows should have the fractions of the targets as sums, not 1
 
-  [[nodiscard]] std::size_t count(const std::string& kind) const;
+  /// How often a kind occurs.
+  [[nodiscard]] RONDEL_API std::size_t count(const std::string& kind) const;
 };
 
 struct WeightCheckOptions {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 
+#include "interpolation/field_columns.h"
 #include "interpolation/field_formats.h"
 #include "interpolation/field_layout.h"
 #include "interpolation/weight_formats.h"
@@ -207,6 +209,16 @@ class PointsOut {
   std::vector<std::size_t> dimensions_;
 };
 
+std::set<std::string> names_of_variables(const FieldsToWrite& job) {
+  std::set<std::string> names = {"lat", "lon", "point"};
+  for (const FieldArray& array : job.fields.arrays) {
+    names.insert(array.name);
+    names.insert(array.dimensions.begin(), array.dimensions.end());
+  }
+  for (const FieldArray& axis : job.fields.axes) names.insert(axis.name);
+  return names;
+}
+
 }  // namespace
 
 void write_fields_netcdf(io::AtomicFile& file, const FieldsToWrite& job) {
@@ -238,6 +250,9 @@ void write_fields_netcdf(io::AtomicFile& file, const FieldsToWrite& job) {
                       with_attributes(axis)});
   }
   points.define(out);
+  const bool has_columns = points.dimensions().size() == 1;
+  ColumnsOut columns(has_columns ? std::span(job.side.columns) : std::span<const Column>());
+  columns.define(out, points.dimensions().front(), names_of_variables(job));
   for (std::size_t a = 0; a < leading.size(); ++a) {
     const FieldArray& array = job.fields.arrays[a];
     std::vector<std::size_t> dimensions = leading[a];
@@ -253,6 +268,7 @@ void write_fields_netcdf(io::AtomicFile& file, const FieldsToWrite& job) {
   out.begin();
   for (const FieldArray& axis : job.fields.axes) out.write(std::span<const double>(axis.values));
   points.write(out);
+  columns.write(out);
   for (const FieldArray& array : job.fields.arrays) {
     out.write(std::span<const double>(array.values));
   }

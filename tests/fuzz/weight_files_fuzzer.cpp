@@ -17,6 +17,7 @@
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/mesh_files.h"
+#include "rondel/weight_check.h"
 #include "rondel/weight_files.h"
 
 namespace rondel::fuzz {
@@ -29,6 +30,7 @@ void expect_answer(Read read) {
   } catch (const FileError& error) {
     const std::string what = error.what();
     require(what.find('\n') == std::string::npos, "a message is one line: " + what);
+    require(!error.code(), "the system had nothing against it: " + what);
   }
 }
 
@@ -68,6 +70,18 @@ void test_corners(std::string_view bytes) {
   }
 }
 
+void test_faults(const WeightFile& file) {
+  const WeightReport report = check_weights(file);
+  const Weights& weights = file.weights;
+  require(report.empty_rows <= weights.num_rows(), "rows are counted once");
+  require(report.count("repeated") <= weights.values.size(), "entries are counted once");
+  require(report.count("row sum") + report.empty_rows <= weights.num_rows(), "a row has one sum");
+  require(report.count("conservation") <= weights.num_columns, "a source is counted once");
+  for (const WeightFault& fault : report.faults) {
+    require(fault.count > 0 && fault.what.find('\n') == std::string::npos, "a fault is one line");
+  }
+}
+
 void test(std::string_view bytes) {
   test_lonlats(bytes);
   test_corners(bytes);
@@ -79,6 +93,7 @@ void test(std::string_view bytes) {
     const std::vector<double> in(file.weights.num_columns < 1000 ? file.weights.num_columns : 0);
     std::vector<double> out(file.weights.num_rows());
     if (in.size() == file.weights.num_columns) apply(file.weights, in, out);
+    if (file.weights.num_columns < 100'000) test_faults(file);
     const std::string again = folder.file("again.nc");
     if (file.weights.num_columns == 0 || file.weights.num_rows() == 0) return;
     write_weights(again, file);

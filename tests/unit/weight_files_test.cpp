@@ -4,9 +4,11 @@
 // Files of weights: what is written is read back, in all formats, and what is wrong is named.
 #include "rondel/weight_files.h"
 
+#include <cmath>
 #include <random>
 
 #include "io/binary.h"
+#include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "io_support.h"
@@ -220,6 +222,35 @@ TEST(fields, come_back) {
   const std::vector<std::string> names = {"t_2000-01-01T06:00:00"};
   EXPECT_EQ(read_fields(directory.file("f.csv"), names, 4).arrays[0].values,
             (std::vector<double>{5, 6, 7, 0.1}));
+}
+
+TEST(fields, have_the_columns_of_their_points) {
+  const TemporaryDirectory directory;
+  FieldSet fields;
+  fields.num_points = 3;
+  fields.arrays = {{"tas", {}, {}, {1, 2, 3}, {}}};
+  WeightSide side;
+  side.points = {{0, 0}, {10, 0}, {20, 0}};
+  side.columns = {column("tas", {"Fiji", "", "\u00c9ire"}, false),
+                  column("a/b c", {"1.5", "", "-2e3"}, true)};
+  write_fields(directory.file("f.nc"), fields, side);
+  io::FileBytes bytes(directory.file("f.nc"));
+  const std::string text(bytes.text());
+  const io::NetcdfReader file(text);
+  EXPECT_EQ(file.numbers(file.require("tas")), (std::vector<double>{1, 2, 3}));
+  const std::vector<double> numbers = file.numbers(file.require("a_b_c"));
+  EXPECT_EQ(numbers[0], 1.5);
+  EXPECT_TRUE(std::isnan(numbers[1]));
+  EXPECT_EQ(numbers[2], -2000);
+  const io::NetcdfReader::Variable& names = file.require("tas_2");
+  EXPECT_EQ(names.shape, (std::vector<std::uint64_t>{3, 5}));
+  EXPECT_EQ(text.substr(names.offset, 15), std::string("Fiji\0\0\0\0\0\0\u00c9ire", 15));
+  write_fields(directory.file("f.csv"), fields, side);
+  io::FileBytes table(directory.file("f.csv"));
+  EXPECT_EQ(std::string(table.text()),
+            "lon,lat,tas,a/b c,tas_2\n0,0,Fiji,1.5,1\n10,0,,,2\n20,0,\u00c9ire,-2e3,3\n");
+  side.columns[0].ends.pop_back();
+  EXPECT_THROW(write_fields(directory.file("f.csv"), fields, side), InvalidInput);
 }
 
 // The points of a netCDF file of one variable of the dimensions (2, 2) and coordinates.

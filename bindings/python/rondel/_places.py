@@ -179,7 +179,8 @@ def _paired(lon: Any, lat: Any) -> xarray.Dataset:
             f"lon and lat have shapes {lons.shape} and {lats.shape}, but are pairs; grid=True "
             "takes them as the axes of a grid"
         ) from None
-    dims = {0: (), 1: ("point",), 2: ("y", "x")}.get(lons.ndim)
+    lons, lats = np.atleast_1d(lons, lats)
+    dims = {1: ("point",), 2: ("y", "x")}.get(lons.ndim)
     if dims is None:
         raise ValueError(f"lon and lat must have at most 2 dimensions, not shape {lons.shape}")
     return _marked({"lon": (dims, lons), "lat": (dims, lats)})
@@ -197,7 +198,9 @@ def _of_table(table: Any) -> xarray.Dataset:
     if found["lon"] is None and found["lat"] is None and hasattr(table, "geometry"):
         points = table.geometry if table.crs is None else table.geometry.to_crs(4326)
         if not (points.geom_type == "Point").all():
-            raise TypeError("geometries that are places must be points; a Partition has cells")
+            raise TypeError(
+                "geometries that are places must be points; rondel.polygons() makes cells"
+            )
         found = {"lon": points.x.to_numpy(), "lat": points.y.to_numpy()}
     for kind, column in found.items():
         if column is None:

@@ -12,7 +12,7 @@ import numpy as np
 
 from ._bilinear import bilinear_weights
 from ._geo import Path
-from ._remap import remap
+from ._remap import Remap, remap
 from ._repr import Described, count
 from ._types import BoolArray, Progress
 from ._weights import Weights, read_weights
@@ -147,15 +147,19 @@ class Regridder(Described):
                 )
             weights = filename
         self.filename = filename
+        self._remap: Remap | None = None  # what a file says of conservative weights
         self.method = method
         self._source = Places(ds_in, lon, lat, are_points=locstream_in)
         self._target = Places(ds_out, lon_out, lat_out, are_points=locstream_out)
         self._fill = np.nan if unmapped_to_nan else 0.0
         shape = (self._target.lon.size, self._source.lon.size)
         if weights is None:
-            made = _made(self._source, self._target, method, overlap, threads, progress)
+            found = _made(self._source, self._target, method, overlap, threads, progress)
+            made = found.weights if isinstance(found, Remap) else found
             if extrap_method is not None:
                 made = _filled(made, self._source, self._target)
+            elif isinstance(found, Remap):
+                self._remap = found
         else:
             made = weights if isinstance(weights, Weights) else read_weights(weights)
             if made.shape != shape:
@@ -246,7 +250,10 @@ class Regridder(Described):
         path = self.filename if path is None else path
         if path is None:
             raise ValueError("to_netcdf() needs the name of a file: the Regridder has no filename")
-        self.weights.to_netcdf(os.fspath(path))
+        if self._remap is not None:
+            self._remap.to_netcdf(path)
+        else:
+            self.weights.to_netcdf(os.fspath(path))
 
     def _facts(self) -> list[tuple[str, str]]:
         def text(shape: tuple[int, ...]) -> str:
@@ -274,7 +281,7 @@ def _made(
     overlap: Literal["error", "first", "share"],
     threads: int | None,
     progress: Progress,
-) -> Weights:
+) -> Weights | Remap:
     if method in _CONSERVATIVE:
         order, norm = _CONSERVATIVE[method]
         (cells, mask), (target_cells, target_mask) = source.cells(threads), target.cells(threads)
@@ -288,7 +295,7 @@ def _made(
             overlap=overlap,
             threads=threads,
             progress=progress,
-        ).weights
+        )
     if method == "nearest_s2d":
         made = _nearest(source, target)
     elif method == "nearest_d2s":

@@ -1,0 +1,73 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "interpolation/field_columns.h"
+
+#include <algorithm>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "interpolation/weight_formats.h"
+#include "io/column_text.h"
+#include "io/number.h"
+
+namespace rondel::interpolation {
+
+using io::NetcdfType;
+
+namespace {
+
+// A name that netCDF takes and that nothing else has.
+std::string name_of_variable(const Column& column, std::set<std::string>& used) {
+  std::string name = column.name;
+  for (char& c : name) {
+    if (c == '/' || static_cast<unsigned char>(c) <= ' ' || c == '\x7f') c = '_';
+  }
+  const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
+  if (name.empty() || !is_letter(name.front())) name.insert(0, "column_");
+  std::string text = name;
+  for (std::size_t k = 2; !used.insert(text).second; ++k) text = name + "_" + std::to_string(k);
+  return text;
+}
+
+}  // namespace
+
+void ColumnsOut::define(io::NetcdfWriter& out, std::size_t points, std::set<std::string> used) {
+  for (const Column& column : columns_) {
+    const std::string name = name_of_variable(column, used);
+    std::size_t longest = 1;
+    for (std::size_t i = 0; i < column.ends.size(); ++i) {
+      longest = std::max(longest, io::cell_of(column, i).size());
+    }
+    lengths_.push_back(longest);
+    if (column.is_numeric) {
+      out.add_variable({name, NetcdfType::float64, {points}, {}});
+    } else {
+      const std::size_t length = out.add_dimension(name + "_length", longest);
+      out.add_variable(
+          variable(name, NetcdfType::text, {points, length}, {{"_Encoding", "utf-8"}}));
+    }
+  }
+}
+
+void ColumnsOut::write(io::NetcdfWriter& out) const {
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const Column& column = columns_[c];
+    const std::size_t size = column.ends.size();
+    if (column.is_numeric) {
+      out.write_values<double>(size, [&](std::size_t i) {
+        const std::string_view cell = io::cell_of(column, i);
+        return cell.empty() ? std::numeric_limits<double>::quiet_NaN()
+                            : io::parse_number(cell, column.name);
+      });
+    } else {
+      const std::size_t length = lengths_[c];
+      out.write_values<char>(size * length, [&](std::size_t k) {
+        const std::string_view cell = io::cell_of(column, k / length);
+        return k % length < cell.size() ? cell[k % length] : '\0';
+      });
+    }
+  }
+}
+
+}  // namespace rondel::interpolation
