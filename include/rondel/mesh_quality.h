@@ -42,8 +42,10 @@ struct Quality {
   /// The mean squared distance to the site, over that of as many regular hexagons, 5 / (18 sqrt 3) of their area: 1 is
   /// out of reach. NaN where the density is not 1 everywhere.
   double energy = 0;
-  double mean_centroid_offset = 0;  ///< of the center of mass from the site, in spacings
-  Worst max_centroid_offset;        ///< cell
+  /// Of the center of mass from the site, in spacings. Where the mesh has densities it is that of a density that is linear
+  /// between sites and corners, of which each has that of the mean spacing.
+  double mean_centroid_offset = 0;
+  Worst max_centroid_offset;  ///< cell
 
   Worst min_angle_deg;  ///< of the triangles of sites, in the planes of their corners; vertex
   Worst max_angle_deg;  ///< vertex

@@ -245,6 +245,30 @@ void finish(AreaPartition& result, const FineWeights& weights, Weighted&& now) {
   result.worst = now.worst;
 }
 
+// Sites that do not surround the center of the sphere: walls of power cells would all pass near it. One site has the whole
+// sphere; two or more have areas that weights do not bring to what is wanted, but for those of opposite poles.
+AreaPartition without_walls(const std::vector<Point>& units, const std::vector<double>& targets,
+                            const AreaPartitionOptions& options, const Execution& execution) {
+  AreaPartition result;
+  result.weights.assign(units.size(), 1);
+  result.poles = units;
+  result.radii_deg.assign(units.size(), 0);
+  result.areas = {4 * std::numbers::pi};
+  if (units.size() > 1) {
+    result.areas = areas(delaunay(Sites::view(units), {}, Execution{.threads = execution.threads}));
+  }
+  for (std::size_t i = 0; i < units.size(); ++i) {
+    const double error = std::abs(result.areas[i] - targets[i]) / targets[i];
+    if (!(error > result.largest_error)) continue;
+    result.largest_error = error;
+    result.worst = static_cast<Index>(i);
+  }
+  const bool is_wanted = result.largest_error <= options.tolerance;
+  result.end = is_wanted ? PartitionEnd::converged : PartitionEnd::infeasible;
+  if (options.seen) options.seen({0, result.largest_error, 1});
+  return result;
+}
+
 }  // namespace
 
 std::string_view name_of(PartitionEnd end) noexcept {
@@ -273,13 +297,7 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
   AreaPartition result;
   FineWeights weights(sites.size(), DoubleDouble{1, 0});
   std::optional<Weighted> now = newton.measure(weights, units);
-  if (!now) {
-    result.end = PartitionEnd::infeasible;
-    result.weights.assign(sites.size(), 1);
-    result.poles = units;
-    result.radii_deg.assign(sites.size(), 0);
-    return result;
-  }
+  if (!now) return without_walls(units, scaled_targets(targets, sites.size()), options, execution);
   const double least_area = 0.5 * std::min(now->smallest_area, newton.least_target());
   for (double length = 1;;) {
     if (options.seen) options.seen({result.steps, now->largest_error, length});

@@ -35,6 +35,59 @@ struct Offsets {
   }
 };
 
+// Whether the densities of the cell and its neighbors differ.
+bool has_densities(const mesh::MeshArrays& arrays, std::size_t cell) {
+  if (arrays.density.empty()) return false;
+  for (std::uint64_t at = arrays.offsets[cell]; at < arrays.offsets[cell + 1]; ++at) {
+    const Index beyond = arrays.cells_on_cell[at];
+    if (beyond != no_index && arrays.density[beyond] != arrays.density[cell]) return true;
+  }
+  return false;
+}
+
+// That of the mean spacing of the cells around: spacings are the power -1/4.
+double density_at_vertex(const mesh::MeshArrays& arrays, Index vertex) {
+  double sum = 0;
+  double count = 0;
+  for (const Index cell : arrays.cells_on_vertex[vertex]) {
+    if (cell == no_index) continue;
+    sum += 1 / std::sqrt(std::sqrt(arrays.density[cell]));
+    ++count;
+  }
+  const double square = (count / sum) * (count / sum);
+  return square * square;
+}
+
+// By what the center of mass moves from that of density 1: the density is linear in each triangle of the site and
+// two corners. In the plane, for it is small itself.
+Vec shift_by_density(const mesh::MeshArrays& arrays, std::size_t cell) {
+  const Point& site = arrays.cell_points[cell];
+  const Vec z = exact::to_vector((1 / arrays.radius) * site);
+  const Offsets offset{arrays, site};
+  const std::uint64_t begin = arrays.offsets[cell];
+  const std::uint64_t end = arrays.offsets[cell + 1];
+  Vec weighted{0, 0, 0};
+  Vec plain{0, 0, 0};
+  double mass = 0;
+  double area = 0;
+  Vec last = offset(end - 1);
+  double of_last = density_at_vertex(arrays, arrays.vertices_on_cell[end - 1]);
+  for (std::uint64_t at = begin; at < end; ++at) {
+    const Vec d = offset(at);
+    const double of_d = density_at_vertex(arrays, arrays.vertices_on_cell[at]);
+    const double part = dot(cross(last, d), z);  // twice the area of the triangle
+    const double sum = arrays.density[cell] + of_last + of_d;
+    weighted = weighted + part / 12 * ((sum + of_last) * last + (sum + of_d) * d);
+    mass += part / 3 * sum;
+    plain = plain + part / 3 * (last + d);
+    area += part;
+    last = d;
+    of_last = of_d;
+  }
+  const Vec shift = 1 / mass * weighted - 1 / area * plain;
+  return shift - dot(shift, z) * z;
+}
+
 void add_moment(const mesh::MeshArrays& arrays, std::size_t cell, CellShape& shape) {
   const Point& site = arrays.cell_points[cell];
   const Vec z = exact::to_vector((1 / arrays.radius) * site);
@@ -57,7 +110,12 @@ void add_moment(const mesh::MeshArrays& arrays, std::size_t cell, CellShape& sha
   const double area = arrays.cell_areas[cell] / (arrays.radius * arrays.radius);
   shape.spacing = mesh::spacing_of(area);
   shape.energy = 2 * (area - along);
-  shape.centroid_offset = exact::argument(across, along) / shape.spacing;
+  if (has_densities(arrays, cell)) {
+    const Vec across_by_area = 1 / area * (moment - along * z);
+    shape.centroid_offset = norm(across_by_area + shift_by_density(arrays, cell)) / shape.spacing;
+  } else {
+    shape.centroid_offset = exact::argument(across, along) / shape.spacing;
+  }
 }
 
 }  // namespace

@@ -12,8 +12,9 @@ namespace rondel::meshing {
 
 struct CellShape {
   double spacing = 0;
-  double centroid_offset = 0;  // in spacings
-  double energy = 0;           // the integral of the squared distance from the site
+  double centroid_offset =
+      0;              // in spacings; the center of mass is that of the density of the cells
+  double energy = 0;  // the integral of the squared distance from the site
   double least_edge_ratio = 0;
   double side_ratio = 0;
   double distance_ratio = 0;

@@ -121,6 +121,31 @@ TEST(mesh_partition, infeasible_areas_end_as_such) {
   EXPECT_EQ(area_partition(octant).end, PartitionEnd::infeasible);
 }
 
+// Sites that do not surround the center: what their cells are wrong by is told.
+TEST(mesh_partition, few_sites_have_the_cells_that_they_have) {
+  const AreaPartition one = area_partition(std::vector<Point>{{0, 3, 0}});
+  EXPECT_EQ(one.end, PartitionEnd::converged);
+  EXPECT_EQ(one.areas, std::vector<double>{whole});
+  const AreaPartition two = area_partition(std::vector<Point>{{0, 0, 1}, {1, 0, 0}});
+  EXPECT_EQ(two.end, PartitionEnd::converged);
+  for (const double area : two.areas) EXPECT_NEAR(area, whole / 2, 1e-12);
+  const AreaPartition unequal = area_partition(std::vector<Point>{{0, 0, 1}, {1, 0, 0}},
+                                               std::vector<double>{whole / 4, 3 * whole / 4});
+  EXPECT_EQ(unequal.end, PartitionEnd::infeasible);
+  EXPECT_NEAR(unequal.largest_error, 1, 1e-12);
+  EXPECT_EQ(unequal.worst, 0U);
+  // In an octant; the middle one has hardly a cell.
+  const AreaPartition octant =
+      area_partition(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
+  EXPECT_EQ(octant.end, PartitionEnd::infeasible);
+  ASSERT_EQ(octant.areas.size(), 4U);
+  double most = 0;
+  for (const double area : octant.areas) most = std::max(most, std::abs(area / (whole / 4) - 1));
+  EXPECT_NEAR(octant.largest_error, most, 1e-14);
+  EXPECT_GT(most, 0.1);
+  EXPECT_LT(octant.worst, 4U);
+}
+
 TEST(mesh_partition, no_better_weights_than_doubles_is_told) {
   const AreaPartition made = area_partition(sampled_sites(300, nullptr, 2), {}, {.tolerance = 0});
   EXPECT_EQ(made.end, PartitionEnd::rounded);
