@@ -102,7 +102,10 @@ Command add_scvt_command(CLI::App& group) {
                    "other than 5 to 7 sides");
   add_mesh_output(*parser, options->output);
   parser->footer(
-      "Kilometers are those of a sphere of 6371.229 km. With Ctrl-C the mesh so far is written.\n\n"
+      "Kilometers are those of a sphere of 6371.229 km. With Ctrl-C the mesh so far is written, "
+      "and\n"
+      "the exit status is 1. Sides along which a file has cut polygons at longitude 180, or has\n"
+      "led them around a pole, are no lines.\n\n"
       "Examples:\n"
       "  rondel mesh scvt -n 40962 -o x1.40962.nc\n"
       "  rondel mesh scvt --spacing 240 --refine coast.geojson:60 -o coast.nc --report coast.json\n"
@@ -171,7 +174,9 @@ Command add_area_partition_command(CLI::App& group) {
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
-      "The weighted sites are read by --model weighted, and as circles by --radius radius.\n\n"
+      "The weighted sites are read by --model weighted, and as circles by --radius radius.\n"
+      "With Ctrl-C those of the last step are written, and the exit status is 1, as it is where\n"
+      "no weights give the areas.\n\n"
       "Examples:\n"
       "  rondel mesh partition stations.csv -o equal.npy\n"
       "  rondel voronoi equal.npy --model weighted -o equal.geojson");

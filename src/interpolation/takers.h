@@ -4,6 +4,7 @@
 // What is made of rows as they come (rows.h): values, tangent vectors, weights.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <utility>
@@ -28,7 +29,7 @@ class FieldSums {
   [[nodiscard]] double operator()(std::size_t f, const Row& row) const {
     double sum = 0;
     for (const auto& [vertex, weight] : row) sum += weight * values_(f, vertex);
-    return sum;
+    return std::isfinite(sum) ? sum : small_sum(f, row) / small;
   }
   // At a site its gradient does not count, whatever it is.
   [[nodiscard]] double operator()(std::size_t f, const SlopeRow& row) const {
@@ -37,10 +38,26 @@ class FieldSums {
       sum += weight * values_(f, vertex);
       if (slope != Point{}) sum += dot(slope, (*gradients_)(f, vertex));
     }
-    return sum;
+    return std::isfinite(sum) ? sum : small_sum(f, row) / small;
   }
 
  private:
+  // Weights may be more than 1: sums that go beyond the largest number come back.
+  static constexpr double small = 0x1p-8;
+  [[nodiscard]] double small_sum(std::size_t f, const Row& row) const {
+    double sum = 0;
+    for (const auto& [vertex, weight] : row) sum += weight * (small * values_(f, vertex));
+    return sum;
+  }
+  [[nodiscard]] double small_sum(std::size_t f, const SlopeRow& row) const {
+    double sum = 0;
+    for (const auto& [vertex, weight, slope] : row) {
+      sum += weight * (small * values_(f, vertex));
+      if (slope != Point{}) sum += dot(slope, small * (*gradients_)(f, vertex));
+    }
+    return sum;
+  }
+
   const PlaceValues& values_;
   const PlaceGradients* gradients_;
 };

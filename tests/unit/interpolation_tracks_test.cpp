@@ -132,6 +132,23 @@ TEST(interpolation_tracks, gradient_across_is_zero_or_missing) {
   }
 }
 
+TEST(interpolation_tracks, sums_that_leave_the_numbers_come_back) {
+  Random random(7);
+  std::vector<Point> sites;
+  for (int i = 0; i < 200; ++i) sites.push_back(random.direction());
+  const Interpolator interpolator(delaunay(Sites::view(sites)));
+  std::vector<Point> targets;
+  for (int i = 0; i < 2000; ++i) targets.push_back(random.direction());
+  for (const double constant : {1.7e308, -1.7e308}) {
+    const std::vector<double> field(sites.size(), constant);
+    for (const Method method : {Method::linear, Method::sibson, Method::hermite, Method::cubic}) {
+      for (const double value : interpolator.values(field, targets, {.method = method})) {
+        EXPECT_NEAR(value / constant, 1, 1e-13);
+      }
+    }
+  }
+}
+
 TEST(interpolation_tracks, homogeneous_normalization_is_refused_where_no_factor_does_it) {
   Random random(6);
   std::vector<Point> sites;

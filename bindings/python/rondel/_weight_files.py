@@ -52,7 +52,7 @@ def weights_to_netcdf(
     Raises
     ------
     ValueError
-        If the points are not those of the weights.
+        If the points are not those of the weights, or an area is negative.
     OSError
         If the file cannot be written; then nothing is left of it.
 
@@ -68,6 +68,10 @@ def weights_to_netcdf(
             raise ValueError(f"{name} must be {count} points, not of shape {np.shape(points)}")
         if known and not self.is_of(**{name: points}):
             raise ValueError(f"the {name} are not those of the weights")
+    for name, areas in (("site_areas", site_areas), ("target_areas", target_areas)):
+        known_areas = np.empty(0) if areas is None else np.asarray(areas, float)
+        if not (known_areas >= 0).all():
+            raise ValueError(f"{name} must not be negative or NaN")
     shape: tuple[int, ...] = () if targets is None else np.shape(targets)[:-1]
     source = Side(_degrees(sites), _areas(site_areas))
     target = Side(_degrees(targets), _areas(target_areas), shape=shape)

@@ -295,3 +295,34 @@ def test_long_work_is_told_and_can_be_stopped():
     for work in (TRI.weights, lambda *a, **k: TRI.interpolate(f0(SITES), *a, **k)):
         with pytest.raises(Enough):
             work(targets, progress=stop)
+
+
+@pytest.mark.parametrize("method", ["hermite", "cubic"])
+def test_homogeneous_weights_are_refused_where_no_factor_makes_them(method):
+    with pytest.raises(rondel.InvalidInput, match=f"{method} has no homogeneous"):
+        TRI.weights(TARGETS, method, normalization="homogeneous")
+
+
+def test_a_slope_across_a_track_is_zero_or_missing():
+    lat = np.linspace(-60, 60, 100)
+    track = rondel.unit_vectors(np.full(100, 20.0), lat)
+    off = rondel.unit_vectors([20 + 1e-7], [3.3])
+    tri = rondel.delaunay(np.concatenate([track, off]))
+    field = tri.points @ [1.0, 2.0, 3.0]
+    across = np.array([-np.sin(np.radians(20)), np.cos(np.radians(20)), 0])
+    gradient = tri.gradient(field)[10:90]
+    along = np.array([1.0, 2, 3]) - track[10:90] * field[10:90, None]
+    along -= (along @ across)[:, None] * across
+    assert abs(gradient @ across).max() < 1e-4
+    assert abs(gradient - along).max() < 1e-2
+    assert np.isnan(tri.gradient(field, undetermined="missing")[10:90]).all()
+    with pytest.raises(ValueError, match="undetermined must be"):
+        tri.gradient(field, undetermined="none")
+
+
+def test_negative_areas_are_not_written(tmp_path):
+    weights = TRI.weights(TARGETS)
+    for name, count in (("site_areas", len(SITES)), ("target_areas", len(TARGETS))):
+        with pytest.raises(ValueError, match=name):
+            weights.to_netcdf(tmp_path / "w.nc", **{name: np.full(count, -1.0)})
+    assert not (tmp_path / "w.nc").exists()
