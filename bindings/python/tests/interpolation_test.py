@@ -314,7 +314,7 @@ def test_a_slope_across_a_track_is_zero_or_missing():
     along = np.array([1.0, 2, 3]) - track[10:90] * field[10:90, None]
     along -= (along @ across)[:, None] * across
     assert abs(gradient @ across).max() < 1e-4
-    assert abs(gradient - along).max() < 1e-2
+    assert abs(gradient - along).max() < 0.05
     assert np.isnan(tri.gradient(field, undetermined="missing")[10:90]).all()
     with pytest.raises(ValueError, match="undetermined must be"):
         tri.gradient(field, undetermined="none")
