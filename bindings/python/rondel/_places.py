@@ -36,6 +36,7 @@ class Places:
         are_points: bool = False,
         are_pairs: bool = False,
     ) -> None:
+        given = data
         self._partition = data if isinstance(data, Partition) else None
         if self._partition is not None:
             data = _centers(self._partition)
@@ -55,6 +56,8 @@ class Places:
                 "places are a Dataset, a DataArray, a dictionary or table with lon and lat, a "
                 f"tuple (lon, lat) or a Partition, not {type(data).__name__}"
             )
+        if data is not given:
+            lon, lat = "lon", "lat"
         self._data = data
         self._found = Coordinates(data, lon, lat)
         lons, lats = self._found.lon, self._found.lat
@@ -167,7 +170,7 @@ class Places:
 
 def _paired(lon: Any, lat: Any) -> xarray.Dataset:
     """Longitudes and latitudes of points, broadcast against each other; of arrays with names of
-    their dimensions by these.
+    their dimensions by these. Two arrays of different lengths can only be axes of a grid.
     """
     if isinstance(lon, xarray.DataArray) and isinstance(lat, xarray.DataArray):
         return _marked({"lon": lon.variable, "lat": lat.variable})
@@ -175,6 +178,8 @@ def _paired(lon: Any, lat: Any) -> xarray.Dataset:
     try:
         lons, lats = np.broadcast_arrays(lons, lats)
     except ValueError:
+        if lons.ndim == lats.ndim == 1:
+            return _dataset({"lon": lons, "lat": lats}, are_points=False)
         raise ValueError(
             f"lon and lat have shapes {lons.shape} and {lats.shape}, but are pairs; grid=True "
             "takes them as the axes of a grid"

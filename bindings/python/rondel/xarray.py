@@ -76,7 +76,7 @@ class RondelAccessor:
         target : Dataset, DataArray, DataFrame or tuple of array_like
             What has the longitudes and latitudes of the result: of points, of a curvilinear grid,
             or as axes; or a tuple (lon, lat) in degrees, whose arrays are pairs, broadcast against
-            each other as in `rondel.interpolate`.
+            each other as in `rondel.interpolate`; two of different lengths are axes.
         method : str, optional
         grid : bool, optional
             Whether the two arrays of a tuple are the axes of a grid: a value for each longitude

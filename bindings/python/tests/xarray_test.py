@@ -157,8 +157,10 @@ def test_tuples_are_broadcast_or_axes_of_a_grid():
     assert np.array_equal(curved.t, grid.t)
     named = ds.rondel.interpolate((GRID.lon, GRID.lat))
     assert np.array_equal(named.t, grid.t)
-    with pytest.raises(ValueError, match=r"shapes \(12,\) and \(7,\), but are pairs; grid=True"):
-        ds.rondel.interpolate(AXES)
+    # Of different lengths they are no pairs.
+    assert ds.rondel.interpolate(AXES).identical(asked)
+    with pytest.raises(ValueError, match=r"shapes \(2, 6\) and \(7,\), but are pairs; grid=True"):
+        ds.rondel.interpolate((AXES[0].reshape(2, 6), AXES[1]))
     same = AXES[0][:7], AXES[1]
     assert ds.rondel.interpolate(same).t.shape == (len(ds.time), 7)
     assert ds.rondel.interpolate(same, grid=True).t.shape == (len(ds.time), 7, 7)
