@@ -75,10 +75,7 @@ def geometries_of(path):
 def test_areas_add_up_to_the_polygons(cells, path):
     own = rondel.Partition.read(path, overlap="first").areas
     clipped = cells.clip(path)
-    # Three countries overlap by a few hundred square kilometers, which count once.
-    within = 1e-12 if path == LAND else 1e-6
-    assert np.isclose(clipped.areas.sum(), own.sum(), rtol=within, atol=0)
-    assert path == LAND or clipped.areas.sum() < own.sum() - 1e-7
+    assert np.isclose(clipped.areas.sum(), own.sum(), rtol=1e-12, atol=0)
     # Lines are straight in longitude and latitude, arcs within 0.0001 degrees of them.
     assert np.isclose(own.sum(), area_of_lines(geometries_of(path)), rtol=1e-5)
 
