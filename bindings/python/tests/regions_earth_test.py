@@ -76,6 +76,8 @@ def test_areas_add_up_to_the_polygons(cells, path):
     own = rondel.Partition.read(path, overlap="first").areas
     clipped = cells.clip(path)
     assert np.isclose(clipped.areas.sum(), own.sum(), rtol=1e-12, atol=0)
+    # Three countries overlap by some square kilometers, which count once.
+    assert path == LAND or own.sum() < rondel.polygons(path).areas.sum() - 1e-7
     # Lines are straight in longitude and latitude, arcs within 0.0001 degrees of them.
     assert np.isclose(own.sum(), area_of_lines(geometries_of(path)), rtol=1e-5)
 
