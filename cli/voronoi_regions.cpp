@@ -143,9 +143,9 @@ struct Regions {
   Groups values;  ///< by --clip-value
 };
 Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
-  // What lies in any of them does not depend on which of them it is.
+  // clip() unites them.
   const PolygonOverlap overlap =
-      options.clip_value.empty() ? PolygonOverlap::first : options.overlap;
+      options.clip_value.empty() ? PolygonOverlap::keep : options.overlap;
   const PolygonTable polygons =
       read_polygons({options.clip, {}}, {.edges = options.edges, .overlap = overlap}, execution);
   Groups values;

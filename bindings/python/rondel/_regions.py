@@ -274,7 +274,7 @@ def clip_cells(
 
     """
     cells = Partition.voronoi(self, threads=threads)._partition
-    shared: PolygonOverlap = "first" if values is None else overlap
+    shared: PolygonOverlap = "keep" if values is None else overlap  # clip() unites
     within = as_partition(regions, edges, shared, threads)._partition
     if values is None:
         found = _core.clip(cells, within, as_threads(threads), progress)
@@ -367,7 +367,7 @@ def feature_cells(
         if not float(value) > 0:
             raise ValueError(f"{name} must be positive, not {float(value):g}")
     tolerance = float(tolerance_km) / float(radius_km)
-    area = None if within is None else as_partition(within, edges, "first", threads)._partition
+    area = None if within is None else as_partition(within, edges, "keep", threads)._partition
     found = features_of(
         features,
         edges,
