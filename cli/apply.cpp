@@ -55,55 +55,73 @@ void require_places_of_table(const ApplyCommandOptions& options, const WeightFil
 
 bool is_table(const std::string& name) { return name.ends_with(".csv") || name.ends_with(".tsv"); }
 
-std::size_t count_missing(const FieldSet& fields) {
-  std::size_t number = 0;
-  for (const FieldArray& array : fields.arrays) {
-    number += static_cast<std::size_t>(
-        std::ranges::count_if(array.values, [](double value) { return value != value; }));
+// Of a slice, 32 MiB: larger ones are no faster.
+constexpr std::size_t most_values = std::size_t{1} << 22U;
+
+struct AppliedCounts {
+  std::size_t fields = 0;
+  std::size_t missing = 0;
+};
+
+// Slice by slice, so that fields may be larger than the memory.
+AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const WeightFile& file,
+                        const FieldFile& in) {
+  const Weights& weights = file.weights;
+  FieldSet out;
+  out.num_points = weights.num_rows();
+  out.arrays = in.fields().arrays;
+  out.axes = in.fields().axes;
+  FieldWriter writer(options.common.target(), out, file.target, options.netcdf);
+  AppliedCounts counts;
+  const std::size_t largest = std::max({weights.num_columns, weights.num_rows(), std::size_t{1}});
+  const std::size_t of_slice = std::max<std::size_t>(most_values / largest, 1);
+  std::vector<double> values;
+  std::vector<double> applied;
+  for (std::size_t a = 0; a < out.arrays.size(); ++a) {
+    const std::size_t num_fields = out.arrays[a].num_fields();
+    for (std::size_t first = 0; first < num_fields; first += of_slice) {
+      const std::size_t count = std::min(of_slice, num_fields - first);
+      values.resize(count * weights.num_columns);
+      applied.resize(count * weights.num_rows());
+      in.read(a, first, values);
+      job.time(Stage::query,
+               [&] { apply(weights, values, applied, count, options.apply, job.execution()); });
+      job.time(Stage::write, [&] { writer.write(applied); });
+      counts.missing += static_cast<std::size_t>(
+          std::ranges::count_if(applied, [](double value) { return value != value; }));
+    }
+    counts.fields += num_fields;
   }
-  return number;
+  job.time(Stage::write, [&] { writer.finish(); });
+  return counts;
 }
 
 }  // namespace
 
 ExitStatus run_apply(const ApplyCommandOptions& options) {
   const CommonOptions& common = options.common;
-  require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc");
+  require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
   Job job(common);
-  WeightFile file = read_weights(common.source());
+  const WeightFile file = read_weights(common.source());
   const Weights& weights = file.weights;
   if (is_table(options.values_file)) require_places_of_table(options, file);
-  FieldSet in = read_fields(options.values_file, options.columns, weights.num_columns, common.read,
-                            file.source.shape);
-  tell(options.values_file, in.remarks);
-  if (!in.points.empty()) require_places(options, file, in.points, false);
-  FieldSet out;
-  out.num_points = weights.num_rows();
-  out.axes = std::move(in.axes);
-  job.time(Stage::query, [&] {
-    for (FieldArray& array : in.arrays) {
-      const std::size_t count = array.num_fields();
-      std::vector<double> values(count * out.num_points);
-      apply(weights, array.values, values, count, options.apply, job.execution());
-      array.values = std::move(values);
-      out.arrays.push_back(std::move(array));
-    }
-  });
-  job.time(Stage::write, [&] { write_fields(common.target(), out, file.target); });
-  std::size_t num_fields = 0;
-  for (const FieldArray& array : out.arrays) num_fields += array.num_fields();
+  const FieldFile in(options.values_file, options.columns, weights.num_columns, common.read,
+                     file.source.shape);
+  tell(options.values_file, in.fields().remarks);
+  if (!in.fields().points.empty()) require_places(options, file, in.fields().points, false);
+  const AppliedCounts counts = apply_all(job, options, file, in);
   const Seconds seconds = job.seconds();
   const nlohmann::ordered_json json = {
       {"sources", weights.num_columns},
       {"targets", weights.num_rows()},
       {"entries", weights.values.size()},
-      {"fields", num_fields},
-      {"missing", count_missing(out)},
+      {"fields", counts.fields},
+      {"missing", counts.missing},
       {"seconds", {{"apply", seconds.query}, {"write", seconds.write}, {"total", seconds.total}}},
       {"peak_memory_bytes", peak_memory_bytes()}};
-  job.report(json.dump(2) + '\n', count(num_fields, "field", "fields") + " to " +
+  job.report(json.dump(2) + '\n', count(counts.fields, "field", "fields") + " to " +
                                       count(weights.num_rows(), "target", "targets") + ", " +
-                                      std::to_string(count_missing(out)) + " values missing\n");
+                                      std::to_string(counts.missing) + " values missing\n");
   return done;
 }
 

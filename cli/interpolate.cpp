@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "column_values.h"
+#include "netcdf_part.h"
 #include "process.h"
 #include "remap.h"
 #include "report.h"
@@ -76,34 +77,92 @@ Triangulation triangulated(Job& job, const InterpolateOptions& options, const Si
   return triangulation;
 }
 
-// One triangulation for all columns without gaps, one more for each that has some.
+// Carries fields to the targets: one triangulation for all that have no gaps, one more for those with the same gaps in a row.
+class FieldCarrier {
+ public:
+  FieldCarrier(Job& job, const InterpolateOptions& options, const SiteTable& table,
+               const Targets& targets, InterpolateCounts& counts)
+      : job_(job), options_(options), table_(table), targets_(targets), counts_(counts) {}
+
+  std::vector<double> carry(std::vector<double> values) {
+    std::vector<bool> gaps;
+    for (const double value : values) gaps.push_back(std::isnan(value));
+    const bool is_whole = std::ranges::find(gaps, true) == gaps.end();
+    std::optional<Interpolator>& interpolator = is_whole ? whole_ : partial_;
+    if (!is_whole && gaps != gaps_) interpolator.reset();
+    if (is_whole && !interpolator) interpolator.emplace(triangulated(job_, options_, table_));
+    if (!is_whole) {
+      const std::size_t num_sites = values.size();
+      SiteTable kept = with_values(table_, values);
+      counts_.left_out += num_sites - kept.sites.size();
+      if (!interpolator) {
+        kept_ = std::move(kept);
+        interpolator.emplace(triangulated(job_, options_, kept_));
+        gaps_ = std::move(gaps);
+      }
+    }
+    std::vector<double> carried;
+    job_.time(Stage::query, [&] {
+      carried = with_places(targets_.table, [&] {
+        return interpolator->values(values, targets_.table.sites, options_.interpolation,
+                                    job_.execution());
+      });
+    });
+    counts_.missing += static_cast<std::size_t>(
+        std::ranges::count_if(carried, [](double value) { return std::isnan(value); }));
+    return carried;
+  }
+
+ private:
+  Job& job_;
+  const InterpolateOptions& options_;
+  const SiteTable& table_;
+  const Targets& targets_;
+  InterpolateCounts& counts_;
+  std::optional<Interpolator> whole_;
+  std::optional<Interpolator> partial_;
+  SiteTable kept_;  // of `partial_`
+  std::vector<bool> gaps_;
+};
+
 void interpolate_columns(Job& job, const InterpolateOptions& options, const SiteTable& table,
                          const Targets& targets, InterpolateCounts& counts) {
   FieldSet fields;
   fields.num_points = targets.table.sites.size();
-  std::optional<Interpolator> whole;
+  FieldCarrier carrier(job, options, table, targets, counts);
   for (const std::string& name : options.columns) {
-    std::vector<double> values = column_values(table, name, "--value");
-    const SiteTable kept = with_values(table, values);
-    const bool is_whole = kept.sites.size() == table.sites.size();
-    counts.left_out += table.sites.size() - kept.sites.size();
-    std::optional<Interpolator> own;
-    if (!is_whole) own.emplace(triangulated(job, options, kept));
-    if (is_whole && !whole) whole.emplace(triangulated(job, options, table));
     FieldArray array;
     array.name = name;
-    job.time(Stage::query, [&] {
-      const Interpolator& interpolator = is_whole ? *whole : *own;
-      array.values = with_places(targets.table, [&] {
-        return interpolator.values(values, targets.table.sites, options.interpolation,
-                                   job.execution());
-      });
-    });
-    counts.missing += static_cast<std::size_t>(
-        std::ranges::count_if(array.values, [](double value) { return std::isnan(value); }));
+    array.values = carrier.carry(column_values(table, name, "--value"));
     fields.arrays.push_back(std::move(array));
   }
-  job.time(Stage::write, [&] { write_fields(options.common.target(), fields, targets.side); });
+  job.time(Stage::write,
+           [&] { write_fields(options.common.target(), fields, targets.side, options.netcdf); });
+}
+
+// The fields of netCDF, along the dimensions that they have beside that of the sites: one at a time is in memory.
+void interpolate_fields(Job& job, const InterpolateOptions& options, const SiteTable& table,
+                        const Targets& targets, InterpolateCounts& counts) {
+  const auto [file, variable] = netcdf_part(options.common.source());
+  std::vector<std::string> names = options.columns;
+  if (names.empty() && !variable.empty()) names.push_back(variable);
+  const FieldFile in(file, names, table.sites.size());
+  FieldSet out;
+  out.num_points = targets.table.sites.size();
+  out.arrays = in.fields().arrays;
+  out.axes = in.fields().axes;
+  tell(file.path, in.fields().remarks);
+  FieldWriter writer(options.common.target(), out, targets.side, options.netcdf);
+  FieldCarrier carrier(job, options, table, targets, counts);
+  for (std::size_t a = 0; a < out.arrays.size(); ++a) {
+    for (std::size_t f = 0; f < out.arrays[a].num_fields(); ++f) {
+      std::vector<double> values(table.sites.size());
+      in.read(a, f, values);
+      const std::vector<double> carried = carrier.carry(std::move(values));
+      job.time(Stage::write, [&] { writer.write(carried); });
+    }
+  }
+  job.time(Stage::write, [&] { writer.finish(); });
 }
 
 constexpr const char* method_names[] = {"nearest", "linear",  "laplace",
@@ -124,18 +183,21 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const SiteTab
   file.source.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
   job.time(Stage::dual, [&] { file.source.areas = areas(triangulation, job.execution()); });
   file.target = std::move(targets.side);
-  add_grid_cells(file.target);
+  if (options.target.starts_with("grid:")) add_grid_cells(file.target);
   for (std::size_t r = 0; r < file.weights.num_rows(); ++r) {
     if (file.weights.offsets[r] == file.weights.offsets[r + 1]) ++counts.missing;
   }
-  job.time(Stage::write, [&] { write_weights({options.weights, options.weight_format}, file); });
+  job.time(Stage::write, [&] {
+    write_weights({options.weights, options.weight_format}, file, options.netcdf);
+  });
 }
 
 }  // namespace
 
 ExitStatus run_interpolate(const InterpolateOptions& options) {
   const CommonOptions& common = options.common;
-  const bool has_values = !options.columns.empty();
+  const bool is_netcdf = is_netcdf_file(netcdf_part(common.source()).first);
+  const bool has_values = !options.columns.empty() || (is_netcdf && !common.output.empty());
   if (has_values != !common.output.empty()) {
     throw UsageError("--value and --output go together: values of a column to a file");
   }
@@ -143,15 +205,16 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
     throw UsageError("nothing to do: --value COL -o FILE, or --weights FILE");
   }
   if (has_values) {
-    require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc");
+    require_output(common, can_write_fields(common.target()), ".csv .tsv .npy .nc .nc4");
   }
   Job job(common);
   ReadOptions read = common.read;
-  read.keep_columns = has_values;
+  read.keep_columns = has_values && !is_netcdf;
   const SiteTable table = job.read(common.source(), read);
   Targets targets = read_targets(options.target, common.read);
   InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0};
-  if (has_values) interpolate_columns(job, options, table, targets, counts);
+  if (has_values && is_netcdf) interpolate_fields(job, options, table, targets, counts);
+  if (has_values && !is_netcdf) interpolate_columns(job, options, table, targets, counts);
   if (!options.weights.empty()) {
     counts.missing = 0;
     write_weights_of(job, options, table, targets, counts);

@@ -7,10 +7,12 @@
 #include <cstring>
 
 #include "command.h"
+#include "netcdf_part.h"
 #include "progress_line.h"
 #include "report.h"
 #include "rondel/delaunay.h"
 #include "rondel/hull.h"
+#include "rondel/mesh_files.h"
 
 namespace rondel::cli {
 namespace {
@@ -54,7 +56,12 @@ SiteTable Job::read() { return read(state_->options.source(), state_->options.re
 
 SiteTable Job::read(const FileName& file, const ReadOptions& read) {
   const Clock::time_point start = Clock::now();
-  SiteTable table = read_sites(file, read, execution());
+  const auto part = netcdf_part(file);
+  const bool is_netcdf = is_netcdf_file(part.first);
+  std::vector<std::string> names;
+  if (!part.second.empty()) names.push_back(part.second);
+  SiteTable table = is_netcdf ? read_netcdf_sites(part.first, names, read.keep_columns).table
+                              : read_sites(file, read, execution());
   state_->seconds.read += seconds_since(start);
   state_->num_unlocated += table.num_unlocated;
   if (table.num_unlocated > 0 && !state_->options.quiet) {

@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "mesh_make.h"
+#include "netcdf_options.h"
 #include "process.h"
 #include "report.h"
 #include "validate.h"
@@ -18,10 +19,10 @@ namespace {
 
 const std::unordered_map<std::string, mesh::MeshFormat>& mesh_formats() {
   static const std::unordered_map<std::string, mesh::MeshFormat> formats = {
-      {"nc", mesh::MeshFormat::mpas},     {"mpas", mesh::MeshFormat::mpas},
-      {"ugrid", mesh::MeshFormat::ugrid}, {"scrip", mesh::MeshFormat::scrip},
-      {"esmf", mesh::MeshFormat::esmf},   {"exodus", mesh::MeshFormat::exodus},
-      {"exo", mesh::MeshFormat::exodus}};
+      {"nc", mesh::MeshFormat::mpas},       {"nc4", mesh::MeshFormat::mpas},
+      {"mpas", mesh::MeshFormat::mpas},     {"ugrid", mesh::MeshFormat::ugrid},
+      {"scrip", mesh::MeshFormat::scrip},   {"esmf", mesh::MeshFormat::esmf},
+      {"exodus", mesh::MeshFormat::exodus}, {"exo", mesh::MeshFormat::exodus}};
   return formats;
 }
 
@@ -35,11 +36,8 @@ std::string radius_error(const std::string& text) {
 
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
                                     const mesh::MeshOptions& options) {
-  CommonOptions named;
-  named.output = common.input;
-  named.output_format = common.input_format;
   mesh::MeshArrays arrays;
-  if (named.format() == "nc") {
+  if (is_netcdf_file(common.source())) {
     job.time(Stage::dual,
              [&] { arrays = mesh::read_mesh(common.source(), options, job.execution()); });
     return arrays;
@@ -61,7 +59,7 @@ mesh::MeshFormat mesh_format(const CommonOptions& common) {
 
 void require_mesh_output(const CommonOptions& common, MeshOutputKind kind) {
   const bool may_be_sites = kind == MeshOutputKind::mesh_or_sites;
-  const std::string of_meshes = ".nc .exo (mpas ugrid scrip esmf exodus)";
+  const std::string of_meshes = ".nc .nc4 .exo (mpas ugrid scrip esmf exodus)";
   require_output(common, is_mesh_file(common) || (may_be_sites && can_write_sites(common.target())),
                  of_meshes + (may_be_sites ? " .csv .tsv .xyz .txt .npy" : ""));
   if (is_mesh_file(common) && common.output == "-") {
@@ -89,7 +87,9 @@ void write_mesh_files(const MeshOutput& output, const mesh::MeshArrays& arrays, 
     }
     if (!output.graph.empty()) mesh::write_graph(output.graph, arrays, job.execution());
     if (is_mesh_file(common)) {
-      mesh::write(common.output, arrays, {mesh_format(common), output.kind}, job.execution());
+      const NetcdfKind kind = common.format() == "nc4" ? NetcdfKind::netcdf4 : output.netcdf.kind;
+      mesh::write(common.output, arrays, {mesh_format(common), kind, output.netcdf.deflate},
+                  job.execution());
     }
   });
 }
@@ -104,18 +104,14 @@ void add_mesh_report_option(CLI::App& parser, std::string& report, const std::st
 
 void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKind kind) {
   const std::string of_meshes =
-      "Where to write the mesh, netCDF: .nc is mpas (MPAS), .exo exodus; --format\n"
+      "Where to write the mesh, netCDF: .nc and .nc4 are mpas (MPAS), .exo exodus; --format\n"
       "ugrid, scrip, esmf for the others";
   add_output_option(parser, output.common,
                     kind == MeshOutputKind::mesh
                         ? of_meshes
                         : of_meshes + ". Or its sites: .csv .tsv .xyz .txt .npy")
       ->required();
-  add_word<mesh::NetcdfKind>(
-      parser, "--kind", output.kind,
-      {{"cdf5", mesh::NetcdfKind::cdf5}, {"cdf2", mesh::NetcdfKind::cdf2}},
-      "The format of netCDF: cdf5 (default) or cdf2 (64-bit offset; less than 4 GiB a\n"
-      "variable)");
+  add_netcdf_options(parser, output.netcdf);
   parser
       .add_option("--graph", output.graph,
                   "Where to write which cells are neighbors, for METIS: MPAS's graph.info")

@@ -25,10 +25,10 @@ inline constexpr const char* mesh_input_help =
 /// What of a mesh is written: OUTPUT and what goes beside it.
 struct MeshOutput {
   CommonOptions common;  ///< INPUT where the command has one; output, --format, threads
-  mesh::NetcdfKind kind = mesh::NetcdfKind::cdf5;
-  std::string graph;   ///< --graph; empty: not written
-  std::string report;  ///< --report; empty: not written
-  double radius = 1;   ///< --sphere-radius
+  NetcdfOptions netcdf;  ///< --kind --deflate
+  std::string graph;     ///< --graph; empty: not written
+  std::string report;    ///< --report; empty: not written
+  double radius = 1;     ///< --sphere-radius
 };
 
 struct MeshConvertOptions {
@@ -61,14 +61,14 @@ ExitStatus run_mesh_quality(const MeshQualityOptions& options);
 /// Writes the mesh, and graph and report if they are wanted; says so.
 void write_and_report_mesh(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job);
 
-/// The mesh of a file, of .nc by read_mesh(), of sites by arrays(). \throws FileError with the place of a site
+/// The mesh of a file, of netCDF by read_mesh(), of sites by arrays(). \throws FileError with the place of a site
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
                                     const mesh::MeshOptions& options);
 
 /// What OUTPUT may be.
 enum class MeshOutputKind { mesh, mesh_or_sites };
 
-/// What the commands that write a mesh have: --output, --format, --kind, --graph, --sphere-radius, --report.
+/// What the commands that write a mesh have: --output, --format, --kind, --deflate, --graph, --sphere-radius, --report.
 void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKind kind);
 /// \throws UsageError for a format of OUTPUT that is no mesh's, nor sites' where these may be written
 void require_mesh_output(const CommonOptions& common, MeshOutputKind kind);

@@ -23,7 +23,7 @@ Command add_mesh_convert_command(CLI::App& mesh) {
   add_threads_option(*parser, written.common);
   add_report_options(*parser, written.common);
   parser->footer(
-      "INPUT may be a mesh as well, .nc: MPAS, or UGRID, SCRIP and ESMF, which are made\n"
+      "INPUT may be a mesh as well, netCDF: MPAS, or UGRID, SCRIP and ESMF, which are made\n"
       "again of the centers of their cells, and at a border of their corners. Sites have to\n"
       "surround the center of the sphere, each in a place of its own.\n\n"
       "Examples:\n"

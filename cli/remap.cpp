@@ -111,8 +111,8 @@ void report(Job& job, const WeightFile& file, const std::string& output) {
 ExitStatus run_remap(const RemapCommandOptions& options) {
   const CommonOptions& common = options.common;
   const std::string format = common.format();
-  require_output(common, format == "nc" || format == "npz" || format == "esmf" || format == "scrip",
-                 ".nc .npz");
+  constexpr const char* formats[] = {"nc", "nc4", "npz", "esmf", "scrip"};
+  require_output(common, std::ranges::find(formats, format) != std::end(formats), ".nc .nc4 .npz");
   Job job(common);
   std::optional<CellSide> source;
   std::optional<CellSide> target;
@@ -138,7 +138,7 @@ ExitStatus run_remap(const RemapCommandOptions& options) {
   file.method =
       options.remap.order == 2 ? "Conservative remapping, second order" : "Conservative remapping";
   file.normalization = options.remap.norm == RemapNorm::destarea ? "destarea" : "fracarea";
-  job.time(Stage::write, [&] { write_weights(common.target(), file); });
+  job.time(Stage::write, [&] { write_weights(common.target(), file, options.netcdf); });
   report(job, file, common.output);
   return done;
 }

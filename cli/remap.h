@@ -24,6 +24,7 @@ struct ApplyCommandOptions {
   std::string values_file;           ///< VALUES
   std::vector<std::string> columns;  ///< --value
   ApplyOptions apply;                ///< --fill --most-missing
+  NetcdfOptions netcdf;              ///< --kind --deflate
 };
 
 struct CheckWeightsOptions {
@@ -38,9 +39,10 @@ struct InterpolateOptions {
   std::string weight_format;         ///< --weight-format
   std::vector<std::string> columns;  ///< --value
   InterpolationOptions interpolation;
+  NetcdfOptions netcdf;  ///< --kind --deflate
 };
 
-/// The targets that --to names: a file of points, or "grid:DEG" or "grid:NLONxNLAT", the centers of the
+/// The targets that --to names: a file of points, a netCDF file with cells, a grid or values at places, or "grid:DEG" or "grid:NLONxNLAT", the centers of the
 /// cells of a grid, from -180 eastward and from the south pole northward, longitudes fastest.
 struct Targets {
   SiteTable table;  ///< the points, and where they are from
@@ -63,6 +65,7 @@ struct RemapCommandOptions {
   RemapOptions remap;    ///< --order --norm --overlap
   GridSides sides = GridSides::parallels;
   PolygonEdges edges = PolygonEdges::lonlat;
+  NetcdfOptions netcdf;  ///< --kind --deflate
 };
 
 ExitStatus run_apply(const ApplyCommandOptions& options);

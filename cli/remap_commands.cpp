@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <memory>
 
+#include "netcdf_options.h"
 #include "remap.h"
 #include "validate.h"
 #include "words.h"
@@ -22,7 +23,7 @@ void add_values(CLI::App& parser, std::vector<std::string>& columns, const std::
 void add_weights_input(CLI::App& parser, CommonOptions& options) {
   parser
       .add_option("WEIGHTS", options.input,
-                  "The weights: .nc (ESMF or SCRIP, classic netCDF) or .npz (scipy.sparse)")
+                  "The weights: netCDF (ESMF or SCRIP) or .npz (scipy.sparse)")
       ->required()
       ->type_name("");
   parser
@@ -59,14 +60,14 @@ Command add_apply_command(CLI::App& tool) {
   parser
       ->add_option("VALUES", options->values_file,
                    "Values at the sources: .csv .tsv (--value), .npy of the shape (n) or\n"
-                   "(fields, n), or classic .nc: variables whose last dimensions are the sources")
+                   "(fields, n), or netCDF: variables whose last dimensions are the sources")
       ->required()
       ->type_name("");
   add_output_option(*parser, options->common,
-                    "Where to write the values at the targets: .csv .tsv .npy .nc")
+                    "Where to write the values at the targets: .csv .tsv .npy .nc .nc4")
       ->required();
   add_values(*parser, options->columns,
-             "A column, or a variable of .nc (default: all that fit); may be repeated");
+             "A column, or a variable of netCDF (default: all that fit); may be repeated");
   parser
       ->add_option("--fill", options->apply.fill,
                    "The value of targets that have none (default: nan)")
@@ -77,9 +78,11 @@ Command add_apply_command(CLI::App& tool) {
                    "from 0 (default) to 1; the other weights are scaled up")
       ->check(share_error)
       ->type_name("SHARE");
+  add_netcdf_options(*parser, options->netcdf);
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
+      "netCDF is read and written slice by slice: it may be larger than the memory.\n\n"
       "The values are those of the sources, in their order. Where the file of weights knows the\n"
       "sources, this is held against a table's columns of longitude and latitude, or x, y, z, and\n"
       "against the longitudes and latitudes of a netCDF file, to 1e-4 degrees. Of .npy, and of\n"
@@ -126,23 +129,27 @@ Command add_interpolate_command(CLI::App& tool) {
       tool.add_subcommand("interpolate", "Carry values at sites to other points, or make weights");
   add_input_options(*parser, options->common);
   parser
-      ->add_option("--to", options->target,
-                   "The targets: a file of points in the formats of INPUT, or the centers of\n"
-                   "the cells of a grid, grid:DEG or grid:NLONxNLAT")
+      ->add_option(
+          "--to", options->target,
+          "The targets: a file of points in the formats of INPUT, netCDF with cells, a grid\n"
+          "or values at places, or the centers of the cells of a grid, grid:DEG or\n"
+          "grid:NLONxNLAT")
       ->required()
       ->type_name("TARGET");
   add_values(*parser, options->columns,
-             "The column with the values, for GeoJSON a property; may be repeated");
+             "The column with the values, for GeoJSON a property, for netCDF a variable (default\n"
+             "there: that of INPUT.nc:NAME, or all); may be repeated");
   add_output_option(*parser, options->common,
-                    "Where to write the values at the targets: .csv .tsv .npy .nc");
+                    "Where to write the values at the targets: .csv .tsv .npy .nc .nc4");
   parser
       ->add_option("--weights", options->weights,
-                   "Where to write the weights: .nc (ESMF), .npz (scipy.sparse)")
+                   "Where to write the weights: .nc or .nc4 (ESMF), .npz (scipy.sparse)")
       ->type_name("FILE");
   parser
       ->add_option("--weight-format", options->weight_format,
                    "Format of the weights: esmf, scrip (for CDO) or npz")
       ->type_name("FORMAT");
+  add_netcdf_options(*parser, options->netcdf);
   add_methods(*parser, options->interpolation);
   add_build_options(*parser, options->common);
   add_report_options(*parser, options->common);
@@ -154,7 +161,9 @@ Command add_interpolate_command(CLI::App& tool) {
       "Examples:\n"
       "  rondel interpolate stations.csv --value temperature --to grid:1 -o grid.nc\n"
       "  rondel interpolate stations.csv --value t --to ships.csv --method linear -o ships.npy\n"
-      "  rondel interpolate stations.csv --to grid:360x180 --weights weights.nc");
+      "  rondel interpolate stations.csv --to grid:360x180 --weights weights.nc\n"
+      "  rondel interpolate ocean.nc:salinity --to stations.csv -o at-stations.csv\n"
+      "  rondel interpolate ocean.nc --to grid.nc -o on-grid.nc4");
   return {parser, [options] { return run_interpolate(*options); }};
 }
 
@@ -163,15 +172,17 @@ Command add_remap_command(CLI::App& tool) {
   CLI::App* parser = tool.add_subcommand("remap", "Make conservative weights between cells");
   add_input_options(
       *parser, options->common,
-      "The cells that have the values: .nc with those of a model or a grid, grid:DEG or\n"
+      "The cells that have the values: netCDF with those of a model or a grid, grid:DEG or\n"
       "grid:NLONxNLAT, .geojson with polygons, or a file of sites, whose Voronoi cells\n"
       "they are: .csv .tsv .xyz .txt .npy, or - for standard input");
   parser->add_option("TARGET", options->target, "The cells that want them, in the same forms")
       ->required()
       ->type_name("");
-  add_output_option(*parser, options->common,
-                    "Where to write the weights: .nc (ESMF; --format scrip for CDO), .npz (SciPy)")
+  add_output_option(
+      *parser, options->common,
+      "Where to write the weights: .nc (ESMF; --format scrip for CDO), .nc4, .npz (SciPy)")
       ->required();
+  add_netcdf_options(*parser, options->netcdf);
   add_word<unsigned>(
       *parser, "--order", options->remap.order, {{"1", 1U}, {"2", 2U}},
       "1 (default): the field is constant in each source; 2: it has a gradient there");
@@ -199,8 +210,8 @@ Command add_remap_command(CLI::App& tool) {
   add_build_options(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
-      "netCDF may be UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF, in a classic format\n"
-      "(nccopy -k cdf5 makes one). Cells that the file masks take no part.\n\n"
+      "netCDF may be UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 is read by the\n"
+      "library netCDF-C. Cells that the file masks take no part.\n\n"
       "Examples:\n"
       "  rondel remap ocean.nc grid:1 -o weights.nc\n"
       "  rondel remap stations.csv countries.geojson --norm fracarea -o weights.npz\n"

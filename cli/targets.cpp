@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "netcdf_part.h"
 #include "remap.h"
 #include "rondel/delaunay.h"
+#include "rondel/mesh_files.h"
 #include "validate.h"
 
 namespace rondel::cli {
@@ -114,6 +116,15 @@ Targets read_targets(const std::string& name, const ReadOptions& read) {
     targets.table.name = name;
     targets.table.first_line = 0;
     targets.table.sites = unit_vectors(targets.side.points);
+    return targets;
+  }
+  if (const auto [file, variable] = netcdf_part(name); is_netcdf_file(file)) {
+    std::vector<std::string> names;
+    if (!variable.empty()) names.push_back(variable);
+    NetcdfSites sites = read_netcdf_sites(file, names, false);
+    targets.table = std::move(sites.table);
+    targets.side.points = targets.table.positions;
+    if (sites.shape.size() > 1) targets.side.shape = std::move(sites.shape);
     return targets;
   }
   ReadOptions options = read;

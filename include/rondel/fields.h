@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -38,6 +39,8 @@ struct FieldSet {
   std::vector<FieldArray> arrays;
   std::vector<FieldArray> axes;
   std::vector<Point> points;  ///< of netCDF with longitudes and latitudes of the points; else empty
+  std::vector<LonLat> positions;     ///< the same in degrees, as the file has them
+  std::vector<std::uint64_t> shape;  ///< the lengths of the dimensions that the points have there
   std::vector<std::string> remarks;  ///< sentences: which variables of netCDF are left out, and why
 };
 
@@ -47,24 +50,70 @@ struct FieldSet {
 /// | --- | --- |
 /// | `.csv`, `.tsv` | the columns `names`, one at least; an empty cell and `nan` are missing |
 /// | `.npy` | shape (n,) or (fields, n); no `names` |
-/// | `.nc` | the variables `names`, or all that are fields at the points |
+/// | `.nc`, `.nc4`, `.cdf`, `.ncf`, or what begins as netCDF | the variables `names`, or all that are fields at the points |
 ///
 /// In netCDF the dimensions of the points are those of their longitudes and latitudes (rondel/conventions.h), in any order and at any
 /// place among the others, or else the dimension of that length, or dimensions that follow each other and multiply to it. Values are
 /// what the attributes `_FillValue`, `missing_value`, `valid_min`, `valid_max`, `valid_range`, `_Unsigned`, `scale_factor` and
 /// `add_offset` make of the numbers.
 ///
-/// \param num_points  n; 0 for tables: as many as there are rows
+/// \param num_points  n; 0 for tables: as many as there are rows; 0 for netCDF: those of the longitudes and latitudes of
+///                    the first variable that has some
 /// \param shape  the lengths of the grid of the points, if they are one; a variable of netCDF with other lengths is refused
 RONDEL_API FieldSet read_fields(const FileName& file, std::span<const std::string> names,
                                 std::uint64_t num_points, const ReadOptions& options = {},
                                 std::span<const std::uint64_t> shape = {});
 
+/// A file of fields whose values are read in slices, so that it may be larger than the memory: netCDF is, other formats are
+/// read whole.
+class FieldFile {
+ public:
+  /// As read_fields().
+  RONDEL_API FieldFile(const FileName& file, std::span<const std::string> names,
+                       std::uint64_t num_points, const ReadOptions& options = {},
+                       std::span<const std::uint64_t> shape = {});
+  RONDEL_API ~FieldFile();
+  FieldFile(const FieldFile&) = delete;
+  FieldFile& operator=(const FieldFile&) = delete;
+
+  /// All that read_fields() gives but the values of the arrays, which are empty.
+  [[nodiscard]] RONDEL_API const FieldSet& fields() const;
+
+  /// Reads so many of an array's fields as there is room for, from field `first` on.
+  /// \param array  its number in fields().arrays
+  /// \param out  a multiple of the points, which change fastest; NaN: missing
+  RONDEL_API void read(std::size_t array, std::size_t first, std::span<double> out) const;
+
+ private:
+  struct OpenFields;
+  std::unique_ptr<OpenFields> content_;
+};
+
 /// Writes values at the points of a side: `.csv` and `.tsv` with lon, lat, the columns of the side, and a
 /// column a field, named by its time or place on other axes, "tas_2001-07-15" or "tas_850"; `.npy` of
-/// the shape (n,) or (fields, n), `.nc` on the grid of the side if it has one, else along one dimension.
-RONDEL_API void write_fields(const FileName& file, const FieldSet& fields,
-                             const WeightSide& points);
+/// the shape (n,) or (fields, n), `.nc` and `.nc4` on the grid of the side if it has one, else along one dimension.
+RONDEL_API void write_fields(const FileName& file, const FieldSet& fields, const WeightSide& points,
+                             const NetcdfOptions& netcdf = {});
+
+/// The same in slices. Tables are kept until finish(), of other formats nothing is. The file appears when it is complete.
+class FieldWriter {
+ public:
+  /// \param fields  the arrays without values, the axes with theirs; used until finish(), as are the points
+  RONDEL_API FieldWriter(const FileName& file, const FieldSet& fields, const WeightSide& points,
+                         const NetcdfOptions& netcdf = {});
+  RONDEL_API ~FieldWriter();
+  FieldWriter(const FieldWriter&) = delete;
+  FieldWriter& operator=(const FieldWriter&) = delete;
+
+  /// The next values: those of the first array, field by field, then those of the second one, and so on.
+  RONDEL_API void write(std::span<const double> values);
+  /// Precondition: all values are written.
+  RONDEL_API void finish();
+
+ private:
+  struct BegunFields;
+  std::unique_ptr<BegunFields> output_;
+};
 
 /// Whether the format can hold fields.
 RONDEL_API bool can_write_fields(const FileName& file);

@@ -36,10 +36,24 @@ struct FileName {
   std::string format;  ///< "ply", "npy" ...; empty: by the ending of the path
 };
 
+/// What netCDF is written as: by the name of the file, netCDF-4 where it ends in .nc4 and else one of the classic formats;
+/// CDF-2, which every program reads and whose variables have less than 4 GiB; CDF-5; or netCDF-4 (HDF5), compressed.
+enum class NetcdfKind : std::uint8_t { by_name, cdf2, cdf5, netcdf4 };
+
+/// How netCDF is written. Equal calls give equal bytes; of netCDF-4 with equal versions of netCDF-C and HDF5, which are in the file.
+struct NetcdfOptions {
+  NetcdfKind kind = NetcdfKind::by_name;
+  int deflate = 1;  ///< netCDF-4: how much effort zlib takes, 0 (not compressed) to 9
+};
+
 /// Where the library netCDF-C is, which reads and writes netCDF-4 (HDF5): the path or the name of its file, which is tried before
 /// the names under which systems have it. For programs that bring it; to be called before the first file of netCDF-4. The
 /// environment's variable RONDEL_NETCDF is stronger.
 RONDEL_API void set_netcdf_library(const std::string& path);
+
+/// Whether a file is netCDF: by its format if one is named; else by its first bytes, where it can be read twice; else by the ending
+/// of its path: .nc .nc4 .cdf .ncf .ug .exo .e .g .h5.
+RONDEL_API bool is_netcdf_file(const FileName& file);
 
 /// How to read sites.
 struct ReadOptions {

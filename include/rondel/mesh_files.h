@@ -46,7 +46,7 @@ RONDEL_API LonLatGrid grid_around(std::span<const double> lon_deg, std::span<con
 /// no place.
 RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each);
 
-/// Reads netCDF in one of the classic formats; which convention it follows, its variables and attributes tell:
+/// Reads netCDF of any format; which convention it follows, its variables and attributes tell:
 ///
 /// | convention | cells |
 /// | --- | --- |
@@ -73,6 +73,18 @@ RONDEL_API CellTable read_cells(const FileName& file);
 
 /// Whether the format of the file, without the name of a grid, is one that read_cells() reads.
 RONDEL_API bool can_read_cells(const FileName& file);
+/// The places of a netCDF file.
+struct NetcdfSites {
+  SiteTable table;                   ///< with positions
+  std::vector<std::uint64_t> shape;  ///< the lengths of their dimensions: nlat, nlon for a grid
+};
+
+/// Reads sites from netCDF: the centers of the cells that read_cells() finds, or else the places of the first of the fields
+/// that has some (rondel/fields.h).
+/// \param names  the fields in question; their values, where a field has one at each site, are columns of the table if
+///               columns are kept. Empty: all.
+RONDEL_API NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string> names,
+                                         bool keep_columns);
 
 /// The partition that the cells are. \throws FileError with the file's name for cells that Partition refuses.
 RONDEL_API Partition partition_of(const CellTable& table, GridSides sides = GridSides::parallels,

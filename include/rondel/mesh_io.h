@@ -16,7 +16,7 @@
 
 namespace rondel::mesh {
 
-/// What a file of a mesh is. All are netCDF in one of its classic formats, in double precision.
+/// What a file of a mesh is. All are netCDF, in double precision.
 enum class MeshFormat : std::uint8_t {
   mpas,  ///< all arrays, TRiSK's weights among them, as the specification of MPAS meshes names them
   ugrid,  ///< CF-1.11 UGRID-1.0: faces, edges, nodes and how they meet
@@ -25,12 +25,13 @@ enum class MeshFormat : std::uint8_t {
   exodus,  ///< Exodus II on the unit sphere as TempestRemap has it: a block for each number of corners
 };
 
-/// Which of netCDF's classic formats: CDF-2, which every program reads and whose variables have less than 4 GiB; or CDF-5.
-enum class NetcdfKind : std::uint8_t { cdf2, cdf5 };
+using rondel::NetcdfKind;
 
 struct MeshFileOptions {
   MeshFormat format = MeshFormat::mpas;
-  NetcdfKind kind = NetcdfKind::cdf5;
+  /// By the name: netCDF-4 where it ends in .nc4, else CDF-5.
+  NetcdfKind kind = NetcdfKind::by_name;
+  int deflate = 1;  ///< as that of NetcdfOptions
 };
 
 /// Writes the mesh, piece by piece: nothing of the file's size is in memory.

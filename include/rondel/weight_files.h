@@ -42,17 +42,19 @@ struct WeightFile {
 ///
 /// | format | ending | what it is |
 /// | --- | --- | --- |
-/// | `esmf` | `.nc` | netCDF as ESMF's regridding writes it: `col`, `row` (from 1), `S`; degrees |
+/// | `esmf` | `.nc`, `.nc4` | netCDF as ESMF's regridding writes it: `col`, `row` (from 1), `S`; degrees |
 /// | `scrip` | none | netCDF as SCRIP wrote it and CDO reads it: `src_address`, `remap_matrix` ... |
 /// | `npz` | `.npz` | the matrix as scipy.sparse.save_npz() writes it in CSR, and nothing else |
 ///
-/// netCDF is one of the classic formats, CDF-5 where a variable has more than 4 GiB.
+/// netCDF is one of the classic formats, CDF-5 where a variable has more than 4 GiB, or netCDF-4 if the options or the ending of
+/// the path say so.
 /// What is not there gets ESMF's values: areas 0, fractions of sources 0, of targets 1 and 0 where a row
 /// has no entries, masks 1, points and corners none. In `esmf`, points that have neither areas nor
 /// corners and are no grid are cells of one corner, as NCO wants corners.
 /// \throws InvalidInput if the weights are not in compressed rows, or an array has not the length of
 ///         its side.
-RONDEL_API void write_weights(const FileName& file, const WeightFile& content);
+RONDEL_API void write_weights(const FileName& file, const WeightFile& content,
+                              const NetcdfOptions& netcdf = {});
 
 /// Reads what write_weights() or another program wrote; which netCDF it is, its variables tell. Entries
 /// may have any order: rows are made of them, and within a row they keep that of the file. Areas and

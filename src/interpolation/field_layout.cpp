@@ -101,9 +101,9 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
     const LayoutVariable& lon = file_.variables()[pair.lon];
     const std::uint64_t most =
         pair.are_axes ? lon.num_values * file_.variables()[pair.lat].num_values : lon.num_values;
-    if (num_points_ == 0 || most % num_points_ != 0) continue;
+    if (num_points_ != 0 && most % num_points_ != 0) continue;
     const KnownPlaces& known = places_of_pair(pair);
-    if (known.places.size() != num_points_) continue;
+    if (num_points_ != 0 && known.places.size() != num_points_) continue;
     if (layout) {
       layout->places.clear();  // said more than once
       break;
@@ -173,8 +173,12 @@ std::vector<std::size_t> FieldDimensionFinder::run_of_points(const LayoutVariabl
 }
 
 std::optional<FieldDimensions> FieldDimensionFinder::layout(const LayoutVariable& variable) {
-  if (variable.type == io::NetcdfType::text || num_points_ == 0) return std::nullopt;
+  if (variable.type == io::NetcdfType::text) return std::nullopt;
   std::optional<FieldDimensions> found = by_coordinates(variable);
+  if (num_points_ == 0) {
+    if (!found || found->places.empty()) return std::nullopt;
+    num_points_ = found->places.size();
+  }
   return found ? found : by_lengths(variable);
 }
 

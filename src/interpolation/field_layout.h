@@ -38,7 +38,7 @@ struct FieldDimensions {
 
 class FieldDimensionFinder {
  public:
-  // `shape`: the lengths of the points' grid; empty: not known.
+  // `num_points`: 0 for those of the first variable whose places the file says. `shape`: the lengths of the points' grid; empty: not known.
   FieldDimensionFinder(const io::NetcdfReader& file, std::uint64_t num_points,
                        std::span<const std::uint64_t> shape);
 

@@ -1,11 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// read_fields and write_fields: which format; tables and arrays.
+// Fields as tables and as arrays of NumPy.
 #include "rondel/fields.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -17,12 +16,8 @@
 #include "io/column_text.h"
 #include "io/csv_columns.h"
 #include "io/csv_records.h"
-#include "io/ending.h"
-#include "io/file_bytes.h"
 #include "io/npy_header.h"
 #include "io/number.h"
-#include "rondel/error.h"
-#include "system/arithmetic.h"
 
 namespace rondel {
 namespace interpolation {
@@ -105,39 +100,70 @@ std::string header_of(const FieldsToWrite& job, char separator) {
   return text + '\n';
 }
 
-void write_table(io::AtomicFile& file, const FieldsToWrite& job, char separator) {
-  const std::vector<LonLat>& points = job.side.points;
-  std::string text = header_of(job, separator);
-  const std::size_t n = job.fields.num_points;
-  for (std::size_t i = 0; i < n; ++i) {
-    bool is_first = true;
-    const auto separate = [&] {
-      if (!is_first) text += separator;
-      is_first = false;
-    };
-    if (!points.empty()) {
-      separate();
-      io::append_number(text, points[i].lon_deg);
-      separate();
-      io::append_number(text, points[i].lat_deg);
-    }
-    for (const Column& column : job.side.columns) {
-      separate();
-      io::append_csv_field(text, io::cell_of(column, i), separator);
-    }
-    for (const FieldArray& array : job.fields.arrays) {
-      for (std::size_t f = 0; f < array.num_fields(); ++f) {
-        separate();
-        const double value = array.values[f * n + i];
-        if (!std::isnan(value)) io::append_number(text, value);
-      }
-    }
-    text += '\n';
-    file.write(text);
-    text.clear();
+// A row has the values of all fields at a point: the table is kept until it is complete.
+class TableSink : public FieldSink {
+ public:
+  TableSink(io::AtomicFile& file, const FieldsToWrite& job, char separator)
+      : file_(file), job_(job), separator_(separator) {}
+
+  void write(std::span<const double> values) override {
+    values_.insert(values_.end(), values.begin(), values.end());
   }
-  file.write(text);
-}
+  void finish() override {
+    const std::vector<LonLat>& points = job_.side.points;
+    const std::size_t n = job_.fields.num_points;
+    std::string text = header_of(job_, separator_);
+    for (std::size_t i = 0; i < n; ++i) {
+      bool is_first = true;
+      const auto separate = [&] {
+        if (!is_first) text += separator_;
+        is_first = false;
+      };
+      if (!points.empty()) {
+        separate();
+        io::append_number(text, points[i].lon_deg);
+        separate();
+        io::append_number(text, points[i].lat_deg);
+      }
+      for (const Column& column : job_.side.columns) {
+        separate();
+        io::append_csv_field(text, io::cell_of(column, i), separator_);
+      }
+      for (std::size_t at = i; at < values_.size(); at += n) {
+        separate();
+        if (!std::isnan(values_[at])) io::append_number(text, values_[at]);
+      }
+      text += '\n';
+      file_.write(text);
+      text.clear();
+    }
+    file_.write(text);
+  }
+
+ private:
+  io::AtomicFile& file_;
+  FieldsToWrite job_;
+  char separator_;
+  std::vector<double> values_;
+};
+
+// (n,) of one field, (fields, n) of more, the arrays one after the other.
+class NpySink : public FieldSink {
+ public:
+  NpySink(io::AtomicFile& file, const FieldSet& fields) : file_(file) {
+    std::uint64_t count = 0;
+    for (const FieldArray& array : fields.arrays) count += array.num_fields();
+    const std::uint64_t n = fields.num_points;
+    const bool is_one = fields.arrays.size() == 1 && fields.arrays[0].shape.empty();
+    file.write(io::make_npy_header(
+        "<f8", is_one ? std::vector<std::uint64_t>{n} : std::vector<std::uint64_t>{count, n}));
+  }
+  void write(std::span<const double> values) override { file_.write(io::NumberBytes(values)); }
+  void finish() override {}
+
+ private:
+  io::AtomicFile& file_;
+};
 
 }  // namespace
 
@@ -188,84 +214,15 @@ FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted) {
   return fields;
 }
 
-void write_fields_csv(io::AtomicFile& file, const FieldsToWrite& job) {
-  write_table(file, job, ',');
+std::unique_ptr<FieldSink> begin_fields_csv(io::AtomicFile& file, const FieldsToWrite& job) {
+  return std::make_unique<TableSink>(file, job, ',');
 }
-void write_fields_tsv(io::AtomicFile& file, const FieldsToWrite& job) {
-  write_table(file, job, '\t');
+std::unique_ptr<FieldSink> begin_fields_tsv(io::AtomicFile& file, const FieldsToWrite& job) {
+  return std::make_unique<TableSink>(file, job, '\t');
 }
-
-// (n,) of one field, (fields, n) of more, the arrays one after the other.
-void write_fields_npy(io::AtomicFile& file, const FieldsToWrite& job) {
-  std::uint64_t count = 0;
-  for (const FieldArray& array : job.fields.arrays) count += array.num_fields();
-  const std::uint64_t n = job.fields.num_points;
-  const bool is_one = job.fields.arrays.size() == 1 && job.fields.arrays[0].shape.empty();
-  file.write(io::make_npy_header(
-      "<f8", is_one ? std::vector<std::uint64_t>{n} : std::vector<std::uint64_t>{count, n}));
-  for (const FieldArray& array : job.fields.arrays) file.write(io::NumberBytes(array.values));
+std::unique_ptr<FieldSink> begin_fields_npy(io::AtomicFile& file, const FieldsToWrite& job) {
+  return std::make_unique<NpySink>(file, job.fields);
 }
 
 }  // namespace interpolation
-
-namespace {
-
-struct FieldReader {
-  std::string_view ending;
-  FieldSet (*read)(std::string_view, const interpolation::FieldsToRead&);
-};
-constexpr std::array<FieldReader, 4> field_readers = {
-    {{".csv", &interpolation::read_fields_csv},
-     {".tsv", &interpolation::read_fields_tsv},
-     {".npy", &interpolation::read_fields_npy},
-     {".nc", &interpolation::read_fields_netcdf}}};
-using FieldWriter = io::Writer<interpolation::FieldsToWrite>;
-constexpr std::array<FieldWriter, 4> field_writers = {
-    {{".csv", &interpolation::write_fields_csv},
-     {".tsv", &interpolation::write_fields_tsv},
-     {".npy", &interpolation::write_fields_npy},
-     {".nc", &interpolation::write_fields_netcdf}}};
-
-}  // namespace
-
-std::size_t FieldArray::num_fields() const {
-  std::size_t product = 1;
-  for (const std::uint64_t length : shape) product *= length;
-  return product;
-}
-
-FieldSet read_fields(const FileName& file, std::span<const std::string> names,
-                     std::uint64_t num_points, const ReadOptions& options,
-                     std::span<const std::uint64_t> shape) {
-  const FieldReader& reader =
-      io::require_format<FieldReader>(field_readers, file, "fields are read from");
-  io::FileBytes bytes(file.path);
-  return io::in_file(bytes.name(), [&] {
-    return reader.read(bytes.text(), {names, num_points, options, shape});
-  });
-}
-
-bool can_write_fields(const FileName& file) {
-  return io::find_format<FieldWriter>(field_writers, file) != nullptr;
-}
-
-void write_fields(const FileName& file, const FieldSet& fields, const WeightSide& points) {
-  for (const FieldArray& array : fields.arrays) {
-    if (array.values.size() == array.num_fields() * fields.num_points) continue;
-    throw InvalidInput("array '" + array.name + "' has " + std::to_string(array.values.size()) +
-                       " values");
-  }
-  for (const Column& column : points.columns) {
-    if (column.ends.size() == fields.num_points) continue;
-    throw InvalidInput("column '" + column.name + "' has " + std::to_string(column.ends.size()) +
-                       " cells for values at " + std::to_string(fields.num_points));
-  }
-  if (!points.points.empty() && points.points.size() != fields.num_points) {
-    throw InvalidInput(std::to_string(points.points.size()) + " points for values at " +
-                       std::to_string(fields.num_points));
-  }
-  io::write_whole<interpolation::FieldsToWrite>(field_writers, file, "fields are written as",
-                                                {fields, points});
-}
-
 }  // namespace rondel

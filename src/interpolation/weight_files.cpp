@@ -4,6 +4,7 @@
 // write_weights and read_weights: which format, and whether the content fits together.
 #include "rondel/weight_files.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -18,22 +19,17 @@
 namespace rondel {
 namespace {
 
-using WeightWriter = io::Writer<WeightFile>;
-constexpr std::array<WeightWriter, 4> weight_writers = {
+using WeightWriter = io::Writer<interpolation::WeightsToWrite>;
+constexpr std::array<WeightWriter, 5> weight_writers = {
     {{".nc", &interpolation::write_esmf},
+     {".nc4", &interpolation::write_esmf},
      {".npz", &interpolation::write_weights_npz},
      {".esmf", &interpolation::write_esmf},
      {".scrip", &interpolation::write_scrip}}};
 
-struct WeightReader {
-  std::string_view ending;
-  WeightFile (*read)(std::string_view);
-};
-constexpr std::array<WeightReader, 4> weight_readers = {
-    {{".nc", &interpolation::read_weights_netcdf},
-     {".npz", &interpolation::read_weights_npz},
-     {".esmf", &interpolation::read_weights_netcdf},
-     {".scrip", &interpolation::read_weights_netcdf}}};
+// Which of them netCDF is, the variables tell.
+constexpr std::array<std::string_view, 7> weight_endings = {".nc",  ".nc4",  ".cdf",  ".ncf",
+                                                            ".npz", ".esmf", ".scrip"};
 
 void require_number(const char* what, std::size_t length, std::size_t wanted) {
   if (length == 0 || length == wanted) return;
@@ -71,18 +67,31 @@ void require_content(const WeightFile& content) {
 
 }  // namespace
 
-void write_weights(const FileName& file, const WeightFile& content) {
+void write_weights(const FileName& file, const WeightFile& content, const NetcdfOptions& netcdf) {
   const system::ArithmeticScope arithmetic;
   require_content(content);
-  io::write_whole<WeightFile>(weight_writers, file, "weights are written as", content);
+  io::in_file(file.path, [&] {
+    io::write_whole<interpolation::WeightsToWrite>(weight_writers, file, "weights are written as",
+                                                   {content, io::with_kind(netcdf, file)});
+  });
 }
 
 WeightFile read_weights(const FileName& file) {
   const system::ArithmeticScope arithmetic;
-  const WeightReader& reader =
-      io::require_format<WeightReader>(weight_readers, file, "weights are read from");
+  const std::string ending = io::ending(file);
+  const bool is_known = std::ranges::find(weight_endings, ending) != weight_endings.end();
+  if (!is_known && !file.format.empty()) {
+    io::throw_unknown_ending(file, "weights are read from", weight_endings);
+  }
   io::FileBytes bytes(file.path, true);
-  return io::in_file(bytes.name(), [&] { return reader.read(bytes.text()); });
+  return io::in_file(bytes.name(), [&] {
+    if (io::is_netcdf(bytes.head())) {
+      return interpolation::read_weights_netcdf(io::NetcdfReader(bytes));
+    }
+    if (!is_known) io::throw_unknown_ending(file, "weights are read from", weight_endings);
+    if (ending == ".npz") return interpolation::read_weights_npz(bytes.text());
+    return interpolation::read_weights_netcdf(io::NetcdfReader(bytes));  // which says what is wrong
+  });
 }
 
 std::vector<LonLat> lonlats(std::span<const Point> points) {

@@ -17,13 +17,17 @@
 
 namespace rondel::interpolation {
 
+struct WeightsToWrite {
+  const WeightFile& content;
+  NetcdfOptions netcdf;
+};
 // Each writes the whole file. Precondition: the content fits together.
-void write_esmf(io::AtomicFile& file, const WeightFile& content);
-void write_scrip(io::AtomicFile& file, const WeightFile& content);
-void write_weights_npz(io::AtomicFile& file, const WeightFile& content);
+void write_esmf(io::AtomicFile& file, const WeightsToWrite& job);
+void write_scrip(io::AtomicFile& file, const WeightsToWrite& job);
+void write_weights_npz(io::AtomicFile& file, const WeightsToWrite& job);
 
 // Each reads the content of a file. Throws BadValue.
-WeightFile read_weights_netcdf(std::string_view bytes);
+WeightFile read_weights_netcdf(const io::NetcdfReader& file);
 WeightFile read_weights_npz(std::string_view bytes);
 
 WeightFile read_esmf(const io::NetcdfReader& file);

@@ -30,7 +30,8 @@ void write_entries(io::NetcdfWriter& out, const Weights& weights) {
 
 }  // namespace
 
-void write_esmf(io::AtomicFile& file, const WeightFile& content) {
+void write_esmf(io::AtomicFile& file, const WeightsToWrite& job) {
+  const WeightFile& content = job.content;
   const Weights& weights = content.weights;
   const std::size_t num_sources = weights.num_columns;
   const std::size_t num_targets = weights.num_rows();
@@ -58,7 +59,7 @@ void write_esmf(io::AtomicFile& file, const WeightFile& content) {
     out.add_variable(std::move(entries));
   }
   out.add_variable(variable("S", NetcdfType::float64, {n_s}));
-  out.begin();
+  out.begin(job.netcdf);
   write_side(out, source_names(), content.source, num_sources, [](std::size_t) { return 0.0; });
   write_side(out, target_names(), content.target, num_targets,
              [&](std::size_t row) { return fraction_of(weights, row); });

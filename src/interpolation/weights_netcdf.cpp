@@ -223,7 +223,7 @@ std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name) {
   for (const io::NetcdfDimension& dimension : file.dimensions()) {
     if (dimension.name != name) continue;
     // Every format has a value for each point: a larger size is a lie, and would take memory.
-    if (dimension.size > file.num_bytes()) {
+    if (dimension.size > file.most_values()) {
       throw io::BadValue("dimension " + io::in_quotes(name) + " of " +
                          std::to_string(dimension.size) + " in a file of " +
                          std::to_string(file.num_bytes()) + " bytes");
@@ -233,8 +233,7 @@ std::size_t dimension_of(const io::NetcdfReader& file, std::string_view name) {
   throw io::BadValue("no dimension " + io::in_quotes(name));
 }
 
-WeightFile read_weights_netcdf(std::string_view bytes) {
-  const io::NetcdfReader file(bytes);
+WeightFile read_weights_netcdf(const io::NetcdfReader& file) {
   if (file.find("S") != nullptr) return read_esmf(file);
   if (file.find("remap_matrix") != nullptr) return read_scrip(file);
   throw io::BadValue(

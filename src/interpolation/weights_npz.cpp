@@ -92,7 +92,8 @@ void require_csr(std::string_view archive) {
 
 }  // namespace
 
-void write_weights_npz(io::AtomicFile& file, const WeightFile& content) {
+void write_weights_npz(io::AtomicFile& file, const WeightsToWrite& job) {
+  const WeightFile& content = job.content;
   const Weights& weights = content.weights;
   io::ZipWriter zip(file);
   const auto add = [&](const char* name, const char* dtype, std::span<const std::uint64_t> shape,

@@ -30,7 +30,8 @@ std::string known_method(const std::string& method) {
 
 }  // namespace
 
-void write_scrip(io::AtomicFile& file, const WeightFile& content) {
+void write_scrip(io::AtomicFile& file, const WeightsToWrite& job) {
+  const WeightFile& content = job.content;
   const Weights& weights = content.weights;
   const std::size_t num_sources = weights.num_columns;
   const std::size_t num_targets = weights.num_rows();
@@ -57,7 +58,7 @@ void write_scrip(io::AtomicFile& file, const WeightFile& content) {
   out.add_variable(variable("src_address", index_type(num_sources), {links}));
   out.add_variable(variable("dst_address", index_type(num_targets), {links}));
   out.add_variable(variable("remap_matrix", io::NetcdfType::float64, {links, wgts}));
-  out.begin();
+  out.begin(job.netcdf);
   write_side(out, names_of("src"), content.source, num_sources, [](std::size_t) { return 0.0; });
   write_side(out, names_of("dst"), content.target, num_targets,
              [&](std::size_t row) { return fraction_of(weights, row); });

@@ -58,10 +58,14 @@ class RONDEL_API AtomicFile {
   // Flushes, closes and renames.
   void commit();
 
+  // Whether it is written directly; else the file that is replaced, and its directory ("data/", or empty).
+  [[nodiscard]] bool is_direct() const { return target_.empty(); }
+  [[nodiscard]] const std::string& target() const { return target_; }
+  [[nodiscard]] const std::string& directory() const { return directory_; }
+
  private:
   void flush();
   void drain(std::string_view bytes);
-  [[nodiscard]] bool is_direct() const { return target_.empty(); }
   [[noreturn]] void fail(int error);
 
   int close() noexcept;

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "io/ending.h"
 
+#include <algorithm>
+
 #include "rondel/error.h"
 
 namespace rondel::io {
@@ -21,6 +23,18 @@ std::string ending(const FileName& file) {
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   }
   return result;
+}
+
+bool has_netcdf_ending(const FileName& file) {
+  return std::ranges::find(netcdf_endings, ending(file)) != netcdf_endings.end();
+}
+
+// A format that says what is in the file leaves it to the path.
+NetcdfOptions with_kind(NetcdfOptions options, const FileName& file) {
+  constexpr std::string_view netcdf4 = ".nc4";
+  const bool is_netcdf4 = ending(file) == netcdf4 || ending(file.path) == netcdf4;
+  if (options.kind == NetcdfKind::by_name && is_netcdf4) options.kind = NetcdfKind::netcdf4;
+  return options;
 }
 
 void throw_unknown_ending(const FileName& file, std::string_view what,

@@ -4,6 +4,7 @@
 // A file's format is named, or told by its ending.
 #pragma once
 
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,6 +19,15 @@ namespace rondel::io {
 // ".csv" of the format "CSV" or, if none is named, of the path "data/Stations.CSV": in lower case;
 // empty if the path has no ending. Slashes at the end, as of a folder, do not count.
 RONDEL_API std::string ending(const FileName& file);
+
+// The endings that files of netCDF have, those of UGRID, Exodus and HDF5 among them.
+inline constexpr std::array<std::string_view, 9> netcdf_endings = {
+    ".nc", ".nc4", ".cdf", ".ncf", ".ug", ".exo", ".e", ".g", ".h5"};
+// Whether the format or, where none is named, the ending of the path is one of them.
+RONDEL_API bool has_netcdf_ending(const FileName& file);
+
+// The options with the kind that the file's name says, if they say none themselves.
+RONDEL_API NetcdfOptions with_kind(NetcdfOptions options, const FileName& file);
 
 // The row of a table of formats whose member `ending` fits the file; null if there is none.
 template <typename Format>

@@ -24,6 +24,8 @@ class RONDEL_API FileBytes {
 
   // The file in messages.
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  // Whether the name is that of a file, which others can open.
+  [[nodiscard]] bool has_path() const noexcept { return descriptor_.value > 0; }
   // The first bytes: 128 KiB, those that were asked for, or all.
   [[nodiscard]] std::string_view head() const noexcept { return {bytes_.get(), num_read_}; }
   // The number of bytes as the system tells it; 0 if it does not know.

@@ -96,8 +96,7 @@ class Netcdf4Header {
     }
     NetcdfReader::Variable variable;
     variable.name = prefix + name.data();
-    variable.type =
-        type == netcdf_string_type ? NetcdfType::text : static_cast<NetcdfType>(type);
+    variable.type = type == netcdf_string_type ? NetcdfType::text : static_cast<NetcdfType>(type);
     variable.group = group;
     variable.number = number;
     variable.num_values = 1;
@@ -182,8 +181,7 @@ bool is_hdf5(std::string_view head) {
 // A whole path is never taken for an address in a network.
 Netcdf4File::Netcdf4File(const std::string& path) : library_(netcdf_library()) {
   const std::string whole = std::filesystem::absolute(path).string();
-  number_ =
-      opened(library_, [&](int& number) { return library_.open(whole.c_str(), 0, &number); });
+  number_ = opened(library_, [&](int& number) { return library_.open(whole.c_str(), 0, &number); });
 }
 
 Netcdf4File::Netcdf4File(std::string_view bytes) : library_(netcdf_library()) {
@@ -211,9 +209,9 @@ void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t beg
   const NetcdfLock lock(netcdf_library_lock());
   for_each_slab(variable.shape, begin, out.size(),
                 [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
-                  require_netcdf(library_, library_.read_doubles(variable.group, variable.number,
-                                                                 start.data(), count.data(),
-                                                                 out.data() + offset));
+                  require_netcdf(
+                      library_, library_.read_doubles(variable.group, variable.number, start.data(),
+                                                      count.data(), out.data() + offset));
                 });
 }
 
@@ -224,13 +222,12 @@ void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t beg
   const NetcdfLock lock(netcdf_library_lock());
   const auto read = [&](const auto& start, const auto& count, std::size_t offset, std::size_t) {
     std::int64_t* const at = out.data() + offset;
-    require_netcdf(library_,
-                   is_natural
-                       ? library_.read_naturals(variable.group, variable.number, start.data(),
-                                                count.data(),
-                                                reinterpret_cast<unsigned long long*>(at))
-                       : library_.read_integers(variable.group, variable.number, start.data(),
-                                                count.data(), reinterpret_cast<long long*>(at)));
+    require_netcdf(
+        library_,
+        is_natural ? library_.read_naturals(variable.group, variable.number, start.data(),
+                                            count.data(), reinterpret_cast<unsigned long long*>(at))
+                   : library_.read_integers(variable.group, variable.number, start.data(),
+                                            count.data(), reinterpret_cast<long long*>(at)));
   };
   for_each_slab(variable.shape, begin, out.size(), read);
 }

@@ -4,9 +4,14 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 #include "io/bad_value.h"
+#include "io/ending.h"
+#include "io/file_bytes.h"
+#include "io/netcdf_reader.h"
 #include "rondel/io.h"
 #include "system/dynamic_library.h"
 
@@ -106,7 +111,8 @@ const NetcdfLibrary& netcdf_library() {
   }();
   if (!is_loaded) {
     throw BadValue(
-        "netCDF-4 (HDF5) needs the library netCDF-C, which is not found: install libnetcdf19 (Debian), netcdf (Homebrew, "
+        "netCDF-4 (HDF5) needs the library netCDF-C, which is not found: install libnetcdf19 "
+        "(Debian), netcdf (Homebrew, "
         "conda) or, for Python, netCDF4 (pip); or name the file of the library by RONDEL_NETCDF");
   }
   return netcdf;
@@ -117,6 +123,20 @@ void require_netcdf(const NetcdfLibrary& library, int error) {
 }
 
 }  // namespace io
+
+// A pipe could not be read again.
+bool is_netcdf_file(const FileName& file) {
+  std::error_code error;
+  if (file.format.empty() && std::filesystem::is_regular_file(file.path, error)) {
+    try {
+      const io::FileBytes bytes(file.path, true);
+      if (io::is_netcdf(bytes.head())) return true;
+    } catch (const FileError&) {
+      // Who reads it will say so.
+    }
+  }
+  return io::has_netcdf_ending(file);
+}
 
 void set_netcdf_library(const std::string& path) { io::named_netcdf_library() = path; }
 

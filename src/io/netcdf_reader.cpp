@@ -63,7 +63,7 @@ NetcdfReader::NetcdfReader(std::string_view bytes) : bytes_(bytes), size_(bytes.
 }
 
 NetcdfReader::NetcdfReader(FileBytes& file) : file_(&file), size_(file.claimed_size()) {
-  if (size_ > 0 && is_hdf5(file.head())) {
+  if (size_ > 0 && file.has_path() && is_hdf5(file.head())) {
     netcdf4_ = std::make_shared<const Netcdf4File>(file.name());
     take(netcdf4_->header());
     return;
@@ -211,13 +211,18 @@ void NetcdfReader::read_numbers(const Variable& variable, std::uint64_t begin,
   }
 }
 
+// Values that were never written take no bytes, and those that are all the same hardly any: of netCDF-4 this only keeps a damaged
+// size from taking all of the memory.
+std::uint64_t NetcdfReader::most_values() const {
+  constexpr unsigned most_packed = 20;  // the logarithm
+  return netcdf4_ == nullptr ? size_
+                             : std::min(size_, ~std::uint64_t{0} >> most_packed) << most_packed;
+}
+
 // Checked before there is room for the values.
 void NetcdfReader::require_room(const Variable& variable) const {
   if (variable.type == NetcdfType::text) refuse(variable, not_numbers);
-  // Values that were never written take no bytes, and those that are all the same hardly any: this only keeps a damaged
-  // size from taking all of the memory.
-  constexpr std::uint64_t most_packed = std::uint64_t{1} << 20U;
-  if (netcdf4_ == nullptr || variable.num_values / most_packed <= size_) return;
+  if (netcdf4_ == nullptr || variable.num_values <= most_values()) return;
   refuse(variable, "has " + std::to_string(variable.num_values) + " values in a file of " +
                        std::to_string(size_) + " bytes");
 }

@@ -50,6 +50,8 @@ class RONDEL_API NetcdfReader {
   explicit NetcdfReader(FileBytes& file);
 
   [[nodiscard]] std::uint64_t num_bytes() const { return size_; }
+  // No variable has more values than this: as many as there are bytes, or as compression can make of these.
+  [[nodiscard]] std::uint64_t most_values() const;
   [[nodiscard]] std::span<const NetcdfDimension> dimensions() const { return dimensions_; }
   [[nodiscard]] std::span<const NetcdfAttribute> attributes() const { return attributes_; }
   [[nodiscard]] std::span<const Variable> variables() const { return variables_; }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/bad_value.h"
+#include "io/netcdf4_output.h"
 
 namespace rondel::io {
 namespace {
@@ -83,6 +84,9 @@ class HeaderBytes {
 };
 
 }  // namespace
+
+NetcdfWriter::NetcdfWriter(AtomicFile& file) : file_(file) {}
+NetcdfWriter::~NetcdfWriter() = default;
 
 std::size_t NetcdfWriter::add_dimension(std::string name, std::uint64_t size) {
   dimensions_.push_back({std::move(name), size});
@@ -168,6 +172,33 @@ void NetcdfWriter::begin(int version) {
   end_full_variables();
 }
 
+void NetcdfWriter::begin(const NetcdfOptions& options) {
+  switch (options.kind) {
+    case NetcdfKind::by_name:
+      begin(0);
+      break;
+    case NetcdfKind::cdf2:
+      begin(2);
+      break;
+    case NetcdfKind::cdf5:
+      begin(5);
+      break;
+    case NetcdfKind::netcdf4:
+      netcdf4_ = std::make_unique<Netcdf4Output>(
+          file_, Netcdf4Definitions{dimensions_, attributes_, variables_}, options.deflate);
+      end_full_variables();
+      break;
+  }
+}
+
+void NetcdfWriter::write_netcdf4(const void* values, std::size_t num_bytes) {
+  assert(current_ < variables_.size() &&
+         num_written_ + num_bytes <= size_of_values(variables_[current_]));
+  const std::size_t size = size_of(variables_[current_].type);
+  netcdf4_->write(current_, num_written_ / size, num_bytes / size, values);
+  count_bytes(num_bytes);
+}
+
 void NetcdfWriter::find_room() {
   const std::uint64_t size = std::exchange(expected_, 0);
   if (size >= large_file) file_.expect(size);
@@ -188,12 +219,17 @@ void NetcdfWriter::count_bytes(std::uint64_t size) {
 void NetcdfWriter::end_full_variables() {
   constexpr std::string_view zeros("\0\0\0", 3);
   while (current_ < variables_.size() && num_written_ == size_of_values(variables_[current_])) {
-    file_.write(zeros.substr(0, netcdf_padded(num_written_) - num_written_));
+    if (netcdf4_ == nullptr) {
+      file_.write(zeros.substr(0, netcdf_padded(num_written_) - num_written_));
+    }
     num_written_ = 0;
     ++current_;
   }
 }
 
-void NetcdfWriter::finish() { assert(current_ == variables_.size()); }
+void NetcdfWriter::finish() {
+  assert(current_ == variables_.size());
+  if (netcdf4_ != nullptr) netcdf4_->finish();
+}
 
 }  // namespace rondel::io

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Files of netCDF's classic formats, written from front to back.
+// Files of netCDF, written from front to back: of the classic formats by own code, of netCDF-4 by netCDF-C.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -19,19 +20,25 @@
 #include "io/netcdf_format.h"
 #include "io/parallel_write.h"
 #include "rondel/export.h"
+#include "rondel/io.h"
 
 namespace rondel::io {
+
+class Netcdf4Output;
 
 // A header of its own for each of the formats: the lowest one is taken that can say what is to be said.
 // CDF-5 if a variable has 64-bit integers, 4 GiB or a dimension of 2^31; CDF-2 if one starts beyond
 // 2 GiB; else CDF-1, which everything reads.
 //
 // First the definitions, then begin(), then the values of all variables in the order of their
-// definition, in as many pieces as are wanted, then finish(). Equal calls give equal bytes.
+// definition, in as many pieces as are wanted, then finish(). Equal calls give equal bytes, of netCDF-4 by equal libraries.
 // A dimension of no size is the one of records, of which there are none: one may be such.
 class RONDEL_API NetcdfWriter {
  public:
-  explicit NetcdfWriter(AtomicFile& file) : file_(file) {}
+  explicit NetcdfWriter(AtomicFile& file);
+  ~NetcdfWriter();
+  NetcdfWriter(const NetcdfWriter&) = delete;
+  NetcdfWriter& operator=(const NetcdfWriter&) = delete;
 
   // The number by which variables name it.
   std::size_t add_dimension(std::string name, std::uint64_t size);
@@ -40,6 +47,8 @@ class RONDEL_API NetcdfWriter {
   void add_variable(NetcdfVariable variable);
   // Of this version, 1, 2 or 5; of 0 the lowest one that can. Throws BadValue if that version cannot.
   void begin(int version = 0);
+  // Of the kind that the options name; of none the lowest classic one that can. Throws BadValue also where netCDF-C is not there.
+  void begin(const NetcdfOptions& options);
 
   // The next values of the variable; T is that of its type: char, int8_t, int32_t, int64_t, float or double.
   template <typename T>
@@ -53,16 +62,27 @@ class RONDEL_API NetcdfWriter {
     for (std::size_t start = 0; start < count; start += block.size()) {
       const std::size_t size = std::min(block.size(), count - start);
       for (std::size_t i = 0; i < size; ++i) block[i] = static_cast<T>(value(start + i));
-      write_bytes(NumberBytes(std::span(block.data(), size), std::endian::big));
+      write_block(std::span<const T>(block.data(), size));
     }
   }
 
   // The same of rows, `of_each` values each, which fill(begin, end, values) makes, called by several threads. The values are 0 before.
   template <typename T, typename Fill>
   void write_rows(unsigned threads, std::size_t rows, std::size_t of_each, const Fill& fill) {
+    const std::size_t of_row = std::max<std::size_t>(of_each, 1) * sizeof(T);
+    const std::size_t of_piece = std::max<std::size_t>(bytes_per_piece / of_row, 1);
+    if (netcdf4_ != nullptr) {
+      for (std::size_t begin = 0; begin < rows; begin += of_piece) {
+        const std::size_t end = std::min(rows, begin + of_piece);
+        std::vector<T>& values = values_of_rows<T>();
+        values.assign((end - begin) * of_each, T{});
+        fill(begin, end, values.data());
+        write_block(std::span<const T>(values));
+      }
+      return;
+    }
     find_room();
-    const std::size_t of_piece = bytes_per_piece / (std::max<std::size_t>(of_each, 1) * sizeof(T));
-    write_in_parallel(file_, threads, rows, std::max<std::size_t>(of_piece, 1),
+    write_in_parallel(file_, threads, rows, of_piece,
                       [&](std::string& text, std::size_t begin, std::size_t end) {
                         std::vector<T>& values = values_of_rows<T>();
                         values.assign((end - begin) * of_each, T{});
@@ -89,6 +109,15 @@ class RONDEL_API NetcdfWriter {
   [[nodiscard]] std::uint64_t size_of_values(const NetcdfVariable& variable) const;
   [[nodiscard]] int needed_version() const;
   [[nodiscard]] std::string header(int version, std::uint64_t first_offset) const;
+  template <typename T>
+  void write_block(std::span<const T> values) {
+    if (netcdf4_ != nullptr) {
+      write_netcdf4(values.data(), values.size_bytes());
+    } else {
+      write_bytes(NumberBytes(values, std::endian::big));
+    }
+  }
+  void write_netcdf4(const void* values, std::size_t num_bytes);
   // Before the first rows.
   void find_room();
   void write_bytes(std::string_view bytes);
@@ -96,6 +125,7 @@ class RONDEL_API NetcdfWriter {
   void end_full_variables();
 
   AtomicFile& file_;
+  std::unique_ptr<Netcdf4Output> netcdf4_;  // where the file is one
   std::vector<NetcdfDimension> dimensions_;
   std::vector<NetcdfAttribute> attributes_;
   std::vector<NetcdfVariable> variables_;

@@ -11,6 +11,7 @@
 #include "exact/argument.h"
 #include "exact/vector.h"
 #include "io/bad_value.h"
+#include "io/ending.h"
 #include "system/job.h"
 
 namespace rondel::meshing {
@@ -57,8 +58,8 @@ void MeshFile::set(io::NetcdfVariable& variable, const char* name, double number
   variable.attributes.push_back({name, variable.type, "", {number}});
 }
 
-void MeshFile::write(mesh::NetcdfKind kind) {
-  out_.begin(kind == mesh::NetcdfKind::cdf2 ? 2 : 5);
+void MeshFile::write(const NetcdfOptions& options) {
+  out_.begin(options);
   std::size_t done = 0;
   for (const auto& write : writes_) {
     write();
@@ -115,7 +116,9 @@ void write(const std::string& path, const MeshArrays& arrays, const MeshFileOpti
       meshing::define_exodus(file, corners, blocks);
       break;
   }
-  io::in_file(path, [&] { file.write(options.kind); });
+  NetcdfOptions netcdf = io::with_kind({options.kind, options.deflate}, path);
+  if (netcdf.kind == NetcdfKind::by_name) netcdf.kind = NetcdfKind::cdf5;
+  io::in_file(path, [&] { file.write(netcdf); });
   output.commit();
 }
 

@@ -78,7 +78,7 @@ class MeshFile {
   static void set(io::NetcdfVariable& variable, const char* name, double number);
 
   // Throws BadValue.
-  void write(mesh::NetcdfKind kind);
+  void write(const NetcdfOptions& options);
 
  private:
   const mesh::MeshArrays& arrays_;

@@ -20,6 +20,7 @@
 #include "io/netcdf_reader.h"
 #include "meshing/bordered_mesh.h"
 #include "meshing/ring_surface.h"
+#include "overlay/mesh_formats.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_files.h"
@@ -121,21 +122,24 @@ MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
 
 MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Execution& execution) {
   const system::Call call(execution);
-  constexpr std::string_view netcdf = ".nc";
-  if (io::ending(file) != netcdf) {
-    io::throw_unknown_ending(file, "meshes are read from", {&netcdf, 1});
-  }
+  CellTable table;
   {
     io::FileBytes bytes(file.path, true);
-    std::optional<MeshArrays> arrays = io::in_file(bytes.name(), [&] {
+    if (!io::is_netcdf(bytes.head()) && !io::has_netcdf_ending(file)) {
+      io::throw_unknown_ending(file, "meshes are read from netCDF:", io::netcdf_endings);
+    }
+    std::optional<MeshArrays> arrays;
+    io::in_file(bytes.name(), [&] {
       const io::NetcdfReader reader(bytes);
-      return reader.find("cellsOnEdge") != nullptr && reader.find("verticesOnEdge") != nullptr
-                 ? std::optional(meshing::read_mpas(reader, execution))
-                 : std::nullopt;
+      if (reader.find("cellsOnEdge") != nullptr && reader.find("verticesOnEdge") != nullptr) {
+        arrays = meshing::read_mpas(reader, execution);
+      } else {
+        table = overlay::cells_in(reader, bytes.name(), {});
+      }
     });
     if (arrays) return std::move(*arrays);
   }
-  return mesh_of_centers(read_cells(file), options, execution);
+  return mesh_of_centers(table, options, execution);
 }
 
 }  // namespace rondel::mesh

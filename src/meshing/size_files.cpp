@@ -135,7 +135,7 @@ Spacings spacings_of_netcdf(const FileName& file, const std::string& name) {
 }
 
 Spacings spacings_of(const FileName& file, const std::string& name, const Execution& execution) {
-  if (file.format == "nc" || (file.format.empty() && ends_with(file.path, ".nc"))) {
+  if (is_netcdf_file(file)) {
     return spacings_of_netcdf(file, name);
   }
   SiteTable table = read_sites(file, {}, execution);

@@ -42,7 +42,6 @@ overlay::MeshContent read_mesh(const io::NetcdfReader& file, const std::string& 
       "no longitudes and latitudes of CF");
 }
 
-constexpr std::string_view netcdf_ending = ".nc";
 constexpr double same_place = 1e-10;  // radians
 constexpr double same_single_place = 1e-6;
 
@@ -164,31 +163,34 @@ CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each)
   return std::move(maker).take();
 }
 
-bool can_read_cells(const FileName& file) {
-  return io::ending(io::split_part(file).first) == netcdf_ending;
+bool can_read_cells(const FileName& file) { return is_netcdf_file(io::split_part(file).first); }
+
+CellTable overlay::cells_in(const io::NetcdfReader& file, const std::string& file_name,
+                            const std::string& part) {
+  overlay::MeshContent mesh = read_mesh(file, part);
+  CellTable table;
+  table.name = file_name;
+  if (!mesh.grid) table.cells = cells_of(mesh);
+  require_centers(mesh);
+  table.convention = std::move(mesh.convention);
+  table.grid = std::move(mesh.grid);
+  table.centers = std::move(mesh.centers);
+  table.mask = std::move(mesh.mask);
+  table.shape = std::move(mesh.shape);
+  table.remarks = std::move(mesh.remarks);
+  return table;
 }
 
 CellTable read_cells(const FileName& file) {
   const system::ArithmeticScope arithmetic;
   const std::pair<FileName, std::string> part = io::split_part(file);
-  const FileName& whole = part.first;
-  if (io::ending(whole) != netcdf_ending) {
-    io::throw_unknown_ending(whole, "cells of models are read from", {&netcdf_ending, 1});
+  io::FileBytes bytes(part.first.path, true);
+  if (!io::is_netcdf(bytes.head()) && !io::has_netcdf_ending(part.first)) {
+    io::throw_unknown_ending(part.first,
+                             "cells of models are read from netCDF:", io::netcdf_endings);
   }
-  io::FileBytes bytes(whole.path, true);
   return io::in_file(bytes.name(), [&] {
-    overlay::MeshContent mesh = read_mesh(io::NetcdfReader(bytes), part.second);
-    CellTable table;
-    table.name = bytes.name();
-    if (!mesh.grid) table.cells = cells_of(mesh);
-    require_centers(mesh);
-    table.convention = std::move(mesh.convention);
-    table.grid = std::move(mesh.grid);
-    table.centers = std::move(mesh.centers);
-    table.mask = std::move(mesh.mask);
-    table.shape = std::move(mesh.shape);
-    table.remarks = std::move(mesh.remarks);
-    return table;
+    return overlay::cells_in(io::NetcdfReader(bytes), bytes.name(), part.second);
   });
 }
 

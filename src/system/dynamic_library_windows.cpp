@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
-#include "system/dynamic_library.h"
-
 #include <windows.h>
 
+#include "system/dynamic_library.h"
 #include "system/wide_path.h"
 
 namespace rondel::system {

@@ -4,10 +4,12 @@
 // netCDF's classic formats: files that netCDF-C made (tests/corpus/io/netcdf), what is written
 // against bytes that follow from the format's description, and damaged files.
 #include <cstdint>
+#include <numeric>
 #include <random>
 
 #include "io/bad_value.h"
 #include "io/netcdf_reader.h"
+#include "io/netcdf_slabs.h"
 #include "io/netcdf_writer.h"
 #include "io_support.h"
 
@@ -91,6 +93,56 @@ TEST(netcdf_reader, says_what_it_does_not_read) {
   EXPECT_EQ(refusal("text"), "not a netCDF file");
   EXPECT_NE(refusal("CDF\3").find("classic"), std::string::npos);
   EXPECT_EQ(refusal("CDF\1"), "the header is cut off");
+}
+
+TEST(netcdf_slabs, are_the_run_in_its_order) {
+  // Every run of every shape of up to 4 dimensions with lengths of 1 to 3, against the numbers counted one by one.
+  std::vector<std::vector<std::uint64_t>> shapes = {{}};
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    const std::vector<std::uint64_t> shape = shapes[k];
+    std::uint64_t total = 1;
+    for (const std::uint64_t length : shape) total *= length;
+    if (shape.size() < 4) {
+      for (const std::uint64_t length : {1U, 2U, 3U}) {
+        shapes.push_back(shape);
+        shapes.back().push_back(length);
+      }
+    }
+    for (std::uint64_t begin = 0; begin < total; ++begin) {
+      for (std::size_t size = 1; begin + size <= total; ++size) {
+        std::vector<std::uint64_t> visited;
+        std::size_t num_boxes = 0;
+        io::for_each_slab(
+            shape, begin, size,
+            [&](const auto& start, const auto& count, std::size_t offset, std::size_t in_box) {
+              ++num_boxes;
+              EXPECT_EQ(offset, visited.size());
+              for (std::uint64_t i = 0; i < total; ++i) {
+                std::uint64_t rest = i;
+                bool is_inside = true;
+                for (std::size_t d = shape.size(); d-- > 0; rest /= shape[d]) {
+                  const std::uint64_t at = rest % shape[d];
+                  is_inside = is_inside && at >= start[d] && at < start[d] + count[d];
+                }
+                if (is_inside) visited.push_back(i);
+              }
+              EXPECT_EQ(visited.size(), offset + in_box);
+            });
+        std::vector<std::uint64_t> expected(size);
+        std::iota(expected.begin(), expected.end(), begin);
+        EXPECT_EQ(visited, expected);
+        EXPECT_LE(num_boxes, shape.empty() ? 1 : 2 * shape.size() - 1);
+      }
+    }
+  }
+}
+
+TEST(netcdf_reader, knows_files_by_their_first_bytes) {
+  EXPECT_TRUE(io::is_netcdf("CDF\1"));
+  EXPECT_TRUE(io::is_netcdf("\x89HDF\r\n\x1a\n"));
+  EXPECT_TRUE(io::is_netcdf(std::string(1024, ' ') + "\x89HDF\r\n\x1a\n"));
+  EXPECT_FALSE(io::is_netcdf(std::string(1000, ' ') + "\x89HDF\r\n\x1a\n"));
+  EXPECT_FALSE(io::is_netcdf("lon,lat"));
 }
 
 TEST(netcdf_reader, refuses_files_that_are_cut) {

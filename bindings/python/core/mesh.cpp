@@ -44,7 +44,7 @@ void write_mesh(const MeshArrays& arrays, const std::string& path, int format, b
   run_watched(arrays.num_cells(), threads, nb::none(), [&](const Execution& execution) {
     mesh::write(path, arrays,
                 {static_cast<mesh::MeshFormat>(format),
-                 is_cdf2 ? mesh::NetcdfKind::cdf2 : mesh::NetcdfKind::cdf5},
+                 is_cdf2 ? mesh::NetcdfKind::cdf2 : mesh::NetcdfKind::by_name},
                 execution);
   });
 }

@@ -9,6 +9,7 @@
 
 #include "rondel/distributed.h"
 #include "rondel/error.h"
+#include "rondel/io.h"
 #include "rondel/version.h"
 
 namespace {
@@ -69,6 +70,8 @@ NB_MODULE(_core, module) {
   nb::register_exception_translator(translate);
   // Libraries that hold an array, and threads that never end, may do so when the interpreter ends.
   nb::set_leak_warnings(false);
+  module.def("set_netcdf_library", &rondel::set_netcdf_library, nb::arg("path"),
+             "Names the file of the library netCDF-C, for netCDF-4.");
   rondel::python::add_triangulation(module);
   rondel::python::add_diagram(module);
   rondel::python::add_query(module);

@@ -67,6 +67,7 @@ from ._errors import InvalidInput
 from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
+from ._netcdf import netcdf_library as _netcdf_library
 from ._partition import Partition, lonlat_grid, polygons
 from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
@@ -82,6 +83,9 @@ if TYPE_CHECKING:
     from . import out_of_core as out_of_core
 
 __version__ = _core.version
+
+if (_found := _netcdf_library()) is not None:
+    _core.set_netcdf_library(_found)
 
 __all__ = [
     "Bands",

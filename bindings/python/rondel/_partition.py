@@ -225,8 +225,8 @@ class Partition(Described):
         Parameters
         ----------
         path : path-like
-            ``.nc``: UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF, in one of netCDF's classic
-            formats; of several grids ``FILE.nc:NAME`` names the one that variable NAME is of or
+            netCDF: UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 by the library that
+            netCDF4 brings; of several grids ``FILE.nc:NAME`` names the one that variable NAME is of or
             on. ``.geojson``: polygons, a feature a cell.
         sides : {'parallels', 'great_circles'}, optional
             As in `lonlat_grid`, for coordinates along lines.

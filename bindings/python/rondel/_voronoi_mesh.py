@@ -277,7 +277,7 @@ class Mesh:
         Parameters
         ----------
         path : path_like
-            The file.
+            The file; netCDF-4, compressed, where it ends in ``.nc4``.
         graph : path_like, optional
             Where to write ``graph.info`` for METIS.
         kind : {'cdf5', 'cdf2'}, optional

@@ -103,7 +103,7 @@ def read(
     allow_zero_edges: bool = False,
     threads: int | None = None,
 ) -> Mesh:
-    """A mesh of a netCDF file in one of the classic formats.
+    """A mesh of a netCDF file of any format; netCDF-4 by the library that netCDF4 brings.
 
     Parameters
     ----------

@@ -3,6 +3,8 @@
 """Files of weights, as SciPy and other programs read them."""
 
 import os
+import subprocess
+import sys
 
 import clouds
 import numpy as np
@@ -93,3 +95,36 @@ def test_errors(tmp_path):
     path.write_bytes(b"CDF?")
     with pytest.raises(OSError, match=r"w\.nc"):
         rondel.read_weights(path)
+
+
+def test_netcdf4_by_the_library_of_the_wheel(tmp_path):
+    """It is found without importing netCDF4, which in its turn reads what was written."""
+    netcdf4 = pytest.importorskip("netCDF4")
+    WEIGHTS.to_netcdf(tmp_path / "w.nc4", sites=SITES, targets=TARGETS)
+    with netcdf4.Dataset(tmp_path / "w.nc4") as file:
+        assert file.data_model == "NETCDF4"
+        assert np.array_equal(np.sort(file["S"][:]), np.sort(WEIGHTS.data))
+    found = rondel.read_weights(tmp_path / "w.nc4")
+    assert np.array_equal(found.apply(VALUES), WEIGHTS.apply(VALUES))
+    with netcdf4.Dataset(tmp_path / "grid.nc", "w") as file:
+        for name, unit, values in (
+            ("lat", "degrees_north", [-45, 45]),
+            ("lon", "degrees_east", [0, 120, 240]),
+        ):
+            file.createDimension(name, len(values))
+            axis = file.createVariable(name, "f4", (name,), zlib=True)
+            axis.setncattr_string("units", unit)
+            axis[:] = values
+        file.createVariable("station", str, ("lat",))
+    code = (
+        "import sys, rondel; from rondel._netcdf import netcdf_library; "
+        "assert netcdf_library() is not None and 'netCDF4' not in sys.modules; "
+        "print(rondel.Partition.read(sys.argv[1]).areas.sum())"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code, str(tmp_path / "grid.nc")],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert float(done.stdout) == pytest.approx(4 * np.pi, rel=1e-14)

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// A file of netCDF-4 as netCDF-C writes it: what NetcdfWriter makes of one.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/atomic_file.h"
+#include "io/netcdf_format.h"
+#include "io/netcdf_library.h"
+
+namespace rondel::io {
+
+struct Netcdf4Definitions {
+  const std::vector<NetcdfDimension>& dimensions;
+  const std::vector<NetcdfAttribute>& attributes;
+  const std::vector<NetcdfVariable>& variables;
+};
+
+// netCDF-C needs a file in which it can write here and there. That one has the rights of the target and no name, where the
+// system allows it, and becomes the content of the target at the end.
+//
+// Variables are divided into chunks of runs of values, so that values can be written in their order, each chunk once.
+class Netcdf4Output {
+ public:
+  // Throws BadValue, and FileError as AtomicFile does.
+  Netcdf4Output(AtomicFile& file, const Netcdf4Definitions& definitions, int deflate);
+  ~Netcdf4Output();
+  Netcdf4Output(const Netcdf4Output&) = delete;
+  Netcdf4Output& operator=(const Netcdf4Output&) = delete;
+
+  // Writes `size` values of the type of the variable, from number `begin` on.
+  void write(std::size_t variable, std::uint64_t begin, std::size_t size, const void* values);
+  // Copies the file into the target.
+  void finish();
+
+ private:
+  void create(const std::string& name);
+  void define(const Netcdf4Definitions& definitions, int deflate);
+  void define_variable(const NetcdfVariable& variable, const std::vector<int>& dimensions,
+                       int deflate);
+  void put(int variable, const NetcdfAttribute& attribute);
+  void close();
+
+  struct DefinedVariable {
+    int number;
+    std::size_t size_of_value;
+    std::vector<std::uint64_t> shape;
+  };
+
+  AtomicFile& file_;
+  const NetcdfLibrary& library_;
+  int descriptor_ = -1;
+  int number_ = 0;
+  bool is_open_ = false;
+  std::string left_name_;  // of a file that could not be unlinked while it is open
+  std::vector<DefinedVariable> variables_;
+};
+
+}  // namespace rondel::io

@@ -1,0 +1,344 @@
+#!/usr/bin/env python3
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""netCDF-4: what netCDF4-python and xarray write is read as the same content in a classic format is, and they read what is
+written.
+
+Without them ctest says "Skipped".
+"""
+
+import importlib.util
+import os
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+if any(importlib.util.find_spec(name) is None for name in ("netCDF4", "xarray")):
+    sys.exit(77)
+import netCDF4
+import numpy as np
+import xarray
+
+TOOL = pathlib.Path(sys.argv.pop(1)).resolve()
+LIBRARIES = sorted(
+    pathlib.Path(netCDF4.__file__).parent.parent.glob("net[cC][dD][fF]4.libs/libnetcdf-*")
+)
+if not LIBRARIES:
+    sys.exit(77)
+ENVIRONMENT = {**os.environ, "RONDEL_NETCDF": str(LIBRARIES[0])}
+TYPES = ("i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8")
+
+
+def add_grid(data, num_lon=12, num_lat=6):
+    """Longitudes and latitudes of a grid of the sphere."""
+    for name, count, start, step, unit in (
+        ("lat", num_lat, -90, 180 / num_lat, "degrees_north"),
+        ("lon", num_lon, -180, 360 / num_lon, "degrees_east"),
+    ):
+        data.createDimension(name, count)
+        axis = data.createVariable(name, "f8", (name,))
+        axis.units = unit
+        axis[:] = start + step * (np.arange(count) + 0.5)
+
+
+class Netcdf4(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def run_tool(self, *arguments, status=0, environment=None, stdin=None):
+        done = subprocess.run(
+            [TOOL, *arguments],
+            cwd=self.folder,
+            env={**ENVIRONMENT, **(environment or {})},
+            stdin=stdin,
+            capture_output=True,
+            check=False,
+        )
+        self.assertEqual(done.returncode, status, done.stderr.decode())
+        return done.stderr.decode()
+
+    def values(self, name, variable):
+        with netCDF4.Dataset(self.folder / name) as data:
+            data.set_auto_mask(False)
+            return data[variable][:].copy()
+
+    def weights(self, source, target="grid:60"):
+        self.run_tool("remap", source, target, "-o", "w.nc", "--quiet")
+        return "w.nc"
+
+    def test_all_types_are_those_of_classic(self):
+        """Chunks, compression, an unlimited time, every type of numbers: the same bytes come out as from CDF-5."""
+        generator = np.random.default_rng(1)
+        for kind in ("NETCDF4", "NETCDF3_64BIT_DATA"):
+            with netCDF4.Dataset(self.folder / f"{kind}.nc", "w", format=kind) as data:
+                add_grid(data)
+                data.createDimension("time", None)
+                axis = data.createVariable("time", "f8", ("time",))
+                axis.units = "days since 2000-01-01"
+                axis[:] = [0.5, 1.5, 2.5]
+                generator = np.random.default_rng(1)
+                for letter in TYPES:
+                    packing = {"zlib": True, "chunksizes": (2, 4, 5)} if kind == "NETCDF4" else {}
+                    field = data.createVariable(
+                        f"of_{letter}", letter, ("time", "lat", "lon"), **packing
+                    )
+                    field.units = "K"
+                    field[:] = generator.integers(0, 100, (3, 6, 12))
+        weights = self.weights("NETCDF4.nc")
+        for kind in ("NETCDF4", "NETCDF3_64BIT_DATA"):
+            self.run_tool("apply", weights, f"{kind}.nc", "-o", f"{kind}-out.nc", "--quiet")
+        first, second = (
+            (self.folder / f"{kind}-out.nc").read_bytes()
+            for kind in ("NETCDF4", "NETCDF3_64BIT_DATA")
+        )
+        self.assertEqual(first, second)
+        with netCDF4.Dataset(self.folder / "NETCDF4-out.nc") as data:
+            self.assertEqual(
+                {name for name in data.variables if name.startswith("of_")},
+                {f"of_{t}" for t in TYPES},
+            )
+            self.assertEqual(list(data["time"][:]), [0.5, 1.5, 2.5])
+
+    def test_what_is_more_than_numbers_costs_nothing_else(self):
+        """Strings, a group, an enumeration, a compound: the field beside them is read, and that of the group by its name."""
+        with netCDF4.Dataset(self.folder / "rich.nc", "w") as data:
+            add_grid(data)
+            data.setncattr_string("institution", "Météo")
+            names = data.createVariable("name", str, ("lat",))
+            names[:] = np.array([f"row {i}" for i in range(6)], dtype=object)
+            pair = data.createCompoundType(np.dtype([("a", "f8"), ("b", "i4")]), "pair")
+            data.createVariable("pairs", pair, ("lat",))
+            color = data.createEnumType(np.uint8, "color", {"red": 0, "blue": 1})
+            data.createVariable("colors", color, ("lat",), fill_value=0)
+            field = data.createVariable("t", "f4", ("lat", "lon"))
+            field.setncattr_string("long_name", "Température")
+            field[:] = np.arange(72).reshape(6, 12)
+            group = data.createGroup("model")
+            inner = group.createVariable("t", "f4", ("lat", "lon"))
+            inner[:] = 5
+        weights = self.weights("rich.nc", "grid:30")
+        self.run_tool("apply", weights, "rich.nc", "-o", "out.nc", "--value", "t", "--quiet")
+        np.testing.assert_allclose(
+            self.values("out.nc", "t"), np.arange(72).reshape(6, 12), rtol=1e-12
+        )
+        with netCDF4.Dataset(self.folder / "out.nc") as data:
+            self.assertEqual(data["t"].long_name, "Température")
+        self.run_tool(
+            "apply", weights, "rich.nc", "-o", "group.nc", "--value", "model/t", "--quiet"
+        )
+        np.testing.assert_allclose(self.values("group.nc", "model_t"), 5, rtol=1e-12)
+
+    def test_xarray(self):
+        """Its strings are variables of strings, and its fill values NaN."""
+        lat, lon = np.arange(-75.0, 90, 30), np.arange(-165.0, 180, 30)
+        dataset = xarray.Dataset(
+            {
+                "t": (("time", "lat", "lon"), np.random.default_rng(2).random((2, 6, 12))),
+                "label": (("lat",), [f"row {i}" for i in range(6)]),
+            },
+            {
+                "lat": ("lat", lat, {"units": "degrees_north"}),
+                "lon": ("lon", lon, {"units": "degrees_east"}),
+            },
+        )
+        dataset["t"][1, 2, 3] = np.nan
+        dataset.to_netcdf(self.folder / "x.nc", engine="netcdf4")
+        self.run_tool("apply", self.weights("x.nc", "grid:30"), "x.nc", "-o", "out.nc4", "--quiet")
+        with xarray.open_dataset(self.folder / "out.nc4", engine="netcdf4") as back:
+            np.testing.assert_allclose(back["t"], dataset["t"], rtol=1e-12)
+
+    def test_what_is_written_is_compressed_and_the_same(self):
+        """Weights, fields and meshes: equal to the classic ones for netCDF4-python, smaller, and the same bytes twice."""
+
+        def same(classic, packed):
+            with (
+                netCDF4.Dataset(self.folder / classic) as one,
+                netCDF4.Dataset(self.folder / packed) as other,
+            ):
+                self.assertEqual(other.data_model, "NETCDF4")
+                self.assertEqual(list(one.variables), list(other.variables))
+                self.assertEqual(one.__dict__, other.__dict__)
+                for name, variable in one.variables.items():
+                    self.assertEqual(variable.dimensions, other[name].dimensions)
+                    self.assertEqual(variable.dtype, other[name].dtype)
+                    self.assertEqual(str(variable.__dict__), str(other[name].__dict__))
+                    np.testing.assert_array_equal(variable[:], other[name][:])
+                    if variable.ndim > 0:
+                        self.assertEqual(other[name].filters()["complevel"], 1)
+                        self.assertTrue(other[name].filters()["shuffle"])
+
+        self.run_tool("mesh", "icosahedral", "3", "-o", "m.nc", "--quiet")
+        for name in ("n.nc4", "again.nc4"):
+            self.run_tool("mesh", "convert", "m.nc", "-o", name, "--quiet")
+        same("m.nc", "n.nc4")
+        self.assertLess(
+            (self.folder / "n.nc4").stat().st_size, (self.folder / "m.nc").stat().st_size
+        )
+        self.assertEqual(
+            (self.folder / "n.nc4").read_bytes(), (self.folder / "again.nc4").read_bytes()
+        )
+        self.run_tool("mesh", "convert", "n.nc4", "-o", "back.nc", "--quiet")
+        self.assertEqual(
+            (self.folder / "m.nc").read_bytes(), (self.folder / "back.nc").read_bytes()
+        )
+        for extra, name in (((), "w.nc"), (("--kind", "nc4"), "v.nc")):
+            self.run_tool("remap", "m.nc", "grid:15", "-o", name, *extra, "--quiet")
+        same("w.nc", "v.nc")
+        self.run_tool("remap", "m.nc", "grid:15", "-o", "plain.nc4", "--deflate", "0", "--quiet")
+        self.assertGreater(
+            (self.folder / "plain.nc4").stat().st_size, (self.folder / "v.nc").stat().st_size
+        )
+        self.run_tool("apply", "v.nc", "m.nc", "--value", "areaCell", "-o", "a.nc", "--quiet")
+        self.run_tool("apply", "w.nc", "n.nc4", "--value", "areaCell", "-o", "a.nc4", "--quiet")
+        same("a.nc", "a.nc4")
+        self.assertEqual(sorted(path.suffix for path in self.folder.glob(".*")), [])
+
+    def test_names_and_pipes(self):
+        """Content counts before the ending, meshes of any convention are read from a pipe, and a file written to one."""
+        self.run_tool("mesh", "icosahedral", "3", "-o", "m.nc", "--quiet")
+        for convention in ("ugrid", "scrip", "esmf"):
+            self.run_tool(
+                "mesh", "convert", "m.nc", "--format", convention, "-o", "u.nc", "--quiet"
+            )
+            self.run_tool("mesh", "convert", "u.nc", "-o", "direct.nc", "--quiet")
+            self.run_tool(
+                "mesh",
+                "convert",
+                "m.nc",
+                "--format",
+                convention,
+                "--kind",
+                "nc4",
+                "-o",
+                "u.h5",
+                "--quiet",
+            )
+            for name in ("u.nc", "u.h5"):
+                with open(self.folder / name, "rb") as pipe:
+                    self.run_tool(
+                        "mesh",
+                        "convert",
+                        "-",
+                        "--input-format",
+                        "nc",
+                        "-o",
+                        "piped.nc",
+                        "--quiet",
+                        stdin=pipe,
+                    )
+                self.assertEqual(
+                    (self.folder / "direct.nc").read_bytes(),
+                    (self.folder / "piped.nc").read_bytes(),
+                )
+        for ending in ("nc4", "cdf", "ncf", "ug", "exo", "e", "g", "h5", "unknown"):
+            (self.folder / f"named.{ending}").write_bytes((self.folder / "u.nc").read_bytes())
+            self.run_tool("mesh", "convert", f"named.{ending}", "-o", "piped.nc", "--quiet")
+            self.assertEqual(
+                (self.folder / "direct.nc").read_bytes(), (self.folder / "piped.nc").read_bytes()
+            )
+
+    def test_values_at_places_of_netcdf(self):
+        """interpolate from a grid to a grid, along time; oracle: the nearest values by brute force."""
+        generator = np.random.default_rng(3)
+        with netCDF4.Dataset(self.folder / "f.nc", "w") as data:
+            add_grid(data)
+            data.createDimension("time", 2)
+            data.createVariable("time", "f8", ("time",))[:] = [3, 4]
+            field = data.createVariable("t", "f4", ("time", "lat", "lon"), fill_value=-99)
+            field.units = "K"
+            values = generator.random((2, 6, 12)).astype("f4")
+            values[1, 2, 3] = -99
+            field[:] = values
+        with netCDF4.Dataset(self.folder / "g.nc", "w") as data:
+            add_grid(data, 20, 10)
+        self.run_tool(
+            "interpolate",
+            "f.nc:t",
+            "--to",
+            "g.nc",
+            "--method",
+            "nearest",
+            "-o",
+            "out.nc4",
+            "--quiet",
+        )
+        found = self.values("out.nc4", "t")
+        self.assertEqual(found.shape, (2, 10, 20))
+        with netCDF4.Dataset(self.folder / "out.nc4") as data:
+            self.assertEqual((data["t"].units, data["t"].dimensions), ("K", ("time", "lat", "lon")))
+            self.assertEqual(list(data["time"][:]), [3, 4])
+            places = np.radians(np.meshgrid(data["lon"][:], data["lat"][:]))
+        sources = np.radians(np.meshgrid(self.values("f.nc", "lon"), self.values("f.nc", "lat")))
+
+        def vectors(lon, lat):
+            return np.stack(
+                [np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)], -1
+            ).reshape(-1, 3)
+
+        cosines = vectors(*places) @ vectors(*sources).T
+        for time in range(2):
+            known = values[time].ravel() != -99
+            nearest = np.where(known, cosines, -2)
+            allowed = (
+                nearest >= nearest.max(1, keepdims=True) - 1e-12
+            )  # several are as near as each other
+            hits = np.isclose(
+                found[time].reshape(-1, 1), values[time].reshape(1, -1), rtol=0, atol=1e-7
+            )
+            self.assertTrue((hits & allowed).any(1).all())
+        for command in (("info", "f.nc"), ("plot", "f.nc", "-o", "f.svg"), ("info", "g.nc")):
+            self.run_tool(*command)
+
+    def test_damage_is_told(self):
+        """Cut anywhere, or with bytes that changed: a message of one line with the file's name, or the answer."""
+        with netCDF4.Dataset(self.folder / "ok.nc", "w") as data:
+            add_grid(data)
+            data.createVariable("t", "f4", ("lat", "lon"), zlib=True)[:] = np.arange(72).reshape(
+                6, 12
+            )
+        content = (self.folder / "ok.nc").read_bytes()
+        source = random.Random(4)
+        cases = [content[:size] for size in (8, 100, 1000, len(content) // 2, len(content) - 100)]
+        for _ in range(15):
+            changed = bytearray(content)
+            for _ in range(source.randrange(1, 20)):
+                changed[source.randrange(len(changed))] = source.randrange(256)
+            cases.append(bytes(changed))
+        for case in cases:
+            (self.folder / "bad.nc").write_bytes(case)
+            done = subprocess.run(
+                [TOOL, "remap", "bad.nc", "grid:60", "-o", "w.nc", "--quiet"],
+                cwd=self.folder,
+                env=ENVIRONMENT,
+                capture_output=True,
+                check=False,
+            )
+            self.assertIn(done.returncode, (0, 1))
+            if done.returncode == 1:
+                lines = done.stderr.decode().splitlines()
+                self.assertEqual(len(lines), 1, lines)
+                self.assertTrue(lines[0].startswith("rondel: bad.nc: "), lines)
+
+    def test_without_the_library_it_says_what_to_install(self):
+        with netCDF4.Dataset(self.folder / "ok.nc", "w") as data:
+            add_grid(data)
+        nowhere = {"RONDEL_NETCDF": str(self.folder / "nowhere.so")}
+        message = self.run_tool(
+            "remap", "ok.nc", "grid:60", "-o", "w.nc", status=1, environment=nowhere
+        )
+        for word in ("rondel: ok.nc: ", "libnetcdf19", "netCDF4", "RONDEL_NETCDF"):
+            self.assertIn(word, message)
+        message = self.run_tool(
+            "remap", "grid:60", "grid:60", "-o", "w.nc4", status=1, environment=nowhere
+        )
+        self.assertIn("rondel: w.nc4: ", message)
+        self.assertFalse((self.folder / "w.nc4").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
