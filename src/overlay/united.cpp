@@ -4,9 +4,11 @@
 #include "overlay/united.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "overlay/cell_sets.h"
 #include "overlay/overlaps.h"
@@ -22,9 +24,25 @@ Partition both_sides(const CellRings& one) {
   return Partition(both);
 }
 
+// Throws InvalidInput if the pieces of a cell, those with number 0, do not add up to it.
+void require_pieces(const CellRings& cell, const CellRings& pieces,
+                    const std::vector<Index>& numbers) {
+  constexpr double rounding = 1e-9;
+  const std::vector<double> sizes = areas(pieces);
+  double sum = 0;
+  for (std::size_t k = 0; k < sizes.size(); ++k) sum += numbers[k] == 0 ? sizes[k] : 0;
+  const double area = areas(cell).front();
+  if (std::abs(sum - area) <= rounding) return;
+  throw InvalidInput("regions that overlap cannot be united: the parts of one add up to " +
+                         std::to_string(sum) + " of " + std::to_string(area) + " steradians",
+                     0);
+}
+
 // One overlay gives all pieces, so that they have the same corners where they meet.
 CellRings union_of(const CellRings& a, const CellRings& b, const Execution& execution) {
   const RegionPieces pieces = intersection(both_sides(a), both_sides(b), execution);
+  require_pieces(a, pieces.rings, pieces.cells);
+  require_pieces(b, pieces.rings, pieces.regions);
   std::vector<Index> groups;
   for (std::size_t k = 0; k < pieces.num_pieces(); ++k) {
     const bool is_in_any = pieces.cells[k] == 0 || pieces.regions[k] == 0;
