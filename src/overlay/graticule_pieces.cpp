@@ -78,7 +78,7 @@ class GridPieceMaker {
       next = add_column(column, next, has_pole);
     }
     if (grid_.is_cover()) {
-      require_sum(std::span<const GridPiece>(pieces_), area, cells_.lengths()[name], name);
+      require_sum(pieces_, area, cells_.lengths()[name], name);
     }
     drop_rounding(pieces_);
     std::ranges::sort(pieces_, {}, &GridPiece::cell);

@@ -121,8 +121,9 @@ void drop_rounding(std::vector<Piece>& pieces) {
 // and a share of 1e-9. Where an edge of the cover runs along a cell, triangles of one half may cancel each other: 64 times u
 // for what is left of them. Less than nothing of a piece, or another sum, shows that a cell is not what its border says: it
 // crosses or overlaps itself.
+// A cell no wider than rounding may seem to: then it has no pieces.
 template <class Piece>
-void require_sum(std::span<const Piece> pieces, double area, double length, Index name) {
+void require_sum(std::vector<Piece>& pieces, double area, double length, Index name) {
   constexpr double of_triangles = 4;
   constexpr double of_large = 1e-9;
   constexpr double of_sums = 64 * predicates::unit_roundoff;
@@ -136,7 +137,8 @@ void require_sum(std::span<const Piece> pieces, double area, double length, Inde
   }
   const double rounding = of_large * area + of_sums + of_triangles * area_of_rounding(total);
   if (std::abs(sum - area) <= rounding && least >= -(of_large * area + of_sums)) return;
-  refuse_pieces(name, sum, area);
+  if (area > of_triangles * area_of_rounding(length)) refuse_pieces(name, sum, area);
+  pieces.clear();
 }
 
 struct BorderArc {

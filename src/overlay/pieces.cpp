@@ -49,8 +49,7 @@ class PieceMaker {
       if (!owners_.empty()) join_by_owner();
     }
     const Index name = cells_.names[cell];
-    require_sum(std::span<const MeasuredPiece>(pieces_), sizes_.areas[name], sizes_.lengths[name],
-                name);
+    require_sum(pieces_, sizes_.areas[name], sizes_.lengths[name], name);
     drop_rounding(pieces_);
     std::erase_if(pieces_, [&](const MeasuredPiece& piece) { return !has_column(piece); });
     std::ranges::sort(pieces_, {}, [&](const MeasuredPiece& piece) { return column(piece); });
