@@ -4,7 +4,6 @@
 // Isolines and bands as GeoJSON (RFC 7946): a FeatureCollection with a feature for each level or band.
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <functional>
 #include <span>
@@ -19,8 +18,8 @@
 #include "io/number.h"
 #include "io/number_text.h"
 #include "map/arc.h"
-#include "map/crossing_lines.h"
 #include "map/region.h"
+#include "map/valid_regions.h"
 #include "rondel/contours.h"
 #include "rondel/error.h"
 #include "system/job.h"
@@ -101,50 +100,30 @@ void write_isolines_geojson(AtomicFile& file, const IsolinesToWrite& job) {
   file.write("\n]}\n");
 }
 
-struct DrawnPolygons {
-  std::vector<std::string> texts;
-  std::size_t num_crossed = 0;  // how many have lines that cross, which their arcs do not
-};
-
-DrawnPolygons draw_polygons(const BandsToWrite& job, double tolerance) {
+// The polygons of each band; those of one are one region, as they may meet in points.
+std::vector<map::PolygonsOfRegion> draw_bands(const BandsToWrite& job) {
   const Bands& bands = job.bands;
-  std::atomic<std::size_t> num_crossed = 0;
-  std::vector<std::string> texts =
-      made_texts(job.execution, bands.num_polygons(), [&](std::string& text, std::size_t polygon) {
-        std::vector<map::UnitVectors> rings;
-        for (auto ring = bands.polygon_offsets[polygon]; ring < bands.polygon_offsets[polygon + 1];
-             ++ring) {
-          rings.push_back(row(bands.points, bands.ring_offsets, ring));
+  std::vector<map::LoopsOfRegion> loops(bands.num_bands());
+  system::parallel_for(
+      job.execution.threads, loops.size(), 1, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t band = begin; band < end; ++band) {
+          if (bands.band_offsets[band] == bands.band_offsets[band + 1]) continue;
+          std::vector<map::UnitVectors> rings;
+          for (auto ring = bands.polygon_offsets[bands.band_offsets[band]];
+               ring < bands.polygon_offsets[bands.band_offsets[band + 1]]; ++ring) {
+            rings.push_back(row(bands.points, bands.ring_offsets, ring));
+          }
+          loops[band] = map::region_loops(rings, job.tolerance);
         }
-        bool is_crossed = false;
-        for (const auto& part : map::region_polygons(rings, tolerance)) {
-          is_crossed = is_crossed || map::have_crossing_lines(part.rings);
-          append_polygon(text, part);
-          text += ',';
-        }
-        if (is_crossed) ++num_crossed;
       });
-  return {std::move(texts), num_crossed};
-}
-
-// Arcs that are closer together than the tolerance may cross when they are drawn. Then all are drawn
-// closer to what they are, as long as that helps: of all polygons, as neighbors share their arcs.
-std::vector<std::string> draw_uncrossed_polygons(const BandsToWrite& job) {
-  constexpr int most_attempts = 6;
-  double tolerance = job.tolerance;
-  DrawnPolygons best = draw_polygons(job, tolerance);
-  for (int i = 0; i < most_attempts && best.num_crossed > 0; ++i) {
-    tolerance /= 8;
-    DrawnPolygons drawn = draw_polygons(job, tolerance);
-    if (drawn.num_crossed >= best.num_crossed) break;
-    best = std::move(drawn);
-  }
-  return std::move(best.texts);
+  map::ValidRegions valid = map::valid_regions(std::move(loops), job.execution.threads);
+  map::require_valid(valid, "band");
+  return std::move(valid.regions);
 }
 
 void write_bands_geojson(AtomicFile& file, const BandsToWrite& job) {
   const Bands& bands = job.bands;
-  const std::vector<std::string> texts = draw_uncrossed_polygons(job);
+  const std::vector<map::PolygonsOfRegion> drawn = draw_bands(job);
   file.write(R"({"type":"FeatureCollection","features":[)");
   for (std::size_t k = 0; k < bands.num_bands(); ++k) {
     std::string properties = R"("low":)";
@@ -158,8 +137,13 @@ void write_bands_geojson(AtomicFile& file, const BandsToWrite& job) {
     append_end(k == 0, k - 1);
     properties += R"(,"high":)";
     append_end(k == bands.levels.size(), k);
-    write_feature(file, k == 0, properties, "MultiPolygon",
-                  joined(row(texts, bands.band_offsets, k)));
+    std::string text;
+    for (const map::PolygonWithHoles& polygon : drawn[k]) {
+      append_polygon(text, polygon);
+      text += ',';
+    }
+    if (!text.empty()) text.pop_back();
+    write_feature(file, k == 0, properties, "MultiPolygon", text);
   }
   file.write("\n]}\n");
 }

@@ -4,7 +4,6 @@
 // Cells of any form as GeoJSON (RFC 7946): a FeatureCollection with a feature for each cell that has rings.
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <numbers>
 #include <span>
 #include <string>
@@ -18,10 +17,10 @@
 #include "io/geojson_properties.h"
 #include "io/number.h"
 #include "map/arc.h"
-#include "map/connected_rings.h"
-#include "map/crossing_lines.h"
+#include "map/common_corners.h"
 #include "map/region.h"
 #include "map/ring_area.h"
+#include "map/valid_regions.h"
 #include "rondel/regions.h"
 #include "system/job.h"
 #include "system/parallel.h"
@@ -36,24 +35,24 @@ struct RegionsToWrite {
   const Execution& execution;
 };
 
-using Polygons = std::vector<map::PolygonWithHoles>;
-
-struct DrawnRegions {
-  std::vector<Polygons> cells;
-  std::size_t num_crossed = 0;  // how many have lines that cross, which their arcs do not
-};
-
 constexpr std::size_t cells_per_task = 16;
+
+std::span<const Index> ring_of(const CellRings& cells, std::uint64_t ring) {
+  return std::span(cells.corners)
+      .subspan(cells.rings[ring], cells.rings[ring + 1] - cells.rings[ring]);
+}
 
 // The points of the rings of a cell.
 class RingsOfCell {
  public:
-  RingsOfCell(const CellRings& cells, std::size_t cell) {
+  RingsOfCell(const CellRings& cells, std::size_t cell,
+              const map::CommonCorners* common = nullptr) {
     for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
       std::vector<Point>& ring = points_.emplace_back();
-      ring.reserve(cells.rings[r + 1] - cells.rings[r]);
-      for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
-        ring.push_back(cells.points[cells.corners[k]]);
+      if (common != nullptr) {
+        common->append_ring(ring_of(cells, r), cells.points, ring);
+      } else {
+        for (const Index corner : ring_of(cells, r)) ring.push_back(cells.points[corner]);
       }
     }
     rings_.assign(points_.begin(), points_.end());
@@ -71,55 +70,37 @@ double area_of(std::span<const map::UnitVectors> rings) {
   return area < 0 ? area + 4 * std::numbers::pi : area;
 }
 
-DrawnRegions draw(const RegionsToWrite& job, double tolerance) {
-  DrawnRegions drawn;
-  drawn.cells.resize(job.cells.num_cells());
-  std::atomic<std::size_t> num_crossed = 0;
-  system::parallel_for(
-      job.execution.threads, drawn.cells.size(), cells_per_task,
-      [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-          const RingsOfCell cell(job.cells, i);
-          if (cell.rings().empty()) continue;
-          bool is_crossed = false;
-          for (const std::vector<std::size_t>& part : map::connected_rings(cell.rings())) {
-            std::vector<map::UnitVectors> rings;
-            rings.reserve(part.size());
-            for (const std::size_t r : part) rings.push_back(cell.rings()[r]);
-            for (map::PolygonWithHoles& polygon : map::region_polygons(rings, tolerance)) {
-              is_crossed = is_crossed || map::have_crossing_lines(polygon.rings);
-              drawn.cells[i].push_back(std::move(polygon));
-            }
-          }
-          if (is_crossed) ++num_crossed;
-        }
-      });
-  drawn.num_crossed = num_crossed;
-  return drawn;
+std::vector<map::PolygonsOfRegion> draw(const RegionsToWrite& job) {
+  const map::CommonCorners common(job.cells, job.execution.threads);
+  std::vector<map::LoopsOfRegion> loops(job.cells.num_cells());
+  system::parallel_for(job.execution.threads, loops.size(), cells_per_task,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           const RingsOfCell cell(job.cells, i, &common);
+                           if (cell.rings().empty() && !job.cells.is_whole(i)) continue;
+                           loops[i] = map::region_loops(cell.rings(), job.tolerance);
+                         }
+                       });
+  map::ValidRegions valid = map::valid_regions(std::move(loops), job.execution.threads);
+  map::require_valid(valid, "cell");
+  return std::move(valid.regions);
 }
 
-// Arcs that are closer together than the tolerance may cross when they are drawn. Then all are drawn
-// closer to what they are, as long as that helps: of all cells, as neighbors share their arcs.
-std::vector<Polygons> draw_uncrossed(const RegionsToWrite& job) {
-  constexpr int most_attempts = 6;
-  double tolerance = job.tolerance;
-  DrawnRegions best = draw(job, tolerance);
-  for (int i = 0; i < most_attempts && best.num_crossed > 0; ++i) {
-    tolerance /= 8;
-    DrawnRegions drawn = draw(job, tolerance);
-    if (drawn.num_crossed >= best.num_crossed) break;
-    best = std::move(drawn);
-  }
-  return std::move(best.cells);
+bool has_feature(const CellRings& cells, std::size_t cell) {
+  return cells.cells[cell] != cells.cells[cell + 1] || cells.is_whole(cell);
+}
+
+double area_of(const CellRings& cells, std::size_t cell) {
+  return cells.is_whole(cell) ? 4 * std::numbers::pi : area_of(RingsOfCell(cells, cell).rings());
 }
 
 void write_regions_geojson(AtomicFile& file, const RegionsToWrite& job) {
-  const std::vector<Polygons> drawn = draw_uncrossed(job);
+  const std::vector<map::PolygonsOfRegion> drawn = draw(job);
   std::vector<std::string> geometries(drawn.size());
   system::parallel_for(job.execution.threads, drawn.size(), cells_per_task,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t i = begin; i < end; ++i) {
-                           if (job.cells.cells[i] == job.cells.cells[i + 1]) continue;
+                           if (!has_feature(job.cells, i)) continue;
                            append_geometry(geometries[i], drawn[i]);
                          }
                        });
@@ -130,7 +111,7 @@ void write_regions_geojson(AtomicFile& file, const RegionsToWrite& job) {
     if (geometries[i].empty()) continue;
     std::string text = std::exchange(separator, ",\n");
     text += R"({"type":"Feature","properties":{"area":)";
-    append_number(text, area_of(RingsOfCell(job.cells, i).rings()));
+    append_number(text, area_of(job.cells, i));
     for (std::size_t k = 0; k < keys.size(); ++k) {
       text += keys[k];
       append_value(text, job.columns[k], i);
@@ -168,7 +149,7 @@ LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg,
   const system::Call call(execution);
   io::require_rings(cells);
   const double tolerance = io::checked_tolerance(tolerance_deg) / map::degrees_per_radian;
-  const std::vector<io::Polygons> drawn = io::draw_uncrossed({cells, {}, tolerance, execution});
+  const std::vector<map::PolygonsOfRegion> drawn = io::draw({cells, {}, tolerance, execution});
   LonLatRegions all;
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     for (const map::PolygonWithHoles& polygon : drawn[i]) {

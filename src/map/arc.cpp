@@ -12,12 +12,6 @@
 namespace rondel::map {
 namespace {
 
-Point point_at(const LonLat& position) {
-  const exact::SineCosine lon = exact::sine_cosine_of_degrees(position.lon_deg);
-  const exact::SineCosine lat = exact::sine_cosine_of_degrees(position.lat_deg);
-  return {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
-}
-
 // A straight line with the rates u, v of longitude and latitude (radians, over its whole length)
 // has geodesic acceleration of at most |u| (|u| + 2|v|), so it is within an eighth of that of the
 // arc with the same ends while it is short; a seventh leaves room for the sphere's curvature.
@@ -84,6 +78,12 @@ Point snapped(const Point& p) {
   if (distance_from_axis(p) <= merge_distance) return {0, 0, p.z > 0 ? 1.0 : -1.0};
   if (p.x < 0 && std::abs(p.y) <= merge_distance) return {p.x, 0, p.z};
   return p;
+}
+
+Point point_at(const LonLat& position) {
+  const exact::SineCosine lon = exact::sine_cosine_of_degrees(position.lon_deg);
+  const exact::SineCosine lat = exact::sine_cosine_of_degrees(position.lat_deg);
+  return {lat.cosine * lon.cosine, lat.cosine * lon.sine, lat.sine};
 }
 
 LonLat lonlat_of(const Point& p, bool east) {

@@ -34,6 +34,9 @@ inline double distance_from_axis(const Point& p) { return std::sqrt(p.x * p.x + 
 // longitudes; it gets the one on the side of `east`: 180 if true, else -180.
 RONDEL_API LonLat lonlat_of(const Point& p, bool east);
 
+// The unit vector of a position.
+Point point_at(const LonLat& position);
+
 // The unit vector from the center to a site of any size; zero for the center itself.
 inline Point direction(const Point& site, const Point& center) {
   return normalized(scaled(site - center));

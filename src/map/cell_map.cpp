@@ -28,6 +28,7 @@ CellMap::CellMap(const Triangulation& triangulation, const Cells& cells, double 
   merge_close_points(execution);
   place_points(execution);
   resolve_crossing_lines(execution);
+  leave_out_invalid(execution);
 }
 
 bool CellMap::has_cell(std::size_t site) const {

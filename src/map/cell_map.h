@@ -30,7 +30,7 @@ namespace rondel::map {
 // 4. Cells of circles need not contain their sites, and may be far narrower than sites are apart:
 //    2 says nothing about them. Where their lines cross, or all have passed those of the
 //    other side, they are bisected on their arcs before 3, until they are short.
-// 5. What still crosses itself after that is not drawn.
+// 5. What is no polygon in the plane after that, by exact signs of its rounded positions, is not drawn.
 //
 // Most cells are plain: small and with few corners, each arc one straight line, nothing crossed. A
 // plain cell is its points, which are placed on the map once for all cells; all others are drawn.
@@ -95,6 +95,7 @@ class CellMap {
   bool draw_ring(std::size_t site, Ring& ring, Trace& trace) const;
   void add_arc(Index from, Index to, const ArcTolerance& tolerance, Ring& ring) const;
   [[nodiscard]] ArcTolerance tolerance_between(const Point& own_direction, std::size_t other) const;
+  void leave_out_invalid(const Execution& execution);
   void prepare_great_circle();
   [[nodiscard]] ArcTolerance great_circle_tolerance(Index from, Index to) const;
   [[nodiscard]] std::span<const Index> points_of(std::size_t site) const;

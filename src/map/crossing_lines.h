@@ -21,7 +21,4 @@ std::vector<std::pair<std::size_t, std::size_t>> crossing_lines(const Trace& tra
 // Whether two lines of a closed loop of these positions, no two of which are equal, meet so. Time: n^2.
 bool has_crossing_lines(std::span<const LonLat> loop);
 
-// Whether two lines of any of these closed rings (the last position is the first) meet so. Time: as the first.
-bool have_crossing_lines(std::span<const std::vector<LonLat>> rings);
-
 }  // namespace rondel::map

@@ -3,117 +3,97 @@
 #include "map/planar_loops.h"
 
 #include <algorithm>
-#include <cmath>
-#include <iterator>
-#include <limits>
+#include <array>
 #include <map>
-#include <numbers>
 #include <utility>
 
-#include "exact/argument.h"
-#include "map/arc.h"
+#include "map/map_plane.h"
+#include "map/nested_loops.h"
+#include "map/windings.h"
 
 namespace rondel::map {
 namespace {
 
-struct InPlane {
-  bool operator()(const LonLat& p, const LonLat& q) const {
-    return p.lon_deg != q.lon_deg ? p.lon_deg < q.lon_deg : p.lat_deg < q.lat_deg;
-  }
-};
+bool is_lower(const LonLat& p, const LonLat& q) { return InPlane()(p, q); }
 
-bool has_touching(std::span<const Loop> loops) {
-  std::vector<LonLat> positions;
-  for (const Loop& loop : loops) positions.insert(positions.end(), loop.begin(), loop.end());
-  std::ranges::sort(positions, InPlane());
-  return std::ranges::adjacent_find(positions) != positions.end();
+// The lines at positions that more than one of them leaves.
+struct Star {
+  std::vector<LonLat> out;  // ends of lines that leave
+  std::vector<LonLat> in;   // beginnings of lines that reach it
+};
+using Stars = std::map<LonLat, Star, InPlane>;
+
+Stars stars_of(std::span<const DirectedLine> lines) {
+  std::vector<LonLat> starts;
+  starts.reserve(lines.size());
+  for (const DirectedLine& line : lines) starts.push_back(line.from);
+  std::ranges::sort(starts, InPlane());
+  Stars stars;
+  for (std::size_t i = 1; i < starts.size(); ++i) {
+    if (starts[i] == starts[i - 1]) stars[starts[i]];
+  }
+  if (stars.empty()) return stars;
+  for (const DirectedLine& line : lines) {
+    if (const auto star = stars.find(line.from); star != stars.end())
+      star->second.out.push_back(line.to);
+    if (const auto star = stars.find(line.to); star != stars.end())
+      star->second.in.push_back(line.from);
+  }
+  return stars;
 }
 
-// The sides of loops by their first position, without those in both directions.
-class Sides {
- public:
-  explicit Sides(std::span<const Loop> loops) {
-    for (const Loop& loop : loops) {
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        add(loop[k], loop[k + 1 == loop.size() ? 0 : k + 1]);
-      }
-    }
-  }
-
-  // Takes the loops out, one after the other; empty at the end.
-  [[nodiscard]] Loop take_loop() {
-    Loop loop;
-    while (!ends_.empty() && ends_.begin()->second.empty()) ends_.erase(ends_.begin());
-    if (ends_.empty()) return loop;
-    const LonLat first = ends_.begin()->first;
-    const LonLat second = ends_.begin()->second.back();
-    ends_.begin()->second.pop_back();
-    loop.push_back(first);
-    LonLat before = first;
-    for (LonLat here = second; !(here == first && !has_inner_turn(before, here, second));) {
-      loop.push_back(here);
-      const LonLat next = take_next(before, here);
-      before = here;
-      here = next;
-    }
-    return loop;
-  }
-
- private:
-  void add(const LonLat& from, const LonLat& to) {
-    const auto back = ends_.find(to);
-    if (back != ends_.end()) {
-      const auto same = std::ranges::find(back->second, from);
-      if (same != back->second.end()) {
-        back->second.erase(same);
-        return;
-      }
-    }
-    ends_[from].push_back(to);
-  }
-
-  // How far clockwise, seen from `here`, one turns from `before` to `after`: that is through the region.
-  static double turn(const LonLat& before, const LonLat& here, const LonLat& after) {
-    const double back =
-        exact::argument(before.lat_deg - here.lat_deg, before.lon_deg - here.lon_deg);
-    const double out = exact::argument(after.lat_deg - here.lat_deg, after.lon_deg - here.lon_deg);
-    const double angle = back - out;
-    return angle > 0 ? angle : angle + 2 * std::numbers::pi;
-  }
-
-  // Whether the loop, back at its first position, has to go on first.
-  [[nodiscard]] bool has_inner_turn(const LonLat& before, const LonLat& here,
-                                    const LonLat& after) const {
-    const auto ends = ends_.find(here);
-    if (ends == ends_.end()) return false;
-    const double most = turn(before, here, after);
-    return std::ranges::any_of(ends->second,
-                               [&](const LonLat& end) { return turn(before, here, end) < most; });
-  }
-
-  LonLat take_next(const LonLat& before, const LonLat& here) {
-    std::vector<LonLat>& ends = ends_[here];
-    const auto nearest = std::ranges::min_element(
-        ends, {}, [&](const LonLat& end) { return turn(before, here, end); });
-    const LonLat next = *nearest;
-    ends.erase(nearest);
-    return next;
-  }
-
-  std::map<LonLat, std::vector<LonLat>, InPlane> ends_;
+// A line at a position, seen from there.
+struct SideRay {
+  LonLat end;
+  bool leaves = false;
 };
+
+std::vector<SideRay> rays_around(const LonLat& at, const Star& star) {
+  std::vector<SideRay> rays;
+  for (const LonLat& end : star.out) rays.push_back({end, true});
+  for (const LonLat& end : star.in) rays.push_back({end, false});
+  std::ranges::stable_sort(
+      rays, [&](const SideRay& x, const SideRay& y) { return is_before_around(at, x.end, y.end); });
+  return rays;
+}
+
+// Where each loop goes on from a position: a line that reaches it goes on in the first one clockwise, through the region.
+std::map<std::pair<LonLat, LonLat>, LonLat,
+         bool (*)(const std::pair<LonLat, LonLat>&, const std::pair<LonLat, LonLat>&)>
+turns_at(const Stars& stars) {
+  using Key = std::pair<LonLat, LonLat>;  // the position, the one before it
+  std::map<Key, LonLat, bool (*)(const Key&, const Key&)> turns([](const Key& x, const Key& y) {
+    return x.first == y.first ? is_lower(x.second, y.second) : is_lower(x.first, y.first);
+  });
+  for (const auto& [at, star] : stars) {
+    const std::vector<SideRay> rays = rays_around(at, star);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const SideRay& before = rays[i == 0 ? rays.size() - 1 : i - 1];
+      if (!rays[i].leaves && before.leaves) turns.emplace(Key{at, rays[i].end}, before.end);
+    }
+  }
+  return turns;
+}
+
+// The loops between two visits of a position.
+void append_simple(const Loop& loop, std::vector<Loop>& found) {
+  std::map<LonLat, std::size_t, InPlane> places;
+  Loop open;
+  for (const LonLat& position : loop) {
+    const auto [place, is_new] = places.try_emplace(position, open.size());
+    if (is_new) {
+      open.push_back(position);
+      continue;
+    }
+    const auto first = open.begin() + static_cast<std::ptrdiff_t>(place->second);
+    found.emplace_back(first, open.end());
+    std::for_each(first + 1, open.end(), [&](const LonLat& p) { places.erase(p); });
+    open.erase(first + 1, open.end());
+  }
+  found.push_back(std::move(open));
+}
 
 }  // namespace
-
-std::vector<Loop> separated_loops(std::vector<Loop> loops) {
-  if (!has_touching(loops)) return loops;
-  std::vector<Loop> found;
-  Sides sides(loops);
-  for (Loop loop = sides.take_loop(); !loop.empty(); loop = sides.take_loop()) {
-    for (Loop& part : simple_loops(loop)) found.push_back(std::move(part));
-  }
-  return found;
-}
 
 double doubled_loop_area(std::span<const LonLat> loop) {
   double area = 0;
@@ -125,86 +105,119 @@ double doubled_loop_area(std::span<const LonLat> loop) {
   return area;
 }
 
-std::vector<Loop> simple_loops(const Loop& loop) {
-  std::vector<Loop> found;
-  const auto add = [&](Loop part) {
-    if (part.size() >= 3 && doubled_loop_area(part) != 0) found.push_back(std::move(part));
+bool has_touching(std::span<const Loop> loops) {
+  std::vector<LonLat> positions;
+  for (const Loop& loop : loops) positions.insert(positions.end(), loop.begin(), loop.end());
+  std::ranges::sort(positions, InPlane());
+  return std::ranges::adjacent_find(positions) != positions.end();
+}
+
+void cancel_opposite(std::vector<DirectedLine>& lines) {
+  std::vector<std::size_t> order(lines.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto key = [&](std::size_t i) {
+    const auto [low, high] = std::minmax(lines[i].from, lines[i].to, InPlane());
+    return std::array{low.lon_deg, low.lat_deg, high.lon_deg, high.lat_deg};
   };
-  if (!has_touching({&loop, 1})) {
-    add(loop);
-    return found;
-  }
-  std::map<LonLat, std::size_t, InPlane> places;
-  Loop open;
-  for (const LonLat& position : loop) {
-    const auto [place, is_new] = places.try_emplace(position, open.size());
-    if (is_new) {
-      open.push_back(position);
-      continue;
+  std::ranges::stable_sort(order, {}, key);
+  std::vector<bool> is_gone(lines.size(), false);
+  for (std::size_t first = 0; first < order.size();) {
+    std::size_t past = first;
+    std::vector<std::size_t> kept;
+    for (; past < order.size() && key(order[past]) == key(order[first]); ++past) {
+      const std::size_t line = order[past];
+      if (!kept.empty() && !(lines[kept.back()] == lines[line])) {
+        is_gone[line] = true;
+        is_gone[kept.back()] = true;
+        kept.pop_back();
+      } else {
+        kept.push_back(line);
+      }
     }
-    const auto first = open.begin() + static_cast<std::ptrdiff_t>(place->second);
-    add({first, open.end()});
-    std::for_each(first + 1, open.end(), [&](const LonLat& p) { places.erase(p); });
-    open.erase(first + 1, open.end());
+    first = past;
   }
-  add(std::move(open));
+  std::size_t i = 0;
+  std::erase_if(lines, [&](const DirectedLine&) { return is_gone[i++]; });
+}
+
+std::vector<SideWedge> unpaired_sides(std::span<const DirectedLine> lines) {
+  std::vector<SideWedge> wedges;
+  for (const auto& [at, star] : stars_of(lines)) {
+    const std::vector<SideRay> rays = rays_around(at, star);
+    std::vector<SideWedge> here;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const SideRay& next = rays[i + 1 == rays.size() ? 0 : i + 1];
+      here.push_back({at, rays[i].end, next.end, rays[i].leaves != next.leaves});
+    }
+    if (std::ranges::all_of(here, &SideWedge::is_paired)) continue;
+    wedges.insert(wedges.end(), here.begin(), here.end());
+  }
+  return wedges;
+}
+
+std::vector<DirectedLine> sides_of_covered(std::span<const DirectedLine> lines) {
+  const Windings windings(lines);
+  std::vector<DirectedLine> sorted(lines.begin(), lines.end());
+  const auto key = [](const DirectedLine& line) {
+    return std::array{line.from.lon_deg, line.from.lat_deg, line.to.lon_deg, line.to.lat_deg};
+  };
+  std::ranges::sort(sorted, {}, key);
+  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  std::erase_if(sorted, [&](const DirectedLine& line) {
+    const auto [left, right] = windings.beside(line);
+    return left < 1 || right >= 1;
+  });
+  return sorted;
+}
+
+std::vector<Loop> traced_loops(std::span<const DirectedLine> lines) {
+  const auto turns = turns_at(stars_of(lines));
+  std::vector<DirectedLine> sorted(lines.begin(), lines.end());
+  std::ranges::sort(sorted, [](const DirectedLine& x, const DirectedLine& y) {
+    return x.from == y.from ? is_lower(x.to, y.to) : is_lower(x.from, y.from);
+  });
+  std::vector<bool> is_used(sorted.size(), false);
+  const auto find = [&](const LonLat& from, const LonLat* to) {
+    auto line = std::ranges::lower_bound(sorted, from, InPlane(), &DirectedLine::from);
+    while (to != nullptr && !(line->to == *to)) ++line;
+    return static_cast<std::size_t>(line - sorted.begin());
+  };
+  std::vector<Loop> found;
+  for (std::size_t first = 0; first < sorted.size(); ++first) {
+    Loop loop;
+    for (std::size_t i = first; !is_used[i];) {
+      is_used[i] = true;
+      loop.push_back(sorted[i].from);
+      const auto turn = turns.find({sorted[i].to, sorted[i].from});
+      i = find(sorted[i].to, turn == turns.end() ? nullptr : &turn->second);
+    }
+    if (!loop.empty()) append_simple(loop, found);
+  }
   return found;
 }
 
-HoleOwners::HoleOwners(std::span<const Loop> outer) : outer_(outer), doubled_areas_(outer.size()) {
-  std::ranges::transform(outer, doubled_areas_.begin(), doubled_loop_area);
-  if (outer.size() == 1) return;
-  constexpr std::size_t most = 1 << 16;
-  constexpr std::size_t sides_in_a_list = 8;
-  std::size_t count = 0;
-  for (const Loop& ring : outer) count += ring.size();
-  lists_.resize(std::clamp<std::size_t>(count / sides_in_a_list, 1, most));
-  for (std::size_t i = 0; i < outer.size(); ++i) {
-    for (std::size_t k = 0; k < outer[i].size(); ++k) {
-      const OuterSide side{i, k};
-      const auto [west, east] = std::minmax({begin_of(side).lon_deg, end_of(side).lon_deg});
-      for (std::size_t list = list_at(west); list <= list_at(east); ++list) {
-        lists_[list].push_back(side);
-      }
+PolygonsOfLoops polygons_of_loops(std::vector<Loop> loops) {
+  PolygonsOfLoops result;
+  const auto first_hole = std::stable_partition(
+      loops.begin(), loops.end(), [](const Loop& loop) { return is_counterclockwise(loop); });
+  const auto num_outer = static_cast<std::size_t>(first_hole - loops.begin());
+  const std::vector<std::size_t> owners = owners_of(loops, num_outer);
+  std::vector<std::size_t> places(num_outer);
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (owners[i] == misplaced) {
+      result.misplaced.push_back(loops[i]);
+    } else if (i < num_outer) {
+      places[i] = result.polygons.size();
+      result.polygons.emplace_back();
+      result.polygons.back().rings.push_back(std::move(loops[i]));
+    } else if (owners[owners[i]] != misplaced) {
+      result.polygons[places[owners[i]]].rings.push_back(std::move(loops[i]));
     }
   }
-}
-
-std::size_t HoleOwners::owner_of(const Loop& hole) const {
-  constexpr double slack_deg = merge_distance * degrees_per_radian;  // the hole may touch its ring
-  const auto largest = std::ranges::max_element(doubled_areas_);
-  auto owner = static_cast<std::size_t>(std::distance(doubled_areas_.begin(), largest));
-  if (lists_.empty()) return owner;
-  const double hole_area = std::abs(doubled_loop_area(hole));
-  const LonLat place = *std::ranges::min_element(hole, {}, &LonLat::lat_deg);
-  double nearest = -std::numeric_limits<double>::infinity();
-  for (const OuterSide& side : lists_[list_at(place.lon_deg)]) {
-    const LonLat& p = begin_of(side);
-    const LonLat& q = end_of(side);
-    if ((p.lon_deg > place.lon_deg) == (q.lon_deg > place.lon_deg)) continue;
-    if (doubled_areas_[side.ring] < hole_area) continue;
-    const double share = (place.lon_deg - p.lon_deg) / (q.lon_deg - p.lon_deg);
-    const double lat = std::lerp(p.lat_deg, q.lat_deg, share);
-    if (lat > place.lat_deg + slack_deg || lat <= nearest) continue;
-    nearest = lat;
-    owner = side.ring;
+  for (PolygonWithHoles& polygon : result.polygons) {
+    for (Loop& ring : polygon.rings) ring.push_back(ring.front());
   }
-  return owner;
-}
-
-const LonLat& HoleOwners::begin_of(const OuterSide& side) const {
-  return outer_[side.ring][side.side];
-}
-
-const LonLat& HoleOwners::end_of(const OuterSide& side) const {
-  const Loop& ring = outer_[side.ring];
-  return ring[side.side + 1 == ring.size() ? 0 : side.side + 1];
-}
-
-std::size_t HoleOwners::list_at(double lon_deg) const {
-  const double share = (lon_deg + 180) / 360;
-  const auto list = static_cast<std::size_t>(share * static_cast<double>(lists_.size()));
-  return std::min(list, lists_.size() - 1);
+  return result;
 }
 
 }  // namespace rondel::map

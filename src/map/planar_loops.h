@@ -1,52 +1,57 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Loops of positions in the plane of longitude and latitude, and which of them has a hole.
+// Loops of positions in the plane of longitude and latitude, and the polygons that they bound; by exact signs.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "map/directed_line.h"
+#include "map/region.h"
 #include "rondel/types.h"
 
 namespace rondel::map {
 
 using Loop = std::vector<LonLat>;  // closed, without repeating the first position at the end
 
-// Positive if it is counterclockwise; square degrees.
+// Twice the area, positive if the loop is counterclockwise; square degrees, rounded.
 double doubled_loop_area(std::span<const LonLat> loop);
 
-// The loops between two visits of a position that have area, and what is left.
-std::vector<Loop> simple_loops(const Loop& loop);
+// Whether a position is in the loops twice.
+bool has_touching(std::span<const Loop> loops);
 
-// The loops around the same region, where they touch: each keeps to one fan of it (the region is to the left), so
-// that no two parts of it that touch in a position only have a loop in common. Sides in both directions go.
-// Loops that touch nowhere stay as they are.
-std::vector<Loop> separated_loops(std::vector<Loop> loops);
+// Takes out the sides that are there in both directions; the others keep their order.
+void cancel_opposite(std::vector<DirectedLine>& lines);
 
-// Which of some outer rings has a hole: from the hole's point farthest in the south the first side of an
-// outer ring below is one of that ring's, as outer rings are apart. The sides are listed by longitude.
-class HoleOwners {
- public:
-  // Precondition: there is a ring. Keeps a reference.
-  explicit HoleOwners(std::span<const Loop> outer);
-
-  [[nodiscard]] std::size_t owner_of(const Loop& hole) const;
-
- private:
-  struct OuterSide {
-    std::size_t ring = 0;
-    std::size_t side = 0;
-  };
-
-  [[nodiscard]] const LonLat& begin_of(const OuterSide& side) const;
-  [[nodiscard]] const LonLat& end_of(const OuterSide& side) const;
-  [[nodiscard]] std::size_t list_at(double lon_deg) const;
-
-  std::span<const Loop> outer_;
-  std::vector<double> doubled_areas_;
-  std::vector<std::vector<OuterSide>> lists_;  // by longitude; none if there is one ring
+// Two sides next to each other around a position: where regions do not overlap themselves, those that leave it and those
+// that reach it take turns. `is_paired` if they do.
+struct SideWedge {
+  LonLat at;
+  LonLat first;
+  LonLat second;
+  bool is_paired;
 };
+// All of the positions where they do not.
+std::vector<SideWedge> unpaired_sides(std::span<const DirectedLine> lines);
+
+// The border of what sides go around once or more, where they neither cross nor touch but in ends. Time: n^2 where all
+// lines lie at one longitude.
+std::vector<DirectedLine> sides_of_covered(std::span<const DirectedLine> lines);
+
+// The simple loops of sides that have no unpaired ones: each keeps to one fan of the region, so that two parts of it
+// that touch in a position only have no loop in common.
+std::vector<Loop> traced_loops(std::span<const DirectedLine> lines);
+
+// Polygons, or the loops that lie wrong: a clockwise one in no other, a counterclockwise one inside the region.
+struct PolygonsOfLoops {
+  std::vector<PolygonWithHoles> polygons;
+  std::vector<Loop> misplaced;
+};
+
+// The polygons of simple loops that meet in positions of both only, in the order of their outer loops; rings are closed.
+PolygonsOfLoops polygons_of_loops(std::vector<Loop> loops);
 
 }  // namespace rondel::map

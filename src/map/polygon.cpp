@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <map>
 
+#include "map/map_plane.h"
+
 namespace rondel::map {
 namespace {
 
@@ -47,10 +49,6 @@ double doubled_area(std::span<const LonLat> ring) {
   return area;
 }
 
-bool is_before_in_plane(const LonLat& p, const LonLat& q) {
-  return p.lon_deg != q.lon_deg ? p.lon_deg < q.lon_deg : p.lat_deg < q.lat_deg;
-}
-
 // Few positions are compared faster than they are copied and sorted.
 bool visits_twice(std::span<const LonLat> positions) {
   if (positions.size() <= longest_plain) {
@@ -61,7 +59,7 @@ bool visits_twice(std::span<const LonLat> positions) {
     return false;
   }
   std::vector<LonLat> ring(positions.begin(), positions.end());
-  std::sort(ring.begin(), ring.end(), is_before_in_plane);
+  std::sort(ring.begin(), ring.end(), InPlane());
   return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
 }
 
@@ -89,8 +87,7 @@ void append_simple_loop(std::vector<LonLat> ring, bool is_part, Loops& out) {
 // Takes the loops apart of which a ring consists that comes back to the same positions: one
 // between two visits of a position that has no such visits itself.
 void append_loops_of(const std::vector<LonLat>& ring, Loops& out) {
-  const auto before = [](const LonLat& p, const LonLat& q) { return is_before_in_plane(p, q); };
-  std::map<LonLat, std::size_t, decltype(before)> places(before);
+  std::map<LonLat, std::size_t, InPlane> places;
   std::vector<LonLat> open;
   for (const LonLat& position : ring) {
     const auto [place, is_new] = places.try_emplace(position, open.size());
@@ -210,7 +207,7 @@ Loops loops_of(const Trace& trace) {
 
 bool is_plain_loop(std::span<const LonLat> loop) {
   return loop.size() >= 3 && loop.size() <= longest_plain && !visits_twice(loop) &&
-         doubled_area(loop) > 0;
+         !has_spike(loop) && is_counterclockwise(loop);
 }
 
 std::vector<LonLatPolygon> polygons_of(const Trace& trace) { return loops_of(trace).polygons; }

@@ -7,11 +7,13 @@
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <numbers>
 #include <utility>
 
 #include "map/planar_loops.h"
 #include "map/ring_area.h"
 #include "map/trace.h"
+#include "map/valid_regions.h"
 
 namespace rondel::map {
 namespace {
@@ -77,45 +79,28 @@ std::vector<Loop> positions_of_chains(const Trace& trace) {
 class RegionDrawing {
  public:
   RegionDrawing(std::span<const UnitVectors> rings, double tolerance) {
-    for (const UnitVectors ring : rings) add(ring, tolerance);
+    for (const UnitVectors ring : rings) {
+      const std::vector<Point> points = cleaned(ring, true);
+      if (points.size() < 3) continue;
+      add(points, std::vector<ArcTolerance>(points.size(), {tolerance, tolerance, {}}));
+    }
   }
 
-  [[nodiscard]] std::vector<PolygonWithHoles> polygons() {
-    if (chains_.empty() && loops_.empty()) return {};
-    std::vector<Loop> all = outer_loops();
-    if (all.empty()) return {};
-    for (const Loop& loop : loops_) {
-      for (Loop& hole : simple_loops(loop)) {
-        if (doubled_loop_area(hole) < 0)
-          all.push_back(std::move(hole));  // else its lines do not resolve it
-      }
+  // With the region to the left of each.
+  [[nodiscard]] std::vector<Loop> loops() && {
+    if (!chains_.empty()) {
+      for (Loop& loop : stitched()) loops_.push_back(std::move(loop));
+    } else if (!loops_.empty() && has_border()) {
+      loops_.emplace_back(border_corners.begin(), border_corners.end());
     }
-    split_border(all);
-    all = separated_loops(std::move(all));
-    const auto is_outer = [](const Loop& loop) { return doubled_loop_area(loop) > 0; };
-    const auto first_hole = std::stable_partition(all.begin(), all.end(), is_outer);
-    const std::span<Loop> outer(all.begin(), first_hole);
-    if (outer.empty()) return {};
-    std::vector<PolygonWithHoles> found(outer.size());
-    const HoleOwners owners(outer);
-    for (auto hole = first_hole; hole != all.end(); ++hole) {
-      found[owners.owner_of(*hole)].rings.push_back(std::move(*hole));
-    }
-    for (std::size_t i = 0; i < outer.size(); ++i) {
-      found[i].rings.insert(found[i].rings.begin(), std::move(outer[i]));
-      for (Loop& ring : found[i].rings) ring.push_back(ring.front());
-    }
-    return found;
+    return std::move(loops_);
   }
 
  private:
-  void add(UnitVectors ring, double tolerance) {
-    std::vector<Point> points = cleaned(ring, true);
-    if (points.size() < 3) return;
-    const std::vector<ArcTolerance> tolerances(points.size(), {tolerance, tolerance, {}});
+  void add(std::span<const Point> ring, std::span<const ArcTolerance> tolerances) {
     Trace trace;
-    draw(points, tolerances, trace);
-    rings_.push_back(std::move(points));
+    draw(ring, tolerances, trace);
+    rings_.emplace_back(ring.begin(), ring.end());
     if (trace.starts.empty()) {
       Loop& loop = loops_.emplace_back();
       for (const MapPoint& point : trace.points) loop.push_back(point.position);
@@ -130,73 +115,17 @@ class RegionDrawing {
     }
   }
 
-  // Gives the sides along the border the positions where other loops meet it.
-  static void split_border(std::vector<Loop>& loops) {
-    std::vector<LonLat> on_border;
-    for (const Loop& loop : loops) {
-      std::ranges::copy_if(loop, std::back_inserter(on_border),
-                           [](const LonLat& p) { return std::abs(p.lon_deg) == 180; });
-    }
-    if (on_border.empty()) return;
-    std::ranges::sort(on_border, {}, &LonLat::lat_deg);
-    for (Loop& loop : loops) {
-      Loop split;
-      for (std::size_t k = 0; k < loop.size(); ++k) {
-        const LonLat& p = loop[k];
-        const LonLat& q = loop[k + 1 == loop.size() ? 0 : k + 1];
-        split.push_back(p);
-        if (std::abs(p.lon_deg) != 180 || p.lon_deg != q.lon_deg) continue;
-        append_between(p, q, on_border, split);
-      }
-      loop = std::move(split);
-    }
-  }
-
-  static void append_between(const LonLat& p, const LonLat& q, std::span<const LonLat> positions,
-                             Loop& out) {
-    const auto [low, high] = std::minmax({p.lat_deg, q.lat_deg});
-    const auto first = std::ranges::upper_bound(positions, low, {}, &LonLat::lat_deg);
-    const auto past = std::ranges::lower_bound(positions, high, {}, &LonLat::lat_deg);
-    const std::size_t begin = out.size();
-    for (auto place = first; place < past; ++place) {
-      if (place->lon_deg != p.lon_deg || *place == out.back()) continue;
-      out.push_back(*place);
-    }
-    if (q.lat_deg < p.lat_deg) {
-      std::reverse(out.begin() + static_cast<std::ptrdiff_t>(begin), out.end());
-    }
-  }
-
-  // Without chains the largest loop is around the region, or all are holes in the whole rectangle.
-  std::vector<Loop> outer_loops() {
-    if (!chains_.empty()) return stitched();
-    const auto size = [](const Loop& loop) { return std::abs(doubled_loop_area(loop)); };
-    const auto largest = std::ranges::max_element(loops_, {}, size);
-    if (doubled_loop_area(*largest) <= 0) {
-      if (is_sliver(*largest)) return {};
-      return {Loop(border_corners.begin(), border_corners.end())};
-    }
-    Loop outer = std::move(*largest);
-    loops_.erase(largest);
-    return outer_parts(outer);
-  }
-
-  // Whether the region is small and so thin that its loop, drawn as lines, is clockwise.
-  [[nodiscard]] bool is_sliver(const Loop& loop) const {
+  // Whether a region whose rings do not reach the border of the rectangle has it inside: then its loops are holes, and
+  // enclose a negative area. The lines of a thin region may enclose what its arcs do not; its rings tell.
+  [[nodiscard]] bool has_border() const {
     constexpr double small = 1e-3;  // square radians, far above what is lost between arcs and lines
-    const double in_plane = doubled_loop_area(loop) / 2 / degrees_per_radian / degrees_per_radian;
-    if (std::abs(in_plane) >= small) return false;
-    double area = 0;  // to the left of the rings, up to multiples of 4 pi
+    double in_plane = 0;
+    for (const Loop& loop : loops_) in_plane += doubled_loop_area(loop);
+    in_plane /= 2 * degrees_per_radian * degrees_per_radian;
+    if (std::abs(in_plane) >= small) return in_plane < 0;
+    double area = 0;
     for (const std::vector<Point>& ring : rings_) area += area_on_left(ring);
-    return area > 0 && area < small;
-  }
-
-  static std::vector<Loop> outer_parts(const Loop& loop) {
-    std::vector<Loop> parts = simple_loops(loop);
-    if (parts.size() == 1 && doubled_loop_area(parts.front()) < 0)
-      std::ranges::reverse(parts.front());
-    std::erase_if(parts, [](const Loop& part) { return doubled_loop_area(part) < 0; });
-    return parts;
+    return area < 0 || area > 2 * std::numbers::pi;
   }
 
   // Along the border of the rectangle the region begins where a chain ends and ends where one starts. Its
@@ -250,7 +179,7 @@ class RegionDrawing {
           loop.push_back(border_corners[side % 4]);
         }
       }
-      for (Loop& part : outer_parts(loop)) loops.push_back(std::move(part));
+      if (!loop.empty()) loops.push_back(std::move(loop));
     }
     return loops;
   }
@@ -262,12 +191,16 @@ class RegionDrawing {
 
 }  // namespace
 
+std::vector<Loop> region_loops(std::span<const UnitVectors> rings, double tolerance) {
+  if (!rings.empty()) return RegionDrawing(rings, tolerance).loops();
+  return {Loop(border_corners.begin(), border_corners.end())};
+}
+
 std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings,
                                               double tolerance) {
-  if (!rings.empty()) return RegionDrawing(rings, tolerance).polygons();
-  Loop all(border_corners.begin(), border_corners.end());
-  all.push_back(all.front());
-  return {{{std::move(all)}}};
+  ValidRegions valid = valid_regions({region_loops(rings, tolerance)}, 1);
+  require_valid(valid, "region");
+  return std::move(valid.regions.front());
 }
 
 std::vector<std::vector<LonLat>> line_parts(UnitVectors line, bool is_closed, double tolerance) {

@@ -22,12 +22,17 @@ struct PolygonWithHoles {
 using UnitVectors = std::span<const Point>;
 
 // The region to the left of all of the rings, consecutive points of which (and the last and the first) are
-// joined by the shorter arc of a great circle, as polygons inside [-180, 180] x [-90, 90]: cut along the
-// antimeridian, at a pole they reach the side lat = +-90. Without rings it is the whole sphere. What is no
-// wider than merge_distance is left out.
+// joined by the shorter arc of a great circle, as loops inside [-180, 180] x [-90, 90] that have it to the left: cut
+// along the antimeridian, at a pole they reach the side lat = +-90. Without rings it is the whole sphere. Loops may
+// cross each other and themselves, where rings are nearer to each other than lines are to arcs.
 // 1. Sides are within the tolerance (radians) of the arcs.
 // 2. An arc gives the same positions, bit by bit, to the regions on both sides of it.
-// Precondition: the region is connected, the rings are simple and meet at most in points.
+// Precondition: the rings are simple and meet at most in points.
+std::vector<std::vector<LonLat>> region_loops(std::span<const UnitVectors> rings, double tolerance);
+
+// The polygons of a region that shares its border with no other one that is drawn, as valid_regions() makes them.
+// What is no wider than rounding is left out.
+// \throws InvalidInput if they are not valid.
 RONDEL_API std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings,
                                                          double tolerance);
 

@@ -7,17 +7,14 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <span>
 #include <vector>
 
 #include "exact/vector.h"
-#include "map/connected_rings.h"
 #include "map/ring_area.h"
 
 namespace rondel::test {
 namespace {
 
-using Parts = std::vector<std::vector<std::size_t>>;
 using PointRing = std::vector<Point>;
 
 // Counterclockwise around the z axis, turned by `tilt` about the y axis.
@@ -36,29 +33,6 @@ PointRing hole(double radius, double tilt = 0) {
   PointRing ring = circle(radius, tilt);
   std::ranges::reverse(ring);
   return ring;
-}
-
-Parts parts_of(const std::vector<PointRing>& rings) {
-  const std::vector<std::span<const Point>> spans(rings.begin(), rings.end());
-  Parts parts = map::connected_rings(spans);
-  for (auto& part : parts) std::ranges::sort(part);
-  std::ranges::sort(parts);
-  return parts;
-}
-
-TEST(overlay_rings, islands_in_lakes) {
-  EXPECT_EQ(parts_of({circle(0.5), hole(0.3), circle(0.2), hole(0.1)}), (Parts{{0, 1}, {2, 3}}));
-  EXPECT_EQ(parts_of({hole(0.1), circle(0.2), hole(0.3), circle(0.5)}), (Parts{{0, 1}, {2, 3}}));
-  EXPECT_EQ(parts_of({circle(1.2), hole(0.2, 0.8), hole(0.2, -0.8), circle(0.1, 0.8)}),
-            (Parts{{0, 1, 2}, {3}}));
-}
-
-TEST(overlay_rings, what_is_around_all) {
-  // An ocean with two continents, one of which has a lake.
-  EXPECT_EQ(parts_of({hole(0.5), hole(0.4, 2), circle(0.1, 2)}), (Parts{{0, 1}, {2}}));
-  // More than a hemisphere, with a hole.
-  EXPECT_EQ(parts_of({circle(2.5), hole(0.2, 1)}), (Parts{{0, 1}}));
-  EXPECT_EQ(parts_of({}), Parts{});
 }
 
 TEST(overlay_rings, areas_on_the_left) {

@@ -312,3 +312,14 @@ def test_cells_are_cut_by_values():
     assert {feature["properties"]["value"] for feature in features} == {"land", "sea"}
     with pytest.raises(ValueError, match="2 values for 3 regions"):
         diagram.clip(boxes, values=["land", "sea"])
+
+
+def test_cells_of_a_box_along_their_borders_are_valid():
+    shapely = pytest.importorskip("shapely")
+    lon, lat = np.meshgrid(np.arange(-172.5, 180, 15), np.arange(-82.5, 90, 15))
+    voronoi = rondel.SphericalVoronoi.from_lonlat(lon.ravel(), lat.ravel())
+    found = voronoi.clip([shapely.box(-20, -30, 70, 40)]).to_geojson()["features"]
+    shapes = [shapely.geometry.shape(f["geometry"]) for f in found if f["geometry"]]
+    assert len(shapes) > 30
+    assert all(shape.is_valid for shape in shapes)
+    assert shapely.coverage_is_valid(np.array(shapes))

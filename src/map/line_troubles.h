@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What keeps the loops of a region from being polygons; by exact signs.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "map/planar_loops.h"
+#include "map/shared_lines.h"
+
+namespace rondel::map {
+
+struct Trouble {
+  enum class TroubleKind : std::uint8_t {
+    touching,  // c is on the line from a to b
+    crossing,  // the lines from a to b and from c to d cross
+    unpaired,  // lines from a to b and from a to d (c is a) are next to each other, with the region on the same side
+    beside,  // the same, at a position with unpaired lines, but of these with the region between them or outside
+    turned,  // `loop` has the region on its wrong side
+  };
+  TroubleKind kind;
+  LonLat a{};
+  LonLat b{};
+  LonLat c{};
+  LonLat d{};
+  Loop loop{};
+};
+
+// The polygons of a region, if there is no trouble; beside loops that are turned, those of its other loops.
+struct RegionLook {
+  std::vector<PolygonWithHoles> polygons;
+  std::vector<Trouble> troubles;
+};
+
+RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& lines);
+
+// The same where nothing but unpaired and turned sides may be left: polygons of what the sides go around once or more.
+RegionLook look_at_covered(const std::vector<Loop>& loops, const SharedLines& lines);
+
+}  // namespace rondel::map

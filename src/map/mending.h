@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The steps of valid_regions().
+#pragma once
+
+#include <vector>
+
+#include "map/arc.h"
+#include "map/line_troubles.h"
+#include "map/shared_lines.h"
+
+namespace rondel::map {
+
+inline constexpr double longest_reach = 0x1p-30;  // radians; 6 mm on the earth
+
+inline constexpr int last_passes =
+    72;  // from this one on lines that cross are divided there, and no others
+
+// Grows where passes do not end.
+double reach_of_pass(int pass);
+
+class Mending {
+ public:
+  // A position that divides the line from a to b, or that a and b have become.
+  struct Change {
+    LonLat a;
+    LonLat b;
+    LonLat position;
+    bool is_merge = false;
+  };
+
+  // Keeps a reference. In each third of late passes lines are bisected before they are aligned: points opposite each
+  // other on lines at an angle approach the crossing slowly. The last passes divide lines where they cross.
+  Mending(SharedLines& lines, int pass);
+
+  void mend(const Trouble& trouble);
+
+  [[nodiscard]] const std::vector<Change>& changes() const { return changes_; }
+
+ private:
+  bool divide(const LonLat& a, const LonLat& b, const LonLat& at);
+  bool merge(const LonLat& a, const LonLat& b);
+  bool align(const LonLat& a, const LonLat& b, const LonLat& corner);
+  bool join(const LonLat& a, const LonLat& b);
+  bool bisect(const LonLat& a, const LonLat& b);
+  bool align_all(const LonLat& a, const LonLat& b, const LonLat& c, const LonLat& d);
+  bool bisect_both(const LonLat& a, const LonLat& b, const LonLat& c, const LonLat& d);
+  void uncross(const Trouble& trouble);
+  void snap(const Trouble& trouble);
+  void pair(const Trouble& trouble);
+  void turn(const Loop& loop);
+
+  SharedLines& lines_;
+  double reach_;
+  bool bisects_first_;
+  bool divides_only_;
+  std::vector<Change> changes_;
+};
+
+}  // namespace rondel::map

@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Lines of the plane whose rectangles overlap.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "rondel/types.h"
+
+namespace rondel::map {
+
+struct Line {
+  LonLat from;
+  LonLat to;
+  std::size_t name;
+};
+
+struct Rectangle {
+  double west;
+  double east;
+  double south;
+  double north;
+
+  static Rectangle around(const Line& line) {
+    const auto [west, east] = std::minmax(line.from.lon_deg, line.to.lon_deg);
+    const auto [south, north] = std::minmax(line.from.lat_deg, line.to.lat_deg);
+    return {west, east, south, north};
+  }
+
+  [[nodiscard]] bool overlaps(const Rectangle& other) const {
+    return west <= other.east && other.west <= east && south <= other.north && other.south <= north;
+  }
+};
+
+// The rectangles around the lines, around the lines 2i and 2i + 1, and so on up to one around all:
+// lines that follow each other are near each other, so that the rectangles are small. A sweep
+// would compare all lines of a meridian with each other.
+class Rectangles {
+ public:
+  explicit Rectangles(const std::vector<Line>& lines) : lines_(lines) {
+    all_.reserve(2 * lines.size() + std::numeric_limits<std::size_t>::digits);
+    for (const Line& line : lines) all_.push_back(Rectangle::around(line));
+    for (std::size_t first = 0; all_.size() - first > 1;) {
+      const std::size_t past = all_.size();
+      firsts_.push_back(past);
+      for (std::size_t i = first; i < past; i += 2) {
+        all_.push_back(i + 1 < past ? joined(all_[i], all_[i + 1]) : all_[i]);
+      }
+      first = past;
+    }
+    firsts_.push_back(all_.size());
+  }
+
+  // Calls `report` with each pair of lines whose rectangles overlap.
+  template <typename Report>
+  void find_overlapping(const Report& report) const {
+    if (lines_.size() > 1) within(firsts_.size() - 2, 0, report);
+  }
+
+ private:
+  static Rectangle joined(const Rectangle& a, const Rectangle& b) {
+    return {std::min(a.west, b.west), std::max(a.east, b.east), std::min(a.south, b.south),
+            std::max(a.north, b.north)};
+  }
+
+  [[nodiscard]] std::size_t size(std::size_t level) const {
+    return firsts_[level + 1] - firsts_[level];
+  }
+
+  [[nodiscard]] const Rectangle& at(std::size_t level, std::size_t i) const {
+    return all_[firsts_[level] + i];
+  }
+
+  // The pairs inside one rectangle.
+  template <typename Report>
+  void within(std::size_t level, std::size_t i, const Report& report) const {
+    if (level == 0) return;
+    const std::size_t first = 2 * i;
+    within(level - 1, first, report);
+    if (first + 1 >= size(level - 1)) return;
+    within(level - 1, first + 1, report);
+    between(level - 1, first, first + 1, report);
+  }
+
+  // The pairs of a line in one rectangle with a line in another of the same level.
+  template <typename Report>
+  void between(std::size_t level, std::size_t i, std::size_t j, const Report& report) const {
+    if (!at(level, i).overlaps(at(level, j))) return;
+    if (level == 0) {
+      report(lines_[i], lines_[j]);
+      return;
+    }
+    const std::size_t past = size(level - 1);
+    for (std::size_t a = 2 * i; a < std::min(2 * i + 2, past); ++a) {
+      for (std::size_t b = 2 * j; b < std::min(2 * j + 2, past); ++b) {
+        between(level - 1, a, b, report);
+      }
+    }
+  }
+
+  const std::vector<Line>& lines_;
+  std::vector<Rectangle> all_;          // level by level
+  std::vector<std::size_t> firsts_{0};  // of each level, and the end
+};
+
+}  // namespace rondel::map

@@ -1,0 +1,171 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "map/valid_regions.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <iomanip>
+#include <iterator>
+#include <locale>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <sstream>
+#include <utility>
+
+#include "map/line_troubles.h"
+#include "map/mending.h"
+#include "map/shared_lines.h"
+#include "rondel/error.h"
+#include "system/parallel.h"
+
+namespace rondel::map {
+namespace {
+
+constexpr std::size_t regions_per_task = 16;
+constexpr int most_passes = 256;
+constexpr int most_passes_at_longest_reach = 6;
+
+// Which regions have a position.
+class PositionOwners {
+ public:
+  explicit PositionOwners(std::span<const LoopsOfRegion> regions) {
+    for (std::size_t i = 0; i < regions.size(); ++i) {
+      for (const Loop& loop : regions[i]) {
+        for (const LonLat& p : loop) all_.push_back({p, i});
+      }
+    }
+    std::ranges::sort(all_, [](const OwnedPosition& x, const OwnedPosition& y) {
+      return x.position == y.position ? x.region < y.region : InPlane()(x.position, y.position);
+    });
+  }
+
+  [[nodiscard]] std::set<std::size_t> of(const LonLat& p) const {
+    std::set<std::size_t> owners;
+    const auto less = InPlane();
+    for (auto owned = std::ranges::lower_bound(all_, p, less, &OwnedPosition::position);
+         owned != all_.end() && owned->position == p; ++owned) {
+      owners.insert(owned->region);
+    }
+    if (const auto more = more_.find(p); more != more_.end())
+      owners.insert(more->second.begin(), more->second.end());
+    return owners;
+  }
+
+  void add(const LonLat& p, const std::set<std::size_t>& owners) {
+    more_[p].insert(owners.begin(), owners.end());
+  }
+
+ private:
+  struct OwnedPosition {
+    LonLat position;
+    std::size_t region;
+  };
+  std::vector<OwnedPosition> all_;
+  std::map<LonLat, std::set<std::size_t>, InPlane> more_;
+};
+
+class RegionsInPlane {
+ public:
+  RegionsInPlane(std::vector<LoopsOfRegion> regions, unsigned threads)
+      : regions_(std::move(regions)), threads_(threads), looks_(regions_.size()) {}
+
+  ValidRegions made_valid() {
+    std::vector<std::size_t> open(regions_.size());
+    for (std::size_t i = 0; i < open.size(); ++i) open[i] = i;
+    int patience = most_passes_at_longest_reach;
+    for (int pass = 0; pass < most_passes; ++pass) {
+      look_at(open);
+      std::erase_if(open, [&](std::size_t i) { return looks_[i].troubles.empty(); });
+      if (open.empty()) return result();
+      const bool is_last =
+          reach_of_pass(pass) == longest_reach && !has_meeting(open) && --patience == 0;
+      if (is_last) break;
+      std::set<std::size_t> changed = mend(open, pass);
+      if (changed.empty() && pass >= last_passes) break;
+      changed.insert(open.begin(), open.end());
+      open.assign(changed.begin(), changed.end());
+    }
+    for (const std::size_t i : open) looks_[i] = look_at_covered(regions_[i], lines_);
+    return result();
+  }
+
+ private:
+  void look_at(std::span<const std::size_t> open) {
+    system::parallel_for(threads_, open.size(), regions_per_task,
+                         [&](std::size_t begin, std::size_t end) {
+                           for (std::size_t k = begin; k < end; ++k) {
+                             looks_[open[k]] = look_at_region(regions_[open[k]], lines_);
+                           }
+                         });
+  }
+
+  // Whether lines cross or touch.
+  [[nodiscard]] bool has_meeting(std::span<const std::size_t> open) const {
+    return std::ranges::any_of(open, [&](std::size_t i) {
+      const Trouble::TroubleKind kind = looks_[i].troubles.front().kind;
+      return kind == Trouble::TroubleKind::touching || kind == Trouble::TroubleKind::crossing;
+    });
+  }
+
+  // The regions that the steps change.
+  std::set<std::size_t> mend(std::span<const std::size_t> open, int pass) {
+    if (!owners_) owners_.emplace(regions_);
+    Mending mending(lines_, pass);
+    for (const std::size_t i : open) {
+      for (const Trouble& trouble : looks_[i].troubles) mending.mend(trouble);
+    }
+    std::set<std::size_t> changed;
+    for (const Mending::Change& change : mending.changes()) {
+      const std::set<std::size_t> at_a = owners_->of(change.a);
+      const std::set<std::size_t> at_b = owners_->of(change.b);
+      std::set<std::size_t> owners;
+      if (change.is_merge) {
+        owners = at_a;
+        owners.insert(at_b.begin(), at_b.end());
+      } else {
+        std::ranges::set_intersection(at_a, at_b, std::inserter(owners, owners.end()));
+      }
+      owners_->add(change.position, owners);
+      changed.insert(owners.begin(), owners.end());
+    }
+    return changed;
+  }
+
+  ValidRegions result() {
+    ValidRegions valid;
+    valid.regions.resize(regions_.size());
+    for (std::size_t i = 0; i < regions_.size(); ++i) {
+      RegionLook& look = looks_[i];
+      if (!look.troubles.empty()) valid.invalid.push_back({i, look.troubles.front().a});
+      valid.regions[i] = std::move(look.polygons);
+    }
+    return valid;
+  }
+
+  std::vector<LoopsOfRegion> regions_;
+  unsigned threads_;
+  std::vector<RegionLook> looks_;
+  SharedLines lines_;
+  std::optional<PositionOwners> owners_;
+};
+
+}  // namespace
+
+ValidRegions valid_regions(std::vector<LoopsOfRegion> regions, unsigned threads) {
+  return RegionsInPlane(std::move(regions), threads).made_valid();
+}
+
+void require_valid(const ValidRegions& regions, const char* kind) {
+  if (regions.invalid.empty()) return;
+  const auto& [region, place] = regions.invalid.front();
+  std::ostringstream message;
+  message.imbue(std::locale::classic());
+  message << std::setprecision(12) << kind << ' ' << region << " crosses itself at longitude "
+          << place.lon_deg << ", latitude " << place.lat_deg
+          << " when it is drawn in longitude and latitude";
+  throw InvalidInput(message.str(), region);
+}
+
+}  // namespace rondel::map

@@ -1,0 +1,203 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Polygons in longitude and latitude are valid, and equal along borders; judged by rational numbers.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "inputs/kinds.h"
+#include "overlay_support.h"
+#include "rondel/cell_rings.h"
+#include "rondel/contours.h"
+#include "rondel/delaunay.h"
+#include "rondel/polygons.h"
+#include "rondel/regions.h"
+#include "support/planar_check.h"
+#include "unit/geojson_rings.h"
+
+namespace rondel::test {
+namespace {
+
+std::vector<PlanarRegion> regions_of(const LonLatRegions& drawn, std::size_t num_cells) {
+  std::vector<PlanarRegion> regions(num_cells);
+  for (std::size_t p = 0; p < drawn.owners.size(); ++p) {
+    PlanarPolygon& polygon = regions[drawn.owners[p]].emplace_back();
+    for (std::uint64_t r = drawn.polygons[p]; r < drawn.polygons[p + 1]; ++r) {
+      polygon.emplace_back(
+          drawn.positions.begin() + static_cast<std::ptrdiff_t>(drawn.rings[r]),
+          drawn.positions.begin() + static_cast<std::ptrdiff_t>(drawn.rings[r + 1]));
+    }
+  }
+  return regions;
+}
+
+std::vector<PlanarRegion> drawn_regions(const CellRings& cells) {
+  return regions_of(region_polygons(cells), cells.num_cells());
+}
+
+PlanarRegion region_of(const nlohmann::json& geometry) {
+  PlanarRegion region;
+  if (geometry.is_null()) return region;
+  const auto polygons = geometry["type"] == "Polygon"
+                            ? nlohmann::json::array({geometry["coordinates"]})
+                            : geometry["coordinates"];
+  for (const auto& polygon : polygons) {
+    region.emplace_back();
+    for (const auto& ring : polygon) region.back().push_back(ring_of(ring));
+  }
+  return region;
+}
+
+// Sides inside of the map that only one region has.
+std::size_t count_single_sides(const std::vector<PlanarRegion>& regions) {
+  std::map<std::array<double, 4>, int> sides;
+  for (const PlanarRegion& region : regions) {
+    for (const PlanarPolygon& polygon : region) {
+      for (const PlanarRing& ring : polygon) {
+        for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
+          const LonLat& p = ring[k];
+          const LonLat& q = ring[k + 1];
+          if (std::abs(p.lon_deg) == 180 && p.lon_deg == q.lon_deg) continue;
+          if (std::abs(p.lat_deg) == 90 && p.lat_deg == q.lat_deg) continue;
+          ++sides[{p.lon_deg, p.lat_deg, q.lon_deg, q.lat_deg}];
+          --sides[{q.lon_deg, q.lat_deg, p.lon_deg, p.lat_deg}];
+        }
+      }
+    }
+  }
+  return static_cast<std::size_t>(
+      std::ranges::count_if(sides, [](const auto& side) { return side.second > 0; }));
+}
+
+CellRings cells_of(const std::vector<std::vector<LonLat>>& rings) {
+  CellRings cells;
+  for (const auto& ring : rings) {
+    for (const LonLat& p : ring) {
+      cells.corners.push_back(static_cast<Index>(cells.points.size()));
+      cells.points.push_back(unit_vector(p));
+    }
+    cells.rings.push_back(cells.corners.size());
+    cells.cells.push_back(cells.rings.size() - 1);
+  }
+  return cells;
+}
+
+// The checker finds what is wrong.
+TEST(overlay_valid, the_judge_sees_faults) {
+  const PlanarRing square = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}};
+  const PlanarRing hole = {{1, 1}, {1, 2}, {2, 2}, {2, 1}, {1, 1}};
+  EXPECT_EQ(why_invalid({{square, hole}}), "");
+  EXPECT_NE(why_invalid({{{{0, 0}, {4, 4}, {4, 0}, {0, 4}, {0, 0}}}}), "");
+  EXPECT_NE(why_invalid({{{{0, 0}, {4, 0}, {2, 0}, {2, 2}, {0, 0}}}}), "");
+  EXPECT_NE(why_invalid({{{{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}, {2, 2}, {0, 0}}}}), "");
+  EXPECT_NE(why_invalid({{square, {{1, 1}, {1, 5}, {2, 5}, {2, 1}, {1, 1}}}}), "");
+  EXPECT_NE(why_invalid({{square, {{0, 1}, {0, 2}, {2, 2}, {2, 1}, {0, 1}}}}), "");
+  EXPECT_NE(why_invalid({{square}, {{{1, 1}, {2, 1}, {2, 2}, {1, 1}}}}), "");
+  EXPECT_NE(why_invalid({{square}, {{{4, 1}, {6, 1}, {4, 2}, {4, 1}}}}), "");
+  EXPECT_EQ(why_invalid({{square, {{0, 2}, {2, 3}, {2, 1}, {0, 2}}}}), "");
+  EXPECT_NE(why_invalid({{square, {{0, 2}, {2, 3}, {4, 2}, {2, 1}, {0, 2}}}}), "");
+}
+
+// Two arcs of 60 degrees, a millionth of a degree from each other at their ends, densified at different places.
+TEST(overlay_valid, cells_narrower_than_the_tolerance) {
+  for (const double width : {1e-3, 1e-6, 1e-9, 1e-11}) {
+    const CellRings cells = cells_of({{{-30, 40}, {35, 41}, {33, 41 + width}, {-28, 40 + width}},
+                                      {{-28, 40 + width}, {33, 41 + width}, {20, 60}},
+                                      {{-30, 40}, {20, 10}, {35, 41}}});
+    const auto regions = drawn_regions(cells);
+    for (const PlanarRegion& region : regions) EXPECT_EQ(why_invalid(region), "") << width;
+  }
+}
+
+TEST(overlay_valid, a_corner_in_one_neighbor_is_one_of_both) {
+  const LonLat west{-20, 50};
+  const LonLat east{40, 55};
+  const auto middle = [](const LonLat& p, const LonLat& q) {
+    const Point a = unit_vector(p);
+    const Point b = unit_vector(q);
+    const Point sum = {a.x + b.x, a.y + b.y, a.z + b.z};
+    const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
+    return Point{sum.x / length, sum.y / length, sum.z / length};
+  };
+  CellRings cells = cells_of({{west, east, {10, 70}}, {east, west, {5, 20}}});
+  // The northern one has the middle of the border as a corner.
+  cells.points.push_back(middle(west, east));
+  cells.corners.insert(cells.corners.begin() + 1, static_cast<Index>(cells.points.size() - 1));
+  for (std::size_t r = 1; r < cells.rings.size(); ++r) ++cells.rings[r];
+  const auto regions = drawn_regions(cells);
+  const std::size_t outline = count_single_sides({regions[0]}) + count_single_sides({regions[1]});
+  const std::size_t both = count_single_sides(regions);
+  EXPECT_LT(both, outline);
+  const auto apart = drawn_regions(cells_of({{west, east, {10, 70}}, {east, west, {5, 20}}}));
+  EXPECT_EQ(both, count_single_sides(apart));
+}
+
+TEST(overlay_valid, the_whole_sphere_is_the_box) {
+  CellRings cells;
+  cells.cells = {0, 0, 0};
+  cells.whole = {1};
+  const LonLatRegions drawn = region_polygons(cells);
+  ASSERT_EQ(drawn.owners, std::vector<Index>{1});
+  const std::vector<LonLat> box = {{-180, -90}, {180, -90}, {180, 90}, {-180, 90}, {-180, -90}};
+  EXPECT_EQ(drawn.positions, box);
+  const std::string path = testing::TempDir() + "rondel_whole.geojson";
+  write_regions(path, cells);
+  const auto document = read_json(path);
+  ASSERT_EQ(document["features"].size(), 1U);
+  EXPECT_EQ(document["features"][0]["geometry"]["coordinates"][0].size(), 5U);
+  EXPECT_NEAR(document["features"][0]["properties"]["area"].get<double>(), 12.566370614359172,
+              1e-14);
+}
+
+constexpr std::array kinds = {"uniform",
+                              "grid",
+                              "paper-s",
+                              "patch-and-globe",
+                              "small-circle",
+                              "meridian",
+                              "meridian-rounded",
+                              "rotated-circle-1",
+                              "wedge",
+                              "antipodal",
+                              "orbit"};
+
+Triangulation triangulation_of_kind(const char* kind) {
+  return delaunay(inputs::make(*inputs::find_kind(kind), {.n = 24}).sites);
+}
+
+TEST(overlay_valid, bands_of_named_inputs) {
+  const std::string path = testing::TempDir() + "rondel_valid_bands.geojson";
+  for (const char* kind : kinds) {
+    const Triangulation t = triangulation_of_kind(kind);
+    Random random(7);
+    std::vector<double> values(t.sites().size());
+    for (double& value : values) value = static_cast<double>(random.below(1000)) / 500 - 1;
+    write_bands(path, bands(t, values, std::vector<double>{-0.5, 0, 0.5}));
+    std::vector<PlanarRegion> regions;
+    for (const auto& feature : read_json(path)["features"]) {
+      regions.push_back(region_of(feature["geometry"]));
+      EXPECT_EQ(why_invalid(regions.back()), "") << kind;
+    }
+  }
+}
+
+TEST(overlay_valid, groups_of_named_inputs) {
+  for (const char* kind : std::span(kinds).first(4)) {
+    const Triangulation t = triangulation_of_kind(kind);
+    const Partition cells = Partition::voronoi(t);
+    const CellRings joined = dissolve(cells.rings(), random_groups(t.sites().size(), 3, 5), 3);
+    const auto regions = drawn_regions(joined);
+    for (const PlanarRegion& region : regions) EXPECT_EQ(why_invalid(region), "") << kind;
+  }
+}
+
+}  // namespace
+}  // namespace rondel::test
