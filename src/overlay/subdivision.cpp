@@ -325,8 +325,11 @@ void Subdivision::find_shapes(unsigned threads) {
     bool is_convex = true;
     for (Halfedge h = begin; is_convex && h < end; ++h) {
       const Point& b = this->end(h);
-      is_convex = is_left_turn(origin(h), b, this->end(next(h))) &&
-                  (h == begin || h + 1 == end || is_left_turn(origin(begin), origin(h), b));
+      is_convex =
+          is_left_turn(origin(h), b, this->end(next(h))) &&
+          (h == begin || h + 1 == end ||
+           (is_left_turn(origin(begin), origin(h), b) &&
+            is_left_turn(origin(begin), this->end(begin), b)));  // not more than once around
     }
     if (is_convex) return Shape::convex;
     return is_star(cell) ? Shape::star : Shape::other;
