@@ -16,8 +16,8 @@
 #include <string>
 
 #include "exact/vector.h"
+#include "meshing/feature_outlines.h"
 #include "meshing/fixed_sites.h"
-#include "meshing/outlines.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_lines.h"

@@ -10,7 +10,7 @@
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
-#include "meshing/outlines.h"
+#include "meshing/feature_outlines.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"

@@ -9,7 +9,7 @@
 //     |  up  v  | v down     to the west) and what sides go down (to the east) are intervals of that number; where both
 //     v      |               are, is a cut.
 
-#include "meshing/outlines.h"
+#include "meshing/feature_outlines.h"
 
 #include <algorithm>
 #include <array>
