@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <exception>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <system_error>
@@ -21,7 +20,7 @@ namespace rondel {
 class RONDEL_API InvalidInput : public std::invalid_argument {
  public:
   /// The index of an argument that is no array.
-  static constexpr std::size_t no_index = std::numeric_limits<std::size_t>::max();
+  static constexpr std::size_t no_index = ~std::size_t{0};
 
   explicit InvalidInput(const std::string& message, std::size_t index = no_index);
   InvalidInput(const InvalidInput&) = default;

@@ -25,12 +25,14 @@ struct WeightFault {
 struct WeightReport {
   std::vector<WeightFault> faults;  ///< one of a kind; empty: nothing is wrong
   std::size_t empty_rows = 0;
-  double least = 0;                       ///< weight
-  double greatest = 0;                    ///< weight
-  double worst_row = 0;                   ///< the largest difference of a row's sum from what it should be
-  std::optional<double> worst_column;     ///< the largest relative difference of an area given away
-  std::optional<double> worst_direction;  ///< the largest |u x sum of w x|, u a target, x its sources
-  bool sums_are_fractions = false;        ///< rows should have the fractions of the targets as sums, not 1
+  double least = 0;      ///< weight
+  double greatest = 0;   ///< weight
+  double worst_row = 0;  ///< the largest difference of a row's sum from what it should be
+  std::optional<double> worst_column;  ///< the largest relative difference of an area given away
+  std::optional<double>
+      worst_direction;  ///< the largest |u x sum of w x|, u a target, x its sources
+  bool sums_are_fractions =
+      false;  ///< rows should have the fractions of the targets as sums, not 1
 
   /// How often a kind occurs.
   [[nodiscard]] RONDEL_API std::size_t count(const std::string& kind) const;

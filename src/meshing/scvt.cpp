@@ -126,10 +126,16 @@ class Levels {
   // Offsets fall by about the same factor from step to step.
   static double part_of_level(const MinimizerLimits& limits, const EnergyReport& first,
                               const EnergyReport& now, int iteration) {
-    const auto part = [](double at_first, double at_last, double present) {
+    // The binary logarithm at powers of two, and linear between them: the same on every machine.
+    const auto digits = [](double x) {
+      int exponent = 0;
+      const double mantissa = std::frexp(x, &exponent);
+      return exponent + 2 * mantissa;
+    };
+    const auto part = [&](double at_first, double at_last, double present) {
       if (present <= at_last) return 1.0;
       if (!(present < at_first)) return 0.0;
-      return std::log(at_first / present) / std::log(at_first / at_last);
+      return (digits(at_first) - digits(present)) / (digits(at_first) - digits(at_last));
     };
     const double of_steps =
         limits.iterations == 0 ? 1 : static_cast<double>(iteration) / limits.iterations;

@@ -84,8 +84,7 @@ LonLat require_position(const std::string& names, std::size_t i, const LonLat& p
   if (!is_place(place)) {
     throw BadValue("value " + std::to_string(i) + " of " + names + ", " +
                    system::shortest_text(place.lon_deg) + " and " +
-                   system::shortest_text(place.lat_deg) +
-                   " degrees, is no place");
+                   system::shortest_text(place.lat_deg) + " degrees, is no place");
   }
   return {place.lon_deg, std::clamp(place.lat_deg, -90.0, 90.0)};
 }

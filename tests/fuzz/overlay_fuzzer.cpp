@@ -186,6 +186,8 @@ void test_regions(const Partition& cells, const Partition& others, Index num_gro
   double left = 0;
   for (std::size_t i = 0; i < groups.size(); ++i) left += groups[i] == no_index ? 0 : by_pieces[i];
   require(std::abs(sum_of(areas(by_group.rings)) - left) < 1e-8, "pieces joined by group");
+  const CellRings all = dissolve(cells.rings(), std::vector<Index>(cells.num_cells(), 0), 1);
+  require(all.is_whole(0), "all cells together are the whole sphere");
   const CellRings regions = dissolve(cells.rings(), groups, num_groups);
   const CellRings inside = clip(others, Partition(regions));
   require(std::abs(sum_of(areas(inside)) - sum_of(areas(regions))) < 1e-8,

@@ -326,8 +326,7 @@ TEST(overlay_grid, names_what_is_wrong) {
   EXPECT_EQ(message_of({{0}, {0, 1}}), "a grid of 1 meridians and 2 parallels has no cell");
   EXPECT_EQ(message_of({{0, 1, 1}, {0, 1}}), "meridian 2, 1, is not east of the last");
   EXPECT_EQ(message_of({{2, 1, 1}, {0, 1}}), "meridian 2, 1, is not west of the last");
-  EXPECT_EQ(message_of({{0, 361}, {0, 1}}),
-            "meridian 1, 361, is more than once around the globe");
+  EXPECT_EQ(message_of({{0, 361}, {0, 1}}), "meridian 1, 361, is more than once around the globe");
   EXPECT_EQ(message_of({{0, NAN}, {0, 1}}), "meridian 1, nan, is no longitude");
   EXPECT_EQ(message_of({{0, 1}, {0, 91}}), "parallel 1, 91, is no latitude");
   EXPECT_EQ(message_of({{0, 1}, {0, -1, 2}}), "parallel 2, 2, is not in order");

@@ -225,9 +225,9 @@ class Partition(Described):
         Parameters
         ----------
         path : path-like
-            netCDF: UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 by the library that
-            netCDF4 brings; of several grids ``FILE.nc:NAME`` names the one that variable NAME is of or
-            on. ``.geojson``: polygons, a feature a cell.
+            netCDF: UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 is read by the library
+            that netCDF4 brings. Of several grids in a file ``FILE.nc:NAME`` names a variable of
+            the grid, or on it. ``.geojson``: polygons, a feature a cell.
         sides : {'parallels', 'great_circles'}, optional
             As in `lonlat_grid`, for coordinates along lines.
         edges : {'lonlat', 'geodesic'}, optional
