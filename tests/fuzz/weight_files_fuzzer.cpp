@@ -16,6 +16,7 @@
 #include "fuzz/scratch_folder.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
+#include "rondel/io.h"
 #include "rondel/mesh_files.h"
 #include "rondel/weight_check.h"
 #include "rondel/weight_files.h"
@@ -82,12 +83,44 @@ void test_faults(const WeightFile& file) {
   }
 }
 
+// Values come in slices as they do at once, and are written so.
+void test_slices(const ScratchFolder& folder, const std::string& path, const FieldSet& whole) {
+  const FieldFile file(path, {}, 4);
+  const FieldSet& fields = file.fields();
+  require(fields.arrays.size() == whole.arrays.size(), "the same fields");
+  const std::string at_once = folder.file("at_once.nc");
+  const std::string in_slices = folder.file("in_slices.nc");
+  write_fields(at_once, whole, {});
+  FieldWriter writer(in_slices, fields, {});
+  for (std::size_t k = 0; k < whole.arrays.size(); ++k) {
+    const std::vector<double>& values = whole.arrays[k].values;
+    std::vector<double> slice(4);
+    for (std::size_t first = 0; first < whole.arrays[k].num_fields(); ++first) {
+      file.read(k, first, slice);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double expected = values[4 * first + i];
+        require(slice[i] == expected || (std::isnan(slice[i]) && std::isnan(expected)),
+                "a slice has the values of the whole");
+      }
+      writer.write(slice);
+    }
+  }
+  writer.finish();
+  require(content(in_slices) == content(at_once), "slices are written as the whole is");
+}
+
 void test(std::string_view bytes) {
   test_lonlats(bytes);
   test_corners(bytes);
   static const ScratchFolder folder;
   const std::string path = folder.file("fuzzed.nc");
   std::ofstream(path, std::ios::binary) << bytes;
+  set_netcdf_library("none");
+  require(is_netcdf_file(path), "the ending tells netCDF");
+  expect_answer([&] {
+    const NetcdfSites sites = read_netcdf_sites(path, {}, true);
+    require(sites.table.positions.size() == sites.table.sites.size(), "sites have positions");
+  });
   expect_answer([&] {
     const WeightFile file = read_weights(path);
     const std::vector<double> in(file.weights.num_columns < 1000 ? file.weights.num_columns : 0);
@@ -119,6 +152,7 @@ void test(std::string_view bytes) {
       require(array.values.size() == 4 * array.num_fields(), "a field has a value a point");
     }
     if (fields.arrays.size() == 1) write_fields(folder.file("again.npy"), fields, {});
+    if (!fields.arrays.empty()) test_slices(folder, path, fields);
   });
 }
 
