@@ -22,7 +22,7 @@ inline void add_netcdf_options(CLI::App& parser, NetcdfOptions& options) {
   parser
       .add_option("--deflate", options.deflate,
                   "How much effort the compression of nc4 takes, 0 (none) to 9 (default: 1)")
-      ->check(CLI::Range(0, 9))
+      ->check(CLI::Range(0, 9).description(""))
       ->type_name("N");
 }
 

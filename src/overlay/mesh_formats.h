@@ -12,6 +12,7 @@
 
 #include "io/cf_reader.h"
 #include "io/netcdf_reader.h"
+#include "rondel/export.h"
 #include "rondel/mesh_files.h"
 #include "rondel/partition.h"
 #include "rondel/types.h"
@@ -38,8 +39,8 @@ struct MeshContent {
 };
 
 // What read_cells() gives of the file, or of the grid that the variable `part` is on. Throws BadValue.
-CellTable cells_in(const io::NetcdfReader& file, const std::string& file_name,
-                   const std::string& part);
+RONDEL_API CellTable cells_in(const io::NetcdfReader& file, const std::string& file_name,
+                              const std::string& part);
 
 // Each is nothing if the file does not follow the convention, or, where a variable is named, if that is not of this convention.
 // Throws BadValue.
