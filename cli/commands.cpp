@@ -194,7 +194,7 @@ Command add_voronoi_command(CLI::App& tool) {
       "is looked for where the system has its libraries, or where RONDEL_GDAL says.\n\n"
       "Examples:\n"
       "  rondel voronoi stations.csv -o cells.geojson\n"
-      "  rondel voronoi stations.csv --clip land.geojson --group country -o countries.geojson\n"
+      "  rondel voronoi stations.csv --clip land.geojson --group country -o groups.geojson\n"
       "  rondel voronoi stations.csv --clip countries.geojson --clip-value name -o parts.gpkg\n"
       "  rondel voronoi rivers.geojson --densify 0.5 --earth-radius 6371.0088 -o basins.geojson\n"
       "  rondel voronoi circles.csv --radius radius -o power-cells.geojson");

@@ -70,12 +70,10 @@ ExitStatus run_delaunay(const DelaunayOptions& options) {
   const Triangulation triangulation = job.triangulate(table);
   std::vector<double> cell_areas;
   std::vector<Point> centers;
-  job.time(Stage::dual, [&] {
-    if (!options.areas.empty() && !content.areas) {
-      cell_areas = areas(triangulation, job.execution());
-    }
-    if (!options.circumcenters.empty()) centers = circumcenters(triangulation, job.execution());
-  });
+  if (!options.areas.empty() && !content.areas)
+    job.time(Stage::dual, [&] { cell_areas = areas(triangulation, job.execution()); });
+  if (!options.circumcenters.empty())
+    job.time(Stage::dual, [&] { centers = circumcenters(triangulation, job.execution()); });
   job.time(Stage::write, [&] {
     if (!options.neighbors.empty() && !content.neighbors)
       write_rows<3>(options.neighbors, triangulation.neighbors());

@@ -85,7 +85,7 @@ TEST(read_circles, says_which_radius_is_wrong) {
   EXPECT_EQ(message("a.csv", "lon,lat,r\n0,0,1,2\n"), ":2: 4 fields where the header has 3");
 
   EXPECT_EQ(message("a.csv", "lon,lat,R,R\n0,0,1,2\n"),
-            ":1: more than one column may be the radius; name one; found: lon, lat, R, R");
+            ":1: more than one column may be the radius: \"R\" (column 3) and \"R\" (column 4)");
   EXPECT_EQ(message("a.csv", "lon,lat\n0,0\n"), ":1: no column \"r\"; found: lon, lat");
   EXPECT_EQ(message("a.xyz", "1 0 0\n"),
             ": a radius is named, but .xyz files have no names for columns; give weighted sites as "

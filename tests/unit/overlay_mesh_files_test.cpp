@@ -381,7 +381,7 @@ TEST(overlay_mesh_files, names_what_is_wrong) {
   EXPECT_EQ(refusal_of([] {
               (void)lonlat_table({1, 2}, {80, 99});
             }),
-            "value 1 of \"lat\", 1.000000 and 99.000000 degrees, is no place");
+            "value 1 of \"lat\", 1 and 99 degrees, is no place");
   const auto ugrid = [](const Doubles& lat, const Doubles& nodes) {
     MeshWriter file;
     file.add_whole("mesh", {}, {0},
@@ -401,7 +401,7 @@ TEST(overlay_mesh_files, names_what_is_wrong) {
   EXPECT_EQ(refusal_of([&] {
               (void)ugrid({0, 95, 1}, {0, 1, 2});
             }),
-            "value 1 of \"x\" and \"y\", 1.000000 and 95.000000 degrees, is no place");
+            "value 1 of \"x\" and \"y\", 1 and 95 degrees, is no place");
   MeshWriter plane;
   plane.add_attribute("on_a_sphere", "NO");
   plane.add_whole("verticesOnCell", {{"nCells", 1}, {"maxEdges", 3}}, {1, 2, 3});

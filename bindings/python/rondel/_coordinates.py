@@ -160,9 +160,10 @@ def missing_marker(array: xarray.DataArray) -> Any:
     # What xarray has unpacked it remembers in `encoding`.
     known = {name: texts[name] for name in _OF_VALUES if texts.get(name) is not None}
     known |= {name: array.encoding[name] for name in _PACKING if name in array.encoding}
-    if _code(stored) is None or (of_file is None and not known):
+    stored_kind = _code(stored)
+    if stored_kind is None or (of_file is None and not known):
         return None
-    attributes = []
+    attributes: list[tuple[str, str, str, list[float]]] = []
     for name, value in known.items():
         if isinstance(value, str):
             attributes.append((name, "", value, []))
@@ -173,11 +174,10 @@ def missing_marker(array: xarray.DataArray) -> Any:
             attributes.append((name, kind, "", numbers.astype(np.float64).tolist()))
     if of_file is None and "_FillValue" not in known:
         attributes.append(("_FillValue", "f8", "", [np.nan]))
-    kind = _code(stored)
 
     def marked(values: Any) -> Any:
         found = np.array(values, np.float64, order="C")
-        _core.mark_missing(found.reshape(-1), kind, attributes)
+        _core.mark_missing(found.reshape(-1), stored_kind, attributes)
         return found
 
     return marked

@@ -68,10 +68,6 @@ def weights_to_netcdf(
             raise ValueError(f"{name} must be {count} points, not of shape {np.shape(points)}")
         if known and not self.is_of(**{name: points}):
             raise ValueError(f"the {name} are not those of the weights")
-    for name, areas in (("site_areas", site_areas), ("target_areas", target_areas)):
-        known_areas = np.empty(0) if areas is None else np.asarray(areas, float)
-        if not (known_areas >= 0).all():
-            raise ValueError(f"{name} must not be negative or NaN")
     shape: tuple[int, ...] = () if targets is None else np.shape(targets)[:-1]
     source = Side(_degrees(sites), _areas(site_areas))
     target = Side(_degrees(targets), _areas(target_areas), shape=shape)

@@ -155,8 +155,12 @@ def test_a_point_that_is_not_valid_is_told_to_all(size):
 @pytest.mark.parametrize(
     ("wrong", "kind", "text"),
     [
-        ({"points": np.ones((4, 2))}, ValueError, "points must have shape (n, 3), not (4, 2)"),
-        ({"points": ["a", "b"]}, TypeError, "points must be real numbers, not <U1"),
+        (
+            {"points": np.ones((4, 2))},
+            ValueError,
+            "points must have shape (n, 3), not (4, 2); rondel.unit_vectors(lon, lat) makes them of longitudes and latitudes",
+        ),
+        ({"points": ["a", "b"]}, TypeError, "points must be real numbers, not text"),
         ({"model": "flat"}, ValueError, "model must be 'projected' or 'weighted', not 'flat'"),
         ({"most_bucket_sites": 0}, ValueError, "most_bucket_sites must be at least 1, not 0"),
         ({"threads": 0}, ValueError, "threads must be at least 1, or None for all cores, not 0"),
