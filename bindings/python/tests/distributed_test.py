@@ -158,7 +158,8 @@ def test_a_point_that_is_not_valid_is_told_to_all(size):
         (
             {"points": np.ones((4, 2))},
             ValueError,
-            "points must have shape (n, 3), not (4, 2); rondel.unit_vectors(lon, lat) makes them of longitudes and latitudes",
+            "points must have shape (n, 3), not (4, 2); "
+            "rondel.unit_vectors(lon, lat) makes them of longitudes and latitudes",
         ),
         ({"points": ["a", "b"]}, TypeError, "points must be real numbers, not text"),
         ({"model": "flat"}, ValueError, "model must be 'projected' or 'weighted', not 'flat'"),

@@ -74,5 +74,7 @@ function ticks(low, high, n) {
  */
 export function niceTicks(least, most, n) {
   if (!(n > 0) || !(most >= least)) return [];
-  return least === most ? [least] : ticks(...widened(least, most), n);
+  if (least === most) return [least];
+  const [low, high] = widened(least, most);
+  return ticks(low, high, n);
 }
