@@ -10,6 +10,7 @@
 
 #include "exact/vector.h"
 #include "overlay/side_table.h"
+#include "overlay/snapped_sides.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/predicates.h"
@@ -252,34 +253,66 @@ ConflictingSides::ConflictingSides(const SideConflict& conflict)
 
 namespace {
 
-// The triangles and their owners.
+std::vector<OwnedSide> owned_sides(const Subdivision& cells) {
+  std::vector<OwnedSide> sides;
+  sides.reserve(cells.num_halfedges());
+  for (Index ring = 0; ring + 1 < cells.rings.size(); ++ring) {
+    const Halfedge first = cells.rings[ring];
+    const Halfedge end = cells.rings[ring + 1];
+    for (Halfedge h = first; h < end; ++h) {
+      sides.push_back(
+          {cells.corners[h], cells.corners[h + 1 == end ? first : h + 1], cells.cell_of[h]});
+    }
+  }
+  return sides;
+}
+
+// The triangles and their owners, of which these sides are.
 std::pair<CellRings, std::vector<Index>> filled_with(const Subdivision& cells,
+                                                     std::span<const OwnedSide> sides,
                                                      const Execution& execution) {
   std::vector<Point> points = cells.points;
   points.insert(points.end(), axis_ends.begin(), axis_ends.end());
   SideMesh mesh(std::move(points), cells.names, execution);
   system::StageProgress progress(execution.progress, "fill",
-                                 system::num_pieces(cells.num_halfedges(), sides_per_step));
-  for (Index ring = 0; ring + 1 < cells.rings.size(); ++ring) {
-    const Halfedge first = cells.rings[ring];
-    const Halfedge end = cells.rings[ring + 1];
-    for (Halfedge h = first; h < end; ++h) {
-      mesh.put(cells.corners[h], cells.corners[h + 1 == end ? first : h + 1], cells.cell_of[h]);
-      if ((h + 1) % sides_per_step != 0 && h + 1 != cells.num_halfedges()) continue;
-      system::obey_stop();
-      progress.step();
-    }
+                                 system::num_pieces(sides.size(), sides_per_step));
+  for (std::size_t k = 0; k < sides.size(); ++k) {
+    mesh.put(sides[k].from, sides[k].to, sides[k].owner);
+    if ((k + 1) % sides_per_step != 0 && k + 1 != sides.size()) continue;
+    system::obey_stop();
+    progress.step();
   }
   std::pair<CellRings, std::vector<Index>> filled;
   mesh.take(filled.first, filled.second);
   return filled;
 }
 
+// Where cells overlap only because corners are beside sides on which they are to rounding, these corners become corners of
+// the sides. That may bring others into their way, but seldom.
+std::pair<CellRings, std::vector<Index>> filled_by_rounding(const Subdivision& cells,
+                                                            const Execution& execution) {
+  constexpr int most_times = 4;
+  std::vector<OwnedSide> sides = owned_sides(cells);
+  std::optional<ConflictingSides> first;
+  for (int time = 0; time < most_times; ++time) {
+    try {
+      const Execution told{.threads = execution.threads, .stop = execution.stop};
+      return filled_with(cells, sides, first ? told : execution);
+    } catch (const ConflictingSides& error) {
+      if (!first) first = error;
+    }
+    const Snaps snaps(cells.points, sides);
+    if (snaps.is_empty()) break;
+    sides = snaps.applied(sides);
+  }
+  throw ConflictingSides(*first);
+}
+
 }  // namespace
 
 std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execution& execution) {
   try {
-    filled_with(cells, execution);
+    filled_with(cells, owned_sides(cells), execution);
   } catch (const ConflictingSides& error) {
     return error.conflict();
   }
@@ -306,7 +339,7 @@ bool is_region(std::span<const BorderArc> sides, const Execution& execution) {
 }
 
 Filling filling_of(const Subdivision& cells, const Execution& execution) {
-  const auto [triangles, owners_by_name] = filled_with(cells, execution);
+  const auto [triangles, owners_by_name] = filled_by_rounding(cells, execution);
   Filling filling{Subdivision(triangles, false, execution.threads), {}};
   const auto none = static_cast<Index>(cells.num_cells());
   for (const Index name : filling.cover.names) {

@@ -45,7 +45,8 @@ std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execut
 bool is_region(std::span<const BorderArc> sides, const Execution& execution);
 
 // The Delaunay triangulation of the corners and of the ends of the axes, into which the sides of the cells are put, all
-// of it exactly. Throws InvalidInput where cells overlap.
+// of it exactly; but corners that are on a side to rounding become corners of it where the cells would overlap else. Throws
+// InvalidInput where cells overlap by more.
 Filling filling_of(const Subdivision& cells, const Execution& execution);
 
 // work(is_first_filled, execution) for the one with fewer sides, or else, if that one's cells overlap, for the other one,

@@ -15,6 +15,7 @@
 #include "overlay/measure.h"
 #include "overlay/overlaps.h"
 #include "overlay/partition_data.h"
+#include "overlay/sound_cells.h"
 #include "overlay/tidy_rings.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
@@ -211,12 +212,8 @@ Partition::Partition(std::shared_ptr<const PartitionData> data) : data_(std::mov
 Partition::Partition(const CellRings& cells, const Execution& execution) {
   const system::Call call(execution);
   validate(cells);
-  Subdivision subdivision(cells, false, execution.threads);
   std::vector<Index> whole = cells.whole;
-  if (const auto tidy = overlay::tidied(cells, subdivision)) {
-    subdivision = Subdivision(*tidy, false, execution.threads);
-    whole = tidy->whole;
-  }
+  Subdivision subdivision = overlay::sound_cells(cells, whole, execution);
   data_ = std::make_shared<const PartitionData>(std::move(subdivision), std::move(whole),
                                                 execution.threads);
 }

@@ -11,6 +11,7 @@
 #include "exact/vector.h"
 #include "overlay/cell_sets.h"
 #include "overlay/overlaps.h"
+#include "overlay/sound_cells.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
 
@@ -75,8 +76,10 @@ TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>&
     }
   }
   merge_equal_points(all);
-  result.parts = std::make_shared<const PartitionData>(Subdivision(all, false, execution.threads),
-                                                       all.whole, execution.threads);
+  std::vector<Index> whole = all.whole;
+  Subdivision parts = sound_cells(all, whole, told);
+  result.parts =
+      std::make_shared<const PartitionData>(std::move(parts), std::move(whole), execution.threads);
   result.data = result.parts.get();
   return result;
 }

@@ -1,0 +1,163 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/snapped_sides.h"
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "exact/vector.h"
+#include "predicates/bounds.h"
+
+namespace rondel::overlay {
+namespace {
+
+// Corners where sides cross are off by some 10u; has_sure_crossing() allows as much.
+constexpr double snapping_distance = 32 * predicates::unit_roundoff;
+
+bool is_nearly(const Point& a, const Point& b) {
+  const Point step = b - a;
+  return dot(step, step) <= snapping_distance * snapping_distance;
+}
+
+// The same side in both directions.
+std::pair<Index, Index> ends_of(const OwnedSide& side) { return std::minmax(side.from, side.to); }
+
+// Leaves out as many of each owner's sides between two points as run the other way.
+void cancel_owned(std::vector<OwnedSide>& sides) {
+  std::ranges::sort(sides, {}, [](const OwnedSide& side) {
+    return std::tuple(ends_of(side), side.owner, side.from);
+  });
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < sides.size();) {
+    std::size_t end = k;
+    std::size_t num_upwards = 0;
+    while (end < sides.size() && ends_of(sides[end]) == ends_of(sides[k]) &&
+           sides[end].owner == sides[k].owner) {
+      if (sides[end].from < sides[end].to) ++num_upwards;
+      ++end;
+    }
+    const std::size_t num_downwards = end - k - num_upwards;
+    const std::size_t num_left =
+        std::max(num_upwards, num_downwards) - std::min(num_upwards, num_downwards);
+    const auto [low, high] = ends_of(sides[k]);
+    const Index owner = sides[k].owner;
+    for (std::size_t i = 0; i < num_left; ++i) {
+      sides[kept++] =
+          num_upwards > num_downwards ? OwnedSide{low, high, owner} : OwnedSide{high, low, owner};
+    }
+    k = end;
+  }
+  sides.resize(kept);
+}
+
+}  // namespace
+
+Snaps::Snaps(std::span<const Point> points, std::span<const OwnedSide> sides) : points_(points) {
+  std::vector<Index> corners;
+  std::vector<std::pair<Index, Index>> ends;
+  for (const OwnedSide& side : sides) {
+    corners.push_back(side.from);
+    corners.push_back(side.to);
+    ends.push_back(ends_of(side));
+  }
+  const auto make_unique = [](auto& values, const auto& key) {
+    std::ranges::sort(values, {}, key);
+    values.erase(std::unique(values.begin(), values.end()), values.end());
+  };
+  make_unique(corners, [&](Index p) { return std::pair(points_[p].x, p); });
+  make_unique(ends, std::identity());
+  for (const auto& [low, high] : ends) {
+    const Point& a = points_[low];
+    const Point& b = points_[high];
+    const Point step = b - a;
+    const double margin =
+        dot(step, step) / 4 + snapping_distance;  // the arc is not so far from its chord
+    const auto x_of = [&](Index p) { return points_[p].x; };
+    const auto is_beside = [margin](double from, double to, double at) {
+      return at < std::min(from, to) - margin || at > std::max(from, to) + margin;
+    };
+    if (is_nearly(a, b)) join(low, high);
+    const double end = std::max(a.x, b.x) + margin;
+    for (auto at = std::ranges::lower_bound(corners, std::min(a.x, b.x) - margin, {}, x_of);
+         at != corners.end() && x_of(*at) <= end; ++at) {
+      const Point& c = points_[*at];
+      if (is_beside(a.y, b.y, c.y) || is_beside(a.z, b.z, c.z)) continue;
+      if (*at != low && *at != high) take(low, high, *at);
+    }
+  }
+  std::ranges::sort(passed_, {}, [](const PassedCorner& passed) {
+    return std::tuple(passed.low, passed.high, passed.part, passed.corner);
+  });
+}
+
+Index Snaps::name(Index p) const {
+  if (parents_.empty()) return p;
+  while (parents_[p] != p) p = parents_[p];
+  return p;
+}
+
+void Snaps::join(Index p, Index q) {
+  if (parents_.empty()) {
+    parents_.resize(points_.size());
+    std::iota(parents_.begin(), parents_.end(), Index{0});
+  }
+  const auto [low, high] = std::minmax({name(p), name(q)});
+  parents_[high] = low;
+  has_joined_ = true;
+}
+
+// What is near to an end becomes one with it.
+void Snaps::take(Index low, Index high, Index corner) {
+  const Point& a = points_[low];
+  const Point& b = points_[high];
+  const Point& c = points_[corner];
+  if (is_nearly(a, c)) join(low, corner);
+  if (is_nearly(b, c)) join(high, corner);
+  if (is_nearly(a, c) || is_nearly(b, c)) return;
+  const Point normal = cross(a, b - a);
+  const double height = dot(normal, c - a);
+  const double size = dot(normal, normal);
+  if (!(height * height <= snapping_distance * snapping_distance * size)) return;
+  const double part = dot(c - a, b - a);
+  if (part > 0 && part < dot(b - a, b - a) && dot(c, a + b) > 0) {
+    passed_.push_back({low, high, part, corner});
+  }
+}
+
+std::span<const Snaps::PassedCorner> Snaps::passed_by(const OwnedSide& side) const {
+  const auto found = std::ranges::equal_range(
+      passed_, ends_of(side), {},
+      [](const PassedCorner& passed) { return std::pair(passed.low, passed.high); });
+  return {found.begin(), found.end()};
+}
+
+bool Snaps::change(std::span<const OwnedSide> sides) const {
+  return std::ranges::any_of(sides, [&](const OwnedSide& side) {
+    return name(side.from) != side.from || name(side.to) != side.to || !passed_by(side).empty();
+  });
+}
+
+std::vector<OwnedSide> Snaps::applied(std::span<const OwnedSide> sides) const {
+  std::vector<OwnedSide> result;
+  for (const OwnedSide& side : sides) {
+    Index from = name(side.from);
+    const auto go_to = [&](Index p) {
+      const Index to = name(p);
+      if (to != from) result.push_back({from, to, side.owner});
+      from = to;
+    };
+    const auto passed = passed_by(side);
+    for (std::size_t k = 0; k < passed.size(); ++k) {
+      go_to(passed[side.from < side.to ? k : passed.size() - 1 - k].corner);
+    }
+    go_to(side.to);
+  }
+  cancel_owned(result);
+  return result;
+}
+
+}  // namespace rondel::overlay
