@@ -49,6 +49,7 @@ std::span<const PieceArc> ArcMaker::operator()(Index cell) {
   sort_passages(cells_.shapes[cell] == Shape::convex);
   follow_inwards();
   flood();
+  is_consistent_ = cells_.shapes[cell] != Shape::other || has_clear_ends();
   if (passages_.empty() && has_corners_of_cover(cell)) take_all_edges();
   return arcs_;
 }
@@ -137,6 +138,20 @@ void ArcMaker::flood() {
       h = cover_.twins[cover_.previous(h)];
     } while (h != first);
   }
+}
+
+// Whether the boundary comes in and goes out in turn along each edge, and no end of an edge that is outside was arrived at.
+bool ArcMaker::has_clear_ends() const {
+  for (std::size_t k = 0; k < passages_.size(); ++k) {
+    const auto& [edge, out, by, point] = passages_[k];
+    const bool comes_in = out == edge;  // along the edge
+    const bool is_first = k == 0 || passages_[k - 1].edge != edge;
+    const bool is_last = k + 1 == passages_.size() || passages_[k + 1].edge != edge;
+    if (!is_last && comes_in == (passages_[k + 1].out == edge)) return false;
+    if (is_first && comes_in && visited_.contains(cover_.corners[edge])) return false;
+    if (is_last && !comes_in && visited_.contains(cover_.corners[cover_.next(edge)])) return false;
+  }
+  return true;
 }
 
 // Of a cell of which no side crosses an edge: these are connected, so that all of them are inside, or none is. Each ring is

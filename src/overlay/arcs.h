@@ -39,6 +39,8 @@ class ArcMaker {
   // next call.
   std::span<const PieceArc> operator()(Index cell);
   [[nodiscard]] std::span<const Point> points() const { return points_; }
+  // Of the last cell: whether no corner of the cover seemed to be inside of it and outside, as it may where sides cross.
+  [[nodiscard]] bool is_consistent() const { return is_consistent_; }
 
  private:
   // Where the boundary leaves a cell of the cover.
@@ -54,6 +56,7 @@ class ArcMaker {
   [[nodiscard]] bool is_before(const Passage& a, const Passage& b) const;
   void follow_inwards();
   void flood();
+  [[nodiscard]] bool has_clear_ends() const;
   [[nodiscard]] bool has_corners_of_cover(Index cell);
   void take_all_edges();
   Index add_point(const Point& p) {
@@ -75,6 +78,7 @@ class ArcMaker {
   std::vector<Halfedge> arrivals_;  // their ends are inside, and wait
   query::VisitedSet visited_;       // points of the cover
   std::vector<Point> ring_;
+  bool is_consistent_ = true;
 };
 
 }  // namespace rondel::overlay

@@ -13,6 +13,7 @@
 #include "overlay/arcs.h"
 #include "overlay/border_rings.h"
 #include "overlay/filling.h"
+#include "overlay/measure.h"
 #include "overlay/overlaps.h"
 #include "overlay/partition_data.h"
 #include "overlay/region_area.h"
@@ -60,7 +61,12 @@ class NamedArcMaker {
     };
     Halfedge next = cells_.begin_of(cell);  // the corner to come
     Index region_before = no_index;
-    for (const PieceArc& arc : make_(cell)) {
+    const std::span<const PieceArc> arcs_of_cell = make_(cell);
+    if (!make_.is_consistent()) {
+      refuse_or_skip(cell);
+      return;
+    }
+    for (const PieceArc& arc : arcs_of_cell) {
       const Point& from = make_.points()[arc.from];
       const Point& to = make_.points()[arc.to];
       const Index region = beyond_[arc.left];
@@ -83,6 +89,21 @@ class NamedArcMaker {
   }
 
  private:
+  // A cell whose sides cross has no pieces if it is no wider than rounding.
+  void refuse_or_skip(Index cell) const {
+    double length = 0;
+    for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
+      const Halfedge end = cells_.rings[ring + 1];
+      for (Halfedge h = cells_.rings[ring]; h < end; ++h) {
+        const Halfedge after = h + 1 < end ? h + 1 : cells_.rings[ring];
+        length += overlay::rough_length(cells_.origin(h), cells_.origin(after));
+      }
+    }
+    if (cells_.area_of_other(cell) <= 4 * overlay::area_of_rounding(length)) return;
+    const Index name = cells_.names[cell];
+    throw InvalidInput("cell " + std::to_string(name) + " crosses or overlaps itself", name);
+  }
+
   const Subdivision& cells_;
   std::span<const Index> beyond_;
   ArcMaker make_;

@@ -29,6 +29,10 @@ class StampedSet {
     return true;
   }
 
+  [[nodiscard]] bool contains(Index value) const {
+    return !slots_.empty() && slots_[place_of(value)].stamp == now_;
+  }
+
   void clear() {
     size_ = 0;
     ++now_;
@@ -45,14 +49,15 @@ class StampedSet {
     Stamp stamp{};
   };
 
-  // The slot of the value, or the one where it belongs.
-  Slot& find(Index value) {
+  // Of the slot of the value, or the one where it belongs.
+  [[nodiscard]] std::size_t place_of(Index value) const {
     constexpr std::uint64_t multiplier = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
     const std::size_t mask = slots_.size() - 1;
     std::size_t i = static_cast<std::size_t>((value * multiplier) >> 24) & mask;
     while (slots_[i].stamp == now_ && slots_[i].value != value) i = (i + 1) & mask;
-    return slots_[i];
+    return i;
   }
+  Slot& find(Index value) { return slots_[place_of(value)]; }
 
   void grow() {
     constexpr std::size_t least = 64;

@@ -12,6 +12,7 @@ rondel_add_test(overlay_test
   overlay_regions_test.cpp
   overlay_remap_test.cpp
   overlay_rings_test.cpp
+  overlay_touching_test.cpp
   overlay_valid_test.cpp
   overlay_whole_test.cpp
   overlay_written_test.cpp
