@@ -288,24 +288,27 @@ std::pair<CellRings, std::vector<Index>> filled_with(const Subdivision& cells,
 }
 
 // Where cells overlap only because corners are beside sides on which they are to rounding, these corners become corners of
-// the sides. That may bring others into their way, but seldom.
+// the sides. That may bring others into their way. An overlap that is wider, but so short that overlaps_of() takes no
+// notice of it, needs larger steps.
 std::pair<CellRings, std::vector<Index>> filled_by_rounding(const Subdivision& cells,
                                                             const Execution& execution) {
-  constexpr int most_times = 4;
+  constexpr std::array<double, 4> steps = {1, 1, 16, 512};
   std::vector<OwnedSide> sides = owned_sides(cells);
-  std::optional<ConflictingSides> first;
-  for (int time = 0; time < most_times; ++time) {
-    try {
-      const Execution told{.threads = execution.threads, .stop = execution.stop};
-      return filled_with(cells, sides, first ? told : execution);
-    } catch (const ConflictingSides& error) {
-      if (!first) first = error;
+  try {
+    return filled_with(cells, sides, execution);
+  } catch (const ConflictingSides&) {
+    for (const double step : steps) {
+      const Snaps snaps(cells.points, sides, step * snapping_distance);
+      if (snaps.is_empty()) continue;
+      sides = snaps.applied(sides);
+      try {
+        return filled_with(cells, sides, {.threads = execution.threads, .stop = execution.stop});
+      } catch (const ConflictingSides&) {
+        continue;
+      }
     }
-    const Snaps snaps(cells.points, sides);
-    if (snaps.is_empty()) break;
-    sides = snaps.applied(sides);
+    throw;
   }
-  throw ConflictingSides(*first);
 }
 
 }  // namespace

@@ -10,18 +10,9 @@
 #include <utility>
 
 #include "exact/vector.h"
-#include "predicates/bounds.h"
 
 namespace rondel::overlay {
 namespace {
-
-// Corners where sides cross are off by some 10u; has_sure_crossing() allows as much.
-constexpr double snapping_distance = 32 * predicates::unit_roundoff;
-
-bool is_nearly(const Point& a, const Point& b) {
-  const Point step = b - a;
-  return dot(step, step) <= snapping_distance * snapping_distance;
-}
 
 // The same side in both directions.
 std::pair<Index, Index> ends_of(const OwnedSide& side) { return std::minmax(side.from, side.to); }
@@ -56,7 +47,8 @@ void cancel_owned(std::vector<OwnedSide>& sides) {
 
 }  // namespace
 
-Snaps::Snaps(std::span<const Point> points, std::span<const OwnedSide> sides) : points_(points) {
+Snaps::Snaps(std::span<const Point> points, std::span<const OwnedSide> sides, double distance)
+    : points_(points), distance_(distance) {
   std::vector<Index> corners;
   std::vector<std::pair<Index, Index>> ends;
   for (const OwnedSide& side : sides) {
@@ -74,8 +66,7 @@ Snaps::Snaps(std::span<const Point> points, std::span<const OwnedSide> sides) : 
     const Point& a = points_[low];
     const Point& b = points_[high];
     const Point step = b - a;
-    const double margin =
-        dot(step, step) / 4 + snapping_distance;  // the arc is not so far from its chord
+    const double margin = dot(step, step) / 4 + distance_;  // the arc is not so far from its chord
     const auto x_of = [&](Index p) { return points_[p].x; };
     const auto is_beside = [margin](double from, double to, double at) {
       return at < std::min(from, to) - margin || at > std::max(from, to) + margin;
@@ -92,6 +83,11 @@ Snaps::Snaps(std::span<const Point> points, std::span<const OwnedSide> sides) : 
   std::ranges::sort(passed_, {}, [](const PassedCorner& passed) {
     return std::tuple(passed.low, passed.high, passed.part, passed.corner);
   });
+}
+
+bool Snaps::is_nearly(const Point& a, const Point& b) const {
+  const Point step = b - a;
+  return dot(step, step) <= distance_ * distance_;
 }
 
 Index Snaps::name(Index p) const {
@@ -121,7 +117,7 @@ void Snaps::take(Index low, Index high, Index corner) {
   const Point normal = cross(a, b - a);
   const double height = dot(normal, c - a);
   const double size = dot(normal, normal);
-  if (!(height * height <= snapping_distance * snapping_distance * size)) return;
+  if (!(height * height <= distance_ * distance_ * size)) return;
   const double part = dot(c - a, b - a);
   if (part > 0 && part < dot(b - a, b - a) && dot(c, a + b) > 0) {
     passed_.push_back({low, high, part, corner});

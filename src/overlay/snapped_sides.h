@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "predicates/bounds.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -20,10 +21,14 @@ struct OwnedSide {
   friend auto operator<=>(const OwnedSide&, const OwnedSide&) = default;
 };
 
+// Corners where sides cross are off by some 10u; has_sure_crossing() allows as much.
+inline constexpr double snapping_distance = 32 * predicates::unit_roundoff;
+
 class Snaps {
  public:
-  // Finds the corners of these sides that are on others of them to rounding.
-  Snaps(std::span<const Point> points, std::span<const OwnedSide> sides);
+  // Finds the corners of these sides that are as near as this to others of them.
+  Snaps(std::span<const Point> points, std::span<const OwnedSide> sides,
+        double distance = snapping_distance);
   [[nodiscard]] bool is_empty() const { return passed_.empty() && !has_joined_; }
   // Whether these sides, which may be others, become others.
   [[nodiscard]] bool change(std::span<const OwnedSide> sides) const;
@@ -39,12 +44,14 @@ class Snaps {
     Index corner;
   };
 
+  [[nodiscard]] bool is_nearly(const Point& a, const Point& b) const;
   [[nodiscard]] Index name(Index p) const;
   void join(Index p, Index q);
   void take(Index low, Index high, Index corner);
   [[nodiscard]] std::span<const PassedCorner> passed_by(const OwnedSide& side) const;
 
   std::span<const Point> points_;
+  double distance_;
   std::vector<Index> parents_;  // of points that become one, the lowest stands for all
   std::vector<PassedCorner> passed_;
   bool has_joined_ = false;

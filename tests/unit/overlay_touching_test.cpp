@@ -107,16 +107,104 @@ TEST(overlay_touching, corners_on_sides_to_rounding) {
       ring.push_back(to);
       return ring;
     };
-    const Partition cells(cells_of_rings({with_corners(west, east, north, has_spike),
-                                          with_corners(east, west, south, has_slit)}));
+    const Partition cells(cells_of_rings(
+        {with_corners(west, east, north, has_spike), with_corners(east, west, south, has_slit)}));
     const std::string name = "trial " + std::to_string(trial);
     EXPECT_TRUE(overlapping_cells(cells.rings()).empty()) << name;
     for (const auto& [cell, apex] : {std::pair(Index{0}, north), std::pair(Index{1}, south)}) {
-      LongRing triangle = {long_vector(cell == 0 ? west : east), long_vector(cell == 0 ? east : west),
-                           long_vector(apex)};
+      LongRing triangle = {long_vector(cell == 0 ? west : east),
+                           long_vector(cell == 0 ? east : west), long_vector(apex)};
       EXPECT_NEAR(cells.areas()[cell], static_cast<double>(area_of(triangle)), 1e-14) << name;
     }
     expect_nothing_lost(cells, cover, 1e-13, name);
+  }
+}
+
+// With wider gaps, overlaps and crossings either these are found or nothing is lost that is wider.
+TEST(overlay_touching, corners_on_sides_to_more_than_rounding) {
+  const Partition cover = Partition::voronoi(triangulation_of("uniform", 60, 4));
+  Random random(32);
+  std::size_t num_refused = 0;
+  for (std::size_t trial = 0; trial < 200; ++trial) {
+    const double start = random.unit() * 2 * std::numbers::pi;
+    const auto place = [&](double longitude, double height) {
+      return above_equator(start + longitude, height, trial);
+    };
+    const auto near = [&](double longitude) {
+      const double size = std::pow(10.0, -16 + 4 * random.unit());
+      return place(longitude + size * random.signed_unit(), size * random.signed_unit());
+    };
+    const double middle = 0.1 + 0.2 * random.unit();
+    const Point tip = place(middle, -0.05 * random.unit());
+    const Point west = place(0, 0);
+    const Point east = place(0.4, 0);
+    const CellRings rings =
+        cells_of_rings({{place(0.2, 0.3), west, near(middle), tip, near(middle), east},
+                        {place(0.2, -0.3), east, near(middle), near(0.05), west}});
+    try {
+      const Partition cells(rings);
+      expect_nothing_lost(cells, cover, 1e-11, "trial " + std::to_string(trial));
+    } catch (const InvalidInput& error) {
+      EXPECT_FALSE(overlapping_cells(rings).empty()) << trial << ' ' << error.what();
+      ++num_refused;
+    }
+  }
+  EXPECT_GT(num_refused, 20U);
+  EXPECT_LT(num_refused, 180U);
+}
+
+// A convex ring cut into two by an arc between two of its sides; corners of the cut are none of what is beyond.
+std::array<Ring, 2> halves_of(const Ring& ring, Random& random) {
+  const std::size_t n = ring.size();
+  const std::size_t first = random.below(n);
+  const std::size_t second = (first + 1 + random.below(n - 1)) % n;
+  const auto place_on = [&](std::size_t side) {
+    const double part = 0.3 + 0.4 * random.unit();
+    return normalized((1 - part) * ring[side] + part * ring[(side + 1) % n]);
+  };
+  const std::array<Point, 2> ends = {place_on(first), place_on(second)};
+  std::array<Ring, 2> halves = {Ring{ends[0]}, Ring{ends[1]}};
+  for (std::size_t k = first; k != second; k = (k + 1) % n) halves[0].push_back(ring[(k + 1) % n]);
+  halves[0].push_back(ends[1]);
+  for (std::size_t k = second; k != first; k = (k + 1) % n) halves[1].push_back(ring[(k + 1) % n]);
+  halves[1].push_back(ends[0]);
+  return halves;
+}
+
+// Cells as countries of two files, each with its own corners along borders that they share; and what is joined of them.
+TEST(overlay_touching, partitions_with_corners_of_one_cell_on_sides_of_others) {
+  const Partition cover = Partition::voronoi(triangulation_of("uniform", 60, 4));
+  Random random(33);
+  for (std::size_t trial = 0; trial < 60; ++trial) {
+    std::vector<Ring> rings = {{above_equator(0.1, 0.1, trial), above_equator(1.2, -0.1, trial),
+                                above_equator(0.5, 0.7, trial)}};
+    const double total = static_cast<double>(area_of(
+        LongRing{long_vector(rings[0][0]), long_vector(rings[0][1]), long_vector(rings[0][2])}));
+    for (std::size_t k = 0; k < 24; ++k) {
+      const std::size_t chosen = random.below(rings.size());
+      auto [left, right] = halves_of(rings[chosen], random);
+      rings[chosen] = std::move(left);
+      rings.push_back(std::move(right));
+    }
+    const std::string name = "trial " + std::to_string(trial);
+    const CellRings cells = cells_of_rings(rings);
+    EXPECT_TRUE(overlapping_cells(cells).empty()) << name;
+    const Partition partition(cells);
+    EXPECT_NEAR(std::accumulate(partition.areas().begin(), partition.areas().end(), 0.0), total,
+                1e-13)
+        << name;
+    expect_nothing_lost(partition, cover, 1e-12, name);
+    const CellRings joined = dissolve(cells, random_groups(rings.size(), 4, trial + 1), 4);
+    const Partition groups(joined);
+    EXPECT_TRUE(overlapping_cells(joined).empty()) << name;
+    EXPECT_NEAR(std::accumulate(groups.areas().begin(), groups.areas().end(), 0.0), total, 1e-13)
+        << name;
+    expect_nothing_lost(groups, cover, 1e-12, name + " joined");
+    // Each laid over the other one.
+    const Remap both = remap(partition, groups);
+    for (std::size_t i = 0; i < groups.num_cells(); ++i) {
+      EXPECT_NEAR(both.target_fractions[i] * groups.areas()[i], groups.areas()[i], 1e-12) << name;
+    }
   }
 }
 
@@ -130,8 +218,8 @@ Ring random_star(const Point& center, std::size_t n, Random& random) {
     const double angle = 2 * std::numbers::pi * (static_cast<double>(k) + 0.8 * random.unit()) /
                          static_cast<double>(n);
     const double radius = 0.1 * (0.3 + 0.7 * random.unit());
-    ring.push_back(normalized(center + radius * std::cos(angle) * east +
-                              radius * std::sin(angle) * north));
+    ring.push_back(
+        normalized(center + radius * std::cos(angle) * east + radius * std::sin(angle) * north));
   }
   return ring;
 }
@@ -216,7 +304,8 @@ TEST(overlay_touching, unions_of_stars) {
       for (std::size_t k = 0; k < star.size(); ++k) {
         const Point& before = star[k];
         const Point& after = star[(k + 1) % star.size()];
-        if (dot(centers[2], cross(before, corner)) > 0 && dot(centers[2], cross(corner, after)) > 0) {
+        if (dot(centers[2], cross(before, corner)) > 0 &&
+            dot(centers[2], cross(corner, after)) > 0) {
           star.insert(star.begin() + static_cast<std::ptrdiff_t>(k) + 1, corner);
           break;
         }
