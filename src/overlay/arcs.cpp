@@ -41,6 +41,7 @@ Sign crossing_order(const Point& y, const Point& z, const Point& p, const Point&
 std::span<const PieceArc> ArcMaker::operator()(Index cell) {
   arcs_.clear();
   points_.clear();
+  corners_.clear();
   passages_.clear();
   passed_ = 0;
   arrivals_.clear();
@@ -63,6 +64,7 @@ void ArcMaker::follow_boundary(Index cell) {
       const auto crossings = crossings_.of(trace);
       Index beyond = trace.start;
       Index from = add_point(cells_.origin(h));
+      corners_.push_back(from);
       for (std::size_t k = 0; k < crossings.size(); ++k) {
         const EdgeCrossing& crossing = crossings[trace.is_backwards ? crossings.size() - 1 - k : k];
         const Halfedge twin = cover_.twins[crossing.out];

@@ -39,6 +39,8 @@ class ArcMaker {
   // next call.
   std::span<const PieceArc> operator()(Index cell);
   [[nodiscard]] std::span<const Point> points() const { return points_; }
+  // Which of the points are the corners of the last cell, in order.
+  [[nodiscard]] std::span<const Index> corners() const { return corners_; }
   // Of the last cell: whether no corner of the cover seemed to be inside of it and outside, as it may where sides cross.
   [[nodiscard]] bool is_consistent() const { return is_consistent_; }
 
@@ -73,6 +75,7 @@ class ArcMaker {
   Crossings crossings_;
   std::vector<PieceArc> arcs_;
   std::vector<Point> points_;
+  std::vector<Index> corners_;  // of points_
   std::vector<Passage> passages_;
   std::uint64_t passed_ = 0;        // digits_of() the edges that have passages
   std::vector<Halfedge> arrivals_;  // their ends are inside, and wait

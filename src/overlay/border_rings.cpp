@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -118,8 +119,9 @@ class RingMaker {
  public:
   explicit RingMaker(const std::vector<Point>& points) : points_(points) {}
 
-  // The rings of one region, in order. Precondition: as many links end in a point as begin there.
-  std::vector<std::vector<Index>> operator()(std::span<const NamedSide> links) {
+  // The rings of the region with this key, in order. Precondition: as many links end in a point as begin there.
+  std::vector<std::vector<Index>> operator()(std::span<const NamedSide> links, std::size_t key) {
+    key_ = key;
     links_.assign(links.begin(), links.end());
     std::ranges::sort(links_);
     if (!is_plain()) cancel(links_);
@@ -163,8 +165,16 @@ class RingMaker {
       }
       if (is_crowded(at)) cut(std::ranges::find(path_, at));
       k = next_after(links_[k]);
-      if (k == links_.size()) return;
+      if (k == links_.size()) {
+        refuse_if_wide(path_);
+        return;
+      }
     }
+  }
+  // A path that does not come back.
+  void refuse_if_wide(const std::vector<Index>& path) {
+    if (path.size() < 3 || is_rounding(path)) return;
+    throw InvalidInput("the sides around region " + std::to_string(key_) + " do not close", key_);
   }
   void cut(std::vector<Index>::iterator begin) {
     if (std::distance(begin, path_.end()) > 2) rings_.emplace_back(begin, path_.end());
@@ -211,6 +221,7 @@ class RingMaker {
   }
 
   const std::vector<Point>& points_;
+  std::size_t key_ = 0;
   std::vector<NamedSide> links_;
   std::vector<bool> is_used_;
   std::vector<Index> path_;
@@ -227,7 +238,7 @@ CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, uns
     RingMaker make(all.points);
     for (std::size_t key = begin; key < end; ++key) {
       const std::size_t first = all.offsets[key];
-      rings[key] = make(std::span(all.links).subspan(first, all.offsets[key + 1] - first));
+      rings[key] = make(std::span(all.links).subspan(first, all.offsets[key + 1] - first), key);
     }
   });
   CellRings result;

@@ -59,7 +59,7 @@ class NamedArcMaker {
     const auto add = [&](Index region, const Point& from, const Point& to) {
       if (region != no_index) arcs.push_back({name, region, from, to});
     };
-    Halfedge next = cells_.begin_of(cell);  // the corner to come
+    std::size_t next = 0;  // the corner to come
     Index region_before = no_index;
     const std::span<const PieceArc> arcs_of_cell = make_(cell);
     if (!make_.is_consistent()) {
@@ -77,7 +77,7 @@ class NamedArcMaker {
         add(other, to, from);
         continue;
       }
-      const bool is_corner = next < cells_.end_of(cell) && from == cells_.origin(next);
+      const bool is_corner = next < make_.corners().size() && arc.from == make_.corners()[next];
       if (is_corner) ++next;
       if (is_corner || region != region_before) {
         add(region, from, to);
