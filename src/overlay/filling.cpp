@@ -52,6 +52,7 @@ class SideMesh {
       Index& back = sides_.make(next, at).owner;
       if (back == owner) {  // to and fro
         back = no_index;
+        has_to_and_fro_ = true;
       } else {
         Index& there = sides_.make(at, next).owner;
         if (there != no_index) refuse(owner, there, points_[at] + points_[next], false);
@@ -60,6 +61,8 @@ class SideMesh {
       at = next;
     }
   }
+  // Whether any place has been a side of one owner in both directions.
+  [[nodiscard]] bool has_to_and_fro() const { return has_to_and_fro_; }
   // The triangles, and what they are parts of. Cells that overlap are refused.
   void take(CellRings& triangles, std::vector<Index>& owners);
 
@@ -88,6 +91,7 @@ class SideMesh {
   std::span<const Index> names_of_cells_;
   std::vector<Index> names_;   // of points in the same direction, one
   std::vector<Index> around_;  // an end of a side from each point
+  bool has_to_and_fro_ = false;
   SideTable sides_;  // also those that were crossed: nobody asks for their apexes any more
 };
 
@@ -268,9 +272,13 @@ std::vector<OwnedSide> owned_sides(const Subdivision& cells) {
 }
 
 // The triangles and their owners, of which these sides are.
-std::pair<CellRings, std::vector<Index>> filled_with(const Subdivision& cells,
-                                                     std::span<const OwnedSide> sides,
-                                                     const Execution& execution) {
+struct FilledSides {
+  CellRings triangles;
+  std::vector<Index> owners;
+  bool has_to_and_fro;
+};
+FilledSides filled_with(const Subdivision& cells, std::span<const OwnedSide> sides,
+                        const Execution& execution) {
   std::vector<Point> points = cells.points;
   points.insert(points.end(), axis_ends.begin(), axis_ends.end());
   SideMesh mesh(std::move(points), cells.names, execution);
@@ -282,16 +290,16 @@ std::pair<CellRings, std::vector<Index>> filled_with(const Subdivision& cells,
     system::obey_stop();
     progress.step();
   }
-  std::pair<CellRings, std::vector<Index>> filled;
-  mesh.take(filled.first, filled.second);
+  FilledSides filled;
+  mesh.take(filled.triangles, filled.owners);
+  filled.has_to_and_fro = mesh.has_to_and_fro();
   return filled;
 }
 
 // Where cells overlap only because corners are beside sides on which they are to rounding, these corners become corners of
 // the sides. That may bring others into their way. An overlap that is wider, but so short that overlaps_of() takes no
 // notice of it, needs larger steps.
-std::pair<CellRings, std::vector<Index>> filled_by_rounding(const Subdivision& cells,
-                                                            const Execution& execution) {
+FilledSides filled_by_rounding(const Subdivision& cells, const Execution& execution) {
   constexpr std::array<double, 4> steps = {1, 1, 16, 512};
   std::vector<OwnedSide> sides = owned_sides(cells);
   try {
@@ -322,6 +330,14 @@ std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execut
   return std::nullopt;
 }
 
+bool has_plain_sides(const Subdivision& cells, const Execution& execution) {
+  try {
+    return !filled_with(cells, owned_sides(cells), execution).has_to_and_fro;
+  } catch (const ConflictingSides&) {
+    return false;
+  }
+}
+
 bool is_region(std::span<const BorderArc> sides, const Execution& execution) {
   std::vector<Point> points;
   for (const auto& [from, to] : sides) {
@@ -342,7 +358,7 @@ bool is_region(std::span<const BorderArc> sides, const Execution& execution) {
 }
 
 Filling filling_of(const Subdivision& cells, const Execution& execution) {
-  const auto [triangles, owners_by_name] = filled_by_rounding(cells, execution);
+  const auto [triangles, owners_by_name, has_to_and_fro] = filled_by_rounding(cells, execution);
   Filling filling{Subdivision(triangles, false, execution.threads), {}};
   const auto none = static_cast<Index>(cells.num_cells());
   for (const Index name : filling.cover.names) {

@@ -41,7 +41,9 @@ class ConflictingSides : public InvalidInput {
 
 // Whether any do, exactly. Whatever has one owner on both sides is no side.
 std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execution& execution);
-// The same of one cell that has all of the sides.
+// Whether none do, and no place is a side of one cell in both directions either.
+bool has_plain_sides(const Subdivision& cells, const Execution& execution);
+// The same as side_conflict() of one cell that has all of the sides: whether it has none.
 bool is_region(std::span<const BorderArc> sides, const Execution& execution);
 
 // The Delaunay triangulation of the corners and of the ends of the axes, into which the sides of the cells are put, all

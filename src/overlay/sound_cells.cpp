@@ -33,7 +33,8 @@ std::vector<OwnedSide> sides_of_cell(const CellRings& cells, std::size_t cell, I
   return sides;
 }
 
-// Of the cells that are not sound, but may become so.
+// Of the cells whose sides cross or run to and fro, but may not when corners are snapped. The order of crossings along an
+// edge of a cover has no meaning for sides on one great circle.
 std::vector<OwnedSide> sides_to_snap(const CellRings& cells, const Subdivision& known,
                                      const Execution& execution) {
   std::vector<OwnedSide> all;
@@ -42,7 +43,7 @@ std::vector<OwnedSide> sides_to_snap(const CellRings& cells, const Subdivision& 
     const std::vector<OwnedSide> sides = sides_of_cell(cells, cell, cell);
     if (Snaps(cells.points, sides).is_empty()) continue;
     const Subdivision one(rings_of(known, std::span(&place, 1)), false, 1);
-    if (side_conflict(one, execution)) all.insert(all.end(), sides.begin(), sides.end());
+    if (!has_plain_sides(one, execution)) all.insert(all.end(), sides.begin(), sides.end());
   }
   return all;
 }

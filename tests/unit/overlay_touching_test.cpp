@@ -292,8 +292,8 @@ TEST(overlay_touching, unions_of_stars) {
     const Point center = random_star({1, 0, 0}, 3, random)[trial % 3];
     std::vector<Point> centers;
     std::vector<Ring> stars;
-    for (std::size_t k = 0; k < 3; ++k) {
-      centers.push_back(random_star(center, 3, random)[k]);
+    for (std::size_t k = 0; k < 4; ++k) {
+      centers.push_back(random_star(center, 3, random)[k % 3]);
       stars.push_back(random_star(centers.back(), 7, random));
     }
     const std::vector<Point> crossings = crossings_of(stars[0], stars[1]);
