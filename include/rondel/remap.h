@@ -62,8 +62,8 @@ struct Remap {
 
 /// The overlay of both and the weights that follow from it.
 ///
-/// Which edges cross, and where cells are inside of cells, is decided exactly on the corners as they are;
-/// points of intersection are rounded. With a grid of parallels nothing needs to be decided: what is summed is
+/// Which edges cross, and where cells are inside of cells, is decided exactly on the corners as they are, but for those of
+/// cells that overlap, or cross themselves, by rounding alone; points of intersection are rounded. With a grid of parallels nothing needs to be decided: what is summed is
 /// continuous in the corners. Equal cells, shared corners and shared edges are like others: the
 /// weights of a partition onto itself are the identity. Pieces not larger than rounding of
 /// their corners may make them are left out. The weights depend on nothing but the cells.
