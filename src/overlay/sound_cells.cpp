@@ -49,8 +49,8 @@ std::vector<OwnedSide> sides_to_snap(const CellRings& cells, const Subdivision& 
 }
 
 // The cells with corners on the sides on which they are to rounding; nothing if all cells are sound.
-std::optional<CellRings> snapped(const CellRings& cells, const Subdivision& known,
-                                 const Execution& execution) {
+std::optional<CellRings> with_corners_on_sides(const CellRings& cells, const Subdivision& known,
+                                               const Execution& execution) {
   constexpr double half_of_sphere = 2 * std::numbers::pi;
   const Snaps snaps(cells.points, sides_to_snap(cells, known, execution));
   if (snaps.is_empty()) return std::nullopt;
@@ -83,7 +83,7 @@ Subdivision sound_cells(const CellRings& cells, std::vector<Index>& whole,
   std::optional<CellRings> changed = tidied(cells, sound);
   if (changed) sound = Subdivision(*changed, false, execution.threads);
   for (int time = 0; time < most_times; ++time) {
-    std::optional<CellRings> next = snapped(changed ? *changed : cells, sound, told);
+    std::optional<CellRings> next = with_corners_on_sides(changed ? *changed : cells, sound, told);
     if (!next) break;
     changed = std::move(next);
     sound = Subdivision(*changed, false, execution.threads);
