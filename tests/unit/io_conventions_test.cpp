@@ -22,7 +22,7 @@ namespace {
 
 using Doubles = std::vector<double>;
 using Texts = std::vector<std::pair<std::string, std::string>>;
-constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_there = std::numeric_limits<double>::quiet_NaN();
 
 VariableHeader header(const std::string& name, const std::vector<std::string>& dimensions,
                       const Texts& texts = {}) {
@@ -146,7 +146,7 @@ TEST(conventions, lines_of_longitudes) {
   EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30}), InvalidInput);
   EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30, 40}), InvalidInput);
   EXPECT_THROW((void)lines({5}), InvalidInput);
-  EXPECT_THROW((void)lines({5, missing}), InvalidInput);
+  EXPECT_THROW((void)lines({5, not_there}), InvalidInput);
 }
 
 TEST(conventions, lines_of_latitudes) {
@@ -208,37 +208,37 @@ TEST(conventions, missing_values_of_any_type) {
   const double single = static_cast<double>(1e20F);
   expect_same(meant(NetcdfType::float32, {numbers("missing_value", NetcdfType::float64, {1e20})},
                     {1, single}),
-              {1, missing});
+              {1, not_there});
   expect_same(meant(NetcdfType::float64, {numbers("missing_value", NetcdfType::float32, {single})},
                     {1, 1e20, single}),
-              {1, missing, missing});
+              {1, not_there, not_there});
   expect_same(meant(NetcdfType::int16, {numbers("missing_value", NetcdfType::float64, {-9, -8})},
                     {-9, -8, -7, -32767}),
-              {missing, missing, -7, missing});
+              {not_there, not_there, -7, not_there});
   expect_same(meant(NetcdfType::int16, {{"missing_value", NetcdfType::text, "-99", {}}}, {-99, 1}),
-              {missing, 1});
+              {not_there, 1});
   expect_same(meant(NetcdfType::float32, {}, {static_cast<double>(9.9692099683868690e+36F)}),
-              {missing});
+              {not_there});
   expect_same(meant(NetcdfType::float32, {numbers("_FillValue", NetcdfType::float32, {-1})},
                     {static_cast<double>(9.9692099683868690e+36F), -1}),
-              {static_cast<double>(9.9692099683868690e+36F), missing});
+              {static_cast<double>(9.9692099683868690e+36F), not_there});
   expect_same(meant(NetcdfType::int8, {}, {-127}), {-127});
 }
 
 TEST(conventions, valid_ranges_are_of_packed_numbers) {
   expect_same(meant(NetcdfType::float32, {numbers("valid_max", NetcdfType::float32, {5})}, {5, 6}),
-              {5, missing});
+              {5, not_there});
   expect_same(meant(NetcdfType::int16,
                     {numbers("valid_range", NetcdfType::int16, {0, 10}),
                      numbers("scale_factor", NetcdfType::float64, {0.5})},
                     {-1, 4, 11}),
-              {missing, 2, missing});
+              {not_there, 2, not_there});
   // Of the type of scale_factor: they are of unpacked numbers.
   expect_same(meant(NetcdfType::int16,
                     {numbers("valid_range", NetcdfType::float64, {0, 10}),
                      numbers("scale_factor", NetcdfType::float64, {0.5})},
                     {-1, 4, 20, 21}),
-              {missing, 2, 10, missing});
+              {not_there, 2, 10, not_there});
 }
 
 TEST(conventions, unsigned_and_packed_numbers) {
@@ -246,7 +246,7 @@ TEST(conventions, unsigned_and_packed_numbers) {
                     {{"_Unsigned", NetcdfType::text, "true", {}},
                      numbers("_FillValue", NetcdfType::int8, {-1})},
                     {-56, 1, -1}),
-              {200, 1, missing});
+              {200, 1, not_there});
   expect_same(meant(NetcdfType::uint8, {{"_Unsigned", NetcdfType::text, "false", {}}}, {200}),
               {-56});
   expect_same(meant(NetcdfType::int16,
