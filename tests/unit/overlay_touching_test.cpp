@@ -317,6 +317,8 @@ TEST(overlay_touching, unions_of_stars) {
     EXPECT_NEAR(sum_of(areas(clip(cover, regions))), expected, 1e-12) << name;
     const Remap first = remap(cover, regions, {.overlap = CellOverlap::first});
     EXPECT_NEAR(sum_of(first.areas), expected, 1e-12) << name;
+    const Remap shared = remap(cover, regions, {.overlap = CellOverlap::share});
+    EXPECT_NEAR(sum_of(shared.areas), expected, 1e-12) << name;
     // The union, and what is beyond it, are cells as any others.
     const CellRings inside = dissolve(clip(cover, regions), std::vector<Index>(40, 0), 1);
     const Partition whole(inside);
