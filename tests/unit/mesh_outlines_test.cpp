@@ -22,7 +22,7 @@ namespace {
 using FileLines = std::vector<std::vector<Point>>;
 using Positions = std::vector<LonLat>;
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double radians_per_degree = std::numbers::pi / 180;
 
 std::string ring(const Positions& positions) {
   std::string text = "[";
@@ -70,7 +70,7 @@ double distance_to_lines(const FileLines& lines, const LonLat& place) {
       }
     }
   }
-  return least / degree;
+  return least / radians_per_degree;
 }
 
 double length_in_degrees(const FileLines& lines) {
@@ -79,7 +79,7 @@ double length_in_degrees(const FileLines& lines) {
     for (std::size_t k = 1; k < one.size(); ++k)
       sum += 2 * std::asin(norm(one[k] - one[k - 1]) / 2);
   }
-  return sum / degree;
+  return sum / radians_per_degree;
 }
 
 bool is_closed(const std::vector<Point>& one) { return one.front() == one.back(); }
@@ -90,7 +90,9 @@ TEST(mesh_outlines, positions_are_joined_as_the_options_say) {
   const FileLines arc = read({line(parallel)}, PolygonEdges::geodesic);
   EXPECT_LT(distance_to_lines(straight, {15, 60}), 1.1e-4);
   // The middle of the arc is at the latitude whose tangent is tan 60 / cos 45.
-  const double top = std::atan(std::tan(60 * degree) / std::cos(45 * degree)) / degree;
+  const double top =
+      std::atan(std::tan(60 * radians_per_degree) / std::cos(45 * radians_per_degree)) /
+      radians_per_degree;
   EXPECT_LT(distance_to_lines(arc, {15, top}), 1e-9);
   EXPECT_GT(distance_to_lines(arc, {15, 60}), 7);
   EXPECT_NEAR(length_in_degrees(read({line({{-180, 0}, {180, 0}})})), 360, 1e-6);
@@ -112,7 +114,7 @@ TEST(mesh_outlines, two_parts_of_an_island_have_one_coast) {
          {LonLat{180, 10}, LonLat{175, -10}, LonLat{-170, 5}, LonLat{170, 0}}) {
       EXPECT_LT(distance_to_lines(lines, place), 1.1e-4);
     }
-    const double parallel = std::cos(10 * degree) * 20;
+    const double parallel = std::cos(10 * radians_per_degree) * 20;
     EXPECT_NEAR(length_in_degrees(lines), 2 * (20 + parallel), 1e-3);
   }
 }

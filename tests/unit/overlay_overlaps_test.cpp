@@ -51,18 +51,18 @@ Pairs pairs_of(const CellRings& cells) {
   return pairs;
 }
 
-const Positions box = {{0, 0}, {20, 0}, {20, 20}, {0, 20}};
+const Positions large_box = {{0, 0}, {20, 0}, {20, 20}, {0, 20}};
 
 TEST(overlay_overlaps, cells_that_cross_contain_and_repeat_each_other) {
   const Positions crossing = {{10, 10}, {30, 10}, {30, 30}, {10, 30}};
   const Positions within = {{2, 2}, {4, 2}, {4, 4}, {2, 4}};
   const Positions beside = {{20, 0}, {30, 0}, {30, 9}, {20, 20}};
   const Positions apart = {{50, 0}, {60, 0}, {60, 9}};
-  EXPECT_EQ(pairs_of(cells_of_positions({box, crossing})), (Pairs{{0, 1}}));
-  EXPECT_EQ(pairs_of(cells_of_positions({apart, within, box})), (Pairs{{1, 2}}));
-  EXPECT_EQ(pairs_of(cells_of_positions({box, apart, box})), (Pairs{{0, 2}}));
-  EXPECT_EQ(pairs_of(cells_of_positions({box, beside, apart})), Pairs{});
-  EXPECT_EQ(pairs_of(cells_of_positions({box, crossing, within, box, apart})),
+  EXPECT_EQ(pairs_of(cells_of_positions({large_box, crossing})), (Pairs{{0, 1}}));
+  EXPECT_EQ(pairs_of(cells_of_positions({apart, within, large_box})), (Pairs{{1, 2}}));
+  EXPECT_EQ(pairs_of(cells_of_positions({large_box, apart, large_box})), (Pairs{{0, 2}}));
+  EXPECT_EQ(pairs_of(cells_of_positions({large_box, beside, apart})), Pairs{});
+  EXPECT_EQ(pairs_of(cells_of_positions({large_box, crossing, within, large_box, apart})),
             (Pairs{{0, 1}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}));
 }
 
@@ -74,10 +74,10 @@ TEST(overlay_overlaps, cells_that_are_no_regions) {
   for (int k = 0; k < 5; ++k)
     star.emplace_back(40.0 * std::cos(k * 2.513), 40.0 * std::sin(k * 2.513));
   EXPECT_EQ(pairs_of(cells_of_positions({star})), (Pairs{{0, 0}}));
-  CellRings nested = cells_of_positions({box, {{2, 2}, {4, 2}, {4, 4}, {2, 4}}});
+  CellRings nested = cells_of_positions({large_box, {{2, 2}, {4, 2}, {4, 4}, {2, 4}}});
   nested.cells = {0, 2};
   EXPECT_EQ(pairs_of(nested), (Pairs{{0, 0}}));
-  CellRings hole_outside = cells_of_positions({box, {{50, 0}, {60, 9}, {60, 0}}});
+  CellRings hole_outside = cells_of_positions({large_box, {{50, 0}, {60, 9}, {60, 0}}});
   hole_outside.cells = {0, 2};
   EXPECT_EQ(pairs_of(hole_outside), (Pairs{{0, 0}}));
 }
@@ -102,7 +102,7 @@ TEST(overlay_overlaps, corners_on_sides_are_none) {
 }
 
 TEST(overlay_overlaps, the_sphere_overlaps_all) {
-  CellRings cells = cells_of_positions({box, {{50, 0}, {60, 0}, {60, 9}}});
+  CellRings cells = cells_of_positions({large_box, {{50, 0}, {60, 0}, {60, 9}}});
   cells.cells.push_back(cells.cells.back());
   cells.cells.push_back(cells.cells.back());
   cells.whole = {2};
@@ -113,12 +113,12 @@ TEST(overlay_overlaps, the_sphere_overlaps_all) {
 
 // Cells and the sphere less cells.
 TEST(overlay_overlaps, of_complements) {
-  const Positions around(box.rbegin(), box.rend());
+  const Positions around(large_box.rbegin(), large_box.rend());
   const Positions within = {{2, 2}, {4, 2}, {4, 4}, {2, 4}};
-  EXPECT_EQ(pairs_of(cells_of_positions({box, around})), Pairs{});
+  EXPECT_EQ(pairs_of(cells_of_positions({large_box, around})), Pairs{});
   EXPECT_EQ(pairs_of(cells_of_positions({within, around})), Pairs{});
   EXPECT_EQ(pairs_of(cells_of_positions({{{50, 0}, {60, 0}, {60, 9}}, around})), (Pairs{{0, 1}}));
-  EXPECT_EQ(pairs_of(cells_of_positions({box, around, within})), (Pairs{{0, 2}}));
+  EXPECT_EQ(pairs_of(cells_of_positions({large_box, around, within})), (Pairs{{0, 2}}));
 }
 
 // A cover, and a few of its cells once more.

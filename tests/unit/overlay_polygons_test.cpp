@@ -32,7 +32,7 @@ PolygonTable table_of(const std::string& geometry, const PolygonOptions& options
 }
 
 // [[w,s],[e,s],[e,n],[w,n],[w,s]]
-std::string box(double w, double s, double e, double n) {
+std::string ring_of_box(double w, double s, double e, double n) {
   const auto position = [](double lon, double lat) {
     return "[" + std::to_string(lon) + "," + std::to_string(lat) + "]";
   };
@@ -49,16 +49,16 @@ double area_of_box(double w, double s, double e, double n) {
 std::size_t num_rings(const PolygonTable& table) { return table.cells.rings.size() - 1; }
 
 TEST(overlay_polygons, sides_are_parallels) {
-  const PolygonTable table = table_of(polygon(box(10, 40, 50, 60)));
+  const PolygonTable table = table_of(polygon(ring_of_box(10, 40, 50, 60)));
   ASSERT_EQ(table.cells.num_cells(), 1U);
   EXPECT_NEAR(areas(table.cells)[0], area_of_box(10, 40, 50, 60), 2e-6);
-  const PolygonTable fine = table_of(polygon(box(10, 40, 50, 60)), {.tolerance_deg = 1e-7});
+  const PolygonTable fine = table_of(polygon(ring_of_box(10, 40, 50, 60)), {.tolerance_deg = 1e-7});
   EXPECT_NEAR(areas(fine.cells)[0], area_of_box(10, 40, 50, 60), 2e-9);
 }
 
 TEST(overlay_polygons, sides_are_geodesics_if_asked_for) {
   const PolygonTable table =
-      table_of(polygon(box(170, -10, 190, 10)), {.edges = PolygonEdges::geodesic});
+      table_of(polygon(ring_of_box(170, -10, 190, 10)), {.edges = PolygonEdges::geodesic});
   EXPECT_EQ(table.cells.corners.size(), 4U);
   EXPECT_GT(areas(table.cells)[0], area_of_box(170, -10, 190, 10) + 1e-4);
   const PolygonTable across =
@@ -69,8 +69,8 @@ TEST(overlay_polygons, sides_are_geodesics_if_asked_for) {
 }
 
 TEST(overlay_polygons, holes_and_directions) {
-  const std::string outer = box(0, 0, 30, 30);
-  const std::string hole = box(10, 10, 20, 20);
+  const std::string outer = ring_of_box(0, 0, 30, 30);
+  const std::string hole = ring_of_box(10, 10, 20, 20);
   const PolygonTable table = table_of(polygon(outer + "," + hole));
   EXPECT_EQ(num_rings(table), 2U);
   EXPECT_NEAR(areas(table.cells)[0], area_of_box(0, 0, 30, 30) - area_of_box(10, 10, 20, 20), 3e-6);
@@ -81,32 +81,33 @@ TEST(overlay_polygons, holes_and_directions) {
 
 TEST(overlay_polygons, what_the_antimeridian_cuts_is_whole_again) {
   const PolygonTable table =
-      table_of(R"({"type":"MultiPolygon","coordinates":[[)" + box(170, -20, 180, 20) + "],[" +
-               box(-180, -20, -170, 20) + "]]}");
+      table_of(R"({"type":"MultiPolygon","coordinates":[[)" + ring_of_box(170, -20, 180, 20) +
+               "],[" + ring_of_box(-180, -20, -170, 20) + "]]}");
   EXPECT_EQ(num_rings(table), 1U);
   EXPECT_NEAR(areas(table.cells)[0], area_of_box(170, -20, 190, 20), 3e-6);
 }
 
 TEST(overlay_polygons, poles_are_points) {
   // A cap around the south pole, as maps have it.
-  const PolygonTable cap = table_of(polygon(box(-180, -90, 180, -70)));
+  const PolygonTable cap = table_of(polygon(ring_of_box(-180, -90, 180, -70)));
   EXPECT_EQ(num_rings(cap), 1U);
   EXPECT_NEAR(areas(cap.cells)[0], area_of_box(-180, -90, 180, -70), 3e-6);
   // All but that.
-  const PolygonTable rest = table_of(polygon(box(-180, -70, 180, 90)));
+  const PolygonTable rest = table_of(polygon(ring_of_box(-180, -70, 180, 90)));
   EXPECT_EQ(num_rings(rest), 1U);
   EXPECT_NEAR(areas(rest.cells)[0], area_of_box(-180, -70, 180, 90), 3e-6);
-  const PolygonTable belt = table_of(polygon(box(-180, -10, 180, 10)));
+  const PolygonTable belt = table_of(polygon(ring_of_box(-180, -10, 180, 10)));
   EXPECT_EQ(num_rings(belt), 2U);
   EXPECT_NEAR(areas(belt.cells)[0], area_of_box(-180, -10, 180, 10), 1e-5);
 }
 
 TEST(overlay_polygons, neighbors_share_corners) {
-  const std::string features =
-      R"({"type":"FeatureCollection","features":[)"
-      R"({"type":"Feature","properties":{"name":"a","n":1},"geometry":)" +
-      polygon(box(0, 0, 40, 50)) + R"(},{"type":"Feature","properties":{"name":"b"},"geometry":)" +
-      polygon(box(0, 50, 40, 60)) + R"(},{"type":"Feature","properties":null,"geometry":null}]})";
+  const std::string features = R"({"type":"FeatureCollection","features":[)"
+                               R"({"type":"Feature","properties":{"name":"a","n":1},"geometry":)" +
+                               polygon(ring_of_box(0, 0, 40, 50)) +
+                               R"(},{"type":"Feature","properties":{"name":"b"},"geometry":)" +
+                               polygon(ring_of_box(0, 50, 40, 60)) +
+                               R"(},{"type":"Feature","properties":null,"geometry":null}]})";
   const PolygonTable table = table_of(features);
   ASSERT_EQ(table.cells.num_cells(), 3U);
   EXPECT_EQ(table.cells.cells[2], table.cells.cells[3]);
@@ -121,7 +122,7 @@ TEST(overlay_polygons, neighbors_share_corners) {
 
 TEST(overlay_polygons, cells_are_clipped_to_them) {
   const Partition cells = Partition::voronoi(triangulation_of("uniform", 500, 2));
-  const PolygonTable table = table_of(polygon(box(150, -60, 200, 70)));
+  const PolygonTable table = table_of(polygon(ring_of_box(150, -60, 200, 70)));
   const CellRings clipped = clip(cells, Partition(table.cells));
   double sum = 0;
   for (const double area : areas(clipped)) sum += area;
