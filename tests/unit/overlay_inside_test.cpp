@@ -23,18 +23,18 @@
 namespace rondel::test {
 namespace {
 
-using Ring = std::vector<Point>;
+using RingOfPoints = std::vector<Point>;
 
 // A cell by its rings, and as a sum of convex polygons.
 struct Region {
-  std::vector<Ring> rings;
-  std::vector<std::pair<int, Ring>> terms;  // 1 or -1 times what is left of the ring
-  bool is_of_sphere = false;                // and the whole sphere
-  bool is_wrong = false;                    // it is no region
+  std::vector<RingOfPoints> rings;
+  std::vector<std::pair<int, RingOfPoints>> terms;  // 1 or -1 times what is left of the ring
+  bool is_of_sphere = false;                        // and the whole sphere
+  bool is_wrong = false;                            // it is no region
   double rounding = 1e-13;
 };
 
-Ring turned(Ring ring) {
+RingOfPoints turned(RingOfPoints ring) {
   std::ranges::reverse(ring);
   return ring;
 }
@@ -60,12 +60,12 @@ class Generator {
   double power(double low, double high) { return std::pow(10.0, uniform(low, high)); }
 
   // So many corners at one distance from a point, counterclockwise.
-  Ring circle(const Point& center, double radius, std::size_t n, double stretch = 1) {
+  RingOfPoints circle(const Point& center, double radius, std::size_t n, double stretch = 1) {
     const Point axis = std::abs(center.x) < 0.5 ? Point{1, 0, 0} : Point{0, 1, 0};
     const Point east = normalized(cross(axis, center));
     const Point north = cross(center, east);
     const double first = uniform(0, 1);
-    Ring ring;
+    RingOfPoints ring;
     for (std::size_t k = 0; k < n; ++k) {
       const double angle =
           2 * std::numbers::pi * (static_cast<double>(k) + first) / static_cast<double>(n);
@@ -76,8 +76,8 @@ class Generator {
     return ring;
   }
   // Points around a center that are apart: rings of them.
-  std::vector<Ring> islands(const Point& center, double radius, std::size_t n) {
-    std::vector<Ring> result;
+  std::vector<RingOfPoints> islands(const Point& center, double radius, std::size_t n) {
+    std::vector<RingOfPoints> result;
     const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(n))));
     const Point axis = std::abs(center.x) < 0.5 ? Point{1, 0, 0} : Point{0, 1, 0};
     const Point east = normalized(cross(axis, center));
@@ -101,8 +101,8 @@ constexpr std::array<const char*, 12> kinds = {
     "keyhole", "spike",  "islands", "world less islands",
     "lagoon",  "belt",   "octant",  "cap"};
 
-void add_islands(const std::vector<Ring>& islands, int sign, Region& region) {
-  for (const Ring& island : islands) {
+void add_islands(const std::vector<RingOfPoints>& islands, int sign, Region& region) {
+  for (const RingOfPoints& island : islands) {
     region.rings.push_back(sign > 0 ? island : turned(island));
     region.terms.emplace_back(sign, island);
   }
@@ -112,7 +112,7 @@ Region region_of(std::size_t kind, Generator& next) {
   Region region;
   const Point center = next.center();
   const double radius = next.power(-3, -0.3);
-  const auto take = [&](const Ring& ring) {
+  const auto take = [&](const RingOfPoints& ring) {
     region.rings.push_back(ring);
     region.terms.emplace_back(1, ring);
   };
@@ -122,12 +122,12 @@ Region region_of(std::size_t kind, Generator& next) {
       break;
     case 1: {  // along a great circle and back, to rounding
       const Point other = next.direction();
-      Ring there;
+      RingOfPoints there;
       const std::size_t size = 3 + next.below(4);
       for (std::size_t k = 0; k < size; ++k) {
         there.push_back(normalized(center + next.uniform(-1, 1) * other));
       }
-      Ring back(there.begin() + 1, there.end() - 1);
+      RingOfPoints back(there.begin() + 1, there.end() - 1);
       for (Point& p : back) p = normalized(p + 1e-16 * next.direction());
       there.insert(there.end(), back.rbegin(), back.rend());
       region.rings.push_back(there);
@@ -135,22 +135,22 @@ Region region_of(std::size_t kind, Generator& next) {
       break;
     }
     case 2: {
-      Ring ring = next.circle(center, radius, 4);
+      RingOfPoints ring = next.circle(center, radius, 4);
       std::swap(ring[2], ring[3]);
       region.rings.push_back(ring);
       region.is_wrong = true;
       break;
     }
     case 3: {
-      const Ring ring = next.circle(center, radius, 4);
+      const RingOfPoints ring = next.circle(center, radius, 4);
       region.rings.push_back({ring[0], ring[1], center, ring[3], ring[2], center});
       region.is_wrong = true;
       break;
     }
     case 4: {
-      const Ring outer = next.circle(center, radius, 5);
-      const Ring hole = turned(next.circle(center, radius / 3, 4));
-      Ring ring = outer;
+      const RingOfPoints outer = next.circle(center, radius, 5);
+      const RingOfPoints hole = turned(next.circle(center, radius / 3, 4));
+      RingOfPoints ring = outer;
       ring.push_back(outer[0]);
       // The way to the corner of the hole that is nearest crosses nothing.
       const auto near =
@@ -162,8 +162,8 @@ Region region_of(std::size_t kind, Generator& next) {
       break;
     }
     case 5: {
-      const Ring outer = next.circle(center, radius, 3 + next.below(5));
-      Ring ring = outer;
+      const RingOfPoints outer = next.circle(center, radius, 3 + next.below(5));
+      RingOfPoints ring = outer;
       ring.push_back(outer[0]);
       ring.push_back(normalized(outer[0] + next.uniform(0.1, 1) * (outer[0] - center)));
       region.rings.push_back(ring);
@@ -185,8 +185,8 @@ Region region_of(std::size_t kind, Generator& next) {
       break;
     }
     case 9: {
-      const Ring outer = next.circle(center, next.uniform(1, 1.5), 40);
-      const Ring inner = next.circle(center, next.uniform(0.1, 0.9), 30);
+      const RingOfPoints outer = next.circle(center, next.uniform(1, 1.5), 40);
+      const RingOfPoints inner = next.circle(center, next.uniform(0.1, 0.9), 30);
       region.rings = {outer, turned(inner)};
       region.terms = {{1, outer}, {-1, inner}};
       break;
@@ -195,13 +195,13 @@ Region region_of(std::size_t kind, Generator& next) {
       const double x = next.below(2) == 0 ? 1 : -1;
       const double y = next.below(2) == 0 ? 1 : -1;
       const double z = next.below(2) == 0 ? 1 : -1;
-      Ring ring = {{x, 0, 0}, {0, y, 0}, {0, 0, z}};
+      RingOfPoints ring = {{x, 0, 0}, {0, y, 0}, {0, 0, z}};
       if (x * y * z < 0) ring = turned(ring);
       take(ring);
       break;
     }
     default: {  // up to all but a cap
-      const Ring cap = next.circle(center, next.uniform(0.01, 1.5), 3 + next.below(40));
+      const RingOfPoints cap = next.circle(center, next.uniform(0.01, 1.5), 3 + next.below(40));
       if (next.below(2) == 0) {
         take(cap);
       } else {
@@ -215,7 +215,7 @@ Region region_of(std::size_t kind, Generator& next) {
 
 CellRings cells_of(const Region& region) {
   CellRings cells;
-  for (const Ring& ring : region.rings) {
+  for (const RingOfPoints& ring : region.rings) {
     for (const Point& p : ring) {
       cells.corners.push_back(static_cast<Index>(cells.points.size()));
       cells.points.push_back(p);
@@ -226,14 +226,14 @@ CellRings cells_of(const Region& region) {
   return cells;
 }
 
-LongRing long_ring(const Ring& ring) {
+LongRing long_ring(const RingOfPoints& ring) {
   LongRing result;
   for (const Point& p : ring) result.push_back(long_vector(p));
   return result;
 }
 
-Ring ring_of(const CellRings& cells, std::size_t cell) {
-  Ring ring;
+RingOfPoints ring_of(const CellRings& cells, std::size_t cell) {
+  RingOfPoints ring;
   const std::uint64_t r = cells.cells[cell];
   for (auto k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
     ring.push_back(cells.points[cells.corners[k]]);
@@ -241,7 +241,7 @@ Ring ring_of(const CellRings& cells, std::size_t cell) {
   return ring;
 }
 
-double expected_piece(const Region& region, const Ring& cell) {
+double expected_piece(const Region& region, const RingOfPoints& cell) {
   const LongRing whole = long_ring(cell);
   long double sum = region.is_of_sphere ? area_of(whole) : 0;
   for (const auto& [sign, ring] : region.terms) {

@@ -19,11 +19,11 @@
 namespace rondel::test {
 namespace {
 
-using Ring = std::vector<Point>;
+using RingOfPoints = std::vector<Point>;
 
-CellRings cells_of_rings(const std::vector<Ring>& rings) {
+CellRings cells_of_rings(const std::vector<RingOfPoints>& rings) {
   CellRings cells;
-  for (const Ring& ring : rings) {
+  for (const RingOfPoints& ring : rings) {
     for (const Point& p : ring) {
       cells.corners.push_back(static_cast<Index>(cells.points.size()));
       cells.points.push_back(p);
@@ -98,7 +98,7 @@ TEST(overlay_touching, corners_on_sides_to_rounding) {
     const bool has_slit = has_spike && random.below(2) == 0;
     const auto with_corners = [&](const Point& from, const Point& to, const Point& apex,
                                   bool has_tip) {
-      Ring ring = {apex, from};
+      RingOfPoints ring = {apex, from};
       ring.push_back(place(middle + distance(), distance()));
       if (has_tip) {
         ring.push_back(tip);
@@ -154,7 +154,7 @@ TEST(overlay_touching, corners_on_sides_to_more_than_rounding) {
 }
 
 // A convex ring cut into two by an arc between two of its sides; corners of the cut are none of what is beyond.
-std::array<Ring, 2> halves_of(const Ring& ring, Random& random) {
+std::array<RingOfPoints, 2> halves_of(const RingOfPoints& ring, Random& random) {
   const std::size_t n = ring.size();
   const std::size_t first = random.below(n);
   const std::size_t second = (first + 1 + random.below(n - 1)) % n;
@@ -163,7 +163,7 @@ std::array<Ring, 2> halves_of(const Ring& ring, Random& random) {
     return normalized((1 - part) * ring[side] + part * ring[(side + 1) % n]);
   };
   const std::array<Point, 2> ends = {place_on(first), place_on(second)};
-  std::array<Ring, 2> halves = {Ring{ends[0]}, Ring{ends[1]}};
+  std::array<RingOfPoints, 2> halves = {RingOfPoints{ends[0]}, RingOfPoints{ends[1]}};
   for (std::size_t k = first; k != second; k = (k + 1) % n) halves[0].push_back(ring[(k + 1) % n]);
   halves[0].push_back(ends[1]);
   for (std::size_t k = second; k != first; k = (k + 1) % n) halves[1].push_back(ring[(k + 1) % n]);
@@ -176,8 +176,9 @@ TEST(overlay_touching, partitions_with_corners_of_one_cell_on_sides_of_others) {
   const Partition cover = Partition::voronoi(triangulation_of("uniform", 60, 4));
   Random random(33);
   for (std::size_t trial = 0; trial < 350; ++trial) {
-    std::vector<Ring> rings = {{above_equator(0.1, 0.1, trial), above_equator(1.2, -0.1, trial),
-                                above_equator(0.5, 0.7, trial)}};
+    std::vector<RingOfPoints> rings = {{above_equator(0.1, 0.1, trial),
+                                        above_equator(1.2, -0.1, trial),
+                                        above_equator(0.5, 0.7, trial)}};
     const double total = static_cast<double>(area_of(
         LongRing{long_vector(rings[0][0]), long_vector(rings[0][1]), long_vector(rings[0][2])}));
     for (std::size_t k = 0; k < 24; ++k) {
@@ -209,11 +210,11 @@ TEST(overlay_touching, partitions_with_corners_of_one_cell_on_sides_of_others) {
 }
 
 // A star around a center, counterclockwise.
-Ring random_star(const Point& center, std::size_t n, Random& random) {
+RingOfPoints random_star(const Point& center, std::size_t n, Random& random) {
   const Point axis = std::abs(center.z) < 0.6 ? Point{0, 0, 1} : Point{1, 0, 0};
   const Point east = normalized(cross(axis, center));
   const Point north = cross(center, east);
-  Ring ring;
+  RingOfPoints ring;
   for (std::size_t k = 0; k < n; ++k) {
     const double angle = 2 * std::numbers::pi * (static_cast<double>(k) + 0.8 * random.unit()) /
                          static_cast<double>(n);
@@ -225,7 +226,7 @@ Ring random_star(const Point& center, std::size_t n, Random& random) {
 }
 
 // What all of the stars have in common: the sum over one triangle with its center of each.
-long double common_area(const std::vector<Ring>& stars, const std::vector<Point>& centers,
+long double common_area(const std::vector<RingOfPoints>& stars, const std::vector<Point>& centers,
                         std::size_t next, const LongRing& left) {
   if (left.size() < 3) return 0;
   if (next == stars.size()) return area_of(left);
@@ -244,10 +245,10 @@ long double common_area(const std::vector<Ring>& stars, const std::vector<Point>
 }
 
 // By inclusion and exclusion.
-double area_of_union(const std::vector<Ring>& stars, const std::vector<Point>& centers) {
+double area_of_union(const std::vector<RingOfPoints>& stars, const std::vector<Point>& centers) {
   long double sum = 0;
   for (std::size_t some = 1; some < std::size_t{1} << stars.size(); ++some) {
-    std::vector<Ring> chosen;
+    std::vector<RingOfPoints> chosen;
     std::vector<Point> of_chosen;
     for (std::size_t k = 0; k < stars.size(); ++k) {
       if ((some >> k & 1) == 0) continue;
@@ -266,7 +267,7 @@ double area_of_union(const std::vector<Ring>& stars, const std::vector<Point>& c
 }
 
 // Where sides of two stars cross, if any do, as good as rounding lets it be.
-std::vector<Point> crossings_of(const Ring& first, const Ring& second) {
+std::vector<Point> crossings_of(const RingOfPoints& first, const RingOfPoints& second) {
   std::vector<Point> found;
   for (std::size_t i = 0; i < first.size(); ++i) {
     const Point& a = first[i];
@@ -291,7 +292,7 @@ TEST(overlay_touching, unions_of_stars) {
   for (std::size_t trial = 0; trial < 250; ++trial) {
     const Point center = random_star({1, 0, 0}, 3, random)[trial % 3];
     std::vector<Point> centers;
-    std::vector<Ring> stars;
+    std::vector<RingOfPoints> stars;
     for (std::size_t k = 0; k < 4; ++k) {
       centers.push_back(random_star(center, 3, random)[k % 3]);
       stars.push_back(random_star(centers.back(), 7, random));
@@ -299,7 +300,7 @@ TEST(overlay_touching, unions_of_stars) {
     const std::vector<Point> crossings = crossings_of(stars[0], stars[1]);
     if (!crossings.empty()) {
       const Point& corner = crossings[random.below(crossings.size())];
-      Ring& star = stars[2];
+      RingOfPoints& star = stars[2];
       // Its place by angle around the center.
       for (std::size_t k = 0; k < star.size(); ++k) {
         const Point& before = star[k];
