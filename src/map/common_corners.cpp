@@ -144,8 +144,9 @@ CommonCorners::CommonCorners(const CellRings& cells, unsigned threads) {
       if (std::ranges::find(inner, corners[c]) == inner.end()) inner.push_back(corners[c]);
     }
   }
-  for (auto& [arc, inner] : inner_) {
-    std::ranges::stable_sort(inner, {}, [&](const Point& p) { return distance(arc.from, p); });
+  for (auto& inner : inner_) {
+    const Point& from = inner.first.from;
+    std::ranges::stable_sort(inner.second, {}, [&](const Point& p) { return distance(from, p); });
   }
 }
 

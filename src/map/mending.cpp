@@ -57,24 +57,23 @@ Mending::Mending(SharedLines& lines, int pass)
       divides_only_(pass >= last_passes) {}
 
 void Mending::mend(const Trouble& trouble) {
-  using TroubleKind = Trouble::TroubleKind;
-  if (divides_only_ && trouble.kind != TroubleKind::touching &&
-      trouble.kind != TroubleKind::crossing)
+  if (divides_only_ && trouble.kind != Trouble::TroubleKind::touching &&
+      trouble.kind != Trouble::TroubleKind::crossing)
     return;
   switch (trouble.kind) {
-    case TroubleKind::touching:
+    case Trouble::TroubleKind::touching:
       divide(trouble.a, trouble.b, trouble.c);
       break;
-    case TroubleKind::crossing:
+    case Trouble::TroubleKind::crossing:
       uncross(trouble);
       break;
-    case TroubleKind::unpaired:
+    case Trouble::TroubleKind::unpaired:
       pair(trouble);
       break;
-    case TroubleKind::beside:
+    case Trouble::TroubleKind::beside:
       snap(trouble);
       break;
-    case TroubleKind::turned:
+    case Trouble::TroubleKind::turned:
       turn(trouble.loop);
       break;
   }

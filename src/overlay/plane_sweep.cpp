@@ -198,7 +198,7 @@ class PlaneSweep {
       return state == (rings_[r].is_hole ? PlaneState{false, r} : PlaneState{true, parts_[r]}) ||
              (rings_[r].is_hole && state == PlaneState{true, parts_[r]});
     };
-    std::ranges::stable_partition(rings, is_left);
+    std::stable_partition(rings.begin(), rings.end(), is_left);
     for (const Index ring : rings) {
       if (!cross_ring(ring, state, place)) return false;
     }

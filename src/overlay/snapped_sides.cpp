@@ -125,10 +125,9 @@ void Snaps::take(Index low, Index high, Index corner) {
 }
 
 std::span<const Snaps::PassedCorner> Snaps::passed_by(const OwnedSide& side) const {
-  const auto found = std::ranges::equal_range(
-      passed_, ends_of(side), {},
-      [](const PassedCorner& passed) { return std::pair(passed.low, passed.high); });
-  return {found.begin(), found.end()};
+  const auto ends = [](const PassedCorner& passed) { return std::pair(passed.low, passed.high); };
+  const auto first = std::ranges::lower_bound(passed_, ends_of(side), {}, ends);
+  return {first, std::ranges::upper_bound(first, passed_.end(), ends_of(side), {}, ends)};
 }
 
 bool Snaps::change(std::span<const OwnedSide> sides) const {

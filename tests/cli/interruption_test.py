@@ -120,7 +120,7 @@ class Interruption(unittest.TestCase):
                                    stdout=subprocess.PIPE, stderr=other_end, text=True)
         os.close(other_end)
         shown = b""
-        while b"cells, energy" not in shown:  # now it heeds the signal
+        while b", energy" not in shown:  # now it heeds the signal
             shown += os.read(terminal, 4096)
         process.send_signal(signal.SIGINT)
         try:

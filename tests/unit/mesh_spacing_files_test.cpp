@@ -26,8 +26,8 @@ using test::MeshWriter;
 double wanted(const Point& p) { return 100 + 40 * p.z + 20 * p.x; }
 double wanted(double lon, double lat) { return wanted(unit_vector(LonLat{lon, lat})); }
 
-const MeshWriter::Texts east = {{"units", "degrees_east"}};
-const MeshWriter::Texts north = {{"units", "degrees_north"}};
+const MeshWriter::Texts eastward = {{"units", "degrees_east"}};
+const MeshWriter::Texts northward = {{"units", "degrees_north"}};
 
 std::string path_of(const std::string& name) { return testing::TempDir() + "rondel_" + name; }
 
@@ -70,8 +70,8 @@ TEST(mesh_spacing_files, grid_of_netcdf) {
   const std::uint64_t columns = axes.lon.size();
   const std::string path = path_of("grid.nc");
   MeshWriter file;
-  file.add("lat", {{"lat", rows}}, axes.lat, north);
-  file.add("lon", {{"lon", columns}}, axes.lon, east);
+  file.add("lat", {{"lat", rows}}, axes.lat, northward);
+  file.add("lon", {{"lon", columns}}, axes.lon, eastward);
   file.add("h", {{"lat", rows}, {"lon", columns}}, spacings, {{"units", "km"}});
   file.write(path);
   expect_wanted(read_spacings({path, {}}, "h", 1e-3, 256), 2e-3);
@@ -101,8 +101,8 @@ TEST(mesh_spacing_files, points_of_netcdf_and_tables) {
   table.close();
   const std::uint64_t n = places.size();
   MeshWriter file;
-  file.add("x", {{"place", n}}, lon, east);
-  file.add("y", {{"place", n}}, lat, north);
+  file.add("x", {{"place", n}}, lon, eastward);
+  file.add("y", {{"place", n}}, lat, northward);
   file.add("h", {{"place", n}}, spacings, {{"coordinates", "x y"}});
   file.write(path_of("points.nc"));
   expect_wanted(read_spacings({path_of("points.nc"), {}}, "h", 1e-3, 256), 2e-3);
@@ -149,10 +149,10 @@ TEST(mesh_spacing_files, cells_of_meshes) {
                   {"face_coordinates", "face_x face_y"},
                   {"face_node_connectivity", "faces"}},
                  {{"topology_dimension", 2}});
-  file.add("node_x", {{"node", node_lon.size()}}, node_lon, east);
-  file.add("node_y", {{"node", node_lon.size()}}, node_lat, north);
-  file.add("face_x", {{"face", n}}, lon, east);
-  file.add("face_y", {{"face", n}}, lat, north);
+  file.add("node_x", {{"node", node_lon.size()}}, node_lon, eastward);
+  file.add("node_y", {{"node", node_lon.size()}}, node_lat, northward);
+  file.add("face_x", {{"face", n}}, lon, eastward);
+  file.add("face_y", {{"face", n}}, lat, northward);
   file.add_whole("faces", {{"face", n}, {"corner", room}}, nodes, {},
                  {{"start_index", 0}, {"_FillValue", -1}});
   file.add("h", {{"face", n}}, spacings, {{"mesh", "mesh"}, {"location", "face"}});
@@ -164,8 +164,8 @@ TEST(mesh_spacing_files, values_that_are_no_spacings_are_named) {
   const std::string path = path_of("bad_spacings.nc");
   const auto message = [&](std::vector<double> values) {
     MeshWriter file;
-    file.add("lon", {{"place", 4}}, {0, 90, 180, 270}, east);
-    file.add("lat", {{"place", 4}}, {-30, 30, -30, 30}, north);
+    file.add("lon", {{"place", 4}}, {0, 90, 180, 270}, eastward);
+    file.add("lat", {{"place", 4}}, {-30, 30, -30, 30}, northward);
     file.add("h", {{"place", 4}}, std::move(values));
     file.write(path);
     try {

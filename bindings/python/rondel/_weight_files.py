@@ -69,8 +69,8 @@ def weights_to_netcdf(
         if known and not self.is_of(**{name: points}):
             raise ValueError(f"the {name} are not those of the weights")
     shape: tuple[int, ...] = () if targets is None else np.shape(targets)[:-1]
-    source = Side(_degrees(sites), _areas(site_areas))
-    target = Side(_degrees(targets), _areas(target_areas), shape=shape)
+    source = Side(_degrees(sites), _areas(site_areas, "site_areas"))
+    target = Side(_degrees(targets), _areas(target_areas, "target_areas"), shape=shape)
     write_weights(path, format, self, source, target, method, "none")
 
 
@@ -114,12 +114,12 @@ def _degrees(points: ArrayLike | None) -> FloatArray:
     return np.ascontiguousarray(lonlat(as_floats(points, "points").reshape(-1, 3)))
 
 
-def _areas(values: ArrayLike | None) -> FloatArray:
+def _areas(values: ArrayLike | None, name: str) -> FloatArray:
     areas = _numbers(values)
     bad = np.flatnonzero(~(areas >= 0))
     if bad.size:
         first = int(bad[0])
-        raise InvalidInput(f"areas[{first}] is {areas[first]}, which is no area", first)
+        raise InvalidInput(f"{name}[{first}] is {areas[first]}, which is no area", first)
     return areas
 
 

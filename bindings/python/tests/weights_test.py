@@ -164,7 +164,7 @@ def test_negative_areas_are_refused(tmp_path):
     areas = np.ones(WEIGHTS.shape[1])
     areas[3] = -1
     with pytest.raises(
-        rondel.InvalidInput, match=r"areas\[3\] is -1.0, which is no area"
+        rondel.InvalidInput, match=r"site_areas\[3\] is -1.0, which is no area"
     ) as caught:
         WEIGHTS.to_netcdf(tmp_path / "weights.nc", site_areas=areas)
     assert caught.value.index == 3
