@@ -10,9 +10,9 @@
 namespace rondel::cli {
 namespace {
 
-constexpr std::array<std::string_view, 4> names = {"vertex", "edge", "face", "outside"};
+constexpr std::array<std::string_view, 4> words_of_place = {"vertex", "edge", "face", "outside"};
 
-std::string_view word_for(Where where) { return names[static_cast<std::size_t>(where)]; }
+std::string_view word_for(Where where) { return words_of_place[static_cast<std::size_t>(where)]; }
 
 std::string table_of(const std::vector<Location>& locations, char separator) {
   std::string text;
@@ -50,9 +50,9 @@ ExitStatus run_locate(const QueryOptions& options) {
     job.write_text(table_of(locations, job.separator()));
   }
   QueryJob::Counts counts;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (std::size_t i = 0; i < words_of_place.size(); ++i) {
     const auto number = std::ranges::count(locations, static_cast<Where>(i), &Location::where);
-    counts.emplace_back(names[i], static_cast<std::size_t>(number));
+    counts.emplace_back(words_of_place[i], static_cast<std::size_t>(number));
   }
   job.report(counts);
   return done;
