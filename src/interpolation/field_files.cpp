@@ -67,8 +67,8 @@ struct FieldFile::OpenFields {
 
 FieldFile::FieldFile(const FileName& file, std::span<const std::string> names,
                      std::uint64_t num_points, const ReadOptions& options,
-                     std::span<const std::uint64_t> shape) {
-  content_ = std::make_unique<OpenFields>(file.path);
+                     std::span<const std::uint64_t> shape)
+    : content_(std::make_unique<OpenFields>(file.path)) {
   OpenFields& content = *content_;
   const interpolation::FieldsToRead wanted{names, num_points, options, shape};
   if (is_netcdf_file(file, content.bytes)) {

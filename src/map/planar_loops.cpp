@@ -121,11 +121,11 @@ void cancel_opposite(std::vector<DirectedLine>& lines) {
   };
   std::ranges::stable_sort(order, {}, key);
   std::vector<bool> is_gone(lines.size(), false);
-  for (std::size_t first = 0; first < order.size();) {
-    std::size_t past = first;
+  for (auto at = order.begin(); at != order.end();) {
+    const auto ends = key(*at);
     std::vector<std::size_t> kept;
-    for (; past < order.size() && key(order[past]) == key(order[first]); ++past) {
-      const std::size_t line = order[past];
+    for (; at != order.end() && key(*at) == ends; ++at) {
+      const std::size_t line = *at;
       if (!kept.empty() && !(lines[kept.back()] == lines[line])) {
         is_gone[line] = true;
         is_gone[kept.back()] = true;
@@ -134,7 +134,6 @@ void cancel_opposite(std::vector<DirectedLine>& lines) {
         kept.push_back(line);
       }
     }
-    first = past;
   }
   std::size_t i = 0;
   std::erase_if(lines, [&](const DirectedLine&) { return is_gone[i++]; });

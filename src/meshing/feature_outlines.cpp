@@ -53,12 +53,14 @@ MeridianIntervals united(MeridianIntervals all) {
 
 MeridianIntervals common(const MeridianIntervals& a, const MeridianIntervals& b) {
   MeridianIntervals result;
-  for (std::size_t i = 0, j = 0; i < a.size() && j < b.size();) {
-    const MeridianPlace low = a[i].low.number < b[j].low.number ? b[j].low : a[i].low;
-    const bool a_ends_first = a[i].high.number < b[j].high.number;
-    const MeridianPlace high = a_ends_first ? a[i].high : b[j].high;
+  auto in_a = a.begin();
+  auto in_b = b.begin();
+  while (in_a != a.end() && in_b != b.end()) {
+    const MeridianPlace low = in_a->low.number < in_b->low.number ? in_b->low : in_a->low;
+    const bool a_ends_first = in_a->high.number < in_b->high.number;
+    const MeridianPlace high = a_ends_first ? in_a->high : in_b->high;
     if (low.number < high.number) result.push_back({low, high});
-    ++(a_ends_first ? i : j);
+    ++(a_ends_first ? in_a : in_b);
   }
   return result;
 }
@@ -217,7 +219,8 @@ std::vector<std::vector<Point>> outlines_of(const FeatureTable& features) {
   const AntimeridianCut cut(closed);
   std::vector<OutlinePoints> parts;
   for (const OutlinePoints& line : closed) cut.append_rest(line, lines, parts);
-  PartJoin(std::move(parts)).append_all(lines);
+  PartJoin join(std::move(parts));
+  join.append_all(lines);
   return lines;
 }
 
