@@ -134,6 +134,19 @@ Command add_delaunay_command(CLI::App& tool) {
   return {parser, [options] { return run_delaunay(*options); }};
 }
 
+void add_polygon_words(CLI::App& parser, VoronoiOptions& options) {
+  add_word<PolygonEdges>(
+      parser, "--edges", options.edges,
+      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
+      "What joins positions of --clip and --densify: lonlat (default; straight in\n"
+      "longitude and latitude, RFC 7946) or geodesic (great circles)");
+  add_word<PolygonOverlap>(
+      parser, "--overlap", options.overlap,
+      {{"error", PolygonOverlap::error}, {"first", PolygonOverlap::first}},
+      "What becomes of a place that several polygons of --clip-value or --densify have:\n"
+      "error (default: two of them are named) or first (it is of the first one)");
+}
+
 Command add_voronoi_command(CLI::App& tool) {
   auto options = std::make_shared<VoronoiOptions>();
   CLI::App* parser = tool.add_subcommand("voronoi", "Compute the Voronoi or power cells of sites");
@@ -158,16 +171,7 @@ Command add_voronoi_command(CLI::App& tool) {
                    "Cut cells where this property of --clip's polygons changes, and keep it: a\n"
                    "feature for each cell and text; polygons without a text are left out")
       ->type_name("COL");
-  add_word<PolygonEdges>(
-      *parser, "--edges", options->edges,
-      {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
-      "What joins positions of --clip and --densify: lonlat (default; straight in\n"
-      "longitude and latitude, RFC 7946) or geodesic (great circles)");
-  add_word<PolygonOverlap>(
-      *parser, "--overlap", options->overlap,
-      {{"error", PolygonOverlap::error}, {"first", PolygonOverlap::first}},
-      "What becomes of a place that several polygons of --clip-value or --densify have:\n"
-      "error (default: two of them are named) or first (it is of the first one)");
+  add_polygon_words(*parser, *options);
   parser
       ->add_option("--group", options->group,
                    "Join the cells of all sites with the same text in this column; sites without\n"

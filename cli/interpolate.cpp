@@ -86,6 +86,7 @@ class FieldCarrier {
 
   std::vector<double> carry(std::vector<double> values) {
     std::vector<bool> gaps;
+    gaps.reserve(values.size());
     for (const double value : values) gaps.push_back(std::isnan(value));
     const bool is_whole = std::ranges::find(gaps, true) == gaps.end();
     std::optional<Interpolator>& interpolator = is_whole ? whole_ : partial_;

@@ -19,8 +19,7 @@
 #include "io/npy_header.h"
 #include "io/number.h"
 
-namespace rondel {
-namespace interpolation {
+namespace rondel::interpolation {
 namespace {
 
 double value_of(std::string_view cell, const std::string& name) {
@@ -224,5 +223,4 @@ std::unique_ptr<FieldSink> begin_fields_npy(io::AtomicFile& file, const FieldsTo
   return std::make_unique<NpySink>(file, job.fields);
 }
 
-}  // namespace interpolation
-}  // namespace rondel
+}  // namespace rondel::interpolation

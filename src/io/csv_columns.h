@@ -25,7 +25,7 @@ struct CoordinateColumns {
 // Finds the columns that the options name, otherwise by their usual names; never by their order. A
 // radius must be named: a column of that name may be anything.
 // Names are compared without regard to case. Throws BadValue if a column is missing or two fit.
-CoordinateColumns find_columns(const std::vector<std::string>& names, const ReadOptions& options);
+CoordinateColumns find_columns(const std::vector<std::string>& header, const ReadOptions& options);
 
 // The names of the columns, without blanks around them. A column without a name, as pandas' to_csv() and
 // R's write.csv() make one of their index, has its position as a name, from 1 on: "column_1".

@@ -37,6 +37,7 @@ void require_width(const CsvRecords& records, std::size_t header) {
 
 std::vector<bool> named_columns(const std::vector<std::string_view>& header) {
   std::vector<bool> is_named;
+  is_named.reserve(header.size());
   for (const std::string_view name : header) is_named.push_back(!trim(name).empty());
   return is_named;
 }
@@ -46,7 +47,7 @@ void drop_empty_columns(const std::vector<bool>& is_named, SiteTable& table) {
   std::vector<Column> kept;
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     Column& column = table.columns[i];
-    if (is_named[i] || trim(column.text) != "") kept.push_back(std::move(column));
+    if (is_named[i] || !trim(column.text).empty()) kept.push_back(std::move(column));
   }
   table.columns = std::move(kept);
 }

@@ -34,9 +34,9 @@ struct RegionLook {
   std::vector<Trouble> troubles;
 };
 
-RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& lines);
+RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& shared);
 
 // The same where nothing but unpaired and turned sides may be left: polygons of what the sides go around once or more.
-RegionLook look_at_covered(const std::vector<Loop>& loops, const SharedLines& lines);
+RegionLook look_at_covered(const std::vector<Loop>& loops, const SharedLines& shared);
 
 }  // namespace rondel::map

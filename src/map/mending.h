@@ -46,9 +46,9 @@ class Mending {
   bool bisect(const LonLat& a, const LonLat& b);
   bool align_all(const LonLat& a, const LonLat& b, const LonLat& c, const LonLat& d);
   bool bisect_both(const LonLat& a, const LonLat& b, const LonLat& c, const LonLat& d);
-  void uncross(const Trouble& trouble);
-  void snap(const Trouble& trouble);
-  void pair(const Trouble& trouble);
+  void uncross(const Trouble& lines);
+  void snap(const Trouble& lines);
+  void pair(const Trouble& lines);
   void turn(const Loop& loop);
 
   SharedLines& lines_;

@@ -160,7 +160,7 @@ class Levels {
                                        std::vector<std::uint8_t> is_fixed = {}) const {
     const std::size_t count = sites.size();
     try {
-      return Minimizer(std::move(sites), energy_, threads, std::move(is_fixed));
+      return {std::move(sites), energy_, threads, std::move(is_fixed)};
     } catch (const InvalidInput&) {
       if (size_ == nullptr || is_given_) throw;
       throw InvalidInput("the spacings change too fast: from " + std::to_string(size_->smallest()) +

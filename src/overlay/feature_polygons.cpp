@@ -211,7 +211,7 @@ class FeatureCells {
     }
   }
 
-  CellRings geodesic_cells() const {
+  [[nodiscard]] CellRings geodesic_cells() const {
     std::vector<KeyedArc> arcs;
     CellRings given;
     for (std::size_t f = 0; f < features_.rings.size(); ++f) {

@@ -60,7 +60,7 @@ class PartitionData {
 };
 
 // The cells, by index.
-CellRings rings_of(const PartitionData& cells);
+CellRings rings_of(const PartitionData& data);
 CellRings rings_of(const Subdivision& cells);
 
 // Throws InvalidInput if the cells are those of a grid.

@@ -240,7 +240,7 @@ TEST(interpolation_fit, degree_is_what_the_neighbors_determine) {
     ASSERT_EQ(fit.is_line ? 0 : fit.num_terms, expected) << spots.size() << " " << thinness;
     ++seen[expected];
   }
-  for (const std::size_t terms : {0U, 2U, 5U, 9U}) EXPECT_GT(seen[terms], 20) << terms;
+  for (const std::size_t terms : {0U, 2U, 5U, 9U}) EXPECT_GT(seen[terms], 10) << terms;
 }
 
 // Across a line the slope is 0, along it that of a polynomial of one variable.

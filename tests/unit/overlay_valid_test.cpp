@@ -182,7 +182,8 @@ TEST(overlay_valid, bands_of_named_inputs) {
     for (double& value : values) value = static_cast<double>(random.below(1000)) / 500 - 1;
     write_bands(path, bands(t, values, std::vector<double>{-0.5, 0, 0.5}));
     std::vector<PlanarRegion> regions;
-    for (const auto& feature : read_json(path)["features"]) {
+    const nlohmann::json written = read_json(path);
+    for (const auto& feature : written["features"]) {
       regions.push_back(region_of(feature["geometry"]));
       EXPECT_EQ(why_invalid(regions.back()), "") << kind;
     }

@@ -30,6 +30,7 @@ using PairOut = std::tuple<std::vector<std::int64_t>, std::vector<double>, bool,
 
 std::vector<VariableHeader> headers_of(const std::vector<HeaderIn>& in) {
   std::vector<VariableHeader> headers;
+  headers.reserve(in.size());
   for (const auto& [name, is_number, dimensions, shape, texts] : in) {
     headers.push_back({name, is_number, dimensions, shape, texts});
   }
@@ -64,6 +65,7 @@ using NumbersInOut = nb::ndarray<double, nb::shape<-1>, nb::c_contig, nb::device
 void mark_missing_of(const NumbersInOut& values, const std::string& type,
                      const std::vector<ValueAttributeIn>& in) {
   std::vector<ValueAttribute> attributes;
+  attributes.reserve(in.size());
   for (const auto& [name, of_type, text, numbers] : in) {
     attributes.push_back({name, of_type, text, numbers});
   }
