@@ -84,8 +84,10 @@ class Generator {
     const Point north = cross(center, east);
     const double step = radius / static_cast<double>(side);
     for (std::size_t k = 0; k < n; ++k) {
-      const double x = step * static_cast<double>(2 * (k % side)) - radius + step;
-      const double y = step * static_cast<double>(2 * (k / side)) - radius + step;
+      const std::size_t column = k % side;
+      const std::size_t row = k / side;
+      const double x = step * static_cast<double>(2 * column) - radius + step;
+      const double y = step * static_cast<double>(2 * row) - radius + step;
       const Point at = normalized(center + x * east + y * north);
       result.push_back(circle(at, 0.6 * step * power(-3, 0), 3 + below(6)));
     }
@@ -108,107 +110,133 @@ void add_islands(const std::vector<RingOfPoints>& islands, int sign, Region& reg
   }
 }
 
+void take(const RingOfPoints& ring, Region& region) {
+  region.rings.push_back(ring);
+  region.terms.emplace_back(1, ring);
+}
+
+// Along a great circle and back, to rounding.
+void add_fold(const Point& center, Generator& next, Region& region) {
+  const Point other = next.direction();
+  RingOfPoints there;
+  const std::size_t size = 3 + next.below(4);
+  for (std::size_t k = 0; k < size; ++k) {
+    there.push_back(normalized(center + next.uniform(-1, 1) * other));
+  }
+  RingOfPoints back(there.begin() + 1, there.end() - 1);
+  for (Point& p : back) p = normalized(p + 1e-16 * next.direction());
+  there.insert(there.end(), back.rbegin(), back.rend());
+  region.rings.push_back(there);
+  region.rounding = 1e-12;
+}
+
+// With or without a corner where it crosses itself.
+void add_bow_tie(const Point& center, double radius, bool has_corner, Generator& next,
+                 Region& region) {
+  RingOfPoints ring = next.circle(center, radius, 4);
+  std::swap(ring[2], ring[3]);
+  if (has_corner) ring = {ring[0], ring[1], center, ring[2], ring[3], center};
+  region.rings.push_back(ring);
+  region.is_wrong = true;
+}
+
+// A ring that goes to its hole and back.
+void add_keyhole(const Point& center, double radius, Generator& next, Region& region) {
+  const RingOfPoints outer = next.circle(center, radius, 5);
+  const RingOfPoints hole = turned(next.circle(center, radius / 3, 4));
+  RingOfPoints ring = outer;
+  ring.push_back(outer[0]);
+  // The way to the corner of the hole that is nearest crosses nothing.
+  const auto near =
+      std::ranges::max_element(hole, {}, [&](const Point& p) { return dot(p, outer[0]); });
+  ring.insert(ring.end(), near, hole.end());
+  ring.insert(ring.end(), hole.begin(), near + 1);
+  region.rings.push_back(ring);
+  region.terms = {{1, outer}, {-1, turned(hole)}};
+}
+
+// A ring with a way out and back.
+void add_spike(const Point& center, double radius, Generator& next, Region& region) {
+  const RingOfPoints outer = next.circle(center, radius, 3 + next.below(5));
+  RingOfPoints ring = outer;
+  ring.push_back(outer[0]);
+  ring.push_back(normalized(outer[0] + next.uniform(0.1, 1) * (outer[0] - center)));
+  region.rings.push_back(ring);
+  region.terms = {{1, outer}};
+}
+
+// The sphere less an island, and the island's lagoon.
+void add_lagoon(const Point& center, Generator& next, Region& region) {
+  const double size = next.power(-9, -0.3);
+  add_islands({next.circle(center, size, 8)}, -1, region);
+  add_islands({next.circle(center, size / 3, 5)}, 1, region);
+  region.is_of_sphere = true;
+}
+
+void add_belt(const Point& center, Generator& next, Region& region) {
+  const RingOfPoints outer = next.circle(center, next.uniform(1, 1.5), 40);
+  const RingOfPoints inner = next.circle(center, next.uniform(0.1, 0.9), 30);
+  region.rings = {outer, turned(inner)};
+  region.terms = {{1, outer}, {-1, inner}};
+}
+
+void add_octant(Generator& next, Region& region) {
+  const double x = next.below(2) == 0 ? 1 : -1;
+  const double y = next.below(2) == 0 ? 1 : -1;
+  const double z = next.below(2) == 0 ? 1 : -1;
+  const RingOfPoints ring = {{x, 0, 0}, {0, y, 0}, {0, 0, z}};
+  take(x * y * z < 0 ? turned(ring) : ring, region);
+}
+
+// A cap, or all but a cap.
+void add_cap(const Point& center, Generator& next, Region& region) {
+  const RingOfPoints cap = next.circle(center, next.uniform(0.01, 1.5), 3 + next.below(40));
+  if (next.below(2) == 0) {
+    take(cap, region);
+  } else {
+    add_islands({cap}, -1, region);
+    region.is_of_sphere = true;
+  }
+}
+
 Region region_of(std::size_t kind, Generator& next) {
   Region region;
   const Point center = next.center();
   const double radius = next.power(-3, -0.3);
-  const auto take = [&](const RingOfPoints& ring) {
-    region.rings.push_back(ring);
-    region.terms.emplace_back(1, ring);
-  };
   switch (kind) {
     case 0:
-      take(next.circle(center, radius, 3 + next.below(9), next.power(-17, 0)));
+      take(next.circle(center, radius, 3 + next.below(9), next.power(-17, 0)), region);
       break;
-    case 1: {  // along a great circle and back, to rounding
-      const Point other = next.direction();
-      RingOfPoints there;
-      const std::size_t size = 3 + next.below(4);
-      for (std::size_t k = 0; k < size; ++k) {
-        there.push_back(normalized(center + next.uniform(-1, 1) * other));
-      }
-      RingOfPoints back(there.begin() + 1, there.end() - 1);
-      for (Point& p : back) p = normalized(p + 1e-16 * next.direction());
-      there.insert(there.end(), back.rbegin(), back.rend());
-      region.rings.push_back(there);
-      region.rounding = 1e-12;
+    case 1:
+      add_fold(center, next, region);
       break;
-    }
-    case 2: {
-      RingOfPoints ring = next.circle(center, radius, 4);
-      std::swap(ring[2], ring[3]);
-      region.rings.push_back(ring);
-      region.is_wrong = true;
+    case 2:
+    case 3:
+      add_bow_tie(center, radius, kind == 3, next, region);
       break;
-    }
-    case 3: {
-      const RingOfPoints ring = next.circle(center, radius, 4);
-      region.rings.push_back({ring[0], ring[1], center, ring[3], ring[2], center});
-      region.is_wrong = true;
+    case 4:
+      add_keyhole(center, radius, next, region);
       break;
-    }
-    case 4: {
-      const RingOfPoints outer = next.circle(center, radius, 5);
-      const RingOfPoints hole = turned(next.circle(center, radius / 3, 4));
-      RingOfPoints ring = outer;
-      ring.push_back(outer[0]);
-      // The way to the corner of the hole that is nearest crosses nothing.
-      const auto near =
-          std::ranges::max_element(hole, {}, [&](const Point& p) { return dot(p, outer[0]); });
-      ring.insert(ring.end(), near, hole.end());
-      ring.insert(ring.end(), hole.begin(), near + 1);
-      region.rings.push_back(ring);
-      region.terms = {{1, outer}, {-1, turned(hole)}};
+    case 5:
+      add_spike(center, radius, next, region);
       break;
-    }
-    case 5: {
-      const RingOfPoints outer = next.circle(center, radius, 3 + next.below(5));
-      RingOfPoints ring = outer;
-      ring.push_back(outer[0]);
-      ring.push_back(normalized(outer[0] + next.uniform(0.1, 1) * (outer[0] - center)));
-      region.rings.push_back(ring);
-      region.terms = {{1, outer}};
-      break;
-    }
     case 6:
-      add_islands(next.islands(center, next.power(-6, -0.7), 1 + next.below(100)), 1, region);
-      break;
     case 7:
-      add_islands(next.islands(center, next.power(-6, -0.7), 1 + next.below(100)), -1, region);
-      region.is_of_sphere = true;
+      add_islands(next.islands(center, next.power(-6, -0.7), 1 + next.below(100)),
+                  kind == 6 ? 1 : -1, region);
+      region.is_of_sphere = kind == 7;
       break;
-    case 8: {  // the sphere less an island, and its lagoon
-      const double size = next.power(-9, -0.3);
-      add_islands({next.circle(center, size, 8)}, -1, region);
-      add_islands({next.circle(center, size / 3, 5)}, 1, region);
-      region.is_of_sphere = true;
+    case 8:
+      add_lagoon(center, next, region);
       break;
-    }
-    case 9: {
-      const RingOfPoints outer = next.circle(center, next.uniform(1, 1.5), 40);
-      const RingOfPoints inner = next.circle(center, next.uniform(0.1, 0.9), 30);
-      region.rings = {outer, turned(inner)};
-      region.terms = {{1, outer}, {-1, inner}};
+    case 9:
+      add_belt(center, next, region);
       break;
-    }
-    case 10: {
-      const double x = next.below(2) == 0 ? 1 : -1;
-      const double y = next.below(2) == 0 ? 1 : -1;
-      const double z = next.below(2) == 0 ? 1 : -1;
-      RingOfPoints ring = {{x, 0, 0}, {0, y, 0}, {0, 0, z}};
-      if (x * y * z < 0) ring = turned(ring);
-      take(ring);
+    case 10:
+      add_octant(next, region);
       break;
-    }
-    default: {  // up to all but a cap
-      const RingOfPoints cap = next.circle(center, next.uniform(0.01, 1.5), 3 + next.below(40));
-      if (next.below(2) == 0) {
-        take(cap);
-      } else {
-        add_islands({cap}, -1, region);
-        region.is_of_sphere = true;
-      }
-    }
+    default:
+      add_cap(center, next, region);
   }
   return region;
 }
