@@ -120,7 +120,7 @@ def page(header):
     text = header.read_text(encoding="utf-8")
     about = re.search(r"/// \\file\n((?:///.*\n)*)", text)[1].splitlines()
     result = [f"# rondel/{header.name}", prose(about), f'```cpp\n#include "rondel/{header.name}"\n```']
-    last = None
+    last, seen = None, set()
     for block in blocks(text):
         comment = []
         while block and block[0].startswith("///"):
@@ -133,7 +133,9 @@ def page(header):
         code = code.replace("RONDEL_API ", "")
         if name != last:
             names = [name] if re.match(r"class|struct|enum|using|inline constexpr", code) else functions_of("", code)
-            result += [*(anchor(each, f"cpp-{header.stem}-{each}") for each in names), f"## {name}"]
+            new = [each for each in names if each not in seen]  # overloads may stand apart
+            seen.update(new)
+            result += [*(anchor(each, f"cpp-{header.stem}-{each}") for each in new), f"## {name}"]
         last = name
         if code.startswith("class"):
             head = code.split(" {\n", 1)[0]
