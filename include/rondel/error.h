@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -20,7 +21,7 @@ namespace rondel {
 class RONDEL_API InvalidInput : public std::invalid_argument {
  public:
   /// The index of an argument that is no array.
-  static constexpr std::size_t no_index = ~std::size_t{0};
+  static constexpr std::size_t no_index = SIZE_MAX;
 
   explicit InvalidInput(const std::string& message, std::size_t index = no_index);
   InvalidInput(const InvalidInput&) = default;
