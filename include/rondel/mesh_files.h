@@ -73,6 +73,7 @@ RONDEL_API CellTable read_cells(const FileName& file);
 
 /// Whether the format of the file, without the name of a grid, is one that read_cells() reads.
 RONDEL_API bool can_read_cells(const FileName& file);
+
 /// The places of a netCDF file.
 struct NetcdfSites {
   SiteTable table;                   ///< with positions
