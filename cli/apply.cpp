@@ -55,7 +55,7 @@ void require_places_of_table(const ApplyCommandOptions& options, const WeightFil
 
 bool is_table(const std::string& name) { return name.ends_with(".csv") || name.ends_with(".tsv"); }
 
-// Of a slice, 32 MiB: larger ones are no faster.
+// A slice has 32 MiB: larger ones are no faster.
 constexpr std::size_t most_values = std::size_t{1} << 22U;
 
 struct AppliedCounts {

@@ -17,12 +17,12 @@
 
 namespace rondel::cli {
 
-/// What INPUT is, for the help.
+/// The help text that describes INPUT.
 inline constexpr const char* mesh_input_help =
     "The mesh, .nc (MPAS, UGRID, SCRIP, ESMF), or its sites: .csv .tsv .xyz .txt .npy\n"
     ".geojson, or - for standard input. Longitude and latitude in degrees, or x, y, z.";
 
-/// What of a mesh is written: OUTPUT and what goes beside it.
+/// The files that a command writes for a mesh: OUTPUT and those beside it.
 struct MeshOutput {
   CommonOptions common;  ///< INPUT where the command has one; output, --format, threads
   NetcdfOptions netcdf;  ///< --kind --deflate
@@ -65,10 +65,10 @@ void write_and_report_mesh(const MeshOutput& output, const mesh::MeshArrays& arr
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
                                     const mesh::MeshOptions& options);
 
-/// What OUTPUT may be.
+/// The kinds of files that OUTPUT may be.
 enum class MeshOutputKind { mesh, mesh_or_sites };
 
-/// What the commands that write a mesh have: --output, --format, --kind, --deflate, --graph, --sphere-radius, --report.
+/// Adds the options that all commands that write a mesh share: --output, --format, --kind, --deflate, --graph, --sphere-radius, --report.
 void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKind kind);
 /// \throws UsageError for a format of OUTPUT that is no mesh's, nor sites' where these may be written
 void require_mesh_output(const CommonOptions& common, MeshOutputKind kind);

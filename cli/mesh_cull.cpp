@@ -33,7 +33,7 @@ void add_map_options(CLI::App& parser, MeshCullOptions& options) {
   add("--vertex-map", options.vertex_map, "vertex");
 }
 
-// Of MPAS-Tools' masks of regions, (nCells, nRegions), the cells of all regions go. Times are no regions.
+// A mask of regions as MPAS-Tools writes it, (nCells, nRegions), removes the cells of all regions. Times are no regions.
 bool are_regions(const FieldArray& array) {
   return array.dimensions.size() == 1 && array.dimensions.front().find("ime") == std::string::npos;
 }

@@ -157,7 +157,7 @@ def missing_marker(array: xarray.DataArray) -> Any:
     of_file = array.encoding.get("dtype")
     stored = np.dtype(of_file if isinstance(of_file, (np.dtype, type)) else array.dtype)
     texts = {**array.encoding, **array.attrs}
-    # What xarray has unpacked it remembers in `encoding`.
+    # xarray remembers in `encoding` how it unpacked the values.
     known = {name: texts[name] for name in _OF_VALUES if texts.get(name) is not None}
     known |= {name: array.encoding[name] for name in _PACKING if name in array.encoding}
     stored_kind = _code(stored)

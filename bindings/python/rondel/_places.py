@@ -20,7 +20,7 @@ from ._partition import Partition
 from ._types import BoolArray, FloatArray
 from ._weights import Weights
 
-# Of tables, as files of them have.
+# The names of columns that tables usually have.
 _COLUMNS = {"lon": ("lon", "lng", "long", "longitude"), "lat": ("lat", "latitude")}
 
 

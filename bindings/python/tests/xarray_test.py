@@ -157,7 +157,7 @@ def test_tuples_are_broadcast_or_axes_of_a_grid():
     assert np.array_equal(curved.t, grid.t)
     named = ds.rondel.interpolate((GRID.lon, GRID.lat))
     assert np.array_equal(named.t, grid.t)
-    # Of different lengths they are no pairs.
+    # Arrays of different lengths are no pairs.
     assert ds.rondel.interpolate(AXES).identical(asked)
     with pytest.raises(ValueError, match=r"shapes \(2, 6\) and \(7,\), but are pairs; grid=True"):
         ds.rondel.interpolate((AXES[0].reshape(2, 6), AXES[1]))
