@@ -8,12 +8,9 @@
 //                                             what differs
 //     same_bytes_meshes EXPECTED --update     records those of this build
 
-#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp is POSIX's
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <numbers>
@@ -32,6 +29,7 @@
 #include "rondel/scvt.h"
 #include "same_bytes/portable/hash.h"
 #include "same_bytes/recorded.h"
+#include "support/temporary_files.h"
 
 namespace rondel::test {
 namespace {
@@ -189,21 +187,6 @@ void add_quality(Hash& hash, const MeshArrays& arrays, const Execution& executio
   hash.add(cells.gradient);
 }
 
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "same-bytes-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::string file(const char* name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
 std::string bytes_of(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
@@ -214,7 +197,7 @@ void add_files(const MeshArrays& arrays, Lines& lines) {
       std::pair{mesh::MeshFormat::mpas, "mpas"}, std::pair{mesh::MeshFormat::ugrid, "ugrid"},
       std::pair{mesh::MeshFormat::scrip, "scrip"}, std::pair{mesh::MeshFormat::esmf, "esmf"},
       std::pair{mesh::MeshFormat::exodus, "exodus"}};
-  const Folder folder;
+  const TemporaryDirectory folder;
   const std::string path = folder.file("mesh.nc");
   for (const auto& [of_file, name] : formats) {
     const mesh::MeshFormat format = of_file;

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
@@ -23,6 +22,7 @@
 #include "rondel/io.h"
 #include "rondel/rondel.h"
 #include "support/generators.h"
+#include "support/temporary_files.h"
 
 namespace rondel::test {
 namespace {
@@ -137,23 +137,8 @@ void hull(Random& random) {
   require(report.is_valid, report.reason.c_str());
 }
 
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "rondel-soak-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::string file(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
-
 void round_trip(Random& random) {
-  const Folder folder;
+  const TemporaryDirectory folder;
   const Input in = random_input(random, 20'000);
   constexpr std::array site_endings = {".csv", ".tsv", ".xyz", ".npy"};
   const std::string sites = folder.file("sites") + site_endings[random.below(site_endings.size())];

@@ -18,6 +18,7 @@
 #include "rondel/rondel.h"
 #include "support/generators.h"
 #include "support/other_surfaces.h"
+#include "support/temporary_files.h"
 
 namespace rondel {
 namespace {
@@ -336,7 +337,7 @@ TEST(sites, are_copied_or_viewed) {
 }
 
 TEST(writers, refuse_what_does_not_belong_together) {
-  const std::string path = testing::TempDir() + "rondel_arguments";
+  const std::string path = temporary_path("arguments");
   SiteTable table;
   table.sites = test::generator("uniform").make(30, 1).sites;
   const std::vector<Point> sites(table.sites.begin(), table.sites.end());

@@ -24,6 +24,7 @@
 #include "rondel/io.h"
 #include "rondel/rondel.h"
 #include "support/generators.h"
+#include "support/temporary_files.h"
 #include "system/parallel.h"
 
 namespace rondel {
@@ -179,24 +180,21 @@ std::string converted(const Subject& s) {
 }
 
 std::string files(const Subject& s) {
-  const auto folder = std::filesystem::temp_directory_path() /
-                      ("rondel_arithmetic_" + std::to_string(static_cast<long>(getpid())));
-  std::filesystem::create_directories(folder);
-  const std::string csv = folder / "sites.csv";
+  const TemporaryDirectory folder;
+  const std::string csv = folder.file("sites.csv");
   write_file(csv,
              "lon,lat,radius\n12.3,45.6,1.5\n-77.1,0.3,2\n100.1,-30.7,1\n1e-3,80.1,0.1\n5,6,7\n");
   ReadOptions options;
   if (s.options.model == Model::weighted) options.radius = "radius";
   const SiteTable table = read_sites(csv, options);
   const Triangulation t = delaunay(table.sites, s.options);
-  write_triangles(folder / "t.off", table, t);
-  write_triangles(folder / "t.geojson", table, t);
-  write_cells(folder / "c.geojson", table, t, diagram(t));
-  write_sites(folder / "s.csv", table.sites);
+  write_triangles(folder.file("t.off"), table, t);
+  write_triangles(folder.file("t.geojson"), table, t);
+  write_cells(folder.file("c.geojson"), table, t, diagram(t));
+  write_sites(folder.file("s.csv"), table.sites);
   std::string all;
   for (const char* name : {"t.off", "t.geojson", "c.geojson", "s.csv"})
-    all += text_of(folder / name);
-  std::filesystem::remove_all(folder);
+    all += text_of(folder.file(name));
   return all;
 }
 

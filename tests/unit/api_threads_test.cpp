@@ -15,6 +15,7 @@
 #include "rondel/io.h"
 #include "rondel/rondel.h"
 #include "support/generators.h"
+#include "support/temporary_files.h"
 #include "system/parallel.h"
 
 namespace rondel {
@@ -60,9 +61,7 @@ TEST(threads, of_any_number_answer_and_write) {
   const std::vector<Point> sites = test::generator("uniform").make(9000, 1).sites;
   const Triangulation t = delaunay(sites);
   const Locator locator(t);
-  const std::string path =
-      std::filesystem::temp_directory_path() /
-      ("rondel_threads_" + std::to_string(static_cast<long>(getpid())) + ".csv");
+  const std::string path = temporary_path("threads.csv");
   const auto expected = locator.nearest(sites, {.threads = 1});
   for (const unsigned threads : thread_counts) {
     SCOPED_TRACE(threads);
@@ -71,7 +70,6 @@ TEST(threads, of_any_number_answer_and_write) {
     write_sites(path, sites, {}, {}, {.threads = threads});
     EXPECT_EQ(read_sites(path).sites.size(), sites.size());
   }
-  std::remove(path.c_str());
 }
 
 }  // namespace

@@ -14,13 +14,12 @@
 #include "rondel/error.h"
 #include "rondel/io.h"
 #include "support/generators.h"
+#include "support/temporary_files.h"
 
 namespace rondel::test {
 namespace {
 
-std::string file_name(const std::string& name) {
-  return testing::TempDir() + "rondel_cells_" + name;
-}
+std::string file_name(const std::string& name) { return temporary_path("cells_") + name; }
 
 std::string content(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

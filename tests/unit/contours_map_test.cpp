@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "rondel/error.h"
+#include "support/temporary_files.h"
 #include "unit/cells_planar.h"
 #include "unit/contours_support.h"
 #include "unit/geojson_rings.h"
@@ -20,7 +21,7 @@ namespace rondel::test {
 namespace {
 
 TEST(write_bands, covers_the_map_once_for_every_generator) {
-  const std::string path = testing::TempDir() + "rondel_bands.geojson";
+  const std::string path = temporary_path("bands.geojson");
   for (const Generator& generator : generators()) {
     if (generator.weighted_only || generator.has_long_integers) continue;
     const Triangulation t = projected(generator.make(200, 3));
@@ -40,7 +41,7 @@ TEST(write_bands, covers_the_map_once_for_every_generator) {
 }
 
 TEST(write_bands, has_the_whole_map_where_there_is_one_band) {
-  const std::string path = testing::TempDir() + "rondel_whole.geojson";
+  const std::string path = temporary_path("whole.geojson");
   const Triangulation t = projected(generator("uniform").make(20, 3));
   write_bands(path, bands(t, std::vector<double>(20, 1.0), std::vector<double>{0}));
   const auto document = read_json(path);
@@ -53,7 +54,7 @@ TEST(write_bands, has_the_whole_map_where_there_is_one_band) {
 
 // Lines around both poles, and one across the antimeridian.
 TEST(write_isolines, cuts_lines_at_the_antimeridian) {
-  const std::string path = testing::TempDir() + "rondel_lines.geojson";
+  const std::string path = temporary_path("lines.geojson");
   const Triangulation t = projected(generator("uniform").make(500, 3));
   std::vector<double> values;
   for (const Point& site : t.sites().points()) values.push_back(site.z);
@@ -73,7 +74,7 @@ TEST(write_isolines, cuts_lines_at_the_antimeridian) {
 }
 
 TEST(write_isolines, ends_lines_at_the_border_and_passes_a_pole) {
-  const std::string path = testing::TempDir() + "rondel_open.geojson";
+  const std::string path = temporary_path("open.geojson");
   // A line along the meridians 0 and 180 over the north pole.
   const std::vector<Point> sites{{1, 1, 1}, {-1, 1, 1}, {-1, -1, 1}, {1, -1, 1}};
   const Triangulation t = delaunay(sites);

@@ -11,6 +11,7 @@
 #include "distributed_support.h"
 #include "rondel/error.h"
 #include "rondel/out_of_core.h"
+#include "support/temporary_files.h"
 
 namespace rondel::test {
 namespace {

@@ -14,6 +14,7 @@
 #include "distributed_support.h"
 #include "io/binary.h"
 #include "rondel/out_of_core.h"
+#include "support/temporary_files.h"
 
 namespace rondel::test {
 namespace {

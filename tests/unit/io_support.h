@@ -17,6 +17,7 @@
 
 #include "rondel/error.h"
 #include "rondel/io.h"
+#include "support/temporary_files.h"
 
 namespace rondel::test {
 
@@ -70,32 +71,5 @@ void expect_messages(const std::filesystem::path& folder, Read read) {
   for (const std::string& message : messages) text += message + "\n";
   EXPECT_EQ(text, read_all(folder / "expected.txt"));
 }
-
-// A new directory, removed at the end.
-class TemporaryDirectory {
- public:
-  TemporaryDirectory() {
-    std::string name = (std::filesystem::temp_directory_path() / "rondel-test-XXXXXX").string();
-    path_ = ::mkdtemp(name.data());
-  }
-  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
-  TemporaryDirectory(const TemporaryDirectory&) = delete;
-  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
-
-  [[nodiscard]] std::string file(std::string_view name) const { return path_ / name; }
-
-  // Writes `bytes` to a file of that name and returns its path. The file is new: cutting an old one
-  // makes some file systems wait for the disk.
-  [[nodiscard]] std::string with(std::string_view name, std::string_view bytes) const {
-    std::filesystem::remove(file(name));
-    std::ofstream(file(name), std::ios::binary) << bytes;
-    return file(name);
-  }
-
-  [[nodiscard]] std::size_t num_files() const { return files_in(path_).size(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace rondel::test

@@ -15,6 +15,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh_cull.h"
 #include "rondel/mesh_io.h"
+#include "support/temporary_files.h"
 #include "unit/mesh_support.h"
 #include "unit/mesh_writer.h"
 
@@ -117,9 +118,7 @@ class SameMesh {
 
 class BorderedFiles : public ::testing::Test {
  protected:
-  BorderedFiles() { std::filesystem::create_directories(folder_); }
-  ~BorderedFiles() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string path() const { return (folder_ / "m.nc").string(); }
+  [[nodiscard]] std::string path() const { return folder_.file("m.nc"); }
 
   void expect_back(const MeshArrays& mesh) const {
     for (const MeshFormat format : formats_of_cells) {
@@ -171,10 +170,7 @@ class BorderedFiles : public ::testing::Test {
   }
 
  private:
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      ("rondel_border_" +
-       std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  TemporaryDirectory folder_;
 };
 
 MeshArrays without(const MeshArrays& arrays, std::uint64_t seed, double share) {

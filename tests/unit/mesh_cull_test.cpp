@@ -23,6 +23,7 @@
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_quality.h"
 #include "rondel/polygon_files.h"
+#include "support/temporary_files.h"
 #include "unit/mesh_support.h"
 
 namespace rondel::test {
@@ -184,15 +185,10 @@ TEST(mesh_cull, what_does_not_fit_is_refused) {
 
 class CulledFiles : public ::testing::Test {
  protected:
-  CulledFiles() { std::filesystem::create_directories(folder_); }
-  ~CulledFiles() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string path(const char* name) const { return (folder_ / name).string(); }
+  [[nodiscard]] std::string path(const char* name) const { return folder_.file(name); }
 
  private:
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      ("rondel_cull_" +
-       std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  TemporaryDirectory folder_;
 };
 
 TEST_F(CulledFiles, mpas_comes_back_bit_for_bit) {

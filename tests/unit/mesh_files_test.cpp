@@ -21,6 +21,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_quality.h"
+#include "support/temporary_files.h"
 #include "unit/mesh_support.h"
 
 namespace rondel::test {
@@ -32,11 +33,7 @@ using mesh::NetcdfKind;
 
 class MeshFiles : public ::testing::Test {
  protected:
-  MeshFiles() { std::filesystem::create_directories(folder_); }
-  ~MeshFiles() override { std::filesystem::remove_all(folder_); }
-  [[nodiscard]] std::string path(const std::string& name) const {
-    return (folder_ / name).string();
-  }
+  [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }
   [[nodiscard]] std::string bytes(const std::string& name) const {
     std::ifstream in(path(name), std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
@@ -46,10 +43,7 @@ class MeshFiles : public ::testing::Test {
   }
 
  private:
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() /
-      ("rondel_mesh_" +
-       std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
+  TemporaryDirectory folder_;
 };
 
 template <class Work>

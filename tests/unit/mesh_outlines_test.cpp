@@ -15,6 +15,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh_lines.h"
 #include "rondel/mesh_size_files.h"
+#include "support/temporary_files.h"
 
 namespace rondel::mesh {
 namespace {
@@ -41,7 +42,7 @@ std::string line(const Positions& positions) {
 
 FileLines read(const std::vector<std::string>& features,
                PolygonEdges edges = PolygonEdges::lonlat) {
-  const std::string path = testing::TempDir() + "rondel_outlines.geojson";
+  const std::string path = temporary_path("outlines.geojson");
   std::string text = R"({"type":"FeatureCollection","features":[)";
   for (std::size_t i = 0; i < features.size(); ++i) {
     text += std::string(i > 0 ? "," : "") + R"({"type":"Feature","properties":{},"geometry":)" +
@@ -162,7 +163,7 @@ TEST(mesh_outlines, nothing_leads_to_the_pole) {
 }
 
 TEST(mesh_outlines, points_and_islands_elsewhere_stay) {
-  const std::string path = testing::TempDir() + "rondel_outlines.geojson";
+  const std::string path = temporary_path("outlines.geojson");
   const FileLines lines = read({polygon(western), polygon(eastern), line({{0, 0}, {5, 5}}),
                                 polygon({{20, 20}, {30, 20}, {25, 30}, {20, 20}}),
                                 R"({"type":"Point","coordinates":[50,-40]})"});

@@ -15,6 +15,7 @@
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_size_files.h"
+#include "support/temporary_files.h"
 
 namespace rondel::mesh {
 namespace {
@@ -83,7 +84,7 @@ TEST(mesh_size, refinement_grows_with_the_distance_of_a_line) {
 
 // Lines, closed outlines and points, each neighbor in a line nearer than the distance.
 TEST(mesh_size, refinement_follows_lines_and_outlines) {
-  const std::string path = testing::TempDir() + "rondel_refinement.geojson";
+  const std::string path = temporary_path("refinement.geojson");
   const auto read = [&](const std::string& geometries) {
     std::ofstream(path) << R"({"type":"GeometryCollection","geometries":[)" << geometries << "]}";
     return read_refinement({path, {}}, 0.01);

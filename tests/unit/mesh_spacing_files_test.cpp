@@ -14,6 +14,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh_io.h"
 #include "rondel/mesh_size_files.h"
+#include "support/temporary_files.h"
 #include "unit/mesh_support.h"
 #include "unit/mesh_writer.h"
 
@@ -29,7 +30,7 @@ double wanted(double lon, double lat) { return wanted(unit_vector(LonLat{lon, la
 const MeshWriter::Texts eastward = {{"units", "degrees_east"}};
 const MeshWriter::Texts northward = {{"units", "degrees_north"}};
 
-std::string path_of(const std::string& name) { return testing::TempDir() + "rondel_" + name; }
+std::string path_of(const std::string& name) { return temporary_path(name); }
 
 void expect_wanted(const SizeFunction& size, double relative) {
   for (const Point& p : sampled_sites(2000, nullptr, 3)) {

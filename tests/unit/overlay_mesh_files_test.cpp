@@ -15,6 +15,7 @@
 #include "rondel/error.h"
 #include "rondel/mesh_files.h"
 #include "rondel/weight_files.h"
+#include "support/temporary_files.h"
 
 namespace rondel::test {
 namespace {
@@ -63,8 +64,8 @@ struct MeshOfDiagram {
 };
 
 std::string path_of_test() {
-  return testing::TempDir() + "rondel_mesh_" +
-         testing::UnitTest::GetInstance()->current_test_info()->name() + ".nc";
+  return temporary_path("mesh_") + testing::UnitTest::GetInstance()->current_test_info()->name() +
+         ".nc";
 }
 
 CellTable table_of(const MeshWriter& writer) {

@@ -18,6 +18,7 @@
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "support/random.h"
+#include "support/temporary_files.h"
 
 namespace rondel::test {
 namespace {
@@ -46,7 +47,7 @@ std::string planar_polygon(const std::vector<PlanarRing>& rings) {
 PolygonTable planar_table(const std::vector<std::vector<std::string>>& features,
                           const PolygonOptions& options = {}) {
   const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-  const std::string path = testing::TempDir() + "rondel_plane_" + test + ".geojson";
+  const std::string path = temporary_path("plane_") + test + ".geojson";
   std::string text = R"({"type":"FeatureCollection","features":[)";
   for (std::size_t f = 0; f < features.size(); ++f) {
     text += (f > 0 ? "," : "");

@@ -14,6 +14,7 @@
 #include "rondel/error.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
+#include "support/temporary_files.h"
 
 namespace rondel::test {
 namespace {
@@ -22,7 +23,7 @@ constexpr double one_degree = std::numbers::pi / 180;
 
 std::string written(const std::string& text) {
   const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-  std::string path = testing::TempDir() + "rondel_polygons_" + test + ".geojson";
+  std::string path = temporary_path("polygons_") + test + ".geojson";
   std::ofstream(path) << text;
   return path;
 }

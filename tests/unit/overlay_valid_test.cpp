@@ -21,6 +21,7 @@
 #include "rondel/polygons.h"
 #include "rondel/regions.h"
 #include "support/planar_check.h"
+#include "support/temporary_files.h"
 #include "unit/geojson_rings.h"
 
 namespace rondel::test {
@@ -148,7 +149,7 @@ TEST(overlay_valid, the_whole_sphere_is_the_box) {
   ASSERT_EQ(drawn.owners, std::vector<Index>{1});
   const std::vector<LonLat> box = {{-180, -90}, {180, -90}, {180, 90}, {-180, 90}, {-180, -90}};
   EXPECT_EQ(drawn.positions, box);
-  const std::string path = testing::TempDir() + "rondel_whole.geojson";
+  const std::string path = temporary_path("whole.geojson");
   write_regions(path, cells);
   const auto document = read_json(path);
   ASSERT_EQ(document["features"].size(), 1U);
@@ -174,7 +175,7 @@ Triangulation triangulation_of_kind(const char* kind) {
 }
 
 TEST(overlay_valid, bands_of_named_inputs) {
-  const std::string path = testing::TempDir() + "rondel_valid_bands.geojson";
+  const std::string path = temporary_path("valid_bands.geojson");
   for (const char* kind : kinds) {
     const Triangulation t = triangulation_of_kind(kind);
     Random random(7);

@@ -12,6 +12,7 @@
 #include "overlay_support.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
+#include "support/temporary_files.h"
 #include "unit/geojson_rings.h"
 
 namespace rondel::test {
@@ -24,7 +25,7 @@ double planar_sum(const std::vector<Ring>& rings) {
 }
 
 TEST(overlay_written, groups_cover_the_map_once) {
-  const std::string path = testing::TempDir() + "rondel_groups.geojson";
+  const std::string path = temporary_path("groups.geojson");
   for (const std::size_t n : {8U, 50U, 2000U}) {
     const Partition cells = Partition::voronoi(triangulation_of("uniform", n, 3));
     const CellRings joined = dissolve(cells.rings(), random_groups(n, 3, n), 3);
@@ -39,7 +40,7 @@ TEST(overlay_written, groups_cover_the_map_once) {
 }
 
 TEST(overlay_written, arrays_have_the_polygons_of_the_file) {
-  const std::string path = testing::TempDir() + "rondel_arrays.geojson";
+  const std::string path = temporary_path("arrays.geojson");
   const Partition cells = Partition::voronoi(triangulation_of("uniform", 300, 9));
   const CellRings joined = dissolve(cells.rings(), random_groups(300, 3, 9), 3);
   write_regions(path, joined);
@@ -79,7 +80,7 @@ TEST(overlay_written, arrays_have_the_polygons_of_the_file) {
 }
 
 TEST(overlay_written, pieces_cover_the_map_once) {
-  const std::string path = testing::TempDir() + "rondel_pieces.geojson";
+  const std::string path = temporary_path("pieces.geojson");
   const Partition cells = Partition::voronoi(triangulation_of("clustered", 500, 3));
   const Partition others = Partition::voronoi(triangulation_of("uniform", 100, 4));
   write_regions(path, intersection(cells, others).rings);
@@ -87,7 +88,7 @@ TEST(overlay_written, pieces_cover_the_map_once) {
 }
 
 TEST(overlay_written, properties_and_cells_without_rings) {
-  const std::string path = testing::TempDir() + "rondel_properties.geojson";
+  const std::string path = temporary_path("properties.geojson");
   const Partition cells = Partition::voronoi(triangulation_of("uniform", 30, 5));
   std::vector<Index> groups(30, no_index);
   groups[4] = 1;
@@ -104,7 +105,7 @@ TEST(overlay_written, properties_and_cells_without_rings) {
 }
 
 TEST(overlay_written, arrays_that_do_not_fit_are_refused) {
-  const std::string path = testing::TempDir() + "rondel_refused.geojson";
+  const std::string path = temporary_path("refused.geojson");
   const CellRings cells = Partition::voronoi(triangulation_of("uniform", 10, 6)).rings();
   EXPECT_THROW(write_regions(path, cells, std::vector{Column{"a", true, "1", {1}}}), InvalidInput);
   CellRings wrong = cells;

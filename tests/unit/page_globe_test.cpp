@@ -17,6 +17,7 @@
 #include "rondel/globe.h"
 #include "rondel/sites.h"
 #include "support/page_reader.h"
+#include "support/temporary_files.h"
 
 namespace rondel::test {
 namespace {
@@ -244,7 +245,7 @@ TEST(globe_page, refuses_what_does_not_fit_together) {
 
 TEST(write_globe, writes_the_page_or_nothing) {
   const Made m = made(random_sites(40));
-  const auto path = std::filesystem::path(testing::TempDir()) / "rondel_globe.html";
+  const std::filesystem::path path = temporary_path("globe.html");
   write_globe(path.string(), m.table, m.triangulation, m.both);
   std::ifstream file(path, std::ios::binary);
   const std::string written{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
