@@ -228,8 +228,10 @@ Partition Partition::voronoi(const Triangulation& triangulation, const Execution
     whole = {static_cast<Index>(std::ranges::find(is_hidden, false) - is_hidden.begin())};
   }
   Subdivision cells(rings_of(rondel::cells(triangulation, execution)), true, execution.threads);
-  if (const auto tidy = overlay::tidied(overlay::rings_of(cells), cells)) {
-    cells = Subdivision(*tidy, true, execution.threads);
+  if (!cells.areas_of_others.empty()) {  // seldom: rings_of() copies everything
+    if (const auto tidy = overlay::tidied(overlay::rings_of(cells), cells)) {
+      cells = Subdivision(*tidy, true, execution.threads);
+    }
   }
   return Partition(std::make_shared<const PartitionData>(std::move(cells), std::move(whole),
                                                          execution.threads, true));

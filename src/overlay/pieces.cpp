@@ -13,6 +13,7 @@
 #include "overlay/filling.h"
 #include "overlay/gathered_rows.h"
 #include "overlay/measure.h"
+#include "system/prefetch.h"
 
 namespace rondel::overlay {
 namespace {
@@ -40,6 +41,9 @@ class PieceMaker {
   // Of a cell that has a ring, in the order of the columns.
   std::span<const MeasuredPiece> operator()(Index cell) {
     constexpr std::size_t many = 128;
+    const Index name = cells_.names[cell];
+    system::prefetch(&sizes_.areas[name]);
+    system::prefetch(&sizes_.lengths[name]);
     pieces_.clear();
     const std::span<const PieceArc> arcs = arcs_(cell);
     const std::span<const PieceArc> owned = owners_.empty() ? arcs : arcs_of_owners(arcs);
@@ -48,7 +52,6 @@ class PieceMaker {
       add_by_piece(arcs);
       if (!owners_.empty()) join_by_owner();
     }
-    const Index name = cells_.names[cell];
     require_sum(pieces_, sizes_.areas[name], sizes_.lengths[name], name);
     drop_rounding(pieces_);
     std::erase_if(pieces_, [&](const MeasuredPiece& piece) { return !has_column(piece); });

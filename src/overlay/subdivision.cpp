@@ -271,6 +271,24 @@ void Subdivision::find_twins() {
   }
 }
 
+// The ring turns left in all corners, and goes around once: seen from the first corner, the others follow each other
+// counterclockwise, within half a turn of the second. Of the first two and the last of them the corners' own turns say it.
+bool Subdivision::is_convex(Index cell) const {
+  const Halfedge begin = begin_of(cell);
+  const Halfedge end = end_of(cell);
+  const auto after = [&](Halfedge h) { return h + 1 < end ? h + 1 : begin; };
+  for (Halfedge h = begin; h < end; ++h) {
+    const Halfedge next = after(h);
+    if (!is_left_turn(origin(h), origin(next), origin(after(next)))) return false;
+    const bool is_told_by_turns = h < begin + 2 || h + 2 >= end;
+    if (!is_told_by_turns && !(is_left_turn(origin(begin), origin(h), origin(next)) &&
+                               is_left_turn(origin(begin), origin(begin + 1), origin(next)))) {
+      return false;
+    }
+  }
+  return true;
+}
+
 // All corners are on the center's hemisphere, and all edges turn counterclockwise around it, by less than half a turn each and
 // all together once: only one of them comes to the half circle through the first corner, or passes it.
 bool Subdivision::is_star(Index cell) const {
@@ -320,18 +338,7 @@ void Subdivision::find_shapes(unsigned threads) {
     const Index num_rings = cells[cell + 1] - cells[cell];
     if (num_rings == 0) return Shape::empty;
     if (num_rings > 1) return Shape::other;
-    const Index begin = begin_of(cell);
-    const Index end = end_of(cell);
-    bool is_convex = true;
-    for (Halfedge h = begin; is_convex && h < end; ++h) {
-      const Point& b = this->end(h);
-      is_convex =
-          is_left_turn(origin(h), b, this->end(next(h))) &&
-          (h == begin || h + 1 == end ||
-           (is_left_turn(origin(begin), origin(h), b) &&
-            is_left_turn(origin(begin), this->end(begin), b)));  // not more than once around
-    }
-    if (is_convex) return Shape::convex;
+    if (is_convex(cell)) return Shape::convex;
     return is_star(cell) ? Shape::star : Shape::other;
   };
   system::parallel_for(threads, num_cells(), cells_per_piece,

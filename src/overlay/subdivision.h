@@ -83,6 +83,7 @@ struct Subdivision {
   void find_begins();
   void find_twins();
   void find_shapes(unsigned threads);
+  [[nodiscard]] bool is_convex(Index cell) const;
   [[nodiscard]] bool is_star(Index cell) const;
   void find_areas_of_others();
 };
