@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "exact/vector.h"
 #include "map/arc.h"
+#include "order/place_keys.h"
 #include "system/parallel.h"
 
 namespace rondel::map {
@@ -18,6 +21,33 @@ namespace {
 bool is_before_in_space(const Point& p, const Point& q) {
   return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
+
+// To which points arcs of rings go from each point.
+class OutgoingArcs {
+ public:
+  explicit OutgoingArcs(const CellRings& cells) : begins_(cells.points.size() + 1) {
+    for (const Index from : cells.corners) ++begins_[from + std::size_t{1}];
+    std::partial_sum(begins_.begin(), begins_.end(), begins_.begin());
+    ends_.resize(cells.corners.size());
+    std::vector<std::uint64_t> places(begins_.begin(), begins_.end() - 1);
+    for (std::size_t r = 0; r + 1 < cells.rings.size(); ++r) {
+      for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
+        const std::uint64_t next = k + 1 < cells.rings[r + 1] ? k + 1 : cells.rings[r];
+        ends_[places[cells.corners[k]]++] = cells.corners[next];
+      }
+    }
+  }
+
+  [[nodiscard]] bool has(Index from, Index to) const {
+    const auto first = ends_.begin() + static_cast<std::ptrdiff_t>(begins_[from]);
+    const auto last = ends_.begin() + static_cast<std::ptrdiff_t>(begins_[from + std::size_t{1}]);
+    return std::find(first, last, to) != last;
+  }
+
+ private:
+  std::vector<std::uint64_t> begins_;
+  std::vector<Index> ends_;
+};
 
 }  // namespace
 
@@ -97,21 +127,37 @@ class CommonCorners::ArcBoxes {
 };
 
 std::vector<CommonCorners::RingArc> CommonCorners::unmatched_arcs(const CellRings& cells) {
+  const OutgoingArcs outgoing(cells);
   std::vector<RingArc> arcs;
-  arcs.reserve(cells.corners.size());
   for (std::size_t r = 0; r + 1 < cells.rings.size(); ++r) {
     for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
       const std::uint64_t next = k + 1 < cells.rings[r + 1] ? k + 1 : cells.rings[r];
-      arcs.push_back({cells.points[cells.corners[k]], cells.points[cells.corners[next]]});
+      const Index from = cells.corners[k];
+      const Index to = cells.corners[next];
+      if (!outgoing.has(to, from)) arcs.push_back({cells.points[from], cells.points[to]});
     }
   }
+  // Points of several numbers may have one place.
   std::vector<RingArc> sorted = arcs;
   std::ranges::sort(sorted, ArcsInSpace());
   std::erase_if(arcs, [&](const RingArc& arc) {
     return arc.from == arc.to ||
            std::ranges::binary_search(sorted, RingArc{arc.to, arc.from}, ArcsInSpace());
   });
+  sort_along_curve(arcs);
   return arcs;
+}
+
+// Cells come in any order, but ArcBoxes wants neighbors to follow each other.
+void CommonCorners::sort_along_curve(std::vector<RingArc>& arcs) {
+  std::vector<Point> ends;
+  for (const RingArc& arc : arcs) ends.push_back(arc.from);
+  std::vector<std::uint64_t> keys(arcs.size());
+  order::place_keys(ends, Model::projected, {}, keys);
+  std::vector<std::pair<std::uint64_t, RingArc>> keyed;
+  for (std::size_t i = 0; i < arcs.size(); ++i) keyed.emplace_back(keys[i], arcs[i]);
+  std::ranges::stable_sort(keyed, {}, &std::pair<std::uint64_t, RingArc>::first);
+  for (std::size_t i = 0; i < arcs.size(); ++i) arcs[i] = keyed[i].second;
 }
 
 CommonCorners::CommonCorners(const CellRings& cells, unsigned threads) {

@@ -37,6 +37,7 @@ class CommonCorners {
   class ArcBoxes;
 
   static std::vector<RingArc> unmatched_arcs(const CellRings& cells);
+  static void sort_along_curve(std::vector<RingArc>& arcs);
 
   std::map<RingArc, std::vector<Point>, ArcsInSpace> inner_;  // from the arc's beginning on
 };
