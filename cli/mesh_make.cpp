@@ -229,10 +229,12 @@ ExitStatus run_area_partition(const AreaPartitionCommandOptions& options) {
                                  {"largest_error", made.largest_error},
                                  {"seconds", {{"write", seconds.write}, {"total", seconds.total}}}};
   if (made.worst != no_index) json["worst"] = made.worst;
+  if (!made.reason.empty()) json["reason"] = made.reason;
   std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(), "%s after %d steps, areas within %.2g; ", end.c_str(),
                 made.steps, made.largest_error);
   std::string summary = text.data();
+  if (!made.reason.empty()) summary += made.reason + "; ";
   if (!is_whole && made.worst != no_index) {
     summary += "the worst is that of " + table.where(made.worst) + "; ";
   }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -20,7 +21,7 @@ enum class PartitionEnd : std::uint8_t {
   converged,   ///< all areas are as wanted
   rounded,     ///< as near as coordinates that are doubles bring them
   iterations,  ///< there were too many steps
-  infeasible,  ///< no weights give these areas, or none that steps come near
+  infeasible,  ///< no weights give these areas, or none are found: AreaPartition::reason
   stopped,     ///< Execution::stop
 };
 
@@ -55,6 +56,7 @@ struct AreaPartition {
   Index worst = no_index;  ///< the site that has it
   int steps = 0;
   PartitionEnd end = PartitionEnd::converged;
+  std::string reason;  ///< why what is infeasible is so, in a clause; otherwise empty
 };
 
 /// Weights for which the power cell of site i has the area targets[i]; without targets all are equal. This is
@@ -63,9 +65,11 @@ struct AreaPartition {
 /// Merigot, Thibert, J. Eur. Math. Soc. 21, 2019), from equal weights.
 ///
 /// 1. The same bytes on every machine and for every number of threads.
-/// 2. Where there are such weights, they are unique but for a common factor.
-/// 3. What is infeasible ends as such, and `worst` says where it shows. Sites in one hemisphere always
-///    are.
+/// 2. Where the sites surround the center of the sphere, such weights are unique but for a common factor.
+/// 3. The cells of sites on a great circle are lunes; their weights follow from the areas directly, without steps. One site has the
+///    whole sphere, and each of two sites a hemisphere.
+/// 4. What is infeasible ends as such: `reason` says why, and `worst` where it shows. Other sites that do not surround the
+///    center are, since weights are not looked for there.
 /// \throws InvalidInput (first bad index) if there are no sites, one is not finite or the center, or two
 ///         are in one place; if targets are not one for each site, not positive, or do not add up to 4 pi within 1e-6
 ///         of it (they are scaled to that).

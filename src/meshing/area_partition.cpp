@@ -21,6 +21,7 @@
 #include "exact/eft.h"
 #include "exact/vector.h"
 #include "meshing/graph_laplacian.h"
+#include "meshing/lune_partition.h"
 #include "meshing/placed_pole.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
@@ -49,8 +50,18 @@ struct Weighted {
   double smallest_area = 0;
   double square_error = 0;
   double largest_error = 0;  // relative
-  Index worst = 0;
+  Index worst = no_index;
 };
+
+void measure_errors(Weighted& now, const std::vector<double>& targets) {
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const double error = now.areas[i] - targets[i];
+    now.square_error += error * error;
+    if (std::abs(error) / targets[i] <= now.largest_error) continue;
+    now.largest_error = std::abs(error) / targets[i];
+    now.worst = static_cast<Index>(i);
+  }
+}
 
 class Newton {
  public:
@@ -80,13 +91,7 @@ class Newton {
     now.areas = areas(now.triangulation, quiet);
     now.smallest_area = *std::ranges::min_element(now.areas);
     if (!(now.smallest_area > 0)) return std::nullopt;
-    for (std::size_t i = 0; i < sites_.size(); ++i) {
-      const double error = now.areas[i] - targets_[i];
-      now.square_error += error * error;
-      if (std::abs(error) / targets_[i] <= now.largest_error) continue;
-      now.largest_error = std::abs(error) / targets_[i];
-      now.worst = static_cast<Index>(i);
-    }
+    measure_errors(now, targets_);
     return now;
   }
 
@@ -214,7 +219,7 @@ std::vector<double> scaled_targets(std::span<const double> targets, std::size_t 
     sum += targets[i];
   }
   if (!(std::abs(sum - whole) <= 1e-6 * whole)) {
-    throw InvalidInput("the areas add up to " + std::to_string(sum) + ", not 4 pi", 0);
+    throw InvalidInput("the areas add up to " + std::to_string(sum) + ", not 4 pi");
   }
   std::vector<double> result(targets.begin(), targets.end());
   for (double& target : result) target *= whole / sum;
@@ -245,28 +250,62 @@ void finish(AreaPartition& result, const FineWeights& weights, Weighted&& now) {
   result.worst = now.worst;
 }
 
-// Sites that do not surround the center of the sphere: walls of power cells would all pass near it. One site has the whole
-// sphere; two or more have areas that weights do not bring to what is wanted, but for those of opposite poles.
-AreaPartition without_walls(const std::vector<Point>& units, const std::vector<double>& targets,
+constexpr const char* two_hemispheres =
+    "the cells of two sites are hemispheres, whatever their weights";
+constexpr const char* no_lunes =
+    "the cells of sites on a great circle are lunes, and no weights give them these areas";
+constexpr const char* no_far_lunes =
+    "no weights are found for sites on less than half of a great circle, where not all are tried";
+constexpr const char* too_far_apart =
+    "the weights that give these areas differ by more than coordinates that are doubles can hold";
+constexpr const char* one_hemisphere =
+    "weights are looked for only where sites surround the center of the sphere or lie on a great "
+    "circle";
+constexpr const char* no_step =
+    "no step brings the areas nearer to those that are wanted and leaves each cell its place";
+
+// The cells of given weights, where there are no steps. If the weights are not those that are wanted, `reason` says why.
+AreaPartition without_steps(const std::vector<Point>& units, const std::vector<double>& targets,
+                            const std::vector<double>& weights, const char* reason,
                             const AreaPartitionOptions& options, const Execution& execution) {
-  AreaPartition result;
-  result.weights.assign(units.size(), 1);
-  result.poles = units;
-  result.radii_deg.assign(units.size(), 0);
-  result.areas = {4 * std::numbers::pi};
-  if (units.size() > 1) {
-    result.areas = areas(delaunay(Sites::view(units), {}, Execution{.threads = execution.threads}));
-  }
+  Weighted now;
+  FineWeights fine;
   for (std::size_t i = 0; i < units.size(); ++i) {
-    const double error = std::abs(result.areas[i] - targets[i]) / targets[i];
-    if (!(error > result.largest_error)) continue;
-    result.largest_error = error;
-    result.worst = static_cast<Index>(i);
+    now.poles.push_back(to_point(weights[i] * to_vector(units[i])));
+    fine.push_back({weights[i], 0});
   }
-  const bool is_wanted = result.largest_error <= options.tolerance;
-  result.end = is_wanted ? PartitionEnd::converged : PartitionEnd::infeasible;
+  const bool are_equal = std::ranges::all_of(weights, [](double one) { return one == 1; });
+  const Model model = are_equal ? Model::projected : Model::weighted;
+  const Execution quiet{.threads = execution.threads};
+  now.areas = units.size() == 1 ? std::vector<double>{4 * std::numbers::pi}
+                                : areas(delaunay(Sites::view(now.poles), {.model = model}, quiet));
+  measure_errors(now, targets);
+  AreaPartition result;
+  finish(result, fine, std::move(now));
+  // An error that is larger is not what rounding of weights that differ little makes.
+  constexpr double most_rounding = 1e-6;
+  const bool is_rounding = reason == nullptr && result.largest_error <= most_rounding;
+  if (result.largest_error > options.tolerance) {
+    result.end = is_rounding ? PartitionEnd::rounded : PartitionEnd::infeasible;
+    if (!is_rounding) result.reason = reason == nullptr ? too_far_apart : reason;
+  }
   if (options.seen) options.seen({0, result.largest_error, 1});
   return result;
+}
+
+// Sites on a great circle, whose cells are lunes, and two sites or one.
+AreaPartition lune_partition(const std::vector<Point>& units, const std::vector<double>& targets,
+                             const AreaPartitionOptions& options, const Execution& execution) {
+  const std::vector<double> equal(units.size(), 1);
+  if (units.size() < 3) {
+    return without_steps(units, targets, equal, two_hemispheres, options, execution);
+  }
+  const LuneWeights found = lune_weights(units, targets);
+  if (!found.lengths.empty()) {
+    return without_steps(units, targets, found.lengths, nullptr, options, execution);
+  }
+  return without_steps(units, targets, equal, found.are_all_tried ? no_lunes : no_far_lunes,
+                       options, execution);
 }
 
 }  // namespace
@@ -291,13 +330,18 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
                              const AreaPartitionOptions& options, const Execution& execution) {
   const system::ArithmeticScope arithmetic;
   const std::vector<Point> units = unit_sites(sites);
-  if (units.empty()) throw InvalidInput("there are no sites", 0);
+  if (units.empty()) throw InvalidInput("there are no sites");
   require_distinct(units, execution);
-  const Newton newton(units, scaled_targets(targets, sites.size()), execution);
+  const std::vector<double> wanted = scaled_targets(targets, sites.size());
+  if (lie_on_great_circle(units)) return lune_partition(units, wanted, options, execution);
+  const Newton newton(units, wanted, execution);
   AreaPartition result;
   FineWeights weights(sites.size(), DoubleDouble{1, 0});
   std::optional<Weighted> now = newton.measure(weights, units);
-  if (!now) return without_walls(units, scaled_targets(targets, sites.size()), options, execution);
+  if (!now) {
+    const std::vector<double> equal(units.size(), 1);
+    return without_steps(units, wanted, equal, one_hemisphere, options, execution);
+  }
   const double least_area = 0.5 * std::min(now->smallest_area, newton.least_target());
   for (double length = 1;;) {
     if (options.seen) options.seen({result.steps, now->largest_error, length});
@@ -326,9 +370,12 @@ AreaPartition area_partition(std::span<const Point> sites, std::span<const doubl
       // Nothing shorter helps where rounding is all that is left.
       if (now->largest_error <= step.rounding) break;
     }
-    result.end =
-        now->largest_error <= step.rounding ? PartitionEnd::rounded : PartitionEnd::infeasible;
-    if (!next) break;
+    if (!next) {
+      const bool is_rounding = now->largest_error <= step.rounding;
+      result.end = is_rounding ? PartitionEnd::rounded : PartitionEnd::infeasible;
+      if (!is_rounding) result.reason = no_step;
+      break;
+    }
     weights = std::move(tried);
     now = std::move(next);
     ++result.steps;

@@ -20,6 +20,7 @@
 #include "rondel/diagram.h"
 #include "rondel/error.h"
 #include "rondel/scvt.h"
+#include "support/random.h"
 
 namespace rondel::mesh {
 namespace {
@@ -121,7 +122,7 @@ TEST(mesh_partition, infeasible_areas_end_as_such) {
   EXPECT_EQ(area_partition(octant).end, PartitionEnd::infeasible);
 }
 
-// Sites that do not surround the center: what their cells are wrong by is told.
+// Sites that do not surround the center: the result tells by how much their cells are wrong.
 TEST(mesh_partition, few_sites_have_the_cells_that_they_have) {
   const AreaPartition one = area_partition(std::vector<Point>{{0, 3, 0}});
   EXPECT_EQ(one.end, PartitionEnd::converged);
@@ -134,7 +135,8 @@ TEST(mesh_partition, few_sites_have_the_cells_that_they_have) {
   EXPECT_EQ(unequal.end, PartitionEnd::infeasible);
   EXPECT_NEAR(unequal.largest_error, 1, 1e-12);
   EXPECT_EQ(unequal.worst, 0U);
-  // In an octant; the middle one has hardly a cell.
+  EXPECT_NE(unequal.reason.find("hemispheres"), std::string::npos);
+  // These sites are in an octant; the middle one has hardly a cell.
   const AreaPartition octant =
       area_partition(std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
   EXPECT_EQ(octant.end, PartitionEnd::infeasible);
@@ -144,6 +146,85 @@ TEST(mesh_partition, few_sites_have_the_cells_that_they_have) {
   EXPECT_NEAR(octant.largest_error, most, 1e-14);
   EXPECT_GT(most, 0.1);
   EXPECT_LT(octant.worst, 4U);
+  EXPECT_NE(octant.reason.find("surround the center"), std::string::npos);
+}
+
+// Weighted sites on an ellipse around the center, and on the far arc of one that is beside the center: the areas of their lunes can
+// be had.
+std::vector<std::vector<Point>> convex_polygons(std::size_t n, std::uint64_t seed) {
+  test::Random random(seed);
+  std::vector<std::vector<Point>> polygons;
+  for (const bool is_around : {true, false}) {
+    std::vector<Point> polygon;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double t = (static_cast<double>(i) + 0.8 * random.unit()) / static_cast<double>(n);
+      // The tangents from the center touch the second ellipse at 2.62.
+      const double angle = (2 * t - 1) * (is_around ? std::numbers::pi : 2.5);
+      polygon.push_back({(is_around ? 0.2 : 1.5) + 1.3 * std::cos(angle), std::sin(angle), 0});
+    }
+    polygons.push_back(polygon);
+  }
+  return polygons;
+}
+
+TEST(mesh_partition, lunes_of_sites_on_a_great_circle_get_their_areas) {
+  for (const std::size_t n : {3U, 4U, 7U, 40U}) {
+    for (std::uint64_t seed = 1; seed < 6; ++seed) {
+      for (const std::vector<Point>& polygon : convex_polygons(n, seed)) {
+        // The sites are in the plane z = 0, or in one that their coordinates only meet to rounding.
+        for (const bool is_turned : {false, true}) {
+          std::vector<Point> poles = polygon;
+          if (is_turned) {
+            for (Point& p : poles)
+              p = p.x * Point{0.6, 0.64, 0.48} + p.y * Point{0.8, -0.48, -0.36};
+          }
+          const std::vector<double> targets = areas(delaunay(poles, {.model = Model::weighted}));
+          const AreaPartition made = area_partition(poles, targets);
+          EXPECT_TRUE(made.end == PartitionEnd::converged || made.end == PartitionEnd::rounded);
+          EXPECT_EQ(made.reason, "");
+          EXPECT_LT(made.largest_error, 1e-10) << n << ' ' << seed << ' ' << is_turned;
+          const std::vector<double> found = power_areas(made);
+          for (std::size_t i = 0; i < n; ++i) {
+            EXPECT_NEAR(found[i], targets[i], 1e-10 * targets[i]);
+            EXPECT_NEAR(norm(exact::to_vector(made.poles[i])), made.weights[i],
+                        1e-15 * made.weights[i]);
+          }
+          EXPECT_EQ(*std::min_element(made.weights.begin(), made.weights.end()), 1);
+        }
+      }
+    }
+  }
+}
+
+TEST(mesh_partition, equal_lunes_exist_or_not) {
+  const auto equator = [](std::initializer_list<double> degrees) {
+    std::vector<Point> sites;
+    for (const double lon : degrees) sites.push_back(unit_vector(LonLat{lon, 0}));
+    return sites;
+  };
+  for (const auto& sites : {equator({0, 100, 200}), equator({10, 20, 170, 185, 300}),
+                            equator({0, 1, 2, 3}), equator({0, 80, 180, 250})}) {
+    const AreaPartition made = area_partition(sites);
+    EXPECT_EQ(made.end, PartitionEnd::converged);
+    for (const double area : power_areas(made)) {
+      EXPECT_NEAR(area * static_cast<double>(sites.size()), whole, 1e-11);
+    }
+  }
+  // The first and the last wall of the inner sites are less than 180 degrees apart, but three lunes of a fifth are wider.
+  const AreaPartition five = area_partition(equator({0, 1, 2, 3, 4}));
+  EXPECT_EQ(five.end, PartitionEnd::infeasible);
+  EXPECT_NE(five.reason.find("half of a great circle"), std::string::npos);
+  EXPECT_GT(five.largest_error, 0.5);
+  ASSERT_EQ(five.areas.size(), 5U);
+  // 0 and 180 degrees are opposite: the wall between them passes through both poles of the sites.
+  const AreaPartition opposite = area_partition(equator({0, 50, 180}));
+  EXPECT_EQ(opposite.end, PartitionEnd::infeasible);
+  EXPECT_NE(opposite.reason.find("are lunes"), std::string::npos);
+  const std::vector<double> targets = {whole * 140 / 360, whole * 80 / 360, whole * 140 / 360};
+  const AreaPartition made = area_partition(equator({0, 50, 180}), targets);
+  EXPECT_EQ(made.end, PartitionEnd::converged);
+  const std::vector<double> found = power_areas(made);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(found[i], targets[i], 1e-12);
 }
 
 TEST(mesh_partition, no_better_weights_than_doubles_is_told) {

@@ -27,8 +27,8 @@ using DefectsOut = std::tuple<std::size_t, std::size_t, std::size_t, double>;
 // defects before and after the repair, sites that it moved, those of fixed places.
 using ScvtOut = std::tuple<ArrayOut<double>, ArrayOut<double>, std::string, int, double, double,
                            DefectsOut, DefectsOut, std::size_t, ArrayOut<std::int32_t>>;
-using AreasOut =
-    std::tuple<ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, std::string, int, double>;
+using AreasOut = std::tuple<ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, std::string, int,
+                            double, std::string>;
 
 ArrayOut<double> raster_places(std::size_t steps) {
   std::vector<Point> all;
@@ -94,7 +94,8 @@ AreasOut make_area_partition(const PointsIn& points, const NumbersIn& areas, dou
           to_array<double>(std::move(made.areas)),
           std::string(name_of(made.end)),
           made.steps,
-          made.largest_error};
+          made.largest_error,
+          std::move(made.reason)};
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ class Partition(NamedTuple):
 
     ``points`` are weighted sites, ``rondel.delaunay(points, model="weighted")``, whose power cells
     have the ``areas``; ``weights`` are their lengths. ``end`` is ``"converged"``, ``"rounded"``
-    where doubles bring them no nearer, ``"iterations"`` or ``"infeasible"``.
+    where doubles bring them no nearer, ``"iterations"`` or ``"infeasible"``; ``reason`` says why.
     """
 
     points: FloatArray
@@ -64,6 +64,7 @@ class Partition(NamedTuple):
     end: str
     steps: int
     largest_error: float
+    reason: str = ""
 
 
 def _whole(value: float, name: str) -> int:
@@ -204,7 +205,7 @@ def partition(
     if areas is not None:
         targets = as_floats(areas, "areas")
         targets = np.ascontiguousarray(targets * (4 * np.pi / targets.sum()))
-    poles, weights, found, end, steps, error = _core.make_area_partition(
+    poles, weights, found, *ending = _core.make_area_partition(
         sites, targets, float(tolerance), as_threads(threads)
     )
-    return Partition(frozen(poles), frozen(weights), frozen(found), end, steps, error)
+    return Partition(frozen(poles), frozen(weights), frozen(found), *ending)
