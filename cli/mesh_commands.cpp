@@ -42,7 +42,10 @@ void add_tolerances(CLI::App& parser, mesh::ScvtOptions& options) {
 void add_places_that_stay(CLI::App& parser, ScvtCommandOptions& options) {
   parser
       .add_option("--fixed", options.fixed,
-                  "Sites of FILE that are among the sites of the mesh and never move")
+                  "Points of FILE, .geojson or a table, are sites of the mesh and never move;\n"
+                  "so are places on lines and outlines of FILE, the spacing apart;\n"
+                  "may be repeated")
+      ->allow_extra_args(false)
       ->type_name("FILE");
   parser
       .add_option("--along", options.along,
@@ -53,8 +56,8 @@ void add_places_that_stay(CLI::App& parser, ScvtCommandOptions& options) {
   add_word<PolygonEdges>(
       parser, "--edges", options.edges,
       {{"lonlat", PolygonEdges::lonlat}, {"geodesic", PolygonEdges::geodesic}},
-      "What joins positions of --refine and --along: lonlat (default; straight in\n"
-      "longitude and latitude, RFC 7946) or geodesic (great circles)");
+      "What joins positions of --refine, --fixed and --along: lonlat (default;\n"
+      "straight in longitude and latitude, RFC 7946) or geodesic (great circles)");
 }
 
 Command add_scvt_command(CLI::App& group) {
@@ -110,6 +113,7 @@ Command add_scvt_command(CLI::App& group) {
       "  rondel mesh scvt -n 40962 -o x1.40962.nc\n"
       "  rondel mesh scvt --spacing 240 --refine coast.geojson:60 -o coast.nc --report coast.json\n"
       "  rondel mesh scvt -n 40962 --along land.geojson -o coast.nc\n"
+      "  rondel mesh scvt --spacing 240 --fixed sections.geojson -o sections.nc\n"
       "  rondel mesh scvt --spacing spacing.nc:h -o mesh.nc --format ugrid");
   return {parser, [options] { return run_scvt(*options); }};
 }

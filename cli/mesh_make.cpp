@@ -88,7 +88,7 @@ void show(const mesh::PartitionStep& step, const mesh::AreaPartitionOptions& opt
   execution.progress(text.data(), static_cast<double>(step.step) / options.max_steps);
 }
 
-// What is asked for.
+// The options of `rondel mesh scvt`, with what their files hold.
 struct ScvtTask {
   mesh::ScvtOptions scvt;
   SiteTable start;  // no sites: none are given
@@ -101,7 +101,12 @@ ScvtTask scvt_task(const ScvtCommandOptions& options, Job& job, const Execution&
   task.scvt.size = size_of(options, execution);
   task.scvt.repair = !options.no_repair;
   if (!options.start.empty()) task.start = job.read({options.start, {}}, {});
-  task.fixed = fixed_sites(options, task.scvt, task.start.sites.size(), job, execution);
+  task.fixed = fixed_sites(options, task.scvt, task.start.sites.size(), execution);
+  if (!options.start.empty() && task.fixed.sites.size() > task.start.sites.size()) {
+    throw FileError(task.start.name + ": it has " +
+                    count(task.start.sites.size(), "site", "sites") + ", fewer than the " +
+                    count(task.fixed.sites.size(), "place", "places") + " of --fixed and --along");
+  }
   return task;
 }
 

@@ -27,7 +27,7 @@ struct ScvtCommandOptions {
   std::optional<double> slope;      ///< --gradient
   std::string start;                ///< --start: sites
   std::string density;              ///< --density: FILE:NAME
-  std::string fixed;                ///< --fixed: sites
+  std::vector<std::string> fixed;   ///< --fixed: sites, lines
   std::vector<std::string> along;   ///< --along: lines
   PolygonEdges edges = PolygonEdges::lonlat;
   bool no_repair = false;
@@ -60,15 +60,15 @@ std::vector<Command> add_mesh_making_commands(CLI::App& mesh);
 /// The places of --fixed and --along.
 struct FixedSites {
   std::vector<Point> sites;
-  std::size_t num_left_out = 0;  ///< beside lines
+  std::size_t num_left_out = 0;  ///< on lines and beside them
 };
 
 /// The spacings of --spacing, --refine and --density; none: the same everywhere.
 std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
                                           const Execution& execution);
-/// Rows have the spacing of a mesh of `scvt`, which starts with so many sites; 0: with none.
+/// Sites on lines, and rows beside them, have the spacing of a mesh of `scvt`, which starts with so many sites; 0: with none.
 FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOptions& scvt,
-                       std::size_t num_start, Job& job, const Execution& execution);
+                       std::size_t num_start, const Execution& execution);
 
 ExitStatus run_scvt(const ScvtCommandOptions& options);
 ExitStatus run_icosahedral(const IcosahedralCommandOptions& options);

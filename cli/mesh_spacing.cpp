@@ -14,6 +14,7 @@
 
 #include "mesh.h"
 #include "mesh_make.h"
+#include "rondel/delaunay.h"
 #include "rondel/mesh_lines.h"
 #include "rondel/mesh_size_files.h"
 #include "validate.h"
@@ -26,7 +27,7 @@ constexpr double usual_slope = 0.05;
 // Half of the circumference, the farthest that two places are from each other.
 constexpr double most_kilometers = std::numbers::pi * kilometers_per_radian;
 
-// Nothing if the text is no number but the name of a file.
+// The number of kilometers; nothing if the text is no number but the name of a file.
 std::optional<double> as_kilometers(const std::string& option, const std::string& text) {
   char* end = nullptr;
   const double kilometers = std::strtod(text.c_str(), &end);
@@ -35,7 +36,7 @@ std::optional<double> as_kilometers(const std::string& option, const std::string
   throw UsageError(option + ": '" + text + "' is not a positive number of kilometers below 20015");
 }
 
-// Without -n the spacings say how many cells there are.
+// Refuses spacings that mean more cells than a mesh can have; without -n they alone say how many there are.
 void require_possible_count(const std::string& what, const mesh::SizeFunction& size) {
   const double cells = size.count();
   if (cells < static_cast<double>(max_sites) + 1) return;
@@ -68,6 +69,18 @@ mesh::SizeFunction size_along(const mesh::ScvtOptions& scvt, std::size_t num_sta
   }
   if (n == 0) return *scvt.size;
   return scvt.size->scaled(std::sqrt(scvt.size->count() / static_cast<double>(n)));
+}
+
+// Points that --fixed names may be in one place; places on lines and beside them are apart.
+void require_apart(const std::vector<Point>& sites, const std::string& file,
+                   const Execution& execution) {
+  if (sites.size() < 2) return;
+  const Triangulation triangulation =
+      delaunay(Sites::view(sites), {}, Execution{.threads = execution.threads});
+  if (triangulation.duplicates().empty()) return;
+  const auto [second, first] = triangulation.duplicates().front();
+  throw FileError(file + ": places " + std::to_string(first) + " and " + std::to_string(second) +
+                  " are one place, which cannot be two sites");
 }
 
 }  // namespace
@@ -112,20 +125,23 @@ std::optional<mesh::SizeFunction> size_of(const ScvtCommandOptions& options,
 }
 
 FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOptions& scvt,
-                       std::size_t num_start, Job& job, const Execution& execution) {
+                       std::size_t num_start, const Execution& execution) {
   FixedSites fixed;
-  if (!options.fixed.empty()) fixed.sites = job.read({options.fixed, {}}, {}).sites;
-  if (options.along.empty()) return fixed;
+  if (options.fixed.empty() && options.along.empty()) return fixed;
   const mesh::SizeFunction size = size_along(scvt, num_start);
-  std::vector<std::vector<Point>> lines;
-  for (const std::string& file : options.along) {
-    std::vector<std::vector<Point>> more =
-        mesh::read_lines({file, {}}, {.edges = options.edges}, execution);
-    std::ranges::move(more, std::back_inserter(lines));
-  }
-  const mesh::LineSites rows = mesh::sites_along(lines, size, execution);
-  fixed.sites.insert(fixed.sites.end(), rows.sites.begin(), rows.sites.end());
-  fixed.num_left_out = rows.num_left_out;
+  const auto add = [&](const std::vector<std::string>& files, auto read, auto sites_of) {
+    std::vector<std::vector<Point>> lines;
+    for (const std::string& file : files) {
+      std::vector<std::vector<Point>> more = read({file, {}}, {.edges = options.edges}, execution);
+      std::ranges::move(more, std::back_inserter(lines));
+    }
+    const mesh::LineSites found = sites_of(lines, size, execution);
+    fixed.sites.insert(fixed.sites.end(), found.sites.begin(), found.sites.end());
+    fixed.num_left_out += found.num_left_out;
+  };
+  add(options.fixed, mesh::read_places, mesh::sites_on);
+  if (!options.fixed.empty()) require_apart(fixed.sites, options.fixed.back(), execution);
+  add(options.along, mesh::read_lines, mesh::sites_along);
   return fixed;
 }
 

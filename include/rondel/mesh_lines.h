@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Sites along lines, so that edges of cells follow them: coasts, borders of regions, rivers (target rondel::mesh).
+/// Sites along lines, so that edges of cells follow them (coasts, borders of regions, rivers), and on lines (target rondel::mesh).
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace rondel::mesh {
 
-/// Places on both sides of lines, for ScvtOptions::fixed.
+/// Places beside lines or on them, for ScvtOptions::fixed.
 struct LineSites {
   std::vector<Point> sites;      ///< unit vectors
   std::size_t num_left_out = 0;  ///< places too near to another line, or another part of their own
@@ -37,6 +37,17 @@ struct LineSites {
 RONDEL_API LineSites sites_along(std::span<const std::vector<Point>> lines,
                                  const SizeFunction& size, const Execution& execution = {});
 
+/// Sites on lines, a spacing apart: cells whose middles are on a section, a border or the track of a ship.
+///
+/// 1. A line is given as to sites_along(). Its first point is a site, and if it is not closed its last one; the steps between
+///    are stretched or shortened to fit. What a line does within a spacing is passed over.
+/// 2. A line of one point, or of points in one place, is a site as it is, wherever others are.
+/// 3. Places of lines nearer than 0.7 spacings to such a point, to a place of a longer line, or of the same line before, are
+///    left out.
+/// \throws InvalidInput as sites_along() does.
+RONDEL_API LineSites sites_on(std::span<const std::vector<Point>> lines, const SizeFunction& size,
+                              const Execution& execution = {});
+
 /// The lines of a GeoJSON file, and the outlines of its polygons, which are closed, as read_features() reads them: in arcs
 /// that are as near to what joins two positions as the options say.
 ///
@@ -47,5 +58,13 @@ RONDEL_API LineSites sites_along(std::span<const std::vector<Point>> lines,
 RONDEL_API std::vector<std::vector<Point>> read_lines(const FileName& file,
                                                       const PolygonOptions& options = {},
                                                       const Execution& execution = {});
+
+/// The lines of read_lines() and the points of the file, each of which is a line of one point. Files of other formats than GeoJSON
+/// have the points of their sites (read_sites(), read_netcdf_sites()).
+/// \throws FileError with one line that names the file, also if nothing is in it.
+/// \throws InvalidInput if the tolerance is not positive.
+RONDEL_API std::vector<std::vector<Point>> read_places(const FileName& file,
+                                                       const PolygonOptions& options = {},
+                                                       const Execution& execution = {});
 
 }  // namespace rondel::mesh

@@ -16,8 +16,7 @@
 
 namespace rondel::mesh {
 
-/// The points to refine() at, closer than `distance` radians along lines: those of a GeoJSON file, along its
-/// lines and the outlines of its polygons, as read_lines() reads them; of other formats the sites (read_sites()).
+/// The points to refine() at, closer than `distance` radians along lines: those of read_places().
 /// \throws InvalidInput if the distance or the tolerance of the options is not positive.
 RONDEL_API std::vector<Point> read_refinement(const FileName& file, double distance,
                                               const PolygonOptions& options = {},

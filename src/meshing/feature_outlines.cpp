@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Files cut polygons at longitude 180: what crosses it is two polygons, one with a side up the antimeridian, one with a
-// side down it. Nobody says that the two sides have the same corners:
+// Files cut polygons at longitude 180: one that crosses it becomes two, one with a side up the antimeridian, the other with a
+// side down it. The two sides need not have the same corners:
 //
 //            |   b           the antimeridian is the half of a great circle where y = 0 and x <= 0; a place on it has
-//     a      |  ^ |          the number z / (1 - x), the tangent of half of its latitude. What sides go up (of polygons
-//     |  up  v  | v down     to the west) and what sides go down (to the east) are intervals of that number; where both
-//     v      |               are, is a cut.
+//     a      |  ^ |          the number z / (1 - x), the tangent of half of its latitude. The sides that go up (of polygons
+//     |  up  v  | v down     to the west) and those that go down (to the east) are intervals of that number; the cuts are
+//     v      |               the common parts of both.
 
 #include "meshing/feature_outlines.h"
 
@@ -16,7 +16,10 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
+
+#include "io/ending.h"
 
 namespace rondel::meshing {
 namespace {
@@ -67,7 +70,7 @@ MeridianIntervals common(const MeridianIntervals& a, const MeridianIntervals& b)
 
 class AntimeridianCut {
  public:
-  // Closed: the last point is the first.
+  // The last point of each closed line is the first.
   explicit AntimeridianCut(const std::vector<OutlinePoints>& closed_lines) {
     MeridianIntervals up;
     MeridianIntervals down;
@@ -83,7 +86,7 @@ class AntimeridianCut {
     cuts_ = common(united(std::move(up)), united(std::move(down)));
   }
 
-  // Appends what is left of a closed line: itself, or parts of it.
+  // Appends the part of a closed line that is no cut: the line itself to `whole`, or pieces of it to `parts`.
   void append_rest(const OutlinePoints& line, std::vector<OutlinePoints>& whole,
                    std::vector<OutlinePoints>& parts) const {
     std::vector<OutlinePoints> found = {{}};
@@ -92,7 +95,7 @@ class AntimeridianCut {
       whole.push_back(line);
       return;
     }
-    // The first part began where the line does, which is nowhere in particular.
+    // The line begins anywhere, so its first and last parts are one.
     OutlinePoints& last = found.back();
     if (!last.empty() && !found.front().empty()) {
       last.insert(last.end(), found.front().begin() + 1, found.front().end());
@@ -140,7 +143,7 @@ class AntimeridianCut {
   MeridianIntervals cuts_;
 };
 
-// Parts that end where others begin become one, closed where they come back.
+// Joins parts that end where others begin into one line, which is closed if it comes back.
 class PartJoin {
  public:
   explicit PartJoin(std::vector<OutlinePoints> parts) : parts_(std::move(parts)) {
@@ -222,6 +225,11 @@ std::vector<std::vector<Point>> outlines_of(const FeatureTable& features) {
   PartJoin join(std::move(parts));
   join.append_all(lines);
   return lines;
+}
+
+bool is_geojson(const FileName& file) {
+  const std::string ending = io::ending(file);
+  return ending == ".geojson" || ending == ".json";
 }
 
 }  // namespace rondel::meshing

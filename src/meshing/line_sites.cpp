@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites on both sides of lines. A pair of dividers, opened by half a spacing, walks along the line; where it
-// stands there is a site, in turn to the left and to the right:
+// Sites on lines, and on both sides of them. A pair of dividers walks along the line: opened by a spacing, it stands on sites;
+// opened by half a spacing, there is a site where it stands, in turn to the left and to the right:
 //
 //     L       L       L             the rows of a lattice of hexagons, the line in the middle; edges of cells
 //   .   .   .   .   .   .   line    go to and fro between the rows, and their corners are a quarter of the side
@@ -20,6 +20,7 @@
 #include "meshing/fixed_sites.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
+#include "rondel/mesh_files.h"
 #include "rondel/mesh_lines.h"
 #include "rondel/query.h"
 #include "system/job.h"
@@ -29,10 +30,12 @@ namespace {
 
 using StationVector = exact::Vector3<double>;
 
-// Of the spacing: between two stations; from the line to a row, half of the height of a triangle.
+// Distances over the spacing: between two stations of sites on a line, of rows beside it; from the line to a row, half of the
+// height of a triangle.
+constexpr double whole_step = 1;
 constexpr double half_step = 0.5;
 constexpr double row_offset = 0.43301270189221935;  // sqrt(3) / 4
-// What is too near: to another site, and to a station.
+// Nearer than this, over the spacing, a site is too near to another site, and to a station.
 constexpr double least_site_distance = 0.7;
 constexpr double least_station_distance = 0.3;
 constexpr std::size_t fewest_stations = 6;
@@ -48,8 +51,8 @@ class LineWalk {
  public:
   LineWalk(const std::vector<Point>& line, const SizeFunction& size) : line_(line), size_(size) {}
 
-  // From the first point on, steps of `stretch` half spacings.
-  [[nodiscard]] Stations walk(double stretch, std::size_t most) const {
+  // Walks from the first point on, in steps of so many spacings.
+  [[nodiscard]] Stations walk(double spacings, std::size_t most) const {
     Stations found;
     Point at = line_.front();
     std::size_t segment = 0;
@@ -58,14 +61,14 @@ class LineWalk {
       const double spacing = size_.spacing(at);
       found.places.push_back(at);
       found.spacings.push_back(spacing);
-      const double step = stretch * half_step * spacing;
+      const double step = spacings * spacing;
       if (!advance(at, segment, along, step)) {
         found.steps = static_cast<double>(found.places.size() - 1) +
                       std::min(1.0, distance(at, line_.back()) / step);
         return found;
       }
       if (found.places.size() >= most) {
-        throw InvalidInput("there are too many sites along a line", 0);
+        throw InvalidInput("there are too many sites along a line");
       }
     }
   }
@@ -108,15 +111,18 @@ bool is_closed(const std::vector<Point>& line) {
   return line.size() > 3 && norm(line.front() - line.back()) < same_place;
 }
 
-// An even number of steps that come back to the first.
-Stations closed_stations(const LineWalk& line, std::size_t most) {
+// Steps of about `step` spacings whose number is a multiple of `multiple`, and which end where the line does, or nearly so;
+// none if that are fewer than `fewest`. The station at the end is left out.
+Stations fitted_stations(const LineWalk& line, double step, std::size_t multiple,
+                         std::size_t fewest, std::size_t most) {
+  const auto unit = static_cast<double>(multiple);
   double stretch = 1;
   Stations best;
   double least_gap = 2;
   for (int fit = 0; fit < most_fits; ++fit) {
-    Stations found = line.walk(stretch, most);
-    const double wanted = 2 * std::floor(0.5 * found.steps + 0.5);
-    if (wanted < static_cast<double>(fewest_stations)) return {};
+    Stations found = line.walk(stretch * step, most);
+    const double wanted = unit * std::floor(found.steps / unit + 0.5);
+    if (wanted < static_cast<double>(fewest)) return {};
     const double gap = std::abs(found.steps - wanted);
     stretch *= found.steps / wanted;
     if (gap >= least_gap) continue;
@@ -125,7 +131,7 @@ Stations closed_stations(const LineWalk& line, std::size_t most) {
     found.spacings.resize(found.places.size());
     best = std::move(found);
   }
-  if (best.places.size() % 2 == 1) {
+  while (best.places.size() % multiple != 0) {
     best.places.pop_back();
     best.spacings.pop_back();
   }
@@ -133,9 +139,10 @@ Stations closed_stations(const LineWalk& line, std::size_t most) {
 }
 
 struct LineCandidates {
-  std::vector<Point> stations;
+  std::vector<Point> stations;  // from which rows keep away; none for sites on lines
   std::vector<Point> sites;
   std::vector<double> spacings;
+  std::size_t num_certain = 0;  // the first ones, which are taken wherever they are
 };
 
 void add_rows(const Stations& stations, bool closed, LineCandidates& candidates) {
@@ -155,7 +162,7 @@ void add_rows(const Stations& stations, bool closed, LineCandidates& candidates)
   }
 }
 
-// Those of the candidates that are far enough from what comes before them, and from stations.
+// The candidates that are far enough from those taken before them, and from stations.
 LineSites sites_apart(const LineCandidates& candidates, const Execution& execution) {
   LineSites result;
   const std::size_t n = candidates.sites.size();
@@ -163,19 +170,22 @@ LineSites sites_apart(const LineCandidates& candidates, const Execution& executi
   const Execution quietly{.threads = execution.threads};
   const Triangulation of_sites = delaunay(Sites::view(candidates.sites), {}, quietly);
   const Locator sites(of_sites);
-  const Triangulation of_stations = delaunay(Sites::view(candidates.stations), {}, quietly);
-  const Locator stations(of_stations);
   std::vector<char> is_left_out(n, 0);
   for (const Duplicate& duplicate : of_sites.duplicates()) is_left_out[duplicate.site] = 1;
-  const std::vector<Index> nearest = stations.nearest(candidates.sites, quietly);
+  if (!candidates.stations.empty()) {
+    const Triangulation of_stations = delaunay(Sites::view(candidates.stations), {}, quietly);
+    const std::vector<Index> nearest = Locator(of_stations).nearest(candidates.sites, quietly);
+    for (std::size_t i = 0; i < n; ++i) {
+      const double away = norm(candidates.sites[i] - candidates.stations[nearest[i]]);
+      if (away < least_station_distance * candidates.spacings[i]) is_left_out[i] = 1;
+    }
+  }
+  std::fill_n(is_left_out.begin(), candidates.num_certain, 0);
   for (std::size_t i = 0; i < n; ++i) {
     const Point& site = candidates.sites[i];
-    const double spacing = candidates.spacings[i];
-    if (norm(site - candidates.stations[nearest[i]]) < least_station_distance * spacing) {
-      is_left_out[i] = 1;
-    }
-    if (is_left_out[i] == 0) {
-      const std::vector<Index> near = sites.within(site, least_site_distance * spacing);
+    if (i >= candidates.num_certain && is_left_out[i] == 0) {
+      const std::vector<Index> near =
+          sites.within(site, least_site_distance * candidates.spacings[i]);
       const bool is_taken = std::ranges::any_of(
           near, [&](Index other) { return other < i && is_left_out[other] == 0; });
       if (is_taken) is_left_out[i] = 1;
@@ -214,32 +224,76 @@ std::vector<Point> line_of_units(const std::vector<Point>& line, std::size_t ind
   return units;
 }
 
-}  // namespace
+struct WalkedLine {
+  Stations stations;
+  bool closed;
+};
 
-LineSites sites_along(std::span<const std::vector<Point>> lines, const SizeFunction& size,
-                      const Execution& execution) {
-  const system::Call call(execution);
-  struct OneLine {
-    Stations stations;
-    bool closed;
-  };
-  std::vector<OneLine> walked;
+// The dividers walk along each line of two points or more, with steps that `stations_of` fits; longest lines come first.
+template <class StationsOf>
+std::vector<WalkedLine> walked_lines(std::span<const std::vector<Point>> lines,
+                                     const SizeFunction& size, const StationsOf& stations_of) {
+  std::vector<WalkedLine> walked;
   std::size_t left = max_sites;
   for (std::size_t i = 0; i < lines.size(); ++i) {
     require_line(lines[i], i);
     const std::vector<Point> line = line_of_units(lines[i], i);
     if (line.size() < 2) continue;
     const bool closed = is_closed(line);
-    const LineWalk walk(line, size);
-    Stations stations = closed ? closed_stations(walk, left) : walk.walk(1, left);
-    if (stations.places.size() < 2) continue;
-    left -= stations.places.size();
-    walked.push_back({std::move(stations), closed});
+    walked.push_back({stations_of(LineWalk(line, size), line, closed, left), closed});
+    left -= std::min(left, walked.back().stations.places.size());
   }
   std::ranges::stable_sort(walked, std::greater(),
-                           [](const OneLine& one) { return one.stations.places.size(); });
+                           [](const WalkedLine& one) { return one.stations.places.size(); });
+  return walked;
+}
+
+}  // namespace
+
+LineSites sites_along(std::span<const std::vector<Point>> lines, const SizeFunction& size,
+                      const Execution& execution) {
+  const system::Call call(execution);
+  const auto stations_of = [](const LineWalk& walk, const std::vector<Point>& /*line*/, bool closed,
+                              std::size_t most) {
+    return closed ? fitted_stations(walk, half_step, 2, fewest_stations, most)
+                  : walk.walk(half_step, most);
+  };
   LineCandidates candidates;
-  for (const OneLine& one : walked) add_rows(one.stations, one.closed, candidates);
+  for (const WalkedLine& one : walked_lines(lines, size, stations_of)) {
+    if (one.stations.places.size() > 1) add_rows(one.stations, one.closed, candidates);
+  }
+  return sites_apart(candidates, execution);
+}
+
+LineSites sites_on(std::span<const std::vector<Point>> lines, const SizeFunction& size,
+                   const Execution& execution) {
+  const system::Call call(execution);
+  const auto stations_of = [&size](const LineWalk& walk, const std::vector<Point>& line,
+                                   bool closed, std::size_t most) {
+    Stations stations = fitted_stations(walk, whole_step, 1, 1, most);
+    const auto add = [&](const Point& place) {
+      stations.places.push_back(place);
+      stations.spacings.push_back(size.spacing(place));
+    };
+    if (stations.places.empty()) add(line.front());
+    if (!closed) add(line.back());
+    return stations;
+  };
+  LineCandidates candidates;
+  const std::vector<WalkedLine> walked = walked_lines(lines, size, stations_of);
+  for (const std::vector<Point>& line : lines) {
+    if (line.empty() || !std::ranges::all_of(line, [&](const Point& p) { return p == line[0]; })) {
+      continue;
+    }
+    candidates.sites.push_back(line.front());
+    candidates.spacings.push_back(size.spacing(line.front()));
+  }
+  candidates.num_certain = candidates.sites.size();
+  for (const auto& [stations, closed] : walked) {
+    candidates.sites.insert(candidates.sites.end(), stations.places.begin(), stations.places.end());
+    candidates.spacings.insert(candidates.spacings.end(), stations.spacings.begin(),
+                               stations.spacings.end());
+  }
   return sites_apart(candidates, execution);
 }
 
@@ -249,6 +303,20 @@ std::vector<std::vector<Point>> read_lines(const FileName& file, const PolygonOp
       meshing::outlines_of(read_features(file, options, execution));
   std::erase_if(lines, [](const std::vector<Point>& line) { return line.size() < 2; });
   if (lines.empty()) throw FileError(file.path + ": it has no lines");
+  return lines;
+}
+
+std::vector<std::vector<Point>> read_places(const FileName& file, const PolygonOptions& options,
+                                            const Execution& execution) {
+  std::vector<std::vector<Point>> lines;
+  if (meshing::is_geojson(file)) {
+    lines = meshing::outlines_of(read_features(file, options, execution));
+  } else {
+    const SiteTable table = is_netcdf_file(file) ? read_netcdf_sites(file, {}, false).table
+                                                 : read_sites(file, {}, execution);
+    for (const Point& site : table.sites) lines.push_back({site});
+  }
+  if (lines.empty()) throw FileError(file.path + ": it has no points and no lines");
   return lines;
 }
 

@@ -10,25 +10,16 @@
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
-#include "meshing/feature_outlines.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/fields.h"
 #include "rondel/interpolate.h"
 #include "rondel/mesh_files.h"
+#include "rondel/mesh_lines.h"
 #include "rondel/mesh_size_files.h"
 
 namespace rondel::mesh {
 namespace {
-
-bool ends_with(const std::string& text, const std::string& ending) {
-  return text.size() >= ending.size() && text.substr(text.size() - ending.size()) == ending;
-}
-
-bool is_geojson(const FileName& file) {
-  if (!file.format.empty()) return file.format == "geojson" || file.format == "json";
-  return ends_with(file.path, ".geojson") || ends_with(file.path, ".json");
-}
 
 struct Spacings {
   std::vector<Point> places;
@@ -40,7 +31,7 @@ struct Spacings {
 constexpr double least_density = 1e-100;
 constexpr double largest_density = 1e100;
 
-// Where the cells of a mesh are: the centers that its file has, else the directions of the sums of their corners.
+// The places of the cells of a mesh: the centers that its file has, otherwise the directions of the sums of their corners.
 std::vector<Point> places_of_cells(const CellTable& table) {
   if (!table.centers.empty()) return unit_vectors(table.centers);
   const CellRings& cells = table.cells;
@@ -56,7 +47,7 @@ std::vector<Point> places_of_cells(const CellTable& table) {
   return places;
 }
 
-// What a variable of netCDF may be a field on: its last dimension, or its last two.
+// A variable of netCDF, which may be a field on its last dimension, or on its last two.
 struct NamedField {
   std::string name;
   std::vector<std::uint64_t> num_points;
@@ -178,18 +169,11 @@ SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Exec
 
 std::vector<Point> read_refinement(const FileName& file, double distance,
                                    const PolygonOptions& options, const Execution& execution) {
-  if (!is_geojson(file)) {
-    std::vector<Point> points = read_sites(file, {}, execution).sites;
-    if (points.empty()) throw FileError(file.path + ": it has no points");
-    return points;
-  }
   std::vector<Point> points;
-  for (const std::vector<Point>& line :
-       meshing::outlines_of(read_features(file, options, execution))) {
+  for (const std::vector<Point>& line : read_places(file, options, execution)) {
     const std::vector<Point> dense = densified(line, distance);
     points.insert(points.end(), dense.begin(), dense.end());
   }
-  if (points.empty()) throw FileError(file.path + ": it has no points");
   return points;
 }
 

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""The files that examples of help pages and documents name, made where an example needs them."""
+"""Makes the files that examples of help pages and documents name, where an example needs them."""
 
 import json
 import math
@@ -129,6 +129,7 @@ def makers(root):
         "cities.csv": table("name,lon,lat,population",
                             ["Lagos,3.4,6.5,15", "Lima,-77,-12,11", "Delhi,77.2,28.6,33", "Paris,2.3,48.9,11"]),
         "rivers.geojson": features(("LineString", [[0, 0], [5, 3], [9, 9]]), ("LineString", [[20, -5], [24, 2]])),
+        "sections.geojson": features(("LineString", [[-60, 50], [-10, 40]]), ("LineString", [[-70, 10], [-20, 10]])),
         "islands.geojson": features(box(-10, -10, 5, 8), box(100, 40, 130, 60), box(-80, -60, -50, -30)),
         "region.geojson": features(box(-30, -20, 40, 50)),
         "land.geojson": copy(root, "data/land-110m.geojson"),

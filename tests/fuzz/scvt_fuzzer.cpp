@@ -46,8 +46,11 @@ void test_fixed(const std::vector<Point>& sites) {
         mesh::sites_along(lines, mesh::SizeFunction::constant(0.2, 1), {.threads = 1});
     (void)mesh::scvt({.count = rows.sites.size() + 60, .max_iterations = 1, .fixed = rows.sites},
                      {.threads = 1});
+    const mesh::LineSites on =
+        mesh::sites_on(lines, mesh::SizeFunction::constant(0.2, 1), {.threads = 1});
+    require(on.sites.empty() == (sites.empty() && some.empty()), "a site on each line");
   } catch (const InvalidInput& error) {
-    require(error.index() < 2, "the index of a line");
+    require(error.index() < 2 || error.index() == InvalidInput::no_index, "the index of a line");
   }
 }
 
@@ -65,7 +68,8 @@ void test_sites(ByteSource& source) {
     require(!mesh::name_of(made.end).empty(), "an end");
     require(mesh::energy_over_hexagons(made.last.energy, sites.size()) > 0, "an energy");
   } catch (const InvalidInput& error) {
-    require(error.index() < std::max<std::size_t>(sites.size(), 1), "an index in range");
+    require(error.index() < sites.size() || error.index() == InvalidInput::no_index,
+            "an index in range");
   }
   test_fixed(sites);
   try {
@@ -146,6 +150,10 @@ void test_files(std::string_view bytes) {
     }
     try {
       (void)mesh::read_lines(path);
+    } catch (const FileError&) {
+    }
+    try {
+      require(!mesh::read_places(path).empty(), "a place");
     } catch (const FileError&) {
     }
   }

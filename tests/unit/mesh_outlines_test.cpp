@@ -52,7 +52,7 @@ FileLines read(const std::vector<std::string>& features,
   return read_lines({path, {}}, {.edges = edges});
 }
 
-// The angle to the nearest place on a line: of each arc the ends, and the foot where it lies between them.
+// The angle to the nearest place on a line: an end of an arc, or the foot of the perpendicular where it lies between them.
 double distance_to_lines(const FileLines& lines, const LonLat& place) {
   const Point p = unit_vector(place);
   double least = 4;
@@ -120,7 +120,7 @@ TEST(mesh_outlines, two_parts_of_an_island_have_one_coast) {
   }
 }
 
-// What only one of them has there is a coast.
+// The part of the antimeridian that only one of them has is a coast.
 TEST(mesh_outlines, the_rest_of_a_side_is_a_coast) {
   const Positions longer = {{170, -30}, {180, -30}, {180, 20}, {170, 20}, {170, -30}};
   const FileLines lines = read({polygon(longer), polygon(eastern)});
@@ -172,7 +172,12 @@ TEST(mesh_outlines, points_and_islands_elsewhere_stay) {
   EXPECT_TRUE(std::ranges::any_of(points, [](const Point& p) {
     return p == unit_vector(LonLat{50, -40});
   }));
+  const FileLines places = read_places({path, {}});
+  EXPECT_EQ(places.size(), 4U);
+  EXPECT_EQ(std::ranges::count(places, std::vector<Point>{unit_vector(LonLat{50, -40})}), 1);
+  for (const std::vector<Point>& one : lines) EXPECT_EQ(std::ranges::count(places, one), 1);
   EXPECT_THROW((void)read_lines({path, {}}, {.tolerance_deg = 0}), InvalidInput);
+  EXPECT_THROW((void)read_places({path, {}}, {.tolerance_deg = 0}), InvalidInput);
 }
 
 }  // namespace

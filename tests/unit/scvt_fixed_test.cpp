@@ -302,6 +302,81 @@ TEST(mesh_lines, of_lines_that_cross_the_longest_go_first) {
   EXPECT_EQ(found.sites, taken);
 }
 
+// A straight line of 1.2 radians has twelve steps of a tenth, and chords that long.
+TEST(mesh_lines, sites_on_an_open_line_begin_and_end_with_it) {
+  const SizeFunction size = SizeFunction::constant(0.1, 64);
+  const Point begin = {1, 0, 0};
+  const Point end = {std::cos(1.2), std::sin(1.2), 0};
+  const LineSites found = sites_on(Lines{{begin, {std::cos(0.3), std::sin(0.3), 0}, end}}, size);
+  EXPECT_EQ(found.num_left_out, 0U);
+  ASSERT_EQ(found.sites.size(), 13U);
+  EXPECT_EQ(found.sites.front(), begin);
+  EXPECT_LT(away(found.sites.back(), end), 1e-15);
+  for (std::size_t i = 1; i < found.sites.size(); ++i) {
+    EXPECT_EQ(found.sites[i].z, 0);
+    EXPECT_NEAR(away(found.sites[i], found.sites[i - 1]), 2 * std::sin(0.05), 2e-3);
+  }
+}
+
+// The places lie on the line, and each has two neighbors a spacing away, also across the line's own first point.
+TEST(mesh_lines, sites_on_closed_lines_have_their_spacing) {
+  for (const Curve& curve : {circle(), wave()}) {
+    const SizeFunction size = SizeFunction::from_function(
+        [](std::span<const Point> places, std::span<double> out) {
+          for (std::size_t i = 0; i < places.size(); ++i) out[i] = 0.05 + 0.02 * places[i].x;
+        },
+        64);
+    const LineSites found = sites_on(Lines{curve.line}, size);
+    EXPECT_EQ(found.num_left_out, 0U);
+    EXPECT_LT(away(found.sites.front(), curve.line.front()), 1e-15);
+    std::vector<std::array<Point, 2>> pieces;
+    for (std::size_t k = 0; k + 1 < curve.line.size(); ++k) {
+      pieces.push_back({curve.line[k], curve.line[k + 1]});
+    }
+    const std::size_t n = found.sites.size();
+    EXPECT_GT(n, 60U);
+    for (std::size_t i = 0; i < n; ++i) {
+      EXPECT_LT(distance_to(found.sites[i], pieces), 1e-6);
+      const double step = away(found.sites[i], found.sites[(i + 1) % n]);
+      EXPECT_NEAR(step / size.spacing(found.sites[i]), 1, 0.02) << i;
+    }
+  }
+}
+
+TEST(mesh_lines, points_are_sites_as_they_are_and_lines_keep_away) {
+  const SizeFunction size = SizeFunction::constant(0.1, 64);
+  const Point first = random_places(1, 3)[0];
+  const Point second = normalized(first + 0.01 * random_places(1, 4)[0]);
+  // The second line crosses the first one, which is longer, and passes a point in its middle.
+  const Point pole = {0, 0, 1};
+  const Lines lines = {{first},          {{0, 0.2, 1}, {0, -0.2, 1}}, {pole},
+                       {second, second}, {{0.6, 0, 1}, {-0.6, 0, 1}}, {}};
+  const LineSites found = sites_on(lines, size);
+  ASSERT_GT(found.sites.size(), 3U);
+  EXPECT_EQ(found.sites[0], first);
+  EXPECT_EQ(found.sites[1], pole);
+  EXPECT_EQ(found.sites[2], second);
+  EXPECT_GT(found.num_left_out, 0U);
+  for (std::size_t i = 3; i < found.sites.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      EXPECT_GT(away(found.sites[i], found.sites[k]), 0.07 - 1e-12) << i << ' ' << k;
+    }
+  }
+  // All places of the longer line but the one at the pole, at most.
+  const LineSites alone = sites_on(Lines{lines[4]}, size);
+  for (const Point& p : alone.sites) {
+    const bool is_there = std::ranges::find(found.sites, p) != found.sites.end();
+    EXPECT_EQ(is_there, away(p, pole) > 0.07) << p.x;
+  }
+  // An islet has one site, and so has a line shorter than half a spacing.
+  const LineSites short_line = sites_on(Lines{{first, second}}, size);
+  ASSERT_EQ(short_line.sites.size(), 1U);
+  EXPECT_LT(away(short_line.sites[0], first), 1e-15);
+  std::vector<Point> islet;
+  for (int k = 0; k <= 8; ++k) islet.push_back(on_curve(std::numbers::pi * (k % 8) / 4, 0.005));
+  EXPECT_EQ(sites_on(Lines{islet}, size).sites.size(), 1U);
+}
+
 TEST(mesh_lines, that_are_none_are_refused) {
   const SizeFunction size = SizeFunction::constant(0.05, 64);
   const Lines antipodes = {{{1, 0, 0}, {0, 1, 0}}, {{1, 0, 0}, {-1, 0, 0}}};
@@ -312,7 +387,9 @@ TEST(mesh_lines, that_are_none_are_refused) {
   } catch (const InvalidInput& error) {
     EXPECT_EQ(error.index(), 1U);
   }
+  EXPECT_THROW((void)sites_on(antipodes, size), InvalidInput);
   EXPECT_THROW((void)sites_along(center, size), InvalidInput);
+  EXPECT_THROW((void)sites_on(center, size), InvalidInput);
 }
 
 }  // namespace

@@ -48,21 +48,23 @@ ArrayOut<std::uint8_t> points_inside(const PointsIn& points, const Partition& re
       }));
 }
 
-// Rows beside lines for so many cells of these spacings.
-std::tuple<ArrayOut<double>, std::size_t> sites_along(const std::vector<PointsIn>& lines,
-                                                      std::size_t count, const NumbersIn& spacings,
-                                                      std::size_t steps, double gradient,
-                                                      unsigned threads) {
+// Sites on lines, or rows beside them, for so many cells of these spacings: `places` is what finds them.
+template <auto places>
+std::tuple<ArrayOut<double>, std::size_t> sites_of_lines(const std::vector<PointsIn>& lines,
+                                                         std::size_t count,
+                                                         const NumbersIn& spacings,
+                                                         std::size_t steps, double gradient,
+                                                         unsigned threads) {
   std::vector<std::vector<Point>> all;
   for (const PointsIn& line : lines) {
     const std::span<const Point> points = points_of(line);
     all.emplace_back(points.begin(), points.end());
   }
-  mesh::LineSites rows = watched_quietly(many_sites, threads, [&](const Execution& execution) {
-    return mesh::sites_along(
-        all, size_along(size_of(rows_of<double>(spacings), steps, gradient), count), execution);
+  mesh::LineSites found = watched_quietly(many_sites, threads, [&](const Execution& execution) {
+    return places(all, size_along(size_of(rows_of<double>(spacings), steps, gradient), count),
+                  execution);
   });
-  return {points_out(std::move(rows.sites)), rows.num_left_out};
+  return {points_out(std::move(found.sites)), found.num_left_out};
 }
 
 // Cells as polygons of the plane: positions, where each polygon begins, and its cell.
@@ -85,13 +87,15 @@ std::tuple<ArrayOut<double>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>> mes
           indices_out(std::move(found.owners))};
 }
 
+// `read` is read_lines() or read_places().
+template <auto read>
 std::vector<ArrayOut<double>> lines_of_file(const std::string& path, bool is_geodesic,
                                             unsigned threads) {
   const PolygonOptions options{.edges =
                                    is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat};
   std::vector<ArrayOut<double>> lines;
   for (std::vector<Point>& line : watched_quietly(0, threads, [&](const Execution& execution) {
-         return mesh::read_lines({path, {}}, options, execution);
+         return read(FileName{path, {}}, options, execution);
        })) {
     lines.push_back(points_out(std::move(line)));
   }
@@ -105,12 +109,18 @@ void add_mesh_parts(nb::module_& module) {
              nb::arg("threads"));
   module.def("points_inside", &points_inside, nb::arg("points").noconvert(), nb::arg("regions"),
              nb::arg("threads"));
-  module.def("sites_along", &sites_along, nb::arg("lines"), nb::arg("count"),
-             nb::arg("spacings").noconvert(), nb::arg("steps"), nb::arg("gradient"),
-             nb::arg("threads"));
+  const auto add_sites = [&](const char* name, auto* function) {
+    module.def(name, function, nb::arg("lines"), nb::arg("count"), nb::arg("spacings").noconvert(),
+               nb::arg("steps"), nb::arg("gradient"), nb::arg("threads"));
+  };
+  add_sites("sites_on", &sites_of_lines<mesh::sites_on>);
+  add_sites("sites_along", &sites_of_lines<mesh::sites_along>);
   module.def("mesh_polygons", &mesh_polygons, nb::arg("arrays"), nb::arg("tolerance_deg"));
-  module.def("read_lines", &lines_of_file, nb::arg("path"), nb::arg("is_geodesic"),
-             nb::arg("threads"));
+  const auto add_reader = [&](const char* name, auto* function) {
+    module.def(name, function, nb::arg("path"), nb::arg("is_geodesic"), nb::arg("threads"));
+  };
+  add_reader("read_lines", &lines_of_file<mesh::read_lines>);
+  add_reader("read_places", &lines_of_file<mesh::read_places>);
 }
 
 }  // namespace rondel::python

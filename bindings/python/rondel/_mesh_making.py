@@ -37,7 +37,7 @@ class ScvtReport(NamedTuple):
 
     ``end`` is ``"converged"``, ``"iterations"``, or ``"stuck"`` where rounding allows no more.
     Offsets are those before the repair, which found ``defects_before``, left ``defects_after``,
-    and moved so many sites. Beside lines so many places were ``left_out``.
+    and moved so many sites. On lines and beside them so many places were ``left_out``.
     """
 
     end: str
@@ -109,7 +109,7 @@ def scvt_points(
     n: int | None,
     spacing: Spacing | None,
     density: Density | None,
-    fixed: ArrayLike | None,
+    fixed: ArrayLike | Lines | None,
     along: Lines | None,
     edges: Edges,
     gradient: float | None,

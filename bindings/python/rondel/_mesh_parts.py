@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 
 import numpy as np
@@ -68,7 +68,7 @@ def removed_cells(
 
 
 def fixed_points(
-    fixed: ArrayLike | None,
+    fixed: ArrayLike | Lines | None,
     along: Lines | None,
     edges: Edges,
     count: int,
@@ -77,30 +77,41 @@ def fixed_points(
     gradient: float,
     threads: int | None,
 ) -> tuple[FloatArray, int]:
-    """Places that are sites, and how many beside lines are left out."""
-    places = np.empty((0, 3)) if fixed is None else as_points(fixed, "fixed")
-    if along is None:
-        return places, 0
-    if _is_arrays(along):
-        lines = [as_points(line, "a line") for line in cast(Sequence[ArrayLike], along)]
-    else:
-        lines = features_of(
-            along,
-            edges,
-            "keep",
-            lambda name, is_geodesic, _: _core.read_lines(name, is_geodesic, as_threads(threads)),
+    """Places that are sites, and how many on lines and beside them are left out."""
+    rules = count, spacings, steps, gradient, as_threads(threads)
+
+    def read(features: Any, places: Callable[[str, bool, int], list[FloatArray]]) -> Any:
+        return features_of(
+            features, edges, "keep", lambda name, geodesic, _: places(name, geodesic, rules[-1])
         )
-    rows, left_out = _core.sites_along(lines, count, spacings, steps, gradient, as_threads(threads))
-    return np.ascontiguousarray(np.concatenate([places, rows])), left_out
+
+    found = []
+    left_out = 0
+    if fixed is not None and not _are_features(fixed):
+        found.append(as_points(fixed, "fixed"))
+    elif fixed is not None:
+        sites, left_out = _core.sites_on(read(fixed, _core.read_places), *rules)
+        found.append(sites)
+    if along is not None:
+        if _are_features(along):
+            lines = read(along, _core.read_lines)
+        else:
+            lines = [as_points(line, "a line") for line in cast(Sequence[ArrayLike], along)]
+        rows, beside = _core.sites_along(lines, *rules)
+        found.append(rows)
+        left_out += beside
+    return np.ascontiguousarray(np.concatenate(found or [np.empty((0, 3))])), left_out
 
 
-def _is_arrays(lines: Lines) -> bool:
-    """Whether they are the points of each line, rather than a file or geometries."""
-    if is_file(lines) or hasattr(lines, "__geo_interface__") or not isinstance(lines, Sequence):
-        return isinstance(lines, np.ndarray)
-    return not any(
-        hasattr(line, "__geo_interface__") or isinstance(line, Mapping) for line in lines
-    )
+def _are_features(lines: Any) -> bool:
+    """Whether they are a file or geometries, rather than points or the points of each line."""
+    if is_file(lines) or _is_geometry(lines) or hasattr(lines, "__arrow_c_stream__"):
+        return True
+    return isinstance(lines, Sequence) and any(map(_is_geometry, lines))
+
+
+def _is_geometry(item: Any) -> bool:
+    return isinstance(item, Mapping) or hasattr(item, "__geo_interface__")
 
 
 def plot_mesh(

@@ -134,7 +134,7 @@ def scvt(
     spacing: Spacing | None = None,
     density: Density | None = None,
     gradient: float | None = None,
-    fixed: ArrayLike | None = None,
+    fixed: ArrayLike | Lines | None = None,
     along: Lines | None = None,
     edges: Edges = "lonlat",
     radius: float = 1.0,
@@ -160,8 +160,10 @@ def scvt(
         only proportions count.
     gradient : float, optional
         How much the spacing grows over its own distance, at most.
-    fixed : array_like, shape (k, 3), optional
-        Places that are sites, and never move; they count among the `n`.
+    fixed : array_like, shape (k, 3), path_like, or geometries, optional
+        Places that are sites, and never move; they count among the `n`. Of a file of GeoJSON or of
+        geometries the points, and on lines and outlines of polygons places the spacing apart; of a
+        table the points.
     along : path_like, geometries, or sequence of array_like, shape (m, 3), optional
         Lines that edges of cells follow: a GeoJSON file; geometries as `rondel.feature_cells` takes
         them; or the points of each line, joined by great circles, of which the last is the first if
