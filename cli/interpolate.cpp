@@ -141,7 +141,7 @@ void interpolate_columns(Job& job, const InterpolateOptions& options, const Site
            [&] { write_fields(options.common.target(), fields, targets.side, options.netcdf); });
 }
 
-// The fields of netCDF, along the dimensions that they have beside that of the sites: one at a time is in memory.
+// Carries the fields of netCDF along the dimensions that they have beside that of the sites; one at a time is in memory.
 void interpolate_fields(Job& job, const InterpolateOptions& options, const SiteTable& table,
                         const Targets& targets, InterpolateCounts& counts) {
   const auto [file, variable] = netcdf_part(options.common.source());
@@ -166,9 +166,6 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const SiteT
   job.time(Stage::write, [&] { writer.finish(); });
 }
 
-constexpr const char* method_names[] = {"nearest", "linear",  "laplace",
-                                        "sibson",  "hermite", "cubic"};
-
 void write_weights_of(Job& job, const InterpolateOptions& options, const SiteTable& table,
                       Targets& targets, InterpolateCounts& counts) {
   const Triangulation triangulation = triangulated(job, options, table);
@@ -179,7 +176,7 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const SiteTab
       return interpolator.weights(targets.table.sites, options.interpolation, job.execution());
     });
   });
-  file.method = method_names[static_cast<std::size_t>(options.interpolation.method)];
+  file.method = name_of(options.interpolation.method);
   file.normalization = "none";
   file.source.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
   job.time(Stage::dual, [&] { file.source.areas = areas(triangulation, job.execution()); });

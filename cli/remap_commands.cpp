@@ -4,7 +4,10 @@
 // The arguments and the help of the commands for values between sites.
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
 #include <memory>
+#include <string>
+#include <unordered_map>
 
 #include "netcdf_options.h"
 #include "remap.h"
@@ -32,22 +35,24 @@ void add_weights_input(CLI::App& parser, CommonOptions& options) {
       ->type_name("FORMAT");
 }
 
+// The values of an enumeration by the names that the library gives them.
+template <class Value>
+std::unordered_map<std::string, Value> named_values() {
+  std::unordered_map<std::string, Value> values;
+  for (std::uint8_t k = 0; !name_of(static_cast<Value>(k)).empty(); ++k) {
+    values.emplace(name_of(static_cast<Value>(k)), static_cast<Value>(k));
+  }
+  return values;
+}
+
 void add_methods(CLI::App& parser, InterpolationOptions& options) {
-  add_word<Method>(parser, "--method", options.method,
-                   {{"nearest", Method::nearest},
-                    {"linear", Method::linear},
-                    {"laplace", Method::laplace},
-                    {"sibson", Method::sibson},
-                    {"hermite", Method::hermite},
-                    {"cubic", Method::cubic}},
+  add_word<Method>(parser, "--method", options.method, named_values<Method>(),
                    "nearest, linear, laplace, sibson (default), hermite or cubic");
   add_word<Outside>(
-      parser, "--outside", options.outside,
-      {{"nan", Outside::missing}, {"nearest", Outside::nearest}, {"error", Outside::error}},
+      parser, "--outside", options.outside, named_values<Outside>(),
       "A target in no triangle that the center sees: nan (default), nearest or error");
   add_word<SharedPlace>(
-      parser, "--duplicates", options.shared_place,
-      {{"first", SharedPlace::first}, {"mean", SharedPlace::mean}, {"error", SharedPlace::error}},
+      parser, "--duplicates", options.shared_place, named_values<SharedPlace>(),
       "Sites in one place: first (default: the one with the lowest number), mean or error");
 }
 

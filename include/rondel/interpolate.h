@@ -7,7 +7,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "rondel/export.h"
@@ -58,12 +60,23 @@ enum class Normalization : std::uint8_t {
   homogeneous,
 };
 
-/// What a gradient is along directions in which the neighbors of a site do not determine it: across a track, a meridian, a
-/// circle (docs/theory/cubic.md).
+/// The gradient along directions in which the neighbors of a site do not determine it: across a track, a meridian, a circle
+/// (docs/theory/cubic.md).
 enum class Undetermined : std::uint8_t {
   zero,     ///< 0 across; along the track it is estimated
   missing,  ///< there is no gradient: hermite is sibson there, and cubic linear
 };
+
+/// The names of these values in the tool, in files of weights and in Python: "sibson", "nan", "first", "unity", "zero" ...; empty for
+/// what is none of them.
+RONDEL_API std::string_view name_of(Method method) noexcept;
+RONDEL_API std::string_view name_of(Outside outside) noexcept;
+RONDEL_API std::string_view name_of(SharedPlace shared_place) noexcept;
+RONDEL_API std::string_view name_of(Normalization normalization) noexcept;
+RONDEL_API std::string_view name_of(Undetermined undetermined) noexcept;
+
+/// The method of a name; nothing if there is none.
+RONDEL_API std::optional<Method> method_of(std::string_view name) noexcept;
 
 /// How gradients are estimated.
 struct GradientOptions {
@@ -143,7 +156,8 @@ class RONDEL_API Interpolator {
                                            const Execution& execution = {}) const;
 
   /// What makes tangent gradients of a field: rows 3i, 3i + 1, 3i + 2 for x, y, z at site i, three empty
-  /// ones where none can be had: in dimensions below 2, and as GradientOptions::undetermined says. Sites in one place have the same ones, of the value of the first.
+  /// ones where none can be had: in dimensions below 2, and as GradientOptions::undetermined says. Sites in one place have the same
+  /// rows, of the value of the first.
   /// \throws InvalidInput in Model::weighted.
   [[nodiscard]] Weights gradient(const GradientOptions& options = {},
                                  const Execution& execution = {}) const;

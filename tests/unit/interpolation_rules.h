@@ -22,10 +22,6 @@ namespace rondel::test {
 inline constexpr std::array methods = {Method::nearest, Method::linear,  Method::laplace,
                                        Method::sibson,  Method::hermite, Method::cubic};
 
-inline std::string name_of(Method method) {
-  return "method " + std::to_string(static_cast<int>(method));
-}
-
 inline std::vector<double> some_field(std::size_t n) {
   Random random(11);
   std::vector<double> field(n);

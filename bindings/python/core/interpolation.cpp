@@ -42,6 +42,23 @@ InterpolationOptions options_of(const Choices& choices) {
           .gradient = {.rings = rings}};
 }
 
+template <class Value>
+nb::tuple names_of_values() {
+  nb::list names;
+  for (std::uint8_t k = 0; !name_of(static_cast<Value>(k)).empty(); ++k) {
+    const std::string_view name = name_of(static_cast<Value>(k));
+    names.append(nb::str(name.data(), name.size()));
+  }
+  return nb::tuple(names);
+}
+
+// The names of the values of each enumeration, in the order of Choices, and then those of Undetermined.
+nb::tuple interpolation_names() {
+  return nb::make_tuple(names_of_values<Method>(), names_of_values<Outside>(),
+                        names_of_values<SharedPlace>(), names_of_values<Normalization>(),
+                        names_of_values<Undetermined>());
+}
+
 Weights weights_from_arrays(const OffsetsIn& offsets, const IndicesIn& columns,
                             const NumbersIn& values, std::size_t num_columns,
                             std::uint64_t sites_hash, std::uint64_t targets_hash) {
@@ -109,6 +126,7 @@ ArrayOut<double> values_at(const Interpolator& self, const FieldsIn& fields,
 
 void add_interpolation(nb::module_& module) {
   add_weights(module);
+  module.def("interpolation_names", &interpolation_names);
   module.def(
       "point_set_hash",
       [](const PointsIn& points) {
@@ -137,16 +155,15 @@ void add_interpolation(nb::module_& module) {
            nb::arg("choices"), nb::arg("threads"), nb::arg("progress").none())
       .def(
           "gradient",
-          [](const Interpolator& self, std::size_t size, unsigned rings, bool is_zero,
+          [](const Interpolator& self, std::size_t size, unsigned rings, int undetermined,
              unsigned threads, const nb::object& listener) {
-            const GradientOptions options{
-                .rings = rings,
-                .undetermined = is_zero ? Undetermined::zero : Undetermined::missing};
+            const GradientOptions options{.rings = rings,
+                                          .undetermined = static_cast<Undetermined>(undetermined)};
             return watched(size, threads, listener, [&](const Execution& execution) {
               return self.gradient(options, execution);
             });
           },
-          nb::arg("size"), nb::arg("rings"), nb::arg("is_zero"), nb::arg("threads"),
+          nb::arg("size"), nb::arg("rings"), nb::arg("undetermined"), nb::arg("threads"),
           nb::arg("progress").none())
       .def(
           "vectors",

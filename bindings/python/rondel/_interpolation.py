@@ -20,10 +20,7 @@ SharedPlace: TypeAlias = Literal["first", "mean", "error"]
 Normalization: TypeAlias = Literal["unity", "homogeneous"]
 Undetermined: TypeAlias = Literal["zero", "missing"]
 
-METHODS = ("nearest", "linear", "laplace", "sibson", "hermite", "cubic")
-_OUTSIDE = ("nan", "nearest", "error")
-_SHARED_PLACE = ("first", "mean", "error")
-_NORMALIZATION = ("unity", "homogeneous")
+METHODS, _OUTSIDE, _SHARED_PLACE, _NORMALIZATION, _UNDETERMINED = _core.interpolation_names()
 
 
 def _position(name: str, value: Any, known: tuple[str, ...]) -> int:
@@ -46,12 +43,6 @@ def choices_of(
         _position("normalization", normalization, _NORMALIZATION),
         _as_rings(rings),
     )
-
-
-def _is_zero(undetermined: Undetermined) -> bool:
-    if undetermined not in ("zero", "missing"):
-        raise ValueError(f"undetermined must be 'zero' or 'missing', not {undetermined!r}")
-    return undetermined == "zero"
 
 
 def _as_rings(rings: int) -> int:
@@ -240,7 +231,7 @@ class Interpolation:
             self._interpolator().gradient(
                 self.npoints,
                 _as_rings(rings),
-                _is_zero(undetermined),
+                _position("undetermined", undetermined, _UNDETERMINED),
                 as_threads(threads),
                 progress,
             )
