@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// The third part of a local fit: the normal equations and the polynomials that solve them, one for the slope along each axis.
+#pragma once
+
+#include <cstddef>
+
+#include "interpolation/fit_lanes.h"
+
+namespace rondel::interpolation::fits {
+
+// Of linear, quadratic and cubic fits: one or two more than terms, lest a pair of close sites decide.
+inline constexpr system::PlainArray<double, 3> least_neighbors = {2, 6, 11};
+
+// Of the equations for the weights of the slopes along a' and b': the left side, and what solves it.
+struct Solution {
+  system::PlainArray<Terms, max_terms> rows;
+  Terms diagonal;
+  Terms of_pivots;  // their reciprocals
+  Terms by_a{};
+  Terms by_b{};
+};
+
+// rows[i][j], j < i: L; where a pivot is too small, its column is 0. The right sides, which are e_0 and e_1, become L^-1 of them.
+RONDEL_ALWAYS_INLINE inline void factor(Solution& s) {
+  for (std::size_t j = 0; j < max_terms; ++j) {
+    RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
+      const double pivot = s.rows[j][j][l];
+      const double reciprocal = 1 / pivot;
+      s.of_pivots[j][l] = pivot > LocalFits::least_pivot * s.diagonal[j][l] ? reciprocal : 0.0;
+    }
+    for (std::size_t i = max_terms; --i > j;) {
+      Lanes factors;
+      RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) factors[l] =
+          s.rows[i][j][l] * s.of_pivots[j][l];
+      for (std::size_t k = j + 1; k <= i; ++k) {
+        RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) s.rows[i][k][l] -=
+            factors[l] * s.rows[k][j][l];
+      }
+      RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
+        s.rows[i][j][l] = factors[l];
+        s.by_a[i][l] -= factors[l] * s.by_a[j][l];
+        s.by_b[i][l] -= factors[l] * s.by_b[j][l];
+      }
+    }
+  }
+}
+
+// Up to the last degree at whose end no pivot is too small.
+RONDEL_ALWAYS_INLINE inline void keep_terms(Fit& fit, Solution& s) {
+  constexpr auto linear = static_cast<double>(LocalFits::terms_of_degree[0]);
+  constexpr auto quadratic = static_cast<double>(LocalFits::terms_of_degree[1]);
+  constexpr auto cubic = static_cast<double>(LocalFits::terms_of_degree[2]);
+  RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
+    const double most = fit.counts[l] >= least_neighbors[1] ? quadratic : linear;
+    fit.num_terms[l] = fit.counts[l] >= least_neighbors[2] ? cubic : most;
+    fit.is_found[l] = fit.counts[l] >= least_neighbors[0] ? fit.is_found[l] : 0.0;
+  }
+  for (std::size_t i = max_terms; i-- > LocalFits::terms_of_degree[0];) {
+    const double before = i < LocalFits::terms_of_degree[1] ? linear : quadratic;
+    RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
+      const double most = smaller(fit.num_terms[l], before);
+      fit.num_terms[l] = s.of_pivots[i][l] != 0 ? fit.num_terms[l] : most;
+    }
+  }
+  for (std::size_t i = 0; i < max_terms; ++i) {
+    const auto term = static_cast<double>(i);
+    RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
+      const double factor = term < fit.num_terms[l] ? s.of_pivots[i][l] : 0.0;
+      s.by_a[i][l] *= factor;
+      s.by_b[i][l] *= factor;
+    }
+  }
+  for (std::size_t i = max_terms; i-- > 0;) {
+    for (std::size_t k = 0; k < i; ++k) {
+      RONDEL_KEEP_LOOP for (std::size_t l = 0; l < lanes; ++l) {
+        s.by_a[k][l] -= s.rows[i][k][l] * s.by_a[i][l];
+        s.by_b[k][l] -= s.rows[i][k][l] * s.by_b[i][l];
+      }
+    }
+  }
+}
+
+// The sum of c_t times term t.
+RONDEL_ALWAYS_INLINE inline double polynomial(const Terms& c, std::size_t lane, double a,
+                                              double b) {
+  const double linear = c[0][lane] * a + c[1][lane] * b;
+  const double quadratic = c[2][lane] * (a * a) + c[3][lane] * (a * b) + c[4][lane] * (b * b);
+  const double cubic =
+      (a * a) * (c[5][lane] * a + c[6][lane] * b) + (b * b) * (c[7][lane] * a + c[8][lane] * b);
+  return (linear + quadratic) + cubic;
+}
+
+}  // namespace rondel::interpolation::fits

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// What the parts of local fits (local_fit.h) share: the numbers of the sites in all lanes. The functions in fit_*.h are inlined into
+// LocalFits::find(), which is compiled for vectors of several widths.
+#pragma once
+
+#include <cstddef>
+
+#include "interpolation/local_fit.h"
+#include "system/plain_array.h"
+#include "system/wide_vectors.h"
+
+namespace rondel::interpolation::fits {
+
+inline constexpr std::size_t lanes = LocalFits::lanes;
+inline constexpr std::size_t max_terms = LocalFits::max_terms;
+using Lanes = LocalFits::Lanes;
+using LaneVectors = LocalFits::LaneVectors;
+using Terms = system::PlainArray<Lanes, max_terms>;
+
+// Degree and power of b of the terms a, b, a^2, ab, b^2, a^3 ...
+inline constexpr system::PlainArray<std::size_t, max_terms> degrees = {1, 1, 2, 2, 2, 3, 3, 3, 3};
+inline constexpr system::PlainArray<std::size_t, max_terms> powers_of_b = {0, 1, 0, 1, 2,
+                                                                           0, 1, 2, 3};
+
+// As std::max() and std::min(), which are not always inline.
+RONDEL_ALWAYS_INLINE inline double larger(double a, double b) { return a < b ? b : a; }
+RONDEL_ALWAYS_INLINE inline double smaller(double a, double b) { return b < a ? b : a; }
+
+// Without a branch.
+RONDEL_ALWAYS_INLINE inline bool both(bool a, bool b) {
+  return (static_cast<unsigned>(a) & static_cast<unsigned>(b)) != 0;
+}
+
+// What LocalFits::find() works on, apart from the object, so that a compiler knows that nothing of it is anything else.
+struct Fit {
+  LaneVectors* points;
+  std::size_t size;
+  LaneVectors sites;
+  Lanes counts;
+  Lanes num_terms{};
+  Lanes is_found{};
+  Lanes is_line{};
+  bool with_lines = true;
+  Lanes scale{};  // the unit of the plane's coordinates
+  Lanes farthest{};
+  LaneVectors first_axis{};
+  LaneVectors second_axis{};
+  Lanes largest{};
+  // a' = round_a a,  b' = round_b (b - shear a)
+  Lanes round_a{};
+  Lanes round_b{};
+  Lanes shear{};
+};
+
+}  // namespace rondel::interpolation::fits
