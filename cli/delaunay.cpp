@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include <array>
-#include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 
 #include "rondel/diagram.h"
 #include "run.h"
@@ -12,25 +13,22 @@
 namespace rondel::cli {
 namespace {
 
-// The numbers of rows of `width` numbers.
+// The numbers of rows of `width` of them, as an array of as many columns.
+template <std::size_t width, class Number, class Row>
+std::span<const Number> numbers_of(std::span<const Row> rows) {
+  static_assert(sizeof(Row) == width * sizeof(Number) && std::is_standard_layout_v<Row>);
+  return {reinterpret_cast<const Number*>(rows.data()), width * rows.size()};
+}
+
 template <std::size_t width, class Row>
 void write_rows(const std::string& path, std::span<const Row> rows) {
-  static_assert(sizeof(Row) == width * sizeof(Index));
   const std::array<std::uint64_t, 2> shape = {rows.size(), width};
-  std::vector<Index> numbers;
-  numbers.reserve(width * rows.size());
-  for (const Row& row : rows) {
-    const auto values = std::bit_cast<std::array<Index, width>>(row);
-    numbers.insert(numbers.end(), values.begin(), values.end());
-  }
-  write_indices(path, numbers, shape);
+  write_indices(path, numbers_of<width, Index>(rows), shape);
 }
 
 void write_points(const std::string& path, std::span<const Point> points) {
-  std::vector<double> numbers;
-  numbers.reserve(3 * points.size());
-  for (const Point& p : points) numbers.insert(numbers.end(), {p.x, p.y, p.z});
-  write_numbers(path, numbers, std::array<std::uint64_t, 2>{points.size(), 3});
+  const std::array<std::uint64_t, 2> shape = {points.size(), 3};
+  write_numbers(path, numbers_of<3, double>(points), shape);
 }
 
 // Whether an array is wanted in the group that OUTPUT is. What is neither that nor a .npy file is refused.
