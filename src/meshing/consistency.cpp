@@ -63,7 +63,7 @@ void require_consistent(const mesh::MeshArrays& arrays, unsigned threads) {
   const std::size_t cells = arrays.num_cells();
   const std::size_t edges = arrays.num_edges();
   const std::size_t vertices = arrays.num_vertices();
-  if (cells == 0) throw InvalidInput("the mesh has no cells", 0);
+  if (cells == 0) throw InvalidInput("the mesh has no cells");
   require_points("cell_points", threads, arrays.cell_points, arrays.radius);
   require_points("edge_points", threads, arrays.edge_points, arrays.radius);
   require_points("vertex_points", threads, arrays.vertex_points, arrays.radius);

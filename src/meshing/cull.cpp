@@ -39,7 +39,7 @@ class Culler {
     num_cells_ = number_kept(culled_.cells);
     num_edges_ = number_kept(culled_.edges);
     num_vertices_ = number_kept(culled_.vertices);
-    if (num_cells_ == 0) throw InvalidInput("no cell of the mesh is left", 0);
+    if (num_cells_ == 0) throw InvalidInput("no cell of the mesh is left");
     to_.radius = from_.radius;
     keep_cells();
     keep_edges();

@@ -83,7 +83,7 @@ std::vector<Index> take_nearest(std::vector<Point>& sites, std::span<const Point
         break;
       }
       // The other sites are duplicates, which relaxing refuses.
-      if (k >= num_vertices) throw InvalidInput("the sites have duplicates", 0);
+      if (k >= num_vertices) throw InvalidInput("the sites have duplicates");
     }
   }
   for (std::size_t i = 0; i < units.size(); ++i) sites[taken[i]] = units[i];

@@ -247,7 +247,7 @@ class MeshMaker {
 
 void require_mesh(const Triangulation& triangulation, const MeshOptions& options) {
   if (triangulation.model() == Model::weighted) {
-    throw InvalidInput("a mesh is made of sites without weights, as its models suppose", 0);
+    throw InvalidInput("a mesh is made of sites without weights, as its models suppose");
   }
   if (!triangulation.duplicates().empty()) {
     const auto [site, representative] = triangulation.duplicates().front();
@@ -257,7 +257,7 @@ void require_mesh(const Triangulation& triangulation, const MeshOptions& options
   }
   if (triangulation.dimension() < 2 || triangulation.num_ghost_faces() > 0) {
     throw InvalidInput(
-        "a mesh covers the sphere, but the hull of the sites does not surround its center", 0);
+        "a mesh covers the sphere, but the hull of the sites does not surround its center");
   }
   meshing::require_options(options, triangulation.num_sites());
 }

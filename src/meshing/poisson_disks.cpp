@@ -135,7 +135,7 @@ std::vector<Point> poisson_disk_points(double radius, std::uint64_t seed,
                                        const Execution& execution) {
   const system::ArithmeticScope arithmetic;
   if (!(radius >= 1e-4 && radius <= 1)) {
-    throw InvalidInput("the radius of disks is from 0.0001 to 1 radian", 0);
+    throw InvalidInput("the radius of disks is from 0.0001 to 1 radian");
   }
   constexpr double degrees = 180 / std::numbers::pi;
   const double half = exact::sine_cosine_of_degrees(0.5 * degrees * radius).sine;

@@ -163,7 +163,7 @@ double quality_value(const Quality& quality, std::string_view name) {
   for (const ReportEntry& entry : entries) {
     if (key == entry.key) return entry.worst(quality).value;
   }
-  throw InvalidInput("'" + std::string(name) + "' is no number of the report", 0);
+  throw InvalidInput("'" + std::string(name) + "' is no number of the report");
 }
 
 }  // namespace rondel::mesh

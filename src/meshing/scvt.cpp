@@ -72,7 +72,7 @@ class Levels {
     return result;
   }
 
-  // Of sites that somebody has given.
+  // Finishes the work on sites that somebody has given.
   void finish_given(Scvt& result) {
     is_given_ = true;
     fix(result);
@@ -126,7 +126,7 @@ class Levels {
   // Offsets fall by about the same factor from step to step.
   static double part_of_level(const MinimizerLimits& limits, const EnergyReport& first,
                               const EnergyReport& now, int iteration) {
-    // The binary logarithm at powers of two, and linear between them: the same on every machine.
+    // This logarithm is right at powers of two and linear between them, and so the same on every machine.
     const auto digits = [](double x) {
       int exponent = 0;
       const double mantissa = std::frexp(x, &exponent);
@@ -197,7 +197,7 @@ class Levels {
   const SizeFunction* size_;
   CentroidalEnergy energy_;
   std::vector<std::uint8_t> is_fixed_;  // of the last level; empty: no site is
-  // Sites of all levels, of those that are solved, and what ScvtStep::done was last.
+  // The numbers of sites of all levels and of those that are solved, and the last ScvtStep::done.
   double all_work_ = 0;
   double past_work_ = 0;
   double done_ = 0;
@@ -249,7 +249,7 @@ Scvt relaxed(std::span<const Point> sites, const ScvtOptions& options, const Exe
   Scvt result;
   require_places(sites, "a site");
   result.sites = unit_places(sites);
-  if (sites.size() < 4) throw InvalidInput("a tessellation that is relaxed has 4 sites or more", 0);
+  if (sites.size() < 4) throw InvalidInput("a tessellation that is relaxed has 4 sites or more");
   require_fixed(options.fixed, sites.size());
   Levels levels(options, execution);
   levels.finish_given(result);

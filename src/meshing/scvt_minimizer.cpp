@@ -37,7 +37,7 @@ Minimizer::Minimizer(std::vector<Point> sites, const CentroidalEnergy& energy, u
       springs_(threads) {
   std::ranges::transform(sites_, axes_.begin(), far_axis);
   if (!surface_.follow(sites_)) {
-    throw InvalidInput("the sites have duplicates, or do not surround the center of the sphere", 0);
+    throw InvalidInput("the sites have duplicates, or do not surround the center of the sphere");
   }
   report_ = energy_(surface_, sites_, axes_, sums_, is_fixed_);
 }

@@ -26,14 +26,14 @@ bool is_spacing(double value) { return value > 0 && value < std::numbers::pi; }
 
 void require_steps(std::size_t steps) {
   if (steps < 1 || steps > 4096 || !std::has_single_bit(steps)) {
-    throw InvalidInput(
-        "the steps of a raster are a power of two from 1 to 4096, not " + std::to_string(steps), 0);
+    throw InvalidInput("the steps of a raster are a power of two from 1 to 4096, not " +
+                       std::to_string(steps));
   }
 }
 
 void require_slope(double slope) {
   if (!(slope >= 0) || !std::isfinite(slope)) {
-    throw InvalidInput("a spacing grows by 0 or more for each radian", 0);
+    throw InvalidInput("a spacing grows by 0 or more for each radian");
   }
 }
 
@@ -135,10 +135,10 @@ SizeFunction SizeFunction::from_grid(std::span<const double> lon_deg,
   if (turn_lon) std::ranges::reverse(lon);
   if (turn_lat) std::ranges::reverse(lat);
   if (!is_increasing(lon) || lon.back() - lon.front() > 360) {
-    throw InvalidInput("the longitudes are not in order, or go around more than once", 0);
+    throw InvalidInput("the longitudes are not in order, or go around more than once");
   }
   if (!is_increasing(lat) || lat.front() < -90 || lat.back() > 90) {
-    throw InvalidInput("the latitudes are not in order from -90 to 90", 0);
+    throw InvalidInput("the latitudes are not in order from -90 to 90");
   }
   const auto value = [&](std::size_t i, std::size_t j) {
     const std::size_t column = turn_lon ? lon.size() - 1 - i : i;
@@ -166,8 +166,8 @@ SizeFunction SizeFunction::refined(std::span<const Point> points, double near, d
                                    const Execution& execution) const {
   const system::Call call(execution);
   require_slope(slope);
-  if (points.empty()) throw InvalidInput("there are no points to refine at", 0);
-  if (!is_spacing(near)) throw InvalidInput("a spacing is between 0 and pi", 0);
+  if (points.empty()) throw InvalidInput("there are no points to refine at");
+  if (!is_spacing(near)) throw InvalidInput("a spacing is between 0 and pi");
   const std::vector<Point> places = places_of_nodes(raster_->cube);
   const Locator locator(delaunay(Sites::view(points), {}, execution));
   const std::vector<Index> nearest = locator.nearest(places, execution);
@@ -244,7 +244,7 @@ double SizeFunction::count() const {
 SizeFunction SizeFunction::scaled(double factor) const {
   const system::ArithmeticScope arithmetic;
   if (!is_spacing(factor * raster_->largest) || !(factor > 0)) {
-    throw InvalidInput("a spacing is between 0 and pi", 0);
+    throw InvalidInput("a spacing is between 0 and pi");
   }
   auto raster = std::make_shared<Raster>(*raster_);
   raster->smallest *= factor;
@@ -254,7 +254,7 @@ SizeFunction SizeFunction::scaled(double factor) const {
 
 std::vector<Point> densified(std::span<const Point> line, double distance) {
   const system::ArithmeticScope arithmetic;
-  if (!(distance > 0)) throw InvalidInput("a distance of points is more than 0", 0);
+  if (!(distance > 0)) throw InvalidInput("a distance of points is more than 0");
   std::vector<Point> points;
   for (std::size_t i = 0; i < line.size(); ++i) {
     if (i > 0) {
