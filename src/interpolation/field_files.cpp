@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Fields as files, whole and in slices: which format.
+// Reads and writes fields as files, whole and in slices, in the format that a file has.
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -18,7 +18,7 @@ namespace {
 
 struct FieldReader {
   std::string_view ending;
-  // Null: netCDF, which is read in slices.
+  // A null pointer stands for netCDF, which is read in slices.
   FieldSet (*read)(std::string_view, const interpolation::FieldsToRead&);
 };
 constexpr FieldReader field_readers[] = {{".csv", &interpolation::read_fields_csv},
@@ -40,7 +40,7 @@ constexpr FieldBeginning field_writers[] = {{".csv", &interpolation::begin_field
                                             {".nc", &interpolation::begin_fields_netcdf},
                                             {".nc4", &interpolation::begin_fields_netcdf}};
 
-// A file is what its first bytes say, then what its name does.
+// The first bytes of a file say its format, and if they do not, its name does.
 bool is_netcdf_file(const FileName& file, const io::FileBytes& bytes) {
   if (file.format.empty() && io::is_netcdf(bytes.head())) return true;
   const FieldReader* const reader = io::find_format<FieldReader>(field_readers, file);

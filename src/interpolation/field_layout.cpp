@@ -31,7 +31,7 @@ bool agree(std::span<const std::uint64_t> a, std::span<const std::uint64_t> b) {
   return std::ranges::includes(of_a, of_b) || std::ranges::includes(of_b, of_a);
 }
 
-// Turns the dimensions around where that is what the lengths of the grid say. False if they are others.
+// Reverses the dimensions where the lengths of the grid say so. False if they are others.
 bool fit(std::span<const std::uint64_t> wanted, const LayoutVariable& variable,
          std::vector<std::size_t>& points) {
   if (wanted.size() < 2) return true;
@@ -143,8 +143,8 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(
   return layout;
 }
 
-// In this order: the dimension that is called cells; dimensions as long as those of the grid; the last ones; a single one; others
-// that follow each other.
+// The candidates are tried in this order: the dimension that is called cells; dimensions as long as those of the grid; the last ones; a
+// single one; others that follow each other.
 std::vector<std::size_t> FieldDimensionFinder::run_of_points(const LayoutVariable& variable) const {
   const std::span<const std::uint64_t> shape = variable.shape;
   const std::size_t rank = shape.size();

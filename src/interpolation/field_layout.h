@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which dimensions of a variable are those of the points.
+// Finds the dimensions of a variable that are those of the points.
 //
 // 1. Where longitudes and latitudes are known, the dimensions are theirs, in the order latitude, longitude of axes, and else in that of
 //    the coordinates: a field stored as (time, lon, lat) is that of (time, lat, lon).
@@ -26,13 +26,13 @@ namespace rondel::interpolation {
 
 struct FieldDimensions {
   std::vector<std::size_t>
-      leading;  // places of dimensions in the variable: those of no points, in their order
+      leading;  // numbers of the dimensions of the variable that are not those of the points, in their order
   std::vector<std::size_t> points;  // those of the points, the fastest one last
   std::vector<LonLat>
       places;  // degrees; empty if the file does not say where they are, or says it more than once
   bool is_reversed = false;  // by their lengths alone: nothing says which dimension is which
 
-  // All, the order of the values of a FieldArray.
+  // All dimensions, in the order of the values of a FieldArray.
   [[nodiscard]] std::vector<std::size_t> order() const;
 };
 

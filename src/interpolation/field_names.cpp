@@ -55,7 +55,7 @@ std::int64_t days_of_month(Calendar calendar, std::int64_t year, std::int64_t mo
   return days[static_cast<std::size_t>(month - 1)] + (is_longer ? 1 : 0);
 }
 
-// The days of the years from 0 to this one, without it.
+// The number of days in the years from 0 to the one before this.
 std::int64_t days_before(Calendar calendar, std::int64_t year) {
   if (calendar == Calendar::days_360) return 360 * year;
   const std::int64_t leap_years =
@@ -73,7 +73,7 @@ std::int64_t day_number(Calendar calendar, const Date& date) {
 
 Date date_of(Calendar calendar, std::int64_t days) {
   Date date;
-  date.year = days / 366;  // not after
+  date.year = days / 366;  // no later than the year of the date
   while (days_before(calendar, date.year + 1) <= days) ++date.year;
   days -= days_before(calendar, date.year);
   while (days >= days_of_month(calendar, date.year, date.month)) {
@@ -95,8 +95,8 @@ std::optional<std::int64_t> take_number(std::string_view& text, std::string_view
   return value;
 }
 
-// Of "hours since 2000-01-01 06:00" the seconds of a unit, and the second from which times count; nothing
-// if there is anything else in it, as another zone than UTC.
+// A text such as "hours since 2000-01-01 06:00" has the seconds of a unit and the second from which times count. A text with anything
+// else in it, such as another zone than UTC, has none.
 struct TimeUnits {
   double seconds = 1;
   std::int64_t start = 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the fields of an array are called where each is a column.
+// The names of the fields of an array in a table, where each is a column.
 #pragma once
 
 #include <cstddef>

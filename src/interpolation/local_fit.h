@@ -63,7 +63,7 @@ class LocalFits {
   // or, without lines, there is none.
   void find(bool with_lines = true);
 
-  // None if there are no neighbors, or some are so near that weights are above 2^500.
+  // There is no gradient if there are no neighbors, or some are so near that weights are above 2^500.
   [[nodiscard]] bool has_gradient(std::size_t lane) const { return is_found_[lane] != 0; }
   // The gradient is the sum of weight(lane, k) (f_k - f(x)), k over the neighbors in their order. The
   // weights are tangent at x.
@@ -74,7 +74,7 @@ class LocalFits {
     return static_cast<std::size_t>(counts_[lane]);
   }
   [[nodiscard]] bool is_line(std::size_t lane) const { return is_line_[lane] != 0; }
-  // How many terms the polynomial had, of two variables or, on a line, of one.
+  // The number of terms of the polynomial of two variables or, on a line, of one.
   [[nodiscard]] std::size_t num_terms(std::size_t lane) const {
     return static_cast<std::size_t>(num_terms_[lane]);
   }

@@ -22,10 +22,10 @@ constexpr std::array<std::array<double, 8>, 8> binomials = {{{1},
                                                              {1, 6, 15, 20, 15, 6, 1},
                                                              {1, 7, 21, 35, 35, 21, 7, 1}}};
 
-// The degrees of the monomials whose excess is bounded end here.
+// The highest degree of the monomials whose excess is bounded.
 constexpr std::size_t highest_excess = 4;
 
-// Neighbors that a polynomial of one variable asks for, by its degree.
+// The least number of neighbors for a polynomial of one variable, by its degree.
 constexpr std::array<std::size_t, 4> least_on_line = {0, 1, 4, 6};
 
 double power(double x, std::size_t n) {
@@ -38,7 +38,7 @@ double moment(const FitMoments& moments, std::size_t degree, std::size_t power_o
   return moments[degree * (degree + 1) / 2 - 3 + power_of_b];
 }
 
-// The monomials of a degree in the plane's coordinates over the radius, from the sums over those in a and b.
+// The excess for the monomials in the plane's coordinates over the radius, from the sums for those in a and b.
 double excess_of_sums(const SettledFit& fit, std::span<const double> of_a,
                       std::span<const double> of_b) {
   const std::size_t degree = of_a.size() - 1;
@@ -62,7 +62,7 @@ double excess_of_sums(const SettledFit& fit, std::span<const double> of_a,
   return std::sqrt(square);
 }
 
-// Of one degree.
+// The excess of one degree.
 double excess(const SettledFit& fit, std::size_t degree) {
   std::array<double, 5> of_a{};
   std::array<double, 5> of_b{};
@@ -110,7 +110,7 @@ class NormalEquations {
     return true;
   }
 
-  // For the right side that is 1 in one place.
+  // The solution for the right side that is 1 in one place and 0 in others.
   [[nodiscard]] std::array<double, 5> solution(std::size_t place) const {
     std::array<double, 5> x{};
     x[place] = 1;
@@ -154,7 +154,7 @@ struct LineCoordinate {
   double by_b;
 };
 
-// Along the direction in which the cloud is longest, and across it.
+// The coordinates along the direction in which the cloud is longest, and across it.
 std::array<LineCoordinate, 2> axes_of_cloud(const SettledFit& fit) {
   const double a = 1 / fit.round_a;
   const double b = 1 / fit.round_b;

@@ -1,16 +1,17 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which polynomial a local fit (local_fit.h) has where its neighbors do not determine the one that was asked for.
+// A fit is settled when its polynomial (local_fit.h) is one that the neighbors determine: of a lower degree than the one that was
+// tried, or of one variable.
 //
-// The gradient of a fit of degree d is right for polynomials of degree d. What it makes of those of a degree D > d, whose
-// gradient at the site is 0, is its *excess*: with the neighbors at p_k, their slopes' weights q_k, R the distance of the
+// The gradient of a fit of degree d is right for polynomials of degree d. Monomials of a degree D > d have the gradient 0 at the
+// site; the gradient that the fit gives them is its *excess*: with the neighbors at p_k, their slopes' weights q_k, R the distance of the
 // farthest, and the first axis towards it,
 //
 //     E_D^2 = sum over the monomials m of degree D of |R sum of q_k m(p_k / R)|^2,     E the largest for D = d + 1 ... 4.
 //
-// If the terms of degree D of a function change it by up to M in the neighborhood, the gradient is wrong by up to E_D M / R;
-// if it is taken for 0 it is wrong by what it is. E is a number without unit, and the same in every scale. Around
+// If the terms of degree D of a function change it by up to M in the neighborhood, the gradient is wrong by up to E_D M / R.
+// A gradient that is taken for 0 is wrong by its own length. E is a number without unit, and the same in every scale. Around
 // sites that cover a part of the sphere, at random or as a grid, it is less than 1 (docs/theory/cubic.md). It grows as 1/t where
 // the neighbors are nearly on a line, t the breadth of that cloud over its length, and likewise where they are nearly on a conic.
 //
@@ -25,7 +26,7 @@
 namespace rondel::interpolation {
 
 inline constexpr double most_excess = 1;
-// Of the slope across a line, what the slope along it may take.
+// The slope along a line may take so much of a slope across it.
 inline constexpr double most_slope_across = 0.5;
 
 // Sums over the neighbors of weight a^(s-q) b^q, s = 2 ... 7, in the coordinates that make their cloud round.
@@ -49,7 +50,7 @@ struct SettledFit {
   FitTerms by_b;
 };
 
-// Those of degree 4 that a cubic fit makes: the sums of weight by_a m over the monomials m, and by_b.
+// The sums that give the excess of degree 4 of a cubic fit: weight by_a m for each monomial m, and weight by_b m.
 struct CubicExcess {
   std::array<double, 5> of_a;
   std::array<double, 5> of_b;

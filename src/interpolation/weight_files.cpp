@@ -27,7 +27,7 @@ constexpr std::array<WeightWriter, 5> weight_writers = {
      {".esmf", &interpolation::write_esmf},
      {".scrip", &interpolation::write_scrip}}};
 
-// Which of them netCDF is, the variables tell.
+// The variables of a netCDF file tell which of the formats it has.
 constexpr std::array<std::string_view, 7> weight_endings = {".nc",  ".nc4",  ".cdf",  ".ncf",
                                                             ".npz", ".esmf", ".scrip"};
 

@@ -153,7 +153,7 @@ void read_own_attributes(const io::NetcdfReader& file, WeightFile& content) {
   read_table(file, target_table_name, content.weights.num_rows(), content.target);
   content.normalization = io::netcdf_text(file.attributes(), "normalization");
   content.method = io::netcdf_text(file.attributes(), method_name);
-  // ESMF says "Conservative remapping" of both orders in map_method.
+  // ESMF writes "Conservative remapping" into map_method for both orders.
   for (const char* name : {"ESMF_regrid_method", "map_method"}) {
     if (content.method.empty()) content.method = io::netcdf_text(file.attributes(), name);
   }
