@@ -63,7 +63,7 @@ struct AppliedCounts {
   std::size_t missing = 0;
 };
 
-// Slice by slice, so that fields may be larger than the memory.
+// Applies the weights slice by slice, so that fields may be larger than the memory.
 AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const WeightFile& file,
                         const FieldFile& in) {
   const Weights& weights = file.weights;

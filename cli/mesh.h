@@ -61,7 +61,7 @@ ExitStatus run_mesh_quality(const MeshQualityOptions& options);
 /// Writes the mesh, and graph and report if they are wanted; says so.
 void write_and_report_mesh(const MeshOutput& output, const mesh::MeshArrays& arrays, Job& job);
 
-/// The mesh of a file, of netCDF by read_mesh(), of sites by arrays(). \throws FileError with the place of a site
+/// The mesh of a file: read_mesh() reads netCDF, and arrays() makes one of sites. \throws FileError with the place of a site
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
                                     const mesh::MeshOptions& options);
 
@@ -70,7 +70,7 @@ enum class MeshOutputKind { mesh, mesh_or_sites };
 
 /// Adds the options that all commands that write a mesh share: --output, --format, --kind, --deflate, --graph, --sphere-radius, --report.
 void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKind kind);
-/// \throws UsageError for a format of OUTPUT that is no mesh's, nor sites' where these may be written
+/// \throws UsageError if OUTPUT has a format that is none of meshes, or of sites where these may be written
 void require_mesh_output(const CommonOptions& common, MeshOutputKind kind);
 /// Whether OUTPUT is a mesh, not sites.
 bool is_mesh_file(const CommonOptions& common);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// How the commands that write netCDF are told which kind.
+/// The option --kind of the commands that write netCDF.
 #pragma once
 
 #include <CLI/CLI.hpp>

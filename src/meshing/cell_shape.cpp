@@ -45,7 +45,7 @@ bool has_densities(const mesh::MeshArrays& arrays, std::size_t cell) {
   return false;
 }
 
-// That of the mean spacing of the cells around: spacings are the power -1/4.
+// The density of the mean spacing of the cells around: spacings are its power -1/4.
 double density_at_vertex(const mesh::MeshArrays& arrays, Index vertex) {
   double sum = 0;
   double count = 0;
@@ -58,8 +58,8 @@ double density_at_vertex(const mesh::MeshArrays& arrays, Index vertex) {
   return square * square;
 }
 
-// By what the center of mass moves from that of density 1: the density is linear in each triangle of the site and
-// two corners. In the plane, for it is small itself.
+// The vector by which the center of mass moves from that of density 1. The density is linear in each triangle of the site and
+// two corners. The triangles are taken as plane ones, since the shift itself is small.
 Vec shift_by_density(const mesh::MeshArrays& arrays, std::size_t cell) {
   const Point& site = arrays.cell_points[cell];
   const Vec z = exact::to_vector((1 / arrays.radius) * site);

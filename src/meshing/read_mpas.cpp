@@ -157,7 +157,7 @@ class MpasReader {
     return number == 0 || (number > 0 && static_cast<std::uint64_t>(number) == end + 1);
   }
 
-  // `may_lack`: 0 is none, and so is end + 1, which older programs write.
+  // If `may_lack`, 0 stands for none, and so does end + 1, which older programs write.
   template <class Row>
   void read_rows(const char* name, std::size_t size, std::size_t end, std::vector<Row>& rows,
                  bool may_lack) const {

@@ -24,12 +24,12 @@ class StepMemory {
   [[nodiscard]] std::size_t size() const { return num_pairs_; }
   void forget() { num_pairs_ = 0; }
 
-  // Keeps the step length * direction, in the place of the oldest one if there are most_pairs, if the gradient has grown along
-  // it; otherwise nothing changes.
+  // Keeps the step length * direction if the gradient has grown along it, in the place of the oldest one where there are most_pairs;
+  // otherwise nothing changes.
   void remember(double length, std::span<const TangentVector> direction,
                 std::span<const SiteSums> before, std::span<const SiteSums> after);
 
-  // Between the two calls stands what begins the approximation. They leave in `vector` the product with it.
+  // The caller multiplies by the first approximation between the two calls. They leave in `vector` the product with the whole one.
   void begin_product(std::span<TangentVector> vector);
   void end_product(std::span<TangentVector> vector) const;
 
