@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// How the Climate and Forecast conventions (CF 1.11) and their relatives say where values are (target rondel::io): the one
-/// reading that the readers of files, the tool and the Python package share.
+/// The reading of the Climate and Forecast conventions (CF 1.11) and of their relatives: where the values of a file are, and what its
+/// numbers stand for (target rondel::io). The readers of files, the tool and the Python package share it.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@
 
 namespace rondel {
 
-/// What a file or a data set says of a variable, apart from its values.
+/// The header of a variable of a file or a data set: all of it but the values.
 struct VariableHeader {
   std::string name;
   bool is_number = true;
@@ -31,9 +31,9 @@ struct VariableHeader {
   [[nodiscard]] RONDEL_API std::string text(std::string_view attribute) const;
 };
 
-/// How many degrees a unit of an angle has, by its spelling: UDUNITS's names for degrees (`degree`, `degrees_north`, `degreeE`,
-/// `arcdeg` ..., those of west being negative), radians (`radian`, `rad`), and parts of both. Names count in any case, the symbols
-/// `rad` and `°` as they are. Also `deg`, which UDUNITS does not know.
+/// Returns the number of degrees in a unit of an angle, by its spelling: UDUNITS's names for degrees (`degree`, `degrees_north`, `degreeE`,
+/// `arcdeg` ..., those of west being negative), radians (`radian`, `rad`), and parts of both. Names may have any case, but
+/// not the symbols `rad` and `°`. `deg`, which UDUNITS does not know, is read as degrees.
 /// \returns nothing for what is no angle, and for an empty text.
 RONDEL_API std::optional<double> degrees_per_unit(std::string_view units);
 
@@ -45,13 +45,13 @@ struct CoordinatePair {
   std::size_t lat = none;
   std::size_t lon_bounds = none;
   std::size_t lat_bounds = none;
-  bool are_axes = false;  ///< of one dimension each: the places are all pairs
+  bool are_axes = false;  ///< both have one dimension: the places are all pairs
   bool is_used = false;   ///< another variable has all of their dimensions
-  /// How well the variables say what they are; of two pairs the one with more comes first.
+  /// Grows with what the variables say of themselves; of two pairs the one with the higher rank comes first.
   int rank = 0;
 };
 
-/// What is asked of the coordinates.
+/// The coordinates that are looked for.
 struct CoordinateQuery {
   std::string lon;     ///< the name of the longitudes; empty: found
   std::string lat;     ///< the name of the latitudes; empty: found
@@ -75,16 +75,16 @@ RONDEL_API std::vector<CoordinatePair> find_coordinates(
     std::span<const VariableHeader> variables, const CoordinateQuery& query = {},
     std::vector<std::string>* remarks = nullptr);
 
-/// How many degrees a unit of this coordinate has: by its attribute `units`; without one as its convention has it, radians for the
+/// Returns the number of degrees in a unit of this coordinate, by its attribute `units`. Without one the convention decides: radians for the
 /// names of MPAS and ICON (`lonCell`, `latVertex`, `clon`, `vlat` ...), degrees for others. Bounds without units have those of
 /// their coordinate (CF 7.1).
-/// \param coordinate  of bounds, the coordinate that they belong to; else null
+/// \param coordinate  the coordinate that bounds belong to; null for what is no bounds
 /// \throws InvalidInput if the units are neither degrees nor radians
 RONDEL_API double degrees_per_unit(const VariableHeader& variable,
                                    const VariableHeader* coordinate = nullptr);
 
-/// Which dimensions of coordinates of two or more dimensions hold no places, because neither the longitudes nor the latitudes
-/// change along them, as in WRF's XLAT(Time, south_north, west_east). Of dimensions of length 1 only those that are called time.
+/// Tells which dimensions of coordinates of two or more dimensions hold no places, because neither the longitudes nor the latitudes
+/// change along them, as in WRF's XLAT(Time, south_north, west_east). A dimension of length 1 is one of them only if it is called time.
 /// \param names  of the dimensions
 /// \throws InvalidInput if the values are not as many as the shape says, or if places of three dimensions or more move with time
 RONDEL_API std::vector<bool> repeated_dimensions(std::span<const std::string> names,

@@ -42,7 +42,7 @@ class RONDEL_API InvalidInput : public std::invalid_argument {
 class RONDEL_API FileError : public std::runtime_error {
  public:
   explicit FileError(const std::string& message);
-  /// What the system says of a file: errno in the generic category.
+  /// An error that the system reported for a file: errno in the generic category.
   FileError(const std::string& file, const std::error_code& code);
   FileError(const FileError&) = default;
   FileError& operator=(const FileError&) = default;

@@ -53,8 +53,8 @@ struct FieldSet {
 /// | `.nc`, `.nc4`, `.cdf`, `.ncf`, or what begins as netCDF | the variables `names`, or all that are fields at the points |
 ///
 /// In netCDF the dimensions of the points are those of their longitudes and latitudes (rondel/conventions.h), in any order and at any
-/// place among the others, or else the dimension of that length, or dimensions that follow each other and multiply to it. Values are
-/// what the attributes `_FillValue`, `missing_value`, `valid_min`, `valid_max`, `valid_range`, `_Unsigned`, `scale_factor` and
+/// place among the others. Where the file has none, they are the dimension of the length n, or dimensions that follow each other and whose
+/// product is n. Values are what the attributes `_FillValue`, `missing_value`, `valid_min`, `valid_max`, `valid_range`, `_Unsigned`, `scale_factor` and
 /// `add_offset` make of the numbers.
 ///
 /// \param num_points  n; 0 for tables: as many as there are rows; 0 for netCDF: those of the longitudes and latitudes of
@@ -64,8 +64,8 @@ RONDEL_API FieldSet read_fields(const FileName& file, std::span<const std::strin
                                 std::uint64_t num_points, const ReadOptions& options = {},
                                 std::span<const std::uint64_t> shape = {});
 
-/// A file of fields whose values are read in slices, so that it may be larger than the memory: netCDF is, other formats are
-/// read whole.
+/// A file of fields whose values are read in slices, so that it may be larger than the memory. This holds for netCDF; other formats
+/// are read whole.
 class FieldFile {
  public:
   /// As read_fields().
@@ -76,7 +76,7 @@ class FieldFile {
   FieldFile(const FieldFile&) = delete;
   FieldFile& operator=(const FieldFile&) = delete;
 
-  /// All that read_fields() gives but the values of the arrays, which are empty.
+  /// Returns what read_fields() does, but the values of the arrays are empty.
   [[nodiscard]] RONDEL_API const FieldSet& fields() const;
 
   /// Reads so many of an array's fields as there is room for, from field `first` on.
@@ -95,7 +95,8 @@ class FieldFile {
 RONDEL_API void write_fields(const FileName& file, const FieldSet& fields, const WeightSide& points,
                              const NetcdfOptions& netcdf = {});
 
-/// The same in slices. Tables are kept until finish(), of other formats nothing is. The file appears when it is complete.
+/// Writes the file of write_fields() in slices. Tables are kept in memory until finish(), other formats are not. The file appears when it
+/// is complete.
 class FieldWriter {
  public:
   /// \param fields  the arrays without values, the axes with theirs; used until finish(), as are the points

@@ -36,23 +36,24 @@ struct FileName {
   std::string format;  ///< "ply", "npy" ...; empty: by the ending of the path
 };
 
-/// What netCDF is written as: by the name of the file, netCDF-4 where it ends in .nc4 and else one of the classic formats;
-/// CDF-2, which every program reads and whose variables have less than 4 GiB; CDF-5; or netCDF-4 (HDF5), compressed.
+/// The formats in which netCDF is written. by_name: netCDF-4 where the name of the file ends in .nc4, otherwise one of the classic
+/// formats. CDF-2 is read by every program, and its variables have less than 4 GiB; netCDF-4 (HDF5) is compressed.
 enum class NetcdfKind : std::uint8_t { by_name, cdf2, cdf5, netcdf4 };
 
-/// How netCDF is written. Equal calls give equal bytes; of netCDF-4 with equal versions of netCDF-C and HDF5, which are in the file.
+/// Options of writing netCDF. Equal calls give equal bytes; for netCDF-4 this holds with equal versions of netCDF-C and HDF5, which are
+/// named in the file.
 struct NetcdfOptions {
   NetcdfKind kind = NetcdfKind::by_name;
   int deflate = 1;  ///< netCDF-4: how much effort zlib takes, 0 (not compressed) to 9
 };
 
-/// Where the library netCDF-C is, which reads and writes netCDF-4 (HDF5): the path or the name of its file, which is tried before
-/// the names under which systems have it. For programs that bring it; to be called before the first file of netCDF-4. The
-/// environment's variable RONDEL_NETCDF is stronger.
+/// Says where the library netCDF-C is, which reads and writes netCDF-4 (HDF5): the path or the name of its file, which is tried before
+/// the names under which systems have it. A program that brings the library calls this before the first file of netCDF-4. The
+/// variable RONDEL_NETCDF of the environment takes precedence.
 RONDEL_API void set_netcdf_library(const std::string& path);
 
-/// Whether a file is netCDF: by its format if one is named; else by its first bytes, where it can be read twice; else by the ending
-/// of its path: .nc .nc4 .cdf .ncf .ug .exo .e .g .h5.
+/// Whether a file is netCDF. Its format says so if one is named; otherwise its first bytes do, where it can be read twice; otherwise the
+/// ending of its path: .nc .nc4 .cdf .ncf .ug .exo .e .g .h5.
 RONDEL_API bool is_netcdf_file(const FileName& file);
 
 /// How to read sites.

@@ -72,7 +72,7 @@ struct MeshArrays {
   friend bool operator==(const MeshArrays&, const MeshArrays&) = default;
 };
 
-/// The radii that a mesh can have: squares of lengths are numbers.
+/// The radii that a mesh can have: within them squares of lengths neither overflow nor vanish.
 inline constexpr double least_radius = 1e-30;
 inline constexpr double largest_radius = 1e30;
 

@@ -46,7 +46,7 @@ RONDEL_API LonLatGrid grid_around(std::span<const double> lon_deg, std::span<con
 /// no place.
 RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each);
 
-/// Reads netCDF of any format; which convention it follows, its variables and attributes tell:
+/// Reads netCDF of any format. Its variables and attributes tell which convention it follows:
 ///
 /// | convention | cells |
 /// | --- | --- |
@@ -66,7 +66,7 @@ RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size
 ///    less than three corners have no ring. Rings that are clockwise are turned around.
 /// 3. Coordinates along lines and without bounds: cells end half way between them, the first and the last one as far
 ///    beyond as before, or at the pole if that is less than a cell away.
-/// 4. Cells that the file masks, and such with a corner that is missing (NaN, a fill value), have no ring, and their mask is 0.
+/// 4. Cells that the file masks, and cells with a corner that is missing (NaN, a fill value), have no ring, and their mask is 0.
 /// 5. `FILE.nc:NAME` names the grid of several by one of its variables: a coordinate, a UGRID topology, or values on it.
 /// \throws FileError for what cannot be read, with the file, and the cell or node.
 RONDEL_API CellTable read_cells(const FileName& file);
@@ -91,7 +91,7 @@ RONDEL_API NetcdfSites read_netcdf_sites(const FileName& file, std::span<const s
 RONDEL_API Partition partition_of(const CellTable& table, GridSides sides = GridSides::parallels,
                                   const Execution& execution = {});
 
-/// What a file of weights says of these cells: their centers, the file's or the centers of mass, the mask, the shape of the grid, and the
+/// Returns what a file of weights says of these cells: their centers, the file's or the centers of mass, the mask, the shape of the grid, and the
 /// corners.
 RONDEL_API WeightSide weight_side(const CellTable& table, const Partition& partition);
 

@@ -16,7 +16,7 @@
 
 namespace rondel::mesh {
 
-/// What a file of a mesh is. All are netCDF, in double precision.
+/// The conventions that files of meshes follow. All are netCDF, in double precision.
 enum class MeshFormat : std::uint8_t {
   mpas,  ///< all arrays, TRiSK's weights among them, as the specification of MPAS meshes names them
   ugrid,  ///< CF-1.11 UGRID-1.0: faces, edges, nodes and how they meet
@@ -29,7 +29,7 @@ using rondel::NetcdfKind;
 
 struct MeshFileOptions {
   MeshFormat format = MeshFormat::mpas;
-  /// By the name: netCDF-4 where it ends in .nc4, else CDF-5.
+  /// by_name: netCDF-4 where the name of the file ends in .nc4, otherwise CDF-5.
   NetcdfKind kind = NetcdfKind::by_name;
   int deflate = 1;  ///< as that of NetcdfOptions
 };

@@ -42,8 +42,8 @@ struct Quality {
   /// The mean squared distance to the site, over that of as many regular hexagons, 5 / (18 sqrt 3) of their area: 1 is
   /// out of reach. NaN where the density is not 1 everywhere.
   double energy = 0;
-  /// Of the center of mass from the site, in spacings. Where the mesh has densities it is that of a density that is linear
-  /// between sites and corners, of which each has that of the mean spacing.
+  /// The mean distance of the center of mass from the site, in spacings. Where the mesh has densities, the mass is that of a
+  /// density that is linear between sites and corners; a corner has the density of the mean spacing of its cells.
   double mean_centroid_offset = 0;
   Worst max_centroid_offset;  ///< cell
 

@@ -24,7 +24,7 @@ enum class PolygonEdges : std::uint8_t {
   geodesic,  ///< the shorter arc of a great circle
 };
 
-/// What becomes of features that overlap, contain or repeat each other by more than rounding.
+/// The treatment of features that overlap, contain or repeat each other by more than rounding.
 enum class PolygonOverlap : std::uint8_t {
   keep,   ///< cells overlap as they do
   error,  ///< a FileError names two of them, and a place
@@ -51,8 +51,8 @@ struct PolygonTable {
 ///
 /// 1. A feature without a place is a cell without rings. One that covers the sphere (-180 -90 180 90) has none
 ///    either, and `cells.whole` names it.
-/// 2. Straight lines in longitude and latitude mean the plane of these: what lies in a polygon there, by exact signs, is
-///    inside. Arcs get so many corners that they cross and touch no more than the lines do, however thin a
+/// 2. Straight lines in longitude and latitude mean the plane of these coordinates: a place is inside of a polygon if it lies in it
+///    there, by exact signs. Arcs get so many corners that they cross and touch no more than the lines do, however thin a
 ///    polygon is.
 /// 3. A polygon is read even-odd: rings may go either way around. Lines that run to and fro in it vanish, and rings
 ///    may meet in points, themselves too. Parts of a feature may share sides.

@@ -80,10 +80,10 @@ struct CrossingCells {
 RONDEL_API std::vector<CrossingCells> crossing_cells(const CellRings& cells,
                                                      const Execution& execution = {});
 
-/// Which cells overlap each other, or themselves, by more than rounding of their corners, in lexicographic order, each pair
+/// Finds the cells that overlap each other, or themselves, by more than rounding of their corners, in lexicographic order, each pair
 /// once: cells that cross, contain or repeat each other, wholly or in part, and rings that are not those of a region.
-/// `place` is the middle of what they share, or where a cell contradicts itself. Corners of one cell on the side of
-/// another are no overlap.
+/// `place` is the middle of the part that they share, or a place where a cell contradicts itself. Corners of one cell on the side
+/// of another are no overlap.
 /// \throws InvalidInput as Partition(cells).
 RONDEL_API std::vector<CrossingCells> overlapping_cells(const CellRings& cells,
                                                         const Execution& execution = {});

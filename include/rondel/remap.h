@@ -23,7 +23,7 @@ enum class RemapNorm : std::uint8_t {
   fracarea,  ///< the area that sources cover: constants are kept
 };
 
-/// What becomes of a place that several cells of one partition have.
+/// The treatment of places that belong to several cells of one partition.
 enum class CellOverlap : std::uint8_t {
   error,  ///< it is refused, with two of the cells and the place
   first,  ///< the cell with the lowest index has it, as if the others ended there
@@ -38,8 +38,8 @@ struct RemapOptions {
   /// 0 by cell: it takes no part, as if it were no cell of its partition. Empty: all take part.
   std::vector<std::int32_t> source_mask = {};
   std::vector<std::int32_t> target_mask = {};
-  /// Of cells that take part; what is no more than rounding of corners does not count. No rule mends a cell that overlaps
-  /// itself. Areas and fractions of the result are those that count.
+  /// The rule for cells that take part and overlap by more than rounding of their corners. No rule mends a cell that overlaps
+  /// itself. The areas and fractions of the result are what the rule leaves to each cell.
   CellOverlap overlap = CellOverlap::error;
 };
 
@@ -62,9 +62,9 @@ struct Remap {
 
 /// The overlay of both and the weights that follow from it.
 ///
-/// Which edges cross, and where cells are inside of cells, is decided exactly on the corners as they are, but for those of
-/// cells that overlap, or cross themselves, by rounding alone; points of intersection are rounded. With a grid of parallels nothing needs to be decided: what is summed is
-/// continuous in the corners. Equal cells, shared corners and shared edges are like others: the
+/// Exact signs of the corners as they are decide which edges cross and where cells are inside of cells, but for corners of
+/// cells that overlap, or cross themselves, by rounding alone. Points of intersection are rounded. With a grid of parallels nothing needs
+/// to be decided: what is summed is continuous in the corners. Equal cells, shared corners and shared edges are like others: the
 /// weights of a partition onto itself are the identity. Pieces not larger than rounding of
 /// their corners may make them are left out. The weights depend on nothing but the cells.
 ///

@@ -28,8 +28,8 @@ struct ScvtStep {
   /// area: the mean and the largest.
   double mean_offset = 0;
   double largest_offset = 0;
-  /// An estimate of the part of the work that is done, that of all levels: it never falls, and is 1 where the last level
-  /// has reached its tolerances or its number of steps.
+  /// An estimate of the part of the work of all levels that is done. It never falls, and is 1 when the last level has reached its
+  /// tolerances or its number of steps.
   double done = 0;
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What is wrong with a file of weights (target rondel::remap).
+/// Faults of a file of weights (target rondel::remap).
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ struct WeightReport {
   bool sums_are_fractions =
       false;  ///< rows should have the fractions of the targets as sums, not 1
 
-  /// How often a kind occurs.
+  /// Returns how often a kind occurs.
   [[nodiscard]] RONDEL_API std::size_t count(const std::string& kind) const;
 };
 
@@ -58,7 +58,7 @@ struct WeightCheckOptions {
 /// | `conservation` | what a conservative method takes of a source, weights times areas of targets, is |
 /// |                | not the area of the source times its fraction |
 ///
-/// Methods are known by their names in the file (WeightFile::method). Second order, bilinear, patch, hermite and
+/// The names in the file tell the methods (WeightFile::method). Second order, bilinear, patch, hermite and
 /// cubic weights may be negative, and so may those of a method that is not known.
 ///
 /// Tolerance: an area by Girard's theorem, the coarsest formula in use, is a difference of angles of some pi
