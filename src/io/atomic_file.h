@@ -58,7 +58,7 @@ class RONDEL_API AtomicFile {
   // Flushes, closes and renames.
   void commit();
 
-  // Whether it is written directly; else the file that is replaced, and its directory ("data/", or empty).
+  // Whether the file is written directly; otherwise the file that is replaced, and its directory ("data/", or empty).
   [[nodiscard]] bool is_direct() const { return target_.empty(); }
   [[nodiscard]] const std::string& target() const { return target_; }
   [[nodiscard]] const std::string& directory() const { return directory_; }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which variables are longitudes and latitudes, and which belong together: sections 4.1, 4.2, 5 and 7.1 of CF 1.11.
+// Finds the variables that are longitudes and latitudes, and those that belong together: sections 4.1, 4.2, 5 and 7.1 of CF 1.11.
 #include <algorithm>
 #include <sstream>
 #include <string>
@@ -17,7 +17,7 @@ using io::CoordinateKind;
 
 constexpr std::size_t none = CoordinatePair::none;
 
-// What a pair's rank is the sum of.
+// The rank of a pair is a sum of these.
 constexpr int rank_of_listed = 32;
 constexpr int rank_of_attributes = 16;
 constexpr int rank_of_bounds = 8;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The lines between the cells of an axis. All is done with coordinates that increase; others are turned around before and after.
+// Finds the lines between the cells of an axis. Coordinates that decrease are reversed before, and the lines are reversed after.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -13,7 +13,7 @@
 namespace rondel {
 namespace {
 
-// As shares of a cell's width: what rounding to single precision may have moved.
+// The distance by which rounding to single precision may have moved a bound, as a share of a cell's width.
 constexpr double rounding_share = 1e-3;
 
 struct CellSides {
@@ -39,7 +39,7 @@ void unroll(std::vector<double>& values, double sign) {
   }
 }
 
-// Whether most steps, turned to the shorter way around, go west; not if all values increase.
+// Whether most steps go west when each takes the shorter way around; false if all values increase.
 bool goes_west(const std::vector<double>& values) {
   if (std::ranges::is_sorted(values)) return false;
   std::size_t num_west = 0;
@@ -57,7 +57,7 @@ std::vector<double> halves(const std::vector<double>& values) {
   return lines;
 }
 
-// So that a grid around the globe has no gap of rounding, and cells at both ends that are one have half of it each.
+// Makes the ends of a grid around the globe meet without a gap of rounding; where the cells at both ends are one, each gets half of it.
 void close_circle(std::vector<double>& lines, double first, double last) {
   const std::size_t n = lines.size();
   const double turn = lines.back() > lines.front() ? 360 : -360;
@@ -83,8 +83,8 @@ void end_at_poles(std::vector<double>& lines) {
   lines[n - 1] = to_pole(lines[n - 1], last_width);
 }
 
-// The sides of each cell, the lower one first. Longitudes may jump by a turn within a cell, 350 to 10; what most cells do tells
-// which bound is the western one.
+// The sides of each cell, the lower one first. Longitudes may jump by a turn within a cell, from 350 to 10; the majority of the cells
+// tells which bound is the western one.
 std::vector<CellSides> sides_of_bounds(std::span<const double> bounds, bool is_longitude) {
   std::vector<CellSides> cells;
   std::ptrdiff_t num_forward = 0;

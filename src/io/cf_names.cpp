@@ -13,7 +13,7 @@ struct KnownNames {
   std::string_view lon;
   std::string_view lat;
 };
-// In lower case: plain ones, NEMO, ROMS, POP and CICE, MOM6, WRF and its preprocessor, NEMO's mesh masks, ICON, MPAS, SCRIP.
+// The names in lower case: plain ones, NEMO, ROMS, POP and CICE, MOM6, WRF and its preprocessor, NEMO's mesh masks, ICON, MPAS, SCRIP.
 constexpr std::array known_names = {
     KnownNames{"lon", "lat"},
     KnownNames{"longitude", "latitude"},

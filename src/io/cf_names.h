@@ -12,13 +12,13 @@
 
 namespace rondel::io {
 
-// ASCII letters only.
+// Makes ASCII letters small; others stay.
 RONDEL_API std::string lower_case(std::string_view text);
 RONDEL_API std::string_view without_blanks(std::string_view text);
 
 enum class CoordinateKind { lon, lat };
 
-// Whether models call longitudes, or latitudes, of places so: the fallback where no attribute says it.
+// Whether models give longitudes, or latitudes, of places this name: the fallback where no attribute says it.
 bool is_known_name(std::string_view name, CoordinateKind kind);
 // Whether a variable holds longitudes, or latitudes. 0: no, 1: by its name, 2: by its units, 3: by its standard_name.
 RONDEL_API int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind);
@@ -26,7 +26,7 @@ RONDEL_API int coordinate_evidence(const VariableHeader& variable, CoordinateKin
 bool is_in_radians(std::string_view name);
 // Whether a variable of this name in a mesh of MPAS or ICON, or with this cf_role of UGRID, has the numbers of neighbors and corners.
 RONDEL_API bool is_connectivity(const VariableHeader& variable);
-// Whether models call the dimension of their cells so.
+// Whether models give the dimension of their cells this name.
 RONDEL_API bool is_name_of_cells(std::string_view dimension);
 // Whether the name is that of bounds of `coordinate`.
 bool is_name_of_bounds(std::string_view name, std::string_view coordinate);

@@ -16,7 +16,7 @@
 
 namespace rondel::io {
 
-// What the file says of its variables, by their order.
+// The headers of the variables of the file, in their order.
 RONDEL_API std::vector<VariableHeader> headers_of(const NetcdfReader& file);
 RONDEL_API VariableHeader header_of(const NetcdfReader& file,
                                     const NetcdfReader::Variable& variable);
@@ -25,7 +25,7 @@ RONDEL_API VariableHeader header_of(const NetcdfReader& file,
 RONDEL_API std::vector<double> meant_numbers(const NetcdfReader& file,
                                              const NetcdfReader::Variable& variable);
 
-// What has no units is in those of `coordinate`, or else in its convention's.
+// A coordinate without units has those of `coordinate`, or otherwise those of its convention.
 enum class UsualUnits { of_name, degrees, radians };
 // Coordinates in degrees; missing ones NaN. Throws BadValue for units that are neither degrees nor radians.
 RONDEL_API std::vector<double> degrees_of(const NetcdfReader& file,
@@ -37,7 +37,7 @@ RONDEL_API std::vector<double> degrees_of(const NetcdfReader& file,
 RONDEL_API std::vector<double> transposed(std::span<const std::uint64_t> shape,
                                           const std::vector<std::size_t>& order,
                                           std::vector<double> values);
-// The same by the numbers of a variable's dimensions, which differ.
+// The same for dimensions that are named by their numbers in the variable, which differ.
 RONDEL_API std::vector<double> in_order(const NetcdfReader::Variable& variable,
                                         const std::vector<std::size_t>& wanted,
                                         std::vector<double> values);

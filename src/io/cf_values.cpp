@@ -42,7 +42,7 @@ std::optional<double> number_of_text(const std::string& text) {
   }
 }
 
-// The numbers of an attribute, also where it is a text.
+// The numbers of an attribute, which may be a text.
 std::vector<double> numbers_of_attribute(const NetcdfVariable& variable, std::string_view name) {
   const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
   if (attribute == nullptr) return {};
@@ -139,7 +139,7 @@ ValueRules::ValueRules(const NetcdfVariable& variable)
   }
 }
 
-// As the variable's type has it.
+// The number after conversion to the type of the variable.
 double ValueRules::as_type(double value) const {
   if (type_ == NetcdfType::float32 && std::abs(value) <= std::numeric_limits<float>::max()) {
     return static_cast<double>(static_cast<float>(value));
@@ -172,7 +172,7 @@ void ValueRules::apply(std::span<double> values) const {
   }
 }
 
-// Integers that differ are a scale_factor apart, of which unpacking in single precision moves them by less than a quarter.
+// Integers that differ are a scale_factor apart, and unpacking in single precision moves them by less than a quarter of it.
 void ValueRules::apply_to_unpacked(std::span<double> values) const {
   const double slack = is_packed() && !is_floating(type_) ? std::abs(scale_) / 4 : 0;
   const auto unpacked = [&](double value) { return value * scale_ + offset_; };

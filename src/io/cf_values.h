@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the numbers of a variable stand for: which are missing, and how they are packed. CF 1.11, sections 2.5.1 and 8.1; NetCDF
+// The meaning of the numbers of a variable: some are missing, and they may be packed. CF 1.11, sections 2.5.1 and 8.1; NetCDF
 // User's Guide, "Attribute Conventions".
 //
-// 1. Missing are _FillValue, each number of missing_value, what lies outside of valid_min, valid_max or valid_range, NaN, and without
-//    _FillValue the fill that netCDF writes where nobody wrote (of types of one byte there is none).
+// 1. Missing are _FillValue, each number of missing_value, numbers outside of valid_min, valid_max or valid_range, NaN, and without
+//    _FillValue the fill that netCDF writes where nobody wrote (types of one byte have none).
 // 2. These attributes may have any type of numbers, or be a text that is a number; they are compared in the less precise of both types.
-// 3. They are of the packed numbers; valid_* are of the unpacked ones where their type is that of scale_factor or add_offset and not
-//    the variable's.
+// 3. They are compared with the packed numbers. valid_* are compared with the unpacked ones where their type is that of scale_factor or
+//    add_offset and not the variable's.
 // 4. _Unsigned = "true" makes signed integers unsigned, "false" the reverse.
 #pragma once
 
@@ -26,11 +26,11 @@ class RONDEL_API ValueRules {
   // Throws BadValue if scale_factor or add_offset is no number, or several.
   explicit ValueRules(const NetcdfVariable& variable);
 
-  // Numbers as they are in the file become what they stand for; missing ones NaN.
+  // Unpacks numbers as they are in the file; missing ones become NaN.
   void apply(std::span<double> values) const;
-  // The same of numbers that are unpacked already; missing ones may be NaN.
+  // Does the same with numbers that are unpacked already; missing ones may be NaN.
   void apply_to_unpacked(std::span<double> values) const;
-  // Whether apply() changes any number but fills.
+  // Whether apply() changes numbers that are not missing.
   [[nodiscard]] bool is_packed() const { return scale_ != 1 || offset_ != 0; }
   // A sentence if scale_factor or add_offset is a text; else empty.
   [[nodiscard]] const std::string& remark() const { return remark_; }
@@ -53,7 +53,7 @@ class RONDEL_API ValueRules {
   std::string remark_;
 };
 
-// What netCDF writes where nobody wrote; NaN for types that have none.
+// The number that netCDF writes where nobody wrote; NaN for types that have none.
 RONDEL_API double default_fill(NetcdfType type);
 
 }  // namespace rondel::io

@@ -29,7 +29,7 @@ RONDEL_API std::string_view cell_of(const Column& column, std::size_t row);
 // A table with a header and a line for each of the rows; no text if there are no columns.
 RONDEL_API std::string csv_of(std::span<const Column> columns);
 
-// The columns of such a table. Throws BadValue if it is none, or has not this number of rows.
+// The columns of such a table. Throws BadValue if the text is no table, or has not this number of rows.
 RONDEL_API std::vector<Column> columns_of_csv(std::string_view text, std::size_t num_rows);
 
 }  // namespace rondel::io

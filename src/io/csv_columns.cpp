@@ -63,7 +63,7 @@ std::vector<std::size_t> all_equal_to(const Header& header, std::string_view nam
   return equal;
 }
 
-// `"lon" (column 1) and "longitude" (column 3)`
+// A text such as `"lon" (column 1) and "longitude" (column 3)`.
 std::string with_positions(const Header& header, std::span<const std::size_t> columns) {
   std::string text;
   for (std::size_t k = 0; k < columns.size(); ++k) {

@@ -29,7 +29,7 @@ bool has_netcdf_ending(const FileName& file) {
   return std::ranges::find(netcdf_endings, ending(file)) != netcdf_endings.end();
 }
 
-// A format that says what is in the file leaves it to the path.
+// A format such as "mpas" says what is in the file; then the ending of the path tells the kind of netCDF.
 NetcdfOptions with_kind(NetcdfOptions options, const FileName& file) {
   constexpr std::string_view netcdf4 = ".nc4";
   const bool is_netcdf4 = ending(file) == netcdf4 || ending(file.path) == netcdf4;

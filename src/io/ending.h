@@ -26,7 +26,7 @@ inline constexpr std::array<std::string_view, 9> netcdf_endings = {
 // Whether the format or, where none is named, the ending of the path is one of them.
 RONDEL_API bool has_netcdf_ending(const FileName& file);
 
-// The options with the kind that the file's name says, if they say none themselves.
+// The options, with the kind that the file's name says if they have none.
 RONDEL_API NetcdfOptions with_kind(NetcdfOptions options, const FileName& file);
 
 // The row of a table of formats whose member `ending` fits the file; null if there is none.

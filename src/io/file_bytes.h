@@ -33,7 +33,7 @@ class RONDEL_API FileBytes {
 
   // All bytes. Throws FileError.
   std::string_view text();
-  // At least so many of the first bytes, or all. Throws FileError.
+  // Returns at least so many of the first bytes, or all. Throws FileError.
   std::string_view longer_head(std::size_t size);
 
   // Bytes of a file of known size, from this place on, without those before; several threads may ask.

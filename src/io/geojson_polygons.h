@@ -16,7 +16,7 @@ namespace rondel::io {
 
 struct LonLatRing {
   std::vector<LonLat> positions;  // degrees; the first one is not repeated
-  bool is_hole = false;           // the others begin a polygon
+  bool is_hole = false;           // a ring that is no hole begins a polygon
   bool is_turn =
       false;  // its last position is the first one a whole turn of the globe away, and left out
 };

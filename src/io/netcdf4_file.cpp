@@ -36,7 +36,7 @@ int opened(const NetcdfLibrary& library, const Open& open) {
   return number;
 }
 
-// Reads what the header of a file tells, group by group. Errors are those of single things, which are left out.
+// Reads the header of a file, group by group. A dimension, variable or attribute that cannot be read is left out.
 class Netcdf4Header {
  public:
   explicit Netcdf4Header(const NetcdfLibrary& library) : library_(library) {}
@@ -186,7 +186,7 @@ Netcdf4File::Netcdf4File(const std::string& path) : library_(netcdf_library()) {
 
 Netcdf4File::Netcdf4File(std::string_view bytes) : library_(netcdf_library()) {
   number_ = opened(library_, [&](int& number) {
-    // It is opened to be read: nobody changes the bytes.
+    // The file is opened for reading, so that nobody changes the bytes.
     return library_.open_memory("memory", 0, bytes.size(), const_cast<char*>(bytes.data()),
                                 &number);
   });

@@ -20,10 +20,10 @@ namespace {
 
 using OutputLock = std::lock_guard<system::Mutex>;
 
-// Of a chunk: small enough for HDF5's cache of 1 MiB and more, large enough for zlib.
+// The number of values in a chunk is small enough for HDF5's cache of 1 MiB and more, and large enough for zlib.
 constexpr std::uint64_t values_of_chunk = std::uint64_t{1} << 16U;
 
-// The last dimensions as long as they fit, of the next one as many places as do.
+// A chunk has the last dimensions as long as they fit, and as many places of the next one as fit, too.
 std::vector<std::size_t> chunk_lengths(const std::vector<std::uint64_t>& shape) {
   std::vector<std::size_t> lengths(shape.size(), 1);
   std::uint64_t room = values_of_chunk;
@@ -106,7 +106,7 @@ void Netcdf4Output::define_variable(const NetcdfVariable& variable,
       require_netcdf(library_, library_.set_deflate(number_, output.number, shuffle, 1, deflate));
     }
   }
-  // All values are written: none is filled before.
+  // All values are written, so netCDF-C need not fill any before.
   if (find_attribute(variable.attributes, "_FillValue") == nullptr) {
     require_netcdf(library_, library_.set_fill(number_, output.number, 1, nullptr));
   }

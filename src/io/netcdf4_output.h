@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A file of netCDF-4 as netCDF-C writes it: what NetcdfWriter makes of one.
+// A file of netCDF-4 as netCDF-C writes it, for NetcdfWriter.
 #pragma once
 
 #include <cstddef>
@@ -21,8 +21,8 @@ struct Netcdf4Definitions {
   const std::vector<NetcdfVariable>& variables;
 };
 
-// netCDF-C needs a file in which it can write here and there. That one has the rights of the target and no name, where the
-// system allows it, and becomes the content of the target at the end.
+// netCDF-C needs a file in which it can write here and there. This file has the rights of the target and no name, where the
+// system allows it, and its content is copied to the target at the end.
 //
 // Variables are divided into chunks of runs of values, so that values can be written in their order, each chunk once.
 class Netcdf4Output {

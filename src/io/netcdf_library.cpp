@@ -24,7 +24,7 @@ std::string& named_netcdf_library() {
   return name;
 }
 
-// Of the library's versions of its interface, from those that may come on down to that of 4.4.
+// Tries the names of the library with the numbers of its interface, from those that may come on down to that of 4.4.
 void* open_netcdf_library() {
   if (const char* const name = std::getenv("RONDEL_NETCDF"); name != nullptr && *name != '\0') {
     return system::open_library(name);
@@ -132,7 +132,7 @@ bool is_netcdf_file(const FileName& file) {
       const io::FileBytes bytes(file.path, true);
       if (io::is_netcdf(bytes.head())) return true;
     } catch (const FileError&) {
-      // Who reads it will say so.
+      // The reader will report the error.
     }
   }
   return io::has_netcdf_ending(file);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// netCDF-C, loaded when a file of netCDF-4 is to be read or written: nothing needs it to be built or to run. These are
-// functions of its C interface, whose binary form is the same since netCDF-C 4.4.
+// The library netCDF-C, which is loaded when a file of netCDF-4 is to be read or written: Rondel is built and runs without it. These
+// are functions of its C interface, whose binary form is the same since netCDF-C 4.4.
 #pragma once
 
 #include <cstddef>
@@ -51,7 +51,7 @@ system::Mutex& netcdf_library_lock();
 // Throws BadValue if there is none.
 const NetcdfLibrary& netcdf_library();
 
-// Throws BadValue with what the library says of the error, if it is one.
+// Throws BadValue with the message of the library if the number is that of an error.
 void require_netcdf(const NetcdfLibrary& library, int error);
 
 // Numbers of the interface.

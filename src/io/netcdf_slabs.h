@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A run of an array's values in boxes, as netCDF-C reads and writes them.
+// Divides a run of an array's values into boxes, as netCDF-C reads and writes them.
 #pragma once
 
 #include <algorithm>
@@ -30,7 +30,7 @@ void for_each_slab(std::span<const std::uint64_t> shape, std::uint64_t begin, st
       rest /= shape[d];
       count[d] = 1;
     }
-    // Whole dimensions, from the last one on, as long as the box begins with their first place and all of them is wanted.
+    // The box takes whole dimensions, from the last one on, while it begins with their first place and all of them is wanted.
     std::size_t in_box = 1;
     for (std::size_t d = rank; d-- > 0;) {
       const auto left = static_cast<std::size_t>(shape[d]) - start[d];

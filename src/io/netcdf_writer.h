@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Files of netCDF, written from front to back: of the classic formats by own code, of netCDF-4 by netCDF-C.
+// Writes files of netCDF from front to back: the classic formats by own code, netCDF-4 by netCDF-C.
 #pragma once
 
 #include <algorithm>
@@ -47,7 +47,8 @@ class RONDEL_API NetcdfWriter {
   void add_variable(NetcdfVariable variable);
   // Of this version, 1, 2 or 5; of 0 the lowest one that can. Throws BadValue if that version cannot.
   void begin(int version = 0);
-  // Of the kind that the options name; of none the lowest classic one that can. Throws BadValue also where netCDF-C is not there.
+  // The file has the kind that the options name; if they name none, it is the lowest classic one that can hold the variables. Throws
+  // BadValue also where netCDF-C is not there.
   void begin(const NetcdfOptions& options);
 
   // The next values of the variable; T is that of its type: char, int8_t, int32_t, int64_t, float or double.

@@ -49,7 +49,7 @@ class StampedSet {
     Stamp stamp{};
   };
 
-  // Of the slot of the value, or the one where it belongs.
+  // The number of the slot that has the value, or of the one where it belongs.
   [[nodiscard]] std::size_t place_of(Index value) const {
     constexpr std::uint64_t multiplier = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
     const std::size_t mask = slots_.size() - 1;

@@ -7,7 +7,7 @@
 
 namespace rondel::system {
 
-// What a library that is named by its whole path needs is looked for beside it.
+// Libraries that a library needs are looked for beside it if it is named by its whole path.
 void* open_library(const std::string& name) noexcept {
   const bool is_path = name.find_first_of("/\\") != std::string::npos;
   return ::LoadLibraryExW(wide_path(name).c_str(), nullptr,
