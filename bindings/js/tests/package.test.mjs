@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the package holds and how it is loaded.
+// The files of the package, and the ways to load it.
 
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";

@@ -22,7 +22,7 @@
 namespace rondel::python {
 namespace {
 
-// Name, whether it holds numbers, dimensions, their lengths, attributes that are texts.
+// The name of a variable, whether it holds numbers, its dimensions, their lengths, and its attributes that are texts.
 using HeaderIn = std::tuple<std::string, bool, std::vector<std::string>, std::vector<std::uint64_t>,
                             std::vector<std::pair<std::string, std::string>>>;
 // Indices of longitudes, latitudes and their bounds (-1: none), degrees in a unit of each, whether they are axes, and the rank.
@@ -58,7 +58,7 @@ std::vector<double> vector_of_axis(const NumbersIn& numbers) {
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 
-// Name, type, text and numbers.
+// The name, type, text and numbers of an attribute.
 using ValueAttributeIn = std::tuple<std::string, std::string, std::string, std::vector<double>>;
 using NumbersInOut = nb::ndarray<double, nb::shape<-1>, nb::c_contig, nb::device::cpu>;
 

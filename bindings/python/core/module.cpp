@@ -25,7 +25,7 @@ void raise_invalid_input(const rondel::InvalidInput& error) {
   PyErr_SetObject(type.ptr(), value.ptr());
 }
 
-// OSError(errno, reason, file), of which Python makes a FileNotFoundError and the like.
+// Python turns OSError(errno, reason, file) into a FileNotFoundError and the like.
 void raise_os_error(const rondel::FileError& error) {
   if (error.code().category() != std::generic_category() || !error.code()) {
     PyErr_SetString(PyExc_OSError, error.what());

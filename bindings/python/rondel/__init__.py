@@ -136,5 +136,5 @@ if not TYPE_CHECKING:
 
 
 def __dir__() -> list[str]:
-    """What is for users, and the modules."""
+    """List the names that are for users, and the modules."""
     return sorted([*__all__, "__version__", "distributed", "mesh", "out_of_core"])

@@ -187,7 +187,7 @@ def unit_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
 
 
 def target_vectors(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
-    """Those of targets: errors say so, and not that a site is wrong."""
+    """Unit vectors of targets: errors name a target, not a site."""
     try:
         return unit_vectors(lon, lat)
     except InvalidInput as error:

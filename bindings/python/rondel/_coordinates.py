@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the C++ library finds in a Dataset: coordinates, bounds and missing values."""
+"""Coordinates, bounds and missing values of a Dataset, as the C++ library finds them."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MARKS = {"lon": ("longitude", "degrees_east"), "lat": ("latitude", "degrees_nort
 
 
 def _headers(data: Any) -> list[tuple[Any, ...]]:
-    """What a Dataset, or a DataArray and its coordinates, says of each variable."""
+    """The headers of the variables of a Dataset, or of a DataArray and its coordinates."""
     variables = dict(data.variables if isinstance(data, xarray.Dataset) else data.coords)
     if isinstance(data, xarray.DataArray):
         variables[_VALUES if data.name is None else data.name] = data
@@ -96,12 +96,12 @@ class Coordinates:
 
     @property
     def bounds_names(self) -> set[str]:
-        """Variables with bounds: of these coordinates, and what any variable calls so."""
+        """Variables that are bounds of these coordinates, or that any attribute calls so."""
         named = {header[0]: dict(header[4]).get("bounds") for header in _headers(self._data)}
         return {name for name in (*self._bounds, *named.values()) if name is not None}
 
     def bounds(self) -> list[FloatArray | None]:
-        """Those of longitudes and of latitudes in degrees, the dimensions of the places first."""
+        """Bounds of longitudes and of latitudes in degrees; the dimensions of places come first."""
         made: list[FloatArray | None] = []
         places = (self.lon, self.lat)
         for name, unit, own in zip(self._bounds, self._units[2:], places, strict=True):
@@ -121,7 +121,7 @@ class Coordinates:
 def _not_found(headers: list[tuple[Any, ...]], lon: Hashable | None, lat: Hashable | None) -> str:
     if lon is not None and lat is not None:
         return f"{lon} and {lat} must have the same dimensions, or one dimension each"
-    # Which of both there is.
+    # Only one of the two was found: the message names it.
     for kind, other in (("lon", "lat"), ("lat", "lon")):
         standard_name, units = MARKS[kind]
         is_there = any(
@@ -144,7 +144,7 @@ _PACKING = ("scale_factor", "add_offset")
 
 
 def _code(dtype: Any) -> str | None:
-    """Such as "f4", of the types that netCDF has."""
+    """The name of a type that netCDF has, such as "f4"."""
     is_known = dtype.kind in "iu" or (dtype.kind == "f" and dtype.itemsize in (4, 8))
     return f"{dtype.kind}{dtype.itemsize}" if is_known else None
 

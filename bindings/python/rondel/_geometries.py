@@ -41,7 +41,7 @@ def polygons_of(
 def features_of(
     features: Any, edges: Edges, overlap: PolygonOverlap, read: Callable[[str, bool, int], Any]
 ) -> Any:
-    """What is read of a file of GeoJSON, or of objects: `read` gets a file and the rules."""
+    """The result of `read`, which gets a file with the features, and the rules."""
     rules = _is_geodesic(edges), _number_of(overlap)
     if is_file(features):
         return _read(os.fspath(features), lambda file: read(file, *rules))
@@ -130,7 +130,7 @@ def _is_box(bounds: Any) -> bool:
 
 
 def _box(west: float, south: float, east: float, north: float) -> dict[str, Any]:
-    """Across the antimeridian if the west is east of the east (RFC 7946, section 5.2)."""
+    """A box, which crosses the antimeridian if its west is east of its east (RFC 7946, 5.2)."""
     if east < west:
         east += 360
     if not (south < north and west < east):

@@ -7,7 +7,7 @@ from __future__ import annotations
 import pathlib
 import sys
 
-# Below a folder of sys.path: what the wheels of netCDF4 carry for Linux, macOS and Windows.
+# The wheels of netCDF4 carry it below a folder of sys.path, for Linux, macOS and Windows.
 _IN_WHEELS = (
     "netcdf4.libs/libnetcdf-*.so*",
     "netCDF4.libs/libnetcdf-*.so*",
@@ -15,7 +15,7 @@ _IN_WHEELS = (
     "netcdf4.libs/netcdf-*.dll",
     "netCDF4.libs/netcdf-*.dll",
 )
-# Below sys.prefix: what conda installs.
+# conda installs it below sys.prefix.
 _IN_CONDA = ("lib/libnetcdf.so", "lib/libnetcdf.dylib", "Library/bin/netcdf.dll")
 
 

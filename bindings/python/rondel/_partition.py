@@ -372,7 +372,7 @@ class Partition(Described):
         return self._partition.rings()
 
     def _degrees(self) -> FloatArray:
-        """Longitudes and latitudes, shape (n, 2): of a grid's axes, the file's, or the centers."""
+        """Longitudes and latitudes, shape (n, 2): from a grid's axes, the file, or the centers."""
         if self._file_centers is not None:
             return self._file_centers
         if self._axes is None:

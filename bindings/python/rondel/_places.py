@@ -117,7 +117,7 @@ class Places:
         return delaunay_lonlat(lon, lat, threads=threads), numbers
 
     def weights_to(self, target: Places, method: Any, **options: Any) -> Weights:
-        """Of the places that are somewhere; targets that are nowhere have no entries."""
+        """Weights for the places that take part; the other targets have no entries."""
         tri, numbers = self.triangulated(self._located, options.get("threads"))
         made = tri.weights(target.points(), method, **options)
         if self._located is None and target._located is None:
@@ -243,7 +243,7 @@ def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[An
 
 
 def _warn(text: str) -> None:
-    """As if the line warned that called this package."""
+    """Warns in the name of the line that called this package."""
     frame, level = inspect.currentframe(), 1
     while frame is not None and frame.f_globals.get("__package__") == __package__:
         frame, level = frame.f_back, level + 1
@@ -287,7 +287,7 @@ def _marked(variables: dict[Any, Any]) -> xarray.Dataset:
 
 
 def _four(corners: Any, shape: tuple[int, ...]) -> FloatArray:
-    """Those of each cell, of an array of all of a curvilinear grid, or of several such."""
+    """The corners of each cell, from arrays of the corners of a curvilinear grid."""
     wanted = (*shape[:-2], *(length + 1 for length in shape[-2:]))
     if len(shape) < 2 or corners.shape != wanted:
         raise ValueError(f"corners of cells of shape {shape} cannot have shape {corners.shape}")

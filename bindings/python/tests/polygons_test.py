@@ -18,7 +18,7 @@ CELLS = rondel.SphericalVoronoi(clouds.uniform(40, 5))
 
 
 def area_of_ring(ring):
-    """Between straight lines in longitude and latitude: the integral of the sine along them."""
+    """The area between straight lines in longitude and latitude: the integral of the sine."""
     lon, lat = np.radians(np.array(ring.coords, np.longdouble)).T
     mean = np.sin((lat[1:] + lat[:-1]) / 2)
     half = (lat[1:] - lat[:-1]) / 2
@@ -39,7 +39,7 @@ def area_of(geometry):
 
 
 def bound_of(geometry):
-    """How far arcs may take the area from that of straight lines."""
+    """The largest difference of the area between arcs from that between straight lines."""
     return TOLERANCE * math.radians(geometry.length) + 1e-13
 
 

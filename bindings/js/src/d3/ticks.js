@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Round numbers that divide an interval into about so many parts: those of d3-scale, scaleLinear().domain([least,
+// Round numbers that divide an interval into about so many parts, as d3-scale finds them by scaleLinear().domain([least,
 // most]).nice().ticks(n).
 
 /**
