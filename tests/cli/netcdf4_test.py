@@ -134,7 +134,7 @@ class Netcdf4(unittest.TestCase):
         np.testing.assert_allclose(self.values("group.nc", "model_t"), 5, rtol=1e-12)
 
     def test_xarray(self):
-        """Its strings are variables of strings, and its fill values NaN."""
+        """xarray writes texts as variables of strings, and NaN as fill values."""
         lat, lon = np.arange(-75.0, 90, 30), np.arange(-165.0, 180, 30)
         dataset = xarray.Dataset(
             {
@@ -295,7 +295,7 @@ class Netcdf4(unittest.TestCase):
             self.run_tool(*command)
 
     def test_damage_is_told(self):
-        """Cut anywhere, or with bytes that changed: a message of one line with the file's name, or the answer."""
+        """A file that is cut anywhere, or has other bytes, gives a message of one line with its name, or the answer."""
         with netCDF4.Dataset(self.folder / "ok.nc", "w") as data:
             add_grid(data)
             data.createVariable("t", "f4", ("lat", "lon"), zlib=True)[:] = np.arange(72).reshape(

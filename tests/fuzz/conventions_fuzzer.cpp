@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Variables with any of the names, units and attributes that conventions know, and axes of any numbers: what is found are pairs of
-// coordinates that belong together, and lines are as many as cells have, in order, with each coordinate of an axis that is one between
-// its two.
+// Variables with any of the names, units and attributes that conventions know, and axes of any numbers. The pairs that are found are
+// coordinates that belong together. Lines are as many as cells have, in order, and each coordinate of an axis lies between the two of its
+// cell.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>

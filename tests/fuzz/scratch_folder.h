@@ -18,7 +18,7 @@ class ScratchFolder {
       : path_(std::filesystem::temp_directory_path() /
               ("rondel-fuzz-" + std::to_string(getpid()))) {
     std::filesystem::create_directories(path_);
-    // HDF5 does not survive all bytes, and is not what is tried here: it is not found, unless it is named.
+    // HDF5 does not survive all bytes, and is not under test here: it is not found, unless it is named.
     ::setenv("RONDEL_NETCDF", "none", 0);
   }
   ~ScratchFolder() {

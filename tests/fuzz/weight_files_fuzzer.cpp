@@ -84,7 +84,7 @@ void test_faults(const WeightFile& file) {
   }
 }
 
-// Values come in slices as they do at once, and are written so.
+// Values that are read and written in slices are the same as those that are read and written at once.
 void test_slices(const ScratchFolder& folder, const std::string& path, const FieldSet& whole) {
   const FieldFile file(path, {}, 4);
   const FieldSet& fields = file.fields();

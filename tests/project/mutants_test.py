@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""The errors of tests/mutants can be put into the code: each quoted one stands there once, and random ones change code."""
+"""The errors of tests/mutants can be put into the code: each quoted line stands there once, and random changes are changes."""
 
 import pathlib
 import random

@@ -52,7 +52,7 @@ int place_in(const ExactRing& ring, const Exact& p) {
   return is_inside ? 1 : -1;
 }
 
-// Of what does not cross the other ring: by the first place of it, a corner or the middle of a side, that is not on it.
+// The place of a ring that does not cross the other one: that of its first corner or middle of a side that is not on the other ring.
 int place_of(const ExactRing& ring, const ExactRing& other) {
   for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
     const Exact middle{(ring[k].x + ring[k + 1].x) / 2, (ring[k].y + ring[k + 1].y) / 2};

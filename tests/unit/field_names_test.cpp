@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What fields are called where each is a column.
+// The names of fields in tables, where each is a column.
 #include "interpolation/field_names.h"
 
 #include <gtest/gtest.h>

@@ -187,7 +187,7 @@ TEST(interpolation_fit, fits_are_least_squares) {
   }
 }
 
-// settled_fit.h, by least squares of the monomials themselves.
+// The rule of settled_fit.h, by least squares of the monomials themselves.
 double excess(const Spots& given, std::size_t num_terms) {
   double farthest = 0;
   std::array<double, 2> axis{};
@@ -243,7 +243,7 @@ TEST(interpolation_fit, degree_is_what_the_neighbors_determine) {
   for (const std::size_t terms : {0U, 2U, 5U, 9U}) EXPECT_GT(seen[terms], 10) << terms;
 }
 
-// Across a line the slope is 0, along it that of a polynomial of one variable.
+// The slope across a line is 0, and the slope along it is that of a polynomial of one variable.
 TEST(interpolation_fit, neighbors_in_line_have_the_slope_along_it) {
   const Plane plane = Plane::at({0, 0, 1});
   EXPECT_FALSE(OneFit(plane.x, {}, 0).has_gradient);

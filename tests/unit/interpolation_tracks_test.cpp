@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites that do not determine gradients: tracks, meridians, planes and a site off them. What methods with gradients make of
-// smooth fields, against what linear interpolation does.
+// Sites that do not determine gradients: tracks, meridians, planes and a site off them. The errors of methods with gradients for
+// smooth fields are compared with those of linear interpolation.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -35,7 +35,7 @@ struct TrackSites {
   std::vector<Point> sites;
 };
 
-// Along a meridian from 60 S to 60 N, beside it by a little.
+// A track along a meridian from 60 S to 60 N, with sites beside it by a little.
 std::vector<Point> track(std::size_t n, double jitter_deg, Random& random) {
   std::vector<Point> sites;
   for (std::size_t i = 0; i < n; ++i) {
@@ -83,7 +83,7 @@ std::vector<Point> places_in_faces(const Triangulation& triangulation,
   return places;
 }
 
-// What they are wrong by is at most this much more than what linear is.
+// Their errors are at most so many times those of linear.
 constexpr double most_overshoot = 2.5;
 
 TEST(interpolation_tracks, methods_with_gradients_do_not_overshoot) {
@@ -114,7 +114,7 @@ TEST(interpolation_tracks, methods_with_gradients_do_not_overshoot) {
 TEST(interpolation_tracks, gradient_across_is_zero_or_missing) {
   std::vector<Point> sites;
   for (int i = 0; i <= 40; ++i) sites.push_back(unit_vector(LonLat{0, -40.0 + 2 * i}));
-  // So near that it is a neighbor of all, and beyond all: it determines nothing.
+  // This site is so near to the line of the others that it determines nothing across.
   sites.push_back(unit_vector(LonLat{1e-9, 0.5}));
   const Triangulation triangulation = delaunay(Sites::view(sites));
   const Interpolator interpolator(triangulation);

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Units, coordinates, lines of axes and missing values, case by case. Tests in Python hold the units against UDUNITS and whole files
-// against other readers.
+// Units, coordinates, lines of axes and missing values, case by case. Tests in Python compare the units with UDUNITS and whole files
+// with other readers.
 
 #include <gtest/gtest.h>
 
@@ -29,7 +29,7 @@ VariableHeader header(const std::string& name, const std::vector<std::string>& d
   return {name, true, dimensions, std::vector<std::uint64_t>(dimensions.size(), 4), texts};
 }
 
-// "lon/lat bounds/bounds" of the pairs of highest rank.
+// The pairs of highest rank, as "lon/lat bounds/bounds".
 std::vector<std::string> best(const std::vector<VariableHeader>& headers,
                               const CoordinateQuery& query = {}) {
   std::vector<std::string> found;
@@ -83,7 +83,7 @@ TEST(conventions, coordinates_are_found_by_attributes_then_names) {
   EXPECT_TRUE(
       best({header("lon", {"n"}, {{"standard_name", "grid_longitude"}}), header("lat", {"n"})})
           .empty());
-  // Of other lengths they do not belong together.
+  // Coordinates on other dimensions do not belong together.
   EXPECT_TRUE(best({header("lon", {"y", "x"}), header("lat", {"y"})}).empty());
   EXPECT_EQ(best({header("lon", {"n"}), header("lat", {"n"}), header("longitude", {"n"})}),
             (std::vector<std::string>{"lon/lat", "longitude/lat"}));
@@ -105,7 +105,7 @@ TEST(conventions, listed_coordinates_come_before_axes_that_pretend) {
   headers.push_back(header("corner_lons", {"nf", "YCdim", "XCdim"}, east));
   headers.push_back(header("corner_lats", {"nf", "YCdim", "XCdim"}, north));
   EXPECT_EQ(best(headers), (std::vector<std::string>{"lons/lats corner_lons/corner_lats"}));
-  // Of the staggered grid of a variable: its own.
+  // A variable on a staggered grid has the coordinates of that grid.
   headers.push_back(header("U", {"Ydim", "Xdim"}));
   EXPECT_EQ(best(headers, {"", "", "U"}), (std::vector<std::string>{"Xdim/Ydim"}));
 }
@@ -128,7 +128,7 @@ TEST(conventions, lines_of_longitudes) {
   EXPECT_EQ(lines({0, 90, 180, -90}), (Doubles{-45, 45, 135, 225, 315}));
   EXPECT_EQ(lines({3, 2, 1}), (Doubles{3.5, 2.5, 1.5, 0.5}));
   EXPECT_EQ(lines({10, 0, 350}), (Doubles{15, 5, -5, -15}));
-  // Both ends: each has half of the cell.
+  // Where both ends of the circle are there, each has half of the cell.
   EXPECT_EQ(lines({0, 120, 240, 360}), (Doubles{0, 60, 180, 300, 360}));
   EXPECT_EQ(lines({180, 60, -60, -180}), (Doubles{180, 120, 0, -120, -180}));
   EXPECT_EQ(lines({0, 120, 240, 360}, {-60, 60, 60, 180, 180, 300, 300, 420}),
@@ -157,7 +157,7 @@ TEST(conventions, lines_of_latitudes) {
   EXPECT_EQ(lines({-90, 0, 90}), (Doubles{-90, -45, 45, 90}));
   EXPECT_EQ(lines({5, -5}, {10, 0, 0, -10}), (Doubles{10, 0, -10}));
   EXPECT_EQ(lines({5, -5}, {0, 10, -10, 0}), (Doubles{10, 0, -10}));
-  // Rounded to single precision from radians.
+  // These lines were rounded to single precision as radians.
   EXPECT_EQ(lines({0}, {-90.0000025, 90.0000025}), (Doubles{-90, 90}));
 }
 
@@ -233,7 +233,7 @@ TEST(conventions, valid_ranges_are_of_packed_numbers) {
                      numbers("scale_factor", NetcdfType::float64, {0.5})},
                     {-1, 4, 11}),
               {not_there, 2, not_there});
-  // Of the type of scale_factor: they are of unpacked numbers.
+  // Limits of the type of scale_factor are those of unpacked numbers.
   expect_same(meant(NetcdfType::int16,
                     {numbers("valid_range", NetcdfType::float64, {0, 10}),
                      numbers("scale_factor", NetcdfType::float64, {0.5})},

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Spacings of files, against the function that the files were written from.
+// Spacings of files are compared with the function from which the files were written.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -110,7 +110,7 @@ TEST(mesh_spacing_files, points_of_netcdf_and_tables) {
   expect_wanted(read_spacings({path_of("spacings.csv"), {}}, "h", 1e-3, 256), 2e-3);
 }
 
-// Of meshes of the formats that the library writes: the cells are where the values are.
+// Values on meshes of the formats that the library writes are at the places of their cells.
 TEST(mesh_spacing_files, cells_of_meshes) {
   const std::vector<Point> sites = sampled_sites(2000, nullptr, 5);
   std::vector<double> density;

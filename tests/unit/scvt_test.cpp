@@ -108,7 +108,7 @@ TEST(scvt, energy_never_grows) {
   EXPECT_GT(num_steps, 20);
 }
 
-// From 0 to 1, with sites of every level, of a density, and of one's own.
+// The part grows from 0 to 1, with sites of every level, of a density, and of one's own.
 TEST(scvt, part_of_the_work_that_is_done_grows_to_one) {
   const std::vector<Point> start = sampled_sites(700, nullptr, 2);
   ScvtOptions options{.count = 3000};
