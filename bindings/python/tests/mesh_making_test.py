@@ -106,6 +106,15 @@ def test_a_tolerance_of_areas_is_positive(tolerance):
         rondel.mesh.partition(points, tolerance=tolerance)
 
 
+def test_lunes_are_as_wanted():
+    turns = np.radians([10, 95, 170, 185, 300])
+    points = np.column_stack([np.cos(turns), 0.6 * np.sin(turns), 0.8 * np.sin(turns)])
+    found = rondel.mesh.partition(points)
+    assert found.end in ("converged", "rounded")
+    cells = rondel.delaunay(found.points, "weighted").voronoi()
+    assert np.allclose(cells.areas, 4 * np.pi / 5, rtol=1e-11)
+
+
 def test_areas_are_as_wanted():
     points = np.random.default_rng(3).normal(size=(400, 3))
     wanted = 1 + 0.5 * np.sign(points[:, 0])
@@ -113,7 +122,9 @@ def test_areas_are_as_wanted():
     assert found.end in ("converged", "rounded")
     assert np.allclose(found.areas, wanted * 4 * np.pi / wanted.sum(), rtol=1e-10)
     assert found.weights.min() == 1
-    octant = np.abs(points)
-    assert rondel.mesh.partition(octant).end == "infeasible"
+    octant = rondel.mesh.partition(np.abs(points))
+    assert octant.end == "infeasible"
+    assert "surround the center" in octant.reason
+    assert found.reason == ""
     with pytest.raises(rondel.InvalidInput, match="not positive"):
         rondel.mesh.partition(points, points[:, 0] + 1)

@@ -113,6 +113,24 @@ def test_a_dataset_has_0_for_none(mesh):
     assert dataset.cellsOnEdge.values.min() == 0
 
 
+def test_fixed_lines_have_sites_on_them(tmp_path):
+    parallel = {"type": "LineString", "coordinates": [[-100, 60], [100, 60]]}
+    point = {"type": "Point", "coordinates": [10, -20]}
+    mesh = rondel.mesh.scvt(1000, fixed=[parallel, point], largest_tolerance=0.1)
+    lon, lat = lonlat(mesh.points[mesh.fixed])
+    assert (round(lon[0], 12), round(lat[0], 12)) == (10, -20)
+    assert np.allclose(lat[1:], 60, atol=1e-3)  # of lines
+    assert np.allclose(lon[[1, -1]], [-100, 100], atol=1e-12)
+    spacing = np.degrees(np.sqrt(8 * np.pi / np.sqrt(3) / 1000))
+    assert np.allclose(np.diff(lon[1:]) * np.cos(np.radians(60)), spacing, rtol=0.07)
+    arc = rondel.mesh.scvt(1000, fixed=parallel, edges="geodesic", largest_tolerance=0.1)
+    assert lonlat(arc.points[arc.fixed])[1].max() > 65  # a great circle goes north
+    name = tmp_path / "parallel.geojson"
+    name.write_text(json.dumps(parallel))
+    same = rondel.mesh.scvt(1000, fixed=name, edges="geodesic", largest_tolerance=0.1)
+    assert (same.points == arc.points).all()
+
+
 def test_fixed_points_stay():
     places = np.random.default_rng(5).normal(size=(9, 3))
     places /= np.linalg.norm(places, axis=1, keepdims=True)
