@@ -99,6 +99,7 @@ RONDEL_ALWAYS_INLINE inline void set_weights(Fit& fit) {
   Lanes aa{};
   Lanes ab{};
   Lanes bb{};
+  Lanes squares{};
   for (std::size_t k = 0; k < fit.size; ++k) {
     LaneVectors& p = fit.points[k];
     RONDEL_KEEP_LOOP for (std::size_t i = 0; i < lanes; ++i) {
@@ -112,9 +113,11 @@ RONDEL_ALWAYS_INLINE inline void set_weights(Fit& fit) {
       aa[i] += weight * (a * a);
       ab[i] += weight * (a * b);
       bb[i] += weight * (b * b);
+      squares[i] += (weight * weight) * square;
     }
   }
   RONDEL_KEEP_LOOP for (std::size_t i = 0; i < lanes; ++i) {
+    fit.mean_weight[i] = squares[i] / (aa[i] + bb[i]);
     fit.shear[i] = ab[i] / aa[i];
     const double rest = bb[i] - fit.shear[i] * ab[i];
     const bool is_plane = both(

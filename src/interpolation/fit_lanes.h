@@ -48,6 +48,7 @@ struct Fit {
   LaneVectors first_axis{};
   LaneVectors second_axis{};
   Lanes largest{};
+  Lanes mean_weight{};  // of the neighbors, by their squared distances
   // a' = round_a a,  b' = round_b (b - shear a)
   Lanes round_a{};
   Lanes round_b{};

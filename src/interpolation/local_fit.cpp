@@ -80,24 +80,25 @@ void settle_lanes(Fit& fit, const Moments& moments, const LaneExcess& sums, Solu
                    .round_b = fit.round_b[l],
                    .shear = fit.shear[l],
                    .radius = std::sqrt(fit.largest[l]),
+                   .mean_weight = fit.mean_weight[l],
                    .num_neighbors = static_cast<std::size_t>(fit.counts[l]),
                    .is_plane = fit.is_found[l] != 0,
                    .num_terms = static_cast<std::size_t>(fit.num_terms[l]),
                    .by_a = {},
                    .by_b = {}};
+    for (std::size_t t = 0; t < max_terms; ++t) {
+      one.by_a[t] = s.by_a[t][l];
+      one.by_b[t] = s.by_b[t][l];
+    }
     if (one.is_plane && one.num_terms == max_terms) {
       CubicExcess of_lane{};
       for (std::size_t k = 0; k < 5; ++k) {
         of_lane.of_a[k] = sums.of_a[k][l];
         of_lane.of_b[k] = sums.of_b[k][l];
       }
-      if (excess_of_cubic(one, of_lane) <= most_excess) continue;
+      if (excess_of_cubic(one, of_lane) <= most_excess && gain(one) <= most_gain) continue;
     }
     for (std::size_t k = 0; k < num_moments; ++k) one.moments[k] = moments[k][l];
-    for (std::size_t t = 0; t < max_terms; ++t) {
-      one.by_a[t] = s.by_a[t][l];
-      one.by_b[t] = s.by_b[t][l];
-    }
     const std::size_t tried = one.num_terms;
     settle(one);
     if (one.is_plane && one.num_terms == tried) continue;

@@ -81,7 +81,7 @@ bool is_determined(const SettledFit& fit) {
        ++degree) {
     if (!(excess(fit, degree) <= most_excess)) return false;
   }
-  return true;
+  return gain(fit) <= most_gain;
 }
 
 // Normal equations of up to five terms, by L D L^T. False if a pivot is too small.
@@ -221,8 +221,8 @@ void settle_on_line(SettledFit& fit) {
       too_much += c[i] * sums[i + degree + 2];
       taken += c[i] * mixed_moment(fit, along, across, i + 1);
     }
-    if (degree == 1 ||
-        (std::abs(too_much) <= most_excess && std::abs(taken) <= most_slope_across)) {
+    if (degree == 1 || (std::abs(too_much) <= most_excess && std::abs(taken) <= most_slope_across &&
+                        std::sqrt(fit.mean_weight * c[0]) <= most_gain)) {
       break;
     }
   }
@@ -239,6 +239,14 @@ void settle_on_line(SettledFit& fit) {
 
 double excess_of_cubic(const SettledFit& fit, const CubicExcess& sums) {
   return excess_of_sums(fit, sums.of_a, sums.of_b);
+}
+
+// For values with the variances 1 / weight the slopes along a and b have the variances by_a[0] and by_b[1], and the covariance by_a[1].
+double gain(const SettledFit& fit) {
+  const double of_a = fit.round_a * fit.round_a * fit.by_a[0];
+  const double of_both = fit.round_a * fit.round_b * fit.shear * fit.by_a[1];
+  const double of_b = fit.round_b * fit.round_b * (1 + fit.shear * fit.shear) * fit.by_b[1];
+  return fit.radius * std::sqrt(fit.mean_weight * (of_a - 2 * of_both + of_b));
 }
 
 void settle(SettledFit& fit) {

@@ -15,8 +15,14 @@
 // sites that cover a part of the sphere, at random or as a grid, it is less than 1 (docs/theory/cubic.md). It grows as 1/t where
 // the neighbors are nearly on a line, t the breadth of that cloud over its length, and likewise where they are nearly on a conic.
 //
-// So the degree is lowered until E is no more than most_excess. If the linear fit has more than that, the neighbors do not
-// determine the slope across the line of their greatest extent: it is 0, and the slope along that line is that of a
+// Waves that are shorter than the neighborhood, and noise, are no polynomials of low degree. What a fit makes of them is bounded by its
+// *gain* N = R sqrt(sum of |q_k|^2), the deviation of the gradient times R for independent values of deviation 1. Values that have
+// their own variances 1 / w give the simpler sum N^2 = R^2 W sum of |q_k|^2 / w_k, which follows from the solution of the normal
+// equations alone; W is the mean of the weights, by the squared distances. Around random sites N is 7 in the median and 50 at
+// most. It is thousands beside the poles of a grid that has no sites there, and beside a track with a site far off it.
+//
+// So the degree is lowered until E is no more than most_excess, and N no more than most_gain. If the linear fit has more, the
+// neighbors do not determine the slope across the line of their greatest extent: it is 0, and the slope along that line is that of a
 // polynomial of one variable, of degree up to 3.
 #pragma once
 
@@ -26,6 +32,7 @@
 namespace rondel::interpolation {
 
 inline constexpr double most_excess = 1;
+inline constexpr double most_gain = 100;
 // The slope along a line may take so much of a slope across it.
 inline constexpr double most_slope_across = 0.5;
 
@@ -40,7 +47,8 @@ struct SettledFit {
   double round_a;
   double round_b;
   double shear;
-  double radius;  // of the farthest neighbor, in the plane
+  double radius;       // of the farthest neighbor, in the plane
+  double mean_weight;  // of the neighbors, by their squared distances
   std::size_t num_neighbors;
   bool is_plane;  // false: the cloud is a line
   // The polynomials whose values times the weights are the weights of the slopes along a and b. For a plane those of the
@@ -56,6 +64,8 @@ struct CubicExcess {
   std::array<double, 5> of_b;
 };
 double excess_of_cubic(const SettledFit& fit, const CubicExcess& sums);
+// N of a plane.
+double gain(const SettledFit& fit);
 
 // Lowers the degree, or leaves a line: then is_plane becomes false, and num_terms is the number of its terms.
 // Precondition: there is a neighbor, and not all are in the place of the site.

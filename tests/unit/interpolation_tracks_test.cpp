@@ -110,6 +110,38 @@ TEST(interpolation_tracks, methods_with_gradients_do_not_overshoot) {
   }
 }
 
+// Values of 1 and -1 at random on a grid whose first rows are 5 degrees off the poles, and short waves on a track with a hub.
+TEST(interpolation_tracks, noise_stays_small) {
+  Random random(8);
+  std::vector<Point> grid;
+  std::vector<double> signs;
+  for (int lat = -85; lat < 90; lat += 10) {
+    for (int lon = 0; lon < 360; lon += 5) {
+      grid.push_back(unit_vector(LonLat{static_cast<double>(lon), static_cast<double>(lat)}));
+      signs.push_back(random.signed_unit() < 0 ? -1 : 1);
+    }
+  }
+  std::vector<Point> hub = track(200, 0.1, random);
+  hub.push_back(unit_vector(LonLat{60, 10}));
+  std::vector<double> waves;
+  for (const Point& p : hub) waves.push_back(std::sin(50 * std::asin(p.z)));
+  const auto largest = [](const std::vector<Point>& sites, const std::vector<double>& values,
+                          Method method) {
+    const Triangulation triangulation = delaunay(Sites::view(sites));
+    const std::vector<Point> places = places_in_faces(triangulation, sites);
+    double most = 0;
+    for (const double found :
+         Interpolator(triangulation).values(values, places, {.method = method})) {
+      most = std::max(most, std::abs(found));
+    }
+    return most;
+  };
+  EXPECT_LT(largest(grid, signs, Method::hermite), 5);
+  EXPECT_LT(largest(grid, signs, Method::cubic), 30);
+  EXPECT_LT(largest(hub, waves, Method::hermite), 15);
+  EXPECT_LT(largest(hub, waves, Method::cubic), 50);
+}
+
 // Exactly along a meridian the gradient is that of the field along it, and 0 across.
 TEST(interpolation_tracks, gradient_across_is_zero_or_missing) {
   std::vector<Point> sites;
