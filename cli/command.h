@@ -15,9 +15,11 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "rondel/error.h"
 #include "rondel/io.h"
@@ -148,6 +150,9 @@ auto with_places(const SiteTable& table, Work&& work) {
 /// \throws UsageError if the name of a further result than OUTPUT has another ending than .npy or .zarr;
 /// it may have none
 void require_array(const char* option, const std::string& path);
+
+/// \throws UsageError if two options name one file to write; an empty name is none, and "-" may be named twice
+void require_distinct(std::initializer_list<std::pair<const char*, std::string>> outputs);
 
 /// Writes to stdout and flushes. \throws FileError
 void print(const std::string& text);

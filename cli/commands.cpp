@@ -23,10 +23,6 @@ std::string kind_error(const std::string& text) {
 
 std::string count_error(const std::string& text) { return whole_error(text, 1, max_sites); }
 
-std::string seed_error(const std::string& text) {
-  return whole_error(text, 0, std::numeric_limits<std::uint64_t>::max());
-}
-
 std::string kinds_help() {
   const auto list = [](std::span<const inputs::Kind> kinds) {
     std::string text;

@@ -57,7 +57,8 @@ mesh::MeshFormat mesh_format(const CommonOptions& common) {
   return mesh_formats().at(common.format());
 }
 
-void require_mesh_output(const CommonOptions& common, MeshOutputKind kind) {
+void require_mesh_output(const MeshOutput& output, MeshOutputKind kind) {
+  const CommonOptions& common = output.common;
   const bool may_be_sites = kind == MeshOutputKind::mesh_or_sites;
   const std::string of_meshes = ".nc .nc4 .exo (mpas ugrid scrip esmf exodus)";
   require_output(common, is_mesh_file(common) || (may_be_sites && can_write_sites(common.target())),
@@ -65,6 +66,11 @@ void require_mesh_output(const CommonOptions& common, MeshOutputKind kind) {
   if (is_mesh_file(common) && common.output == "-") {
     throw UsageError("--output: a mesh is written to a file");
   }
+  if (!is_mesh_file(common) && output.netcdf.kind != NetcdfKind::by_name) {
+    throw UsageError("--kind: sites are not written as netCDF");
+  }
+  require_distinct(
+      {{"--output", common.output}, {"--report", output.report}, {"--graph", output.graph}});
 }
 
 void write_mesh_report(const std::string& path, const mesh::MeshArrays& arrays,

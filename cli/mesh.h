@@ -70,8 +70,9 @@ enum class MeshOutputKind { mesh, mesh_or_sites };
 
 /// Adds the options that all commands that write a mesh share: --output, --format, --kind, --deflate, --graph, --sphere-radius, --report.
 void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKind kind);
-/// \throws UsageError if OUTPUT has a format that is none of meshes, or of sites where these may be written
-void require_mesh_output(const CommonOptions& common, MeshOutputKind kind);
+/// \throws UsageError if OUTPUT has a format that is none of meshes, or of sites where these may be written; if two options name one
+/// file, or --kind is given for a file that is not netCDF
+void require_mesh_output(const MeshOutput& output, MeshOutputKind kind);
 /// Whether OUTPUT is a mesh, not sites.
 bool is_mesh_file(const CommonOptions& common);
 /// The format of --format, or of the ending: nc is mpas, exo exodus. \pre is_mesh_file()

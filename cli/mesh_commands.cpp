@@ -149,6 +149,7 @@ Command add_points_command(CLI::App& group) {
       ->check(positive_error)
       ->type_name("KM");
   parser->add_option("--seed", options->seed, "poisson: seed of the random numbers (default: 1)")
+      ->check(seed_error)
       ->type_name("S");
   add_mesh_output(*parser, options->output);
   parser->footer(

@@ -35,7 +35,7 @@ Command add_mesh_convert_command(CLI::App& mesh) {
 
 ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
   const MeshOutput& written = options.written;
-  require_mesh_output(written.common, MeshOutputKind::mesh);
+  require_mesh_output(written, MeshOutputKind::mesh);
   Job job(written.common);
   const mesh::MeshArrays arrays =
       read_mesh_or_sites(job, written.common,

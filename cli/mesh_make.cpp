@@ -122,7 +122,7 @@ mesh::Scvt solve(const ScvtTask& task, const Execution& execution) {
 
 ExitStatus run_scvt(const ScvtCommandOptions& options) {
   const MeshOutput& output = options.output;
-  require_mesh_output(output.common, MeshOutputKind::mesh_or_sites);
+  require_mesh_output(output, MeshOutputKind::mesh_or_sites);
   if (options.scvt.count == 0 && options.spacing.empty() && options.start.empty()) {
     throw UsageError("-n, --spacing or --start says how many cells there shall be");
   }
@@ -158,13 +158,19 @@ ExitStatus run_scvt(const ScvtCommandOptions& options) {
     json["left_out"] = task.fixed.num_left_out;
   }
   std::string how = is_whole ? "" : std::string(mesh::name_of(made.end)) + "; ";
-  if (!made.fixed.empty()) how += count(made.fixed.size(), "site", "sites") + " fixed; ";
+  if (!made.fixed.empty()) {
+    how += count(made.fixed.size(), "site", "sites") + " fixed";
+    if (task.fixed.num_left_out > 0) {
+      how += ", " + count(task.fixed.num_left_out, "place", "places") + " left out";
+    }
+    how += "; ";
+  }
   report_mesh(output, made.sites.size(), how, json, std::move(quality), job);
   return made.end == mesh::ScvtEnd::stopped ? failed : done;
 }
 
 ExitStatus run_icosahedral(const IcosahedralCommandOptions& options) {
-  require_mesh_output(options.output.common, MeshOutputKind::mesh_or_sites);
+  require_mesh_output(options.output, MeshOutputKind::mesh_or_sites);
   Job job(options.output.common);
   const std::size_t count = (std::size_t{10} << (2 * options.levels)) + 2;
   const std::vector<Point> sites = options.keep
@@ -177,7 +183,7 @@ ExitStatus run_icosahedral(const IcosahedralCommandOptions& options) {
 }
 
 ExitStatus run_mesh_points(const MeshPointsOptions& options) {
-  require_mesh_output(options.output.common, MeshOutputKind::mesh_or_sites);
+  require_mesh_output(options.output, MeshOutputKind::mesh_or_sites);
   const bool is_poisson = options.kind == "poisson";
   if (is_poisson != (options.radius_km > 0) || is_poisson == (options.size > 0)) {
     throw UsageError(options.kind + (is_poisson ? " takes --radius" : " takes --size"));

@@ -131,13 +131,28 @@ FixedSites fixed_sites(const ScvtCommandOptions& options, const mesh::ScvtOption
   const mesh::SizeFunction size = size_along(scvt, num_start);
   const auto add = [&](const std::vector<std::string>& files, auto read, auto sites_of) {
     std::vector<std::vector<Point>> lines;
+    std::vector<std::size_t> ends;  // of the lines of each file
     for (const std::string& file : files) {
       std::vector<std::vector<Point>> more = read({file, {}}, {.edges = options.edges}, execution);
       std::ranges::move(more, std::back_inserter(lines));
+      ends.push_back(lines.size());
     }
-    const mesh::LineSites found = sites_of(lines, size, execution);
-    fixed.sites.insert(fixed.sites.end(), found.sites.begin(), found.sites.end());
-    fixed.num_left_out += found.num_left_out;
+    try {
+      const mesh::LineSites found = sites_of(lines, size, execution);
+      fixed.sites.insert(fixed.sites.end(), found.sites.begin(), found.sites.end());
+      fixed.num_left_out += found.num_left_out;
+    } catch (const InvalidInput& error) {
+      const auto end = std::ranges::upper_bound(ends, error.index());
+      if (end == ends.end()) throw;
+      // The library numbers the lines of all files together.
+      const std::size_t begin = end == ends.begin() ? 0 : *std::prev(end);
+      std::string what = error.what();
+      const std::string number = "line " + std::to_string(error.index());
+      if (const std::size_t at = what.find(number); at != std::string::npos) {
+        what.replace(at, number.size(), "line " + std::to_string(error.index() - begin));
+      }
+      throw FileError(files[static_cast<std::size_t>(end - ends.begin())] + ": " + what);
+    }
   };
   add(options.fixed, mesh::read_places, mesh::sites_on);
   if (!options.fixed.empty()) require_apart(fixed.sites, options.fixed.back(), execution);

@@ -193,6 +193,17 @@ void require_array(const char* option, const std::string& path) {
   throw UsageError(std::string(option) + ": the ending of '" + path + "' is not .npy");
 }
 
+void require_distinct(std::initializer_list<std::pair<const char*, std::string>> outputs) {
+  for (auto second = outputs.begin(); second != outputs.end(); ++second) {
+    if (second->second.empty() || second->second == "-") continue;
+    for (auto first = outputs.begin(); first != second; ++first) {
+      if (first->second != second->second) continue;
+      throw UsageError(std::string(second->first) + ": '" + second->second + "' is the file of " +
+                       first->first);
+    }
+  }
+}
+
 void require_output(const CommonOptions& options, bool is_known, const std::string& endings) {
   if (!is_known && !options.output_format.empty()) {
     throw UsageError("--format: '" + options.output_format + "' is not one of " + endings);

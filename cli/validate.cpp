@@ -92,4 +92,8 @@ std::string bytes_error(const std::string& text) {
 
 std::uint64_t bytes_of(const std::string& text) { return parsed_bytes(text); }
 
+std::string seed_error(const std::string& text) {
+  return whole_error(text, 0, std::numeric_limits<std::uint64_t>::max());
+}
+
 }  // namespace rondel::cli

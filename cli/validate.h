@@ -24,4 +24,7 @@ std::uint64_t bytes_of(const std::string& text);
 /// A whole number in [min, max], decimal.
 std::string whole_error(const std::string& text, std::uint64_t min, std::uint64_t max);
 
+/// The seed of random numbers.
+std::string seed_error(const std::string& text);
+
 }  // namespace rondel::cli

@@ -75,7 +75,7 @@ class RONDEL_API SizeFunction {
 };
 
 /// The points of arcs of great circles from each point to the next, closer than `distance` radians.
-/// \throws InvalidInput if the distance is not positive.
+/// \throws InvalidInput if the distance is not positive, or two neighbors are antipodes (the index of the second one).
 RONDEL_API std::vector<Point> densified(std::span<const Point> line, double distance);
 
 }  // namespace rondel::mesh

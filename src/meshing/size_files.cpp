@@ -17,6 +17,7 @@
 #include "rondel/mesh_files.h"
 #include "rondel/mesh_lines.h"
 #include "rondel/mesh_size_files.h"
+#include "system/shortest_text.h"
 
 namespace rondel::mesh {
 namespace {
@@ -171,8 +172,13 @@ std::vector<Point> read_refinement(const FileName& file, double distance,
                                    const PolygonOptions& options, const Execution& execution) {
   std::vector<Point> points;
   for (const std::vector<Point>& line : read_places(file, options, execution)) {
-    const std::vector<Point> dense = densified(line, distance);
-    points.insert(points.end(), dense.begin(), dense.end());
+    try {
+      const std::vector<Point> dense = densified(line, distance);
+      points.insert(points.end(), dense.begin(), dense.end());
+    } catch (const InvalidInput& error) {
+      if (error.index() == InvalidInput::no_index) throw;
+      throw FileError(file.path + ": " + error.what());
+    }
   }
   return points;
 }
@@ -184,7 +190,7 @@ SizeFunction read_spacings(const FileName& file, const std::string& name, double
   for (std::size_t i = 0; i < spacings.values.size(); ++i) {
     double& value = spacings.values[i];
     if (!(value * unit > 0 && value * unit < 3)) {
-      throw FileError(file.path + ": spacing " + std::to_string(value) + " at place " +
+      throw FileError(file.path + ": spacing " + system::shortest_text(value) + " at place " +
                       std::to_string(spacings.numbers[i]) + " is not positive, or too large");
     }
     value *= unit;
@@ -199,7 +205,7 @@ SizeFunction read_density(const FileName& file, const std::string& name, std::si
   for (std::size_t i = 0; i < densities.values.size(); ++i) {
     const double value = densities.values[i];
     if (value >= least_density && value <= largest_density) continue;
-    throw FileError(file.path + ": density " + std::to_string(value) + " at place " +
+    throw FileError(file.path + ": density " + system::shortest_text(value) + " at place " +
                     std::to_string(densities.numbers[i]) +
                     " is not positive, or of no size that a mesh can have");
   }

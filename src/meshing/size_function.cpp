@@ -260,6 +260,12 @@ std::vector<Point> densified(std::span<const Point> line, double distance) {
     if (i > 0) {
       const auto a = exact::to_vector(line[i - 1]);
       const auto b = exact::to_vector(line[i]);
+      constexpr double nearly_antipodes = 1e-9;
+      if (norm(a + b) < nearly_antipodes * norm(b)) {
+        throw InvalidInput("points " + std::to_string(i - 1) + " and " + std::to_string(i) +
+                               " of a line are antipodes, which no one arc joins",
+                           i);
+      }
       const double parts = std::ceil(norm(b - a) / distance);
       for (std::size_t k = 1; static_cast<double>(k) < parts; ++k) {
         points.push_back(

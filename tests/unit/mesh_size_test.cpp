@@ -135,6 +135,8 @@ TEST(mesh_size, what_is_no_size_is_refused) {
   EXPECT_THROW((void)size.refined({}, 0.1, 0.1), InvalidInput);
   EXPECT_THROW((void)size.refined(places(), 0, 0.1), InvalidInput);
   EXPECT_THROW((void)densified(places(), 0), InvalidInput);
+  EXPECT_THROW((void)densified(std::vector<Point>{{0, 1, 0}, {1, 0, 0}, {-1, 0, 0}}, 0.1),
+               InvalidInput);
   const std::vector<double> axis = {0, 1};
   EXPECT_THROW(SizeFunction::from_grid(axis, axis, axis), InvalidInput);
   const std::vector<double> twice = {1, 1};
