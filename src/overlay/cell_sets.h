@@ -10,7 +10,7 @@
 namespace rondel::overlay {
 
 CellRings one_cell(const CellRings& cells, Index cell);
-// What is not in a cell.
+// The complement of a cell.
 CellRings beyond_cell(CellRings one);
 [[nodiscard]] bool has_any(const CellRings& one);
 // One cell more. Points are its own.

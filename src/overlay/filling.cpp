@@ -296,8 +296,8 @@ FilledSides filled_with(const Subdivision& cells, std::span<const OwnedSide> sid
   return filled;
 }
 
-// Where cells overlap only because corners are beside sides on which they are to rounding, these corners become corners of
-// the sides. That may bring others into their way. An overlap that is wider, but so short that overlaps_of() takes no
+// Mends cells that overlap only because corners are beside sides on which they are to rounding: these corners become corners of
+// the sides. That may bring sides over other corners. An overlap that is wider, but so short that overlaps_of() takes no
 // notice of it, needs larger steps.
 FilledSides filled_by_rounding(const Subdivision& cells, const Execution& execution) {
   constexpr std::array<double, 4> steps = {1, 1, 16, 512};

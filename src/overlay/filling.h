@@ -23,7 +23,7 @@ struct Filling {
   std::vector<Index> owners;
 };
 
-// Where the sides of cells contradict each other: they cross, or a place is inside of two cells, or of one twice.
+// A place where the sides of cells contradict each other: they cross, or the place is inside of two cells, or of one twice.
 struct SideConflict {
   Index first;  // by name, not above the second
   Index second;
@@ -43,7 +43,7 @@ class ConflictingSides : public InvalidInput {
 std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execution& execution);
 // Whether none do, and no place is a side of one cell in both directions either.
 bool has_plain_sides(const Subdivision& cells, const Execution& execution);
-// The same as side_conflict() of one cell that has all of the sides: whether it has none.
+// Whether one cell with all of these sides has no conflict, as side_conflict() finds them.
 bool is_region(std::span<const BorderArc> sides, const Execution& execution);
 
 // The Delaunay triangulation of the corners and of the ends of the axes, into which the sides of the cells are put, all

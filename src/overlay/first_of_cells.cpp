@@ -48,7 +48,7 @@ void append_cell(const CellRings& from, std::size_t cell, std::size_t first_poin
   to.cells.push_back(to.rings.size() - 1);
 }
 
-// Those of one layer; the others are empty.
+// The cells of one layer; the others are empty.
 CellRings cells_of_layer(const CellRings& cells, const std::vector<std::size_t>& layers,
                          std::size_t layer) {
   CellRings kept;

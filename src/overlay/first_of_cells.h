@@ -16,8 +16,7 @@ namespace rondel::overlay {
 // The cells, and one more that is all that is in none of them. Precondition: no two overlap.
 RONDEL_API CellRings with_outside(CellRings cells, const Execution& execution);
 
-// What is in several cells belongs to the first of them. `overlaps` are their overlapping_cells(); none of them is that of
-// a cell with itself.
+// Leaves a place that is in several cells to the first of them. `overlaps` are their overlapping_cells(); no cell overlaps itself.
 CellRings first_of_cells(const CellRings& cells, std::span<const CrossingCells> overlaps,
                          const Execution& execution);
 

@@ -15,7 +15,8 @@
 
 namespace rondel::overlay {
 
-// By name, in lexicographic order, each pair once. `whole` are names of cells that are the whole sphere.
+// The pairs of cells that overlap, by name, in lexicographic order, each once. `whole` are the names of cells that are the whole
+// sphere.
 std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
                                        const Execution& execution);
 

@@ -37,7 +37,7 @@ class PartitionData {
   [[nodiscard]] Index whole() const { return all_whole_.empty() ? no_index : all_whole_.front(); }
   [[nodiscard]] const std::vector<Index>& all_whole() const { return all_whole_; }
   [[nodiscard]] bool is_cover() const { return is_cover_; }
-  // Which cells overlap, by name: looked for when it is asked for the first time, but not in diagrams, grids and covers.
+  // The pairs of cells that overlap, by name. The first call looks for them, but not in diagrams, grids and covers.
   [[nodiscard]] const std::vector<CrossingCells>& overlaps(const Execution& execution) const;
   // By name.
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }

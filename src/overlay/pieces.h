@@ -32,7 +32,7 @@ inline void add_term(double term, exact::DoubleDouble& sum) {
 }
 void find_sums(PieceRows& pieces, std::size_t num_columns);
 
-// What the pieces of cells add up to, by name.
+// The sums that the pieces of each cell should have, by name.
 struct CellSizes {
   std::span<const double> areas;
   std::span<const double> lengths;  // of their borders

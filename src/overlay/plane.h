@@ -13,7 +13,7 @@
 
 namespace rondel::overlay {
 
-// How far a corner may be from a side on which it was meant to be, in degrees: some roundings of a longitude.
+// The largest distance of a corner from a side on which it was meant to be, in degrees: some roundings of a longitude.
 constexpr double on_side_deg = 0x1p-42;
 
 inline bool is_west_of(const LonLat& p, const LonLat& q) {

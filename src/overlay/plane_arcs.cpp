@@ -66,14 +66,14 @@ class LineDivider {
   std::vector<LonLat>& positions_;
 };
 
-// Of a side, by its number; from west to east.
+// A piece of a side, which has a number; it goes from west to east.
 struct LinePiece {
   Index side;
   LonLat west;
   LonLat east;
 };
 
-// How far in latitude an arc may be from its straight line, in degrees: along a great circle the latitude f has the second
+// The largest distance in latitude of an arc from its straight line, in degrees. Along a great circle the latitude f has the second
 // derivative -sin f cos f - 2 tan f (f')^2 by longitude, and a function is within w^2/8 of that from its chord; twice
 // that, as f may leave the line.
 double bulge_deg(const LonLat& west, const LonLat& east) {

@@ -27,7 +27,7 @@ class PlaneCorners {
       if (corner.position.lon_deg < -180 || corner.position.lon_deg > 180) {
         corner.position.lon_deg = std::remainder(corner.position.lon_deg, 360.0);
       }
-      // Both ends of the map are one meridian.
+      // The meridians at both ends of the map are one.
       if (corner.position.lon_deg == 180) corner.position.lon_deg = -180;
       bands_[band_of(corner.position.lat_deg)].push_back(corner);
     }
@@ -58,7 +58,7 @@ class PlaneCorners {
       double low = west.lon_deg;
       double high = east.lon_deg;
       if (north > south) {
-        // Where the line is in the band, with room for rounding.
+        // The part of the line that is in the band, with room for rounding.
         const double floor = static_cast<double>(band) - 90 - margin_deg;
         const double ceiling = static_cast<double>(band) - 89 + margin_deg;
         const double run = (east.lon_deg - west.lon_deg) / (east.lat_deg - west.lat_deg);

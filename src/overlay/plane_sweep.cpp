@@ -30,7 +30,7 @@ struct PlaneState {
   friend bool operator==(const PlaneState&, const PlaneState&) = default;
 };
 
-// From a corner to one farther east (or north), by their numbers.
+// A side from a corner to one farther east (or north), by their numbers.
 struct SweptSide {
   Index west;
   Index east;
@@ -140,7 +140,7 @@ class PlaneSweep {
     if (above != active_.end() && !fault_) require_apart(begun.back(), *above);
   }
 
-  // What of an active side is west of the corner is done; the rest begins there.
+  // Ends an active side at the corner; if it goes on to the east, the rest begins there.
   void end_side(Index side, Index corner) {
     if (sides_[side].east != corner) {
       const Index east = std::exchange(sides_[side].east, corner);
@@ -153,7 +153,7 @@ class PlaneSweep {
     found_.push_back(done.above.is_inside ? PlaneSide{west, east} : PlaneSide{east, west});
   }
 
-  // From south to north, each once. Where two coincide the longer one is divided.
+  // The sides that begin at the corner, from south to north, each once. Where two coincide the longer one is divided.
   std::vector<Index> sides_from(Index corner) {
     std::vector<Index> sides;
     for (Index s = first_from_[corner]; s != no_index; s = next_from_[s]) sides.push_back(s);

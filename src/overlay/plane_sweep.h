@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What is inside of the polygons of one feature, in the plane of longitude and latitude, by exact signs alone.
+// Finds the inside of the polygons of one feature, in the plane of longitude and latitude, by exact signs alone.
 #pragma once
 
 #include <cstdint>
@@ -27,7 +27,7 @@ enum class PlaneFaultKind : std::uint8_t {
   no_area,  // the ring is a line to and fro
 };
 
-// What is wrong with the rings, and where. Rings are numbered as they were given.
+// A fault of the rings, and its place. Rings are numbered as they were given.
 struct PlaneFault {
   PlaneFaultKind kind;
   Index first;

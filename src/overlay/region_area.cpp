@@ -48,7 +48,7 @@ RingArea area_around(std::span<const Point> ring, const Point& origin) {
   return result;
 }
 
-// Of the directions from which the area is known best.
+// The area of a ring as seen from the direction from which it is known best.
 RingArea best_area_of_ring(std::span<const Point> ring) {
   RingArea best = area_around(ring, ring.front());
   for (const Point& end : {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}}) {

@@ -12,7 +12,7 @@
 
 namespace rondel::overlay {
 
-// What is left of a ring, but for a multiple of 4 pi: from -2 pi to 2 pi, and right to `rounding`.
+// The area to the left of a ring, but for a multiple of 4 pi: from -2 pi to 2 pi, and right to `rounding`.
 struct RingArea {
   double area = 0;
   double rounding = 0;

@@ -162,8 +162,8 @@ void exchange(std::vector<NamedArc>& arcs) {
   for (NamedArc& arc : arcs) std::swap(arc.cell, arc.beyond);
 }
 
-// Of cells that have no ring although something was cut out of them: what is left is nothing or the whole sphere, and it is
-// the sphere where both of what met there, or all that was joined, are most of it.
+// The cells that are the whole sphere among those that have no ring although something was cut out of them: of such a cell nothing
+// or the whole sphere is left, and it is the sphere where both cells that met there, or all that were joined, are most of it.
 std::vector<Index> whole_cells_of(const CellRings& cells, const auto& covered) {
   std::vector<Index> whole;
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
@@ -236,7 +236,7 @@ double area_of_cell(const CellRings& cells, std::size_t cell) {
   return area.value();
 }
 
-// Of regions that are apart.
+// Clips to regions that are apart.
 CellRings clipped_to(const Partition& cells, const Partition& regions, const Execution& execution) {
   const std::vector<NamedArc> arcs =
       overlay_of(PartitionData::of(cells), PartitionData::of(regions), execution);

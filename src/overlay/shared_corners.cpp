@@ -42,7 +42,7 @@ class SideCorners {
       const double part = (x * along + y * up) / squared;
       if (std::abs(along * y - up * x) > most || part <= 0 || part >= 1) return;
       if (is_one_place(p, from) || is_one_place(p, to)) return;
-      // What a feature does to itself is for exact signs, but where a whole turn is rounded.
+      // Exact signs judge a feature's own corners, but for those that are a whole turn away, which is rounded.
       if (owner == feature_ && is_own(p)) return;
       found_.emplace_back(goes_east ? part : 1 - part, p);
     });

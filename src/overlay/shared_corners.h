@@ -10,9 +10,8 @@
 
 namespace rondel::overlay {
 
-// Where a corner of one feature lies on a side of another one, but for rounding, or on one of its own whole turns away,
-// that side gets it: lines become straight but for rounding, and neighbors have the same corners. Sides stay straight
-// in longitude and latitude.
+// A side gets the corners of other features that lie on it, but for rounding, and those of its own feature whole turns away. Then lines
+// are straight but for rounding, and neighbors have the same corners. Sides stay straight in longitude and latitude.
 void share_corners(std::vector<std::vector<io::LonLatRing>>& features, unsigned threads);
 
 }  // namespace rondel::overlay

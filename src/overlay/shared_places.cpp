@@ -88,7 +88,7 @@ bool is_masked(const std::vector<std::int32_t>& mask, Index cell) {
   return !mask.empty() && mask[cell] == 0;
 }
 
-// Without what is masked, which is empty then.
+// The cells, of which those that are masked become empty.
 CellRings unmasked(const CellRings& cells, const std::vector<std::int32_t>& mask) {
   CellRings result;
   result.points = cells.points;

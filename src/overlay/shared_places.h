@@ -15,11 +15,11 @@
 
 namespace rondel::overlay {
 
-// What takes part in an overlay: the cells as they are, or parts of them.
+// The cells that take part in an overlay, as they are or in parts.
 struct TakingPart {
   const PartitionData* data = nullptr;
   std::shared_ptr<const PartitionData> parts = nullptr;  // owns `data`, if these are not the cells
-  // Of each part, which cell it is of and how much of its area counts; empty if these are the cells.
+  // The cell of each part, and the share of its area that counts; empty if the parts are the cells.
   std::vector<Index> owners = {};
   std::vector<double> shares = {};
 };
@@ -33,7 +33,7 @@ TakingPart taking_part(const PartitionData& cells, const std::vector<std::int32_
 PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
                        const TakingPart& columns);
 
-// By cell: the area that counts, its first moment, and the length of its borders.
+// Sums for each cell: the area that counts, its first moment, and the length of its borders.
 class CountedSizes {
  public:
   CountedSizes(const PartitionData& cells, const TakingPart& part);

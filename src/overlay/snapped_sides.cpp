@@ -14,7 +14,7 @@
 namespace rondel::overlay {
 namespace {
 
-// The same side in both directions.
+// The ends of a side, the same for both of its directions.
 std::pair<Index, Index> ends_of(const OwnedSide& side) { return std::minmax(side.from, side.to); }
 
 // Leaves out as many of each owner's sides between two points as run the other way.
@@ -106,7 +106,7 @@ void Snaps::join(Index p, Index q) {
   has_joined_ = true;
 }
 
-// What is near to an end becomes one with it.
+// Divides the side from `low` to `high` at a corner; a corner that is near to an end becomes one with it.
 void Snaps::take(Index low, Index high, Index corner) {
   const Point& a = points_[low];
   const Point& b = points_[high];

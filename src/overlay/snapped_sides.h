@@ -13,7 +13,7 @@
 
 namespace rondel::overlay {
 
-// From one point to another, by index, with its owner to the left.
+// A side from one point to another, by index, with its owner to the left.
 struct OwnedSide {
   Index from;
   Index to;

@@ -289,8 +289,8 @@ bool Subdivision::is_convex(Index cell) const {
   return true;
 }
 
-// All corners are on the center's hemisphere, and all edges turn counterclockwise around it, by less than half a turn each and
-// all together once: only one of them comes to the half circle through the first corner, or passes it.
+// Whether all corners are on the center's hemisphere, and all edges turn counterclockwise around it, by less than half a turn each and
+// once all together: then only one of them comes to the half circle through the first corner, or passes it.
 bool Subdivision::is_star(Index cell) const {
   constexpr double behind = -0x1p-10;  // cells of a diagram end at a right angle to rounding
   const Point& center = centers[cell];

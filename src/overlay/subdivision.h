@@ -43,7 +43,7 @@ struct Subdivision {
   LargeVector<Index> cell_of;
   LargeVector<Shape> shapes;
   std::vector<Point> centers;  // of mass
-  // Of the cells of Shape::other, in their order.
+  // The areas of the cells of Shape::other, in their order.
   std::vector<std::pair<Index, double>> areas_of_others;
   LargeVector<Index> names;         // the index of each cell in the input
   std::vector<std::uint64_t> keys;  // of the cells, increasing: their places along the curve
@@ -66,12 +66,12 @@ struct Subdivision {
   }
   [[nodiscard]] const Point& end(Halfedge h) const { return origin(next(h)); }
 
-  // Of any cell.
+  // Copies a ring of any cell.
   void copy_ring(Index ring, std::vector<Point>& corners_of_ring) const {
     corners_of_ring.clear();
     for (Halfedge h = rings[ring]; h < rings[ring + 1]; ++h) corners_of_ring.push_back(origin(h));
   }
-  // Of Shape::other.
+  // The areas of cells of Shape::other.
   [[nodiscard]] double area_of_other(Index cell) const;
   [[nodiscard]] double area_of_rings(Index cell) const;
 

@@ -13,7 +13,7 @@
 namespace rondel::overlay {
 namespace {
 
-// Where an arc crosses another one, or an end of one is on the other to rounding.
+// Whether an end of one of two arcs is on the other one to rounding.
 bool is_touch_by_rounding(const Point& a, const Point& b, const Point& p, const Point& q) {
   constexpr double rounding = 32 * predicates::unit_roundoff;
   const auto is_near = [&](const Point& from, const Point& to, const Point& x) {

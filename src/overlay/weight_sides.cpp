@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What files of weights say of cells.
+// The cells of a partition as files of weights describe them.
 #include <algorithm>
 #include <cstddef>
 #include <span>
