@@ -33,14 +33,22 @@ struct FieldArray {
   [[nodiscard]] RONDEL_API std::size_t num_fields() const;
 };
 
+/// A name for each field of an array, as where it is a column: the array's own if there is one field, else with the place on each axis,
+/// "tas_2001-07-15_850"; with the number on an axis that the file has not, or has twice in one place.
+RONDEL_API std::vector<std::string> names_of_fields(const FieldArray& array,
+                                                    std::span<const FieldArray> axes);
+
 /// What a file says of the same points.
 struct FieldSet {
   std::size_t num_points = 0;
   std::vector<FieldArray> arrays;
   std::vector<FieldArray> axes;
   std::vector<Point> points;  ///< of netCDF with longitudes and latitudes of the points; else empty
-  std::vector<LonLat> positions;     ///< the same in degrees, as the file has them
-  std::vector<std::uint64_t> shape;  ///< the lengths of the dimensions that the points have there
+  std::vector<LonLat> positions;  ///< the same in degrees, as the file has them
+  /// The lengths of the dimensions that the points have there; empty if some of them have no place.
+  std::vector<std::uint64_t> shape;
+  std::size_t num_without_place =
+      0;  ///< points whose longitude or latitude is missing, and which are left out
   std::vector<std::string> remarks;  ///< sentences: which variables of netCDF are left out, and why
 };
 
@@ -52,13 +60,17 @@ struct FieldSet {
 /// | `.npy` | shape (n,) or (fields, n); no `names` |
 /// | `.nc`, `.nc4`, `.cdf`, `.ncf`, or what begins as netCDF | the variables `names`, or all that are fields at the points |
 ///
+/// Of a variable with several fields a name may choose one: "tas[3]", "tas[-1]" and "tas[3, 0]" by its place along the other
+/// dimensions, "tas_2001-07-15" as names_of_fields() calls it.
+///
 /// In netCDF the dimensions of the points are those of their longitudes and latitudes (rondel/conventions.h), in any order and at any
 /// place among the others. Where the file has none, they are the dimension of the length n, or dimensions that follow each other and whose
 /// product is n. Values are what the attributes `_FillValue`, `missing_value`, `valid_min`, `valid_max`, `valid_range`, `_Unsigned`, `scale_factor` and
 /// `add_offset` make of the numbers.
 ///
 /// \param num_points  n; 0 for tables: as many as there are rows; 0 for netCDF: those of the longitudes and latitudes of
-///                    the first variable that has some
+///                    the first variable that has some. Points whose longitude or latitude is missing are left out, unless n is
+///                    their number with these
 /// \param shape  the lengths of the grid of the points, if they are one; a variable of netCDF with other lengths is refused
 RONDEL_API FieldSet read_fields(const FileName& file, std::span<const std::string> names,
                                 std::uint64_t num_points, const ReadOptions& options = {},

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "interpolation/field_formats.h"
+#include "interpolation/field_slices.h"
 #include "io/bad_value.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"

@@ -44,6 +44,10 @@ bool fit(std::span<const std::uint64_t> wanted, const LayoutVariable& variable,
   return agree(lengths, wanted);
 }
 
+bool is_missing(const LonLat& place) {
+  return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
+}
+
 void take_rest(const LayoutVariable& variable, FieldDimensions& layout) {
   for (std::size_t d = 0; d < variable.shape.size(); ++d) {
     if (std::ranges::count(layout.points, d) == 0) layout.leading.push_back(d);
@@ -72,7 +76,7 @@ const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
   }
   const LayoutVariable& lon = file_.variables()[pair.lon];
   const LayoutVariable& lat = file_.variables()[pair.lat];
-  KnownPlaces known{pair.lon, pair.lat, {}, {}, {}};
+  KnownPlaces known{pair.lon, pair.lat, {}, {}, {}, 0};
   if (pair.are_axes) {
     known.dimensions = {lat.dimensions[0], lon.dimensions[0]};
     known.shape = {lat.shape[0], lon.shape[0]};
@@ -88,6 +92,8 @@ const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
       known.places.push_back({arrays.lon[i], arrays.lat[i]});
     }
   }
+  known.num_known = known.places.size() -
+                    static_cast<std::size_t>(std::ranges::count_if(known.places, is_missing));
   known_.push_back(std::move(known));
   return known_.back();
 }
@@ -101,11 +107,12 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
     const LayoutVariable& lon = file_.variables()[pair.lon];
     const std::uint64_t most =
         pair.are_axes ? lon.num_values * file_.variables()[pair.lat].num_values : lon.num_values;
-    if (num_points_ != 0 && most % num_points_ != 0) continue;
+    if (most < num_points_) continue;
     const KnownPlaces& known = places_of_pair(pair);
-    if (num_points_ != 0 && known.places.size() != num_points_) continue;
+    const bool fits = known.places.size() == num_points_ || known.num_known == num_points_;
+    if (num_points_ != 0 && !fits) continue;
     if (layout) {
-      layout->places.clear();  // said more than once
+      if (layout->kept.empty()) layout->places.clear();  // said more than once
       break;
     }
     FieldDimensions found;
@@ -125,11 +132,25 @@ std::optional<FieldDimensions> FieldDimensionFinder::by_coordinates(
         found.places[i] = known.places[i % num_rows * row + i / num_rows];
       }
     }
+    leave_out_missing(known, found);
     take_rest(variable, found);
     layout = std::move(found);
     rank = pair.rank;
   }
   return layout;
+}
+
+void FieldDimensionFinder::leave_out_missing(const KnownPlaces& known,
+                                             FieldDimensions& layout) const {
+  const bool has_all = known.num_known == known.places.size() || known.places.size() == num_points_;
+  if (has_all) return;
+  std::vector<LonLat> places;
+  for (std::size_t i = 0; i < layout.places.size(); ++i) {
+    if (is_missing(layout.places[i])) continue;
+    places.push_back(layout.places[i]);
+    layout.kept.push_back(i);
+  }
+  layout.places = std::move(places);
 }
 
 std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(

@@ -30,6 +30,8 @@ struct FieldDimensions {
   std::vector<std::size_t> points;  // those of the points, the fastest one last
   std::vector<LonLat>
       places;  // degrees; empty if the file does not say where they are, or says it more than once
+  std::vector<std::size_t>
+      kept;  // which of all have a place, if others are left out; `places` are theirs
   bool is_reversed = false;  // by their lengths alone: nothing says which dimension is which
 
   // All dimensions, in the order of the values of a FieldArray.
@@ -54,8 +56,10 @@ class FieldDimensionFinder {
     std::vector<std::size_t> dimensions;
     std::vector<std::uint64_t> shape;
     std::vector<LonLat> places;
+    std::size_t num_known;  // of those that are not missing
   };
   const KnownPlaces& places_of_pair(const CoordinatePair& pair);
+  void leave_out_missing(const KnownPlaces& known, FieldDimensions& layout) const;
   [[nodiscard]] std::optional<FieldDimensions> by_coordinates(
       const io::NetcdfReader::Variable& variable);
   [[nodiscard]] std::optional<FieldDimensions> by_lengths(

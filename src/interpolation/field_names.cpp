@@ -201,6 +201,10 @@ std::vector<std::string> places_on_axis(const FieldArray& axis) {
   return places;
 }
 
+}  // namespace rondel::interpolation
+
+namespace rondel {
+
 std::vector<std::string> names_of_fields(const FieldArray& array,
                                          std::span<const FieldArray> axes) {
   std::vector<std::string> names = {array.name};
@@ -210,7 +214,7 @@ std::vector<std::string> names_of_fields(const FieldArray& array,
     for (const FieldArray& axis : axes) {
       const bool is_this = d < array.dimensions.size() && axis.name == array.dimensions[d] &&
                            axis.values.size() == array.shape[d];
-      if (is_this) places = places_on_axis(axis);
+      if (is_this) places = interpolation::places_on_axis(axis);
     }
     std::vector<std::string> longer;
     for (const std::string& name : names) {
@@ -223,4 +227,4 @@ std::vector<std::string> names_of_fields(const FieldArray& array,
   return names;
 }
 
-}  // namespace rondel::interpolation
+}  // namespace rondel

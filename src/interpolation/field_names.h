@@ -13,11 +13,6 @@
 
 namespace rondel::interpolation {
 
-// in: an array and the axes of its file
-// out: a name for each of its fields: the array's own if there is one field, else with the place on each
-//      axis, "tas_2001-07-15_850"; with the number on an axis that the file has not, or has twice in one place
-std::vector<std::string> names_of_fields(const FieldArray& array, std::span<const FieldArray> axes);
-
 // The places of an axis as texts that differ; none if they do not. Times by their CF units ("hours since
 // 2000-01-01") are dates of ISO 8601, with the time of the day where one is not midnight; other axes are
 // numbers, and so are times in units or calendars that are not known.

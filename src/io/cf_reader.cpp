@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "io/bad_value.h"
+#include "io/cf_names.h"
 #include "io/cf_values.h"
 #include "io/number.h"
 #include "rondel/error.h"
@@ -106,8 +107,45 @@ std::vector<double> in_order(const NetcdfReader::Variable& variable,
   return transposed(variable.shape, order, std::move(values));
 }
 
+namespace {
+
+bool has_time_first(const NetcdfReader& file, const NetcdfReader::Variable& variable) {
+  return variable.shape.size() > 1 && variable.shape.front() > 1 &&
+         is_name_of_time(file.dimensions()[variable.dimensions.front()].name);
+}
+
+// Whether the values are the same at each place of the first dimension; read at one after the other.
+bool is_repeated_along_first(const NetcdfReader& file, const NetcdfReader::Variable& variable) {
+  const std::uint64_t size = variable.num_values / variable.shape.front();
+  std::vector<double> first(size);
+  std::vector<double> other(size);
+  file.read_numbers(variable, 0, first);
+  const auto is_same = [](double a, double b) { return a == b || (a != a && b != b); };
+  for (std::uint64_t begin = size; begin < variable.num_values; begin += size) {
+    file.read_numbers(variable, begin, other);
+    if (!std::ranges::equal(first, other, is_same)) return false;
+  }
+  return true;
+}
+
+// The variable without all but the first place of its first dimension.
+NetcdfReader::Variable at_first_place(NetcdfReader::Variable variable) {
+  variable.num_values /= variable.shape.front();
+  variable.shape.front() = 1;
+  return variable;
+}
+
+}  // namespace
+
 PlaceArrays places_of(const NetcdfReader& file, const NetcdfReader::Variable& lon,
                       const NetcdfReader::Variable& lat, UsualUnits usual) {
+  // Places at many times need not be in memory together.
+  const bool has_room = lon.num_values <= file.most_values();  // else it is told below
+  if (has_room && has_time_first(file, lon) && has_time_first(file, lat) &&
+      lon.shape == lat.shape && is_repeated_along_first(file, lon) &&
+      is_repeated_along_first(file, lat)) {
+    return places_of(file, at_first_place(lon), at_first_place(lat), usual);
+  }
   PlaceArrays places{
       lon.dimensions, lon.shape, {}, degrees_of(file, lon, usual), degrees_of(file, lat, usual)};
   if (places.lon.size() != places.lat.size()) {

@@ -215,6 +215,23 @@ void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t beg
                 });
 }
 
+void Netcdf4File::read_box(const NetcdfReader::Variable& variable, const NetcdfBox& box,
+                           std::span<double> out) const {
+  const NetcdfLock lock(netcdf_library_lock());
+  require_netcdf(library_, library_.read_doubles(variable.group, variable.number, box.start.data(),
+                                                 box.count.data(), out.data()));
+}
+
+void Netcdf4File::take_chunk(const NetcdfReader::Variable& variable,
+                             std::span<std::uint64_t> lengths) const {
+  const NetcdfLock lock(netcdf_library_lock());
+  int storage = 0;
+  std::vector<std::size_t> chunk(lengths.size(), 1);
+  const int error = library_.chunks(variable.group, variable.number, &storage, chunk.data());
+  if (error != 0 || storage != netcdf_in_chunks) return;
+  for (std::size_t d = 0; d < lengths.size(); ++d) lengths[d] = std::max<std::size_t>(chunk[d], 1);
+}
+
 void Netcdf4File::read(const NetcdfReader::Variable& variable, std::uint64_t begin,
                        std::span<std::int64_t> out) const {
   static_assert(sizeof(long long) == sizeof(std::int64_t));

@@ -34,6 +34,10 @@ class Netcdf4File {
   // Reads as many values as there is room for, from this one on. Throws BadValue.
   void read(const NetcdfReader::Variable& variable, std::uint64_t begin,
             std::span<double> out) const;
+  void read_box(const NetcdfReader::Variable& variable, const NetcdfBox& box,
+                std::span<double> out) const;
+  // The lengths of its chunks, if it has any.
+  void take_chunk(const NetcdfReader::Variable& variable, std::span<std::uint64_t> lengths) const;
   // Precondition: they are integers.
   void read(const NetcdfReader::Variable& variable, std::uint64_t begin,
             std::span<std::int64_t> out) const;

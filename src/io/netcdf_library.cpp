@@ -74,6 +74,7 @@ bool load_netcdf(void* library, NetcdfLibrary& netcdf) {
   from.get(netcdf.group_ids, "nc_inq_grps");
   from.get(netcdf.group_name, "nc_inq_grpname");
   from.get(netcdf.variable, "nc_inq_var");
+  from.get(netcdf.chunks, "nc_inq_var_chunking");
   from.get(netcdf.attribute_name, "nc_inq_attname");
   from.get(netcdf.attribute, "nc_inq_att");
   from.get(netcdf.attribute_text, "nc_get_att_text");

@@ -23,6 +23,7 @@ struct NetcdfLibrary {
   int (*group_ids)(int, int*, int*);
   int (*group_name)(int, char*);
   int (*variable)(int, int, char*, int*, int*, int*, int*);
+  int (*chunks)(int, int, int*, std::size_t*);
   int (*attribute_name)(int, int, int, char*);
   int (*attribute)(int, int, const char*, int*, std::size_t*);
   int (*attribute_text)(int, int, const char*, char*);
@@ -59,6 +60,7 @@ inline constexpr int netcdf_largest_name = 256;
 inline constexpr int netcdf_most_dimensions = 1024;
 inline constexpr int netcdf_whole_file = -1;  // in place of a variable that has an attribute
 inline constexpr int netcdf_string_type = 12;
+inline constexpr int netcdf_in_chunks = 0;            // how a variable is stored
 inline constexpr int netcdf_create_netcdf4 = 0x1000;  // replaces a file of the name
 
 }  // namespace rondel::io

@@ -196,7 +196,7 @@ void NetcdfReader::copy(const Variable& variable, std::uint64_t begin, std::span
 void NetcdfReader::read_numbers(const Variable& variable, std::uint64_t begin,
                                 std::span<double> out) const {
   if (netcdf4_ != nullptr) {
-    if (variable.type == NetcdfType::text) refuse(variable, not_numbers);
+    require_numbers(variable);
     netcdf4_->read(variable, begin, out);
   } else if (variable.type == NetcdfType::float64) {
     copy<double>(variable, begin, out);
@@ -219,9 +219,18 @@ std::uint64_t NetcdfReader::most_values() const {
                              : std::min(size_, ~std::uint64_t{0} >> most_packed) << most_packed;
 }
 
-// Checked before there is room for the values.
-void NetcdfReader::require_room(const Variable& variable) const {
+std::vector<std::uint64_t> NetcdfReader::chunk_of(const Variable& variable) const {
+  std::vector<std::uint64_t> lengths(variable.shape.size(), 1);
+  if (netcdf4_ != nullptr) netcdf4_->take_chunk(variable, lengths);
+  return lengths;
+}
+
+void NetcdfReader::require_numbers(const Variable& variable) {
   if (variable.type == NetcdfType::text) refuse(variable, not_numbers);
+}
+
+void NetcdfReader::require_room(const Variable& variable) const {
+  require_numbers(variable);
   if (netcdf4_ == nullptr || variable.num_values <= most_values()) return;
   refuse(variable, "has " + std::to_string(variable.num_values) + " values in a file of " +
                        std::to_string(size_) + " bytes");

@@ -21,6 +21,12 @@ namespace rondel::io {
 class Netcdf4File;
 struct NetcdfHeader;
 
+// `count[d]` places from `start[d]` on along dimension d of a variable.
+struct NetcdfBox {
+  std::vector<std::size_t> start;
+  std::vector<std::size_t> count;
+};
+
 // Whether the bytes that a file begins with are those of a netCDF file, of any of its formats.
 RONDEL_API bool is_netcdf(std::string_view head);
 
@@ -62,17 +68,23 @@ class RONDEL_API NetcdfReader {
 
   // All values as doubles. Throws BadValue if they are a text.
   [[nodiscard]] std::vector<double> numbers(const Variable& variable) const;
+  // Throws BadValue if the variable is a text, or has more values than the file can have: before there is room for them.
+  void require_room(const Variable& variable) const;
   // As many as there is room for, from this one on. Throws BadValue as numbers() and integers() do.
   void read_numbers(const Variable& variable, std::uint64_t begin, std::span<double> out) const;
   void read_integers(const Variable& variable, std::uint64_t begin,
                      std::span<std::int64_t> out) const;
+  // The numbers of a box of one value or more, its last dimension changing fastest. Throws BadValue as numbers() does.
+  void read_box(const Variable& variable, const NetcdfBox& box, std::span<double> out) const;
+  // The lengths along its dimensions of the chunks that are compressed one by one; 1 where there are none.
+  [[nodiscard]] std::vector<std::uint64_t> chunk_of(const Variable& variable) const;
   // The same as integers. Throws BadValue if they are a text, are floating, or are beyond 2^63.
   [[nodiscard]] std::vector<std::int64_t> integers(const Variable& variable) const;
 
  private:
   void take(NetcdfHeader&& header);
   void parse(std::string_view head);
-  void require_room(const Variable& variable) const;
+  static void require_numbers(const Variable& variable);
   [[nodiscard]] std::uint64_t place(const Variable& variable, std::uint64_t index) const;
   template <typename T, typename Out>
   void copy(const Variable& variable, std::uint64_t begin, std::span<Out> out) const;

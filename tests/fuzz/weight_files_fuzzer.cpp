@@ -151,6 +151,7 @@ void test(std::string_view bytes) {
     require(can_write_fields(path), "fields are written as netCDF");
     for (const FieldArray& array : fields.arrays) {
       require(array.values.size() == 4 * array.num_fields(), "a field has a value a point");
+      require(names_of_fields(array, fields.axes).size() == array.num_fields(), "and a name");
     }
     if (fields.arrays.size() == 1) write_fields(folder.file("again.npy"), fields, {});
     if (!fields.arrays.empty()) test_slices(folder, path, fields);

@@ -13,7 +13,6 @@
 namespace rondel::test {
 namespace {
 
-using interpolation::names_of_fields;
 using interpolation::places_on_axis;
 using Names = std::vector<std::string>;
 

@@ -1,0 +1,308 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// FieldSet read from netCDF with the CF conventions.
+#include "interpolation/field_slices.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "io/bad_value.h"
+#include "io/number.h"
+#include "rondel/delaunay.h"
+#include "system/shortest_text.h"
+
+namespace rondel::interpolation {
+namespace {
+
+using SlicedNetcdf = io::NetcdfReader::Variable;
+
+// What a field still is at other points.
+std::vector<std::pair<std::string, std::string>> kept_attributes(const SlicedNetcdf& variable) {
+  std::vector<std::pair<std::string, std::string>> kept;
+  for (const io::NetcdfAttribute& attribute : variable.attributes) {
+    for (const char* name :
+         {"units", "long_name", "standard_name", "calendar", "positive", "axis"}) {
+      if (attribute.name == name && !attribute.text.empty()) {
+        kept.emplace_back(name, attribute.text);
+      }
+    }
+  }
+  return kept;
+}
+
+// A name that a file can have: a variable of a group has one with a slash.
+std::string written_name(std::string name) {
+  std::ranges::replace(name, '/', '_');
+  return name;
+}
+
+// Without the values: the dimensions are those that are leading.
+FieldArray array_of(const io::NetcdfReader& file, const SlicedNetcdf& variable,
+                    const std::vector<std::size_t>& leading) {
+  FieldArray array;
+  array.name = written_name(variable.name);
+  for (const std::size_t d : leading) {
+    array.dimensions.push_back(written_name(file.dimensions()[variable.dimensions[d]].name));
+    array.shape.push_back(variable.shape[d]);
+  }
+  array.attributes = kept_attributes(variable);
+  return array;
+}
+
+bool is_place(const LonLat& place) {
+  return std::abs(place.lon_deg) <= 1e6 && std::abs(place.lat_deg) <= 90;
+}
+
+void require_places(const SlicedNetcdf& variable, std::span<const LonLat> places) {
+  const auto bad = std::ranges::find_if_not(places, is_place);
+  if (bad == places.end()) return;
+  throw io::BadValue("place " + std::to_string(bad - places.begin()) + " of variable " +
+                     io::in_quotes(variable.name) + " is at longitude " +
+                     system::shortest_text(bad->lon_deg) + " and latitude " +
+                     system::shortest_text(bad->lat_deg) + ", which is no place");
+}
+
+[[noreturn]] void refuse_shape(const io::NetcdfReader& file, const SlicedNetcdf& variable,
+                               const FieldsToRead& wanted) {
+  std::string lengths;
+  for (std::size_t d = 0; d < variable.shape.size(); ++d) {
+    lengths += (d == 0 ? "" : ", ") + file.dimensions()[variable.dimensions[d]].name + " " +
+               std::to_string(variable.shape[d]);
+  }
+  std::string grid;
+  for (const std::uint64_t length : wanted.shape) {
+    grid += (grid.empty() ? " on a grid of " : " x ") + std::to_string(length);
+  }
+  throw io::BadValue("no dimensions of variable " + io::in_quotes(variable.name) + " (" + lengths +
+                     ") have the " + std::to_string(wanted.num_points) + " points" + grid);
+}
+
+// Of "[3, 1]" the field at places 3 and 1 along the dimensions; counted from the end where they are negative.
+std::size_t number_of_field(const FieldArray& several, std::string_view places) {
+  std::string meant = several.name;
+  meant += places;
+  std::string lengths;
+  for (std::size_t d = 0; d < several.shape.size(); ++d) {
+    lengths +=
+        (d == 0 ? "" : ", ") + several.dimensions[d] + " " + std::to_string(several.shape[d]);
+  }
+  const io::BadValue bad(io::in_quotes(meant) + " is no field of variable " +
+                         io::in_quotes(several.name) + ", which has those of " + lengths);
+  std::size_t number = 0;
+  for (const std::uint64_t& length : several.shape) {
+    places.remove_prefix(1);  // a bracket or a comma
+    places.remove_prefix(std::min(places.find_first_not_of(' '), places.size()));
+    std::int64_t place = 0;
+    const char* const end = places.data() + places.size();
+    const auto [after, error] = std::from_chars(places.data(), end, place);
+    if (place < 0) place += static_cast<std::int64_t>(length);
+    if (error != std::errc() || after == end || place < 0 ||
+        static_cast<std::uint64_t>(place) >= length) {
+      throw bad;
+    }
+    number = number * static_cast<std::size_t>(length) + static_cast<std::size_t>(place);
+    places.remove_prefix(static_cast<std::size_t>(after - places.data()));
+    const bool is_last = &length == &several.shape.back();
+    if (is_last ? places != "]" : !places.starts_with(',')) throw bad;
+  }
+  return number;
+}
+
+}  // namespace
+
+FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wanted,
+                         std::size_t most_of_block)
+    : file_(file), most_of_block_(most_of_block), layouts_(file, wanted.num_points, wanted.shape) {
+  fields_.num_points = wanted.num_points;
+  for (const std::string& name : wanted.names) {
+    const SlicedNetcdf* const variable = file.find(name);
+    if (variable == nullptr ? add_one_of_several(name) : add(*variable)) continue;
+    if (fields_.num_points != 0) refuse_shape(file, file.require(name), wanted);
+    throw io::BadValue("no longitudes and latitudes of variable " +
+                       io::in_quotes(file.require(name).name));
+  }
+  if (wanted.names.empty()) add_all();
+  if (fields_.arrays.empty()) {
+    std::string why;
+    for (const std::string& remark : fields_.remarks) why += "; " + remark;
+    throw io::BadValue("no variable has " +
+                       (fields_.num_points == 0 ? std::string("longitudes and latitudes")
+                                                : std::to_string(fields_.num_points) + " points") +
+                       why);
+  }
+}
+
+bool FieldSlices::add(const SlicedNetcdf& variable) {
+  std::optional<FieldDimensions> layout = layouts_.layout(variable);
+  if (!layout) return false;
+  add_with_layout(variable, std::move(*layout));
+  add_axes(variable, sources_.back().layout, fields_.axes);
+  return true;
+}
+
+// Of "tas[3]" the field with number 3 of variable tas, of "tas_2001-07-15" the one that is called so where each is a column.
+bool FieldSlices::add_one_of_several(const std::string& name) {
+  std::vector<const SlicedNetcdf*> beginnings;
+  for (const SlicedNetcdf& variable : file_.variables()) {
+    const std::size_t length = variable.name.size();
+    const bool is_beginning = length < name.size() && name.starts_with(variable.name) &&
+                              (name[length] == '[' || name[length] == '_');
+    if (is_beginning) beginnings.push_back(&variable);
+  }
+  std::ranges::sort(beginnings, std::ranges::greater(),
+                    [](const SlicedNetcdf* variable) { return variable->name.size(); });
+  for (const SlicedNetcdf* const variable : beginnings) {
+    std::optional<FieldDimensions> layout = layouts_.layout(*variable);
+    if (!layout || layout->leading.empty()) continue;
+    std::vector<FieldArray> axes;
+    add_axes(*variable, *layout, axes);
+    FieldArray several = array_of(file_, *variable, layout->leading);
+    several.name = variable->name;
+    const std::vector<std::string> names = names_of_fields(several, axes);
+    const std::string rest = name.substr(variable->name.size());
+    const std::size_t number =
+        rest.starts_with('[')
+            ? number_of_field(several, rest)
+            : static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    if (number == names.size()) continue;
+    add_with_layout(*variable, std::move(*layout));
+    sources_.back().first = number;
+    FieldArray& array = fields_.arrays.back();
+    array.name = written_name(names[number]);
+    array.dimensions.clear();
+    array.shape.clear();
+    return true;
+  }
+  return false;
+}
+
+void FieldSlices::add_with_layout(const SlicedNetcdf& variable, FieldDimensions layout) {
+  file_.require_room(variable);
+  io::ValueRules rules(variable);
+  if (!rules.remark().empty()) fields_.remarks.push_back(rules.remark());
+  if (layout.is_reversed) {
+    fields_.remarks.push_back("variable " + io::in_quotes(variable.name) +
+                              " has the lengths of the grid in reverse, and is taken so");
+  }
+  std::size_t num_points = 1;
+  for (const std::size_t d : layout.points) num_points *= variable.shape[d];
+  if (fields_.num_points == 0 || !layout.kept.empty()) require_places(variable, layout.places);
+  fields_.arrays.push_back(array_of(file_, variable, layout.leading));
+  if (fields_.points.empty() && std::ranges::all_of(layout.places, is_place)) {
+    fields_.points = unit_vectors(layout.places);
+    fields_.positions = std::move(layout.places);
+    if (layout.kept.empty()) {
+      for (const std::size_t d : layout.points) fields_.shape.push_back(variable.shape[d]);
+    } else {
+      fields_.num_without_place = num_points - layout.kept.size();
+    }
+  }
+  if (fields_.num_points == 0) fields_.num_points = fields_.points.size();
+  layout.places.clear();
+  FieldBlocks blocks(file_, variable, layout, most_of_block_);
+  sources_.push_back(
+      {&variable, num_points, std::move(layout), std::move(blocks), std::move(rules), 0});
+}
+
+// All variables that are fields; of others those are told that are no coordinates.
+void FieldSlices::add_all() {
+  std::string left_out;
+  std::size_t number = 0;
+  constexpr std::size_t most = 5;
+  for (const SlicedNetcdf& variable : file_.variables()) {
+    if (variable.shape.empty() || layouts_.is_auxiliary(variable)) continue;
+    try {
+      if (add(variable)) continue;
+    } catch (const io::BadValue& bad) {
+      fields_.remarks.emplace_back(std::string(bad.what()) + "; it is left out");
+      continue;
+    }
+    if (++number <= most) left_out += (left_out.empty() ? "" : ", ") + variable.name;
+  }
+  if (number > most) left_out += " and " + std::to_string(number - most) + " more";
+  if (number > 0) {
+    fields_.remarks.push_back("left out, as they have no values at the points: " + left_out);
+  }
+}
+
+// The coordinates along the dimensions that are not those of the points, but for those that are known.
+void FieldSlices::add_axes(const SlicedNetcdf& variable, const FieldDimensions& layout,
+                           std::vector<FieldArray>& axes) {
+  for (const std::size_t d : layout.leading) {
+    const std::string& name = file_.dimensions()[variable.dimensions[d]].name;
+    const SlicedNetcdf* const axis = file_.find(name);
+    const bool is_known = std::ranges::count(axes, written_name(name), &FieldArray::name) != 0;
+    if (is_known || axis == nullptr || axis->type == io::NetcdfType::text ||
+        axis->shape.size() != 1) {
+      continue;
+    }
+    const io::ValueRules rules(*axis);
+    if (!rules.remark().empty()) fields_.remarks.push_back(rules.remark());
+    axes.push_back(array_of(file_, *axis, {0}));
+    axes.back().values = file_.numbers(*axis);
+    rules.apply(axes.back().values);
+  }
+}
+
+// Where points are left out, field by field.
+void FieldSlices::read(std::size_t array, std::size_t first, std::span<double> out) const {
+  const SlicedVariable& source = sources_[array];
+  const std::vector<std::size_t>& kept = source.layout.kept;
+  if (kept.empty()) {
+    read_all_points(source, first + source.first, out);
+    return;
+  }
+  std::vector<double> all(source.num_points);
+  for (; !out.empty(); out = out.subspan(kept.size())) {
+    read_all_points(source, source.first + first++, all);
+    for (std::size_t i = 0; i < kept.size(); ++i) out[i] = all[kept[i]];
+  }
+}
+
+// Fields that are by themselves in the file are read as they are; others in blocks, of which the last one is kept.
+void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t first,
+                                  std::span<double> out) const {
+  const std::size_t n = source.num_points;
+  if (source.blocks.are_apart()) {
+    file_.read_numbers(*source.variable, first * n, out);
+    source.rules.apply(out);
+    return;
+  }
+  while (!out.empty()) {
+    const FieldBlocks::Block block = source.blocks.block_of(first);
+    const std::size_t wanted = std::min(out.size() / n, block.first + block.count - first);
+    const std::span<double> part = out.first(wanted * n);
+    if (wanted == block.count) {
+      read_block(source, block, part);
+    } else {
+      keep_block(source, block);
+      const auto begin = static_cast<std::ptrdiff_t>((first - block.first) * n);
+      std::copy_n(block_.begin() + begin, part.size(), part.begin());
+    }
+    out = out.subspan(part.size());
+    first += wanted;
+  }
+}
+
+void FieldSlices::read_block(const SlicedVariable& source, const FieldBlocks::Block& block,
+                             std::span<double> out) const {
+  io::read_in_order(file_, *source.variable, source.blocks.box_of(block), source.layout.order(),
+                    out);
+  source.rules.apply(out);
+}
+
+void FieldSlices::keep_block(const SlicedVariable& source, const FieldBlocks::Block& block) const {
+  if (source_of_block_ == &source && first_of_block_ == block.first) return;
+  source_of_block_ = nullptr;
+  block_.resize(block.count * source.num_points);
+  read_block(source, block, block_);
+  source_of_block_ = &source;
+  first_of_block_ = block.first;
+}
+
+}  // namespace rondel::interpolation

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "io/netcdf_boxes.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "io/netcdf4_file.h"
+
+namespace rondel::io {
+namespace {
+
+using BoxVariable = NetcdfReader::Variable;
+using BoxLengths = std::vector<std::size_t>;
+
+std::size_t num_values_of(const BoxLengths& count) {
+  std::size_t product = 1;
+  for (const std::size_t length : count) product *= length;
+  return product;
+}
+
+// How far apart neighbors along each dimension are in an array of these lengths, the last one of which changes fastest.
+template <class Lengths>
+BoxLengths steps_of(const Lengths& lengths) {
+  BoxLengths steps(lengths.size(), 1);
+  for (std::size_t d = lengths.size(); d-- > 1;) {
+    steps[d - 1] = steps[d] * static_cast<std::size_t>(lengths[d]);
+  }
+  return steps;
+}
+
+// Calls visit(from, to) for the rows of a box along the last of the dimensions in `order`. `from` and `to` are the places of a row's
+// first value in two arrays, in which neighbors are `from_steps` and `to_steps` apart.
+template <class Visit>
+void for_each_row(const BoxLengths& count, std::span<const std::size_t> order,
+                  const BoxLengths& from_steps, const BoxLengths& to_steps, const Visit& visit) {
+  BoxLengths at(order.size(), 0);
+  std::size_t from = 0;
+  std::size_t to = 0;
+  for (;;) {
+    visit(from, to);
+    std::size_t w = order.size() - 1;
+    for (;;) {
+      if (w-- == 0) return;
+      const std::size_t d = order[w];
+      from += from_steps[d];
+      to += to_steps[d];
+      if (++at[w] < count[d]) break;
+      from -= from_steps[d] * count[d];
+      to -= to_steps[d] * count[d];
+      at[w] = 0;
+    }
+  }
+}
+
+// A chunk, and from the fastest dimension on as many more as there is room for.
+BoxLengths lengths_of_pieces(const BoxLengths& count, std::span<const std::uint64_t> chunk,
+                             std::size_t most_of_piece) {
+  BoxLengths lengths(count.size());
+  for (std::size_t d = 0; d < count.size(); ++d) {
+    lengths[d] = static_cast<std::size_t>(std::min<std::uint64_t>(count[d], chunk[d]));
+  }
+  std::size_t size = num_values_of(lengths);
+  for (std::size_t d = count.size(); d-- > 0;) {
+    const std::size_t number = std::max<std::size_t>(most_of_piece / size, 1);
+    size /= lengths[d];
+    lengths[d] = std::min(count[d], lengths[d] * number);
+    size *= lengths[d];
+    if (lengths[d] < count[d]) break;
+  }
+  return lengths;
+}
+
+}  // namespace
+
+void read_in_order(const NetcdfReader& file, const BoxVariable& variable, const NetcdfBox& box,
+                   std::span<const std::size_t> order, std::span<double> out,
+                   std::size_t most_of_piece) {
+  const std::size_t rank = order.size();
+  if (rank == 0 || out.empty()) {
+    file.read_numbers(variable, 0, out);
+    return;
+  }
+  BoxLengths ordered(rank);
+  for (std::size_t w = 0; w < rank; ++w) ordered[w] = box.count[order[w]];
+  const BoxLengths steps_in_order = steps_of(ordered);
+  BoxLengths out_steps(rank);
+  for (std::size_t w = 0; w < rank; ++w) out_steps[order[w]] = steps_in_order[w];
+  const BoxLengths most = lengths_of_pieces(box.count, file.chunk_of(variable), most_of_piece);
+  std::vector<double> values;
+  NetcdfBox piece{box.start, most};
+  std::size_t out_begin = 0;
+  for (;;) {
+    for (std::size_t d = 0; d < rank; ++d) {
+      piece.count[d] = std::min(most[d], box.start[d] + box.count[d] - piece.start[d]);
+    }
+    values.resize(num_values_of(piece.count));
+    file.read_box(variable, piece, values);
+    const BoxLengths steps = steps_of(piece.count);
+    const std::size_t step = steps[order.back()];
+    const std::size_t length = piece.count[order.back()];
+    for_each_row(piece.count, order, steps, out_steps, [&](std::size_t from, std::size_t to) {
+      double* const row = out.data() + out_begin + to;
+      for (std::size_t i = 0; i < length; ++i) row[i] = values[from + i * step];
+    });
+    std::size_t d = rank;
+    for (;;) {
+      if (d-- == 0) return;
+      piece.start[d] += piece.count[d];
+      out_begin += piece.count[d] * out_steps[d];
+      if (piece.start[d] < box.start[d] + box.count[d]) break;
+      out_begin -= box.count[d] * out_steps[d];
+      piece.start[d] = box.start[d];
+    }
+  }
+}
+
+namespace {
+
+// Reads boxes of files whose values are in their order: run by run, or where runs and what is between them are short, many of them
+// at once.
+class RunReader {
+ public:
+  RunReader(const NetcdfReader& file, const BoxVariable& variable, const NetcdfBox& box)
+      : file_(file), variable_(variable), box_(box), steps_(steps_of(variable.shape)) {
+    // Of dimensions that are wanted as a whole, and of the one before them, values follow each other.
+    first_of_run_ = box.count.size();
+    while (first_of_run_ > 0) {
+      run_ *= box.count[--first_of_run_];
+      if (box.count[first_of_run_] != variable.shape[first_of_run_]) break;
+    }
+  }
+
+  // The values at one place of the dimensions before d, which is value number `begin`.
+  void read(std::size_t d, std::uint64_t begin, std::span<double> out) {
+    if (d >= first_of_run_) {
+      file_.read_numbers(variable_, begin + offset_after(d), out);
+      return;
+    }
+    constexpr std::size_t short_run = 512;
+    const bool is_dense = run_ < short_run && steps_[d] <= 2 * short_run;
+    const std::size_t together = is_dense ? usual_piece / steps_[d] : 1;
+    const std::size_t of_each = out.size() / box_.count[d];
+    for (std::size_t i = 0; i < box_.count[d]; i += together) {
+      const std::size_t number = std::min(together, box_.count[d] - i);
+      const std::uint64_t at = begin + (box_.start[d] + i) * steps_[d];
+      const std::span<double> part = out.subspan(i * of_each, number * of_each);
+      if (is_dense) {
+        read_dense(d, number, at + offset_after(d + 1), part);
+      } else {
+        read(d + 1, at, part);
+      }
+    }
+  }
+
+ private:
+  [[nodiscard]] std::uint64_t offset_after(std::size_t d) const {
+    std::uint64_t offset = 0;
+    for (; d < steps_.size(); ++d) offset += box_.start[d] * steps_[d];
+    return offset;
+  }
+
+  // `number` places along d, with all that is between them.
+  void read_dense(std::size_t d, std::size_t number, std::uint64_t first, std::span<double> out) {
+    const auto from_d = static_cast<std::ptrdiff_t>(d);
+    BoxLengths count(box_.count.begin() + from_d, box_.count.end());
+    count.front() = number;
+    const BoxLengths steps(steps_.begin() + from_d, steps_.end());
+    BoxLengths order(count.size());
+    std::size_t size = 1;
+    for (std::size_t e = 0; e < count.size(); ++e) {
+      order[e] = e;
+      size += (count[e] - 1) * steps[e];
+    }
+    values_.resize(size);
+    file_.read_numbers(variable_, first, values_);
+    for_each_row(count, order, steps, steps_of(count), [&](std::size_t from, std::size_t to) {
+      std::copy_n(values_.begin() + static_cast<std::ptrdiff_t>(from), count.back(),
+                  out.begin() + static_cast<std::ptrdiff_t>(to));
+    });
+  }
+
+  const NetcdfReader& file_;
+  const BoxVariable& variable_;
+  const NetcdfBox& box_;
+  BoxLengths steps_;
+  std::size_t first_of_run_ =
+      0;  // the first dimension along which values of the box follow each other
+  std::size_t run_ = 1;
+  std::vector<double> values_;
+};
+
+}  // namespace
+
+void NetcdfReader::read_box(const Variable& variable, const NetcdfBox& box,
+                            std::span<double> out) const {
+  if (netcdf4_ != nullptr) {
+    require_numbers(variable);
+    netcdf4_->read_box(variable, box, out);
+  } else {
+    RunReader(*this, variable, box).read(0, 0, out);
+  }
+}
+
+}  // namespace rondel::io
