@@ -31,7 +31,8 @@ std::string summary_of(const WeightFile& file, const WeightReport& report) {
                      count(weights.values.size(), "entry", "entries") +
                      "; empty rows: " + std::to_string(report.empty_rows) + '\n';
   text += "weights from " + short_number(report.least) + " to " + short_number(report.greatest) +
-          "; sums of rows are " + (report.sums_are_fractions ? "the fractions" : "1") + " to " +
+          "; sums of " + (report.sums_are_of_columns ? "columns" : "rows") + " are " +
+          (report.sums_are_fractions ? "the fractions" : "1") + " to " +
           short_number(report.worst_row) + '\n';
   if (report.worst_column) {
     text += "areas of sources are given away to " + short_number(*report.worst_column) + '\n';

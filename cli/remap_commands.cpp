@@ -65,14 +65,15 @@ Command add_apply_command(CLI::App& tool) {
   parser
       ->add_option("VALUES", options->values_file,
                    "Values at the sources: .csv .tsv (--value), .npy of the shape (n) or\n"
-                   "(fields, n), or netCDF: variables whose last dimensions are the sources")
+                   "(fields, n), or netCDF: variables with the dimensions of the sources")
       ->required()
       ->type_name("");
   add_output_option(*parser, options->common,
                     "Where to write the values at the targets: .csv .tsv .npy .nc .nc4")
       ->required();
   add_values(*parser, options->columns,
-             "A column, or a variable of netCDF (default: all that fit); may be repeated");
+             "A column, or a variable of netCDF (default: all that fit), one of several times of\n"
+             "it as 'NAME[3]', 'NAME[-1]' or NAME_2001-07-15; may be repeated");
   parser
       ->add_option("--fill", options->apply.fill,
                    "The value of targets that have none (default: nan)")
@@ -87,7 +88,8 @@ Command add_apply_command(CLI::App& tool) {
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
   parser->footer(
-      "netCDF is read and written slice by slice: it may be larger than the memory.\n\n"
+      "netCDF is read and written slice by slice, whatever the order of its dimensions: it may\n"
+      "be larger than the memory.\n\n"
       "The values are those of the sources, in their order. Where the file of weights knows the\n"
       "sources, this is held against a table's columns of longitude and latitude, or x, y, z, and\n"
       "against the longitudes and latitudes of a netCDF file, to 1e-4 degrees. Of .npy, and of\n"
@@ -109,7 +111,8 @@ Command add_check_weights_command(CLI::App& tool) {
       "A file is wrong if\n"
       "- a weight is not finite, or a source stands twice in one row;\n"
       "- a row with entries does not sum up to 1 or, normalized by destarea, to the fraction\n"
-      "  of its target;\n"
+      "  of its target; where sources are given to their nearest targets (nearest_d2s, nearest\n"
+      "  destination to source), a source with entries is not given away as a whole, once;\n"
       "- a fraction is above 1, negative or not a number, or an area negative or not finite;\n"
       "- a weight is negative although the method is an average: conservative of first order,\n"
       "  nearest, linear, laplace, sibson, largest share. Weights of second order, bilinear,\n"
@@ -143,7 +146,8 @@ Command add_interpolate_command(CLI::App& tool) {
       ->type_name("TARGET");
   add_values(*parser, options->columns,
              "The column with the values, for GeoJSON a property, for netCDF a variable (default\n"
-             "there: that of INPUT.nc:NAME, or all); may be repeated");
+             "there: that of INPUT.nc:NAME, or all), one of several times of it as 'NAME[3]',\n"
+             "'NAME[-1]' or NAME_2001-07-15; may be repeated");
   add_output_option(*parser, options->common,
                     "Where to write the values at the targets: .csv .tsv .npy .nc .nc4");
   parser

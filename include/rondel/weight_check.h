@@ -25,14 +25,16 @@ struct WeightFault {
 struct WeightReport {
   std::vector<WeightFault> faults;  ///< one of a kind; empty: nothing is wrong
   std::size_t empty_rows = 0;
-  double least = 0;      ///< weight
-  double greatest = 0;   ///< weight
-  double worst_row = 0;  ///< the largest difference of a row's sum from what it should be
+  double least = 0;     ///< weight
+  double greatest = 0;  ///< weight
+  double worst_row =
+      0;  ///< the largest difference of a row's (column's) sum from what it should be
   std::optional<double> worst_column;  ///< the largest relative difference of an area given away
   std::optional<double>
       worst_direction;  ///< the largest |u x sum of w x|, u a target, x its sources
   bool sums_are_fractions =
       false;  ///< rows should have the fractions of the targets as sums, not 1
+  bool sums_are_of_columns = false;  ///< columns should have 1 as sums, not rows
 
   /// Returns how often a kind occurs.
   [[nodiscard]] RONDEL_API std::size_t count(const std::string& kind) const;
@@ -50,6 +52,8 @@ struct WeightCheckOptions {
 /// | `not finite` | a weight is infinite or not a number |
 /// | `repeated` | a row has two entries of one column |
 /// | `row sum` | the entries of a row do not add up to 1 or, normalized by destarea, to the fraction of the target |
+/// | `column sum` | in place of `row sum`, where the method gives each source to its nearest target (nearest_d2s, nearest |
+/// |            | destination to source): the entries of a column do not add up to 1 |
 /// | `negative` | a weight is negative, though the method is an average: conservative of first order, |
 /// |            | nearest, linear, laplace, sibson, or the largest share |
 /// | `target fraction`, `source fraction` | a fraction is negative, above 1 or not a number |

@@ -55,8 +55,11 @@ struct MethodFacts {
     const bool is_average = std::ranges::any_of(
         averages, [&](std::string_view word) { return name.starts_with(word); });
     is_never_negative = (is_conservative && !is_higher) || is_average;
+    gives_sources_away =
+        has_word(name, "d2s") || has_word(name, "dtos") || has_word(name, "destination to source");
   }
   bool is_conservative = false;
+  bool gives_sources_away = false;  // each to one target, which has the sum of what it gets
   bool is_never_negative = false;
 };
 
@@ -88,7 +91,9 @@ class WeightChecker {
         weights_(file.weights),
         method_(file.method),
         allow_negative_(options.allow_negative || !method_.is_never_negative) {
-    report_.sums_are_fractions = file.normalization == "destarea" && !file.target.fractions.empty();
+    report_.sums_are_of_columns = method_.gives_sources_away;
+    report_.sums_are_fractions = file.normalization == "destarea" &&
+                                 !file.target.fractions.empty() && !method_.gives_sources_away;
     const std::string wanted =
         report_.sums_are_fractions ? "the fraction of the target" : "something else than 1";
     const bool is_negated = report_.sums_are_fractions;
@@ -99,10 +104,12 @@ class WeightChecker {
 
   WeightReport run() {
     check_rows();
+    if (method_.gives_sources_away) check_sums_of_columns();
     check_columns();
     check_side("target", file_.target, entries_of_rows());
     check_side("source", file_.source, entries_of_column_);
-    for (const FaultCounter& faults : {not_finite_, repeated_, negative_, row_sums_, missing_}) {
+    for (const FaultCounter& faults :
+         {not_finite_, repeated_, negative_, row_sums_, column_sums_, missing_}) {
       faults.move_to(report_.faults);
     }
     std::ranges::move(side_faults_, std::back_inserter(report_.faults));
@@ -149,9 +156,23 @@ class WeightChecker {
       last = row + 1;
       ++entries_of_column_[weights_.columns[k]];
     }
+    if (method_.gives_sources_away) return;
     const double deviation = std::abs(sum - wanted);
     report_.worst_row = std::max(report_.worst_row, deviation);
     if (!(deviation <= tolerance)) row_sums_.add("target " + std::to_string(row), sum);
+  }
+
+  void check_sums_of_columns() {
+    std::vector<double> sums(weights_.num_columns);
+    for (std::size_t k = 0; k < weights_.values.size(); ++k) {
+      sums[weights_.columns[k]] += weights_.values[k];
+    }
+    for (std::size_t c = 0; c < sums.size(); ++c) {
+      if (entries_of_column_[c] == 0) continue;
+      const double deviation = std::abs(sums[c] - 1);
+      report_.worst_row = std::max(report_.worst_row, deviation);
+      if (!(deviation <= least_tolerance)) column_sums_.add("source " + std::to_string(c), sums[c]);
+    }
   }
 
   // What all targets take of a source is the part of it that they cover.
@@ -254,6 +275,8 @@ class WeightChecker {
                          "entries repeat a source of their row"};
   FaultCounter negative_{"negative", "weight is negative", "weights are negative"};
   FaultCounter row_sums_{"row sum", "", ""};
+  FaultCounter column_sums_{"column sum", "source is not given away as a whole, once",
+                            "sources are not given away as a whole, once"};
   FaultCounter missing_{"missing row", "target has a fraction and no weight",
                         "targets have a fraction and no weight"};
   FaultCounter conservation_{"conservation",

@@ -99,6 +99,24 @@ TEST(weight_check, names_entries_that_are_repeated_or_no_numbers) {
              "row sum: 1 row does not sum up to the fraction of the target (target 2: inf)"}));
 }
 
+TEST(weight_check, judges_columns_where_sources_are_given_to_their_nearest_targets) {
+  WeightFile file;
+  file.weights = {{0, 3, 3, 4}, {0, 2, 3, 1}, {1, 1, 1, 1}, 5, 0, 0};
+  file.normalization = "none";
+  EXPECT_EQ(faults_of(file),
+            (Lines{"row sum: 1 row sums up to something else than 1 (target 0: 3)"}));
+  for (const char* method : {"nearest_d2s", "Nearest destination to source", "NEAREST_DTOS"}) {
+    file.method = method;
+    EXPECT_EQ(faults_of(file), Lines{}) << method;
+    EXPECT_TRUE(check_weights(file).sums_are_of_columns);
+  }
+  file.weights.columns[3] = 2;
+  file.weights.values[0] = 0.5;
+  EXPECT_EQ(faults_of(file), (Lines{"column sum: 2 sources are not given away as a whole, once "
+                                    "(first source 0: 0.5)"}));
+  EXPECT_EQ(check_weights(file).worst_row, 1);
+}
+
 TEST(weight_check, judges_negative_weights_by_the_method) {
   WeightFile file;
   file.weights = {{0, 2}, {0, 1}, {1.25, -0.25}, 2, 0, 0};

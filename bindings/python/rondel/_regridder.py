@@ -253,7 +253,7 @@ class Regridder(Described):
         if self._remap is not None:
             self._remap.to_netcdf(path)
         else:
-            self.weights.to_netcdf(os.fspath(path))
+            self.weights.to_netcdf(os.fspath(path), method=self.method)
 
     def _facts(self) -> list[tuple[str, str]]:
         def text(shape: tuple[int, ...]) -> str:
