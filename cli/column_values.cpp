@@ -10,6 +10,8 @@
 #include <string_view>
 
 #include "command.h"
+#include "rondel/fields.h"
+#include "rondel/mesh_files.h"
 
 namespace rondel::cli {
 namespace {
@@ -27,12 +29,39 @@ double number_in(std::string_view cell, const SiteTable& table, std::size_t site
   throw FileError(table.where(site) + ": " + name + " '" + std::string(cell) + "' is not a number");
 }
 
+// A field of a netCDF file at the sites: of a variable that has one, or of one of several.
+std::vector<double> netcdf_values(const SiteTable& table, const std::string& name,
+                                  const std::string& option) {
+  const FieldFile file(table.name, {&name, 1}, table.sites.size());
+  const FieldSet& fields = file.fields();
+  const FieldArray& array = fields.arrays.front();
+  if (array.num_fields() != 1) {
+    std::string along;
+    for (std::size_t d = 0; d < array.dimensions.size(); ++d) {
+      along += (d == 0 ? "" : ", ") + array.dimensions[d] + " " + std::to_string(array.shape[d]);
+    }
+    std::string text =
+        option + ": '" + name + "' of " + table.name + " has several fields (" + along + ")";
+    if (array.num_fields() > 1) {
+      std::string first = name + "[0";
+      for (std::size_t d = 1; d < array.shape.size(); ++d) first += ",0";
+      text += "; one of them is '" + first + "]', or '" +
+              names_of_fields(array, fields.axes).front() + "'";
+    }
+    throw UsageError(text);
+  }
+  std::vector<double> values(table.sites.size());
+  file.read(0, 0, values);
+  return values;
+}
+
 }  // namespace
 
 std::vector<double> column_values(const SiteTable& table, const std::string& name,
                                   const std::string& option) {
   const auto column = std::ranges::find(table.columns, name, &Column::name);
   if (column == table.columns.end()) {
+    if (is_netcdf_file(table.name)) return netcdf_values(table, name, option);
     throw UsageError(option + ": " + table.name + " has no column '" + name + "'");
   }
   std::vector<double> values;

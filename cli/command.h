@@ -17,6 +17,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -109,8 +110,10 @@ class Job {
 
   /// The sites of INPUT. \throws FileError
   SiteTable read();
-  /// The sites of another file. \throws FileError
-  SiteTable read(const FileName& file, const ReadOptions& read);
+  /// The sites of another file; of netCDF those of the variables `names`, which are also the columns, unless FILE:NAME names one.
+  /// \throws FileError
+  SiteTable read(const FileName& file, const ReadOptions& read,
+                 std::span<const std::string> names = {});
   /// \throws FileError with the file and line of a site that the library does not accept.
   /// The result refers to the table's sites, which must live as long.
   Triangulation triangulate(const SiteTable& table);

@@ -41,7 +41,7 @@ ExitStatus run_contours(const ContoursOptions& options) {
   }
   common.read.keep_columns = true;
   Job job(common);
-  const SiteTable table = job.read();
+  const SiteTable table = job.read(common.source(), common.read, {&options.value, 1});
   const std::vector<double> values = column_values(table, options.value, "--value");
   const std::vector<double> levels = levels_for(options, values);
   const Triangulation triangulation = job.triangulate(table);
@@ -61,7 +61,10 @@ ExitStatus run_contours(const ContoursOptions& options) {
 }
 
 void add_level_options(CLI::App& parser, ContoursOptions& options) {
-  parser.add_option("--value", options.value, "The column with the values; an empty cell has none")
+  parser
+      .add_option("--value", options.value,
+                  "The column with the values; an empty cell has none. Of netCDF a variable, of\n"
+                  "one with several times 'NAME[3]', 'NAME[-1]' or NAME_2001-07-15")
       ->required()
       ->type_name("COL");
   CLI::Option* levels =

@@ -209,7 +209,7 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   Job job(common);
   ReadOptions read = common.read;
   read.keep_columns = has_values && !is_netcdf;
-  const SiteTable table = job.read(common.source(), read);
+  const SiteTable table = job.read(common.source(), read, options.columns);
   Targets targets = read_targets(options.target, common.read);
   InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0};
   if (has_values && is_netcdf) interpolate_fields(job, options, table, targets, counts);

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 #include "command.h"
 #include "netcdf_part.h"
@@ -54,14 +55,20 @@ Job::~Job() = default;
 
 SiteTable Job::read() { return read(state_->options.source(), state_->options.read); }
 
-SiteTable Job::read(const FileName& file, const ReadOptions& read) {
+SiteTable Job::read(const FileName& file, const ReadOptions& read,
+                    std::span<const std::string> names) {
   const Clock::time_point start = Clock::now();
   const auto part = netcdf_part(file);
   const bool is_netcdf = is_netcdf_file(part.first);
-  std::vector<std::string> names;
-  if (!part.second.empty()) names.push_back(part.second);
-  SiteTable table = is_netcdf ? read_netcdf_sites(part.first, names, read.keep_columns).table
-                              : read_sites(file, read, execution());
+  if (!part.second.empty()) names = {&part.second, 1};
+  SiteTable table;
+  if (is_netcdf) {
+    NetcdfSites sites = read_netcdf_sites(part.first, names, read.keep_columns);
+    tell(part.first.path, sites.remarks);
+    table = std::move(sites.table);
+  } else {
+    table = read_sites(file, read, execution());
+  }
   state_->seconds.read += seconds_since(start);
   state_->num_unlocated += table.num_unlocated;
   if (table.num_unlocated > 0 && !state_->options.quiet) {

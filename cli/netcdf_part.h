@@ -14,17 +14,17 @@
 
 namespace rondel::cli {
 
-/// The file, and the name behind its last colon; the whole path and no name, if there is a file of that name or what is before
-/// the colon is no netCDF file.
+/// The file, and the name behind a colon, which may have colons itself; the whole path and no name, if there is a file of that name
+/// or nothing before a colon is a netCDF file.
 inline std::pair<FileName, std::string> netcdf_part(const FileName& file) {
-  const std::size_t colon = file.path.rfind(':');
   std::error_code error;
-  if (colon == std::string::npos || colon < 2 || std::filesystem::exists(file.path, error)) {
-    return {file, {}};
+  if (std::filesystem::exists(file.path, error)) return {file, {}};
+  for (std::size_t colon = file.path.rfind(':'); colon != std::string::npos && colon >= 2;
+       colon = file.path.rfind(':', colon - 1)) {
+    FileName before(file.path.substr(0, colon), file.format);
+    if (is_netcdf_file(before)) return {std::move(before), file.path.substr(colon + 1)};
   }
-  FileName before(file.path.substr(0, colon), file.format);
-  if (!is_netcdf_file(before)) return {file, {}};
-  return {std::move(before), file.path.substr(colon + 1)};
+  return {file, {}};
 }
 
 }  // namespace rondel::cli

@@ -214,7 +214,9 @@ ExitStatus run_plot(const PlotOptions& options) {
   CommonOptions common = options.common;
   common.read.keep_columns = !options.values.empty();
   Job job(common);
-  const SiteTable table = job.read();
+  std::vector<std::string> names;
+  if (!options.values.empty()) names.push_back(options.values);
+  const SiteTable table = job.read(common.source(), common.read, names);
   const Triangulation triangulation = job.triangulate(table);
   Figure figure;
   job.time(Stage::dual,

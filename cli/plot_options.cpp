@@ -51,7 +51,8 @@ void add_content_options(CLI::App& parser, PlotOptions& options) {
                    "What is behind the globe: faint, or none (default)");
   parser
       .add_option("--values", options.values,
-                  "A column of numbers, shown as colors with a color bar")
+                  "A column of numbers, shown as colors with a color bar. Of netCDF a variable,\n"
+                  "of one with several times 'NAME[3]', 'NAME[-1]' or NAME_2001-07-15")
       ->type_name("COL");
   parser
       .add_option("--contours", options.contours,

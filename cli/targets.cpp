@@ -8,6 +8,7 @@
 
 #include "netcdf_part.h"
 #include "remap.h"
+#include "report.h"
 #include "rondel/delaunay.h"
 #include "rondel/mesh_files.h"
 #include "validate.h"
@@ -122,6 +123,7 @@ Targets read_targets(const std::string& name, const ReadOptions& read) {
     std::vector<std::string> names;
     if (!variable.empty()) names.push_back(variable);
     NetcdfSites sites = read_netcdf_sites(file, names, false);
+    tell(file.path, sites.remarks);
     targets.table = std::move(sites.table);
     targets.side.points = targets.table.positions;
     if (sites.shape.size() > 1) targets.side.shape = std::move(sites.shape);

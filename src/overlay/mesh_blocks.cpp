@@ -137,7 +137,8 @@ std::optional<MeshContent> read_oasis(const NetcdfReader& file, const std::strin
 }
 
 std::optional<MeshContent> read_exodus(const NetcdfReader& file, const std::string& name) {
-  if (file.find("connect1") == nullptr || !name.empty()) return std::nullopt;
+  const MeshVariable* const block_1 = file.find("connect1");
+  if (block_1 == nullptr || !is_meant(file, name, *block_1)) return std::nullopt;
   MeshContent mesh;
   mesh.convention = "Exodus";
   mesh.nodes = lonlats(points_of_exodus(file));

@@ -84,7 +84,12 @@ const MeshVariable* topology_of(const NetcdfReader& file, const std::string& nam
          io::netcdf_text(variable.attributes, "standard_name") == "mesh_topology") &&
         number_or(variable, "topology_dimension", 2) == 2;
     if (!is_topology) continue;
-    if (!name.empty() && variable.name != name && variable.name != mesh_of_named) continue;
+    const MeshVariable* const faces =
+        file.find(io::netcdf_text(variable.attributes, "face_node_connectivity"));
+    const bool is_wanted =
+        variable.name == name || variable.name == mesh_of_named ||
+        (mesh_of_named.empty() && faces != nullptr && is_meant(file, name, *faces));
+    if (!name.empty() && !is_wanted) continue;
     if (found == nullptr) {
       found = &variable;
     } else {
@@ -128,7 +133,7 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::strin
 std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::string& name) {
   const MeshVariable* const lon = file.find("grid_corner_lon");
   const MeshVariable* const lat = file.find("grid_corner_lat");
-  if (lon == nullptr || lat == nullptr || !name.empty()) return std::nullopt;
+  if (lon == nullptr || lat == nullptr || !is_meant(file, name, *lon)) return std::nullopt;
   MeshContent mesh;
   mesh.convention = "SCRIP";
   (void)require_rank(*lon, 2);
@@ -163,24 +168,31 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::
 std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::string& name) {
   const MeshVariable* const nodes = file.find("nodeCoords");
   const MeshVariable* const elements = file.find("elementConn");
-  if (nodes == nullptr || elements == nullptr || !name.empty()) return std::nullopt;
+  if (nodes == nullptr || elements == nullptr) return std::nullopt;
+  const MeshVariable& numbers = file.require("numElementConn");
+  if (!is_meant(file, name, numbers)) return std::nullopt;
   MeshContent mesh;
   mesh.convention = "ESMF";
   mesh.nodes = pairs_of(file, *nodes);
   mesh.names = io::in_quotes(nodes->name);
   mesh.is_single = nodes->type == io::NetcdfType::float32;
-  const std::vector<double> counts = file.numbers(file.require("numElementConn"));
+  const std::vector<double> counts = file.numbers(numbers);
   const double first = number_or(*elements, "start_index", 1);
   const double no_break = first;
   const double break_value = number_or(*elements, "polybreak_value", no_break);
-  if (require_rank(*elements, 2).shape[0] != counts.size()) {
-    throw BadValue("variable " + io::in_quotes(elements->name) + " has " +
-                   std::to_string(elements->shape[0]) + " rows instead of " +
-                   std::to_string(counts.size()));
+  if (elements->shape.size() == 1) {
+    // Rows of different lengths, one after the other.
+    take_connectivity(file, {*elements, counts.size(), 0, false, first, break_value}, counts, mesh);
+  } else {
+    if (require_rank(*elements, 2).shape[0] != counts.size()) {
+      throw BadValue("variable " + io::in_quotes(elements->name) + " has " +
+                     std::to_string(elements->shape[0]) + " rows instead of " +
+                     std::to_string(counts.size()));
+    }
+    take_connectivity(
+        file, {*elements, elements->shape[0], elements->shape[1], false, first, break_value},
+        counts, mesh);
   }
-  take_connectivity(file,
-                    {*elements, elements->shape[0], elements->shape[1], false, first, break_value},
-                    counts, mesh);
   take_mask(file, "elementMask", mesh);
   if (const MeshVariable* const centers = file.find("centerCoords")) {
     mesh.centers = pairs_of(file, *centers);
@@ -191,7 +203,7 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::s
 
 std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string& name) {
   const MeshVariable* const vertices = file.find("verticesOnCell");
-  if (vertices == nullptr || !name.empty()) return std::nullopt;
+  if (vertices == nullptr || !is_meant(file, name, *vertices)) return std::nullopt;
   if (io::netcdf_text(file.attributes(), "on_a_sphere").starts_with("NO")) {
     throw BadValue("the mesh is in the plane: on_a_sphere is NO");
   }
@@ -215,7 +227,7 @@ std::optional<MeshContent> read_icon(const NetcdfReader& file, const std::string
   const MeshVariable* const vertices = file.find("vertex_of_cell");
   const MeshVariable* const lon = file.find("vlon");
   const MeshVariable* const lat = file.find("vlat");
-  if (vertices == nullptr || lon == nullptr || lat == nullptr || !name.empty()) {
+  if (vertices == nullptr || lon == nullptr || lat == nullptr || !is_meant(file, name, *vertices)) {
     return std::nullopt;
   }
   MeshContent mesh;

@@ -56,6 +56,9 @@ std::optional<MeshContent> read_cf_grid(const io::NetcdfReader& file, const std:
 using MeshVariable = io::NetcdfReader::Variable;
 using io::UsualUnits;
 
+// Whether no variable is named, or one that has a dimension of `cells`.
+bool is_meant(const io::NetcdfReader& file, const std::string& name, const MeshVariable& cells);
+
 // Two variables as positions in degrees. Throws BadValue if they are not of one length.
 std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshVariable& lon,
                                  const MeshVariable& lat, UsualUnits usual);
@@ -67,7 +70,8 @@ bool is_missing_place(const LonLat& place);
 LonLat require_position(const std::string& names, std::size_t i, const LonLat& place);
 // Cells that have corners of their own, which are the nodes, `of_each` a cell. Where `may_be_fewer`, those missing at the end are none.
 void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mesh);
-// Which nodes are corners: `of_each` entries a cell, `counts` of which are in use, if there are counts.
+// Which nodes are corners: `of_each` entries a cell, `counts` of which are in use, if there are counts; where `of_each` is 0, as many
+// as the counts say.
 struct Connectivity {
   const MeshVariable& variable;
   std::uint64_t num_cells;

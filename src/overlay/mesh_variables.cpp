@@ -48,6 +48,14 @@ Index node_of(const Connectivity& connectivity, double number, std::size_t cell,
 
 }  // namespace
 
+bool is_meant(const io::NetcdfReader& file, const std::string& name, const MeshVariable& cells) {
+  const MeshVariable* const variable = file.find(name);
+  return name.empty() ||
+         (variable != nullptr && std::ranges::any_of(variable->dimensions, [&](std::size_t d) {
+            return std::ranges::count(cells.dimensions, d) != 0;
+          }));
+}
+
 void require_values(const MeshVariable& variable, std::uint64_t wanted) {
   if (variable.num_values == wanted) return;
   throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
@@ -117,20 +125,24 @@ void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mes
 void take_connectivity(const io::NetcdfReader& file, const Connectivity& connectivity,
                        const std::vector<double>& counts, MeshContent& mesh) {
   const auto& [variable, num_cells, of_each, is_transposed, first, break_value] = connectivity;
-  require_values(variable, num_cells * of_each);
+  const bool is_ragged = of_each == 0;
+  if (!is_ragged) require_values(variable, num_cells * of_each);
   const std::vector<double> entries = file.numbers(variable);
   std::vector<double> meant = entries;
   io::ValueRules(variable).apply(meant);
   std::size_t num_undeclared = 0;
+  std::uint64_t begin = 0;  // of the cell's row
   for (std::uint64_t i = 0; i < num_cells; ++i) {
-    const double count = counts.empty() ? static_cast<double>(of_each) : counts[i];
-    if (!(count >= 0 && count <= static_cast<double>(of_each))) {
-      throw BadValue("cell " + std::to_string(i) + " has " + std::to_string(count) +
-                     " corners of " + std::to_string(of_each));
+    const std::uint64_t most = is_ragged ? entries.size() - begin : of_each;
+    const double given = counts.empty() ? static_cast<double>(of_each) : counts[i];
+    if (!(given >= 0 && given <= static_cast<double>(most))) {
+      throw BadValue("cell " + std::to_string(i) + " has " + system::shortest_text(given) +
+                     " corners of " + std::to_string(most));
     }
+    const auto count = static_cast<std::uint64_t>(given);
     const std::size_t num_before = num_undeclared;
-    for (std::uint64_t k = 0; k < static_cast<std::uint64_t>(count); ++k) {
-      const std::uint64_t at = is_transposed ? k * num_cells + i : i * of_each + k;
+    for (std::uint64_t k = 0; k < count; ++k) {
+      const std::uint64_t at = is_transposed ? k * num_cells + i : begin + k;
       if (break_value < first && entries[at] == break_value) {
         mesh.end_ring();
         continue;
@@ -150,7 +162,9 @@ void take_connectivity(const io::NetcdfReader& file, const Connectivity& connect
     }
     mesh.end_ring();
     mesh.end_cell();
+    begin += is_ragged ? count : of_each;
   }
+  if (is_ragged) require_values(variable, begin);
   if (num_undeclared == 0) return;
   mesh.remarks.push_back(std::to_string(num_undeclared) + " numbers of " +
                          io::in_quotes(variable.name) + " are less than " +

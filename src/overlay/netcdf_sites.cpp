@@ -20,12 +20,27 @@
 namespace rondel {
 namespace {
 
-// Nothing where the file has no cells with centers.
-std::optional<NetcdfSites> centers_of_cells(const FileName& file) {
+// Of "tas[3]" the variable's name.
+std::string variable_of(std::span<const std::string> names) {
+  return names.empty() ? std::string() : names.front().substr(0, names.front().find('['));
+}
+
+// The cells that the variable is on. Nothing where the file has none with centers.
+std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::string& variable) {
   try {
-    CellTable cells = read_cells(file);
+    io::FileBytes bytes(file.path, true);
+    CellTable cells = io::in_file(bytes.name(), [&] {
+      const io::NetcdfReader reader(bytes);
+      const bool is_known = reader.find(variable) != nullptr;
+      return overlay::cells_in(reader, bytes.name(), is_known ? variable : std::string());
+    });
     if (cells.centers.empty() || cells.centers.size() != cells.num_cells()) return std::nullopt;
+    for (std::size_t i = 0; i < cells.mask.size(); ++i) {
+      // read_cells() puts the centers there that are missing.
+      if (cells.mask[i] == 0 && cells.centers[i] == LonLat{0, 0}) return std::nullopt;
+    }
     NetcdfSites sites;
+    sites.remarks = std::move(cells.remarks);
     sites.table.positions = std::move(cells.centers);
     sites.shape = std::move(cells.shape);
     return sites;
@@ -45,14 +60,30 @@ Column column_of(const FieldArray& array) {
   return column;
 }
 
-void add_columns(const FieldFile& file, SiteTable& table) {
+std::string text_of_several(const FieldArray& array, const FieldSet& fields) {
+  std::string lengths;
+  for (std::size_t d = 0; d < array.shape.size(); ++d) {
+    lengths += (d == 0 ? "" : ", ") + array.dimensions[d] + " " + std::to_string(array.shape[d]);
+  }
+  std::string text =
+      io::in_quotes(array.name) + " has several fields (" + lengths + ") and is no column";
+  const std::vector<std::string> names = names_of_fields(array, fields.axes);
+  return names.empty() ? text : text + "; one of them is " + io::in_quotes(names.front());
+}
+
+// Names are of columns as they were given.
+void add_columns(const FieldFile& file, std::span<const std::string> names, NetcdfSites& sites) {
   const FieldSet& fields = file.fields();
   for (std::size_t a = 0; a < fields.arrays.size(); ++a) {
     FieldArray array = fields.arrays[a];
-    if (array.num_fields() != 1) continue;
+    if (array.num_fields() != 1) {
+      sites.remarks.push_back(text_of_several(array, fields));
+      continue;
+    }
     array.values.resize(fields.num_points);
     file.read(a, 0, array.values);
-    table.columns.push_back(column_of(array));
+    if (!names.empty()) array.name = names[a];
+    sites.table.columns.push_back(column_of(array));
   }
 }
 
@@ -62,7 +93,9 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
                               bool keep_columns) {
   const system::ArithmeticScope arithmetic;
   NetcdfSites sites;
-  if (std::optional<NetcdfSites> centers = centers_of_cells(file)) sites = std::move(*centers);
+  if (std::optional<NetcdfSites> centers = centers_of_cells(file, variable_of(names))) {
+    sites = std::move(*centers);
+  }
   const std::size_t num_centers = sites.table.positions.size();
   if (num_centers == 0 || keep_columns) {
     try {
@@ -70,8 +103,13 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
       if (num_centers == 0) {
         sites.table.positions = fields.fields().positions;
         sites.shape = fields.fields().shape;
+        if (const std::size_t number = fields.fields().num_without_place; number > 0) {
+          sites.remarks.push_back(std::to_string(number) + " of " +
+                                  std::to_string(number + fields.fields().num_points) +
+                                  " places have no longitude or latitude and are left out");
+        }
       }
-      if (keep_columns) add_columns(fields, sites.table);
+      if (keep_columns) add_columns(fields, names, sites);
     } catch (const FileError&) {
       if (num_centers == 0 || !names.empty()) throw;  // a mesh may have no fields
     }

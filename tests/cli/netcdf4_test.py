@@ -8,6 +8,7 @@ Without them ctest says "Skipped".
 """
 
 import importlib.util
+import itertools
 import os
 import pathlib
 import random
@@ -103,6 +104,73 @@ class Netcdf4(unittest.TestCase):
                 {f"of_{t}" for t in TYPES},
             )
             self.assertEqual(list(data["time"][:]), [0.5, 1.5, 2.5])
+
+    def test_orders_of_dimensions_in_chunks_of_any_form(self):
+        """Against sums over the entries of the weights."""
+        generator = np.random.default_rng(2)
+        lengths = {"time": 5, "lat": 6, "lon": 12}
+        values = generator.normal(size=tuple(lengths.values()))
+        with netCDF4.Dataset(self.folder / "grid.nc", "w") as data:
+            add_grid(data)
+        weights = self.weights("grid.nc")
+        row, col, s = (self.values(weights, name) for name in ("row", "col", "S"))
+        expected = np.zeros((5, row.max()))
+        for time in range(5):
+            np.add.at(expected[time], row - 1, s * values[time].ravel()[col - 1])
+        for order in itertools.permutations(lengths):
+            for chunks in (None, (1, 1, 1), (5, 6, 12), (2, 5, 7), (3, 1, 2)):
+                packing = {} if chunks is None else {"chunksizes": chunks, "zlib": True}
+                if chunks is not None:
+                    packing["chunksizes"] = [min(c, lengths[d]) for c, d in zip(chunks, order)]
+                with netCDF4.Dataset(self.folder / "field.nc", "w") as data:
+                    add_grid(data)
+                    data.createDimension("time", 5 if chunks is None else None)
+                    field = data.createVariable("t", "f8", order, **packing)
+                    field[:] = values.transpose([list(lengths).index(name) for name in order])
+                self.run_tool("apply", weights, "field.nc", "-o", "out.npy", "--quiet")
+                found = np.load(self.folder / "out.npy")
+                np.testing.assert_allclose(found, expected, atol=1e-14)
+
+    def test_one_of_several_times_is_chosen(self):
+        """Contours and figures are those of a table with the values of that time."""
+        lon, lat = np.meshgrid(np.arange(-165.0, 180, 30), np.arange(-75.0, 90, 30))
+        values = np.stack([lat + 10 * k * np.cos(np.radians(lon)) for k in range(3)])
+        with netCDF4.Dataset(self.folder / "model.nc", "w") as data:
+            add_grid(data)
+            data.createDimension("time", 3)
+            axis = data.createVariable("time", "f8", ("time",))
+            axis.units = "hours since 2000-01-01"
+            axis[:] = [0, 6, 12]
+            data.createVariable("tas", "f8", ("lat", "lon", "time"))[:] = np.moveaxis(values, 0, 2)
+        places = zip(*(array.ravel().tolist() for array in (lon, lat, values[1])))
+        rows = [",".join(map(repr, place)) for place in places]
+        commands = {
+            "lines.geojson": ("contours", "--value", ("--levels", "-30,0,30")),
+            "field.svg": ("plot", "--values", ("--contours", "20")),
+        }
+        for name, (command, option, more) in commands.items():
+            for chosen in ("tas[1]", "tas[-2]", "tas_2000-01-01T06:00:00"):
+                made = []
+                (self.folder / "t.csv").write_text("\n".join([f"lon,lat,{chosen}", *rows]) + "\n")
+                for source in ("t.csv", "model.nc", f"model.nc:{chosen}"):
+                    self.run_tool(command, source, option, chosen, *more, "-o", name, "--quiet")
+                    made.append((self.folder / name).read_bytes())
+                self.assertEqual(made[1:], made[:1] * 2)
+            said = self.run_tool(
+                command, "model.nc", option, "tas", *more, "-o", f"not-{name}", status=2
+            )
+            self.assertIn(
+                f"{option}: 'tas' of model.nc has several fields (time 3); one of them is "
+                "'tas[0]', or 'tas_2000-01-01T00:00:00'",
+                said,
+            )
+        said = self.run_tool("info", "model.nc")
+        self.assertIn('"tas" has several fields (time 3) and is no column', said)
+        self.run_tool("interpolate", "model.nc:tas[1]", "--to", "t.csv", "-o", "at.csv", "--quiet")
+        header, *lines = (self.folder / "at.csv").read_text().splitlines()
+        self.assertEqual(header, "lon,lat,tas_2000-01-01T06:00:00")
+        found = [float(line.split(",")[2]) for line in lines]
+        np.testing.assert_allclose(found, values[1].ravel(), atol=1e-12)
 
     def test_what_is_more_than_numbers_costs_nothing_else(self):
         """Strings, a group, an enumeration, a compound: the field beside them is read, and that of the group by its name."""
