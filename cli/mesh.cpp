@@ -38,8 +38,11 @@ mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
                                     const mesh::MeshOptions& options) {
   mesh::MeshArrays arrays;
   if (is_netcdf_file(common.source())) {
-    job.time(Stage::dual,
-             [&] { arrays = mesh::read_mesh(common.source(), options, job.execution()); });
+    std::vector<std::string> remarks;
+    job.time(Stage::dual, [&] {
+      arrays = mesh::read_mesh(common.source(), options, job.execution(), &remarks);
+    });
+    tell(common.source().path, remarks);
     return arrays;
   }
   const SiteTable table = job.read();

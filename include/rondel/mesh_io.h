@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "rondel/export.h"
 #include "rondel/io.h"
@@ -72,9 +73,11 @@ RONDEL_API MeshArrays read_mpas(const FileName& file, const Execution& execution
 ///    degrees tell, but for the numbers of vertices and edges: vertices are in the order of the file's corners, of SCRIP in that in which cells come to
 ///    them, and edges in the order of the first of their two vertices.
 /// 3. Such files do not say the radius and the density; `options` do.
+/// \param remarks  gets the remarks of the file's cells (CellTable): how many are masked, which of several meshes is read
 /// \throws FileError also if the file has no centers, or a corner of a cell is farther than a thousandth of the spacing
 ///         from where the cells of Voronoi have it; with a border, if more than three cells meet in a corner, or three and the border.
 RONDEL_API MeshArrays read_mesh(const FileName& file, const MeshOptions& options = {},
-                                const Execution& execution = {});
+                                const Execution& execution = {},
+                                std::vector<std::string>* remarks = nullptr);
 
 }  // namespace rondel::mesh

@@ -120,7 +120,8 @@ MeshArrays mesh_of_centers(const CellTable& table, const MeshOptions& options,
 
 }  // namespace
 
-MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Execution& execution) {
+MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Execution& execution,
+                     std::vector<std::string>* remarks) {
   const system::Call call(execution);
   CellTable table;
   {
@@ -139,6 +140,7 @@ MeshArrays read_mesh(const FileName& file, const MeshOptions& options, const Exe
     });
     if (arrays) return std::move(*arrays);
   }
+  if (remarks != nullptr) *remarks = table.remarks;
   return mesh_of_centers(table, options, execution);
 }
 

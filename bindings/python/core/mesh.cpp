@@ -5,10 +5,13 @@
 
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
+#include <nanobind/stl/vector.h>
 
 #include <cstdint>
 #include <string>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "arrays.h"
 #include "interrupt.h"
@@ -30,13 +33,17 @@ MeshArrays mesh_of(const Triangulation& t, double radius, const NumbersIn& densi
                  [&](const Execution& execution) { return mesh::arrays(t, options, execution); });
 }
 
-MeshArrays mesh_of_file(const std::string& path, double radius, bool allow_zero_edges,
-                        unsigned threads) {
+// The mesh, and what the reader remarks.
+std::tuple<MeshArrays, std::vector<std::string>> mesh_of_file(const std::string& path,
+                                                              double radius, bool allow_zero_edges,
+                                                              unsigned threads) {
   constexpr std::size_t many = 1U << 20U;
-  return watched_quietly(many, threads, [&](const Execution& execution) {
+  std::vector<std::string> remarks;
+  MeshArrays arrays = watched_quietly(many, threads, [&](const Execution& execution) {
     return mesh::read_mesh(path, {.radius = radius, .allow_zero_edges = allow_zero_edges},
-                           execution);
+                           execution, &remarks);
   });
+  return {std::move(arrays), std::move(remarks)};
 }
 
 void write_mesh(const MeshArrays& arrays, const std::string& path, int format, bool is_cdf2,

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 
 from . import _core
@@ -122,10 +124,25 @@ def read(
     -------
     Mesh
 
+    Raises
+    ------
+    OSError
+        If the file cannot be read, or its cells are not those of its centers.
+
+    Warns
+    -----
+    UserWarning
+        For what the file has and the mesh has not: how many cells are masked, which of several
+        meshes was read.
+
     """
-    return Mesh(
-        _core.read_mesh(as_name(path), float(radius), bool(allow_zero_edges), as_threads(threads))
+    name = as_name(path)
+    found, remarks = _core.read_mesh(
+        name, float(radius), bool(allow_zero_edges), as_threads(threads)
     )
+    for remark in remarks:
+        warnings.warn(f"{name}: {remark}", UserWarning, stacklevel=2)
+    return Mesh(found)
 
 
 def scvt(
