@@ -16,6 +16,11 @@ namespace rondel::python {
 // Name and cells: texts, or JSON, or empty for null.
 using ColumnIn = std::tuple<std::string, std::vector<std::string>>;
 
+// The properties of cells, which Python only carries from what reads them to what writes them.
+struct CellColumns {
+  std::vector<Column> columns;
+};
+
 inline std::vector<Column> make_columns(const std::vector<ColumnIn>& columns,
                                         bool are_json = true) {
   std::vector<Column> made;

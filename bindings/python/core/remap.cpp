@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "arrays.h"
+#include "columns.h"
 #include "interrupt.h"
 #include "module.h"
 #include "rondel/mesh_files.h"
@@ -25,7 +26,7 @@ namespace rondel::python {
 namespace {
 
 using RingsOut = std::tuple<ArrayOut<std::int64_t>, ArrayOut<std::int64_t>, ArrayOut<std::int32_t>,
-                            ArrayOut<double>>;
+                            ArrayOut<double>, ArrayOut<std::int32_t>>;
 // The weights; areas of sources and of targets; fractions of both.
 using RemapOut =
     std::tuple<Weights, ArrayOut<double>, ArrayOut<double>, ArrayOut<double>, ArrayOut<double>>;
@@ -36,19 +37,22 @@ std::vector<std::uint64_t> offsets_of(const OffsetsIn& offsets) {
 }
 
 CellRings rings_of(const OffsetsIn& cells, const OffsetsIn& rings, const IndicesIn& corners,
-                   const PointsIn& points) {
+                   const PointsIn& points, const IndicesIn& whole) {
   const auto indices = rows_of<Index>(corners);
   const auto places = points_of(points);
+  const auto named = rows_of<Index>(whole);
   return {.cells = offsets_of(cells),
           .rings = offsets_of(rings),
           .corners = {indices.begin(), indices.end()},
-          .points = {places.begin(), places.end()}};
+          .points = {places.begin(), places.end()},
+          .whole = {named.begin(), named.end()}};
 }
 
 RingsOut rings_out(const Partition& partition) {
   CellRings rings = unlocked([&] { return partition.rings(); });
   return {offsets_out(std::move(rings.cells)), offsets_out(std::move(rings.rings)),
-          indices_out(std::move(rings.corners)), points_out(std::move(rings.points))};
+          indices_out(std::move(rings.corners)), points_out(std::move(rings.points)),
+          indices_out(std::move(rings.whole))};
 }
 
 GridSides sides_of(bool are_arcs) {
@@ -69,13 +73,15 @@ nb::tuple read_partition(const std::string& path, bool are_arcs, unsigned thread
                         table.remarks);
 }
 
-Partition read_polygon_partition(const std::string& path, bool is_geodesic, unsigned overlap,
-                                 unsigned threads) {
+// The partition, and the properties of its cells.
+std::tuple<Partition, CellColumns> read_polygon_partition(const std::string& path, bool is_geodesic,
+                                                          unsigned overlap, unsigned threads) {
   const PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat,
                                .overlap = static_cast<PolygonOverlap>(overlap)};
   return unlocked([&] {
-    return Partition(read_polygons(path, options, {.threads = threads}).cells,
-                     {.threads = threads});
+    PolygonTable table = read_polygons(path, options, {.threads = threads});
+    return std::tuple(Partition(table.cells, {.threads = threads}),
+                      CellColumns{std::move(table.columns)});
   });
 }
 
@@ -115,6 +121,7 @@ RemapOut remap_of(const Partition& source, const Partition& target, unsigned ord
 }  // namespace
 
 void add_remap(nb::module_& module) {
+  nb::class_<CellColumns>(module, "CellColumns");
   nb::class_<Partition>(module, "Partition")
       .def_static(
           "voronoi",
@@ -141,12 +148,13 @@ void add_remap(nb::module_& module) {
       .def_static(
           "from_rings",
           [](const OffsetsIn& cells, const OffsetsIn& rings, const IndicesIn& corners,
-             const PointsIn& points, unsigned threads) {
-            const CellRings all = rings_of(cells, rings, corners, points);
+             const PointsIn& points, const IndicesIn& whole, unsigned threads) {
+            const CellRings all = rings_of(cells, rings, corners, points, whole);
             return unlocked([&] { return Partition(all, {.threads = threads}); });
           },
           nb::arg("cells").noconvert(), nb::arg("rings").noconvert(),
-          nb::arg("corners").noconvert(), nb::arg("points").noconvert(), nb::arg("threads"))
+          nb::arg("corners").noconvert(), nb::arg("points").noconvert(),
+          nb::arg("whole").noconvert(), nb::arg("threads"))
       .def_prop_ro("num_cells", &Partition::num_cells)
       .def_prop_ro("is_cover", &Partition::is_cover)
       .def_prop_ro("areas",

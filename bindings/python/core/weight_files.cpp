@@ -3,32 +3,35 @@
 
 #include "rondel/weight_files.h"
 
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "arrays.h"
+#include "columns.h"
 #include "interrupt.h"
 #include "module.h"
 
 namespace rondel::python {
 namespace {
 
-// Degrees, areas, fractions, the shape of a grid, the mask and the corners of cells; what is empty is not written.
-using SideIn =
-    std::tuple<PairsIn, NumbersIn, NumbersIn, std::vector<std::uint64_t>, IndicesIn, PairsIn>;
+// Degrees, areas, fractions, the shape of a grid, the mask, the corners and the properties of cells; what is empty is not written.
+using SideIn = std::tuple<PairsIn, NumbersIn, NumbersIn, std::vector<std::uint64_t>, IndicesIn,
+                          PairsIn, std::optional<CellColumns>>;
 
 std::vector<double> vector_of(const NumbersIn& numbers) {
   return {numbers.data(), numbers.data() + numbers.size()};
 }
 
 WeightSide side_of(const SideIn& in) {
-  const auto& [degrees, areas, fractions, shape, mask, corners] = in;
+  const auto& [degrees, areas, fractions, shape, mask, corners, columns] = in;
   const auto points = rows_of<LonLat>(degrees);
   WeightSide side;
   side.points.assign(points.begin(), points.end());
@@ -38,6 +41,7 @@ WeightSide side_of(const SideIn& in) {
   side.mask = {mask.data(), mask.data() + mask.size()};
   const auto places = rows_of<LonLat>(corners);
   side.corners.assign(places.begin(), places.end());
+  if (columns) side.columns = columns->columns;
   return side;
 }
 

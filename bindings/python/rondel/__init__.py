@@ -59,6 +59,7 @@ from typing import TYPE_CHECKING, Any
 from . import _core
 from . import mesh as mesh
 from ._arrays import lonlat, point_set_hash, unit_vectors
+from ._cells import lonlat_grid, polygons
 from ._contours import Bands, Isolines
 from ._delaunay import CheckReport, Location, SphericalDelaunay, delaunay, delaunay_lonlat
 from ._diagram import Cells
@@ -68,7 +69,7 @@ from ._hull import ConvexHull, convex_hull
 from ._interpolator import SphericalInterpolator, interpolate
 from ._mesh import Lists
 from ._netcdf import netcdf_library as _netcdf_library
-from ._partition import Partition, lonlat_grid, polygons
+from ._partition import Partition
 from ._plot import LonLatTriangles
 from ._power import PowerDiagram, power_diagram
 from ._queries import Where

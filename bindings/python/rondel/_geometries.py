@@ -16,6 +16,7 @@ import numpy as np
 
 from . import _core
 from ._geo import write_named
+from ._properties import json_cells
 
 Edges: TypeAlias = Literal["lonlat", "geodesic"]
 PolygonOverlap: TypeAlias = Literal["keep", "error", "first"]
@@ -23,17 +24,16 @@ PolygonOverlap: TypeAlias = Literal["keep", "error", "first"]
 _OVERLAPS = ("keep", "error", "first")  # in the order of the C++ enumeration
 
 
-def read_polygons(
-    name: str, edges: Edges, overlap: PolygonOverlap, threads: int
-) -> _core.Partition:
+Polygons: TypeAlias = tuple[_core.Partition, _core.CellColumns]  # and their properties
+
+
+def read_polygons(name: str, edges: Edges, overlap: PolygonOverlap, threads: int) -> Polygons:
     """The polygons of a file of GeoJSON."""
     rules = _is_geodesic(edges), _number_of(overlap)
     return _read(name, lambda file: _core.read_polygon_partition(file, *rules, threads))
 
 
-def polygons_of(
-    geometries: Any, edges: Edges, overlap: PolygonOverlap, threads: int
-) -> _core.Partition:
+def polygons_of(geometries: Any, edges: Edges, overlap: PolygonOverlap, threads: int) -> Polygons:
     """The polygons of objects: a cell for each of them."""
     return _of_objects(geometries, lambda name: read_polygons(name, edges, overlap, threads))
 
@@ -108,16 +108,37 @@ def _collection(geometries: Any) -> dict[str, Any]:
     crs = getattr(geometries, "crs", None)
     if crs is not None and not crs.is_geographic:
         geometries = geometries.to_crs(4326)
+    properties = _properties(geometries)
     geometries = getattr(geometries, "geometry", geometries)  # of a GeoDataFrame
     if _is_box(geometries):
         return _box(*map(float, geometries))
     known = _interface(geometries)
+    if properties:
+        return {**known, "features": [*map(_with_properties, known["features"], properties)]}
     if known is not None:
         return known
     if not isinstance(geometries, Iterable):
         kind = type(geometries).__name__
         raise TypeError(f"polygons must be geometries, a file, or a Partition, not {kind}")
     return {"type": "FeatureCollection", "features": [_feature(g) for g in geometries]}
+
+
+def _properties(frame: Any) -> list[dict[str, Any]]:
+    """The rows of a GeoDataFrame but for geometries; none of anything else."""
+    columns = [
+        (str(name), json_cells(frame.iloc[:, k]))
+        for k, name in enumerate(getattr(frame, "columns", ()))
+        if str(frame.dtypes.iloc[k]) != "geometry"
+    ]
+    cells = [[json.loads(cell or "null") for cell in cells] for _, cells in columns]
+    return [
+        dict(zip((name for name, _ in columns), row, strict=True))
+        for row in zip(*cells, strict=True)
+    ]
+
+
+def _with_properties(feature: Mapping[str, Any], properties: dict[str, Any]) -> dict[str, Any]:
+    return {**feature, "properties": properties}
 
 
 def _is_box(bounds: Any) -> bool:

@@ -4,22 +4,17 @@
 
 from __future__ import annotations
 
-import operator
-import os
-import warnings
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, lonlat
-from ._geo import Path, write_named
-from ._geometries import Edges, PolygonOverlap, polygons_of, read_polygons
+from ._geometries import Polygons
+from ._partition_files import Sides, are_arcs, partition_of_geometries, read_partition
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
-
-Sides: TypeAlias = Literal["parallels", "great_circles"]
 
 
 class Partition(Described):
@@ -45,6 +40,7 @@ class Partition(Described):
     _axes: tuple[FloatArray, FloatArray] | None
     _file_centers: FloatArray | None
     _has_corners: bool  # which files of weights get
+    _columns: _core.CellColumns | None  # the properties of polygons
 
     @classmethod
     def _of(
@@ -55,6 +51,7 @@ class Partition(Described):
         axes: tuple[FloatArray, FloatArray] | None = None,
         file_centers: FloatArray | None = None,
         has_corners: bool = True,
+        columns: _core.CellColumns | None = None,
     ) -> Partition:
         self = cls.__new__(cls)
         self._partition = partition
@@ -63,7 +60,12 @@ class Partition(Described):
         self._axes = axes
         self._file_centers = file_centers
         self._has_corners = has_corners
+        self._columns = columns
         return self
+
+    @classmethod
+    def _of_polygons(cls, polygons: Polygons) -> Partition:
+        return cls._of(polygons[0], columns=polygons[1])
 
     @classmethod
     def voronoi(cls, sites: Any, *, threads: int | None = None) -> Partition:
@@ -132,7 +134,7 @@ class Partition(Described):
         """
         meridians, parallels = _as_lines(lon, "lon"), _as_lines(lat, "lat")
         made = _core.Partition.lonlat_grid(
-            meridians, parallels, _are_arcs(sides), as_threads(threads)
+            meridians, parallels, are_arcs(sides), as_threads(threads)
         )
         axes = (meridians[1:] + meridians[:-1]) / 2, (parallels[1:] + parallels[:-1]) / 2
         return cls._of(made, shape=(len(axes[1]), len(axes[0])), axes=axes)
@@ -176,6 +178,7 @@ class Partition(Described):
         corners: ArrayLike,
         points: ArrayLike,
         *,
+        whole: ArrayLike = (),
         threads: int | None = None,
     ) -> Partition:
         """Any cells, with holes and in several parts.
@@ -191,13 +194,15 @@ class Partition(Described):
             from outside, holes clockwise. Sides are shorter arcs of great circles.
         points : array_like, shape (p, 3)
             Unit vectors. Cells that share a side name the same two.
+        whole : array_like of int, optional
+            The cells that are the whole sphere, increasing. They have no rings, as empty cells.
         threads : int, optional
 
         Raises
         ------
         InvalidInput
-            With the cell that has an index out of range, a ring of less than three corners, or a
-            corner that is no unit vector.
+            With the cell that has an index out of range, a ring of less than three corners, a
+            corner that is no unit vector, or rings although it is the whole sphere.
 
         """
         return cls._of(
@@ -206,95 +211,13 @@ class Partition(Described):
                 as_indices(rings, "rings").astype(np.int64),
                 as_indices(corners, "corners"),
                 as_points(points),
+                as_indices(whole, "whole"),
                 as_threads(threads),
             )
         )
 
-    @classmethod
-    def read(
-        cls,
-        path: Path,
-        *,
-        sides: Sides = "parallels",
-        edges: Edges = "lonlat",
-        overlap: PolygonOverlap = "keep",
-        threads: int | None = None,
-    ) -> Partition:
-        """The cells of a file.
-
-        Parameters
-        ----------
-        path : path-like
-            netCDF: UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 is read by the library
-            that netCDF4 brings. Of several grids in a file ``FILE.nc:NAME`` names a variable of
-            the grid, or on it. ``.geojson``: polygons, a feature a cell.
-        sides : {'parallels', 'great_circles'}, optional
-            As in `lonlat_grid`, for coordinates along lines.
-        edges : {'lonlat', 'geodesic'}, optional
-            What joins positions of polygons: straight lines in longitude and latitude (RFC 7946),
-            or great circles.
-        overlap : {'keep', 'error', 'first'}, optional
-            What becomes of a place that several features of polygons have: cells overlap there, it
-            is refused with two of them, or it belongs to the first one.
-        threads : int, optional
-
-        Raises
-        ------
-        OSError
-            If the file cannot be read, with what is wrong in it: rings that cross, holes outside of
-            their polygon, parts that overlap.
-
-        Warns
-        -----
-        UserWarning
-            For what the file has and the cells have not: how many are masked, or have corners that
-            are missing and are left out; which of several grids was read.
-
-        """
-        name = os.fspath(path)
-        count_of_threads = as_threads(threads)
-        if name.lower().endswith((".geojson", ".json")):
-            return cls._of(read_polygons(name, edges, overlap, count_of_threads))
-        found: list[Any] = []
-        write_named(
-            name,
-            lambda name: found.extend(
-                _core.read_partition(name, _are_arcs(sides), count_of_threads)
-            ),
-        )
-        partition, mask, shape, centers, remarks = found
-        for remark in remarks:
-            warnings.warn(f"{name}: {remark}", UserWarning, stacklevel=2)
-        return cls._of(partition, mask, shape, file_centers=centers if len(centers) else None)
-
-    @classmethod
-    def from_geometries(
-        cls,
-        geometries: Any,
-        *,
-        edges: Edges = "lonlat",
-        overlap: PolygonOverlap = "keep",
-        threads: int | None = None,
-    ) -> Partition:
-        """Polygons of other libraries, with holes and in several parts; each is a cell.
-
-        Parameters
-        ----------
-        geometries : GeoDataFrame, GeoSeries, sequence or mapping
-            Of GeoPandas; a sequence of geometries of shapely; a mapping of GeoJSON, or whatever
-            has `__geo_interface__`; arrays and tables of GeoArrow. A projected
-            `crs` is undone. Or a box: west, south, east, north in degrees.
-        edges, overlap
-            As in `read`.
-        threads : int, optional
-
-        Raises
-        ------
-        ValueError
-            If a geometry is no polygon, not valid, or no place on the sphere, with its number.
-
-        """
-        return cls._of(polygons_of(geometries, edges, overlap, as_threads(threads)))
+    read = classmethod(read_partition)
+    from_geometries = classmethod(partition_of_geometries)
 
     @classmethod
     def corners(cls, lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None) -> Partition:
@@ -361,7 +284,7 @@ class Partition(Described):
 
     @property
     def rings(self) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64], IntArray, FloatArray]:
-        """Tuple: `cells`, `rings`, `corners` and `points` as `polygons` takes them.
+        """Tuple: `cells`, `rings`, `corners` and `points` as `polygons` takes them, beside `whole`.
 
         Raises
         ------
@@ -369,7 +292,19 @@ class Partition(Described):
             If the cells are those of a grid of parallels, which are no polygons.
 
         """
-        return self._partition.rings()
+        return self._partition.rings()[:4]
+
+    @property
+    def whole(self) -> IntArray:
+        """Ndarray of int32: the cells that are the whole sphere, which have no `rings`.
+
+        Raises
+        ------
+        InvalidInput
+            If the cells are those of a grid of parallels.
+
+        """
+        return self._partition.rings()[4]
 
     def _degrees(self) -> FloatArray:
         """Longitudes and latitudes, shape (n, 2): from a grid's axes, the file, or the centers."""
@@ -390,73 +325,6 @@ class Partition(Described):
         return facts
 
 
-def lonlat_grid(
-    nlon: int, nlat: int, *, sides: Sides = "parallels", threads: int | None = None
-) -> Partition:
-    """The cells of a grid of the whole sphere, equal in degrees.
-
-    Parameters
-    ----------
-    nlon, nlat : int
-        The number of cells around, from longitude -180 eastward, and from the south pole
-        northward.
-    sides, threads
-        As in `Partition.lonlat_grid`, which takes any lines.
-
-    Returns
-    -------
-    Partition
-        Of shape (nlat, nlon). Lines have the digits of an exact division, rounded once.
-
-    Examples
-    --------
-    >>> import rondel
-    >>> rondel.lonlat_grid(360, 180).shape
-    (180, 360)
-
-    """
-
-    def lines(cells: int, half: int, name: str) -> FloatArray:
-        if operator.index(cells) < 1:
-            raise ValueError(f"{name} must be at least 1, not {cells}")
-        return (2 * np.arange(cells + 1) - cells) * half / cells
-
-    return Partition.lonlat_grid(
-        lines(nlon, 180, "nlon"), lines(nlat, 90, "nlat"), sides=sides, threads=threads
-    )
-
-
-def polygons(
-    areas: Any,
-    *,
-    edges: Edges = "lonlat",
-    overlap: PolygonOverlap = "keep",
-    threads: int | None = None,
-) -> Partition:
-    """Polygons as cells, with holes and in several parts, from a file or from another library.
-
-    Parameters
-    ----------
-    areas : path-like, GeoDataFrame, GeoSeries, sequence or mapping
-        The name of a file, as `Partition.read` takes it, or what `Partition.from_geometries`
-        takes.
-    edges, overlap
-        As in `Partition.read`.
-    threads : int, optional
-
-    Examples
-    --------
-    >>> import rondel
-    >>> box = [[[0, 0], [90, 0], [90, 45], [0, 45], [0, 0]]]
-    >>> rondel.polygons({"type": "Polygon", "coordinates": box})
-    <rondel.Partition: 1 cell>
-
-    """
-    if isinstance(areas, (str, os.PathLike)):
-        return Partition.read(areas, edges=edges, overlap=overlap, threads=threads)
-    return Partition.from_geometries(areas, edges=edges, overlap=overlap, threads=threads)
-
-
 def _as_lines(values: ArrayLike, name: str) -> FloatArray:
     lines = np.atleast_1d(as_floats(values, name))
     if lines.ndim != 1:
@@ -470,9 +338,3 @@ def _triangulation_of(sites: Any) -> _core.Triangulation:
         if isinstance(triangulation, _core.Triangulation):
             return triangulation
     raise TypeError(f"sites must be a triangulation or a diagram, not {type(sites).__name__}")
-
-
-def _are_arcs(sides: str) -> bool:
-    if sides not in ("parallels", "great_circles"):
-        raise ValueError(f"sides must be 'parallels' or 'great_circles', not {sides!r}")
-    return sides == "great_circles"

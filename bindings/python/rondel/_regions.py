@@ -386,7 +386,7 @@ def as_partition(
         return regions
     if is_file(regions):
         return Partition.read(regions, edges=edges, overlap=overlap, threads=threads)
-    return Partition._of(polygons_of(regions, edges, overlap, as_threads(threads)))
+    return Partition._of_polygons(polygons_of(regions, edges, overlap, as_threads(threads)))
 
 
 def _dissolved(

@@ -61,6 +61,8 @@ class Remap(Described):
     def to_netcdf(self, path: Path, format: Literal["esmf", "scrip"] = "esmf") -> None:
         """Writes a file that other programs apply, with centers, areas, masks and corners.
 
+        Also with the properties of polygons, so that ``rondel apply`` gives values their names.
+
         Parameters
         ----------
         path : path-like
@@ -86,6 +88,7 @@ class Remap(Described):
                 cells.shape,
                 mask if np.any(mask == 0) else None,
                 cells._partition.weight_corners() if cells._has_corners else None,
+                cells._columns,
             )
             for cells, areas, fractions, mask in (
                 (self.source, self.source_areas, self.source_fractions, self._masks[0]),

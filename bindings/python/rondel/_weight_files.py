@@ -83,6 +83,7 @@ class Side(NamedTuple):
     shape: tuple[int, ...] = ()
     mask: IntArray | None = None
     corners: FloatArray | None = None
+    columns: _core.CellColumns | None = None
 
 
 def write_weights(
@@ -101,7 +102,8 @@ def write_weights(
         grid = list(side.shape) if len(side.shape) > 1 else []
         mask = np.zeros(0, np.int32) if side.mask is None else side.mask
         corners = np.zeros((0, 2)) if side.corners is None else side.corners
-        return side.degrees, _numbers(side.areas), _numbers(side.fractions), grid, mask, corners
+        numbers = _numbers(side.areas), _numbers(side.fractions)
+        return side.degrees, *numbers, grid, mask, corners, side.columns
 
     sides = made(source), made(target)
     name = os.fspath(path)

@@ -237,3 +237,17 @@ def test_what_is_refused():
         rondel.Partition.lonlat_grid(LON, LAT, sides="straight")
     with pytest.raises(rondel.InvalidInput, match="meridian 1"):
         rondel.Partition.lonlat_grid([0, 0], LAT)
+
+
+def test_cells_that_are_the_whole_sphere():
+    box = {"type": "Polygon", "coordinates": [[[0, 0], [90, 0], [90, 45], [0, 45], [0, 0]]]}
+    world = [[-180, -90], [180, -90], [180, 90], [-180, 90], [-180, -90]]
+    cells = rondel.polygons([box, {"type": "Polygon", "coordinates": [world]}, box])
+    assert cells.whole.tolist() == [1]
+    again = rondel.Partition.polygons(*cells.rings, whole=cells.whole)
+    assert again.areas.tolist() == cells.areas.tolist()
+    assert np.isclose(again.areas[1], 4 * np.pi)
+    assert again.whole.tolist() == [1]
+    assert rondel.Partition.polygons(*cells.rings).areas[1] == 0
+    with pytest.raises(rondel.InvalidInput, match="whole"):
+        rondel.Partition.polygons(*cells.rings, whole=[0])
