@@ -103,7 +103,8 @@ class FieldFile {
 
 /// Writes values at the points of a side: `.csv` and `.tsv` with lon, lat, the columns of the side, and a
 /// column a field, named by its time or place on other axes, "tas_2001-07-15" or "tas_850"; `.npy` of
-/// the shape (n,) or (fields, n), `.nc` and `.nc4` on the grid of the side if it has one, else along one dimension.
+/// the shape (n,) or (fields, n), `.nc` and `.nc4` on the grid of the side if it has one, else along one dimension. Where two would
+/// have one name, as a field and a coordinate of the points, the second one gets a number, "lat_2".
 RONDEL_API void write_fields(const FileName& file, const FieldSet& fields, const WeightSide& points,
                              const NetcdfOptions& netcdf = {});
 

@@ -29,7 +29,7 @@ FieldBlocks::FieldBlocks(const io::NetcdfReader& file, const io::NetcdfReader::V
   }
 }
 
-FieldBlocks::Block FieldBlocks::block_of(std::size_t field) const {
+FieldBlock FieldBlocks::block_of(std::size_t field) const {
   if (leading_.empty()) return {0, 1};
   const std::size_t of_row = shape_[leading_[num_outer_]] * of_place_;
   const std::size_t row = field - field % of_row;
@@ -38,7 +38,7 @@ FieldBlocks::Block FieldBlocks::block_of(std::size_t field) const {
   return {first, std::min(size, row + of_row - first)};
 }
 
-io::NetcdfBox FieldBlocks::box_of(const Block& block) const {
+io::NetcdfBox FieldBlocks::box_of(const FieldBlock& block) const {
   io::NetcdfBox box{std::vector<std::size_t>(shape_.size(), 0), shape_};
   if (leading_.empty()) return box;
   const std::size_t divided = leading_[num_outer_];

@@ -14,6 +14,11 @@
 
 namespace rondel::interpolation {
 
+struct FieldBlock {
+  std::size_t first;  // field
+  std::size_t count;
+};
+
 inline constexpr std::size_t usual_block = std::size_t{1} << 24U;
 
 // Blocks of about `most_values` values, or of one field where that has more. A block is a box of the variable: it has one place of the
@@ -21,18 +26,13 @@ inline constexpr std::size_t usual_block = std::size_t{1} << 24U;
 // others. So the file is read once for each block of a chunk's fields, and once in all where a chunk's fields fit into a block.
 class FieldBlocks {
  public:
-  struct Block {
-    std::size_t first;  // field
-    std::size_t count;
-  };
-
   FieldBlocks(const io::NetcdfReader& file, const io::NetcdfReader::Variable& variable,
               const FieldDimensions& layout, std::size_t most_values);
 
   // Whether the values of a field follow each other in the file, in no chunk with others.
   [[nodiscard]] bool are_apart() const { return are_apart_; }
-  [[nodiscard]] Block block_of(std::size_t field) const;
-  [[nodiscard]] io::NetcdfBox box_of(const Block& block) const;
+  [[nodiscard]] FieldBlock block_of(std::size_t field) const;
+  [[nodiscard]] io::NetcdfBox box_of(const FieldBlock& block) const;
 
  private:
   bool are_apart_;

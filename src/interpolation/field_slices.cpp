@@ -274,7 +274,7 @@ void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t firs
     return;
   }
   while (!out.empty()) {
-    const FieldBlocks::Block block = source.blocks.block_of(first);
+    const FieldBlock block = source.blocks.block_of(first);
     const std::size_t wanted = std::min(out.size() / n, block.first + block.count - first);
     const std::span<double> part = out.first(wanted * n);
     if (wanted == block.count) {
@@ -289,14 +289,14 @@ void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t firs
   }
 }
 
-void FieldSlices::read_block(const SlicedVariable& source, const FieldBlocks::Block& block,
+void FieldSlices::read_block(const SlicedVariable& source, const FieldBlock& block,
                              std::span<double> out) const {
   io::read_in_order(file_, *source.variable, source.blocks.box_of(block), source.layout.order(),
                     out);
   source.rules.apply(out);
 }
 
-void FieldSlices::keep_block(const SlicedVariable& source, const FieldBlocks::Block& block) const {
+void FieldSlices::keep_block(const SlicedVariable& source, const FieldBlock& block) const {
   if (source_of_block_ == &source && first_of_block_ == block.first) return;
   source_of_block_ = nullptr;
   block_.resize(block.count * source.num_points);

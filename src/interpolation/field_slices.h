@@ -49,9 +49,9 @@ class FieldSlices {
                 std::vector<FieldArray>& axes);
   void read_all_points(const SlicedVariable& source, std::size_t first,
                        std::span<double> out) const;
-  void read_block(const SlicedVariable& source, const FieldBlocks::Block& block,
+  void read_block(const SlicedVariable& source, const FieldBlock& block,
                   std::span<double> out) const;
-  void keep_block(const SlicedVariable& source, const FieldBlocks::Block& block) const;
+  void keep_block(const SlicedVariable& source, const FieldBlock& block) const;
 
   const io::NetcdfReader& file_;
   std::size_t most_of_block_;

@@ -38,6 +38,15 @@ class PointsOut {
     num_points_ = num_points;
   }
 
+  // Those of its dimensions and coordinates.
+  [[nodiscard]] std::set<std::string> names() const {
+    std::set<std::string> names;
+    if (is_grid_ || !side_.points.empty()) names = {"lat", "lon"};
+    if (is_grid_) return names;
+    for (std::size_t d = 0; d < side_.shape.size(); ++d) names.insert("axis_" + std::to_string(d));
+    if (side_.shape.size() <= 1) names.insert("point");
+    return names;
+  }
   // Defines dimensions and coordinates.
   void define(io::NetcdfWriter& out) {
     if (is_grid_) {
@@ -78,14 +87,11 @@ class PointsOut {
   std::vector<std::size_t> dimensions_;
 };
 
-std::set<std::string> names_of_variables(const FieldsToWrite& job) {
-  std::set<std::string> names = {"lat", "lon", "point"};
-  for (const FieldArray& array : job.fields.arrays) {
-    names.insert(array.name);
-    names.insert(array.dimensions.begin(), array.dimensions.end());
-  }
-  for (const FieldArray& axis : job.fields.axes) names.insert(axis.name);
-  return names;
+// The name, with a number if it is taken.
+std::string take_name(const std::string& name, std::set<std::string>& taken) {
+  std::string own = name;
+  for (std::size_t k = 2; !taken.insert(own).second; ++k) own = name + "_" + std::to_string(k);
+  return own;
 }
 
 class NetcdfSink : public FieldSink {
@@ -110,21 +116,23 @@ class NetcdfSink : public FieldSink {
   void define(const FieldsToWrite& job) {
     const FieldSet& fields = job.fields;
     out_.add_attribute("Conventions", "CF-1.8");
+    taken_ = points_.names();
     std::vector<std::vector<std::size_t>> leading;
     for (const FieldArray& array : fields.arrays) {
       leading.emplace_back();
       for (std::size_t d = 0; d < array.shape.size(); ++d) {
-        leading.back().push_back(dimension(array.dimensions[d], array.shape[d]));
+        leading.back().push_back(dimension(array.dimensions[d], array.shape[d]).number);
       }
     }
     for (const FieldArray& axis : fields.axes) {
-      out_.add_variable({axis.name,
-                         NetcdfType::float64,
-                         {dimension(axis.dimensions[0], axis.shape[0])},
-                         with_attributes(axis)});
+      const LeadingDimension& along = dimension(axis.dimensions[0], axis.shape[0]);
+      out_.add_variable(
+          {along.own_name, NetcdfType::float64, {along.number}, with_attributes(axis)});
     }
     points_.define(out_);
-    columns_.define(out_, points_.dimensions().front(), names_of_variables(job));
+    std::vector<std::string> names;
+    for (const FieldArray& array : fields.arrays) names.push_back(take_name(array.name, taken_));
+    columns_.define(out_, points_.dimensions().front(), taken_);
     for (std::size_t a = 0; a < leading.size(); ++a) {
       const FieldArray& array = fields.arrays[a];
       std::vector<std::size_t> dimensions = leading[a];
@@ -135,25 +143,32 @@ class NetcdfSink : public FieldSink {
       if (points_.needs_coordinates()) {
         attributes.push_back({"coordinates", NetcdfType::text, "lon lat", {}});
       }
-      out_.add_variable({array.name, NetcdfType::float64, std::move(dimensions), attributes});
+      out_.add_variable({names[a], NetcdfType::float64, std::move(dimensions), attributes});
     }
   }
 
+  struct LeadingDimension {
+    std::string name;
+    std::uint64_t length;
+    std::string own_name;  // another one where the name is taken
+    std::size_t number;
+  };
+
   // Of this name and length: two arrays may have one.
-  std::size_t dimension(const std::string& name, std::uint64_t length) {
-    for (std::size_t k = 0; k < known_.size(); ++k) {
-      if (known_[k].first == name && known_[k].second == length) return numbers_[k];
+  const LeadingDimension& dimension(const std::string& name, std::uint64_t length) {
+    for (const LeadingDimension& known : known_) {
+      if (known.name == name && known.length == length) return known;
     }
-    known_.emplace_back(name, length);
-    numbers_.push_back(out_.add_dimension(name, length));
-    return numbers_.back();
+    const std::string own_name = take_name(name, taken_);
+    known_.push_back({name, length, own_name, out_.add_dimension(own_name, length)});
+    return known_.back();
   }
 
   io::NetcdfWriter out_;
   PointsOut points_;
   ColumnsOut columns_;
-  std::vector<std::pair<std::string, std::uint64_t>> known_;
-  std::vector<std::size_t> numbers_;
+  std::set<std::string> taken_;
+  std::vector<LeadingDimension> known_;
 };
 
 }  // namespace

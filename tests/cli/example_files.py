@@ -89,6 +89,15 @@ data:
 """
 
 
+def model():
+    """The text of such a grid with temperatures at three times."""
+    text = grid("tas", 'tas:units = "K" ;', lambda lon, lat: 300 - abs(lat) + lon / 360)
+    values = text.partition(" tas = ")[2].partition(" ;")[0]
+    return (text.replace("nv = 2 ;", "nv = 2 ; time = 3 ;").replace("tas(lat, lon)", "tas(time, lat, lon)")
+            .replace("double tas", 'double time(time) ; time:units = "days since 2000-01-01" ;\n  double tas')
+            .replace(" tas = ", f" time = 15, 46, 75 ;\n  tas = {values}, {values}, "))
+
+
 def icon():
     """The text of an ICON grid in radians: the eight faces of an octahedron."""
     corners = []
@@ -146,6 +155,7 @@ def makers(root):
         "grid.nc": netcdf(grid("orography", 'orography:units = "m" ;', lambda lon, lat: lon + lat)),
         "mesh.nc": by_rondel("mesh icosahedral 3"),
         "icon.nc": netcdf(icon()),
+        "model.nc": netcdf(model()),
         "temperature.nc": netcdf(grid("tas", 'tas:units = "K" ;', lambda lon, lat: 300 - abs(lat) + lon / 360)),
         "spacing.nc": netcdf(grid("h", 'h:units = "km" ;', lambda lon, lat: 400 + 2 * abs(lat))),
     }

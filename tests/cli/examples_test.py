@@ -13,6 +13,7 @@ import importlib.util
 import os
 import pathlib
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -82,7 +83,7 @@ class Examples(unittest.TestCase):
         for begin, command in BEFORE.items():
             if line.startswith(begin):
                 self.type_one(command, folder)
-        words = line.split()
+        words = shlex.split(line)
         written = {word for option, word in zip(words, words[1:]) if option in OUTPUTS}
         for file, make in example_files.makers(ROOT).items():
             is_read = any(word.partition(":")[0] == file and word not in written for word in words)

@@ -307,5 +307,44 @@ TEST(fields, on_a_curved_grid_have_coordinates_of_each_point) {
   EXPECT_EQ(file.require("lon").shape, (std::vector<std::uint64_t>{2, 3}));
 }
 
+// Fields, their other dimensions and axes may be called as the coordinates of the points are.
+TEST(fields, that_share_a_name_with_others_get_a_number) {
+  const TemporaryDirectory directory;
+  WeightSide side;
+  side.points = {{0, -45}, {180, -45}, {0, 45}, {180, 45}};
+  side.shape = {2, 2};
+  FieldSet fields;
+  fields.num_points = 4;
+  for (int k = 0; k < 2; ++k) {
+    FieldArray array;
+    array.name = "lat";
+    array.dimensions = {"lon"};
+    array.shape = {2};
+    array.values = {1, 2, 3, 4, 5, 6, 7, 8};
+    fields.arrays.push_back(array);
+  }
+  FieldArray axis;
+  axis.name = "lon";
+  axis.dimensions = {"lon"};
+  axis.shape = {2};
+  axis.values = {10, 20};
+  fields.axes.push_back(axis);
+  const std::string path = directory.file("same.nc");
+  write_fields(path, fields, side);
+  const std::string bytes = read_all(path);
+  const io::NetcdfReader file(bytes);
+  std::vector<std::string> names;
+  for (const auto& variable : file.variables()) names.push_back(variable.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"lon_2", "lat", "lon", "lat_2", "lat_3"}));
+  EXPECT_EQ(file.numbers(file.require("lon_2")), (std::vector<double>{10, 20}));
+  EXPECT_EQ(file.numbers(file.require("lon")), (std::vector<double>{0, 180}));
+  names.clear();
+  for (const std::size_t d : file.require("lat_3").dimensions) {
+    names.push_back(file.dimensions()[d].name);
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"lon_2", "lat", "lon"}));
+  EXPECT_EQ(file.numbers(file.require("lat_2")), fields.arrays[0].values);
+}
+
 }  // namespace
 }  // namespace rondel::test

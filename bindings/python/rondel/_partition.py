@@ -11,13 +11,12 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import as_floats, as_indices, as_lonlat, as_points, as_threads, lonlat
-from ._geometries import Polygons
-from ._partition_files import Sides, are_arcs, partition_of_geometries, read_partition
+from ._partition_files import FileCells, Sides, are_arcs
 from ._repr import Described, count
 from ._types import ArrayLike, BoolArray, FloatArray, IntArray
 
 
-class Partition(Described):
+class Partition(FileCells, Described):
     """Cells on the sphere: of a diagram, a triangulation, a grid, a model's mesh, or polygons.
 
     Made once by one of the class methods, and laid over others by `remap`.
@@ -33,39 +32,6 @@ class Partition(Described):
     (18, 36)
 
     """
-
-    _partition: _core.Partition
-    _mask: IntArray
-    _shape: tuple[int, ...]
-    _axes: tuple[FloatArray, FloatArray] | None
-    _file_centers: FloatArray | None
-    _has_corners: bool  # which files of weights get
-    _columns: _core.CellColumns | None  # the properties of polygons
-
-    @classmethod
-    def _of(
-        cls,
-        partition: _core.Partition,
-        mask: IntArray | None = None,
-        shape: tuple[int, ...] = (),
-        axes: tuple[FloatArray, FloatArray] | None = None,
-        file_centers: FloatArray | None = None,
-        has_corners: bool = True,
-        columns: _core.CellColumns | None = None,
-    ) -> Partition:
-        self = cls.__new__(cls)
-        self._partition = partition
-        self._mask = np.zeros(0, np.int32) if mask is None else mask
-        self._shape = shape
-        self._axes = axes
-        self._file_centers = file_centers
-        self._has_corners = has_corners
-        self._columns = columns
-        return self
-
-    @classmethod
-    def _of_polygons(cls, polygons: Polygons) -> Partition:
-        return cls._of(polygons[0], columns=polygons[1])
 
     @classmethod
     def voronoi(cls, sites: Any, *, threads: int | None = None) -> Partition:
@@ -215,9 +181,6 @@ class Partition(Described):
                 as_threads(threads),
             )
         )
-
-    read = classmethod(read_partition)
-    from_geometries = classmethod(partition_of_geometries)
 
     @classmethod
     def corners(cls, lon: ArrayLike, lat: ArrayLike, *, threads: int | None = None) -> Partition:

@@ -1,22 +1,23 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""Cells of files and of other libraries: the class methods of `Partition` that read them."""
+"""Cells of files and of other libraries: the part of `Partition` that reads them."""
 
 from __future__ import annotations
 
 import os
 import warnings
-from typing import TYPE_CHECKING, Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, TypeVar
+
+import numpy as np
 
 from . import _core
 from ._arrays import as_threads
 from ._geo import Path, write_named
-from ._geometries import Edges, PolygonOverlap, polygons_of, read_polygons
-
-if TYPE_CHECKING:
-    from ._partition import Partition
+from ._geometries import Edges, PolygonOverlap, Polygons, polygons_of, read_polygons
+from ._types import FloatArray, IntArray
 
 Sides: TypeAlias = Literal["parallels", "great_circles"]
+Made = TypeVar("Made", bound="FileCells")
 
 
 def are_arcs(sides: str) -> bool:
@@ -25,85 +26,124 @@ def are_arcs(sides: str) -> bool:
     return sides == "great_circles"
 
 
-def read_partition(
-    cls: type[Partition],
-    path: Path,
-    *,
-    sides: Sides = "parallels",
-    edges: Edges = "lonlat",
-    overlap: PolygonOverlap = "keep",
-    threads: int | None = None,
-) -> Partition:
-    """The cells of a file.
+class FileCells:
+    """What a `Partition` has, and how it is read."""
 
-    Parameters
-    ----------
-    path : path-like
-        netCDF: UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 is read by the library
-        that netCDF4 brings. Of several grids in a file ``FILE.nc:NAME`` names a variable of
-        the grid, or on it. ``.geojson``: polygons, a feature a cell.
-    sides : {'parallels', 'great_circles'}, optional
-        As in `lonlat_grid`, for coordinates along lines.
-    edges : {'lonlat', 'geodesic'}, optional
-        What joins positions of polygons: straight lines in longitude and latitude (RFC 7946),
-        or great circles.
-    overlap : {'keep', 'error', 'first'}, optional
-        What becomes of a place that several features of polygons have: cells overlap there, it
-        is refused with two of them, or it belongs to the first one.
-    threads : int, optional
+    _partition: _core.Partition
+    _mask: IntArray
+    _shape: tuple[int, ...]
+    _axes: tuple[FloatArray, FloatArray] | None
+    _file_centers: FloatArray | None
+    _has_corners: bool  # which files of weights get
+    _columns: _core.CellColumns | None  # the properties of polygons
 
-    Raises
-    ------
-    OSError
-        If the file cannot be read, with what is wrong in it: rings that cross, holes outside of
-        their polygon, parts that overlap.
+    @classmethod
+    def _of(
+        cls: type[Made],
+        partition: _core.Partition,
+        mask: IntArray | None = None,
+        shape: tuple[int, ...] = (),
+        axes: tuple[FloatArray, FloatArray] | None = None,
+        file_centers: FloatArray | None = None,
+        has_corners: bool = True,
+        columns: _core.CellColumns | None = None,
+    ) -> Made:
+        self = cls.__new__(cls)
+        self._partition = partition
+        self._mask = np.zeros(0, np.int32) if mask is None else mask
+        self._shape = shape
+        self._axes = axes
+        self._file_centers = file_centers
+        self._has_corners = has_corners
+        self._columns = columns
+        return self
 
-    Warns
-    -----
-    UserWarning
-        For what the file has and the cells have not: how many are masked, or have corners that
-        are missing and are left out; which of several grids was read.
+    @classmethod
+    def _of_polygons(cls: type[Made], polygons: Polygons) -> Made:
+        return cls._of(polygons[0], columns=polygons[1])
 
-    """
-    name = os.fspath(path)
-    count_of_threads = as_threads(threads)
-    if name.lower().endswith((".geojson", ".json")):
-        return cls._of_polygons(read_polygons(name, edges, overlap, count_of_threads))
-    found: list[Any] = []
-    write_named(
-        name,
-        lambda name: found.extend(_core.read_partition(name, are_arcs(sides), count_of_threads)),
-    )
-    partition, mask, shape, centers, remarks = found
-    for remark in remarks:
-        warnings.warn(f"{name}: {remark}", UserWarning, stacklevel=2)
-    return cls._of(partition, mask, shape, file_centers=centers if len(centers) else None)
+    @classmethod
+    def read(
+        cls: type[Made],
+        path: Path,
+        *,
+        sides: Sides = "parallels",
+        edges: Edges = "lonlat",
+        overlap: PolygonOverlap = "keep",
+        threads: int | None = None,
+    ) -> Made:
+        """The cells of a file.
 
+        Parameters
+        ----------
+        path : path-like
+            netCDF: UGRID, SCRIP, ESMF, MPAS, ICON, or a grid of CF; netCDF-4 is read by the library
+            that netCDF4 brings. Of several grids in a file ``FILE.nc:NAME`` names a variable of
+            the grid, or on it. ``.geojson``: polygons, a feature a cell.
+        sides : {'parallels', 'great_circles'}, optional
+            As in `lonlat_grid`, for coordinates along lines.
+        edges : {'lonlat', 'geodesic'}, optional
+            What joins positions of polygons: straight lines in longitude and latitude (RFC 7946),
+            or great circles.
+        overlap : {'keep', 'error', 'first'}, optional
+            What becomes of a place that several features of polygons have: cells overlap there, it
+            is refused with two of them, or it belongs to the first one.
+        threads : int, optional
 
-def partition_of_geometries(
-    cls: type[Partition],
-    geometries: Any,
-    *,
-    edges: Edges = "lonlat",
-    overlap: PolygonOverlap = "keep",
-    threads: int | None = None,
-) -> Partition:
-    """Polygons of other libraries, with holes and in several parts; each is a cell.
+        Raises
+        ------
+        OSError
+            If the file cannot be read, with what is wrong in it: rings that cross, holes outside of
+            their polygon, parts that overlap.
 
-    Parameters
-    ----------
-    geometries : GeoDataFrame, GeoSeries, sequence or mapping
-        Of GeoPandas; a sequence of geometries of shapely; a mapping of GeoJSON, or whatever
-        has `__geo_interface__`; arrays and tables of GeoArrow. A projected
-        `crs` is undone. Or a box: west, south, east, north in degrees.
-    edges, overlap
-        As in `read`.
-    threads : int, optional
+        Warns
+        -----
+        UserWarning
+            For what the file has and the cells have not: how many are masked, or have corners that
+            are missing and are left out; which of several grids was read.
 
-    Raises
-    ------
-    ValueError
-        If a geometry is no polygon, not valid, or no place on the sphere, with its number.
+        """
+        name = os.fspath(path)
+        count_of_threads = as_threads(threads)
+        if name.lower().endswith((".geojson", ".json")):
+            return cls._of_polygons(read_polygons(name, edges, overlap, count_of_threads))
+        found: list[Any] = []
+        write_named(
+            name,
+            lambda name: found.extend(
+                _core.read_partition(name, are_arcs(sides), count_of_threads)
+            ),
+        )
+        partition, mask, shape, centers, remarks = found
+        for remark in remarks:
+            warnings.warn(f"{name}: {remark}", UserWarning, stacklevel=2)
+        return cls._of(partition, mask, shape, file_centers=centers if len(centers) else None)
 
-    """
-    return cls._of_polygons(polygons_of(geometries, edges, overlap, as_threads(threads)))
+    @classmethod
+    def from_geometries(
+        cls: type[Made],
+        geometries: Any,
+        *,
+        edges: Edges = "lonlat",
+        overlap: PolygonOverlap = "keep",
+        threads: int | None = None,
+    ) -> Made:
+        """Polygons of other libraries, with holes and in several parts; each is a cell.
+
+        Parameters
+        ----------
+        geometries : GeoDataFrame, GeoSeries, sequence or mapping
+            Of GeoPandas; a sequence of geometries of shapely; a mapping of GeoJSON, or whatever
+            has `__geo_interface__`; arrays and tables of GeoArrow. A projected
+            `crs` is undone. Or a box: west, south, east, north in degrees.
+        edges, overlap
+            As in `read`.
+        threads : int, optional
+
+        Raises
+        ------
+        ValueError
+            If a geometry is no polygon, not valid, or no place on the sphere, with its number.
+
+        """
+        return cls._of_polygons(polygons_of(geometries, edges, overlap, as_threads(threads)))

@@ -5,6 +5,7 @@
 import ctypes
 import ctypes.util
 import itertools
+import subprocess
 import warnings
 
 import numpy as np
@@ -274,3 +275,57 @@ def test_weights_of_each_method_pass_the_check(tmp_path):
         run("check-weights", path)
     # 80 sources for 16 targets.
     assert rondel.Regridder(source, target, "nearest_d2s").weights.apply(np.ones(80)).sum() == 80
+
+
+@pytest.mark.parametrize("missing", [np.nan, 1e20, -999.0])
+@pytest.mark.skipif(TOOL is None, reason="needs the tool")
+def test_sites_without_a_place_are_left_out(tmp_path, missing):
+    """Of curved grids: at the edges of swaths, on land. Undeclared ones are refused."""
+    lon, lat = np.meshgrid(np.linspace(0, 30, 31), np.linspace(60, 80, 21))
+    values = np.arange(3.0)[:, None, None] * 1000 + lon + 40 * lat
+    nowhere = (lon > 28) | (lat < 62)
+    targets = np.array([[29.9, 70.0], [15.2, 60.1], [3.1, 77.2]])
+    nearest = np.array([[28.0, 70.0], [15.0, 62.0], [3.0, 77.0]])
+    np.save(tmp_path / "to.npy", targets)
+    expected = np.arange(3.0)[:, None] * 1000 + nearest[:, 0] + 40 * nearest[:, 1]
+    for is_declared, dims in itertools.product((True, False), itertools.permutations("tyx")):
+        fill = missing if is_declared else None
+        path = tmp_path / "swath.nc"
+        with netCDF4.Dataset(path, "w", format="NETCDF3_CLASSIC") as file:
+            for name, size in (("t", 3), ("y", 21), ("x", 31)):
+                file.createDimension(name, size)
+            for name, places, unit in (("lon", lon, "east"), ("lat", lat, "north")):
+                variable = file.createVariable(name, "f8", ("y", "x"), fill_value=fill)
+                variable.set_auto_mask(False)
+                variable.units = f"degrees_{unit}"
+                variable[:] = np.where(nowhere, missing, places)
+            variable = file.createVariable("v", "f8", dims)
+            variable.coordinates = "lon lat"
+            variable[:] = values.transpose(["tyx".index(name) for name in dims])
+        command = ["interpolate", f"{path}:v", "--to", tmp_path / "to.npy", "--method", "nearest"]
+        command += ["-o", tmp_path / "out.npy", "--quiet"]
+        if is_declared or np.isnan(missing):
+            text = f"{nowhere.sum()} of 651 places have no longitude or latitude and are left out"
+            assert text in run(*command)
+            assert np.array_equal(np.load(tmp_path / "out.npy"), expected)
+        else:
+            found = subprocess.run([TOOL, *map(str, command)], capture_output=True, text=True)
+            assert found.returncode == 1
+            assert "which is no place" in found.stderr
+
+
+@pytest.mark.skipif(TOOL is None, reason="needs the tool")
+def test_a_field_on_another_grid_brings_its_own_places(tmp_path):
+    fine = {"lon": np.arange(-178.0, 180, 4), "lat": np.arange(-88.0, 90, 4)}
+    ds = axes_file(np.arange(30.0, 360, 60), np.arange(-67.5, 90, 45))
+    ds["s"] = (("lat", "lon"), np.zeros((4, 6)))
+    for name, unit in (("lon", "degrees_east"), ("lat", "degrees_north")):
+        ds[f"{name}_2"] = (f"{name}_2", fine[name], {"units": unit})
+    ds["t"] = (("lat_2", "lon_2"), fine["lat"][:, None] + fine["lon"])
+    path = tmp_path / "two.nc"
+    write(path, ds)
+    np.save(tmp_path / "to.npy", [[10.0, 20.0], [-100.0, -30.0]])
+    for source, more in ((f"{path}:t", ()), (path, ("--value", "t"))):
+        command = ["interpolate", source, *more, "--to", tmp_path / "to.npy", "--method", "linear"]
+        run(*command, "-o", tmp_path / "out.npy", "--quiet")
+        assert np.allclose(np.load(tmp_path / "out.npy"), [30, -130], atol=0.5)

@@ -208,3 +208,21 @@ def test_meshes_tell_what_they_have_not(tmp_path):
         command = [TOOL, "mesh", "convert", path, "-o", tmp_path / "out.nc"]
         done = subprocess.run(command, capture_output=True, text=True, check=True)
         assert "2 of 60 cells are masked by" in done.stderr
+
+
+@pytest.mark.parametrize("kind", ["mpas", "scrip", "esmf", "ugrid"])
+def test_a_variable_on_its_cells_names_a_mesh(tmp_path, kind):
+    mesh = rondel.mesh.from_points(clouds.uniform(60, 3))
+    path = tmp_path / "mesh.nc"
+    getattr(mesh, f"to_{kind}")(path)
+    of_cells = {"mpas": "nCells", "scrip": "grid_size", "esmf": "elementCount"}.get(kind)
+    with netCDF4.Dataset(path, "a") as file:
+        if of_cells is None:
+            (of_cells,) = (name for name, size in file.dimensions.items() if len(size) == 60)
+        file.createDimension("lev", 2)
+        file.createVariable("t", "f4", ("lev", of_cells))[:] = 0
+        file.createVariable("profile", "f4", ("lev",))[:] = 0
+    areas = rondel.Partition.read(path).areas
+    assert rondel.Partition.read(f"{path}:t").areas.tolist() == areas.tolist()
+    with pytest.raises(OSError, match='variable "profile"'):
+        rondel.Partition.read(f"{path}:profile")
