@@ -95,15 +95,17 @@ RONDEL_API std::vector<bool> repeated_dimensions(std::span<const std::string> na
 /// The lines between cells along one axis, in degrees, from the two bounds of each cell (n, 2) or the lines themselves (n + 1), or,
 /// where there are none, half way between the coordinates.
 ///
-/// 1. Coordinates and bounds may increase or decrease; bounds are in either order. The lines have the order of the coordinates.
+/// 1. Coordinates and bounds may increase or decrease; bounds are in either order. The lines have the order of the coordinates,
+///    also where they are given in reverse.
 /// 2. Longitudes may jump by whole turns. Where the last one is the first one again, each of the two has half of the cell.
 /// 3. Lines around the globe that miss it by rounding are closed. Without bounds the first and the last cell are as wide beyond as
 ///    before their coordinate, or end at the pole if that is less than a cell away.
 ///
 /// \param values  of the axis, in degrees
 /// \param bounds  in degrees, or none
-/// \throws InvalidInput for less than two values without bounds, what is not finite (its index), another number of bounds, and
-///         cells that leave a gap (the index of the second one)
+/// \throws InvalidInput for less than two values without bounds, what is not finite (its index), another number of bounds,
+///         cells that leave a gap (the index of the second one), and a coordinate that is farther from the middle of its cell than
+///         three halves of its width (its index)
 RONDEL_API std::vector<double> axis_lines(std::span<const double> values,
                                           std::span<const double> bounds, bool is_longitude);
 

@@ -9,6 +9,7 @@
 #include "rondel/conventions.h"
 #include "rondel/error.h"
 #include "system/arithmetic.h"
+#include "system/shortest_text.h"
 
 namespace rondel {
 namespace {
@@ -125,11 +126,30 @@ std::vector<double> joined(const std::vector<CellSides>& cells, bool is_longitud
   return lines;
 }
 
-// Lines that are given may jump by whole turns.
-std::vector<double> lines_as_given(std::span<const double> bounds, bool is_longitude) {
+// Lines that are given may jump by whole turns, and may have the reverse order of the coordinates.
+std::vector<double> lines_as_given(std::span<const double> bounds, std::span<const double> values,
+                                   bool is_longitude) {
   std::vector<double> lines(bounds.begin(), bounds.end());
   if (is_longitude) unroll(lines, goes_west(lines) ? -1 : 1);
+  const bool is_upward = lines.back() > lines.front();
+  if (is_upward != (values.back() > values.front())) std::ranges::reverse(lines);
   return lines;
+}
+
+// Coordinates may be anywhere in their cells, or beside them by as much as those are wide: not those of other cells.
+void require_near_cells(std::span<const double> values, std::span<const double> lines,
+                        const std::string& name) {
+  constexpr double rounding = 1e-4;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double away = values[i] - (lines[i] + lines[i + 1]) / 2;
+    const double width = std::abs(lines[i + 1] - lines[i]);
+    const double distance = std::abs(name == "longitude" ? std::remainder(away, 360) : away);
+    if (distance <= 1.5 * width + rounding) continue;
+    throw InvalidInput(name + " " + system::shortest_text(values[i]) + " is far from its cell, " +
+                           system::shortest_text(lines[i]) + " to " +
+                           system::shortest_text(lines[i + 1]),
+                       i);
+  }
 }
 
 // pi / 2 in single precision is 90.0000025 degrees.
@@ -159,8 +179,9 @@ std::vector<double> axis_lines(std::span<const double> values, std::span<const d
                          0);
     }
     const bool are_lines = bounds.size() == n + 1 && n > 1;
-    lines = are_lines ? lines_as_given(bounds, is_longitude)
+    lines = are_lines ? lines_as_given(bounds, unrolled, is_longitude)
                       : joined(sides_of_bounds(bounds, is_longitude), is_longitude);
+    require_near_cells(values, lines, name);
   } else {
     if (n < 2) {
       throw InvalidInput("one " + name + " without bounds has no width", 0);

@@ -141,10 +141,17 @@ TEST(conventions, lines_of_longitudes) {
   EXPECT_EQ(lines({355, 5}, {0, 350, 10, 0}), (Doubles{350, 360, 370}));
   EXPECT_EQ(lines({15, 5}, {10, 20, 0, 10}), (Doubles{20, 10, 0}));
   EXPECT_EQ(lines({15, 5}, {20, 10, 0}), (Doubles{20, 10, 0}));
+  EXPECT_EQ(lines({15, 5}, {0, 10, 20}), (Doubles{20, 10, 0}));
+  EXPECT_EQ(lines({5, 15}, {20, 10, 0}), (Doubles{0, 10, 20}));
   EXPECT_EQ(lines({180}, {0, 360}), (Doubles{0, 360}));
   EXPECT_EQ(lines({95, 275}, {0, 190, 190, 360}), (Doubles{0, 190, 360}));
   EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30}), InvalidInput);
   EXPECT_THROW((void)lines({5, 25}, {0, 10, 20, 30, 40}), InvalidInput);
+  // A coordinate beside its cell, and one of another cell.
+  EXPECT_EQ(lines({-4, 6}, {0, 10, 20}), (Doubles{0, 10, 20}));
+  EXPECT_EQ(lines({355, 365}, {-10, 0, 10}), (Doubles{-10, 0, 10}));
+  EXPECT_THROW((void)lines({25, 35}, {0, 10, 20}), InvalidInput);
+  EXPECT_THROW((void)lines({-175, -165}, {0, 10, 10, 20}), InvalidInput);
   EXPECT_THROW((void)lines({5}), InvalidInput);
   EXPECT_THROW((void)lines({5, not_there}), InvalidInput);
 }

@@ -21,6 +21,8 @@ from ._types import BoolArray, FloatArray
 from ._weights import Weights
 
 # The names of columns that tables usually have.
+# How far a coordinate may be from the same in another file: float32 is off by up to 8e-6 degrees.
+_MOST_APART = 1e-4
 _COLUMNS = {"lon": ("lon", "lng", "long", "longitude"), "lat": ("lat", "latitude")}
 
 
@@ -74,6 +76,21 @@ class Places:
             _warn(
                 f"{count} of {self.lon.size} places have no longitude or latitude and are left out"
             )
+
+    def require_same(self, data: Any) -> None:
+        """Refuses data that have coordinates of the same names with other values."""
+        known = data.variables if isinstance(data, xarray.Dataset) else data.coords
+        for name in self.coordinates:
+            own = self._data[name]
+            if name not in known or (own.dims, own.shape) != (known[name].dims, known[name].shape):
+                continue
+            away = np.asarray(known[name].values, np.float64) - np.asarray(own.values, np.float64)
+            away -= 360 * np.round(away / 360)
+            if not np.all((np.abs(away) <= _MOST_APART) | np.isnan(away)):
+                raise ValueError(
+                    f"the coordinate {name!r} of the data is not that of the source, or in another "
+                    "order"
+                )
 
     @property
     def own_names(self) -> set[str]:
@@ -312,6 +329,7 @@ def carried(
     keep_attrs: bool = True,
 ) -> Any:
     """A Dataset or DataArray at other places."""
+    source.require_same(data)
 
     def applied(values: Any, marker: Any) -> Any:
         dtype = _kind(values)
@@ -323,6 +341,9 @@ def carried(
         return found.reshape(shape).astype(dtype, copy=False)
 
     def moved(array: xarray.DataArray) -> xarray.DataArray:
+        if "scale_factor" in array.attrs or "add_offset" in array.attrs:
+            name = "data" if array.name is None else array.name
+            _warn(f"{name} are packed: their attribute scale_factor or add_offset is not applied")
         found = xarray.apply_ufunc(
             applied,
             array,

@@ -268,3 +268,58 @@ def test_refused():
     with pytest.raises(TypeError, match="'reuse'"):
         rondel.Regridder(FINE, COARSE, "bilinear", reuse=True)
     assert rondel.Regridder(FINE, COARSE, "bilinear", periodic=True).method == "bilinear"
+
+
+def test_data_in_another_order_are_refused():
+    lon, lat = np.arange(-175.0, 180, 10), np.arange(-85.0, 90, 10)
+    coords = {"lon": ("lon", lon), "lat": ("lat", lat)}
+    ds = xarray.Dataset({"t": (("lat", "lon"), lat[:, None] + lon)}, coords)
+    regridder = rondel.Regridder(ds, {"lon": [0.0, 10], "lat": [5.0, 6]}, "bilinear")
+    expected = regridder(ds.t)
+    same = (
+        ds.assign_coords(lon=lon.astype("f4") + 360, lat=lat.astype("f4")),
+        ds.transpose("lon", "lat"),
+        ds.drop_vars(["lon", "lat"]),
+        ds.assign(t=ds.t * 1.0),
+    )
+    for data in same:
+        assert np.array_equal(regridder(data.t), expected)
+    others = (
+        ds.isel(lat=slice(None, None, -1)),
+        ds.roll(lon=18, roll_coords=True),
+        ds.assign_coords(lat=lat + 1),
+    )
+    for data in others:
+        for kind in (data, data.t):
+            with pytest.raises(ValueError, match=r"the coordinate '(lon|lat)' of the data is not"):
+                regridder(kind)
+    curved = xarray.Dataset(
+        {"t": (("y", "x"), lat[:, None] + lon)},
+        dict(zip(("lon", "lat"), ((("y", "x"), c) for c in np.meshgrid(lon, lat)), strict=True)),
+    )
+    with pytest.raises(ValueError, match="the coordinate 'lat' of the data is not"):
+        rondel.Regridder(curved, ds, "nearest_s2d")(curved.isel(y=slice(None, None, -1)))
+
+
+def test_packed_numbers_are_told():
+    values = xarray.DataArray(np.ones((4, 8), "i2"), dims=("lat", "lon"), attrs={"add_offset": 3.0})
+    ds = xarray.Dataset(
+        {"t": values}, {"lon": np.arange(0.0, 360, 45), "lat": np.arange(-60.0, 61, 40)}
+    )
+    with pytest.warns(UserWarning, match="t are packed: their attribute scale_factor or add_off"):
+        rondel.Regridder(ds, {"lon": [0.0, 10], "lat": [5.0, 6]}, "bilinear")(ds)
+
+
+def test_lines_of_cells_in_the_reverse_order():
+    lon, lat = np.arange(-175.0, 180, 10), np.arange(85.0, -90, -10)
+    ds = xarray.Dataset(
+        {"t": (("lat", "lon"), lat[:, None] + lon), "lat_b": ("lat_b", np.arange(-90.0, 91, 10))},
+        {"lon": lon, "lat": lat},
+    )
+    target = rondel.lonlat_grid(12, 6)
+    found = rondel.Regridder(ds, target, "conservative")(ds.t)
+    turned = rondel.Regridder(ds.drop_vars("lat_b"), target, "conservative")(ds.t)
+    assert np.allclose(found, turned, atol=1e-9)
+    far = ds.assign_coords(lat=lat + 20)
+    with pytest.raises(ValueError, match="latitude 105 is far from its cell, 90 to 80"):
+        rondel.Regridder(far, target, "conservative")
