@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "netcdf_part.h"
 #include "process.h"
 #include "remap.h"
 #include "report.h"
@@ -105,8 +106,10 @@ ExitStatus run_apply(const ApplyCommandOptions& options) {
   const WeightFile file = read_weights(common.source());
   const Weights& weights = file.weights;
   if (is_table(options.values_file)) require_places_of_table(options, file);
-  const FieldFile in(options.values_file, options.columns, weights.num_columns, common.read,
-                     file.source.shape);
+  const auto [values_file, variable] = netcdf_part(options.values_file);
+  std::vector<std::string> names = options.columns;
+  if (names.empty() && !variable.empty()) names.push_back(variable);
+  const FieldFile in(values_file, names, weights.num_columns, common.read, file.source.shape);
   tell(options.values_file, in.fields().remarks);
   if (!in.fields().points.empty()) require_places(options, file, in.fields().points, false);
   const AppliedCounts counts = apply_all(job, options, file, in);

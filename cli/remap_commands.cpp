@@ -63,9 +63,11 @@ Command add_apply_command(CLI::App& tool) {
   CLI::App* parser = tool.add_subcommand("apply", "Apply a file of weights to values");
   add_weights_input(*parser, options->common);
   parser
-      ->add_option("VALUES", options->values_file,
-                   "Values at the sources: .csv .tsv (--value), .npy of the shape (n) or\n"
-                   "(fields, n), or netCDF: variables with the dimensions of the sources")
+      ->add_option(
+          "VALUES", options->values_file,
+          "Values at the sources: .csv .tsv (--value), .npy of the shape (n) or\n"
+          "(fields, n), or netCDF: variables with the dimensions of the sources, FILE.nc:NAME\n"
+          "one of them")
       ->required()
       ->type_name("");
   add_output_option(*parser, options->common,

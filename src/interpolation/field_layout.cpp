@@ -44,7 +44,7 @@ bool fit(std::span<const std::uint64_t> wanted, const LayoutVariable& variable,
   return agree(lengths, wanted);
 }
 
-bool is_missing(const LonLat& place) {
+bool has_no_place(const LonLat& place) {
   return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
 }
 
@@ -93,7 +93,7 @@ const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
     }
   }
   known.num_known = known.places.size() -
-                    static_cast<std::size_t>(std::ranges::count_if(known.places, is_missing));
+                    static_cast<std::size_t>(std::ranges::count_if(known.places, has_no_place));
   known_.push_back(std::move(known));
   return known_.back();
 }
@@ -146,7 +146,7 @@ void FieldDimensionFinder::leave_out_missing(const KnownPlaces& known,
   if (has_all) return;
   std::vector<LonLat> places;
   for (std::size_t i = 0; i < layout.places.size(); ++i) {
-    if (is_missing(layout.places[i])) continue;
+    if (has_no_place(layout.places[i])) continue;
     places.push_back(layout.places[i]);
     layout.kept.push_back(i);
   }

@@ -130,6 +130,8 @@ class Netcdf4(unittest.TestCase):
                 self.run_tool("apply", weights, "field.nc", "-o", "out.npy", "--quiet")
                 found = np.load(self.folder / "out.npy")
                 np.testing.assert_allclose(found, expected, atol=1e-14)
+        self.run_tool("apply", weights, "field.nc:t[-2]", "-o", "out.npy", "--quiet")
+        np.testing.assert_allclose(np.load(self.folder / "out.npy"), expected[3], atol=1e-14)
 
     def test_one_of_several_times_is_chosen(self):
         """Contours and figures are those of a table with the values of that time."""

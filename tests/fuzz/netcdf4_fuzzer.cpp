@@ -4,11 +4,10 @@
 // Files of netCDF-4 and of the classic formats, of any shapes: what is written is read, as a whole, in slices and in boxes with the
 // dimensions in any order, from a path and from bytes; a file that is cut is refused in one line. Other damage is not tried: HDF5
 // does not survive all bytes. Without netCDF-C only the classic formats are.
-#include <stdlib.h>
-
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstdlib>
 #include <numeric>
 #include <string>
 #include <vector>
