@@ -78,8 +78,7 @@ RONDEL_API bool can_read_cells(const FileName& file);
 struct NetcdfSites {
   SiteTable table;                   ///< with positions
   std::vector<std::uint64_t> shape;  ///< the lengths of their dimensions: nlat, nlon for a grid
-  std::vector<std::string>
-      remarks;  ///< those of the cells; which variables are no columns as they have several fields
+  std::vector<std::string> remarks;  ///< those of the cells; what is no column, and why
 };
 
 /// Reads sites from netCDF: the centers of the cells that read_cells() finds, or else the places of the first of the fields

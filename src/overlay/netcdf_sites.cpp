@@ -110,6 +110,10 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
         }
       }
       if (keep_columns) add_columns(fields, names, sites);
+      if (keep_columns && names.empty()) {
+        const std::vector<std::string>& left_out = fields.fields().remarks;
+        sites.remarks.insert(sites.remarks.end(), left_out.begin(), left_out.end());
+      }
     } catch (const FileError&) {
       if (num_centers == 0 || !names.empty()) throw;  // a mesh may have no fields
     }
