@@ -4,9 +4,11 @@
 #include "overlay/arcs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "exact/exact_sign.h"
+#include "exact/triangle_area.h"
 #include "map/ring_area.h"
 
 namespace rondel::overlay {
@@ -164,9 +166,24 @@ bool ArcMaker::has_corners_of_cover(Index cell) {
   double inside_of_rings = 0;
   for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
     cells_.copy_ring(ring, ring_);
-    inside_of_rings += map::area_on_left(ring_);
+    inside_of_rings += area_within(crossings_.trace_of(cells_.rings[ring]).start);
   }
   return cells_.area_of_other(cell) - inside_of_rings > 2 * std::numbers::pi;
+}
+
+// What is left of ring_ in the cell of the cover that has it, or minus what is right of it there. A cell has less than
+// half of the sphere, so that does any side of the ring that is in it; where it is as good as half, triangles at the
+// cell's center are none with the antipode of that.
+double ArcMaker::area_within(Index beyond) const {
+  constexpr double surely_less = 2 * std::numbers::pi - 1e-3;
+  const double area = map::area_on_left(ring_);
+  if (std::abs(area) < surely_less) return area;
+  double sum = 0;
+  for (std::size_t k = 0; k < ring_.size(); ++k) {
+    sum += exact::triangle_area(cover_.centers[beyond], ring_[k],
+                                ring_[k + 1 < ring_.size() ? k + 1 : 0]);
+  }
+  return sum;
 }
 
 void ArcMaker::take_all_edges() {

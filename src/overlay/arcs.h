@@ -60,6 +60,7 @@ class ArcMaker {
   void flood();
   [[nodiscard]] bool has_clear_ends() const;
   [[nodiscard]] bool has_corners_of_cover(Index cell);
+  [[nodiscard]] double area_within(Index beyond) const;
   void take_all_edges();
   Index add_point(const Point& p) {
     points_.push_back(p);

@@ -52,7 +52,7 @@ Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
     ends.push_back(arc.to);
   }
   const Distinct<Point> places = distinct(ends);
-  if (places.values.size() >= no_index) throw InvalidInput("there are too many corners", no_index);
+  if (places.values.size() >= no_index) throw InvalidInput("there are too many corners");
   std::vector<Index> sorted(places.values.size());
   std::iota(sorted.begin(), sorted.end(), Index{0});
   std::ranges::sort(

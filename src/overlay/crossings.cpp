@@ -95,7 +95,7 @@ Base base_near(const Subdivision& cover, const Point& p) {
     const auto cell = static_cast<Index>((near + k) % n);
     if (const auto point = point_inside(cover, cell)) return {cell, *point};
   }
-  throw InvalidInput("no cell has an inside", 0);
+  throw InvalidInput("no cell has an inside");
 }
 
 // A point at a right angle to p.

@@ -277,7 +277,9 @@ class FeatureCells {
       west = std::min(west, lon);
       east = std::max(east, lon);
     }
-    if (east - west < 180 && std::abs(lon) < 180 && n > 2) {
+    // A corner that the ring passes again may have a spike.
+    const bool is_passed_once = std::ranges::count(corners, corners[corner]) == 1;
+    if (is_passed_once && east - west < 180 && std::abs(lon) < 180 && n > 2) {
       const Sign sign = orientation(corners[corner > 0 ? corner - 1 : n - 1], corners[corner],
                                     corners[corner + 1 < n ? corner + 1 : 0]);
       if (sign != Sign::zero) return sign == Sign::negative;

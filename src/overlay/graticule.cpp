@@ -30,8 +30,7 @@ void validate(const LonLatGrid& grid) {
   const std::vector<double>& lat = grid.lat_deg;
   if (lon.size() < 2 || lat.size() < 2) {
     throw InvalidInput("a grid of " + std::to_string(lon.size()) + " meridians and " +
-                           std::to_string(lat.size()) + " parallels has no cell",
-                       0);
+                       std::to_string(lat.size()) + " parallels has no cell");
   }
   const auto refuse = [](const char* what, std::size_t k, double value, const char* why) {
     throw InvalidInput(std::string(what) + " " + std::to_string(k) + ", " +
@@ -58,7 +57,7 @@ void validate(const LonLatGrid& grid) {
     }
   }
   if ((lon.size() - 1) >= no_index / (lat.size() - 1)) {
-    throw InvalidInput("the grid has too many cells", no_index);
+    throw InvalidInput("the grid has too many cells");
   }
 }
 

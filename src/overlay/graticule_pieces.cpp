@@ -127,12 +127,14 @@ class GridPieceMaker {
         below.size += std::abs(strip.width);
         below.run = below.run + strip.run;
       }
-      if (piece.cell != no_index) pieces_.push_back(piece);
+      const bool is_from_above = fill.width != 0;
       fill = below;
       // Longitudes are off by some u, and sums of n by n u.
       const double rounding = predicates::unit_roundoff * (16 + 4 * summands * fill.size);
       if (std::abs(fill.width) <= rounding) fill = {};
       if (std::abs(fill.width - grid_.columns()[column].width) <= rounding) fill = filled(column);
+      if (is_from_above && fill.width != 0) piece.length += height_of(row);
+      if (piece.cell != no_index) pieces_.push_back(piece);
       if (row == 0 || (next == end && fill.width == 0)) return end;
       if (fill.width == 0) row = strips_[next].row + 1;
     }
@@ -143,14 +145,18 @@ class GridPieceMaker {
     return {width, width, grid_.eastern_meridian(column) - grid_.columns()[column].west};
   }
 
-  // The part of a row that is filled all the way down.
+  [[nodiscard]] double height_of(Index row) const {
+    return grid_.parallel(row + 1).sine - grid_.parallel(row).sine;
+  }
+
+  // The part of a row that is filled all the way down. Its sides count where they run through all of the row; those of what
+  // begins or ends there are among the strips.
   [[nodiscard]] GridPiece row_of(Index column, Index row, const Fill& fill) const {
     const Graticule::Parallel& south = grid_.parallel(row);
     const Graticule::Parallel& north = grid_.parallel(row + 1);
-    const double height = north.sine - south.sine;
-    GridPiece piece{grid_.cell(column, row), fill.width * height, 0, {}};
+    GridPiece piece{grid_.cell(column, row), fill.width * height_of(row), 0, {}};
     if (fill.width == 0) return piece;
-    piece.length = fill.size + height;
+    piece.length = fill.size;
     if (has_moments_) {
       piece.moment = moment_of_row(south, north, fill.width, fill.run);
     }

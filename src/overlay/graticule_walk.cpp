@@ -148,7 +148,7 @@ void GraticuleWalk::append(const GraticulePlace& from, const GraticulePlace& to,
   }
 }
 
-// The northernmost or southernmost point of the arc, if it is in another row than both ends.
+// The northernmost or southernmost point of the arc, if the arc meets a parallel on both sides of it.
 bool GraticuleWalk::has_extreme(const GraticulePlace& from, const GraticulePlace& to,
                                 GraticulePlace& extreme) const {
   const Point normal = cross(from.point, to.point - from.point);
@@ -158,7 +158,9 @@ bool GraticuleWalk::has_extreme(const GraticulePlace& from, const GraticulePlace
   const Point point = normalized(std::abs(rise_to) * from.point + std::abs(rise_from) * to.point);
   const auto [south, north] = std::minmax(from.point.z, to.point.z);
   const Index row = row_of(point.z);
-  if (row >= row_of(south) && row <= row_of(north)) return false;
+  // An arc to an end on a parallel that comes from the north meets that parallel once more.
+  const bool is_met_twice = row > row_of(south) && north == grid_.parallel(row).sine;
+  if (row >= row_of(south) && row <= row_of(north) && !is_met_twice) return false;
   extreme = place_of(point);
   const auto east_of = [&](const GraticulePlace& place) {
     const double turned = turn(place) - turn(from);

@@ -123,7 +123,7 @@ CellRings rings_of(const Subdivision& cells) {
 
 void require_arcs(const PartitionData& cells) {
   if (cells.grid() == nullptr) return;
-  throw InvalidInput("cells between parallels have no sides on great circles", 0);
+  throw InvalidInput("cells between parallels have no sides on great circles");
 }
 
 }  // namespace overlay
@@ -171,9 +171,9 @@ void validate(const CellRings& cells) {
   };
   if (cells.rings.empty() || !is_sound(cells.cells, cells.rings.size() - 1) ||
       !is_sound(cells.rings, cells.corners.size())) {
-    throw InvalidInput("the offsets of cells and rings do not fit", 0);
+    throw InvalidInput("the offsets of cells and rings do not fit");
   }
-  if (cells.corners.size() >= no_index) throw InvalidInput("there are too many corners", no_index);
+  if (cells.corners.size() >= no_index) throw InvalidInput("there are too many corners");
   for (std::size_t k = 0; k < cells.whole.size(); ++k) {
     const Index i = cells.whole[k];
     if (i >= cells.num_cells() || (k > 0 && i <= cells.whole[k - 1])) {

@@ -27,8 +27,8 @@ constexpr double radians_per_degree = std::numbers::pi / 180;
 io::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
                                 const PolygonOptions& options) {
   if (!(options.tolerance_deg > 0)) {
-    throw InvalidInput(
-        "the tolerance " + system::shortest_text(options.tolerance_deg) + " is not positive", 0);
+    throw InvalidInput("the tolerance " + system::shortest_text(options.tolerance_deg) +
+                       " is not positive");
   }
   return io::read_polygon_features(file, kinds);
 }

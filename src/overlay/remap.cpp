@@ -118,9 +118,8 @@ void drop_masked(const RemapOptions& options, PieceRows& pieces) {
 void require_mask(const char* name, const std::vector<std::int32_t>& mask, std::size_t num_cells) {
   if (mask.empty() || mask.size() == num_cells) return;
   throw InvalidInput(std::string("the mask of the ") + name + " has " +
-                         std::to_string(mask.size()) + " values for " + std::to_string(num_cells) +
-                         " cells",
-                     0);
+                     std::to_string(mask.size()) + " values for " + std::to_string(num_cells) +
+                     " cells");
 }
 
 // What a loop over pieces will touch, as columns are anywhere in memory.
@@ -216,7 +215,7 @@ Remap remap(const Partition& source, const Partition& target, const RemapOptions
             const Execution& execution) {
   const system::Call call(execution);
   if (options.order != 1 && options.order != 2) {
-    throw InvalidInput("the order is " + std::to_string(options.order) + ", not 1 or 2", 0);
+    throw InvalidInput("the order is " + std::to_string(options.order) + ", not 1 or 2");
   }
   const PartitionData& sources = PartitionData::of(source);
   const PartitionData& targets = PartitionData::of(target);
@@ -270,11 +269,11 @@ void apply_gradients(const Remap& remap, std::span<const double> means,
                      std::span<const Point> gradients, std::span<double> out) {
   const std::size_t num_sources = remap.source_areas.size();
   if (remap.moments.size() != remap.areas.size()) {
-    throw InvalidInput("the remapping is not of order 2", 0);
+    throw InvalidInput("the remapping is not of order 2");
   }
   if (means.size() != num_sources || gradients.size() != num_sources ||
       out.size() != remap.target_areas.size()) {
-    throw InvalidInput("the sizes of means, gradients and targets do not fit the remapping", 0);
+    throw InvalidInput("the sizes of means, gradients and targets do not fit the remapping");
   }
   for (std::size_t j = 0; j < out.size(); ++j) {
     double sum = 0;

@@ -4,6 +4,7 @@
 #include "overlay/sound_cells.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -63,9 +64,14 @@ std::optional<CellRings> with_corners_on_sides(const CellRings& cells, const Sub
       for (const auto& [from, to, owner] : snaps.applied(sides)) {
         arcs.push_back({owner, cells.points[from], cells.points[to]});
       }
-      const bool is_most = areas(one).front() > half_of_sphere;
+      const double before = areas(one).front();
       one = rings_around(arcs, 1, 1);
-      if (is_most && !has_any(one)) one.whole = {0};
+      // What is left of less than rounding may turn the other way.
+      if (std::abs(areas(one).front() - before) > half_of_sphere) {
+        one = CellRings{};
+        one.cells.push_back(0);
+      }
+      if (before > half_of_sphere && !has_any(one)) one.whole = {0};
     }
     append(one, result);
   }

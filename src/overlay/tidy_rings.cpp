@@ -4,15 +4,21 @@
 #include "overlay/tidy_rings.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <span>
+#include <string>
 #include <tuple>
 #include <utility>
 
 #include "exact/vector.h"
 #include "overlay/border_rings.h"
 #include "overlay/region_area.h"
+#include "overlay/snapped_sides.h"
 #include "overlay/sure_crossing.h"
+#include "rondel/error.h"
 #include "rondel/predicates.h"
+#include "rondel/regions.h"
 
 namespace rondel::overlay {
 namespace {
@@ -58,6 +64,19 @@ std::vector<Point> without_turns(std::span<const Point> ring) {
   return kept;
 }
 
+// Whether anything of a ring is wider than rounding when corners that are on its sides to rounding have become corners of
+// these: then it falls into loops.
+bool has_wide_loop(std::span<const Point> ring) {
+  std::vector<OwnedSide> sides;
+  const auto size = static_cast<Index>(ring.size());
+  for (Index k = 0; k < size; ++k) sides.push_back({k, k + 1 < size ? k + 1 : 0, 0});
+  std::vector<KeyedArc> arcs;
+  for (const auto& [from, to, owner] : Snaps(ring, sides).applied(sides)) {
+    arcs.push_back({owner, ring[from], ring[to]});
+  }
+  return !rings_around(arcs, 1, 1).corners.empty();
+}
+
 // Whether a ring has no area although it is wider than rounding, as a bow tie with two loops of one size.
 bool is_balanced_crossing(std::span<const Point> ring) {
   if (!area_of_ring(ring).is_nothing()) return false;
@@ -65,7 +84,7 @@ bool is_balanced_crossing(std::span<const Point> ring) {
   for (std::size_t k = 0; k < ring.size(); ++k) {
     sides.push_back({ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]});
   }
-  return has_sure_crossing(sides);
+  return has_sure_crossing(sides) || has_wide_loop(ring);
 }
 
 // None of a cell that crosses itself: whoever overlays it says so.
@@ -87,17 +106,37 @@ std::optional<std::vector<KeyedArc>> arcs_of_cell(const CellRings& cells, std::s
   return arcs;
 }
 
-// Of a cell whose sides have all run to and fro: both sides of a ring that has an area are inside.
-bool is_around_all(const CellRings& cells, std::size_t cell) {
+// Throws InvalidInput for a cell whose sides all run to and fro, if one of its rings is wider than rounding: it may be
+// nothing, as a ring and a hole that is as large, or all, as two parts that share their border.
+void require_nothing(const CellRings& cells, std::size_t cell, std::span<const KeyedArc> arcs) {
+  using Ends = std::tuple<double, double, double, double, double, double>;
+  std::vector<Ends> there;
+  std::vector<Ends> back;
+  for (const auto& [key, p, q] : arcs) {
+    there.emplace_back(p.x, p.y, p.z, q.x, q.y, q.z);
+    back.emplace_back(q.x, q.y, q.z, p.x, p.y, p.z);
+  }
+  std::ranges::sort(there);
+  std::ranges::sort(back);
+  if (there != back) return;
   std::vector<Point> ring;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
     ring.clear();
     for (std::uint64_t k = cells.rings[r]; k < cells.rings[r + 1]; ++k) {
       ring.push_back(cells.points[cells.corners[k]]);
     }
-    if (!area_of_ring(ring).is_nothing()) return true;
+    if (area_of_ring(ring).is_nothing()) continue;
+    throw InvalidInput("cell " + std::to_string(cell) +
+                           " has all of its sides in both directions: it is nothing, or the whole "
+                           "sphere, which has no rings",
+                       cell);
   }
-  return false;
+}
+
+// Whether a region is taken for what is beyond it, as it may be where less than rounding is left of either.
+bool is_turned(double before, double after) {
+  constexpr double half_of_sphere = 2 * std::numbers::pi;
+  return std::abs(after - before) > half_of_sphere;
 }
 
 std::size_t num_corners_of(const CellRings& cells, std::size_t cell) {
@@ -134,15 +173,20 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
   if (known.areas_of_others.empty()) return std::nullopt;
   std::vector<Index> keys(cells.num_cells(), no_index);
   std::vector<KeyedArc> arcs;
+  std::vector<double> areas_before;
+  std::vector<std::size_t> begins;  // of each key's arcs
   Index num_keys = 0;
   for (const auto& [place, area] : known.areas_of_others) {
     const Index cell = known.names[place];
     const std::optional<std::vector<KeyedArc>> of_cell = arcs_of_cell(cells, cell, num_keys);
     if (!of_cell) continue;
+    begins.push_back(arcs.size());
     keys[cell] = num_keys++;
+    areas_before.push_back(area);
     arcs.insert(arcs.end(), of_cell->begin(), of_cell->end());
   }
   const CellRings left = rings_around(arcs, num_keys, 1);
+  const std::vector<double> areas_after = areas(left);
   const auto has_changed = [&](std::size_t cell) {
     return keys[cell] != no_index &&
            num_corners_of(left, keys[cell]) != num_corners_of(cells, cell);
@@ -162,10 +206,18 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
       }
     } else {
       has_any = true;
-      const bool is_left = left.cells[keys[i]] < left.cells[keys[i] + std::size_t{1}];
-      if (!is_left && is_around_all(cells, i)) result.whole.push_back(static_cast<Index>(i));
+      const Index key = keys[i];
+      const std::size_t end = key + 1 < num_keys ? begins[key + std::size_t{1}] : arcs.size();
+      if (left.cells[key] == left.cells[key + std::size_t{1}]) {
+        require_nothing(cells, i, std::span(arcs).subspan(begins[key], end - begins[key]));
+      }
+      if (is_turned(areas_before[key], areas_after[key])) {
+        if (areas_after[key] < areas_before[key]) result.whole.push_back(static_cast<Index>(i));
+        result.cells.push_back(result.rings.size() - 1);
+        continue;
+      }
       const NamesOfCorners names(cells, i);
-      for (std::uint64_t r = left.cells[keys[i]]; r < left.cells[keys[i] + std::size_t{1}]; ++r) {
+      for (std::uint64_t r = left.cells[key]; r < left.cells[key + std::size_t{1}]; ++r) {
         for (std::uint64_t k = left.rings[r]; k < left.rings[r + 1]; ++k) {
           result.corners.push_back(names[left.points[left.corners[k]]]);
         }

@@ -34,8 +34,7 @@ void require_pieces(const CellRings& cell, const CellRings& pieces,
   const double area = areas(cell).front();
   if (std::abs(sum - area) <= rounding) return;
   throw InvalidInput("regions that overlap cannot be united: the parts of one add up to " +
-                         std::to_string(sum) + " of " + std::to_string(area) + " steradians",
-                     0);
+                     std::to_string(sum) + " of " + std::to_string(area) + " steradians");
 }
 
 // One overlay gives all pieces, so that they have the same corners where they meet.
