@@ -3,8 +3,11 @@
 rondel_add_test(overlay_test
   overlay_grid_test.cpp
   overlay_hostile_test.cpp
+  overlay_inside_cases_test.cpp
+  overlay_inside_plane_test.cpp
   overlay_inside_test.cpp
   overlay_mesh_files_test.cpp
+  overlay_oracle.cpp
   overlay_overlaps_test.cpp
   overlay_parts_test.cpp
   overlay_plane_test.cpp
@@ -12,7 +15,9 @@ rondel_add_test(overlay_test
   overlay_regions_test.cpp
   overlay_remap_test.cpp
   overlay_rings_test.cpp
+  overlay_shapes.cpp
   overlay_touching_test.cpp
+  overlay_trial.cpp
   overlay_valid_test.cpp
   overlay_whole_test.cpp
   overlay_written_test.cpp

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "exact/vector.h"
+#include "overlay_shapes.h"
 #include "overlay_support.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
@@ -41,25 +42,6 @@ CellRings some_of(const CellRings& all, const std::function<bool(std::size_t)>& 
   return result;
 }
 
-struct RingOfPart {
-  std::vector<LonLat> corners;
-};
-CellRings cells_of_rings(const std::vector<std::vector<RingOfPart>>& cells) {
-  CellRings result;
-  for (const auto& rings : cells) {
-    for (const RingOfPart& ring : rings) {
-      for (const LonLat& corner : ring.corners) {
-        const Point p = unit_vector(corner);
-        const auto known = std::ranges::find(result.points, p);
-        result.corners.push_back(static_cast<Index>(known - result.points.begin()));
-        if (known == result.points.end()) result.points.push_back(p);
-      }
-      result.rings.push_back(result.corners.size());
-    }
-    result.cells.push_back(result.rings.size() - 1);
-  }
-  return result;
-}
 RingOfPart rectangle(double west, double south, double east, double north) {
   return {{{west, south}, {east, south}, {east, north}, {west, north}}};
 }
@@ -112,10 +94,10 @@ TEST(overlay_parts, of_one_hemisphere) {
   const RingOfPart patch = rectangle(0, 10, 40, 50);
   const std::vector<RingOfPart> around = {rectangle(10, -60, 100, 30), rectangle(-100, -70, 5, 40),
                                           rectangle(170, -80, 260, -5), rectangle(30, 40, 50, 80)};
-  const Partition source(cells_of_rings({{patch}}));
+  const Partition source(cells_of_parts({{patch}}));
   std::vector<std::vector<RingOfPart>> cells;
   for (const RingOfPart& ring : around) cells.push_back({ring});
-  const Partition target(cells_of_rings(cells));
+  const Partition target(cells_of_parts(cells));
   for (const bool is_back : {false, true}) {
     const Remap result = is_back ? remap(target, source) : remap(source, target);
     for (std::size_t j = 0; j < around.size(); ++j) {
@@ -176,21 +158,21 @@ TEST(overlay_parts, patches_of_one_diagram_are_the_identity) {
 }
 
 TEST(overlay_parts, holes_and_what_is_in_them) {
-  const Partition ring(cells_of_rings(
+  const Partition ring(cells_of_parts(
       {{rectangle(0, 0, 30, 30), rectangular_hole(10, 10, 20, 20)}, {rectangle(-20, 0, 0, 30)}}));
-  const Partition island(cells_of_rings({{rectangle(10, 10, 20, 20)}}));
+  const Partition island(cells_of_parts({{rectangle(10, 10, 20, 20)}}));
   EXPECT_TRUE(remap(ring, island).areas.empty());
   EXPECT_TRUE(remap(island, ring).areas.empty());
-  const Partition within(cells_of_rings({{rectangle(12, 12, 18, 18)}}));
+  const Partition within(cells_of_parts({{rectangle(12, 12, 18, 18)}}));
   EXPECT_TRUE(remap(ring, within).areas.empty());
-  const Partition box_around(cells_of_rings({{rectangle(-90, -40, 80, 60)}}));
+  const Partition box_around(cells_of_parts({{rectangle(-90, -40, 80, 60)}}));
   for (const auto& result : {remap(ring, box_around), remap(box_around, ring)}) {
     EXPECT_NEAR(total_of(result.areas), ring.areas()[0] + ring.areas()[1], 1e-14);
   }
-  const Partition far(cells_of_rings({{rectangle(150, -30, 170, -10)}}));
+  const Partition far(cells_of_parts({{rectangle(150, -30, 170, -10)}}));
   EXPECT_TRUE(remap(ring, far).areas.empty());
-  EXPECT_TRUE(remap(ring, Partition(cells_of_rings({{}, {}}))).areas.empty());
-  EXPECT_TRUE(remap(Partition(cells_of_rings({})), ring).areas.empty());
+  EXPECT_TRUE(remap(ring, Partition(cells_of_parts({{}, {}}))).areas.empty());
+  EXPECT_TRUE(remap(Partition(cells_of_parts({})), ring).areas.empty());
 }
 
 // What is opposite of a cell's center of mass is inside of it, where triangles around that are anything.
@@ -201,8 +183,8 @@ TEST(overlay_parts, of_nearly_the_whole_sphere) {
     holes.push_back(rectangular_hole(lon - 5, -70, lon + 5, -60));
     islands.push_back({rectangle(lon - 5, -70, lon + 5, -60)});
   }
-  const Partition sea(cells_of_rings({holes}));
-  const Partition land(cells_of_rings(islands));
+  const Partition sea(cells_of_parts({holes}));
+  const Partition land(cells_of_parts(islands));
   const Partition octants = Partition::triangles(delaunay(
       std::vector<Point>{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}));
   ASSERT_TRUE(octants.is_cover());
@@ -219,13 +201,13 @@ TEST(overlay_parts, of_nearly_the_whole_sphere) {
 TEST(overlay_parts, areas_of_large_cells) {
   constexpr double sphere = 4 * std::numbers::pi;
   const auto area_of_cap = [](double radius) {
-    const Partition cap(cells_of_rings({{{circle_of(radius)}}}));
+    const Partition cap(cells_of_parts({{{circle_of(radius)}}}));
     return cap.areas()[0];
   };
   for (const double radius : {1.0, 10.0, 60.0, 89.0, 91.0, 120.0, 179.0}) {
     RingOfPart outside{circle_of(radius)};
     std::ranges::reverse(outside.corners);
-    const Partition without(cells_of_rings({{outside}}));
+    const Partition without(cells_of_parts({{outside}}));
     // 12 triangles with the apex at the pole and equal sides.
     const double half = std::numbers::pi / 12;
     const double angle = radius * std::numbers::pi / 180;
@@ -237,25 +219,25 @@ TEST(overlay_parts, areas_of_large_cells) {
   const RingOfPart south{circle_of(120)};
   RingOfPart north{circle_of(60)};
   std::ranges::reverse(north.corners);
-  EXPECT_NEAR(Partition(cells_of_rings({{south, north}})).areas()[0], sphere - 2 * area_of_cap(60),
+  EXPECT_NEAR(Partition(cells_of_parts({{south, north}})).areas()[0], sphere - 2 * area_of_cap(60),
               1e-13);
   std::vector<RingOfPart> holes;
   double islands = 0;
   for (const double lon : {0.0, 120.0, 240.0}) {
     holes.push_back(rectangular_hole(lon - 5, -70, lon + 5, -60));
-    islands += Partition(cells_of_rings({{rectangle(lon - 5, -70, lon + 5, -60)}})).areas()[0];
+    islands += Partition(cells_of_parts({{rectangle(lon - 5, -70, lon + 5, -60)}})).areas()[0];
   }
-  EXPECT_NEAR(Partition(cells_of_rings({holes})).areas()[0], sphere - islands, 1e-13);
+  EXPECT_NEAR(Partition(cells_of_parts({holes})).areas()[0], sphere - islands, 1e-13);
 }
 
 // A cell beside two smaller ones, whose common corner lies on its side; ends of the axes inside, on sides, and corners.
 TEST(overlay_parts, corners_on_sides) {
-  const Partition uneven(cells_of_rings({{rectangle(-30, 0, 0, 40)},
+  const Partition uneven(cells_of_parts({{rectangle(-30, 0, 0, 40)},
                                          {{{{0, 0}, {45, 0}, {0, 40}}}},
                                          {{{{45, 0}, {90, 0}, {0, 90}, {0, 40}}}},
                                          {{{{-30, 0}, {30, -40}, {90, 0}}}}}));
   const Partition other(
-      cells_of_rings({{rectangle(-20, -20, 50, 30)}, {rectangle(50, -20, 70, 30)}}));
+      cells_of_parts({{rectangle(-20, -20, 50, 30)}, {rectangle(50, -20, 70, 30)}}));
   const Remap there = remap(uneven, other);
   const Remap back = remap(other, uneven);
   // Each cell by itself leaves no corner on a side.
@@ -276,8 +258,8 @@ TEST(overlay_parts, names_cells_that_overlap) {
   const RingOfPart within = rectangle(5, 5, 9, 9);
   const RingOfPart apart = rectangle(-50, 0, -40, 10);
   const auto message_of = [&](const std::vector<std::vector<RingOfPart>>& cells) {
-    const Partition source(cells_of_rings(cells));
-    const Partition target(cells_of_rings({{apart}, {box}}));
+    const Partition source(cells_of_parts(cells));
+    const Partition target(cells_of_parts({{apart}, {box}}));
     try {
       (void)remap(source, target);
     } catch (const InvalidInput& error) {
@@ -302,7 +284,7 @@ TEST(overlay_parts, names_cells_of_two_covers) {
   for (const double west : {0.0, 120.0, 240.0, 60.0, 180.0, 300.0}) {
     lunes.push_back({{{{0, 90}, {west, 0}, {0, -90}, {west + 120, 0}}}});
   }
-  const Partition twice(cells_of_rings(lunes));
+  const Partition twice(cells_of_parts(lunes));
   ASSERT_FALSE(twice.is_cover());
   EXPECT_NEAR(total_of({twice.areas().begin(), twice.areas().end()}), 8 * std::numbers::pi, 1e-13);
   try {
@@ -315,14 +297,14 @@ TEST(overlay_parts, names_cells_of_two_covers) {
 
 // What two cells share is the first one's, or counts half for each.
 TEST(overlay_parts, places_of_two_cells) {
-  const CellRings both = cells_of_rings({{rectangle(0, 0, 20, 20)}, {rectangle(10, 10, 30, 30)}});
+  const CellRings both = cells_of_parts({{rectangle(0, 0, 20, 20)}, {rectangle(10, 10, 30, 30)}});
   const Partition twice(both);
   const auto alone = [&](Index i) {
     return Partition(some_of(both, [&](std::size_t k) { return k == i; }));
   };
   const RegionPieces shared = intersection(alone(0), alone(1));
   const Partition middle(shared.rings);
-  const Partition plain(cells_of_rings(
+  const Partition plain(cells_of_parts(
       {{rectangle(8, 8, 12, 12)}, {rectangle(20, 20, 25, 25)}, {rectangle(12, 8, 19, 12)}}));
   const Partition cover = Partition::voronoi(triangulation_of("uniform", 500, 9));
   const Partition grid = Partition::lonlat_grid({{0, 5, 12, 18, 40}, {-5, 3, 11, 16, 45}});
@@ -395,16 +377,16 @@ TEST(overlay_parts, sides_that_bound_nothing) {
   const RingOfPart plain = {{{0, 0}, {20, 0}, {20, 20}, {0, 20}}};
   const RingOfPart inwards = {{{0, 0}, {20, 0}, {20, 20}, {10, 10}, {20, 20}, {0, 20}}};
   const RingOfPart outwards = {{{0, 0}, {20, 0}, {20, 20}, {30, 33}, {20, 20}, {0, 20}}};
-  const Partition other(cells_of_rings({{rectangle(-5, 3, 12, 50)},
+  const Partition other(cells_of_parts({{rectangle(-5, 3, 12, 50)},
                                         {rectangle(12, 3, 40, 50)},
                                         {{{{-5, -9}, {40, -9}, {40, 3}, {12, 3}, {-5, 3}}}},
                                         {rectangle(50, 3, 60, 20)},
                                         {rectangle(60, 3, 70, 20)}}));
-  const Remap expected = remap(Partition(cells_of_rings({{plain}})), other);
+  const Remap expected = remap(Partition(cells_of_parts({{plain}})), other);
   const std::vector<std::vector<RingOfPart>> cells = {
       {inwards}, {outwards}, {{{{0, 0}, {20, 0}, {20, 20}}}, {{{0, 0}, {20, 20}, {0, 20}}}}};
   for (const auto& rings : cells) {
-    const Remap result = remap(Partition(cells_of_rings({rings})), other);
+    const Remap result = remap(Partition(cells_of_parts({rings})), other);
     ASSERT_EQ(result.columns, expected.columns);
     for (std::size_t k = 0; k < result.areas.size(); ++k) {
       EXPECT_NEAR(result.areas[k], expected.areas[k], 1e-15) << k;

@@ -7,107 +7,19 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "overlay_planar.h"
 #include "overlay_support.h"
 #include "rondel/error.h"
 #include "rondel/polygon_files.h"
 #include "rondel/regions.h"
 #include "support/random.h"
-#include "support/temporary_files.h"
 
 namespace rondel::test {
 namespace {
-
-using PlanarRing = std::vector<LonLat>;
-
-std::string text_of(const PlanarRing& ring) {
-  std::ostringstream text;
-  text.precision(17);
-  text << '[';
-  for (std::size_t k = 0; k <= ring.size(); ++k) {
-    const LonLat& p = ring[k < ring.size() ? k : 0];
-    text << (k > 0 ? "," : "") << '[' << p.lon_deg << ',' << p.lat_deg << ']';
-  }
-  return text.str() + ']';
-}
-
-// A polygon of its rings.
-std::string planar_polygon(const std::vector<PlanarRing>& rings) {
-  std::string text = "[";
-  for (std::size_t r = 0; r < rings.size(); ++r) text += (r > 0 ? "," : "") + text_of(rings[r]);
-  return text + ']';
-}
-
-// Each feature is a MultiPolygon of its polygons.
-PolygonTable planar_table(const std::vector<std::vector<std::string>>& features,
-                          const PolygonOptions& options = {}) {
-  const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-  const std::string path = temporary_path("plane_") + test + ".geojson";
-  std::string text = R"({"type":"FeatureCollection","features":[)";
-  for (std::size_t f = 0; f < features.size(); ++f) {
-    text += (f > 0 ? "," : "");
-    text += R"({"type":"Feature","properties":{"name":"f)" + std::to_string(f) +
-            R"("},"geometry":{"type":"MultiPolygon","coordinates":[)";
-    for (std::size_t p = 0; p < features[f].size(); ++p) {
-      text += (p > 0 ? "," : "") + features[f][p];
-    }
-    text += "]}}";
-  }
-  std::ofstream(path) << text << "]}";
-  return read_polygons(path, options);
-}
-
-std::string planar_message(const std::vector<std::vector<std::string>>& features,
-                           const PolygonOptions& options = {}) {
-  try {
-    (void)planar_table(features, options);
-  } catch (const FileError& error) {
-    const std::string message = error.what();
-    return message.substr(message.find("geojson: ") + 9);
-  }
-  return "";
-}
-
-// Between the side and the equator: of the sine along a straight line, by Gauss's rule with twelve steps.
-long double area_below(const LonLat& p, const LonLat& q) {
-  constexpr long double degree = std::numbers::pi_v<long double> / 180;
-  constexpr long double place = 0.7745966692414833770358531L;
-  long double sum = 0;
-  constexpr int steps = 12;
-  for (int s = 0; s < steps; ++s) {
-    for (const auto& [node, weight] :
-         {std::pair{-place, 5.0L / 18}, std::pair{0.0L, 8.0L / 18}, std::pair{place, 5.0L / 18}}) {
-      const long double t = (s + (1 + node) / 2) / steps;
-      const long double lat = p.lat_deg + t * (static_cast<long double>(q.lat_deg) - p.lat_deg);
-      sum += weight / steps * std::sin(lat * degree);
-    }
-  }
-  return sum * (static_cast<long double>(p.lon_deg) - q.lon_deg) * degree;
-}
-double planar_area(const PlanarRing& ring) {
-  long double sum = 0;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    sum += area_below(ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]);
-  }
-  return static_cast<double>(std::abs(sum));
-}
-double planar_length(const PlanarRing& ring) {
-  double sum = 0;
-  for (std::size_t k = 0; k < ring.size(); ++k) {
-    const LonLat& q = ring[k + 1 < ring.size() ? k + 1 : 0];
-    sum += std::abs(ring[k].lon_deg - q.lon_deg) + std::abs(ring[k].lat_deg - q.lat_deg);
-  }
-  return sum * std::numbers::pi / 180;
-}
-
-PlanarRing planar_box(double w, double s, double e, double n) {
-  return {{w, s}, {e, s}, {e, n}, {w, n}};
-}
 
 double uniform_between(Random& random, double low, double high) {
   return low + (high - low) * random.unit();
@@ -124,10 +36,10 @@ TEST(overlay_plane, slivers_have_their_area) {
         const LonLat along = {std::cos(turn) * length, std::sin(turn) * length};
         const double side = std::pow(10.0, -width) * (i % 2 == 0 ? 1 : -1);
         const double t = uniform_between(random, 0.1, 0.9);
-        const PlanarRing ring = {p,
-                                 {p.lon_deg + along.lon_deg, p.lat_deg + along.lat_deg},
-                                 {p.lon_deg + t * along.lon_deg - side * std::sin(turn),
-                                  p.lat_deg + t * along.lat_deg + side * std::cos(turn)}};
+        const RingInPlane ring = {p,
+                                  {p.lon_deg + along.lon_deg, p.lat_deg + along.lat_deg},
+                                  {p.lon_deg + t * along.lon_deg - side * std::sin(turn),
+                                   p.lat_deg + t * along.lat_deg + side * std::cos(turn)}};
         const double area = areas(planar_table({{planar_polygon({ring})}}).cells)[0];
         // Corners are unit vectors of doubles. Arcs are within the tolerance of lines, and where they are matched within
         // their own length of the width.
@@ -173,7 +85,7 @@ TEST(overlay_plane, the_map_is_the_whole_sphere) {
     EXPECT_EQ(areas(cells), (std::vector<double>{sphere, 0}));
   }
   // All but an island.
-  const PlanarRing island = planar_box(10, 20, 11, 21);
+  const RingInPlane island = planar_box(10, 20, 11, 21);
   const CellRings rest =
       planar_table({{planar_polygon({planar_box(-180, -90, 180, 90), island})}}).cells;
   EXPECT_TRUE(rest.whole.empty());
@@ -219,12 +131,12 @@ TEST(overlay_plane, rings_are_read_even_odd) {
               bow, 1e-8);
   const double box = planar_area(planar_box(0, 0, 20, 20));
   const double hole = planar_area(planar_box(5, 5, 6, 6));
-  const PlanarRing keyhole = {{0, 0}, {20, 0}, {20, 20}, {0, 20}, {0, 0},
-                              {5, 5}, {5, 6},  {6, 6},   {6, 5},  {5, 5}};
+  const RingInPlane keyhole = {{0, 0}, {20, 0}, {20, 20}, {0, 20}, {0, 0},
+                               {5, 5}, {5, 6},  {6, 6},   {6, 5},  {5, 5}};
   EXPECT_NEAR(area_of({planar_polygon({keyhole})}), box - hole, 1e-8);
-  const PlanarRing spike = {{0, 0}, {20, 0}, {20, 10}, {30, 17}, {20, 10}, {20, 20}, {0, 20}};
+  const RingInPlane spike = {{0, 0}, {20, 0}, {20, 10}, {30, 17}, {20, 10}, {20, 20}, {0, 20}};
   EXPECT_NEAR(area_of({planar_polygon({spike})}), box, 1e-8);
-  const PlanarRing beside = {{0, 5}, {3, 8}, {0, 11}};
+  const RingInPlane beside = {{0, 5}, {3, 8}, {0, 11}};
   EXPECT_NEAR(area_of({planar_polygon({planar_box(0, 0, 20, 20), beside})}),
               box - planar_area(beside), 1e-8);
   EXPECT_NEAR(area_of({planar_polygon({planar_box(0, 0, 20, 20)}),
@@ -286,7 +198,7 @@ TEST(overlay_plane, overlapping_features_are_told_or_divided) {
 }
 
 TEST(overlay_plane, rings_around_a_pole) {
-  PlanarRing ring;
+  RingInPlane ring;
   for (int lon = -180; lon < 180; lon += 10) ring.push_back({static_cast<double>(lon), -70});
   const std::string polygon = planar_polygon({ring});
   EXPECT_NE(planar_message({{polygon}}).find("its side from 170 -70 to -180 -70 crosses the map"),
@@ -316,7 +228,7 @@ TEST(overlay_plane, geodesic_rings_are_checked_on_the_sphere) {
   Random random(3);
   for (int i = 0; i < 50; ++i) {
     const double w = std::pow(10.0, -uniform_between(random, 6, 11));
-    const PlanarRing sliver = {{20, 30}, {21, 30.3}, {20.4, 30.12 + 0.001 + w}};
+    const RingInPlane sliver = {{20, 30}, {21, 30.3}, {20.4, 30.12 + 0.001 + w}};
     const double area = areas(planar_table({{planar_polygon({sliver})}}, geodesic).cells)[0];
     EXPECT_GE(area, 0);
     EXPECT_LT(area, 1e-5);

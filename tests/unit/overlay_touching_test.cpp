@@ -12,27 +12,13 @@
 #include <vector>
 
 #include "exact/vector.h"
+#include "overlay_shapes.h"
 #include "overlay_support.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
 
 namespace rondel::test {
 namespace {
-
-using RingOfPoints = std::vector<Point>;
-
-CellRings cells_of_rings(const std::vector<RingOfPoints>& rings) {
-  CellRings cells;
-  for (const RingOfPoints& ring : rings) {
-    for (const Point& p : ring) {
-      cells.corners.push_back(static_cast<Index>(cells.points.size()));
-      cells.points.push_back(p);
-    }
-    cells.rings.push_back(cells.corners.size());
-    cells.cells.push_back(cells.rings.size() - 1);
-  }
-  return cells;
-}
 
 double sum_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0);

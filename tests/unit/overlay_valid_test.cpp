@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "inputs/kinds.h"
+#include "overlay_shapes.h"
 #include "overlay_support.h"
 #include "rondel/cell_rings.h"
 #include "rondel/contours.h"
@@ -79,16 +80,9 @@ std::size_t count_single_sides(const std::vector<PlanarRegion>& regions) {
 }
 
 CellRings cells_of(const std::vector<std::vector<LonLat>>& rings) {
-  CellRings cells;
-  for (const auto& ring : rings) {
-    for (const LonLat& p : ring) {
-      cells.corners.push_back(static_cast<Index>(cells.points.size()));
-      cells.points.push_back(unit_vector(p));
-    }
-    cells.rings.push_back(cells.corners.size());
-    cells.cells.push_back(cells.rings.size() - 1);
-  }
-  return cells;
+  std::vector<std::vector<RingOfPart>> cells;
+  for (const auto& ring : rings) cells.push_back({{ring}});
+  return cells_of_parts(cells);
 }
 
 // The checker finds what is wrong.
