@@ -39,7 +39,7 @@ class LineDivider {
   void append_between(const LonLat& from, const Point& p, const LonLat& to, const Point& q,
                       unsigned depth) const {
     constexpr unsigned most_halvings = 30;
-    const LonLat middle = {(from.lon_deg + to.lon_deg) / 2, (from.lat_deg + to.lat_deg) / 2};
+    const LonLat middle = middle_of(from, to);
     if (depth == most_halvings || is_straight(from, p, to, q, middle)) {
       positions_.push_back(from);
       return;
@@ -58,8 +58,22 @@ class LineDivider {
         std::abs(to.lat_deg - from.lat_deg) > most_degrees)
       return false;
     if (from.lon_deg == to.lon_deg) return true;
-    const Point off = normalized(p + q) - unit_vector(middle);
+    const Point m = normalized(p + q);
+    if (!is_near(m, middle)) return false;
+    // On one side of the equator an arc bends one way, and is farthest from the line about the middle. Across the equator
+    // it bends both ways, and may meet the line there.
+    if (!(from.lat_deg * to.lat_deg < 0)) return true;
+    return is_near(normalized(p + m), middle_of(from, middle)) &&
+           is_near(normalized(m + q), middle_of(middle, to));
+  }
+
+  [[nodiscard]] bool is_near(const Point& of_arc, const LonLat& of_line) const {
+    const Point off = of_arc - unit_vector(of_line);
     return dot(off, off) <= squared_tolerance_;
+  }
+
+  static LonLat middle_of(const LonLat& a, const LonLat& b) {
+    return {(a.lon_deg + b.lon_deg) / 2, (a.lat_deg + b.lat_deg) / 2};
   }
 
   double squared_tolerance_;

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
@@ -55,6 +56,44 @@ TEST(overlay_polygons, sides_are_parallels) {
   EXPECT_NEAR(areas(table.cells)[0], area_of_box(10, 40, 50, 60), 2e-6);
   const PolygonTable fine = table_of(polygon(ring_of_box(10, 40, 50, 60)), {.tolerance_deg = 1e-7});
   EXPECT_NEAR(areas(fine.cells)[0], area_of_box(10, 40, 50, 60), 2e-9);
+}
+
+// Green's theorem: the integral of sin(lat) by the longitude, along straight sides.
+double area_of_triangle(const std::array<LonLat, 3>& corners) {
+  double area = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const LonLat& p = corners[i];
+    const LonLat& q = corners[(i + 1) % 3];
+    const double low = p.lat_deg * one_degree;
+    const double high = q.lat_deg * one_degree;
+    const double mean =
+        low == high ? std::sin(low) : (std::cos(low) - std::cos(high)) / (high - low);
+    area -= (q.lon_deg - p.lon_deg) * one_degree * mean;
+  }
+  return std::abs(area);
+}
+
+// An arc across the equator bends both ways, and may meet the straight line in its middle.
+TEST(overlay_polygons, sides_across_the_equator_are_straight) {
+  Random random(61);
+  for (int k = 0; k < 200; ++k) {
+    std::array<LonLat, 3> corners;
+    std::string ring;
+    for (LonLat& p : corners) {
+      p = {10.0 * static_cast<double>(random.below(19)) - 90,
+           10.0 * static_cast<double>(random.below(17)) - 80};
+      ring += "[" + std::to_string(p.lon_deg) + "," + std::to_string(p.lat_deg) + "],";
+    }
+    const auto& [a, b, c] = corners;
+    const double doubled = (b.lon_deg - a.lon_deg) * (c.lat_deg - a.lat_deg) -
+                           (c.lon_deg - a.lon_deg) * (b.lat_deg - a.lat_deg);
+    if (doubled == 0) continue;
+    SCOPED_TRACE(ring);
+    ring += "[" + std::to_string(a.lon_deg) + "," + std::to_string(a.lat_deg) + "]";
+    const PolygonTable table = table_of(polygon("[" + ring + "]"));
+    ASSERT_EQ(table.cells.num_cells(), 1U);
+    EXPECT_NEAR(areas(table.cells)[0], area_of_triangle(corners), 2e-5);
+  }
 }
 
 TEST(overlay_polygons, sides_are_geodesics_if_asked_for) {
