@@ -18,11 +18,13 @@ WORDS = {"true": "false", "false": "true", "break": "continue", "min": "max", "m
          "lower_bound": "upper_bound", "upper_bound": "lower_bound", "any_of": "all_of", "all_of": "any_of",
          "front": "back", "back": "front"}
 BINARY = re.compile(r"(?<= )(<=|>=|==|!=|&&|\|\||\+=|-=|\*=|\|=|&=|<<|>>|[-<>+*/%])(?= )")
-NUMBER = re.compile(r"(?<![\w.\"'])(\d+\.\d+(?:e-?\d+)?|\d+e-?\d+|\d+)(?![\w.'])")
+NUMBER = re.compile(r"(?<![\w.\"'])(0x[\da-f.]+p-?\d+|\d+\.\d+(?:e-?\d+)?|\d+e-?\d+|\d+)(?![\w.'])")
 WORD = re.compile(r"\b(" + "|".join(WORDS) + r")\b(?=[;(,) ])")
 NEGATION = re.compile(r"(?<=[( ])!(?=[\w(])")
-# Streams and prefetches change no result; what these lines declare is known to the compiler alone.
-WITHOUT_EFFECT = re.compile(r"^\s*#|^\s*(using|namespace|template|static_assert|friend)\b|prefetch|reserve\(|assert\(|^\}")
+# Streams, prefetches and sizes of pieces of work change no result; what the first of these lines declare is known to the
+# compiler alone.
+WITHOUT_EFFECT = re.compile(r"^\s*#|^\s*(using|namespace|template|static_assert|friend)\b|prefetch|reserve\(|assert\(|^\}"
+                            r"|(grain|_per_(piece|block|task|step)|of_a_piece) = ")
 TEXT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])'", re.S)
 
 
@@ -33,8 +35,9 @@ def blanked(source):
 
 def other_number(text, generator):
     """A number in the place of another one."""
-    if "." in text or "e" in text:
-        return generator.choice([f"(2 * {text})", f"({text} / 2)", "0.0"])
+    if set(text) & set(".ep"):
+        value = float.fromhex(text) if "p" in text else float(text)
+        return "1.0" if value == 0 else generator.choice([f"(2 * {text})", f"({text} / 2)", "0.0"])
     value = int(text)
     return str(generator.choice([value + 1, value - 1] if value > 0 else [1]))
 
