@@ -52,11 +52,12 @@ std::optional<Point> crossing_of(const BoxedSide& s, const BoxedSide& t) {
       !are_opposite(orientation(t.a, t.b, s.a), orientation(t.a, t.b, s.b))) {
     return std::nullopt;
   }
-  // The great circles cross within both arcs, or within one and opposite of the other.
-  const Point middle = s.a + s.b;
-  if (dot(middle, t.a + t.b) <= 0) return std::nullopt;
-  const Point place = normalized(cross(cross(s.a, s.b - s.a), cross(t.a, t.b - t.a)));
-  return dot(place, middle) < 0 ? -1.0 * place : place;
+  // The great circles cross within both arcs, or within one and opposite of the other. What is within an arc is less than
+  // a quarter of a circle from its middle.
+  const Point line = normalized(cross(cross(s.a, s.b - s.a), cross(t.a, t.b - t.a)));
+  const Point place = dot(line, s.a + s.b) < 0 ? -1.0 * line : line;
+  if (dot(place, t.a + t.b) <= 0) return std::nullopt;
+  return place;
 }
 
 std::vector<BoxedSide> sides_of_cells(const CellRings& cells) {

@@ -328,6 +328,86 @@ TEST(crossing_cells, may_cross_themselves) {
   EXPECT_THROW(crossing_cells(bow), InvalidInput);
 }
 
+// Long sides leave the boxes of their ends; the oracle looks at all pairs of sides.
+TEST(crossing_cells, are_those_of_all_pairs_of_sides) {
+  RandomPlaces random(8);
+  CellRings cells;
+  for (int c = 0; c < 60; ++c) {
+    const Point middle = random.next();
+    for (int k = 0; k < 3; ++k) {
+      cells.corners.push_back(static_cast<Index>(cells.points.size()));
+      cells.points.push_back(random.near(middle, c % 3 == 0 ? 2 : 0.4));
+    }
+    cells.rings.push_back(cells.corners.size());
+    cells.cells.push_back(cells.rings.size() - 1);
+  }
+  const auto are_apart = [](const Point& a, const Point& b, const Point& p, const Point& q) {
+    const Vector normal = outer(a, b);
+    return inner(normal, p) * inner(normal, q) < 0;
+  };
+  std::vector<std::pair<Index, Index>> expected;
+  for (std::size_t s = 0; s < cells.points.size(); ++s) {
+    for (std::size_t t = s + 1; t < cells.points.size(); ++t) {
+      if (s / 3 == t / 3) continue;  // sides of one triangle meet in its corners
+      const auto next = [](std::size_t k) { return k % 3 == 2 ? k - 2 : k + 1; };
+      const Point& a = cells.points[s];
+      const Point& b = cells.points[next(s)];
+      const Point& p = cells.points[t];
+      const Point& q = cells.points[next(t)];
+      if (!are_apart(a, b, p, q) || !are_apart(p, q, a, b)) continue;
+      const Point place = outer(outer(a, b), outer(p, q));
+      const Point sum_s = {a.x + b.x, a.y + b.y, a.z + b.z};
+      const Point sum_t = {p.x + q.x, p.y + q.y, p.z + q.z};
+      const bool is_in_both = inner(place, sum_s) * inner(place, sum_t) > 0;
+      if (is_in_both) expected.emplace_back(s / 3, t / 3);
+    }
+  }
+  std::ranges::sort(expected);
+  expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
+  std::vector<std::pair<Index, Index>> found;
+  for (const CrossingCells& pair : crossing_cells(cells))
+    found.emplace_back(pair.first, pair.second);
+  EXPECT_EQ(found, expected);
+  EXPECT_GT(found.size(), 100U);
+}
+
+// Sides of a millionth of a millimeter of the Earth.
+TEST(crossing_cells, of_tiny_cells_cross_within_them) {
+  constexpr double size = 1e-13;
+  const Point middle = unit_vector({40, 50});
+  CellRings cells;
+  RandomPlaces random(9);
+  for (int c = 0; c < 12; ++c) {
+    for (int k = 0; k < 3; ++k) {
+      cells.corners.push_back(static_cast<Index>(cells.points.size()));
+      cells.points.push_back(random.near(middle, size));
+    }
+    cells.rings.push_back(cells.corners.size());
+    cells.cells.push_back(cells.rings.size() - 1);
+  }
+  const std::vector<CrossingCells> found = crossing_cells(cells);
+  EXPECT_GT(found.size(), 10U);
+  for (const CrossingCells& pair : found) EXPECT_LE(angle(pair.place, middle), 3 * size);
+}
+
+TEST(crossing_cells, refuse_arrays_that_do_not_fit) {
+  CellRings good;
+  add_square(good, 0, 10);
+  add_square(good, 40, 10);
+  EXPECT_TRUE(crossing_cells(good).empty());
+  using Offsets = std::vector<std::uint64_t>;
+  for (const Offsets& offsets : {Offsets{}, {1, 1, 2}, {0, 1, 1}, {0, 1, 3}, {0, 3, 2}}) {
+    CellRings bad = good;
+    bad.cells = offsets;
+    EXPECT_THROW(crossing_cells(bad), InvalidInput);
+  }
+  for (const Offsets& offsets : {Offsets{}, {1, 4, 8}, {0, 4, 7}, {0, 4, 9}, {0, 9, 8}}) {
+    CellRings bad = good;
+    bad.rings = offsets;
+    EXPECT_THROW(crossing_cells(bad), InvalidInput);
+  }
+}
+
 TEST(crossing_cells, of_a_diagram_are_none) {
   std::vector<Point> sites;
   RandomPlaces random(6);
@@ -360,6 +440,28 @@ TEST(feature_sites, what_is_wrong_is_refused) {
   lines.lines = {0, 2};
   lines.features = {0, 2};
   EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
+  using Offsets = std::vector<std::uint64_t>;
+  for (const Offsets& offsets : {Offsets{}, {1, 1}, {0, 0}, {0, 2, 1}}) {
+    lines.features = offsets;
+    EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
+  }
+  lines.features = {0, 1};
+  for (const Offsets& offsets : {Offsets{}, {1, 2}, {0, 1}}) {
+    lines.lines = offsets;
+    EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
+  }
+  lines.features = {0, 2};
+  lines.lines = {0, 3, 2};
+  EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
+  lines.lines = {0, 2};
+  lines.features = {0, 1};
+  for (const double excess : {-0.9e-9, 0.9e-9}) {
+    lines.points[1] = {0, std::sqrt(1 + excess), 0};
+    EXPECT_NO_THROW(feature_sites(lines, 1e-3));
+    lines.points[1] = {0, std::sqrt(1 + 1.2 * excess), 0};
+    EXPECT_THROW(feature_sites(lines, 1e-3), InvalidInput);
+  }
+  lines.points[1] = {0, 1, 0};
   CellRings squares;
   add_square(squares, 0, 1);
   lines.features = {0, 1, 1};
