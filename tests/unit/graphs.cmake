@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
 rondel_add_test(graphs_test
+  graphs_files_test.cpp
   graphs_kinds_test.cpp
   graphs_outlines_test.cpp
   LIBS rondel_remap rondel_test_support)

@@ -19,6 +19,7 @@
 #include "rondel/predicates.h"
 #include "rondel/query.h"
 #include "support/generators.h"
+#include "support/random.h"
 
 namespace rondel::test {
 namespace {
@@ -201,6 +202,43 @@ TEST(empty_circles, of_a_cube_are_six_and_those_inside_a_hull_less) {
   EXPECT_TRUE(largest_empty_circles(obtuse, 5).empty());
   ASSERT_EQ(largest_empty_circles(obtuse, 5, CircleCenters::anywhere).size(), 1U);
   EXPECT_GT(largest_empty_circles(obtuse, 5, CircleCenters::anywhere)[0].radius, pi / 2);
+}
+
+// Seen from the middle of a cap, its corners lie around a hull, whose sides say what is inside; the center may be anywhere.
+TEST(empty_circles, inside_are_those_whose_centers_are_in_the_hull) {
+  for (const Point& origin : {Point{}, Point{3, -7, 5}}) {
+    Random random(11);
+    std::vector<Point> sites;
+    for (int i = 0; i < 60; ++i) {
+      sites.push_back(
+          {origin.x + random.signed_unit(), origin.y + random.signed_unit(), origin.z + 1.5});
+    }
+    const Triangulation t = delaunay(sites, {.sphere = {origin, 1}});
+    const std::multiset<Side> hull = sides_of(hull_polygon(t));
+    const auto is_inside = [&](const Point& u) {
+      return std::ranges::all_of(hull, [&](const Side& side) {
+        const Point& p = t.sites()[side[0]];
+        const Point& q = t.sites()[side[1]];
+        const Point a{p.x - origin.x, p.y - origin.y, p.z - origin.z};
+        const Point b{q.x - origin.x, q.y - origin.y, q.z - origin.z};
+        return (a.y * b.z - a.z * b.y) * u.x + (a.z * b.x - a.x * b.z) * u.y +
+                   (a.x * b.y - a.y * b.x) * u.z >
+               0;
+      });
+    };
+    std::vector<double> expected;
+    const auto anywhere = largest_empty_circles(t, t.num_faces(), CircleCenters::anywhere);
+    for (const EmptyCircle& circle : anywhere) {
+      if (is_inside(circle.center)) expected.push_back(circle.radius);
+    }
+    std::vector<double> found;
+    for (const EmptyCircle& circle : largest_empty_circles(t, t.num_faces())) {
+      found.push_back(circle.radius);
+    }
+    EXPECT_EQ(found, expected);
+    EXPECT_GT(found.size(), 50U);
+    EXPECT_GT(anywhere.size(), found.size() + 5);
+  }
 }
 
 }  // namespace
