@@ -31,9 +31,8 @@ def run(command):
 def copy_tree(changed=None):
     """The tracked files as they are now, with the texts of `changed` (name: bytes) instead of their own; a file that stays
     the same keeps its time, for the build."""
-    names = subprocess.run(
-        ["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True, text=True
-    ).stdout.split("\0")
+    names = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, check=True, capture_output=True,
+                           text=True).stdout.split("\0")
     for name in filter(None, names):
         source, target = ROOT / name, TREE / name
         if not source.is_file():
@@ -49,28 +48,11 @@ def copy_tree(changed=None):
 
 def configure():
     """A build that compiles quickly."""
-    launcher = [
-        f"-DCMAKE_CXX_COMPILER_LAUNCHER={path}"
-        for path in [shutil.which("ccache")]
-        if path is not None
-    ]
-    return run(
-        [
-            "cmake",
-            "-S",
-            TREE,
-            "-B",
-            BUILD,
-            "-G",
-            "Ninja",
-            "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
-            "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g0",
-            "-DRONDEL_BUILD_TESTS=ON",
-            "-DCMAKE_UNITY_BUILD=OFF",
-            "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON",
-            *launcher,
-        ]
-    )[0]
+    launcher = [f"-DCMAKE_CXX_COMPILER_LAUNCHER={path}"
+                for path in [shutil.which("ccache")] if path is not None]
+    return run(["cmake", "-S", TREE, "-B", BUILD, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+                "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O1 -g0", "-DRONDEL_BUILD_TESTS=ON", "-DCMAKE_UNITY_BUILD=OFF",
+                "-DCMAKE_EXPORT_COMPILE_COMMANDS=ON", *launcher])[0]
 
 
 def is_of_ctest(test):
@@ -95,18 +77,7 @@ def target_of(test):
 
 def build(tests):
     """Whether what the tests run can be built, as far as it can, and what the compiler says."""
-    return run(
-        [
-            "cmake",
-            "--build",
-            BUILD,
-            "--target",
-            *sorted({target_of(t) for t in tests}),
-            "--",
-            "-k",
-            "0",
-        ]
-    )
+    return run(["cmake", "--build", BUILD, "--target", *sorted({target_of(t) for t in tests}), "--", "-k", "0"])
 
 
 def set_limits(seconds):
@@ -121,14 +92,8 @@ def ends_well(command, limit):
     with open(LOG, "ab") as log:
         log.write(f"\n$ {' '.join(map(str, command))}\n".encode())
         log.flush()
-        with subprocess.Popen(
-            command,
-            cwd=BUILD,
-            stdout=log,
-            stderr=log,
-            start_new_session=True,
-            preexec_fn=lambda: set_limits(math.ceil(limit)),
-        ) as process:
+        with subprocess.Popen(command, cwd=BUILD, stdout=log, stderr=log, start_new_session=True,
+                              preexec_fn=lambda: set_limits(math.ceil(limit))) as process:
             try:
                 status = process.wait(MOST_PATIENCE)
             except subprocess.TimeoutExpired:
@@ -142,16 +107,9 @@ def passes(test, scale, limit):
     """Whether a test succeeds in time; random ones are repeated `scale` times as often as usual."""
     os.environ["RONDEL_TEST_SCALE"] = str(scale)
     program, _, only = test.partition(":")
-    command = (
-        [
-            BUILD / "bin" / program,
-            f"--gtest_filter={only or '*'}",
-            "--gtest_fail_fast",
-            "--gtest_brief=1",
-        ]
-        if not is_of_ctest(test)
-        else ["ctest", "-R", f"^{test}$", "--no-tests=error", "--output-on-failure"]
-    )
+    command = ([BUILD / "bin" / program, f"--gtest_filter={only or '*'}", "--gtest_fail_fast",
+                "--gtest_brief=1"] if not is_of_ctest(test)
+               else ["ctest", "-R", f"^{test}$", "--no-tests=error", "--output-on-failure"])
     return ends_well(command, limit)
 
 
@@ -160,12 +118,8 @@ def cases_of(test):
     if is_of_ctest(test):
         return [test]
     program, _, only = test.partition(":")
-    listed = subprocess.run(
-        [BUILD / "bin" / program, f"--gtest_filter={only or '*'}", "--gtest_list_tests"],
-        check=True,
-        capture_output=True,
-        text=True,
-    ).stdout
+    listed = subprocess.run([BUILD / "bin" / program, f"--gtest_filter={only or '*'}", "--gtest_list_tests"],
+                            check=True, capture_output=True, text=True).stdout
     cases = []
     suite = ""
     for line in listed.splitlines():

@@ -10,50 +10,21 @@ import random
 import re
 
 OPERATORS = {
-    "<": ["<=", ">="],
-    "<=": ["<", ">"],
-    ">": [">=", "<="],
-    ">=": [">", "<"],
-    "==": ["!="],
-    "!=": ["=="],
-    "&&": ["||"],
-    "||": ["&&"],
-    "+": ["-"],
-    "-": ["+"],
-    "*": ["/"],
-    "/": ["*"],
-    "%": ["/"],
-    "+=": ["-="],
-    "-=": ["+="],
-    "*=": ["/="],
-    "|=": ["&="],
-    "&=": ["|="],
-    "<<": [">>"],
-    ">>": ["<<"],
+    "<": ["<=", ">="], "<=": ["<", ">"], ">": [">=", "<="], ">=": [">", "<"], "==": ["!="], "!=": ["=="],
+    "&&": ["||"], "||": ["&&"], "+": ["-"], "-": ["+"], "*": ["/"], "/": ["*"], "%": ["/"],
+    "+=": ["-="], "-=": ["+="], "*=": ["/="], "|=": ["&="], "&=": ["|="], "<<": [">>"], ">>": ["<<"],
 }
-WORDS = {
-    "true": "false",
-    "false": "true",
-    "break": "continue",
-    "min": "max",
-    "max": "min",
-    "lower_bound": "upper_bound",
-    "upper_bound": "lower_bound",
-    "any_of": "all_of",
-    "all_of": "any_of",
-    "front": "back",
-    "back": "front",
-}
+WORDS = {"true": "false", "false": "true", "break": "continue", "min": "max", "max": "min",
+         "lower_bound": "upper_bound", "upper_bound": "lower_bound", "any_of": "all_of", "all_of": "any_of",
+         "front": "back", "back": "front"}
 BINARY = re.compile(r"(?<= )(<=|>=|==|!=|&&|\|\||\+=|-=|\*=|\|=|&=|<<|>>|[-<>+*/%])(?= )")
 NUMBER = re.compile(r"(?<![\w.\"'])(0x[\da-f.]+p-?\d+|\d+\.\d+(?:e-?\d+)?|\d+e-?\d+|\d+)(?![\w.'])")
 WORD = re.compile(r"\b(" + "|".join(WORDS) + r")\b(?=[;(,) ])")
 NEGATION = re.compile(r"(?<=[( ])!(?=[\w(])")
 # Streams, prefetches and sizes of pieces of work change no result; what the first of these lines declare is known to the
 # compiler alone.
-WITHOUT_EFFECT = re.compile(
-    r"^\s*#|^\s*(using|namespace|template|static_assert|friend)\b|prefetch|reserve\(|assert\(|^\}"
-    r"|(grain|_per_(piece|block|task|step)|of_a_piece) = "
-)
+WITHOUT_EFFECT = re.compile(r"^\s*#|^\s*(using|namespace|template|static_assert|friend)\b|prefetch|reserve\(|assert\(|^\}"
+                            r"|(grain|_per_(piece|block|task|step)|of_a_piece) = ")
 TEXT = re.compile(r"//[^\n]*|/\*.*?\*/|\"(?:\\.|[^\"\\\n])*\"|'(?:\\.|[^'\\\n])'", re.S)
 
 
@@ -77,7 +48,7 @@ def changes(source, generator):
     begins = [0, *(found.end() for found in re.finditer(r"\n", code))]
     result = []
     for number, begin in enumerate(begins, 1):
-        line = code[begin : code.find("\n", begin) if "\n" in code[begin:] else len(code)]
+        line = code[begin:code.find("\n", begin) if "\n" in code[begin:] else len(code)]
         if WITHOUT_EFFECT.search(line):
             continue
         for pattern, other in (
@@ -95,10 +66,6 @@ def drawn(files, seed):
     """All changes of files, a dictionary of sources by name, in an order that the seed decides: (file, line, begin, end,
     new text)."""
     generator = random.Random(seed)
-    places = [
-        (file, *change)
-        for file, source in sorted(files.items())
-        for change in changes(source, generator)
-    ]
+    places = [(file, *change) for file, source in sorted(files.items()) for change in changes(source, generator)]
     generator.shuffle(places)
     return places

@@ -21,11 +21,8 @@ class Changes:
 
     def __init__(self, layer, seed):
         self.layer = layer
-        self.texts = {
-            f"src/{layer}/{path.name}": path.read_bytes().decode("latin-1")  # a letter is a byte
-            for pattern in ("*.cpp", "*.h")
-            for path in (built_tests.ROOT / "src" / layer).glob(pattern)
-        }
+        self.texts = {f"src/{layer}/{path.name}": path.read_bytes().decode("latin-1")  # a letter is a byte
+                      for pattern in ("*.cpp", "*.h") for path in (built_tests.ROOT / "src" / layer).glob(pattern)}
         self.drawn = random_changes.drawn(self.texts, seed)
         self.arguments = switches.compiler_arguments(built_tests.BUILD, layer)
         self.sources = {}
@@ -34,9 +31,7 @@ class Changes:
         """Where libclang has read it."""
         if file not in self.sources:
             texts = {str(built_tests.TREE / name): text for name, text in self.texts.items()}
-            self.sources[file] = switches.Source(
-                str(built_tests.TREE / file), texts, self.arguments
-            )
+            self.sources[file] = switches.Source(str(built_tests.TREE / file), texts, self.arguments)
         return self.sources[file]
 
     def span(self, number):
@@ -56,9 +51,7 @@ class Changes:
         for number in numbers:
             file, _, begin, end, new = self.drawn[number]
             result.setdefault(file, {})[number] = (begin, end, new)
-        result = {
-            file: switches.switched(self.source(file), changes) for file, changes in result.items()
-        }
+        result = {file: switches.switched(self.source(file), changes) for file, changes in result.items()}
         home = min(file for file in self.texts if file.endswith(".cpp"))
         original = self.texts[home].encode("latin-1")
         result[home] = result.get(home, original) + switches.DEFINITION % len(self.drawn)
@@ -95,10 +88,7 @@ def reach(cases, num_changes):
     for case in cases:
         REACHED.write_bytes(bytes(num_changes))
         seconds = built_tests.time_without_mutant(case)
-        result[case] = (
-            seconds,
-            {number for number, byte in enumerate(REACHED.read_bytes()) if byte != 0},
-        )
+        result[case] = seconds, {number for number, byte in enumerate(REACHED.read_bytes()) if byte != 0}
     del os.environ["RONDEL_REACHED"]
     return dict(sorted(result.items(), key=lambda item: item[1][0]))
 
@@ -107,16 +97,8 @@ def first_to_fail(number, reached):
     """The first case that fails with a mutant, None if there is none, and how many reach it."""
     cases = [(case, seconds) for case, (seconds, numbers) in reached.items() if number in numbers]
     os.environ["RONDEL_MUTANT"] = str(number)
-    found = next(
-        (
-            case
-            for case, seconds in cases
-            if not built_tests.passes(
-                case, built_tests.SCALES[0], max(LEAST_PATIENCE, PATIENCE * seconds)
-            )
-        ),
-        None,
-    )
+    found = next((case for case, seconds in cases
+                  if not built_tests.passes(case, built_tests.SCALES[0], max(LEAST_PATIENCE, PATIENCE * seconds))), None)
     del os.environ["RONDEL_MUTANT"]
     return found, len(cases)
 
@@ -125,9 +107,7 @@ def killed_and_survivors(layer, seed, count, tests):
     """How many of `count` random changes of a layer tests kill, and the names of those that survive."""
     changes = Changes(layer, seed)
     numbers = built(changes, count, tests)
-    reached = reach(
-        [case for test in tests for case in built_tests.cases_of(test)], len(changes.drawn)
-    )
+    reached = reach([case for test in tests for case in built_tests.cases_of(test)], len(changes.drawn))
     num_killed = 0
     survivors = []
     for number in numbers:
@@ -136,10 +116,7 @@ def killed_and_survivors(layer, seed, count, tests):
         name = changes.name(number)
         if found is None:
             survivors.append(name)
-            print(
-                f"survived {name}, which {num_cases} tests reach ({time.monotonic() - start:.0f} s)",
-                flush=True,
-            )
+            print(f"survived {name}, which {num_cases} tests reach ({time.monotonic() - start:.0f} s)", flush=True)
         else:
             num_killed += 1
             print(f"killed   {name} by {found} ({time.monotonic() - start:.0f} s)", flush=True)

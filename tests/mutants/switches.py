@@ -15,13 +15,8 @@ import shlex
 import clang.cindex
 from clang.cindex import CursorKind
 
-FUNCTIONS = {
-    CursorKind.FUNCTION_DECL,
-    CursorKind.CXX_METHOD,
-    CursorKind.FUNCTION_TEMPLATE,
-    CursorKind.CONSTRUCTOR,
-    CursorKind.CONVERSION_FUNCTION,
-}
+FUNCTIONS = {CursorKind.FUNCTION_DECL, CursorKind.CXX_METHOD, CursorKind.FUNCTION_TEMPLATE, CursorKind.CONSTRUCTOR,
+             CursorKind.CONVERSION_FUNCTION}
 VARIABLES = {CursorKind.VAR_DECL}
 DECLARATION = b"bool rondel_mutant(int number) noexcept; "
 # Atomic, as threads ask at the same time; a file in memory, as tests start processes and end without ado.
@@ -52,20 +47,15 @@ class Source:
         """`path` is where the compiler finds it, `texts` are those of the layer before any change, {path: text}."""
         self.text = texts[path].encode("latin-1")
         self.unit = clang.cindex.Index.create().parse(path, arguments, list(texts.items()))
-        self.top = [
-            c
-            for c in self.unit.cursor.get_children()
-            if c.location.file is not None and c.location.file.name == path
-        ]
+        self.top = [c for c in self.unit.cursor.get_children()
+                    if c.location.file is not None and c.location.file.name == path]
 
     def path_to(self, begin, end):
         """The cursors around [begin, end), from the outermost to the innermost."""
         path = []
         nodes = self.top
         while nodes:
-            nodes = [
-                n for n in nodes if n.extent.start.offset <= begin and n.extent.end.offset >= end
-            ]
+            nodes = [n for n in nodes if n.extent.start.offset <= begin and n.extent.end.offset >= end]
             if not nodes:
                 break
             path.append(nodes[0])
@@ -83,12 +73,8 @@ class Source:
         is_unary = new == ""
         for cursor in reversed(self.path_to(begin, end)):
             first, last = cursor.extent.start.offset, cursor.extent.end.offset
-            if (
-                cursor.kind.is_expression()
-                and cursor.kind != CursorKind.INIT_LIST_EXPR
-                and last > end
-                and (first <= begin if is_call or is_unary else first < begin)
-            ):
+            if (cursor.kind.is_expression() and cursor.kind != CursorKind.INIT_LIST_EXPR and last > end
+                    and (first <= begin if is_call or is_unary else first < begin)):
                 return first, last
         return None
 
@@ -99,15 +85,10 @@ class Source:
             if cursor.kind not in VARIABLES | FUNCTIONS:
                 continue
             start = cursor.extent.start.offset
-            head = re.search(
-                rb"constexpr\b", re.split(rb"[({=]", self.text[start:begin], maxsplit=1)[0]
-            )
+            head = re.search(rb"constexpr\b", re.split(rb"[({=]", self.text[start:begin], maxsplit=1)[0])
             if head is not None:
                 new = b"inline" if cursor.kind in FUNCTIONS else b"const"
-                if (
-                    b"static" in self.text[start:begin].split()
-                    and cursor.semantic_parent.kind not in FUNCTIONS
-                ):
+                if b"static" in self.text[start:begin].split() and cursor.semantic_parent.kind not in FUNCTIONS:
                     new = b"inline " + new if cursor.kind in VARIABLES else new
                 result.append((start + head.start(), start + head.end(), new))
         return result
@@ -125,7 +106,7 @@ def rendered(text, begin, end, edits):
     while edits:
         (first, last, before, after), *edits = edits
         inner = [edit for edit in edits if edit[0] < last]
-        edits = edits[len(inner) :]
+        edits = edits[len(inner):]
         result += text[begin:first] + before
         if after is not None:
             result += rendered(text, first, last, inner) + after
@@ -146,38 +127,25 @@ def switched(source, changes):
         else:
             edits.add((first, last, b"(" + asked + b" ? " + changed + b" : ", b")"))
         edits |= {(b, e, word, None) for b, e, word in source.constant_words(begin, end)}
-    return DECLARATION + rendered(
-        text, 0, len(text), sorted(edits, key=lambda edit: (edit[0], -edit[1], edit[2]))
-    )
+    return DECLARATION + rendered(text, 0, len(text), sorted(edits, key=lambda edit: (edit[0], -edit[1], edit[2])))
 
 
 def compiler_arguments(build, layer):
     """What libclang needs to understand the files of a layer: what their compiler is told in a build."""
     with open(build / "compile_commands.json", encoding="utf-8") as file:
-        commands = [
-            command["command"] for command in json.load(file) if f"/src/{layer}/" in command["file"]
-        ]
+        commands = [command["command"] for command in json.load(file) if f"/src/{layer}/" in command["file"]]
     words = {word: None for command in commands for word in shlex.split(command)}
-    return [
-        "-xc++",
-        "-ferror-limit=0",
-        *(word for word in words if word.startswith(("-I", "-D", "-std="))),
-    ]
+    return ["-xc++", "-ferror-limit=0", *(word for word in words if word.startswith(("-I", "-D", "-std=")))]
 
 
 def refused(message, layer, spans):
     """The numbers of the changes that a compiler refuses: those on the lines of its errors, or else, as an error may be
     reported where a template is used, on all lines that it mentions; `spans` has (file, first line, last line) by number."""
     for pattern in (r"error:", r""):
-        lines = {
-            (file, int(line))
-            for file, line in re.findall(rf"\b(src/{layer}/[\w.]+):(\d+):[^\n]*{pattern}", message)
-        }
-        numbers = {
-            number
-            for number, (file, first, last) in spans.items()
-            if any(f == file and first <= line <= last for f, line in lines)
-        }
+        lines = {(file, int(line)) for file, line in
+                 re.findall(rf"\b(src/{layer}/[\w.]+):(\d+):[^\n]*{pattern}", message)}
+        numbers = {number for number, (file, first, last) in spans.items()
+                   if any(f == file and first <= line <= last for f, line in lines)}
         if numbers:
             return numbers
     return set()

@@ -65,16 +65,11 @@ class Mutants(unittest.TestCase):
                 self.assertNotEqual(mutant["old"], mutant["new"])
 
     def test_random_changes_leave_comments_texts_and_brackets_of_templates_alone(self):
-        changed = {
-            (SOURCE[begin:end], line)
-            for line, begin, end, _ in random_changes.changes(SOURCE, random.Random(1))
-        }
+        changed = {(SOURCE[begin:end], line) for line, begin, end, _ in random_changes.changes(SOURCE, random.Random(1))}
         self.assertEqual(changed, {("3", 3), ("!", 4), ("&&", 4), ("<", 4), ("3.5", 4)})
 
     def test_random_changes_depend_on_the_seed_alone(self):
-        files = {
-            str(path): path.read_text(encoding="utf-8") for path in (ROOT / "src/map").glob("*.cpp")
-        }
+        files = {str(path): path.read_text(encoding="utf-8") for path in (ROOT / "src/map").glob("*.cpp")}
         first = random_changes.drawn(files, 1)
         self.assertEqual(first, random_changes.drawn(dict(reversed(files.items())), 1))
         self.assertNotEqual(first, random_changes.drawn(files, 2))
@@ -83,35 +78,21 @@ class Mutants(unittest.TestCase):
     def test_layers_of_random_changes_are_layers(self):
         with open(ROOT / "tests/mutants/layers.toml", "rb") as file:
             layers = tomllib.load(file)
-        self.assertLessEqual(
-            set(layers), set((ROOT / "src/LAYERS").read_text(encoding="utf-8").split())
-        )
+        self.assertLessEqual(set(layers), set((ROOT / "src/LAYERS").read_text(encoding="utf-8").split()))
 
     @unittest.skipIf(switches is None, "libclang is not installed")
     def test_switches_change_what_a_program_of_its_own_changes(self):
-        changes = {
-            number: (begin, end, new)
-            for number, (_, begin, end, new) in enumerate(
-                random_changes.changes(SWITCHED, random.Random(3))
-            )
-        }
+        changes = {number: (begin, end, new) for number, (_, begin, end, new)
+                   in enumerate(random_changes.changes(SWITCHED, random.Random(3)))}
         self.assertGreater(len(changes), 25)
         with tempfile.TemporaryDirectory() as folder:
-
             def compiled(text):
                 (pathlib.Path(folder) / "a.cpp").write_bytes(text)
-                subprocess.run(
-                    ["g++", "-std=c++20", "-w", "-o", "a", "a.cpp"], cwd=folder, check=True
-                )
+                subprocess.run(["g++", "-std=c++20", "-w", "-o", "a", "a.cpp"], cwd=folder, check=True)
 
             def printed(**environment):
-                return subprocess.run(
-                    [f"{folder}/a"],
-                    env={**os.environ, **environment},
-                    capture_output=True,
-                    check=True,
-                    timeout=60,
-                ).stdout
+                return subprocess.run([f"{folder}/a"], env={**os.environ, **environment}, capture_output=True, check=True,
+                                      timeout=60).stdout
 
             source = switches.Source("/a.cpp", {"/a.cpp": SWITCHED}, ["-xc++", "-std=c++20"])
             compiled(switches.switched(source, changes) + switches.DEFINITION % len(changes))
@@ -126,7 +107,7 @@ class Mutants(unittest.TestCase):
             for number in random.Random(4).sample(sorted(changes), 4):
                 begin, end, new = changes[number]
                 compiled((SWITCHED[:begin] + new + SWITCHED[end:]).encode())
-                self.assertEqual(printed(), found[number], SWITCHED[begin : end + 20])
+                self.assertEqual(printed(), found[number], SWITCHED[begin:end + 20])
 
 
 if __name__ == "__main__":
