@@ -3,17 +3,22 @@
 
 // Hashes of the overlay: of the cells of each kind of sites of tests/support with those of uniform sites, with
 // themselves and with a grid of parallels, and of halves of both, the pieces and the weights of both orders; of their cells clipped to
-// uniform ones, and dissolved; with 1, 2 and 5 threads.
+// uniform ones, and dissolved, and of the polygons in longitude and latitude of these and of all cells and faces; with 1, 2 and 5
+// threads.
 //
 //     same_bytes_overlay EXPECTED              compares with the hashes that are recorded, and tells
 //                                              what differs
 //     same_bytes_overlay EXPECTED --update     records those of this build
 
+#include <algorithm>
+#include <array>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "rondel/delaunay.h"
+#include "rondel/diagram.h"
+#include "rondel/polygons.h"
 #include "rondel/regions.h"
 #include "rondel/remap.h"
 #include "same_bytes/portable/hash.h"
@@ -52,6 +57,33 @@ std::string hash_of_rings(const CellRings& rings) {
   return hash.text();
 }
 
+std::string hash_of_region_polygons(const CellRings& rings, unsigned threads) {
+  const LonLatRegions found = region_polygons(rings, 0.5, {.threads = threads});
+  Hash hash;
+  for (const LonLat& p : found.positions) {
+    for (const double c : {p.lon_deg, p.lat_deg}) hash.add(std::span(&c, 1));
+  }
+  hash.add(found.rings);
+  hash.add(found.polygons);
+  hash.add(found.owners);
+  return hash.text();
+}
+
+// Of cells and faces as they are drawn.
+std::string hash_of_map(const Triangulation& triangulation, unsigned threads) {
+  const Diagram dual = diagram(triangulation);
+  Hash hash;
+  for (const LonLatPolygons& found : {cell_polygons(triangulation, dual, 0.5, {.threads = threads}),
+                                      face_polygons(triangulation, {.threads = threads})}) {
+    for (const LonLat& p : found.positions) {
+      for (const double c : {p.lon_deg, p.lat_deg}) hash.add(std::span(&c, 1));
+    }
+    hash.add(found.offsets);
+    hash.add(found.owners);
+  }
+  return hash.text();
+}
+
 Partition cells_of(const SiteSet& set) {
   return Partition::voronoi(delaunay(set.sites, {.sphere = set.sphere}));
 }
@@ -75,7 +107,13 @@ void add_lines(const std::string& name, const SiteSet& set, std::size_t num_othe
     for (const unsigned threads : {1U, 2U, 5U}) found.insert(hash_with(threads));
     for (const std::string& hash : found) lines.push_back(name + ' ' + what + ' ' + hash);
   };
-  const Partition cells = cells_of(set);
+  const Triangulation triangulation = delaunay(set.sites, {.sphere = set.sphere});
+  // Drawing the cells of hostile sites takes long.
+  constexpr std::array drawn = {"uniform", "clustered", "globe_grid", "regional_grid", "wedge"};
+  const bool is_drawn = std::ranges::find(drawn, name) != drawn.end();
+  if (is_drawn)
+    record("map", [&](unsigned threads) { return hash_of_map(triangulation, threads); });
+  const Partition cells = Partition::voronoi(triangulation);
   const Partition others = cells_of(generator("uniform").make(num_others, 7));
   const Partition grid = grid_of(36, 17);
   const auto record_remaps = [&](const std::string& what, const Partition& a, const Partition& b) {
@@ -102,10 +140,17 @@ void add_lines(const std::string& name, const SiteSet& set, std::size_t num_othe
   record("clip", [&](unsigned threads) {
     return hash_of_rings(clip(cells, half_of(others), {.threads = threads}));
   });
+  std::vector<Index> groups;
+  for (Index i = 0; i < cells.num_cells(); ++i) groups.push_back(i % 3);
   record("dissolve", [&](unsigned threads) {
-    std::vector<Index> groups;
-    for (Index i = 0; i < cells.num_cells(); ++i) groups.push_back(i % 3);
     return hash_of_rings(dissolve(cells.rings(), groups, 3, {.threads = threads}));
+  });
+  if (!is_drawn) return;
+  const CellRings clipped = clip(cells, half_of(others));
+  const CellRings dissolved = dissolve(cells.rings(), groups, 3);
+  record("polygons", [&](unsigned threads) {
+    return hash_of_region_polygons(cells.rings(), threads) +
+           hash_of_region_polygons(clipped, threads) + hash_of_region_polygons(dissolved, threads);
   });
 }
 
