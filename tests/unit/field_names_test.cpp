@@ -6,6 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <chrono>
+#include <cstdio>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,6 +76,79 @@ TEST(field_names, are_dates_by_the_units_and_calendars_of_cf) {
     const FieldArray time = axis("time", c.values, {{"units", c.units}, {"calendar", c.calendar}});
     EXPECT_EQ(places_on_axis(time), c.dates) << c.units;
   }
+}
+
+std::string text_of(std::chrono::sys_days days) {
+  const std::chrono::year_month_day date(days);
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%04d-%02u-%02u", static_cast<int>(date.year()),
+                static_cast<unsigned>(date.month()), static_cast<unsigned>(date.day()));
+  return text.data();
+}
+
+// The dates are those of std::chrono, for each day around the ends of centuries.
+TEST(field_names, are_the_days_of_four_centuries) {
+  using std::chrono::days;
+  using std::chrono::sys_days;
+  using std::chrono::year;
+  const sys_days start = year(1600) / 3 / 1;
+  std::vector<double> values;
+  Names expected;
+  for (const int first : {1600, 1699, 1899, 1999, 2099, 2399}) {
+    const auto from = static_cast<int>((sys_days(year(first) / 12 / 1) - start).count());
+    for (int day = from < 0 ? 0 : from; day < from + 800; ++day) {
+      values.push_back(day);
+      expected.push_back(text_of(start + days(day)));
+    }
+  }
+  EXPECT_EQ(places_on_axis(axis("time", values, {{"units", "days since 1600-03-01"}})), expected);
+}
+
+TEST(field_names, know_the_words_for_units) {
+  for (const auto& [units, seconds] : {std::pair{"days day d", 86400},
+                                       {"hours hour hrs hr h", 3600},
+                                       {"minutes minute mins min", 60},
+                                       {"seconds second sec s", 1}}) {
+    std::istringstream words(units);
+    for (std::string word; words >> word;) {
+      EXPECT_EQ(places_on_axis(axis("time", {1, 1 + 86401.0 / seconds},
+                                    {{"units", word + " since 2001-01-31 00:00:01"}})),
+                (Names{places_on_axis(axis("time", {double(seconds) + 1, 0},
+                                           {{"units", "s since 2001-01-31"}}))[0],
+                       places_on_axis(axis("time", {double(seconds) + 86402, 1},
+                                           {{"units", "s since 2001-01-31"}}))[0]}))
+          << word;
+    }
+  }
+  EXPECT_EQ(places_on_axis(axis("time", {3661, 90061}, {{"units", "s since 2001-01-31"}})),
+            (Names{"2001-01-31T01:01:01", "2001-02-01T01:01:01"}));
+}
+
+TEST(field_names, are_dates_from_the_first_to_the_last_that_there_is) {
+  const auto has_dates = [](const std::string& start, const std::string& calendar = "standard") {
+    const Names found = places_on_axis(
+        axis("time", {0, 1}, {{"units", "s since " + start}, {"calendar", calendar}}));
+    return found != Names{"0", "1"};
+  };
+  for (const char* start : {"1583-1-1", "9999-12-1", "2001-12-31", "2000-2-29", "2001-1-1 23:59:59",
+                            "2001-1-1 0:0:0.0", "2001-1-1 0", "2001-1-1 0:0:0 UTC"}) {
+    EXPECT_TRUE(has_dates(start)) << start;
+  }
+  for (const char* start : {"1582-12-31", "10000-1-1", "2001-0-1", "2001-13-1", "2001-1-0",
+                            "2001-4-31", "2001-2-29", "1900-2-29", "2001-1-1 24", "2001-1-1 0:1440",
+                            "2001-1-1 0:0:0.5", "2001-1", "2001-1-1 -1"}) {
+    EXPECT_FALSE(has_dates(start)) << start;
+  }
+  EXPECT_TRUE(has_dates("2001-2-30", "360_day"));
+  EXPECT_FALSE(has_dates("2001-1-31", "360_day"));
+  EXPECT_FALSE(has_dates("2000-2-29", "noleap"));
+  EXPECT_TRUE(has_dates("1582-12-31", "noleap"));
+  // Beyond the year 9999 and before the year 0 there are none.
+  const std::vector<double> values = {0, 1e9};
+  EXPECT_EQ(places_on_axis(axis("time", values, {{"units", "h since 2000-1-1"}})).back(), "1e+09");
+  EXPECT_EQ(
+      places_on_axis(axis("time", {-1, 0}, {{"units", "d since 0-1-1"}, {"calendar", "noleap"}})),
+      (Names{"-1", "0"}));
 }
 
 TEST(field_names, have_no_clock_where_all_times_are_midnight) {
