@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 
 #include "exact/argument.h"
 #include "exact/eft.h"
@@ -89,7 +90,7 @@ FaceCircles face_circles(const Triangulation& triangulation, const Execution& ex
     }
     return f;
   };
-  for (Index f = 0; f < faces.size(); ++f) first[f] = f;
+  std::iota(first.begin(), first.end(), Index{0});
   for (Index f = 0; f < faces.size(); ++f) {
     for (unsigned i = 0; i < 3; ++i) {
       if ((is_same[f] >> i & 1U) == 0) continue;
