@@ -155,6 +155,20 @@ TEST(feature_sites, nearest_features_are_found_behind_many_points_of_ones_own) {
   EXPECT_EQ(found.sites.size(), lines.points.size());  // half a degree is close enough
 }
 
+// The island is the first site, and no point of the border has it among its nearest sites.
+TEST(feature_sites, are_close_where_an_island_is_behind_points_of_ones_own) {
+  FeatureLines lines;
+  lines.points.push_back(unit_vector({0.3, 5}));
+  lines.lines.push_back(1);
+  lines.features.push_back(1);
+  for (int k = 0; k <= 600; ++k) lines.points.push_back(unit_vector({0.6 * k - 180, 0}));
+  lines.lines.push_back(lines.points.size());
+  lines.features.push_back(2);
+  const FeatureSites found = feature_sites(lines, 1e-4);
+  EXPECT_GT(found.sites.size(), lines.points.size() + 10);
+  EXPECT_LE(largest_excess(lines, found, 2'000), 1e-4);
+}
+
 TEST(feature_sites, are_far_apart_where_nothing_is_near) {
   FeatureLines lines;
   lines.points = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};  // a quarter of the equator, and the pole

@@ -11,6 +11,7 @@
 #include <numbers>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rondel/delaunay.h"
@@ -202,6 +203,24 @@ TEST(empty_circles, of_a_cube_are_six_and_those_inside_a_hull_less) {
   EXPECT_TRUE(largest_empty_circles(obtuse, 5).empty());
   ASSERT_EQ(largest_empty_circles(obtuse, 5, CircleCenters::anywhere).size(), 1U);
   EXPECT_GT(largest_empty_circles(obtuse, 5, CircleCenters::anywhere)[0].radius, pi / 2);
+}
+
+// The upper and the lower face of a prism, and eight on its sides; in which corners their triangles meet depends on the order.
+TEST(empty_circles, of_a_prism_are_ten_in_any_order) {
+  std::vector<Point> prism;
+  for (const double z : {-1.0, 1.0}) {
+    for (const auto& [x, y] : {std::pair{1, 2}, {2, 1}}) {
+      for (int quarter = 0; quarter < 4; ++quarter) {
+        prism.push_back(
+            {quarter & 1 ? -double(x) : double(x), quarter & 2 ? -double(y) : double(y), z});
+      }
+    }
+  }
+  Random random(5);
+  for (int turn = 0; turn < 20; ++turn) {
+    for (std::size_t i = prism.size(); i > 1; --i) std::swap(prism[i - 1], prism[random.below(i)]);
+    EXPECT_EQ(largest_empty_circles(delaunay(prism), 100).size(), 10U);
+  }
 }
 
 // Seen from the middle of a cap, its corners lie around a hull, whose sides say what is inside; the center may be anywhere.
