@@ -116,9 +116,7 @@ std::vector<map::PolygonsOfRegion> draw_bands(const BandsToWrite& job) {
           loops[band] = map::region_loops(rings, job.tolerance);
         }
       });
-  map::ValidRegions valid = map::valid_regions(std::move(loops), job.execution.threads);
-  map::require_valid(valid, "band");
-  return std::move(valid.regions);
+  return map::valid_regions(std::move(loops), job.execution.threads);
 }
 
 void write_bands_geojson(AtomicFile& file, const BandsToWrite& job) {

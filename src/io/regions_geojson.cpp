@@ -81,9 +81,7 @@ std::vector<map::PolygonsOfRegion> draw(const RegionsToWrite& job) {
                            loops[i] = map::region_loops(cell.rings(), job.tolerance);
                          }
                        });
-  map::ValidRegions valid = map::valid_regions(std::move(loops), job.execution.threads);
-  map::require_valid(valid, "cell");
-  return std::move(valid.regions);
+  return map::valid_regions(std::move(loops), job.execution.threads);
 }
 
 bool has_feature(const CellRings& cells, std::size_t cell) {

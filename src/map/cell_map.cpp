@@ -28,7 +28,7 @@ CellMap::CellMap(const Triangulation& triangulation, const Cells& cells, double 
   merge_close_points(execution);
   place_points(execution);
   resolve_crossing_lines(execution);
-  leave_out_invalid(execution);
+  if (!unresolved_.empty() || has_invalid(execution)) settle(execution);
 }
 
 bool CellMap::has_cell(std::size_t site) const {
@@ -36,8 +36,8 @@ bool CellMap::has_cell(std::size_t site) const {
 }
 
 const std::vector<LonLatPolygon>& CellMap::polygons(std::size_t site, Pen& pen) const {
-  const bool is_unchanged = (inner_points_.empty() && merged_.empty()) || !has_changed_arc(site);
-  if (is_plain_[site] != 0 && is_unchanged) {
+  if (!settled_.empty()) return settled_[site];
+  if (is_unchanged(site)) {
     pen.polygons_.resize(1);
     std::vector<LonLat>& ring = pen.polygons_.front().ring;
     ring.clear();
@@ -45,12 +45,18 @@ const std::vector<LonLatPolygon>& CellMap::polygons(std::size_t site, Pen& pen) 
     ring.push_back(positions_[points_of(site).front()]);
   } else if (site == only_vertex_) {
     pen.polygons_ = lonlat_polygons({}, {});
-  } else if (unresolved_.contains(site) || !draw_ring(site, pen.ring_, pen.trace_)) {
+  } else if (!draw_ring(site, pen.ring_, pen.trace_)) {
     pen.polygons_.clear();
   } else {
     pen.polygons_ = polygons_of(pen.trace_);
   }
   return pen.polygons_;
+}
+
+// Whether the cell is its points.
+bool CellMap::is_unchanged(std::size_t site) const {
+  return is_plain_[site] != 0 &&
+         ((inner_points_.empty() && merged_.empty()) || !has_changed_arc(site));
 }
 
 std::span<const Index> CellMap::points_of(std::size_t site) const {

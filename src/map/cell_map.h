@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "map/directed_line.h"
 #include "map/polygon.h"
 #include "rondel/diagram.h"
 #include "rondel/triangulation.h"
@@ -30,7 +31,7 @@ namespace rondel::map {
 // 4. Cells of circles need not contain their sites, and may be far narrower than sites are apart:
 //    2 says nothing about them. Where their lines cross, or all have passed those of the
 //    other side, they are bisected on their arcs before 3, until they are short.
-// 5. What is no polygon in the plane after that, by exact signs of its rounded positions, is not drawn.
+// 5. Where lines of a cell still cross after that, by exact signs of rounded positions, all cells are settled_regions().
 //
 // Most cells are plain: small and with few corners, each arc one straight line, nothing crossed. A
 // plain cell is its points, which are placed on the map once for all cells; all others are drawn.
@@ -48,8 +49,8 @@ class CellMap {
   // Memory for drawing a cell; one for each thread.
   class Pen;
 
-  // The polygons of a site's cell, until the pen is used again; none if the cell is no wider than
-  // rounding.
+  // The polygons of a site's cell, valid and without holes, until the pen is used again; none if the cell is no wider
+  // than rounding.
   [[nodiscard]] const std::vector<LonLatPolygon>& polygons(std::size_t site, Pen& pen) const;
 
  private:
@@ -95,7 +96,10 @@ class CellMap {
   bool draw_ring(std::size_t site, Ring& ring, Trace& trace) const;
   void add_arc(Index from, Index to, const ArcTolerance& tolerance, Ring& ring) const;
   [[nodiscard]] ArcTolerance tolerance_between(const Point& own_direction, std::size_t other) const;
-  void leave_out_invalid(const Execution& execution);
+  [[nodiscard]] bool has_invalid(const Execution& execution) const;
+  [[nodiscard]] bool is_unchanged(std::size_t site) const;
+  void settle(const Execution& execution);
+  [[nodiscard]] std::vector<DirectedLine> sides_of(std::size_t site, Pen& pen) const;
   void prepare_great_circle();
   [[nodiscard]] ArcTolerance great_circle_tolerance(Index from, Index to) const;
   [[nodiscard]] std::span<const Index> points_of(std::size_t site) const;
@@ -117,6 +121,7 @@ class CellMap {
   std::set<std::size_t> unresolved_;                 // cells whose lines cross
   Ring ring_;                                        // of the cell that is being resolved
   Trace trace_;                                      // of that cell
+  std::vector<std::vector<LonLatPolygon>> settled_;  // of all sites, if any
 };
 
 class CellMap::Pen {

@@ -79,15 +79,4 @@ RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& sha
   return look_at_loops(traced_loops(sides));
 }
 
-RegionLook look_at_covered(const std::vector<Loop>& loops, const SharedLines& shared) {
-  std::vector<DirectedLine> sides;
-  for (const Loop& loop : loops) shared.append_sides(loop, sides);
-  cancel_opposite(sides);
-  RegionLook look;
-  look.troubles = troubles_of(sides);
-  if (!look.troubles.empty()) return look;
-  const std::vector<DirectedLine> covered = sides_of_covered(sides);
-  return covered.empty() ? look : look_at_loops(traced_loops(covered));
-}
-
 }  // namespace rondel::map

@@ -36,7 +36,4 @@ struct RegionLook {
 
 RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& shared);
 
-// The same where nothing but unpaired and turned sides may be left: polygons of what the sides go around once or more.
-RegionLook look_at_covered(const std::vector<Loop>& loops, const SharedLines& shared);
-
 }  // namespace rondel::map

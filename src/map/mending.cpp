@@ -51,15 +51,9 @@ double reach_of_pass(int pass) {
 }
 
 Mending::Mending(SharedLines& lines, int pass)
-    : lines_(lines),
-      reach_(reach_of_pass(pass)),
-      bisects_first_(pass >= 24 && pass % 3 == 2),
-      divides_only_(pass >= last_passes) {}
+    : lines_(lines), reach_(reach_of_pass(pass)), bisects_first_(pass >= 24 && pass % 3 == 2) {}
 
 void Mending::mend(const Trouble& trouble) {
-  if (divides_only_ && trouble.kind != Trouble::TroubleKind::touching &&
-      trouble.kind != Trouble::TroubleKind::crossing)
-    return;
   switch (trouble.kind) {
     case Trouble::TroubleKind::touching:
       divide(trouble.a, trouble.b, trouble.c);
@@ -136,8 +130,8 @@ void Mending::uncross(const Trouble& lines) {
   const auto& [kind, a, b, c, d, loop] = lines;
   if (!lines_.is_current(a, b) || !lines_.is_current(c, d)) return;
   if (join(a, b) || join(c, d) || join(a, c) || join(a, d) || join(b, c) || join(b, d)) return;
-  if (!divides_only_ && (bisects_first_ ? bisect_both(a, b, c, d) || align_all(a, b, c, d)
-                                        : align_all(a, b, c, d) || bisect_both(a, b, c, d)))
+  if (bisects_first_ ? bisect_both(a, b, c, d) || align_all(a, b, c, d)
+                     : align_all(a, b, c, d) || bisect_both(a, b, c, d))
     return;
   const LonLat place = crossing_of(lines);
   divide(a, b, place);

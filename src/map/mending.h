@@ -14,9 +14,6 @@ namespace rondel::map {
 
 inline constexpr double longest_reach = 0x1p-30;  // radians; 6 mm on the earth
 
-inline constexpr int last_passes =
-    72;  // from this one on lines that cross are divided there, and no others
-
 // Grows where passes do not end.
 double reach_of_pass(int pass);
 
@@ -31,7 +28,7 @@ class Mending {
   };
 
   // Keeps a reference. In each third of late passes lines are bisected before they are aligned: points opposite each
-  // other on lines at an angle approach the crossing slowly. The last passes divide lines where they cross.
+  // other on lines at an angle approach the crossing slowly.
   Mending(SharedLines& lines, int pass);
 
   void mend(const Trouble& trouble);
@@ -54,7 +51,6 @@ class Mending {
   SharedLines& lines_;
   double reach_;
   bool bisects_first_;
-  bool divides_only_;
   std::vector<Change> changes_;
 };
 

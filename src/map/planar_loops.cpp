@@ -9,7 +9,6 @@
 
 #include "map/map_plane.h"
 #include "map/nested_loops.h"
-#include "map/windings.h"
 
 namespace rondel::map {
 namespace {
@@ -152,21 +151,6 @@ std::vector<SideWedge> unpaired_sides(std::span<const DirectedLine> lines) {
     wedges.insert(wedges.end(), here.begin(), here.end());
   }
   return wedges;
-}
-
-std::vector<DirectedLine> sides_of_covered(std::span<const DirectedLine> lines) {
-  const Windings windings(lines);
-  std::vector<DirectedLine> sorted(lines.begin(), lines.end());
-  const auto key = [](const DirectedLine& line) {
-    return std::array{line.from.lon_deg, line.from.lat_deg, line.to.lon_deg, line.to.lat_deg};
-  };
-  std::ranges::sort(sorted, {}, key);
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
-  std::erase_if(sorted, [&](const DirectedLine& line) {
-    const auto [left, right] = windings.beside(line);
-    return left < 1 || right >= 1;
-  });
-  return sorted;
 }
 
 std::vector<Loop> traced_loops(std::span<const DirectedLine> lines) {

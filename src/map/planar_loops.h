@@ -37,10 +37,6 @@ struct SideWedge {
 // All of the positions where they do not.
 std::vector<SideWedge> unpaired_sides(std::span<const DirectedLine> lines);
 
-// The border of what sides go around once or more, where they neither cross nor touch but in ends. Time: n^2 where all
-// lines lie at one longitude.
-std::vector<DirectedLine> sides_of_covered(std::span<const DirectedLine> lines);
-
 // The simple loops of sides that have no unpaired ones: each keeps to one fan of the region, so that two parts of it
 // that touch in a position only have no loop in common.
 std::vector<Loop> traced_loops(std::span<const DirectedLine> lines);

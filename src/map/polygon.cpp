@@ -125,10 +125,12 @@ void append_loop(const std::vector<LonLat>& loop, Loops& out) {
 // A convex region has none of its antipodes, and antipodes have the same area in the plane: it
 // covers at most half of the rectangle. What covers nearly all of it is the outside of a region no
 // wider than rounding.
+constexpr double most_of_rectangle = 1.5 * 360 * 180;  // twice the area
+
 bool is_outside(const std::vector<LonLatPolygon>& polygons) {
   double doubled = 0;
   for (const LonLatPolygon& polygon : polygons) doubled += doubled_area(polygon.ring);
-  return doubled > 1.5 * 360 * 180;
+  return doubled > most_of_rectangle;
 }
 
 // Joins chains along the border into loops. With the region to the left, the border belongs to it
@@ -155,12 +157,11 @@ class Stitching {
     }
   }
 
-  void append_loops(Loops& out) const {
+  void append_loops(std::vector<std::vector<LonLat>>& out) const {
     std::vector<bool> is_used(next_.size(), false);
-    std::vector<LonLat> loop;
     for (std::size_t first = 0; first < next_.size(); ++first) {
       if (is_used[first]) continue;
-      loop.clear();
+      std::vector<LonLat>& loop = out.emplace_back();
       for (std::size_t chain = first; !is_used[chain]; chain = next_[chain].chain) {
         is_used[chain] = true;
         for (std::size_t i = trace_.starts[chain]; i < past(chain); ++i) {
@@ -170,7 +171,6 @@ class Stitching {
           loop.push_back(corners[side % num_sides]);
         }
       }
-      append_loop(loop, out);
     }
   }
 
@@ -190,17 +190,22 @@ class Stitching {
   std::vector<NextChain> next_;
 };
 
-Loops loops_of(const Trace& trace) {
-  Loops loops;
+std::vector<std::vector<LonLat>> loops_of_chains(const Trace& trace) {
+  std::vector<std::vector<LonLat>> loops;
   if (!trace.starts.empty()) {
     Stitching(trace).append_loops(loops);
-    if (!is_outside(loops.polygons)) return loops;
-    return {.polygons = {}, .is_turned_over = true};
+    return loops;
   }
-  std::vector<LonLat> loop;
+  std::vector<LonLat>& loop = loops.emplace_back();
   for (const MapPoint& point : trace.points) loop.push_back(point.position);
-  append_loop(loop, loops);
   return loops;
+}
+
+Loops loops_of(const Trace& trace) {
+  Loops loops;
+  for (const std::vector<LonLat>& loop : loops_of_chains(trace)) append_loop(loop, loops);
+  if (trace.starts.empty() || !is_outside(loops.polygons)) return loops;
+  return {.polygons = {}, .is_turned_over = true};
 }
 
 }  // namespace
@@ -208,6 +213,14 @@ Loops loops_of(const Trace& trace) {
 bool is_plain_loop(std::span<const LonLat> loop) {
   return loop.size() >= 3 && loop.size() <= longest_plain && !visits_twice(loop) &&
          !has_spike(loop) && is_counterclockwise(loop);
+}
+
+std::vector<std::vector<LonLat>> drawn_loops(const Trace& trace) {
+  std::vector<std::vector<LonLat>> loops = loops_of_chains(trace);
+  double doubled = 0;
+  for (const std::vector<LonLat>& loop : loops) doubled += doubled_area(loop);
+  if (doubled > most_of_rectangle) loops.emplace_back(corners.rbegin(), corners.rend());
+  return loops;
 }
 
 std::vector<LonLatPolygon> polygons_of(const Trace& trace) { return loops_of(trace).polygons; }

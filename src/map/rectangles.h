@@ -55,6 +55,12 @@ class Rectangles {
     firsts_.push_back(all_.size());
   }
 
+  // Calls `report` with each line whose rectangle overlaps this one.
+  template <typename Report>
+  void find_overlapping(const Rectangle& rectangle, const Report& report) const {
+    if (!lines_.empty()) around(firsts_.size() - 2, 0, rectangle, report);
+  }
+
   // Calls `report` with each pair of lines whose rectangles overlap.
   template <typename Report>
   void find_overlapping(const Report& report) const {
@@ -73,6 +79,18 @@ class Rectangles {
 
   [[nodiscard]] const Rectangle& at(std::size_t level, std::size_t i) const {
     return all_[firsts_[level] + i];
+  }
+
+  template <typename Report>
+  void around(std::size_t level, std::size_t i, const Rectangle& rectangle,
+              const Report& report) const {
+    if (!at(level, i).overlaps(rectangle)) return;
+    if (level == 0) {
+      report(lines_[i]);
+      return;
+    }
+    for (std::size_t k = 2 * i; k < std::min(2 * i + 2, size(level - 1)); ++k)
+      around(level - 1, k, rectangle, report);
   }
 
   // The pairs inside one rectangle.

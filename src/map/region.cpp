@@ -198,9 +198,7 @@ std::vector<Loop> region_loops(std::span<const UnitVectors> rings, double tolera
 
 std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings,
                                               double tolerance) {
-  ValidRegions valid = valid_regions({region_loops(rings, tolerance)}, 1);
-  require_valid(valid, "region");
-  return std::move(valid.regions.front());
+  return std::move(valid_regions({region_loops(rings, tolerance)}, 1).front());
 }
 
 std::vector<std::vector<LonLat>> line_parts(UnitVectors line, bool is_closed, double tolerance) {

@@ -32,7 +32,6 @@ std::vector<std::vector<LonLat>> region_loops(std::span<const UnitVectors> rings
 
 // The polygons of a region that shares its border with no other one that is drawn, as valid_regions() makes them.
 // What is no wider than rounding is left out.
-// \throws InvalidInput if they are not valid.
 RONDEL_API std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings,
                                                          double tolerance);
 

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 namespace rondel::map {
 namespace {
@@ -90,13 +92,22 @@ void SharedLines::append_line(const LonLat& a, const LonLat& b, Descent& descent
   descent.path.pop_back();
 }
 
+// A line and the same line back are divided alike.
 void SharedLines::append_sides(const Loop& loop, std::vector<DirectedLine>& out) const {
   if (loop.empty()) return;
   LonLat before = place(loop.back());
   for (const LonLat& position : loop) {
     const LonLat here = place(position);
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
     Descent descent;
-    append_line(before, here, descent, out);
+    if (InPlane()(before, here)) {
+      append_line(before, here, descent, out);
+    } else {
+      append_line(here, before, descent, out);
+      std::for_each(out.begin() + first, out.end(),
+                    [](DirectedLine& line) { std::swap(line.from, line.to); });
+      std::reverse(out.begin() + first, out.end());
+    }
     before = here;
   }
 }

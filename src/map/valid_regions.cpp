@@ -3,29 +3,24 @@
 #include "map/valid_regions.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <iomanip>
 #include <iterator>
-#include <locale>
 #include <map>
 #include <optional>
 #include <set>
 #include <span>
-#include <sstream>
 #include <utility>
 
 #include "map/line_troubles.h"
 #include "map/mending.h"
+#include "map/settled_regions.h"
 #include "map/shared_lines.h"
-#include "rondel/error.h"
 #include "system/parallel.h"
 
 namespace rondel::map {
 namespace {
 
 constexpr std::size_t regions_per_task = 16;
-constexpr int most_passes = 256;
-constexpr int most_passes_at_longest_reach = 6;
+constexpr int most_passes = 40;
 
 // Which regions have a position.
 class PositionOwners {
@@ -71,24 +66,19 @@ class RegionsInPlane {
   RegionsInPlane(std::vector<LoopsOfRegion> regions, unsigned threads)
       : regions_(std::move(regions)), threads_(threads), looks_(regions_.size()) {}
 
-  ValidRegions made_valid() {
+  std::vector<PolygonsOfRegion> made_valid() {
     std::vector<std::size_t> open(regions_.size());
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = i;
-    int patience = most_passes_at_longest_reach;
     for (int pass = 0; pass < most_passes; ++pass) {
       look_at(open);
       std::erase_if(open, [&](std::size_t i) { return looks_[i].troubles.empty(); });
-      if (open.empty()) return result();
-      const bool is_last =
-          reach_of_pass(pass) == longest_reach && !has_meeting(open) && --patience == 0;
-      if (is_last) break;
+      if (open.empty()) return looked_at();
       std::set<std::size_t> changed = mend(open, pass);
-      if (changed.empty() && pass >= last_passes) break;
+      if (changed.empty() && reach_of_pass(pass) == longest_reach) break;
       changed.insert(open.begin(), open.end());
       open.assign(changed.begin(), changed.end());
     }
-    for (const std::size_t i : open) looks_[i] = look_at_covered(regions_[i], lines_);
-    return result();
+    return settled();
   }
 
  private:
@@ -99,14 +89,6 @@ class RegionsInPlane {
                              looks_[open[k]] = look_at_region(regions_[open[k]], lines_);
                            }
                          });
-  }
-
-  // Whether lines cross or touch.
-  [[nodiscard]] bool has_meeting(std::span<const std::size_t> open) const {
-    return std::ranges::any_of(open, [&](std::size_t i) {
-      const Trouble::TroubleKind kind = looks_[i].troubles.front().kind;
-      return kind == Trouble::TroubleKind::touching || kind == Trouble::TroubleKind::crossing;
-    });
   }
 
   // The regions that the steps change.
@@ -133,15 +115,19 @@ class RegionsInPlane {
     return changed;
   }
 
-  ValidRegions result() {
-    ValidRegions valid;
-    valid.regions.resize(regions_.size());
+  std::vector<PolygonsOfRegion> looked_at() {
+    std::vector<PolygonsOfRegion> polygons;
+    polygons.reserve(looks_.size());
+    for (RegionLook& look : looks_) polygons.push_back(std::move(look.polygons));
+    return polygons;
+  }
+
+  [[nodiscard]] std::vector<PolygonsOfRegion> settled() const {
+    std::vector<std::vector<DirectedLine>> sides(regions_.size());
     for (std::size_t i = 0; i < regions_.size(); ++i) {
-      RegionLook& look = looks_[i];
-      if (!look.troubles.empty()) valid.invalid.push_back({i, look.troubles.front().a});
-      valid.regions[i] = std::move(look.polygons);
+      for (const Loop& loop : regions_[i]) lines_.append_sides(loop, sides[i]);
     }
-    return valid;
+    return settled_regions(sides, threads_);
   }
 
   std::vector<LoopsOfRegion> regions_;
@@ -153,19 +139,8 @@ class RegionsInPlane {
 
 }  // namespace
 
-ValidRegions valid_regions(std::vector<LoopsOfRegion> regions, unsigned threads) {
+std::vector<PolygonsOfRegion> valid_regions(std::vector<LoopsOfRegion> regions, unsigned threads) {
   return RegionsInPlane(std::move(regions), threads).made_valid();
-}
-
-void require_valid(const ValidRegions& regions, const char* kind) {
-  if (regions.invalid.empty()) return;
-  const auto& [region, place] = regions.invalid.front();
-  std::ostringstream message;
-  message.imbue(std::locale::classic());
-  message << std::setprecision(12) << kind << ' ' << region << " crosses itself at longitude "
-          << place.lon_deg << ", latitude " << place.lat_deg
-          << " when it is drawn in longitude and latitude";
-  throw InvalidInput(message.str(), region);
 }
 
 }  // namespace rondel::map

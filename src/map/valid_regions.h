@@ -11,10 +11,11 @@
 // 3. lines farther from their arcs than `reach` are bisected on them;
 // 4. what crosses then, as it is narrower than rounding, gets the crossing as a corner.
 // Each step changes the line for all regions that have it. Sides in both directions go, and what is narrower than
-// rounding goes with them. The reach grows from merge_distance, where steps do not end.
+// rounding goes with them. The reach grows from merge_distance, where steps do not end. Where they still have not ended after
+// `most_passes`, the lines of all regions are rounded to a grid and divide the plane, and each part of it is given to one
+// region (settled_regions.h).
 #pragma once
 
-#include <cstddef>
 #include <vector>
 
 #include "map/planar_loops.h"
@@ -27,24 +28,12 @@ namespace rondel::map {
 using LoopsOfRegion = std::vector<Loop>;  // the region is to the left of each
 using PolygonsOfRegion = std::vector<PolygonWithHoles>;
 
-// A region whose lines cross in spite of all steps, and where.
-struct InvalidRegion {
-  std::size_t region;
-  LonLat place;
-};
-
-struct ValidRegions {
-  std::vector<PolygonsOfRegion> regions;  // one has no polygons if it is no wider than rounding
-  std::vector<InvalidRegion> invalid;
-};
-
 // 1. Rings are simple, meet in positions of both only, and lie in their outer rings; the inside of a polygon is
 //    connected, and the polygons of a region do not overlap: exact for the doubles that they are.
 // 2. Lines that two regions have in common stay common, bit by bit.
 // 3. The result depends on the loops and their order, not on the number of threads.
-RONDEL_API ValidRegions valid_regions(std::vector<LoopsOfRegion> regions, unsigned threads);
-
-// \throws InvalidInput (the region) if one is invalid; `kind` says what regions are, "cell".
-RONDEL_API void require_valid(const ValidRegions& regions, const char* kind);
+// One has no polygons if it is no wider than rounding.
+RONDEL_API std::vector<PolygonsOfRegion> valid_regions(std::vector<LoopsOfRegion> regions,
+                                                       unsigned threads);
 
 }  // namespace rondel::map

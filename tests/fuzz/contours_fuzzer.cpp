@@ -13,6 +13,7 @@
 #include "fuzz/fuzz_input.h"
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
+#include "fuzz/valid_polygons.h"
 #include "rondel/contours.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
@@ -199,7 +200,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     write_isolines(path, lines, 5);
     fuzz::test_document(nlohmann::json::parse(fuzz::content(path)), levels.size());
     write_bands(path, found, 5);
-    fuzz::test_document(nlohmann::json::parse(fuzz::content(path)), levels.size() + 1);
+    const auto written = nlohmann::json::parse(fuzz::content(path));
+    fuzz::test_document(written, levels.size() + 1);
+    const bool is_whole = t.dimension() == 2 && t.num_ghost_faces() == 0 &&
+                          std::ranges::none_of(values, [](double v) { return std::isnan(v); });
+    fuzz::require_valid(written, is_whole);
   } catch (const InvalidInput& error) {
     fuzz::require(infinite != values.end() &&
                       error.index() == static_cast<std::size_t>(infinite - values.begin()),

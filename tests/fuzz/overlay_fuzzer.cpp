@@ -14,6 +14,7 @@
 #include "fuzz/fuzz_input.h"
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
+#include "fuzz/valid_polygons.h"
 #include "rondel/delaunay.h"
 #include "rondel/diagram.h"
 #include "rondel/error.h"
@@ -137,6 +138,7 @@ void test_file(const RegionPieces& pieces) {
   require(drawn.owners.size() + 1 == drawn.polygons.size(), "each polygon has an owner");
   const auto document = nlohmann::json::parse(content(path));
   require(document["features"].size() == pieces.num_pieces(), "a feature for each piece");
+  require_valid(document, true);
   for (const auto& feature : document["features"]) {
     const auto& geometry = feature["geometry"];
     if (geometry.is_null()) continue;

@@ -5,5 +5,6 @@ rondel_add_test(cells_test
   cells_map_test.cpp
   cells_parts_test.cpp
   cells_polygon_test.cpp
+  cells_settled_test.cpp
   cells_write_test.cpp
   LIBS rondel_io rondel_test_support nlohmann_json::nlohmann_json)

@@ -19,9 +19,12 @@
 #include "rondel/cell_rings.h"
 #include "rondel/contours.h"
 #include "rondel/delaunay.h"
+#include "rondel/diagram.h"
 #include "rondel/polygons.h"
 #include "rondel/regions.h"
+#include "support/generators.h"
 #include "support/planar_check.h"
+#include "support/planar_features.h"
 #include "support/temporary_files.h"
 #include "unit/geojson_rings.h"
 
@@ -43,40 +46,6 @@ std::vector<PlanarRegion> regions_of(const LonLatRegions& drawn, std::size_t num
 
 std::vector<PlanarRegion> drawn_regions(const CellRings& cells) {
   return regions_of(region_polygons(cells), cells.num_cells());
-}
-
-PlanarRegion region_of(const nlohmann::json& geometry) {
-  PlanarRegion region;
-  if (geometry.is_null()) return region;
-  const auto polygons = geometry["type"] == "Polygon"
-                            ? nlohmann::json::array({geometry["coordinates"]})
-                            : geometry["coordinates"];
-  for (const auto& polygon : polygons) {
-    region.emplace_back();
-    for (const auto& ring : polygon) region.back().push_back(ring_of(ring));
-  }
-  return region;
-}
-
-// Sides inside of the map that only one region has.
-std::size_t count_single_sides(const std::vector<PlanarRegion>& regions) {
-  std::map<std::array<double, 4>, int> sides;
-  for (const PlanarRegion& region : regions) {
-    for (const PlanarPolygon& polygon : region) {
-      for (const PlanarRing& ring : polygon) {
-        for (std::size_t k = 0; k + 1 < ring.size(); ++k) {
-          const LonLat& p = ring[k];
-          const LonLat& q = ring[k + 1];
-          if (std::abs(p.lon_deg) == 180 && p.lon_deg == q.lon_deg) continue;
-          if (std::abs(p.lat_deg) == 90 && p.lat_deg == q.lat_deg) continue;
-          ++sides[{p.lon_deg, p.lat_deg, q.lon_deg, q.lat_deg}];
-          --sides[{q.lon_deg, q.lat_deg, p.lon_deg, p.lat_deg}];
-        }
-      }
-    }
-  }
-  return static_cast<std::size_t>(
-      std::ranges::count_if(sides, [](const auto& side) { return side.second > 0; }));
 }
 
 CellRings cells_of(const std::vector<std::vector<LonLat>>& rings) {
@@ -176,12 +145,8 @@ TEST(overlay_valid, bands_of_named_inputs) {
     std::vector<double> values(t.sites().size());
     for (double& value : values) value = static_cast<double>(random.below(1000)) / 500 - 1;
     write_bands(path, bands(t, values, std::vector<double>{-0.5, 0, 0.5}));
-    std::vector<PlanarRegion> regions;
-    const nlohmann::json written = read_json(path);
-    for (const auto& feature : written["features"]) {
-      regions.push_back(region_of(feature["geometry"]));
-      EXPECT_EQ(why_invalid(regions.back()), "") << kind;
-    }
+    for (const PlanarRegion& region : regions_of_features(read_json(path)))
+      EXPECT_EQ(why_invalid(region), "") << kind;
   }
 }
 
@@ -193,6 +158,64 @@ TEST(overlay_valid, groups_of_named_inputs) {
     const auto regions = drawn_regions(joined);
     for (const PlanarRegion& region : regions) EXPECT_EQ(why_invalid(region), "") << kind;
   }
+}
+
+// Generators of sites that have a diagram in the model projected, and judge by rational numbers in little time.
+template <class Test>
+void for_each_generator(const Test& test) {
+  for (const Generator& generator : generators()) {
+    if (generator.weighted_only || generator.has_long_integers) continue;
+    const SiteSet set = generator.make(16, 5);
+    test(delaunay(set.sites, {.sphere = set.sphere}), std::string(generator.name));
+  }
+}
+
+void expect_valid(const std::vector<PlanarRegion>& regions, bool is_whole,
+                  const std::string& name) {
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    EXPECT_EQ(why_invalid(regions[i]), "") << name << " region " << i;
+  if (is_whole) {
+    EXPECT_EQ(count_single_sides(regions), 0U) << name;
+  }
+}
+
+TEST(overlay_valid, cells_of_every_generator) {
+  for_each_generator([](const Triangulation& t, const std::string& name) {
+    const LonLatPolygons drawn = cell_polygons(t, diagram(t), 0.5);
+    std::vector<PlanarRegion> regions(t.num_sites());
+    for (std::size_t k = 0; k < drawn.owners.size(); ++k) {
+      regions[drawn.owners[k]].push_back(
+          {{drawn.positions.begin() + static_cast<std::ptrdiff_t>(drawn.offsets[k]),
+            drawn.positions.begin() + static_cast<std::ptrdiff_t>(drawn.offsets[k + 1])}});
+    }
+    expect_valid(regions, true, name);
+  });
+}
+
+TEST(overlay_valid, bands_of_every_generator) {
+  const std::string path = testing::TempDir() + "rondel_valid_bands_of_all.geojson";
+  for_each_generator([&](const Triangulation& t, const std::string& name) {
+    Random random(9);
+    std::vector<double> values(t.sites().size());
+    for (double& value : values) value = static_cast<double>(random.below(9)) / 4 - 1;
+    write_bands(path, bands(t, values, std::vector<double>{-0.5, 0, 0.6}), 0.5);
+    expect_valid(regions_of_features(read_json(path)),
+                 t.dimension() == 2 && t.num_ghost_faces() == 0, name);
+  });
+}
+
+TEST(overlay_valid, pieces_of_every_generator) {
+  Random random(21);
+  std::vector<Point> others(7);
+  std::ranges::generate(others, [&] { return random_direction(random); });
+  const Partition regions = Partition::voronoi(delaunay(others));
+  for_each_generator([&](const Triangulation& t, const std::string& name) {
+    const Partition cells = Partition::voronoi(t);
+    const RegionPieces pieces = intersection(cells, regions);
+    expect_valid(regions_of(region_polygons(pieces.rings, 0.5), pieces.num_pieces()), true, name);
+    const CellRings joined = dissolve(pieces.rings, random_groups(pieces.num_pieces(), 3, 5), 3);
+    expect_valid(regions_of(region_polygons(joined, 0.5), 3), true, name);
+  });
 }
 
 }  // namespace

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+#include "map/map_grid.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+namespace rondel::map {
+namespace {
+
+__extension__ using GridProduct = __int128;
+
+constexpr double half_steps_per_degree = 0x1p45;
+
+GridProduct doubled_area_of(const GridPlace& a, const GridPlace& b, const GridPlace& c) {
+  return GridProduct{b.x - a.x} * (c.y - a.y) - GridProduct{b.y - a.y} * (c.x - a.x);
+}
+
+int sign_of(const GridProduct& product) { return product > 0 ? 1 : (product < 0 ? -1 : 0); }
+
+// The largest integer up to length * part / whole, 0 <= part <= whole < 2^110; digit by digit, so that no number is as large
+// as 3 * 2^110.
+std::int64_t floor_of_share(std::int64_t length, const GridProduct& part,
+                            const GridProduct& whole) {
+  const auto size = static_cast<std::uint64_t>(length < 0 ? -length : length);
+  std::int64_t quotient = 0;
+  GridProduct rest = 0;
+  for (auto bit = static_cast<int>(std::bit_width(size)); bit-- > 0;) {
+    rest = 2 * rest + (((size >> bit) & 1U) != 0 ? part : 0);
+    quotient *= 2;
+    for (; rest >= whole; rest -= whole) ++quotient;
+  }
+  if (length >= 0) return quotient;
+  return rest == 0 ? -quotient : -quotient - 1;
+}
+
+// The even number in whose interval [c - 1, c + 1) the number lies that has this floor.
+std::int64_t pixel_of(std::int64_t floor) { return 2 * ((floor + 1) >> 1); }
+
+}  // namespace
+
+GridPlace on_grid(const LonLat& position) {
+  constexpr double steps_per_degree = half_steps_per_degree / 2;
+  return {2 * std::llrint(position.lon_deg * steps_per_degree),
+          2 * std::llrint(position.lat_deg * steps_per_degree)};
+}
+
+LonLat off_grid(const GridPlace& place) {
+  return {static_cast<double>(place.x) / half_steps_per_degree,
+          static_cast<double>(place.y) / half_steps_per_degree};
+}
+
+int turn_on_grid(const GridPlace& a, const GridPlace& b, const GridPlace& c) {
+  return sign_of(doubled_area_of(a, b, c));
+}
+
+bool is_before_along(const GridPlace& a, const GridPlace& b, const GridPlace& p,
+                     const GridPlace& q) {
+  return GridProduct{b.x - a.x} * (q.x - p.x) + GridProduct{b.y - a.y} * (q.y - p.y) > 0;
+}
+
+// The rectangle around the line meets the square by its sides; then the line does if corners of the square lie on both
+// sides of it. If they do not, it touches at most the border: a side that belongs to the square, with the corner in the south
+// west, or that corner, or what does not belong to it.
+bool meets_pixel(const GridPlace& a, const GridPlace& b, const GridPlace& c) {
+  const auto [west, east] = std::minmax(a.x, b.x);
+  const auto [south, north] = std::minmax(a.y, b.y);
+  if (east < c.x - 1 || west >= c.x + 1 || north < c.y - 1 || south >= c.y + 1) return false;
+  const int south_west = turn_on_grid(a, b, {c.x - 1, c.y - 1});
+  if (south_west == 0) return true;
+  const std::array<int, 3> others = {turn_on_grid(a, b, {c.x + 1, c.y - 1}),
+                                     turn_on_grid(a, b, {c.x + 1, c.y + 1}),
+                                     turn_on_grid(a, b, {c.x - 1, c.y + 1})};
+  return std::ranges::any_of(others, [&](int sign) { return sign == -south_west; });
+}
+
+GridPlace crossing_pixel(const GridPlace& a, const GridPlace& b, const GridPlace& c,
+                         const GridPlace& d) {
+  GridProduct at_a = doubled_area_of(c, d, a);
+  GridProduct at_b = doubled_area_of(c, d, b);
+  if (at_a < 0) {
+    at_a = -at_a;
+    at_b = -at_b;
+  }
+  const GridProduct whole = at_a - at_b;
+  return {pixel_of(a.x + floor_of_share(b.x - a.x, at_a, whole)),
+          pixel_of(a.y + floor_of_share(b.y - a.y, at_a, whole))};
+}
+
+}  // namespace rondel::map
