@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "map/directed_line.h"
 #include "map/polygon.h"
 #include "rondel/diagram.h"
 #include "rondel/triangulation.h"
@@ -99,7 +98,7 @@ class CellMap {
   [[nodiscard]] bool has_invalid(const Execution& execution) const;
   [[nodiscard]] bool is_unchanged(std::size_t site) const;
   void settle(const Execution& execution);
-  [[nodiscard]] std::vector<DirectedLine> sides_of(std::size_t site, Pen& pen) const;
+  [[nodiscard]] std::vector<std::vector<LonLat>> loops_of(std::size_t site, Pen& pen) const;
   void prepare_great_circle();
   [[nodiscard]] ArcTolerance great_circle_tolerance(Index from, Index to) const;
   [[nodiscard]] std::span<const Index> points_of(std::size_t site) const;

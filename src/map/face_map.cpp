@@ -3,9 +3,12 @@
 #include "map/face_map.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "map/arc.h"
+#include "map/line_troubles.h"
+#include "map/settled_regions.h"
 #include "system/parallel.h"
 
 namespace rondel::map {
@@ -13,6 +16,7 @@ namespace {
 
 constexpr double largest_tolerance_deg = 0.01;
 constexpr double least_tolerance_deg = 1e-5;
+constexpr std::size_t faces_per_piece = 1024;
 
 // Doubles do not tell which way the arc between two opposite corners takes. A solid face has no
 // opposite corners, but they may be opposite when they are rounded.
@@ -47,18 +51,59 @@ FaceMap::FaceMap(const Triangulation& triangulation, const Execution& execution)
                            tolerances_deg_[i] = tolerance(static_cast<Index>(i));
                          }
                        });
+  if (has_trouble(execution)) settle(execution);
+}
+
+bool FaceMap::has_trouble(const Execution& execution) const {
+  std::atomic<bool> found{false};
+  system::parallel_for(
+      execution.threads, tolerances_deg_.size(), faces_per_piece,
+      [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end && !found; ++i) {
+          const auto face = static_cast<Index>(i);
+          if (!triangulation_.is_ghost(face) && !is_plain(face) && is_in_trouble(loops_of(face)))
+            found = true;
+        }
+      });
+  return found;
+}
+
+void FaceMap::settle(const Execution& execution) {
+  std::vector<std::vector<DirectedLine>> sides(tolerances_deg_.size());
+  system::parallel_for(execution.threads, sides.size(), faces_per_piece,
+                       [&](std::size_t begin, std::size_t end) {
+                         for (std::size_t i = begin; i < end; ++i) {
+                           const auto face = static_cast<Index>(i);
+                           if (!triangulation_.is_ghost(face))
+                             sides[i] = sides_of_loops(loops_of(face));
+                         }
+                       });
+  settled_ = settled_convex_regions(sides, execution.threads);
+}
+
+std::vector<Loop> FaceMap::loops_of(Index face) const {
+  const auto& [a, b, c] = triangulation_.faces()[face];
+  if (is_plain(face)) return {{positions_[a], positions_[b], positions_[c]}};
+  const Corners corners = ring(face);
+  if (!is_determined(corners)) return {};
+  return lonlat_loops(corners, tolerances(face));
+}
+
+bool FaceMap::is_plain(Index face) const {
+  const auto& [a, b, c] = triangulation_.faces()[face];
+  const std::array<LonLat, 3> positions = {positions_[a], positions_[b], positions_[c]};
+  return is_plain(ring(face), positions, tolerances(face));
 }
 
 const std::vector<LonLatPolygon>& FaceMap::polygons(Index face, Pen& pen) const {
-  const Corners corners = ring(face);
-  const std::array<double, 3> tolerances_deg = tolerances(face);
+  if (!settled_.empty()) return settled_[face];
   const auto& [a, b, c] = triangulation_.faces()[face];
-  const std::array<LonLat, 3> positions = {positions_[a], positions_[b], positions_[c]};
-  if (is_plain(corners, positions, tolerances_deg)) {
+  const Corners corners = ring(face);
+  if (is_plain(face)) {
     pen.resize(1);
-    pen.front().ring.assign({positions[0], positions[1], positions[2], positions[0]});
+    pen.front().ring.assign({positions_[a], positions_[b], positions_[c], positions_[a]});
   } else if (is_determined(corners)) {
-    pen = lonlat_polygons(corners, tolerances_deg);
+    pen = lonlat_polygons(corners, tolerances(face));
   } else {
     pen.clear();
   }

@@ -79,4 +79,8 @@ RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& sha
   return look_at_loops(traced_loops(sides));
 }
 
+bool is_in_trouble(const std::vector<Loop>& loops) {
+  return !look_at_region(loops, SharedLines()).troubles.empty();
+}
+
 }  // namespace rondel::map

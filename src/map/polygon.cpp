@@ -208,6 +208,23 @@ Loops loops_of(const Trace& trace) {
   return {.polygons = {}, .is_turned_over = true};
 }
 
+// False if fewer than three points are left.
+bool draw_snapped(std::span<const Point> ring, std::span<const double> tolerances_deg,
+                  Trace& trace) {
+  std::vector<Point> points;
+  std::vector<ArcTolerance> tolerances;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point point = snapped(ring[i]);
+    if (point == snapped(ring[(i + 1) % ring.size()])) continue;
+    points.push_back(point);
+    const double tolerance = tolerances_deg[i] / degrees_per_radian;
+    tolerances.push_back({tolerance, tolerance, {}});
+  }
+  if (points.size() < 3) return false;
+  draw(points, tolerances, trace);
+  return true;
+}
+
 }  // namespace
 
 bool is_plain_loop(std::span<const LonLat> loop) {
@@ -232,19 +249,17 @@ std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring,
   if (ring.empty()) {
     return {{{corners[0], corners[1], corners[2], corners[3], corners[0]}}};
   }
-  std::vector<Point> points;
-  std::vector<ArcTolerance> tolerances;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const Point point = snapped(ring[i]);
-    if (point == snapped(ring[(i + 1) % ring.size()])) continue;
-    points.push_back(point);
-    const double tolerance = tolerances_deg[i] / degrees_per_radian;
-    tolerances.push_back({tolerance, tolerance, {}});
-  }
-  if (points.size() < 3) return {};
   Trace trace;
-  draw(points, tolerances, trace);
+  if (!draw_snapped(ring, tolerances_deg, trace)) return {};
   return polygons_of(trace);
+}
+
+std::vector<std::vector<LonLat>> lonlat_loops(std::span<const Point> ring,
+                                              std::span<const double> tolerances_deg) {
+  if (ring.empty()) return {{corners.begin(), corners.end()}};
+  Trace trace;
+  if (!draw_snapped(ring, tolerances_deg, trace)) return {};
+  return drawn_loops(trace);
 }
 
 }  // namespace rondel::map

@@ -30,6 +30,10 @@ struct LonLatPolygon {
 std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring,
                                            std::span<const double> tolerances_deg);
 
+// The same as loops with the region to the left, as drawn_loops() has them.
+std::vector<std::vector<LonLat>> lonlat_loops(std::span<const Point> ring,
+                                              std::span<const double> tolerances_deg);
+
 // The loops of a drawn ring, with the region to the left, as they are: they may cross, or run to and fro. A loop around the
 // rectangle, clockwise, makes the outside of nearly all of it.
 std::vector<std::vector<LonLat>> drawn_loops(const Trace& trace);

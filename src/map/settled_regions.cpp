@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "map/settled_regions.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <utility>
 
+#include "map/map_plane.h"
 #include "map/planar_faces.h"
+#include "map/rectangles.h"
 #include "map/snap_rounding.h"
 #include "system/parallel.h"
 
@@ -27,6 +30,61 @@ std::vector<std::vector<DirectedLine>> borders_of(std::span<const NodedLine> lin
   return borders;
 }
 
+Rectangle rectangle_of(const Loop& ring) {
+  Rectangle around{180, -180, 90, -90};
+  for (const LonLat& p : ring) {
+    around.west = std::min(around.west, p.lon_deg);
+    around.east = std::max(around.east, p.lon_deg);
+    around.south = std::min(around.south, p.lat_deg);
+    around.north = std::max(around.north, p.lat_deg);
+  }
+  return around;
+}
+
+bool is_inside_ring(const Loop& closed, const LonLat& p) {
+  bool is_inside = false;
+  for (std::size_t k = 0; k + 1 < closed.size(); ++k) {
+    const LonLat& a = closed[k];
+    const LonLat& b = closed[k + 1];
+    if ((a.lon_deg > p.lon_deg) == (b.lon_deg > p.lon_deg)) continue;
+    const Sign side = b.lon_deg > a.lon_deg ? side_of_line(a, b, p) : side_of_line(b, a, p);
+    is_inside = is_inside != (side == Sign::positive);
+  }
+  return is_inside;
+}
+
+// Whether a polygon that does not cross a hole, and lies not in what the hole is cut from, fills a part of it.
+bool is_in_hole(const Loop& hole, const Loop& ring) {
+  const Rectangle room = rectangle_of(hole);
+  const Rectangle around = rectangle_of(ring);
+  if (around.west < room.west || around.east > room.east || around.south < room.south ||
+      around.north > room.north)
+    return false;
+  for (const LonLat& p : ring) {
+    if (std::ranges::find(hole, p) == hole.end()) return is_inside_ring(hole, p);
+  }
+  return true;
+}
+
+// Holes become parts of their polygons, and what is in them goes.
+void fill_holes(std::vector<std::vector<PolygonWithHoles>>& cells) {
+  std::vector<Loop> holes;
+  for (auto& cell : cells) {
+    for (PolygonWithHoles& polygon : cell) {
+      for (std::size_t k = 1; k < polygon.rings.size(); ++k)
+        holes.push_back(std::move(polygon.rings[k]));
+      polygon.rings.resize(1);
+    }
+  }
+  for (const Loop& hole : holes) {
+    for (auto& cell : cells) {
+      std::erase_if(cell, [&](const PolygonWithHoles& polygon) {
+        return is_in_hole(hole, polygon.rings.front());
+      });
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::vector<PolygonWithHoles>> settled_regions(
@@ -41,6 +99,27 @@ std::vector<std::vector<PolygonWithHoles>> settled_regions(
     }
   });
   return regions;
+}
+
+std::vector<std::vector<LonLatPolygon>> settled_convex_regions(
+    std::span<const std::vector<DirectedLine>> sides_of_regions, unsigned threads) {
+  std::vector<std::vector<PolygonWithHoles>> regions = settled_regions(sides_of_regions, threads);
+  fill_holes(regions);
+  std::vector<std::vector<LonLatPolygon>> polygons(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    for (PolygonWithHoles& polygon : regions[i])
+      polygons[i].push_back({std::move(polygon.rings.front())});
+  }
+  return polygons;
+}
+
+std::vector<DirectedLine> sides_of_loops(std::span<const Loop> loops) {
+  std::vector<DirectedLine> sides;
+  for (const Loop& loop : loops) {
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      sides.push_back({loop[k], loop[k + 1 < loop.size() ? k + 1 : 0]});
+  }
+  return sides;
 }
 
 }  // namespace rondel::map

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "map/planar_loops.h"
+#include "map/polygon.h"
 #include "map/region.h"
 
 namespace rondel::map {
@@ -18,5 +19,11 @@ namespace rondel::map {
 // 3. Where the sides of each region bound it and cross no others they stay, but for rounding to the grid.
 std::vector<std::vector<PolygonWithHoles>> settled_regions(
     std::span<const std::vector<DirectedLine>> sides_of_regions, unsigned threads);
+
+// The same of regions that are convex on the sphere, and have no holes but those of rounding: they get what is in these.
+std::vector<std::vector<LonLatPolygon>> settled_convex_regions(
+    std::span<const std::vector<DirectedLine>> sides_of_regions, unsigned threads);
+
+std::vector<DirectedLine> sides_of_loops(std::span<const Loop> loops);
 
 }  // namespace rondel::map
