@@ -18,6 +18,7 @@
 #include "io/number.h"
 #include "io/number_text.h"
 #include "map/arc.h"
+#include "map/planar_loops.h"
 #include "map/region.h"
 #include "map/valid_regions.h"
 #include "rondel/contours.h"
@@ -100,12 +101,50 @@ void write_isolines_geojson(AtomicFile& file, const IsolinesToWrite& job) {
   file.write("\n]}\n");
 }
 
+// Whether each arc of the rings has one in the other direction: the bands cover the sphere.
+bool is_closed_surface(const Bands& bands) {
+  using Arc = std::array<double, 6>;
+  std::vector<Arc> arcs;
+  for (std::size_t ring = 0; ring + 1 < bands.ring_offsets.size(); ++ring) {
+    const auto points = row(bands.points, bands.ring_offsets, ring);
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Point& p = points[k];
+      const Point& q = points[k + 1 < points.size() ? k + 1 : 0];
+      arcs.push_back({p.x, p.y, p.z, q.x, q.y, q.z});
+    }
+  }
+  std::ranges::sort(arcs);
+  return std::ranges::all_of(arcs, [&](const Arc& a) {
+    return std::ranges::binary_search(arcs, Arc{a[3], a[4], a[5], a[0], a[1], a[2]});
+  });
+}
+
+bool is_unsure(const map::DrawnRegion& region) {
+  return region.border != map::BorderKnowledge::is_known;
+}
+
+// Of bands that cover the sphere one has the border of the map inside. If that is known of none, it is the first one of
+// which it seems so, else the first one.
+void find_border(const Bands& bands, std::vector<map::DrawnRegion>& drawn) {
+  using map::BorderKnowledge;
+  double covered = 0;
+  for (const map::DrawnRegion& region : drawn) {
+    for (const map::Loop& loop : region.loops)
+      covered += is_unsure(region) ? 0 : map::doubled_loop_area(loop) / 2;
+  }
+  constexpr double half_of_map = 180 * 180;
+  if (covered > half_of_map || !is_closed_surface(bands)) return;
+  auto chosen = std::ranges::find(drawn, BorderKnowledge::seems_inside, &map::DrawnRegion::border);
+  if (chosen == drawn.end()) chosen = std::ranges::find_if(drawn, is_unsure);
+  chosen->loops.push_back(map::border_loop());
+}
+
 // The polygons of each band; those of one are one region, as they may meet in points.
 std::vector<map::PolygonsOfRegion> draw_bands(const BandsToWrite& job) {
   const Bands& bands = job.bands;
-  std::vector<map::LoopsOfRegion> loops(bands.num_bands());
+  std::vector<map::DrawnRegion> drawn(bands.num_bands());
   system::parallel_for(
-      job.execution.threads, loops.size(), 1, [&](std::size_t begin, std::size_t end) {
+      job.execution.threads, drawn.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t band = begin; band < end; ++band) {
           if (bands.band_offsets[band] == bands.band_offsets[band + 1]) continue;
           std::vector<map::UnitVectors> rings;
@@ -113,10 +152,15 @@ std::vector<map::PolygonsOfRegion> draw_bands(const BandsToWrite& job) {
                ring < bands.polygon_offsets[bands.band_offsets[band + 1]]; ++ring) {
             rings.push_back(row(bands.points, bands.ring_offsets, ring));
           }
-          loops[band] = map::region_loops(rings, job.tolerance);
+          drawn[band] = map::draw_region(rings, job.tolerance);
         }
       });
-  return map::valid_regions(std::move(loops), job.execution.threads);
+  const bool may_overlap = std::ranges::any_of(drawn, is_unsure);
+  if (may_overlap) find_border(bands, drawn);
+  std::vector<map::LoopsOfRegion> loops;
+  loops.reserve(drawn.size());
+  for (map::DrawnRegion& region : drawn) loops.push_back(std::move(region.loops));
+  return map::valid_regions(std::move(loops), job.execution.threads, may_overlap);
 }
 
 void write_bands_geojson(AtomicFile& file, const BandsToWrite& job) {

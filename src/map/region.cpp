@@ -86,14 +86,14 @@ class RegionDrawing {
     }
   }
 
-  // With the region to the left of each.
-  [[nodiscard]] std::vector<Loop> loops() && {
+  [[nodiscard]] DrawnRegion drawn() && {
     if (!chains_.empty()) {
-      for (Loop& loop : stitched()) loops_.push_back(std::move(loop));
+      std::vector<Loop> joined = stitched();
+      loops_.insert(loops_.end(), joined.begin(), joined.end());
     } else if (!loops_.empty() && has_border()) {
-      loops_.emplace_back(border_corners.begin(), border_corners.end());
+      loops_.push_back(border_loop());
     }
-    return std::move(loops_);
+    return {std::move(loops_), border_};
   }
 
  private:
@@ -115,17 +115,40 @@ class RegionDrawing {
     }
   }
 
-  // Whether a region whose rings do not reach the border of the rectangle has it inside: then its loops are holes, and
-  // enclose a negative area. The lines of a thin region may enclose what its arcs do not; its rings tell.
-  [[nodiscard]] bool has_border() const {
-    constexpr double small = 1e-3;  // square radians, far above what is lost between arcs and lines
-    double in_plane = 0;
-    for (const Loop& loop : loops_) in_plane += doubled_loop_area(loop);
-    in_plane /= 2 * degrees_per_radian * degrees_per_radian;
-    if (std::abs(in_plane) >= small) return in_plane < 0;
+  // Square radians, far above what is lost between arcs and lines.
+  static constexpr double small_area = 1e-3;
+  static constexpr double whole_area = 2 * std::numbers::pi * std::numbers::pi;
+
+  static double area_in_plane(std::span<const Loop> loops) {
+    double doubled = 0;
+    for (const Loop& loop : loops) doubled += doubled_loop_area(loop);
+    return doubled / (2 * degrees_per_radian * degrees_per_radian);
+  }
+
+  // Of the region, but for multiples of that of the sphere.
+  [[nodiscard]] double area_on_sphere() const {
     double area = 0;
     for (const std::vector<Point>& ring : rings_) area += area_on_left(ring);
-    return area < 0 || area > 2 * std::numbers::pi;
+    return area;
+  }
+
+  // Whether a region whose rings do not reach the border of the rectangle has it inside: then its loops are holes, and
+  // enclose a negative area. The lines of a thin region may enclose what its arcs do not; its rings tell.
+  [[nodiscard]] bool has_border() {
+    const double in_plane = area_in_plane(loops_);
+    if (std::abs(in_plane) >= small_area) return in_plane < 0;
+    const double area = area_on_sphere();
+    const bool is_inside = area < 0 || area > 2 * std::numbers::pi;
+    if (!is_rounding(area)) return is_inside;
+    border_ = is_inside ? BorderKnowledge::seems_inside : BorderKnowledge::seems_outside;
+    return false;
+  }
+
+  [[nodiscard]] bool is_rounding(double area) const {
+    std::size_t num_points = 0;
+    for (const std::vector<Point>& ring : rings_) num_points += ring.size();
+    return std::abs(std::remainder(area, 4 * std::numbers::pi)) <=
+           merge_distance * static_cast<double>(num_points);
   }
 
   // Along the border of the rectangle the region begins where a chain ends and ends where one starts. Its
@@ -153,14 +176,31 @@ class RegionDrawing {
     return wrong_if_inside < wrong_if_outside;
   }
 
-  [[nodiscard]] std::vector<Loop> stitched() const {
+  // Rings without an area but rounding enclose what is to the left of all chains, or all else.
+  [[nodiscard]] std::vector<Loop> stitched() {
     const std::size_t n = chains_.size();
     std::vector<std::size_t> starts(n);
     for (std::size_t i = 0; i < n; ++i) starts[i] = i;
     std::vector<std::size_t> ends = starts;
     std::ranges::stable_sort(starts, {}, [&](std::size_t i) { return chains_[i].start; });
     std::ranges::stable_sort(ends, {}, [&](std::size_t i) { return chains_[i].end; });
-    const bool wraps = has_first_corner(starts, ends);
+    const bool is_inside = has_first_corner(starts, ends);
+    std::vector<Loop> joined = joined_chains(starts, ends, is_inside);
+    if (!is_rounding(area_on_sphere())) return joined;
+    const double area = area_in_plane(joined) + area_in_plane(loops_);
+    if (std::abs(area) < small_area) {
+      border_ = BorderKnowledge::seems_outside;
+    } else if (std::abs(area - whole_area) < small_area) {
+      border_ = BorderKnowledge::seems_inside;
+      joined = joined_chains(starts, ends, !is_inside);
+    }
+    return joined;
+  }
+
+  [[nodiscard]] std::vector<Loop> joined_chains(std::span<const std::size_t> starts,
+                                                std::span<const std::size_t> ends,
+                                                bool wraps) const {
+    const std::size_t n = chains_.size();
     std::vector<std::size_t> next(n);
     std::vector<std::size_t> last_side(n);
     for (std::size_t k = 0; k < n; ++k) {
@@ -187,13 +227,22 @@ class RegionDrawing {
   std::vector<std::vector<Point>> rings_;
   std::vector<Chain> chains_;
   std::vector<Loop> loops_;
+  BorderKnowledge border_ = BorderKnowledge::is_known;
 };
 
 }  // namespace
 
+std::vector<LonLat> border_loop() { return {border_corners.begin(), border_corners.end()}; }
+
+DrawnRegion draw_region(std::span<const UnitVectors> rings, double tolerance) {
+  if (!rings.empty()) return RegionDrawing(rings, tolerance).drawn();
+  return {{border_loop()}, BorderKnowledge::is_known};
+}
+
 std::vector<Loop> region_loops(std::span<const UnitVectors> rings, double tolerance) {
-  if (!rings.empty()) return RegionDrawing(rings, tolerance).loops();
-  return {Loop(border_corners.begin(), border_corners.end())};
+  DrawnRegion region = draw_region(rings, tolerance);
+  if (region.border == BorderKnowledge::seems_inside) region.loops.push_back(border_loop());
+  return std::move(region.loops);
 }
 
 std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings,

@@ -5,6 +5,7 @@
 // inside. polygon.h has what is convex.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -21,10 +22,26 @@ struct PolygonWithHoles {
 
 using UnitVectors = std::span<const Point>;
 
+// Whether rings tell that a region has the border of the rectangle inside, and the poles with it. Where they enclose no
+// area but that of rounding, the region may be that sliver or all else: areas tell by chance.
+enum class BorderKnowledge : std::uint8_t { is_known, seems_outside, seems_inside };
+
+// Loops with the region to the left. Where nothing is known they are those of the sliver.
+struct DrawnRegion {
+  std::vector<std::vector<LonLat>> loops;
+  BorderKnowledge border = BorderKnowledge::is_known;
+};
+
+DrawnRegion draw_region(std::span<const UnitVectors> rings, double tolerance);
+
+// The border of the rectangle, counterclockwise.
+std::vector<LonLat> border_loop();
+
 // The region to the left of all of the rings, consecutive points of which (and the last and the first) are
 // joined by the shorter arc of a great circle, as loops inside [-180, 180] x [-90, 90] that have it to the left: cut
 // along the antimeridian, at a pole they reach the side lat = +-90. Without rings it is the whole sphere. Loops may
-// cross each other and themselves, where rings are nearer to each other than lines are to arcs.
+// cross each other and themselves, where rings are nearer to each other than lines are to arcs. Areas decide what
+// draw_region() does not know.
 // 1. Sides are within the tolerance (radians) of the arcs.
 // 2. An arc gives the same positions, bit by bit, to the regions on both sides of it.
 // Precondition: the rings are simple and meet at most in points.

@@ -66,12 +66,13 @@ class RegionsInPlane {
   RegionsInPlane(std::vector<LoopsOfRegion> regions, unsigned threads)
       : regions_(std::move(regions)), threads_(threads), looks_(regions_.size()) {}
 
-  std::vector<PolygonsOfRegion> made_valid() {
+  std::vector<PolygonsOfRegion> made_valid(bool may_overlap) {
     std::vector<std::size_t> open(regions_.size());
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = i;
     for (int pass = 0; pass < most_passes; ++pass) {
       look_at(open);
       std::erase_if(open, [&](std::size_t i) { return looks_[i].troubles.empty(); });
+      if (open.empty() && may_overlap) break;
       if (open.empty()) return looked_at();
       std::set<std::size_t> changed = mend(open, pass);
       if (changed.empty() && reach_of_pass(pass) == longest_reach) break;
@@ -139,8 +140,9 @@ class RegionsInPlane {
 
 }  // namespace
 
-std::vector<PolygonsOfRegion> valid_regions(std::vector<LoopsOfRegion> regions, unsigned threads) {
-  return RegionsInPlane(std::move(regions), threads).made_valid();
+std::vector<PolygonsOfRegion> valid_regions(std::vector<LoopsOfRegion> regions, unsigned threads,
+                                            bool may_overlap) {
+  return RegionsInPlane(std::move(regions), threads).made_valid(may_overlap);
 }
 
 }  // namespace rondel::map

@@ -33,7 +33,8 @@ using PolygonsOfRegion = std::vector<PolygonWithHoles>;
 // 2. Lines that two regions have in common stay common, bit by bit.
 // 3. The result depends on the loops and their order, not on the number of threads.
 // One has no polygons if it is no wider than rounding.
+// `may_overlap` says that regions may overlap each other whose lines do not cross, as draw_region() did not know all.
 RONDEL_API std::vector<PolygonsOfRegion> valid_regions(std::vector<LoopsOfRegion> regions,
-                                                       unsigned threads);
+                                                       unsigned threads, bool may_overlap = false);
 
 }  // namespace rondel::map
