@@ -36,7 +36,7 @@ struct RegionLook {
 
 RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& shared);
 
-// Whether loops as they are have any.
+// Whether loops as they are have any trouble.
 bool is_in_trouble(const std::vector<Loop>& loops);
 
 }  // namespace rondel::map

@@ -12,6 +12,7 @@
 
 #include "map/line_troubles.h"
 #include "map/mending.h"
+#include "map/outside_loops.h"
 #include "map/settled_regions.h"
 #include "map/shared_lines.h"
 #include "system/parallel.h"
@@ -64,7 +65,10 @@ class PositionOwners {
 class RegionsInPlane {
  public:
   RegionsInPlane(std::vector<LoopsOfRegion> regions, unsigned threads)
-      : regions_(std::move(regions)), threads_(threads), looks_(regions_.size()) {}
+      : regions_(std::move(regions)), threads_(threads) {
+    regions_.push_back(outside_loops(regions_));
+    looks_.resize(regions_.size());
+  }
 
   std::vector<PolygonsOfRegion> made_valid(bool may_overlap) {
     std::vector<std::size_t> open(regions_.size());
@@ -72,8 +76,7 @@ class RegionsInPlane {
     for (int pass = 0; pass < most_passes; ++pass) {
       look_at(open);
       std::erase_if(open, [&](std::size_t i) { return looks_[i].troubles.empty(); });
-      if (open.empty() && may_overlap) break;
-      if (open.empty()) return looked_at();
+      if (open.empty()) return may_overlap ? settled() : looked_at();
       std::set<std::size_t> changed = mend(open, pass);
       if (changed.empty() && reach_of_pass(pass) == longest_reach) break;
       changed.insert(open.begin(), open.end());
@@ -131,7 +134,7 @@ class RegionsInPlane {
     return settled_regions(sides, threads_);
   }
 
-  std::vector<LoopsOfRegion> regions_;
+  std::vector<LoopsOfRegion> regions_;  // the last one is what no other one covers
   unsigned threads_;
   std::vector<RegionLook> looks_;
   SharedLines lines_;
@@ -142,7 +145,10 @@ class RegionsInPlane {
 
 std::vector<PolygonsOfRegion> valid_regions(std::vector<LoopsOfRegion> regions, unsigned threads,
                                             bool may_overlap) {
-  return RegionsInPlane(std::move(regions), threads).made_valid(may_overlap);
+  std::vector<PolygonsOfRegion> polygons =
+      RegionsInPlane(std::move(regions), threads).made_valid(may_overlap);
+  polygons.pop_back();
+  return polygons;
 }
 
 }  // namespace rondel::map

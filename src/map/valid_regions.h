@@ -10,7 +10,8 @@
 //    `reach` of it: lines between opposite points are as good as parallel;
 // 3. lines farther from their arcs than `reach` are bisected on them;
 // 4. what crosses then, as it is narrower than rounding, gets the crossing as a corner.
-// Each step changes the line for all regions that have it. Sides in both directions go, and what is narrower than
+// What no region covers is treated like one, as two regions may be as near to each other with a narrow gap between them. Each
+// step changes the line for all regions that have it. Sides in both directions go, and what is narrower than
 // rounding goes with them. The reach grows from merge_distance, where steps do not end. Where they still have not ended after
 // `most_passes`, the lines of all regions are rounded to a grid and divide the plane, and each part of it is given to one
 // region (settled_regions.h).

@@ -127,7 +127,10 @@ def faults_of(features, whole, outline=None, has_areas=True):
 
 def faults_of_coverage(geometries, alone):
     """GEOS also refuses borders of the whole in whose ends several geometries meet: are they what it says?"""
-    union = shapely.union_all(geometries)
+    try:
+        union = shapely.union_all(geometries)
+    except shapely.errors.GEOSException:  # numbers near the smallest double
+        union = shapely.union_all(geometries, grid_size=1e-10)
     twice = math.fsum(shapely.area(geometries)) - shapely.area(union)
     if twice > 1e-7:
         yield f"{twice} square degrees belong to several geometries"
