@@ -3,6 +3,7 @@
 #include "map/line_troubles.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "map/crossing_lines.h"
@@ -26,13 +27,55 @@ void append_troubles(const Line& i, const Line& j, std::vector<Trouble>& trouble
     troubles.push_back({TroubleKind::crossing, i.from, i.to, j.from, j.to});
 }
 
-std::vector<Trouble> troubles_of(std::span<const DirectedLine> sides) {
+bool is_earlier_side(const DirectedLine& x, const DirectedLine& y) {
+  return x.from == y.from ? InPlane()(x.to, y.to) : InPlane()(x.from, y.from);
+}
+
+bool has_side(const std::vector<DirectedLine>& sorted, const LonLat& a, const LonLat& b) {
+  return std::ranges::binary_search(sorted, DirectedLine{a, b}, is_earlier_side);
+}
+
+// Each position of closed loops starts a side.
+bool has_start(const std::vector<DirectedLine>& sorted, const LonLat& p) {
+  return std::ranges::binary_search(sorted, p, InPlane(), &DirectedLine::from);
+}
+
+// Of the earlier meetings those that are still there.
+std::vector<Trouble> lasting_meetings(const RegionMemory& memory,
+                                      const std::vector<DirectedLine>& sorted) {
+  std::vector<Trouble> troubles;
+  std::ranges::copy_if(memory.meetings, std::back_inserter(troubles), [&](const Trouble& t) {
+    return has_side(sorted, t.a, t.b) &&
+           (t.kind == TroubleKind::crossing ? has_side(sorted, t.c, t.d) : has_start(sorted, t.c));
+  });
+  return troubles;
+}
+
+std::vector<Trouble> troubles_of(std::span<const DirectedLine> sides, RegionMemory& memory) {
   std::vector<Line> lines;
   lines.reserve(sides.size());
   for (const DirectedLine& side : sides) lines.push_back({side.from, side.to, lines.size()});
+  std::vector<DirectedLine> sorted(sides.begin(), sides.end());
+  std::ranges::sort(sorted, is_earlier_side);
+  const Rectangles rectangles(lines);
   std::vector<Trouble> troubles;
-  Rectangles(lines).find_overlapping(
-      [&](const Line& i, const Line& j) { append_troubles(i, j, troubles); });
+  if (memory.sides.empty()) {
+    rectangles.find_overlapping(
+        [&](const Line& i, const Line& j) { append_troubles(i, j, troubles); });
+  } else {
+    troubles = lasting_meetings(memory, sorted);
+    std::vector<bool> is_new(sides.size());
+    for (std::size_t k = 0; k < sides.size(); ++k)
+      is_new[k] = !has_side(memory.sides, sides[k].from, sides[k].to);
+    for (std::size_t k = 0; k < sides.size(); ++k) {
+      if (!is_new[k]) continue;
+      rectangles.find_overlapping(Rectangle::around(lines[k]), [&](const Line& other) {
+        if (other.name < k || (other.name > k && !is_new[other.name]))
+          append_troubles(other, lines[k], troubles);
+      });
+    }
+  }
+  memory = {std::move(sorted), troubles};
   return troubles;
 }
 
@@ -59,7 +102,8 @@ bool is_plain_region(std::span<const Loop> loops) {
 
 }  // namespace
 
-RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& shared) {
+RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& shared,
+                          RegionMemory& memory) {
   if (shared.is_empty() && is_plain_region(loops)) return look_at_loops(loops);
   std::vector<DirectedLine> sides;
   for (const Loop& loop : loops) shared.append_sides(loop, sides);
@@ -67,7 +111,7 @@ RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& sha
   cancel_opposite(sides);
   RegionLook look;
   if (sides.empty()) return look;
-  look.troubles = troubles_of(sides);
+  look.troubles = troubles_of(sides, memory);
   if (!look.troubles.empty()) return look;
   if (shared.is_empty() && sides.size() == num_sides && !has_touching(loops))
     return look_at_loops(loops);
@@ -80,7 +124,8 @@ RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& sha
 }
 
 bool is_in_trouble(const std::vector<Loop>& loops) {
-  return !look_at_region(loops, SharedLines()).troubles.empty();
+  RegionMemory memory;
+  return !look_at_region(loops, SharedLines(), memory).troubles.empty();
 }
 
 }  // namespace rondel::map

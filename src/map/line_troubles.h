@@ -34,7 +34,14 @@ struct RegionLook {
   std::vector<Trouble> troubles;
 };
 
-RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& shared);
+// The sides of a region when it was looked at, in order, and where they met: what is the same is not compared again.
+struct RegionMemory {
+  std::vector<DirectedLine> sides;
+  std::vector<Trouble> meetings;
+};
+
+RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& shared,
+                          RegionMemory& memory);
 
 // Whether loops as they are have any trouble.
 bool is_in_trouble(const std::vector<Loop>& loops);

@@ -68,6 +68,7 @@ class RegionsInPlane {
       : regions_(std::move(regions)), threads_(threads) {
     regions_.push_back(outside_loops(regions_));
     looks_.resize(regions_.size());
+    memories_.resize(regions_.size());
   }
 
   std::vector<PolygonsOfRegion> made_valid(bool may_overlap) {
@@ -90,7 +91,8 @@ class RegionsInPlane {
     system::parallel_for(threads_, open.size(), regions_per_task,
                          [&](std::size_t begin, std::size_t end) {
                            for (std::size_t k = begin; k < end; ++k) {
-                             looks_[open[k]] = look_at_region(regions_[open[k]], lines_);
+                             const std::size_t i = open[k];
+                             looks_[i] = look_at_region(regions_[i], lines_, memories_[i]);
                            }
                          });
   }
@@ -137,6 +139,7 @@ class RegionsInPlane {
   std::vector<LoopsOfRegion> regions_;  // the last one is what no other one covers
   unsigned threads_;
   std::vector<RegionLook> looks_;
+  std::vector<RegionMemory> memories_;
   SharedLines lines_;
   std::optional<PositionOwners> owners_;
 };
