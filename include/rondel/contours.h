@@ -85,12 +85,14 @@ RONDEL_API Bands bands(const Triangulation& triangulation, std::span<const doubl
 /// Writes a feature a level: a MultiLineString with the property `level`, cut at the antimeridian and
 /// the poles; higher values are to the left. Without lines its geometry is null. The file is
 /// .geojson (RFC 7946), arcs are densified as write_cells() does it.
-/// \throws InvalidInput if the arrays do not fit together.
+/// \throws InvalidInput if the arrays do not fit together, or the tolerance is not positive; FileError if the file cannot be
+///         written, or has another ending
 RONDEL_API void write_isolines(const FileName& file, const Isolines& isolines,
                                double tolerance_deg = 0.01, const Execution& execution = {});
 
 /// Writes a feature a band: a MultiPolygon with the properties `low` and `high`, null for the open
-/// ends.
+/// ends. The polygons are valid as simple features have it, and where two bands meet both have the same positions, bit by
+/// bit; what is no wider than rounding has no polygon, and no band is refused for its form.
 /// \throws InvalidInput as write_isolines().
 RONDEL_API void write_bands(const FileName& file, const Bands& bands, double tolerance_deg = 0.01,
                             const Execution& execution = {});

@@ -102,14 +102,22 @@ struct LonLatRegions {
 };
 
 /// Polygons within [-180, 180] x [-90, 90], cut at the antimeridian and the poles (target rondel::io).
-/// \throws InvalidInput if offsets do not fit, or the tolerance is not positive.
+///
+/// 1. They are valid as simple features have it, exactly, for these doubles.
+/// 2. Where two cells meet, both have the same positions, bit by bit, also where only one of them has a corner.
+/// 3. A cell has no polygon where it is no wider than rounding.
+///
+/// Where cells overlap and their sides cross, a place belongs to the first of them.
+/// \throws InvalidInput if offsets do not fit, or the tolerance is not positive; no cell is refused for its form.
 RONDEL_API LonLatRegions region_polygons(const CellRings& cells, double tolerance_deg = 0.01,
                                          const Execution& execution = {});
 
 /// Writes a feature for each cell that has rings: a Polygon or MultiPolygon, cut at the antimeridian and
 /// the poles. Its properties are `area` (steradians) and the columns, of which each has a value a cell.
-/// The file is .geojson (RFC 7946), arcs are densified as write_cells() does it.
-/// \throws InvalidInput if columns or offsets do not fit.
+/// The file is .geojson (RFC 7946), its polygons are region_polygons(): valid, and equal along borders. The geometry of a
+/// cell without polygons is null.
+/// \throws InvalidInput if columns or offsets do not fit, or the tolerance is not positive; FileError if the file cannot be
+///         written, or has another ending
 RONDEL_API void write_regions(const FileName& file, const CellRings& cells,
                               std::span<const Column> columns = {}, double tolerance_deg = 0.01,
                               const Execution& execution = {});

@@ -22,6 +22,9 @@ namespace {
 
 constexpr std::size_t regions_per_task = 16;
 constexpr int most_passes = 40;
+// Lines that are bisected without an end would fill the memory: so many changes for each position, and some more.
+constexpr std::size_t most_changes_of_position = 8;
+constexpr std::size_t most_changes_besides = 1 << 12;
 
 // Which regions have a position.
 class PositionOwners {
@@ -74,7 +77,8 @@ class RegionsInPlane {
   std::vector<PolygonsOfRegion> made_valid(bool may_overlap) {
     std::vector<std::size_t> open(regions_.size());
     for (std::size_t i = 0; i < open.size(); ++i) open[i] = i;
-    for (int pass = 0; pass < most_passes; ++pass) {
+    const std::size_t limit = most_changes();
+    for (int pass = 0; pass < most_passes && num_changes_ <= limit; ++pass) {
       look_at(open);
       std::erase_if(open, [&](std::size_t i) { return looks_[i].troubles.empty(); });
       if (open.empty()) return may_overlap ? settled() : looked_at();
@@ -97,6 +101,14 @@ class RegionsInPlane {
                          });
   }
 
+  [[nodiscard]] std::size_t most_changes() const {
+    std::size_t num_positions = 0;
+    for (const LoopsOfRegion& loops : regions_) {
+      for (const Loop& loop : loops) num_positions += loop.size();
+    }
+    return most_changes_of_position * num_positions + most_changes_besides;
+  }
+
   // The regions that the steps change.
   std::set<std::size_t> mend(std::span<const std::size_t> open, int pass) {
     if (!owners_) owners_.emplace(regions_);
@@ -104,6 +116,7 @@ class RegionsInPlane {
     for (const std::size_t i : open) {
       for (const Trouble& trouble : looks_[i].troubles) mending.mend(trouble);
     }
+    num_changes_ += mending.changes().size();
     std::set<std::size_t> changed;
     for (const Mending::Change& change : mending.changes()) {
       const std::set<std::size_t> at_a = owners_->of(change.a);
@@ -138,6 +151,7 @@ class RegionsInPlane {
 
   std::vector<LoopsOfRegion> regions_;  // the last one is what no other one covers
   unsigned threads_;
+  std::size_t num_changes_ = 0;
   std::vector<RegionLook> looks_;
   std::vector<RegionMemory> memories_;
   SharedLines lines_;

@@ -13,7 +13,7 @@
 // What no region covers is treated like one, as two regions may be as near to each other with a narrow gap between them. Each
 // step changes the line for all regions that have it. Sides in both directions go, and what is narrower than
 // rounding goes with them. The reach grows from merge_distance, where steps do not end. Where they still have not ended after
-// `most_passes`, the lines of all regions are rounded to a grid and divide the plane, and each part of it is given to one
+// `most_passes`, or make too many lines, the lines of all regions are rounded to a grid and divide the plane, and each part of it is given to one
 // region (settled_regions.h).
 #pragma once
 

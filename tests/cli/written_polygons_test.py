@@ -81,9 +81,7 @@ def sides_without_partner(geometries):
         if back in counts:
             counts[back] -= 1
     alone = [
-        i
-        for i, side in enumerate(all_sides)
-        if counts[forward[i]] > 0 or counts[forward[i]] < 0
+        i for i, side in enumerate(all_sides) if counts[forward[i]] > 0 or counts[forward[i]] < 0
     ]
     return all_sides[alone]
 
@@ -101,9 +99,15 @@ def faults_of(features, whole, outline=None, has_areas=True):
         if not shapely.is_valid(geometry):
             yield f"feature {i}: {shapely.is_valid_reason(geometry)}"
         if has_areas:
-            rings = [shapely.get_coordinates(r) for p in shapely.get_parts(geometry) for r in shapely.get_rings(p)]
+            rings = [
+                shapely.get_coordinates(r)
+                for p in shapely.get_parts(geometry)
+                for r in shapely.get_rings(p)
+            ]
             drawn = sum(spherical_area(ring) for ring in rings)
-            bound = 1e-9 + math.radians(TOLERANCE) * 2 * math.pi * (1 + len(shapely.get_parts(geometry)))
+            bound = 1e-9 + math.radians(TOLERANCE) * 2 * math.pi * (
+                1 + len(shapely.get_parts(geometry))
+            )
             if abs(drawn - area) > bound:
                 yield f"feature {i} has an area of {area}, its polygons of {drawn}"
     geometries = geometries[[g is not None for g in geometries]]
@@ -160,7 +164,9 @@ def random_polygons(rng):
     found = []
     for _ in range(rng.choice([1, 1, 2, 4])):
         size = rng.choice([0.01, 1, 10, 40, 80])
-        ring = star(rng, rng.uniform(-180, 180), rng.uniform(-90, 90), size, rng.randrange(3, 24), 0.9)
+        ring = star(
+            rng, rng.uniform(-180, 180), rng.uniform(-90, 90), size, rng.randrange(3, 24), 0.9
+        )
         polygon = shapely.Polygon(ring)
         if not polygon.is_valid:
             continue
@@ -177,7 +183,11 @@ def collection(geometries, names=None):
     for i, geometry in enumerate(geometries):
         properties = {"name": names[i]} if names else {}
         features.append(
-            {"type": "Feature", "properties": properties, "geometry": json.loads(shapely.to_geojson(geometry))}
+            {
+                "type": "Feature",
+                "properties": properties,
+                "geometry": json.loads(shapely.to_geojson(geometry)),
+            }
         )
     return {"type": "FeatureCollection", "features": features}
 
@@ -210,7 +220,16 @@ class Maker:
 
     def run_generate(self, kind, seed, arguments):
         done = subprocess.run(
-            [self.options.tool.resolve(), "generate", kind, "--seed", str(seed), "-o", "sites.csv", "--quiet"]
+            [
+                self.options.tool.resolve(),
+                "generate",
+                kind,
+                "--seed",
+                str(seed),
+                "-o",
+                "sites.csv",
+                "--quiet",
+            ]
             + [str(a) for a in arguments],
             cwd=self.folder,
             capture_output=True,
@@ -245,12 +264,25 @@ class Maker:
     def bands(self, rng):
         levels = sorted({round(rng.uniform(-1.5, 3), 1) for _ in range(rng.randrange(1, 6))})
         text = ",".join(map(repr, levels))
-        why = self.run("contours", "field.csv", "--value", "value", f"--levels={text}", "--bands", "-o", "out.geojson")
-        return [why] if why else faults_of(self.features("out.geojson"), whole=False, has_areas=False)
+        why = self.run(
+            "contours",
+            "field.csv",
+            "--value",
+            "value",
+            f"--levels={text}",
+            "--bands",
+            "-o",
+            "out.geojson",
+        )
+        return (
+            [why] if why else faults_of(self.features("out.geojson"), whole=False, has_areas=False)
+        )
 
     def triangles(self, rng):
         why = self.run("delaunay", "field.csv", "-o", "out.geojson")
-        return [why] if why else faults_of(self.features("out.geojson"), whole=False, has_areas=False)
+        return (
+            [why] if why else faults_of(self.features("out.geojson"), whole=False, has_areas=False)
+        )
 
     def clips(self, rng):
         polygons = random_polygons(rng)
@@ -261,7 +293,9 @@ class Maker:
         more = ["--group", "owner"] if rng.random() < 0.3 else []
         why = self.run("voronoi", "field.csv", "--clip", "clip.geojson", "-o", "out.geojson", *more)
         outline = shapely.boundary(shapely.MultiPolygon(polygons))
-        return [why] if why else faults_of(self.features("out.geojson"), whole=False, outline=outline)
+        return (
+            [why] if why else faults_of(self.features("out.geojson"), whole=False, outline=outline)
+        )
 
     def countries(self, rng):
         """Regions that share borders: cells of other sites, which are joined to a few regions."""
@@ -283,7 +317,9 @@ class Maker:
         (self.folder / "sites.csv").rename(self.folder / "others.csv")
         kept.rename(self.folder / "sites.csv")
         self.run("voronoi", "others.csv", "-o", "others.geojson", "--tolerance", tolerance)
-        features = [f for f in self.features("others.geojson") if f["geometry"] and rng.random() < 0.8]
+        features = [
+            f for f in self.features("others.geojson") if f["geometry"] and rng.random() < 0.8
+        ]
         for feature in features:
             feature["properties"] = {"owner": "xyz"[rng.randrange(3)]}
         with open(self.folder / "regions.geojson", "w", encoding="utf-8") as file:

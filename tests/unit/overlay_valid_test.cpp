@@ -134,7 +134,7 @@ constexpr std::array kinds = {"uniform",
                               "orbit"};
 
 Triangulation triangulation_of_kind(const char* kind) {
-  return delaunay(inputs::make(*inputs::find_kind(kind), {.n = 24}).sites);
+  return delaunay(inputs::make(*inputs::find_kind(kind), {.n = 14}).sites);
 }
 
 TEST(overlay_valid, bands_of_named_inputs) {
