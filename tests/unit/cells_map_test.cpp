@@ -354,7 +354,7 @@ TEST(face_map, has_each_face_as_it_is_drawn) {
       const auto expected = drawn_face(triangulation, face);
       if (!are_equal_but_for_the_grid(map.polygons(face, pen), expected)) ++num_other;
     }
-    EXPECT_LE(num_other, triangulation.num_faces() / 50);
+    EXPECT_LE(num_other, triangulation.num_faces() / 10);
   }
 }
 
