@@ -207,7 +207,7 @@ class Maker:
             text=True,
             check=False,
         )
-        return done.stderr.strip() if done.returncode else ""
+        return (done.stderr.strip() or f"status {done.returncode}") if done.returncode else ""
 
     def features(self, name):
         with open(self.folder / name, encoding="utf-8") as file:
@@ -236,7 +236,7 @@ class Maker:
             text=True,
             check=False,
         )
-        return done.stderr.strip() if done.returncode else ""
+        return (done.stderr.strip() or f"status {done.returncode}") if done.returncode else ""
 
     def add_field(self, rng):
         with open(self.folder / "sites.csv", encoding="utf-8") as file:

@@ -193,7 +193,7 @@ TEST(overlay_valid, cells_of_every_generator) {
 }
 
 TEST(overlay_valid, bands_of_every_generator) {
-  const std::string path = testing::TempDir() + "rondel_valid_bands_of_all.geojson";
+  const std::string path = temporary_path("valid_bands_of_all.geojson");
   for_each_generator([&](const Triangulation& t, const std::string& name) {
     Random random(9);
     std::vector<double> values(t.sites().size());
