@@ -142,9 +142,12 @@ class RegionsInPlane {
   }
 
   [[nodiscard]] std::vector<PolygonsOfRegion> settled() const {
+    // Steps without an end may have led lines astray: then regions are settled as they were.
+    const SharedLines unchanged;
+    const SharedLines& lines = num_changes_ > most_changes() ? unchanged : lines_;
     std::vector<std::vector<DirectedLine>> sides(regions_.size());
     for (std::size_t i = 0; i < regions_.size(); ++i) {
-      for (const Loop& loop : regions_[i]) lines_.append_sides(loop, sides[i]);
+      for (const Loop& loop : regions_[i]) lines.append_sides(loop, sides[i]);
     }
     return settled_regions(sides, threads_);
   }
