@@ -53,10 +53,12 @@ bool SharedLines::divide(const LonLat& a, const LonLat& b, const LonLat& at) {
   const LonLat position = place(at);
   if (position == a || position == b) return false;
   if (leads_back(a, b, position)) {
-    const bool is_near_a =
-        std::abs(position.lon_deg - a.lon_deg) + std::abs(position.lat_deg - a.lat_deg) <
-        std::abs(position.lon_deg - b.lon_deg) + std::abs(position.lat_deg - b.lat_deg);
-    return merge(is_near_a ? a : b, position);
+    constexpr double most = 1e-6;  // degrees; what is farther from both ends would change the shape
+    const auto away = [&](const LonLat& end) {
+      return std::abs(position.lon_deg - end.lon_deg) + std::abs(position.lat_deg - end.lat_deg);
+    };
+    if (std::min(away(a), away(b)) > most) return false;
+    return merge(away(a) < away(b) ? a : b, position);
   }
   divisions_.insert_or_assign(std::minmax(a, b, InPlane()), position);
   return true;
