@@ -29,16 +29,16 @@ void append_ends(const LonLat& p, const LonLat& q, std::vector<SideEnds>& sides)
   sides.push_back({is_upward ? p : q, is_upward ? q : p, is_upward});
 }
 
-// How far from the corner in the south west, counterclockwise along the border of the map.
-double distance_along_border(const LonLat& p) {
-  if (p.lat_deg == -90) return p.lon_deg + 180;
-  if (p.lon_deg == 180) return 450 + p.lat_deg;
-  return p.lat_deg == 90 ? 720 - p.lon_deg : 990 - p.lat_deg;
+// The side of the map, counterclockwise from the one in the south, and how far along it; exact.
+std::pair<int, double> place_on_border(const LonLat& p) {
+  if (p.lat_deg == -90) return {0, p.lon_deg};
+  if (p.lon_deg == 180) return {1, p.lat_deg};
+  return p.lat_deg == 90 ? std::pair(2, -p.lon_deg) : std::pair(3, -p.lat_deg);
 }
 
 // The border clockwise, through all positions on it.
 void append_border(std::vector<LonLat> positions, std::vector<SideEnds>& sides) {
-  std::ranges::sort(positions, {}, &distance_along_border);
+  std::ranges::sort(positions, {}, &place_on_border);
   positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
   for (std::size_t k = 0; k < positions.size(); ++k)
     append_ends(positions[k], positions[k == 0 ? positions.size() - 1 : k - 1], sides);

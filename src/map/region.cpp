@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <iterator>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
+#include "exact/degrees.h"
 #include "map/planar_loops.h"
 #include "map/ring_area.h"
 #include "map/trace.h"
@@ -125,6 +127,20 @@ class RegionDrawing {
     return doubled / (2 * degrees_per_radian * degrees_per_radian);
   }
 
+  // What lines of the plane enclose on the sphere: the integral of the sine of latitude.
+  static double area_of_lines(std::span<const Loop> loops) {
+    double area = 0;
+    for (const Loop& loop : loops) {
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const LonLat& p = loop[k];
+        const LonLat& q = loop[k + 1 < loop.size() ? k + 1 : 0];
+        const double middle = std::midpoint(p.lat_deg, q.lat_deg);
+        area -= (q.lon_deg - p.lon_deg) * exact::sine_cosine_of_degrees(middle).sine;
+      }
+    }
+    return area / degrees_per_radian;
+  }
+
   // Of the region, but for multiples of that of the sphere.
   [[nodiscard]] double area_on_sphere() const {
     double area = 0;
@@ -186,7 +202,13 @@ class RegionDrawing {
     std::ranges::stable_sort(ends, {}, [&](std::size_t i) { return chains_[i].end; });
     const bool is_inside = has_first_corner(starts, ends);
     std::vector<Loop> joined = joined_chains(starts, ends, is_inside);
-    if (!is_rounding(area_on_sphere())) return joined;
+    const double on_sphere = area_on_sphere();
+    if (!is_rounding(on_sphere)) {
+      const double drawn = area_of_lines(joined) + area_of_lines(loops_);
+      const double own = on_sphere < 0 ? on_sphere + 4 * std::numbers::pi : on_sphere;
+      const bool is_other = std::abs(drawn - own) > 2 * std::numbers::pi;
+      return is_other ? joined_chains(starts, ends, !is_inside) : joined;
+    }
     const double area = area_in_plane(joined) + area_in_plane(loops_);
     if (std::abs(area) < small_area) {
       border_ = BorderKnowledge::seems_outside;
