@@ -161,7 +161,7 @@ ShapeInPlane PlaneShapes::keyhole() {
   const auto square = [&](const LonLat& q) {
     return std::pow(q.lon_deg - outer[0].lon_deg, 2) + std::pow(q.lat_deg - outer[0].lat_deg, 2);
   };
-  std::ranges::rotate(hole, std::ranges::min_element(hole, {}, square));
+  std::rotate(hole.begin(), std::ranges::min_element(hole, {}, square), hole.end());
   RingInPlane ring = outer;
   ring.push_back(outer[0]);
   ring.insert(ring.end(), hole.begin(), hole.end());
@@ -398,8 +398,8 @@ void expect_lines(const ShapeInPlane& shape, std::uint64_t seed) {
   }
   EXPECT_FALSE(has_crossing_in_plane(shape.polygons)) << "lines cross";
   double area = 0;
-  for (const RingInPlane& ring : shape.plus) area += planar_area(ring);
-  for (const RingInPlane& ring : shape.minus) area -= planar_area(ring);
+  for (const RingInPlane& ring : shape.plus) area += area_in_plane(ring);
+  for (const RingInPlane& ring : shape.minus) area -= area_in_plane(ring);
   const double found = areas(table->cells)[0];
   EXPECT_NEAR(found, area, tolerance_of(shape, area));
   EXPECT_GE(found, 0);

@@ -89,7 +89,7 @@ inline long double area_below(const LonLat& p, const LonLat& q) {
   }
   return sum * (static_cast<long double>(p.lon_deg) - q.lon_deg) * degree;
 }
-inline double planar_area(const RingInPlane& ring) {
+inline double area_in_plane(const RingInPlane& ring) {
   long double sum = 0;
   for (std::size_t k = 0; k < ring.size(); ++k) {
     sum += area_below(ring[k], ring[k + 1 < ring.size() ? k + 1 : 0]);

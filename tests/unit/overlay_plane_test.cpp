@@ -46,10 +46,10 @@ TEST(overlay_plane, slivers_have_their_area) {
         const double rounding = planar_length(ring) * 1e-14;
         const double arc =
             std::min(1e-4 * std::numbers::pi / 180, std::pow(length * std::numbers::pi / 180, 2));
-        EXPECT_NEAR(area, planar_area(ring), rounding + 2 * arc * planar_length(ring))
+        EXPECT_NEAR(area, area_in_plane(ring), rounding + 2 * arc * planar_length(ring))
             << length << ' ' << width;
         if (width >= 7) {
-          EXPECT_NEAR(area, planar_area(ring), rounding + 1e-2 * planar_area(ring))
+          EXPECT_NEAR(area, area_in_plane(ring), rounding + 1e-2 * area_in_plane(ring))
               << length << ' ' << width;
         }
         EXPECT_GE(area, -rounding);
@@ -89,7 +89,7 @@ TEST(overlay_plane, the_map_is_the_whole_sphere) {
   const CellRings rest =
       planar_table({{planar_polygon({planar_box(-180, -90, 180, 90), island})}}).cells;
   EXPECT_TRUE(rest.whole.empty());
-  EXPECT_NEAR(areas(rest)[0], sphere - planar_area(island), 1e-9);
+  EXPECT_NEAR(areas(rest)[0], sphere - area_in_plane(island), 1e-9);
   EXPECT_EQ(planar_message({{planar_polygon({planar_box(0, -90, 720, 90)})}}),
             "feature 0 (f0): the polygon covers more than the whole map");
 }
@@ -126,11 +126,11 @@ TEST(overlay_plane, rings_are_read_even_odd) {
     return areas(planar_table({parts}, {.tolerance_deg = 1e-6}).cells)[0];
   };
   const double bow =
-      planar_area({{0, 0}, {5, 5}, {0, 10}}) + planar_area({{10, 0}, {10, 10}, {5, 5}});
+      area_in_plane({{0, 0}, {5, 5}, {0, 10}}) + area_in_plane({{10, 0}, {10, 10}, {5, 5}});
   EXPECT_NEAR(area_of({planar_polygon({{{0, 0}, {5, 5}, {10, 10}, {10, 0}, {5, 5}, {0, 10}}})}),
               bow, 1e-8);
-  const double box = planar_area(planar_box(0, 0, 20, 20));
-  const double hole = planar_area(planar_box(5, 5, 6, 6));
+  const double box = area_in_plane(planar_box(0, 0, 20, 20));
+  const double hole = area_in_plane(planar_box(5, 5, 6, 6));
   const RingInPlane keyhole = {{0, 0}, {20, 0}, {20, 20}, {0, 20}, {0, 0},
                                {5, 5}, {5, 6},  {6, 6},   {6, 5},  {5, 5}};
   EXPECT_NEAR(area_of({planar_polygon({keyhole})}), box - hole, 1e-8);
@@ -138,10 +138,10 @@ TEST(overlay_plane, rings_are_read_even_odd) {
   EXPECT_NEAR(area_of({planar_polygon({spike})}), box, 1e-8);
   const RingInPlane beside = {{0, 5}, {3, 8}, {0, 11}};
   EXPECT_NEAR(area_of({planar_polygon({planar_box(0, 0, 20, 20), beside})}),
-              box - planar_area(beside), 1e-8);
+              box - area_in_plane(beside), 1e-8);
   EXPECT_NEAR(area_of({planar_polygon({planar_box(0, 0, 20, 20)}),
                        planar_polygon({planar_box(20, 5, 30, 10)})}),
-              box + planar_area(planar_box(20, 5, 30, 10)), 1e-8);
+              box + area_in_plane(planar_box(20, 5, 30, 10)), 1e-8);
 }
 
 TEST(overlay_plane, corners_of_one_neighbor_are_corners_of_both) {
@@ -153,7 +153,7 @@ TEST(overlay_plane, corners_of_one_neighbor_are_corners_of_both) {
                                           {.overlap = PolygonOverlap::error});
   const CellRings joined = dissolve(table.cells, std::vector<Index>{0, 0}, 1);
   EXPECT_EQ(joined.rings.size(), 2U);
-  EXPECT_NEAR(areas(joined)[0], planar_area(planar_box(0, 0, 30, 21)), 1e-6);
+  EXPECT_NEAR(areas(joined)[0], area_in_plane(planar_box(0, 0, 30, 21)), 1e-6);
   // Along the antimeridian, where each half has another corner.
   const PolygonTable cut =
       planar_table({{planar_polygon({{{170, 0}, {180, 0}, {180, 3}, {180, 10}}}),
@@ -191,9 +191,9 @@ TEST(overlay_plane, overlapping_features_are_told_or_divided) {
                                            {planar_polygon({planar_box(-180, -90, 180, 90)})}},
                                           {.overlap = PolygonOverlap::first});
   const std::vector<double> found = areas(three.cells);
-  EXPECT_NEAR(found[0], planar_area(planar_box(0, 0, 4, 4)), 1e-7);
-  EXPECT_NEAR(found[1], planar_area(planar_box(4, 0, 6, 4)), 1e-7);
-  EXPECT_NEAR(found[2], planar_area(planar_box(6, 1, 8, 3)), 1e-7);
+  EXPECT_NEAR(found[0], area_in_plane(planar_box(0, 0, 4, 4)), 1e-7);
+  EXPECT_NEAR(found[1], area_in_plane(planar_box(4, 0, 6, 4)), 1e-7);
+  EXPECT_NEAR(found[2], area_in_plane(planar_box(6, 1, 8, 3)), 1e-7);
   EXPECT_NEAR(found[0] + found[1] + found[2] + found[3], 4 * std::numbers::pi, 1e-12);
 }
 

@@ -205,7 +205,9 @@ def partition(
     if areas is not None:
         targets = as_floats(areas, "areas")
         targets = np.ascontiguousarray(targets * (4 * np.pi / targets.sum()))
-    poles, weights, found, *ending = _core.make_area_partition(
+    poles, weights, found, end, steps, largest_error, reason = _core.make_area_partition(
         sites, targets, float(tolerance), as_threads(threads)
     )
-    return Partition(frozen(poles), frozen(weights), frozen(found), *ending)
+    return Partition(
+        frozen(poles), frozen(weights), frozen(found), end, steps, largest_error, reason
+    )

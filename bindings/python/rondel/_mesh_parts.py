@@ -88,7 +88,7 @@ def fixed_points(
     found = []
     left_out = 0
     if fixed is not None and not _are_features(fixed):
-        found.append(as_points(fixed, "fixed"))
+        found.append(as_points(cast(ArrayLike, fixed), "fixed"))
     elif fixed is not None:
         sites, left_out = _core.sites_on(read(fixed, _core.read_places), *rules)
         found.append(sites)
