@@ -3,7 +3,10 @@
 
 #include "io/geojson_items.h"
 
+#include <algorithm>
+#include <array>
 #include <iterator>
+#include <string_view>
 
 #include "io/column_text.h"
 #include "io/number.h"
@@ -18,6 +21,38 @@ using nlohmann::json;
 bool is_unlocated(const JsonTree& geometry) {
   const JsonTree& coordinates = geometry.member("coordinates");
   return geometry.is_null() || (coordinates.is_array() && coordinates.items.empty());
+}
+
+// Whether a name of a coordinate reference system, "urn:ogc:def:crs:OGC:1.3:CRS84" or "EPSG:4326", means longitudes from
+// Greenwich and latitudes in degrees: those of WGS 84 or, within metres, NAD 83 and ETRS 89, or of another body.
+bool is_in_degrees(const std::string& name) {
+  const std::size_t separator = name.find_last_of(":/#");
+  const std::string code = separator == std::string::npos ? name : name.substr(separator + 1);
+  const std::string authority = name.substr(0, name.size() - code.size());
+  if (authority.find("IAU") != std::string::npos) {  // 100 times the body, and 0 or 2 for degrees
+    return code.size() > 2 && (code.ends_with("00") || code.ends_with("02"));
+  }
+  constexpr std::array<std::string_view, 8> known = {"CRS84", "CRS84h", "CRS83", "WGS84",
+                                                     "4326",  "4979",   "4269",  "4258"};
+  return std::ranges::find(known, code) != known.end();
+}
+
+// The member `crs`, which RFC 7946 has taken away and files still have, has the type "name", "EPSG" or "link".
+void require_degrees(const JsonTree& object) {
+  const JsonTree& crs = object.member("crs");
+  if (crs.is_null()) return;
+  const JsonTree& properties = crs.member("properties");
+  std::string name;
+  for (const char* const member : {"name", "code", "href"}) {
+    if (name.empty() && !properties.member(member).is_null()) {
+      name = unquoted(properties.member(member));
+    }
+  }
+  if (name.empty()) name = unquoted(crs);
+  if (is_in_degrees(name)) return;
+  throw BadValue("the member \"crs\" names " + in_quotes(name) +
+                 " where longitudes and latitudes in degrees (EPSG:4326) are needed: convert the "
+                 "file, as by ogr2ogr -t_srs EPSG:4326, or take the member away if it is wrong");
 }
 
 }  // namespace
@@ -65,6 +100,11 @@ void GeoJsonItems::read(const ItemListener& listener) {
                              if (depth == 0 || is_item(depth, list)) item_line_ = cursor_.line;
                            },
                            [&](std::size_t depth, const std::string& list, const JsonTree& object) {
+                             if (depth == 1 && list == "crs") {  // before positions are refused
+                               JsonTree root;
+                               root.members["crs"] = object;
+                               require_degrees(root);
+                             }
                              if (!is_item(depth, list)) return false;
                              on_item(list, object, listener);
                              return true;
@@ -82,13 +122,14 @@ void GeoJsonItems::on_item(const std::string& list, const JsonTree& item,
                            const ItemListener& listener) {
   const bool is_feature = list == "features";
   at_item(is_feature ? "feature" : "geometry", num_items_,
-          [&] { is_feature ? visit_feature(item, listener) : listener.on_geometry(item, {}); });
+          [&] { is_feature ? visit_feature(item, listener) : visit_geometry(item, {}, listener); });
   ++num_items_;
   item_line_ = 0;
 }
 
 void GeoJsonItems::on_root(const JsonTree& root, const ItemListener& listener) {
   item_line_ = 1;
+  require_degrees(root);
   const std::string type = geojson_type(root);
   const bool is_features = type == "FeatureCollection";
   if (is_features || type == "GeometryCollection") {
@@ -100,20 +141,27 @@ void GeoJsonItems::on_root(const JsonTree& root, const ItemListener& listener) {
   } else if (type == "Feature") {
     visit_feature(root, listener);
   } else {
-    listener.on_geometry(root, {});
+    visit_geometry(root, {}, listener);
   }
+}
+
+void GeoJsonItems::visit_geometry(const JsonTree& geometry, const JsonTree& properties,
+                                  const ItemListener& listener) {
+  require_degrees(geometry);
+  listener.on_geometry(geometry, properties);
 }
 
 void GeoJsonItems::visit_feature(const JsonTree& feature, const ItemListener& listener) {
   const std::string type = geojson_type(feature);
   if (type != "Feature") throw BadValue("type " + in_quotes(type) + " where a Feature is needed");
   if (!feature.members.contains("geometry")) throw BadValue("no geometry");
+  require_degrees(feature);
   const JsonTree& geometry = feature.member("geometry");
   const JsonTree& properties = feature.member("properties");
   if (is_unlocated(geometry)) {
     listener.on_unlocated(properties);
   } else {
-    listener.on_geometry(geometry, properties);
+    visit_geometry(geometry, properties, listener);
   }
 }
 

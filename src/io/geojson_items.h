@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The geometries of a GeoJSON document (RFC 7946), one after the other. Features are taken out of the
-// document as they come, so that a large file never stands in memory as a tree.
+// document as they come, so that a large file never stands in memory as a tree. A member `crs` that names anything but
+// degrees of longitude and latitude is refused.
 #pragma once
 
 #include <cstddef>
@@ -55,6 +56,8 @@ class GeoJsonItems {
   }
   void on_item(const std::string& list, const JsonTree& item, const ItemListener& listener);
   void on_root(const JsonTree& root, const ItemListener& listener);
+  static void visit_geometry(const JsonTree& geometry, const JsonTree& properties,
+                             const ItemListener& listener);
   static void visit_feature(const JsonTree& feature, const ItemListener& listener);
 
   std::string_view bytes_;

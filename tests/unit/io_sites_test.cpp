@@ -123,6 +123,44 @@ TEST(read_sites, counts_features_without_a_place) {
   EXPECT_EQ(table.where(0), table.name + ":3");
 }
 
+TEST(read_sites, refuses_geojson_whose_crs_is_not_in_degrees) {
+  const TemporaryDirectory directory;
+  const std::string point = R"({"type":"Point","coordinates":[1,2]})";
+  const auto message = [&](const std::string& crs, bool is_last) {
+    const std::string features =
+        R"("features":[{"type":"Feature","properties":{},"geometry":)" + point + "}]";
+    const std::string text =
+        R"({"type":"FeatureCollection",)" +
+        (is_last ? features + R"(,"crs":)" + crs : R"("crs":)" + crs + "," + features) + "}";
+    const std::string file = directory.with("a.geojson", text);
+    return message_of([&] { read_sites(file); });
+  };
+  const auto named = [](const std::string& name) {
+    return R"({"type":"name","properties":{"name":")" + name + R"("}})";
+  };
+  for (const bool is_last : {false, true}) {
+    for (const char* name :
+         {"urn:ogc:def:crs:OGC:1.3:CRS84", "urn:ogc:def:crs:EPSG::4326", "EPSG:4979", "EPSG:4269",
+          "http://www.opengis.net/def/crs/EPSG/0/4258", "urn:ogc:def:crs:IAU:2015:30100"}) {
+      EXPECT_EQ(message(named(name), is_last), "") << name;
+    }
+    EXPECT_EQ(message("null", is_last), "");
+    EXPECT_EQ(message(R"({"type":"EPSG","properties":{"code":4326}})", is_last), "");
+    for (const char* name : {"urn:ogc:def:crs:EPSG::3857", "EPSG:4807", "EPSG:14326",
+                             "urn:ogc:def:crs:IAU:2015:30110"}) {
+      EXPECT_NE(message(named(name), is_last).find('"' + std::string(name) + '"'),
+                std::string::npos)
+          << name;
+    }
+    EXPECT_NE(message(R"({"type":"EPSG","properties":{"code":25832}})", is_last).find("25832"),
+              std::string::npos);
+    EXPECT_NE(message(R"("EPSG:3857")", is_last).find("EPSG:3857"), std::string::npos);
+  }
+  const std::string bare = directory.with(
+      "b.geojson", R"({"type":"Point","crs":)" + named("EPSG:3857") + R"(,"coordinates":[1,2]})");
+  EXPECT_NE(message_of([&] { read_sites(bare); }).find("EPSG:3857"), std::string::npos);
+}
+
 TEST(read_sites, names_the_line_of_every_site) {
   const std::map<std::string, std::pair<std::string, std::string>> first_and_last = {
       {"plain.csv", {":2", ":7"}},          {"bom_crlf_no_final_newline.csv", {":2", ":12"}},
