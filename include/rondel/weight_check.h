@@ -51,7 +51,8 @@ struct WeightCheckOptions {
 /// | --- | --- |
 /// | `not finite` | a weight is infinite or not a number |
 /// | `repeated` | a row has two entries of one column |
-/// | `row sum` | the entries of a row do not add up to 1 or, normalized by destarea, to the fraction of the target |
+/// | `row sum` | the entries of a row do not add up to 1 or, normalized by destarea, to the fraction of the target; |
+/// |           | of a conservative method whose fractions are not known, to more than 1 |
 /// | `column sum` | in place of `row sum`, where the method gives each source to its nearest target (nearest_d2s, nearest |
 /// |            | destination to source): the entries of a column do not add up to 1 |
 /// | `negative` | a weight is negative, though the method is an average: conservative of first order, |

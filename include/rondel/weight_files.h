@@ -44,7 +44,7 @@ struct WeightFile {
 /// | --- | --- | --- |
 /// | `esmf` | `.nc`, `.nc4` | netCDF as ESMF's regridding writes it: `col`, `row` (from 1), `S`; degrees |
 /// | `scrip` | none | netCDF as SCRIP wrote it and CDO reads it: `src_address`, `remap_matrix` ... |
-/// | `npz` | `.npz` | the matrix as scipy.sparse.save_npz() writes it in CSR, and nothing else |
+/// | `npz` | `.npz` | the matrix as scipy.sparse.save_npz() writes it in CSR; the method, its normalization and the fractions of targets |
 ///
 /// netCDF is one of the classic formats, CDF-5 where a variable has more than 4 GiB, or netCDF-4 if the options or the ending of
 /// the path say so.

@@ -94,8 +94,12 @@ class WeightChecker {
     report_.sums_are_of_columns = method_.gives_sources_away;
     report_.sums_are_fractions = file.normalization == "destarea" &&
                                  !file.target.fractions.empty() && !method_.gives_sources_away;
-    const std::string wanted =
-        report_.sums_are_fractions ? "the fraction of the target" : "something else than 1";
+    // What lies beside the sources is a part that is not known.
+    is_at_most_wanted_ = method_.is_conservative && file.target.fractions.empty() &&
+                         file.normalization != "fracarea";
+    const std::string wanted = is_at_most_wanted_           ? "more than 1"
+                               : report_.sums_are_fractions ? "the fraction of the target"
+                                                            : "something else than 1";
     const bool is_negated = report_.sums_are_fractions;
     row_sums_ = FaultCounter("row sum",
                              (is_negated ? "row does not sum up to " : "row sums up to ") + wanted,
@@ -157,7 +161,8 @@ class WeightChecker {
       ++entries_of_column_[weights_.columns[k]];
     }
     if (method_.gives_sources_away) return;
-    const double deviation = std::abs(sum - wanted);
+    const double deviation =
+        is_at_most_wanted_ ? std::max(sum - wanted, 0.0) : std::abs(sum - wanted);
     report_.worst_row = std::max(report_.worst_row, deviation);
     if (!(deviation <= tolerance)) row_sums_.add("target " + std::to_string(row), sum);
   }
@@ -267,6 +272,7 @@ class WeightChecker {
   const Weights& weights_;
   MethodFacts method_;
   bool allow_negative_;
+  bool is_at_most_wanted_ = false;  // each sum is a fraction that is not known
   WeightReport report_;
   std::vector<std::size_t> entries_of_column_;
   std::vector<WeightFault> side_faults_;

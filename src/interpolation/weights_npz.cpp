@@ -76,17 +76,51 @@ class NpzArray {
   std::endian order_ = std::endian::little;
 };
 
-// "csr" as bytes or, by old versions, in four bytes a letter.
-void require_csr(std::string_view archive) {
-  const std::string bytes = io::zip_member(archive, "format.npy");
+// A text as bytes or, by old versions of SciPy, in four bytes a letter.
+std::string text_of_member(std::string_view archive, std::string_view name) {
+  const std::string bytes = io::zip_member(archive, name);
   const io::NpyHeader header = io::parse_npy_header(bytes);
-  std::string format;
+  std::string text;
   for (const char c : std::string_view(bytes).substr(header.data_offset)) {
-    if (c != '\0') format += c;
+    if (c != '\0') text += c;
   }
+  return text;
+}
+
+void require_csr(std::string_view archive) {
+  const std::string format = text_of_member(archive, "format.npy");
   if (format != "csr") {
     throw io::BadValue("a matrix in the format " + io::in_quotes(format) +
                        " where \"csr\" is needed");
+  }
+}
+
+// What this library adds to a matrix, which SciPy leaves alone. Without it weights that cover a part of a target cannot be
+// told from wrong ones.
+void add_facts(io::ZipWriter& zip, const WeightFile& content) {
+  const auto add_text = [&](const char* name, const std::string& text) {
+    if (text.empty()) return;
+    zip.add(name, io::make_npy_header("|S" + std::to_string(text.size()), {}), text);
+  };
+  add_text("method.npy", content.method);
+  add_text("normalization.npy", content.normalization);
+  const std::vector<double>& fractions = content.target.fractions;
+  if (fractions.empty()) return;
+  const std::array<std::uint64_t, 1> shape = {fractions.size()};
+  zip.add("fractions.npy", io::make_npy_header("<f8", shape), io::NumberBytes(fractions));
+}
+
+void read_facts(std::string_view archive, WeightFile& content) {
+  const auto text = [&](std::string_view name) {
+    return io::has_zip_member(archive, name) ? text_of_member(archive, name) : std::string();
+  };
+  content.method = text("method.npy");
+  content.normalization = text("normalization.npy");
+  if (!io::has_zip_member(archive, "fractions.npy")) return;
+  content.target.fractions = NpzArray(archive, "fractions").values<double>();
+  if (content.target.fractions.size() != content.weights.num_rows()) {
+    throw io::BadValue("\"fractions\" has " + std::to_string(content.target.fractions.size()) +
+                       " values for " + std::to_string(content.weights.num_rows()) + " rows");
   }
 }
 
@@ -113,6 +147,7 @@ void write_weights_npz(io::AtomicFile& file, const WeightsToWrite& job) {
   add("format.npy", "|S3", {}, "csr");
   add("shape.npy", "<i8", length(shape), io::NumberBytes(shape));
   add("data.npy", "<f8", length(weights.values), io::NumberBytes(weights.values));
+  add_facts(zip, content);
   zip.finish();
 }
 
@@ -148,6 +183,7 @@ WeightFile read_weights_npz(std::string_view bytes) {
     }
     weights.columns.push_back(static_cast<Index>(columns[k]));
   }
+  read_facts(bytes, content);
   return content;
 }
 

@@ -139,6 +139,10 @@ std::string inflated(std::string_view packed, std::uint64_t size) {
 
 }  // namespace
 
+bool has_zip_member(std::string_view bytes, std::string_view name) {
+  return find_entry(bytes, name).has_value();
+}
+
 std::string zip_member(std::string_view bytes, std::string_view name) {
   const std::optional<ZipEntry> entry = find_entry(bytes, name);
   if (!entry) throw BadValue("no " + in_quotes(name) + " in the archive");

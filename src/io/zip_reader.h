@@ -15,4 +15,7 @@ namespace rondel::io {
 // no memory is taken for a size that the archive's bytes cannot have.
 RONDEL_API std::string zip_member(std::string_view bytes, std::string_view name);
 
+// Whether the archive has such a member.
+RONDEL_API bool has_zip_member(std::string_view bytes, std::string_view name);
+
 }  // namespace rondel::io

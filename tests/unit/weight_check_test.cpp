@@ -71,6 +71,18 @@ TEST(weight_check, names_fractions_above_one_and_below_zero) {
                    "(first source 0: -0.5)"}));
 }
 
+TEST(weight_check, takes_rows_below_one_where_fractions_are_not_known) {
+  WeightFile file = three_of_four();
+  file.target.fractions.clear();
+  EXPECT_EQ(faults_of(file), Lines{});
+  file.weights.values[2] = 1.5;
+  EXPECT_EQ(check_weights(file).count("row sum"), 1U);
+  file = three_of_four();
+  file.target.fractions.clear();
+  file.normalization = "fracarea";
+  EXPECT_EQ(check_weights(file).count("row sum"), 1U);
+}
+
 TEST(weight_check, names_sums_of_rows) {
   WeightFile file = three_of_four();
   file.weights.values[0] = 0.5;

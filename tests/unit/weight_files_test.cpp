@@ -14,6 +14,7 @@
 #include "io_support.h"
 #include "rondel/delaunay.h"
 #include "rondel/fields.h"
+#include "rondel/weight_check.h"
 
 namespace rondel::test {
 namespace {
@@ -100,6 +101,26 @@ TEST(weight_files, come_back_from_both_kinds_of_netcdf) {
     EXPECT_EQ(read.method, "sibson");
     EXPECT_EQ(read.normalization, "none");
   }
+}
+
+TEST(weight_files, keep_fractions_and_methods_in_npz) {
+  const TemporaryDirectory directory;
+  WeightFile content;
+  content.weights.offsets = {0, 1, 3};
+  content.weights.columns = {0, 0, 1};
+  content.weights.values = {0.25, 0.5, 0.5};
+  content.weights.num_columns = 2;
+  content.target.fractions = {0.25, 1};
+  content.method = "Conservative remapping";
+  content.normalization = "destarea";
+  write_weights(directory.file("w.npz"), content);
+  WeightFile read = read_weights(directory.file("w.npz"));
+  EXPECT_EQ(read.target.fractions, content.target.fractions);
+  EXPECT_EQ(read.method, content.method);
+  EXPECT_EQ(read.normalization, content.normalization);
+  EXPECT_TRUE(check_weights(read).faults.empty());
+  read.weights.values[0] = 0.3;
+  EXPECT_EQ(check_weights(read).count("row sum"), 1U);
 }
 
 TEST(weight_files, come_back_from_npz_without_hashes) {
