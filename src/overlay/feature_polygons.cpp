@@ -18,6 +18,7 @@
 #include "map/ring_area.h"
 #include "overlay/border_rings.h"
 #include "overlay/first_of_cells.h"
+#include "overlay/long_side.h"
 #include "overlay/plane_arcs.h"
 #include "overlay/plane_sweep.h"
 #include "overlay/shared_corners.h"
@@ -163,6 +164,18 @@ class FeatureCells {
     return cells;
   }
 
+  [[noreturn]] void refuse_long_side(std::size_t feature, Index ring, std::size_t side) const {
+    const std::vector<io::LonLatRing>& rings = features_.rings[feature];
+    const std::vector<LonLat>& positions = rings[ring].positions;
+    const LonLat& from = positions[side];
+    const LonLat& to = positions[side + 1 < positions.size() ? side + 1 : 0];
+    refuse(feature, ring_name(rings, ring) + ": its side from " + text_of_place(from) + " to " +
+                        text_of_place(to) +
+                        " spans more than 180 degrees of longitude: a ring around a pole has to be "
+                        "led there along the longitudes -180 and 180, or to be read with geodesic "
+                        "edges; if the long side is meant, divide it by a position");
+  }
+
   void require_turns(std::size_t feature) const {
     constexpr double most_turns = 10;
     const std::vector<io::LonLatRing>& rings = features_.rings[feature];
@@ -175,6 +188,7 @@ class FeatureCells {
                    " and is not closed: a ring around a pole has to be led there along the "
                    "longitudes -180 and 180, or to be read with geodesic edges");
       }
+      if (const auto side = lone_long_side(positions)) refuse_long_side(feature, r, *side);
       for (const LonLat& p : positions) {
         if (std::abs(p.lon_deg) > most_turns * 360) {
           refuse(feature, ring_name(rings, r) + ": longitude " + text_of_place(p) +
