@@ -30,6 +30,11 @@ namespace {
 
 constexpr double mean_earth_radius = 6371.0088;  // kilometres; of WGS 84, (2 a + b) / 3
 
+std::string_view text_in_row(const Column& column, std::size_t row) {
+  const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
+  return std::string_view(column.text).substr(begin, column.ends[row] - begin);
+}
+
 const Column& column_of(const std::vector<Column>& columns, const std::string& file,
                         const std::string& name, const std::string& option) {
   const auto column = std::ranges::find(columns, name, &Column::name);
@@ -144,10 +149,15 @@ struct Regions {
 };
 Regions regions_of(const VoronoiOptions& options, const Execution& execution) {
   // clip() unites them.
-  const PolygonOverlap overlap =
-      options.clip_value.empty() ? PolygonOverlap::keep : options.overlap;
-  const PolygonTable polygons =
-      read_polygons({options.clip, {}}, {.edges = options.edges, .overlap = overlap}, execution);
+  PolygonOptions rules{.edges = options.edges};
+  if (!options.clip_value.empty()) {
+    rules.overlap = options.overlap;
+    rules.is_taken = [&](std::size_t feature, std::span<const Column> columns) {
+      const auto column = std::ranges::find(columns, options.clip_value, &Column::name);
+      return column == columns.end() || !text_in_row(*column, feature).empty();
+    };
+  }
+  const PolygonTable polygons = read_polygons({options.clip, {}}, rules, execution);
   Groups values;
   if (!options.clip_value.empty()) {
     values =

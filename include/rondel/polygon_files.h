@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -37,6 +38,9 @@ struct PolygonOptions {
   /// are so near: degrees.
   double tolerance_deg = 1e-4;
   PolygonOverlap overlap = PolygonOverlap::keep;
+  /// Says of each feature, by its number and the properties of all, whether it is taken. The others take no space:
+  /// their cells are empty. Empty: all are taken.
+  std::function<bool(std::size_t feature, std::span<const Column> columns)> is_taken = {};
 };
 
 /// The polygons of a file: cell i is feature i.
@@ -60,7 +64,8 @@ struct PolygonTable {
 ///    feature that run to and fro between the same two corners vanish, so what a file has cut at
 ///    the antimeridian or led around a pole is whole again.
 /// 5. If sides are geodesic, a ring is around its smaller side, and may go around a pole. In straight lines it may not:
-///    it has to be led to the pole along the edge of the map.
+///    it has to be led to the pole along the edge of the map. So a ring on one side of the equator whose only side of more than
+///    180 degrees of longitude is not at the pole is refused: divide the side by a position if it is meant.
 /// 6. Features that share a line of positions share the corners that it gets, bit by bit. A corner of one feature that lies
 ///    on a side of another, but for some roundings (2^-42 degrees), becomes a corner of that, too.
 /// \throws FileError for what cannot be read, with file, line and feature; for sides that cross, holes outside of their

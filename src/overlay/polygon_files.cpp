@@ -30,7 +30,13 @@ io::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
     throw InvalidInput("the tolerance " + system::shortest_text(options.tolerance_deg) +
                        " is not positive");
   }
-  return io::read_polygon_features(file, kinds);
+  io::PolygonFeatures features = io::read_polygon_features(file, kinds);
+  for (std::size_t f = 0; options.is_taken && f < features.rings.size(); ++f) {
+    if (options.is_taken(f, features.columns)) continue;
+    features.rings[f].clear();
+    features.lines[f].clear();
+  }
+  return features;
 }
 
 FeatureLines lines_of_features(const io::PolygonFeatures& features, const PolygonOptions& options) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fstream>
 #include <numbers>
+#include <span>
 #include <string>
 
 #include "overlay_support.h"
@@ -93,6 +94,56 @@ TEST(overlay_polygons, sides_across_the_equator_are_straight) {
     const PolygonTable table = table_of(polygon("[" + ring + "]"));
     ASSERT_EQ(table.cells.num_cells(), 1U);
     EXPECT_NEAR(areas(table.cells)[0], area_of_triangle(corners), 2e-5);
+  }
+}
+
+TEST(overlay_polygons, rings_around_a_pole_have_to_be_led_there) {
+  const auto message = [](const std::string& ring) -> std::string {
+    try {
+      (void)table_of(polygon(ring));
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const auto names = [&](const std::string& ring, const std::string& side) {
+    return message(ring).find(side + " spans more than 180 degrees of longitude") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(names("[[-160,-60],[-80,-62],[0,-61],[80,-62],[160,-60],[-160,-60]]",
+                    "ring 0 of part 0: its side from 160 -60 to -160 -60"));
+  EXPECT_TRUE(names("[[0,50],[90,51],[180,52],[270,51],[0,50]]", "side from 270 51 to 0 50"));
+  EXPECT_TRUE(names("[[0,50],[90,50],[180,50],[270,50],[0,50]]", "side from 270 50 to 0 50"));
+  EXPECT_TRUE(
+      names(ring_of_box(-180, -90, 180, 90) + ",[[-170,70],[-60,75],[60,70],[170,75],[-170,70]]",
+            "ring 1 of part 0: its side from 170 75 to -170 70"));
+  // Led along the edge of the map, boxes, a side that is divided, both sides of the equator.
+  for (const std::string& ring :
+       {std::string("[[-180,60],[0,50],[180,60],[180,90],[-180,90],[-180,60]]"),
+        ring_of_box(-170, 20, 170, 40), ring_of_box(-180, 60, 180, 90),
+        std::string("[[0,50],[90,51],[180,52],[270,51],[135,50],[0,50]]"),
+        std::string("[[-100,-10],[100,-10],[0,40],[-100,-10]]")}) {
+    EXPECT_EQ(message(ring), "");
+  }
+}
+
+TEST(overlay_polygons, features_that_are_not_taken_take_no_space) {
+  const std::string file = written(
+      R"({"type":"FeatureCollection","features":[
+{"type":"Feature","properties":{"a":null},"geometry":)" +
+      polygon(ring_of_box(0, 0, 10, 10)) + R"(},
+{"type":"Feature","properties":{"a":"b"},"geometry":)" +
+      polygon(ring_of_box(5, 0, 15, 10)) + "}]}");
+  PolygonOptions options{.overlap = PolygonOverlap::error};
+  EXPECT_THROW((void)read_polygons(file, options), FileError);
+  options.is_taken = [](std::size_t feature, std::span<const Column> columns) {
+    return columns.front().ends[feature] > 0;
+  };
+  for (const PolygonOverlap overlap : {PolygonOverlap::error, PolygonOverlap::first}) {
+    options.overlap = overlap;
+    const PolygonTable table = read_polygons(file, options);
+    EXPECT_EQ(areas(table.cells)[0], 0);
+    EXPECT_NEAR(areas(table.cells)[1], area_of_box(5, 0, 15, 10), 1e-6);
   }
 }
 

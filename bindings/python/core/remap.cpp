@@ -3,11 +3,13 @@
 
 #include "rondel/remap.h"
 
+#include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <tuple>
@@ -73,11 +75,22 @@ nb::tuple read_partition(const std::string& path, bool are_arcs, unsigned thread
                         table.remarks);
 }
 
-// The partition, and the properties of its cells.
+std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
+  return {mask.data(), mask.data() + mask.size()};
+}
+
+// The partition, and the properties of its cells; polygons of a group below 0 are left out.
 std::tuple<Partition, CellColumns> read_polygon_partition(const std::string& path, bool is_geodesic,
-                                                          unsigned overlap, unsigned threads) {
-  const PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat,
-                               .overlap = static_cast<PolygonOverlap>(overlap)};
+                                                          unsigned overlap,
+                                                          const std::optional<IndicesIn>& groups,
+                                                          unsigned threads) {
+  PolygonOptions options{.edges = is_geodesic ? PolygonEdges::geodesic : PolygonEdges::lonlat,
+                         .overlap = static_cast<PolygonOverlap>(overlap)};
+  if (groups) {
+    options.is_taken = [taken = mask_of(*groups)](std::size_t feature, auto&&) {
+      return feature >= taken.size() || taken[feature] >= 0;
+    };
+  }
   return unlocked([&] {
     PolygonTable table = read_polygons(path, options, {.threads = threads});
     return std::tuple(Partition(table.cells, {.threads = threads}),
@@ -93,10 +106,6 @@ Partition corner_partition(const PairsIn& corners, std::size_t of_each, unsigned
   return unlocked([&] {
     return Partition(cells_of_corners(rows_of<LonLat>(corners), of_each), {.threads = threads});
   });
-}
-
-std::vector<std::int32_t> mask_of(const IndicesIn& mask) {
-  return {mask.data(), mask.data() + mask.size()};
 }
 
 RemapOut remap_of(const Partition& source, const Partition& target, unsigned order,
@@ -171,7 +180,8 @@ void add_remap(nb::module_& module) {
   module.def("corner_partition", &corner_partition, nb::arg("corners").noconvert(),
              nb::arg("of_each"), nb::arg("threads"));
   module.def("read_polygon_partition", &read_polygon_partition, nb::arg("path"),
-             nb::arg("is_geodesic"), nb::arg("overlap"), nb::arg("threads"));
+             nb::arg("is_geodesic"), nb::arg("overlap"), nb::arg("groups").noconvert().none(),
+             nb::arg("threads"));
   module.def("remap", &remap_of, nb::arg("source"), nb::arg("target"), nb::arg("order"),
              nb::arg("is_fracarea"), nb::arg("source_mask").noconvert(),
              nb::arg("target_mask").noconvert(), nb::arg("overlap"), nb::arg("threads"),

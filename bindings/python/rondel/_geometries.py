@@ -24,18 +24,24 @@ PolygonOverlap: TypeAlias = Literal["keep", "error", "first"]
 _OVERLAPS = ("keep", "error", "first")  # in the order of the C++ enumeration
 
 
+Groups: TypeAlias = np.ndarray[Any, np.dtype[np.int32]] | None
 Polygons: TypeAlias = tuple[_core.Partition, _core.CellColumns]  # and their properties
 
 
-def read_polygons(name: str, edges: Edges, overlap: PolygonOverlap, threads: int) -> Polygons:
-    """The polygons of a file of GeoJSON."""
-    rules = _is_geodesic(edges), _number_of(overlap)
+def read_polygons(
+    name: str, edges: Edges, overlap: PolygonOverlap, threads: int, groups: Groups = None
+) -> Polygons:
+    """The polygons of a file of GeoJSON; those with a group below 0 are left out."""
+    rules = _is_geodesic(edges), _number_of(overlap), groups
     return _read(name, lambda file: _core.read_polygon_partition(file, *rules, threads))
 
 
-def polygons_of(geometries: Any, edges: Edges, overlap: PolygonOverlap, threads: int) -> Polygons:
-    """The polygons of objects: a cell for each of them."""
-    return _of_objects(geometries, lambda name: read_polygons(name, edges, overlap, threads))
+def polygons_of(
+    geometries: Any, edges: Edges, overlap: PolygonOverlap, threads: int, groups: Groups = None
+) -> Polygons:
+    """The polygons of objects: a cell for each of them, empty where the group is below 0."""
+    rules = edges, overlap, threads, groups
+    return _of_objects(geometries, lambda name: read_polygons(name, *rules))
 
 
 def features_of(
@@ -69,7 +75,7 @@ def _read(name: str, read: Callable[[str], Any]) -> Any:
 def _of_objects(geometries: Any, read: Callable[[str], Any]) -> Any:
     collection = _collection(geometries)
     try:
-        text = json.dumps(collection, allow_nan=False)
+        text = json.dumps(collection, allow_nan=False, default=_plain)
     except ValueError:
         raise ValueError(
             f"{_first_not_finite(collection)} has a position that is not finite"
@@ -85,6 +91,13 @@ def _of_objects(geometries: Any, read: Callable[[str], Any]) -> Any:
             raise ValueError(f"geometries: {problem}") from None
 
 
+def _plain(value: Any) -> Any:
+    """Arrays and numbers of NumPy as JSON has them."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    raise TypeError(f"a {type(value).__name__} has no place in GeoJSON")
+
+
 def _word_of(match: re.Match[str]) -> str:
     return "geometries " if match[1] else "geometry "
 
@@ -93,7 +106,7 @@ def _first_not_finite(collection: Mapping[str, Any]) -> str:
     items = collection.get("features", collection.get("geometries", [collection]))
     for i, item in enumerate(items):
         try:
-            json.dumps(item, allow_nan=False)
+            json.dumps(item, allow_nan=False, default=_plain)
         except ValueError:
             return f"geometry {i}"
     return "what is beside the geometries"
@@ -105,9 +118,7 @@ def is_file(regions: Any) -> bool:
 
 def _collection(geometries: Any) -> dict[str, Any]:
     geometries = _from_arrow(geometries)
-    crs = getattr(geometries, "crs", None)
-    if crs is not None and not crs.is_geographic:
-        geometries = geometries.to_crs(4326)
+    geometries = in_degrees(geometries)
     properties = _properties(geometries)
     geometries = getattr(geometries, "geometry", geometries)  # of a GeoDataFrame
     if _is_box(geometries):
@@ -121,6 +132,31 @@ def _collection(geometries: Any) -> dict[str, Any]:
         kind = type(geometries).__name__
         raise TypeError(f"polygons must be geometries, a file, or a Partition, not {kind}")
     return {"type": "FeatureCollection", "features": [_feature(g) for g in geometries]}
+
+
+def in_degrees(geometries: Any) -> Any:
+    """Geometries of GeoPandas in degrees: of WGS 84, or of another body as its CRS has them."""
+    crs = getattr(geometries, "crs", None)
+    if crs is None or crs.equals(4326, ignore_axis_order=True):
+        return geometries
+    from pyproj.exceptions import ProjError
+
+    try:
+        return geometries.to_crs(4326)
+    except ProjError as error:
+        sphere = crs.geodetic_crs  # of the Moon, say, of which there is no way to WGS 84
+        if sphere is None or not _has_degrees(sphere):
+            raise ValueError(
+                f"the CRS {crs.name!r} cannot be converted to EPSG:4326: {error}"
+            ) from None
+        return geometries if crs.equals(sphere) else geometries.to_crs(sphere)
+
+
+def _has_degrees(crs: Any) -> bool:
+    """Whether a geographic CRS has degrees to the north and east of its body's first meridian."""
+    axes = [(axis.unit_name, axis.direction) for axis in crs.axis_info[:2]]
+    meridian = crs.prime_meridian.longitude if crs.prime_meridian is not None else 0
+    return meridian == 0 and sorted(axes) == [("degree", "east"), ("degree", "north")]
 
 
 def _properties(frame: Any) -> list[dict[str, Any]]:

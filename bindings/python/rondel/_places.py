@@ -16,6 +16,7 @@ from . import _core
 from ._arrays import lonlat, point_set_hash, unit_vectors
 from ._coordinates import MARKS, Coordinates, missing_marker
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
+from ._geometries import in_degrees
 from ._partition import Partition
 from ._types import BoolArray, FloatArray
 from ._weights import Weights
@@ -218,7 +219,7 @@ def _of_table(table: Any) -> xarray.Dataset:
             raise ValueError(f"the columns {texts} may be the {kind}: leave one")
         found[kind] = table[columns[0]].to_numpy() if columns else None
     if found["lon"] is None and found["lat"] is None and hasattr(table, "geometry"):
-        points = table.geometry if table.crs is None else table.geometry.to_crs(4326)
+        points = in_degrees(table.geometry)
         if not (points.geom_type == "Point").all():
             raise TypeError(
                 "geometries that are places must be points; rondel.polygons() makes cells"

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import io
+import os
 from collections.abc import Hashable, Sequence
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -13,7 +14,15 @@ import numpy as np
 from . import _core
 from ._arrays import as_threads
 from ._geo import Path, Properties, polygon_frame, written
-from ._geometries import Edges, PolygonOverlap, features_of, is_file, polygons_of
+from ._geometries import (
+    Edges,
+    Groups,
+    PolygonOverlap,
+    features_of,
+    is_file,
+    polygons_of,
+    read_polygons,
+)
 from ._partition import Partition
 from ._plot import plot_regions
 from ._properties import checked_properties, is_missing, json_cells
@@ -275,11 +284,13 @@ def clip_cells(
     """
     cells = Partition.voronoi(self, threads=threads)._partition
     shared: PolygonOverlap = "keep" if values is None else overlap  # clip() unites
-    within = as_partition(regions, edges, shared, threads)._partition
     if values is None:
+        within = as_partition(regions, edges, shared, threads)._partition
         found = _core.clip(cells, within, as_threads(threads), progress)
         return Regions._of(found, np.arange(len(self.points)), "site")
-    numbers, names = _numbered(values, within.num_cells, "values", "regions")
+    numbers, names = _numbered(values)
+    within = as_partition(regions, edges, shared, threads, numbers)._partition
+    _require_size(numbers, within.num_cells, "values", "regions")
     found, sites, groups = _core.intersection(cells, within, numbers, as_threads(threads), progress)
     return Regions._of(found, sites, "site", names[groups])
 
@@ -380,32 +391,43 @@ def feature_cells(
 
 
 def as_partition(
-    regions: Any, edges: Edges, overlap: PolygonOverlap, threads: int | None
+    regions: Any,
+    edges: Edges,
+    overlap: PolygonOverlap,
+    threads: int | None,
+    groups: Groups = None,
 ) -> Partition:
+    """The regions as a partition; polygons whose group is below 0 are left out."""
     if isinstance(regions, Partition):
         return regions
-    if is_file(regions):
-        return Partition.read(regions, edges=edges, overlap=overlap, threads=threads)
-    return Partition._of_polygons(polygons_of(regions, edges, overlap, as_threads(threads)))
+    rules = edges, overlap, as_threads(threads), groups
+    if not is_file(regions):
+        return Partition._of_polygons(polygons_of(regions, *rules))
+    name = os.fspath(regions)
+    if name.lower().endswith((".geojson", ".json")):
+        return Partition._of_polygons(read_polygons(name, *rules))
+    return Partition.read(regions, edges=edges, overlap=overlap, threads=threads)
 
 
 def _dissolved(
     rings: _core.CellRings, groups: Any, threads: int | None, progress: Progress
 ) -> Regions:
-    numbers, labels = _numbered(groups, rings.num_cells)
+    numbers, labels = _numbered(groups)
+    _require_size(numbers, rings.num_cells, "groups", "cells")
     joined = rings.dissolve(numbers, len(labels), as_threads(threads), progress)
     return Regions._of(joined, labels, "group")
 
 
+def _require_size(numbers: Any, num_cells: int, what: str, of: str) -> None:
+    if len(numbers) != num_cells:
+        raise ValueError(f"there are {len(numbers)} {what} for {num_cells} {of}")
+
+
 # The groups as numbers, -1 for none, and what each of them is.
-def _numbered(
-    groups: Any, num_cells: int, what: str = "groups", of: str = "cells"
-) -> tuple[Any, np.ndarray[Any, Any]]:
+def _numbered(groups: Any) -> tuple[Any, np.ndarray[Any, Any]]:
     values: Sequence[Hashable] = groups.tolist() if hasattr(groups, "tolist") else list(groups)
-    if len(values) != num_cells:
-        raise ValueError(f"there are {len(values)} {what} for {num_cells} {of}")
     known: dict[Hashable, int] = {}
-    numbers = np.full(num_cells, -1, np.int32)
+    numbers = np.full(len(values), -1, np.int32)
     for i, value in enumerate(values):
         if value is None or is_missing(value) or value != value:
             continue

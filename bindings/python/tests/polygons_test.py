@@ -234,3 +234,42 @@ def test_the_world_and_what_is_in_it():
     assert np.isclose(both.sum(), 4 * math.pi, rtol=1e-13)
     for order in itertools.permutations([island, world, shapely.box(10.5, 10.5, 30, 20)]):
         assert np.isclose(CELLS.clip(list(order)).areas.sum(), 4 * math.pi, rtol=1e-12)
+
+
+def test_geographic_crs_are_converted_to_degrees():
+    geopandas = pytest.importorskip("geopandas")
+    shapely = pytest.importorskip("shapely")
+    box = shapely.box(0, 0, 10, 10)
+    paris = 2.5969213 * 0.9  # grads from Greenwich, of 400 to a turn
+    expected = rondel.polygons(shapely.box(paris, 0, paris + 9, 9)).areas
+    found = rondel.polygons(geopandas.GeoSeries([box], crs=4807)).areas  # grads of Paris
+    assert found == pytest.approx(expected, rel=1e-3)
+    plain = rondel.polygons(box).areas
+    for crs in (4326, 4979, 4269, 4258, "IAU_2015:30100"):
+        assert rondel.polygons(geopandas.GeoSeries([box], crs=crs)).areas == pytest.approx(
+            plain, rel=1e-9
+        )
+    moon = geopandas.GeoSeries([box], crs="IAU_2015:30100").to_crs("IAU_2015:30110")
+    assert rondel.polygons(moon).areas == pytest.approx(plain, rel=1e-9)
+
+
+def test_a_crs_of_geojson_has_to_be_in_degrees():
+    mapping = {
+        "type": "Polygon",
+        "coordinates": [[[0, 0], [1, 0], [1, 1], [0, 0]]],
+        "crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::3857"}},
+    }
+    with pytest.raises(ValueError, match='names "urn:ogc:def:crs:EPSG::3857"'):
+        rondel.polygons(mapping)
+
+
+def test_positions_may_be_arrays():
+    corners = np.array([[0, 0], [10, 0], [10, 10], [0, 0]], float)
+    as_lists = {"type": "Polygon", "coordinates": [corners.tolist()]}
+    expected = rondel.polygons(as_lists).areas
+    for coordinates in ([corners], corners[np.newaxis], [list(corners)]):
+        mapping = {"type": "Polygon", "coordinates": coordinates}
+        assert (rondel.polygons(mapping).areas == expected).all()
+        assert (rondel.polygons([mapping]).areas == expected).all()
+    with pytest.raises(ValueError, match="geometry 0 has a position that is not finite"):
+        rondel.polygons([{"type": "Polygon", "coordinates": [corners * np.nan]}])

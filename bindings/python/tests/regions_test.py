@@ -323,3 +323,18 @@ def test_cells_of_a_box_along_their_borders_are_valid():
     assert len(shapes) > 30
     assert all(shape.is_valid for shape in shapes)
     assert shapely.coverage_is_valid(np.array(shapes))
+
+
+@pytest.mark.parametrize("nothing", [None, float("nan")])
+@pytest.mark.parametrize("overlap", ["first", "error"])
+def test_regions_without_a_value_take_no_space(tmp_path, nothing, overlap):
+    cells = rondel.SphericalVoronoi.from_lonlat([0], [0])
+    corners = [[(w, 0), (w + 10, 0), (w + 10, 10), (w, 10), (w, 0)] for w in (0, 5)]
+    boxes = [{"type": "Polygon", "coordinates": [ring]} for ring in corners]
+    expected = rondel.polygons([boxes[1]]).areas
+    path = tmp_path / "boxes.geojson"
+    path.write_text(json.dumps({"type": "GeometryCollection", "geometries": boxes}))
+    for regions in (boxes, path):
+        found = cells.clip(regions, values=[nothing, "b"], overlap=overlap)
+        assert found.values.tolist() == ["b"]
+        assert found.areas == pytest.approx(expected, rel=1e-12)
