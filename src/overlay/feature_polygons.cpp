@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,7 @@
 #include "exact/vector.h"
 #include "map/ring_area.h"
 #include "overlay/border_rings.h"
+#include "overlay/cell_sets.h"
 #include "overlay/first_of_cells.h"
 #include "overlay/long_side.h"
 #include "overlay/plane_arcs.h"
@@ -97,14 +99,13 @@ class FeatureCells {
   CellRings operator()() {
     const bool is_geodesic = options_.edges == PolygonEdges::geodesic;
     CellRings cells = is_geodesic ? geodesic_cells() : plane_cells();
-    if (options_.overlap == PolygonOverlap::keep && !is_geodesic) return cells;
-    const std::vector<CrossingCells> overlaps = overlaps_in(cells);
-    for (const CrossingCells& pair : overlaps) {
-      if (pair.first == pair.second) {
-        refuse(pair.first,
-               "the polygon crosses or overlaps itself at " + text_of_place(pair.place));
-      }
+    if (options_.overlap == PolygonOverlap::keep && !is_geodesic) {
+      require_parts_apart(cells);
+      return cells;
     }
+    std::vector<Index> all(cells.num_cells());
+    std::iota(all.begin(), all.end(), Index{0});
+    const std::vector<CrossingCells> overlaps = overlaps_in(cells, all);
     if (overlaps.empty() || options_.overlap == PolygonOverlap::keep) return cells;
     if (options_.overlap == PolygonOverlap::first) return first_of_cells(cells, overlaps, quiet());
     throw FileError(
@@ -125,12 +126,42 @@ class FeatureCells {
     return {.threads = execution_.threads, .stop = execution_.stop};
   }
 
-  [[nodiscard]] std::vector<CrossingCells> overlaps_in(const CellRings& cells) const {
+  // The cells are those of these features.
+  [[nodiscard]] std::vector<CrossingCells> overlaps_in(const CellRings& cells,
+                                                       const std::vector<Index>& features) const {
+    std::vector<CrossingCells> overlaps;
     try {
-      return overlapping_cells(cells, quiet());
+      overlaps = overlapping_cells(cells, quiet());
     } catch (const InvalidInput& error) {
-      refuse(error.index(), error.what());
+      refuse(features[error.index()], error.what());
     }
+    for (const CrossingCells& pair : overlaps) {
+      if (pair.first != pair.second) continue;
+      refuse(features[pair.first],
+             "the polygon crosses or overlaps itself at " + text_of_place(pair.place));
+    }
+    return overlaps;
+  }
+
+  // Parts that are apart in the plane may be on one place of the sphere, a whole turn away.
+  void require_parts_apart(const CellRings& cells) const {
+    std::vector<Index> features;
+    CellRings wide;
+    for (Index f = 0; f < features_.rings.size(); ++f) {
+      double west = std::numeric_limits<double>::infinity();
+      double east = -west;
+      for (const io::LonLatRing& ring : features_.rings[f]) {
+        for (const LonLat& p : ring.positions) {
+          west = std::min(west, p.lon_deg);
+          east = std::max(east, p.lon_deg);
+        }
+      }
+      if (!(east - west > 360)) continue;
+      features.push_back(f);
+      append(one_cell(cells, f), wide);
+    }
+    merge_equal_points(wide);
+    if (!features.empty()) (void)overlaps_in(wide, features);
   }
 
   // Straight in longitude and latitude.

@@ -127,6 +127,27 @@ TEST(overlay_polygons, rings_around_a_pole_have_to_be_led_there) {
   }
 }
 
+TEST(overlay_polygons, parts_a_turn_of_the_globe_apart_are_on_one_place) {
+  const auto parts = [](const std::string& first, const std::string& second) {
+    return R"({"type":"MultiPolygon","coordinates":[[)" + first + "],[" + second + "]]}";
+  };
+  for (const std::string& geometry :
+       {parts(ring_of_box(10, 10, 20, 20), ring_of_box(370, 10, 380, 20)),
+        parts(ring_of_box(170, 0, 190, 10), ring_of_box(-180, 5, -175, 20))}) {
+    try {
+      (void)table_of(geometry);
+      ADD_FAILURE() << geometry;
+    } catch (const FileError& error) {
+      EXPECT_NE(std::string(error.what()).find("feature 0: the polygon crosses or overlaps itself"),
+                std::string::npos)
+          << error.what();
+    }
+  }
+  const PolygonTable apart =
+      table_of(parts(ring_of_box(170, 0, 190, 10), ring_of_box(-170, 0, -160, 10)));
+  EXPECT_NEAR(areas(apart.cells)[0], area_of_box(170, 0, 200, 10), 1e-6);
+}
+
 TEST(overlay_polygons, features_that_are_not_taken_take_no_space) {
   const std::string file = written(
       R"({"type":"FeatureCollection","features":[
