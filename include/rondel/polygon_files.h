@@ -65,7 +65,7 @@ struct PolygonTable {
 ///    the antimeridian or led around a pole is whole again.
 /// 5. If sides are geodesic, a ring is around its smaller side, and may go around a pole. In straight lines it may not:
 ///    it has to be led to the pole along the edge of the map. So a ring on one side of the equator whose only side of more than
-///    180 degrees of longitude is not at the pole is refused: divide the side by a position if it is meant.
+///    180 degrees of longitude is neither at the pole nor between two meridians is refused: divide the side by a position if it is meant.
 /// 6. Features that share a line of positions share the corners that it gets, bit by bit. A corner of one feature that lies
 ///    on a side of another, but for some roundings (2^-42 degrees), becomes a corner of that, too.
 /// \throws FileError for what cannot be read, with file, line and feature; for sides that cross, holes outside of their

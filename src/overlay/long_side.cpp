@@ -20,7 +20,12 @@ std::optional<std::size_t> lone_long_side(std::span<const LonLat> ring) {
     if (found || (std::abs(from.lat_deg) == 90 && std::abs(to.lat_deg) == 90)) return std::nullopt;
     found = k;
   }
-  return found;
+  if (!found) return std::nullopt;
+  const std::size_t n = ring.size();
+  const std::size_t next = (*found + 1) % n;
+  const bool is_of_box = ring[*found].lon_deg == ring[(*found + n - 1) % n].lon_deg &&
+                         ring[next].lon_deg == ring[(next + 1) % n].lon_deg;
+  return is_of_box ? std::nullopt : found;
 }
 
 }  // namespace rondel::overlay
