@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 
+#include "exact/vector.h"
 #include "readings/face_circles.h"
 #include "rondel/error.h"
 #include "rondel/query.h"
@@ -143,12 +145,46 @@ Outline alpha_shape(const Triangulation& triangulation, double radius, const Exe
   return Tracer(triangulation, is_in).trace();
 }
 
+namespace {
+
+// Of sites on one great circle that no open half of it has: the circles around its poles.
+std::vector<EmptyCircle> polar_circles(const Triangulation& triangulation, std::size_t k) {
+  const std::span<const Index> ring = triangulation.ring();
+  if (ring.size() < 3) return {};
+  const Point& origin = triangulation.sphere().center;
+  std::vector<Point> places;
+  for (const Index site : ring) {
+    const Point place = triangulation.sites()[site] - origin;
+    places.push_back(place / std::sqrt(dot(place, place)));
+  }
+  std::vector<Point> steps;
+  Point normal;  // along the longest of the steps, all of which go one way around
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    steps.push_back(cross(places[i], places[i + 1 < places.size() ? i + 1 : 0]));
+    if (dot(steps.back(), steps.back()) > dot(normal, normal)) normal = steps.back();
+  }
+  const bool has_half = std::ranges::any_of(
+      steps, [&](const Point& step) { return dot(step, normal) < -0x1p-50 * dot(normal, normal); });
+  if (has_half) return {};
+  normal = normal / std::sqrt(dot(normal, normal));
+  const std::array<Index, 3> on = {ring[0], ring[1], ring[2]};
+  std::vector<EmptyCircle> found = {{normal, std::numbers::pi / 2, on},
+                                    {-1.0 * normal, std::numbers::pi / 2, on}};
+  found.resize(std::min(k, found.size()));
+  return found;
+}
+
+}  // namespace
+
 std::vector<EmptyCircle> largest_empty_circles(const Triangulation& triangulation, std::size_t k,
                                                CircleCenters centers, const Execution& execution) {
   const system::Call call(execution);
   require_no_weights(triangulation);
   std::vector<EmptyCircle> found;
-  if (triangulation.dimension() < 2 || k == 0) return found;
+  if (triangulation.dimension() < 2) {
+    return centers == CircleCenters::anywhere ? polar_circles(triangulation, k) : found;
+  }
+  if (k == 0) return found;
   const readings::FaceCircles circles = readings::face_circles(triangulation, execution);
   const bool is_limited = centers == CircleCenters::inside && triangulation.num_ghost_faces() > 0;
   std::vector<Index> order;

@@ -189,6 +189,22 @@ TEST(empty_circles, touch_their_sites_and_have_none_inside) {
   });
 }
 
+TEST(empty_circles, of_sites_on_a_great_circle_are_around_its_poles) {
+  std::vector<Point> sites;
+  for (const double lon : {0., 100., 170., 280.}) sites.push_back(unit_vector_deg(lon, 0));
+  const auto circles = largest_empty_circles(delaunay(sites), 20, CircleCenters::anywhere);
+  ASSERT_EQ(circles.size(), 2U);
+  for (const EmptyCircle& circle : circles) {
+    EXPECT_EQ(circle.radius, pi / 2);
+    EXPECT_NEAR(std::abs(circle.center.z), 1, 1e-15);
+  }
+  EXPECT_NEAR(circles[0].center.z + circles[1].center.z, 0, 1e-15);
+  EXPECT_EQ(largest_empty_circles(delaunay(sites), 1, CircleCenters::anywhere).size(), 1U);
+  EXPECT_TRUE(largest_empty_circles(delaunay(sites), 20).empty());
+  sites.pop_back();  // the others are within less than half
+  EXPECT_TRUE(largest_empty_circles(delaunay(sites), 20, CircleCenters::anywhere).empty());
+}
+
 TEST(empty_circles, of_a_cube_are_six_and_those_inside_a_hull_less) {
   std::vector<Point> cube;
   for (int i = 0; i < 8; ++i)
