@@ -248,6 +248,22 @@ Cut cut_cells_of_features(const VoronoiOptions& options, const FeatureTable& tab
   return cut;
 }
 
+// What to tell of features that have a place and no cell.
+std::vector<std::string> remarks_on(const FeatureTable& table, const CellRings& cells) {
+  std::size_t without = 0;
+  std::size_t first = 0;
+  for (std::size_t f = 0; f < cells.num_cells(); ++f) {
+    const bool has_place = table.lines.features[f] < table.lines.features[f + 1] ||
+                           table.polygons.cells[f] < table.polygons.cells[f + 1];
+    if (!has_place || cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f)) continue;
+    if (without++ == 0) first = f;
+  }
+  if (without == 0) return {};
+  return {count(without, "feature has", "features have") +
+          " no cell, as others before have all of their places (" + (without > 1 ? "first " : "") +
+          feature_name(table.columns, first) + ")"};
+}
+
 ExitStatus write_cells_of_features(const VoronoiOptions& options) {
   Job job(options.common);
   FeatureTable table;
@@ -260,7 +276,9 @@ ExitStatus write_cells_of_features(const VoronoiOptions& options) {
     if (!options.group.empty()) {
       groups = groups_of(column_of(table.columns, table.name, options.group, "--group"));
     }
-    made = features_of(options, cut_cells_of_features(options, table, execution), groups,
+    Cut cut = cut_cells_of_features(options, table, execution);
+    if (options.clip.empty()) tell(table.name, remarks_on(table, cut.cells));
+    made = features_of(options, std::move(cut), groups,
                        numbered("feature", table.lines.num_features(), std::move(table.columns)),
                        execution);
   });
