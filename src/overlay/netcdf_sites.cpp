@@ -20,9 +20,33 @@
 namespace rondel {
 namespace {
 
-// Of "tas[3]" the variable's name.
-std::string variable_of(std::span<const std::string> names) {
-  return names.empty() ? std::string() : names.front().substr(0, names.front().find('['));
+// The variable that the name means: of "tas[3]" and "tas_2001-07-15" it is tas. Throws BadValue.
+std::string variable_of(const io::NetcdfReader& reader, const std::string& name) {
+  if (name.empty() || reader.find(name) != nullptr) return name;
+  std::string longest;
+  for (const io::NetcdfReader::Variable& variable : reader.variables()) {
+    const std::size_t length = variable.name.size();
+    const bool is_beginning = name.starts_with(variable.name) && length < name.size() &&
+                              (name[length] == '[' || name[length] == '_');
+    if (is_beginning && length > longest.size()) longest = variable.name;
+  }
+  if (longest.empty()) throw io::BadValue("no variable " + io::in_quotes(name));
+  return longest;
+}
+
+struct NamedVariable {
+  std::string name;
+  bool is_one_of_several = false;
+};
+
+NamedVariable named_variable(const FileName& file, std::span<const std::string> names) {
+  if (names.empty()) return {};
+  io::FileBytes bytes(file.path, true);
+  return io::in_file(bytes.name(), [&]() -> NamedVariable {
+    const io::NetcdfReader reader(bytes);
+    const std::string name = variable_of(reader, names.front());
+    return {name, name != names.front()};
+  });
 }
 
 // The cells that the variable is on. Nothing where the file has none with centers.
@@ -31,8 +55,7 @@ std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::str
     io::FileBytes bytes(file.path, true);
     CellTable cells = io::in_file(bytes.name(), [&] {
       const io::NetcdfReader reader(bytes);
-      const bool is_known = reader.find(variable) != nullptr;
-      return overlay::cells_in(reader, bytes.name(), is_known ? variable : std::string());
+      return overlay::cells_in(reader, bytes.name(), variable);
     });
     if (cells.centers.empty() || cells.centers.size() != cells.num_cells()) return std::nullopt;
     for (std::size_t i = 0; i < cells.mask.size(); ++i) {
@@ -93,11 +116,12 @@ NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string>
                               bool keep_columns) {
   const system::ArithmeticScope arithmetic;
   NetcdfSites sites;
-  if (std::optional<NetcdfSites> centers = centers_of_cells(file, variable_of(names))) {
+  const NamedVariable named = named_variable(file, names);
+  if (std::optional<NetcdfSites> centers = centers_of_cells(file, named.name)) {
     sites = std::move(*centers);
   }
   const std::size_t num_centers = sites.table.positions.size();
-  if (num_centers == 0 || keep_columns) {
+  if (num_centers == 0 || keep_columns || named.is_one_of_several) {
     try {
       const FieldFile fields(file, names, num_centers);
       if (num_centers == 0) {
