@@ -48,6 +48,16 @@ bool has_no_place(const LonLat& place) {
   return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
 }
 
+// The dimensions that are longer than 1.
+std::set<std::size_t> long_ones(std::span<const std::size_t> dimensions,
+                                std::span<const std::uint64_t> lengths) {
+  std::set<std::size_t> result;
+  for (std::size_t k = 0; k < dimensions.size(); ++k) {
+    if (lengths[k] > 1) result.insert(dimensions[k]);
+  }
+  return result;
+}
+
 void take_rest(const LayoutVariable& variable, FieldDimensions& layout) {
   for (std::size_t d = 0; d < variable.shape.size(); ++d) {
     if (std::ranges::count(layout.points, d) == 0) layout.leading.push_back(d);
@@ -153,15 +163,48 @@ void FieldDimensionFinder::leave_out_missing(const KnownPlaces& known,
   layout.places = std::move(places);
 }
 
-std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(
-    const LayoutVariable& variable) const {
+std::optional<FieldDimensions> FieldDimensionFinder::by_lengths(const LayoutVariable& variable) {
   FieldDimensions layout;
   layout.points = run_of_points(variable);
   const std::vector<std::size_t> before = layout.points;
   if (layout.points.empty() || !fit(shape_, variable, layout.points)) return std::nullopt;
+  if (!may_be_of_places(variable, layout.points)) return std::nullopt;
   layout.is_reversed = layout.points != before;
   take_rest(variable, layout);
   return layout;
+}
+
+const std::vector<FieldDimensionFinder::DimensionSet>& FieldDimensionFinder::sets_of_places() {
+  if (sets_of_places_) return *sets_of_places_;
+  sets_of_places_.emplace();
+  for (const CoordinatePair& pair : find_coordinates(headers_, {})) {
+    const LayoutVariable& lon = file_.variables()[pair.lon];
+    const std::uint64_t most =
+        pair.are_axes ? lon.num_values * file_.variables()[pair.lat].num_values : lon.num_values;
+    if (!pair.is_used || most < num_points_) continue;
+    try {
+      const KnownPlaces& known = places_of_pair(pair);
+      if (known.places.size() != num_points_ && known.num_known != num_points_) continue;
+      sets_of_places_->push_back(long_ones(known.dimensions, known.shape));
+    } catch (const io::BadValue&) {
+      continue;  // coordinates that are no places
+    }
+  }
+  return *sets_of_places_;
+}
+
+// Where the file has longitudes and latitudes of the points, values on other dimensions of the same lengths are elsewhere.
+bool FieldDimensionFinder::may_be_of_places(const LayoutVariable& variable,
+                                            std::span<const std::size_t> points) {
+  const std::vector<DimensionSet>& sets = sets_of_places();
+  if (sets.empty()) return true;
+  std::vector<std::size_t> dimensions;
+  std::vector<std::uint64_t> lengths;
+  for (const std::size_t d : points) {
+    dimensions.push_back(variable.dimensions[d]);
+    lengths.push_back(variable.shape[d]);
+  }
+  return std::ranges::count(sets, long_ones(dimensions, lengths)) != 0;
 }
 
 // The candidates are tried in this order: the dimension that is called cells; dimensions as long as those of the grid; the last ones; a

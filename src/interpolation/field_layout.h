@@ -6,7 +6,7 @@
 // 1. Where longitudes and latitudes are known, the dimensions are theirs, in the order latitude, longitude of axes, and else in that of
 //    the coordinates: a field stored as (time, lon, lat) is that of (time, lat, lon).
 // 2. Else it is the dimension with as many entries as there are points, wherever it stands, or dimensions that follow each other and
-//    multiply to that.
+//    multiply to that. Not so where the file has longitudes and latitudes of as many points: then the variable is no field at them.
 // 3. Where the lengths of the points' grid are known and those of the dimensions are the same in reverse, the order is reversed; where
 //    they are others, the variable is no field at the points.
 #pragma once
@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -63,7 +64,12 @@ class FieldDimensionFinder {
   [[nodiscard]] std::optional<FieldDimensions> by_coordinates(
       const io::NetcdfReader::Variable& variable);
   [[nodiscard]] std::optional<FieldDimensions> by_lengths(
-      const io::NetcdfReader::Variable& variable) const;
+      const io::NetcdfReader::Variable& variable);
+  using DimensionSet = std::set<std::size_t>;
+  // The dimensions of the longitudes and latitudes in the file of as many points, a set for each pair.
+  const std::vector<DimensionSet>& sets_of_places();
+  [[nodiscard]] bool may_be_of_places(const io::NetcdfReader::Variable& variable,
+                                      std::span<const std::size_t> points);
   [[nodiscard]] std::vector<std::size_t> run_of_points(
       const io::NetcdfReader::Variable& variable) const;
 
@@ -72,6 +78,7 @@ class FieldDimensionFinder {
   std::vector<std::uint64_t> shape_;
   std::vector<VariableHeader> headers_;
   std::vector<KnownPlaces> known_;
+  std::optional<std::vector<DimensionSet>> sets_of_places_;
 };
 
 }  // namespace rondel::interpolation
