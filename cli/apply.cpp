@@ -72,6 +72,7 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
   out.num_points = weights.num_rows();
   out.arrays = in.fields().arrays;
   out.axes = in.fields().axes;
+  out.fill = options.apply.fill;
   FieldWriter writer(options.common.target(), out, file.target, options.netcdf);
   AppliedCounts counts;
   const std::size_t largest = std::max({weights.num_columns, weights.num_rows(), std::size_t{1}});
@@ -88,8 +89,8 @@ AppliedCounts apply_all(Job& job, const ApplyCommandOptions& options, const Weig
       job.time(Stage::query,
                [&] { apply(weights, values, applied, count, options.apply, job.execution()); });
       job.time(Stage::write, [&] { writer.write(applied); });
-      counts.missing += static_cast<std::size_t>(
-          std::ranges::count_if(applied, [](double value) { return value != value; }));
+      counts.missing += static_cast<std::size_t>(std::ranges::count_if(
+          applied, [&](double value) { return value != value || value == out.fill; }));
     }
     counts.fields += num_fields;
   }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <span>
 #include <string>
@@ -49,6 +50,8 @@ struct FieldSet {
   std::vector<std::uint64_t> shape;
   std::size_t num_without_place =
       0;  ///< points whose longitude or latitude is missing, and which are left out
+  /// The number that the values have where they are missing, as a file that is written says it (`_FillValue`); in files that are read NaN.
+  double fill = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::string> remarks;  ///< sentences: which variables of netCDF are left out, and why
 };
 

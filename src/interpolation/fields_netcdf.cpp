@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // FieldSet written as netCDF with the CF conventions.
-#include <limits>
 #include <set>
 
 #include "interpolation/field_columns.h"
@@ -138,8 +137,7 @@ class NetcdfSink : public FieldSink {
       std::vector<std::size_t> dimensions = leading[a];
       dimensions.insert(dimensions.end(), points_.dimensions().begin(), points_.dimensions().end());
       std::vector<io::NetcdfAttribute> attributes = with_attributes(array);
-      attributes.push_back(
-          {"_FillValue", NetcdfType::float64, {}, {std::numeric_limits<double>::quiet_NaN()}});
+      attributes.push_back({"_FillValue", NetcdfType::float64, {}, {fields.fill}});
       if (points_.needs_coordinates()) {
         attributes.push_back({"coordinates", NetcdfType::text, "lon lat", {}});
       }
