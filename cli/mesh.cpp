@@ -35,7 +35,9 @@ std::string radius_error(const std::string& text) {
 }  // namespace
 
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
-                                    const mesh::MeshOptions& options) {
+                                    std::optional<double> radius, bool allow_zero_edges) {
+  const mesh::MeshOptions options{.radius = radius.value_or(1),
+                                  .allow_zero_edges = allow_zero_edges};
   mesh::MeshArrays arrays;
   if (is_netcdf_file(common.source())) {
     std::vector<std::string> remarks;
@@ -43,6 +45,7 @@ mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
       arrays = mesh::read_mesh(common.source(), options, job.execution(), &remarks);
     });
     tell(common.source().path, remarks);
+    if (radius) mesh::rescale(arrays, *radius);
     return arrays;
   }
   const SiteTable table = job.read();
@@ -127,7 +130,8 @@ void add_mesh_output_options(CLI::App& parser, MeshOutput& output, MeshOutputKin
       ->type_name("FILE");
   parser
       .add_option("--sphere-radius", output.radius,
-                  "The radius of the sphere, in metres for most models (default: 1)")
+                  "The radius of the sphere, in metres for most models (default: 1, or that of\n"
+                  "the mesh that is read)")
       ->check(radius_error)
       ->type_name("R");
   add_mesh_report_option(parser, output.report);

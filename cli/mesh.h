@@ -5,6 +5,7 @@
 /// The commands of `rondel mesh`, one file each, and what they share.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,11 +25,11 @@ inline constexpr const char* mesh_input_help =
 
 /// The files that a command writes for a mesh: OUTPUT and those beside it.
 struct MeshOutput {
-  CommonOptions common;  ///< INPUT where the command has one; output, --format, threads
-  NetcdfOptions netcdf;  ///< --kind --deflate
-  std::string graph;     ///< --graph; empty: not written
-  std::string report;    ///< --report; empty: not written
-  double radius = 1;     ///< --sphere-radius
+  CommonOptions common;          ///< INPUT where the command has one; output, --format, threads
+  NetcdfOptions netcdf;          ///< --kind --deflate
+  std::string graph;             ///< --graph; empty: not written
+  std::string report;            ///< --report; empty: not written
+  std::optional<double> radius;  ///< --sphere-radius; none: 1, or that of the mesh that is read
 };
 
 struct MeshConvertOptions {
@@ -63,7 +64,7 @@ void write_and_report_mesh(const MeshOutput& output, const mesh::MeshArrays& arr
 
 /// The mesh of a file: read_mesh() reads netCDF, and arrays() makes one of sites. \throws FileError with the place of a site
 mesh::MeshArrays read_mesh_or_sites(Job& job, const CommonOptions& common,
-                                    const mesh::MeshOptions& options);
+                                    std::optional<double> radius, bool allow_zero_edges);
 
 /// The kinds of files that OUTPUT may be.
 enum class MeshOutputKind { mesh, mesh_or_sites };

@@ -38,8 +38,7 @@ ExitStatus run_mesh_convert(const MeshConvertOptions& options) {
   require_mesh_output(written, MeshOutputKind::mesh);
   Job job(written.common);
   const mesh::MeshArrays arrays =
-      read_mesh_or_sites(job, written.common,
-                         {.radius = written.radius, .allow_zero_edges = options.allow_zero_edges});
+      read_mesh_or_sites(job, written.common, written.radius, options.allow_zero_edges);
   write_and_report_mesh(written, arrays, job);
   return done;
 }

@@ -143,8 +143,7 @@ ExitStatus run_mesh_cull(const MeshCullOptions& options) {
     throw UsageError("--inside, --outside or --mask says which cells are removed");
   }
   Job job(common);
-  const mesh::MeshArrays arrays =
-      read_mesh_or_sites(job, common, {.radius = options.written.radius, .allow_zero_edges = true});
+  const mesh::MeshArrays arrays = read_mesh_or_sites(job, common, options.written.radius, true);
   std::vector<std::uint8_t> is_removed(arrays.num_cells(), 0);
   if (!options.mask.empty()) is_removed = mask_of_file(options.mask, arrays.num_cells());
   mark_by_polygons(options.inside, options.polygon_edges, true, arrays, job.execution(),

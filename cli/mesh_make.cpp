@@ -48,7 +48,7 @@ nlohmann::ordered_json write_made(const MeshOutput& output, const std::vector<Po
     // Models that take MPAS's meshes divide by the lengths of edges; what only has cells does not.
     const bool is_for_model = is_mesh_file(common) && mesh_format(common) == mesh::MeshFormat::mpas;
     const mesh::MeshOptions options{
-        .radius = output.radius, .density = density, .allow_zero_edges = !is_for_model};
+        .radius = output.radius.value_or(1), .density = density, .allow_zero_edges = !is_for_model};
     const Triangulation triangulation = delaunay(Sites::view(sites), {}, job.execution());
     const mesh::MeshArrays made = mesh::arrays(triangulation, options, job.execution());
     quality_of_mesh =

@@ -77,8 +77,7 @@ Command add_mesh_quality_command(CLI::App& mesh) {
 
 ExitStatus run_mesh_quality(const MeshQualityOptions& options) {
   Job job(options.common);
-  const mesh::MeshArrays arrays =
-      read_mesh_or_sites(job, options.common, {.allow_zero_edges = true});
+  const mesh::MeshArrays arrays = read_mesh_or_sites(job, options.common, {}, true);
   const mesh::Quality quality = mesh::quality(arrays, job.execution());
   if (!options.report.empty()) {
     write_mesh_report(options.report, arrays, quality, job.execution());

@@ -94,6 +94,10 @@ struct MeshOptions {
 RONDEL_API MeshArrays arrays(const Triangulation& triangulation, const MeshOptions& options = {},
                              const Execution& execution = {});
 
+/// Makes the mesh one of a sphere of another radius: points and lengths are multiplied by the quotient of the radii, areas by its square.
+/// \throws InvalidInput if one of the two radii is not from least_radius to largest_radius.
+RONDEL_API void rescale(MeshArrays& arrays, double radius);
+
 /// The weights of the tangential velocity (Thuburn, Ringler, Skamarock, Klemp 2009, eq. 33; known as TRiSK).
 /// Row e is offsets[e] ... offsets[e+1]-1: the sum of weights[k] u[edges[k]] over normal velocities u is the
 /// velocity along the edge e, from its first to its second vertex.

@@ -51,6 +51,10 @@ void expect_mesh_or_message(const std::string& path) {
     std::vector<std::uint8_t> every_other(arrays.num_cells());
     for (std::size_t i = 1; i < every_other.size(); i += 2) every_other[i] = 1;
     use(mesh::cull(arrays, every_other).arrays);
+    mesh::MeshArrays larger = arrays;
+    mesh::rescale(larger, 2 * arrays.radius);
+    mesh::rescale(larger, arrays.radius);
+    require(larger.cell_areas == arrays.cell_areas, "powers of 2 are exact");
   } catch (const FileError& error) {
     const std::string what = error.what();
     require(what.find('\n') == std::string::npos, "a message is one line: " + what);
