@@ -66,10 +66,11 @@ Command add_scvt_command(CLI::App& group) {
   CLI::Option* number =
       parser->add_option("-n,--number", options->scvt.count, "Number of cells, also as 1e6");
   number->check(sites_error)->transform(digits_of_whole)->type_name("N");
-  CLI::Option* spacing =
-      parser->add_option("--spacing", options->spacing,
-                         "Distance of neighbors: kilometers, or a file of them, FILE.nc[:NAME]\n"
-                         "or FILE.csv:COLUMN; with -n only its proportions count");
+  CLI::Option* spacing = parser->add_option(
+      "--spacing", options->spacing,
+      "Distance of neighbors: kilometers, or a file of them, FILE.nc[:NAME]\n"
+      "or FILE.csv:COLUMN; with -n only its proportions count. The attribute units\n"
+      "of netCDF may say meters (m)");
   spacing->type_name("KM|FILE");
   parser
       ->add_option("--refine", options->refine,

@@ -24,7 +24,8 @@ RONDEL_API std::vector<Point> read_refinement(const FileName& file, double dista
 
 /// Spacings at the places of a file, linear between them on their triangulation and at the nearest outside of
 /// it: the variable or column `name`, by default the only one; .nc with longitudes and latitudes, of a grid or
-/// of points, or of the cells of an MPAS mesh, and tables .csv .tsv. The values times `unit` are radians.
+/// of points, or of the cells of an MPAS mesh, and tables .csv .tsv. The values times `unit` are radians,
+/// and so are a thousandth of them where the attribute `units` says meters; units other than meters and kilometers are refused.
 RONDEL_API SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
                                       std::size_t steps = SizeFunction::usual_steps,
                                       const Execution& execution = {});

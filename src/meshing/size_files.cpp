@@ -8,6 +8,7 @@
 
 #include "exact/vector.h"
 #include "io/bad_value.h"
+#include "io/cf_names.h"
 #include "io/file_bytes.h"
 #include "io/netcdf_reader.h"
 #include "rondel/delaunay.h"
@@ -26,6 +27,7 @@ struct Spacings {
   std::vector<Point> places;
   std::vector<double> values;
   std::vector<std::size_t> numbers;  // in the file
+  std::string units;                 // as the file says, or empty
 };
 
 // Far more than any mesh's; roots of quotients are numbers.
@@ -102,6 +104,9 @@ Spacings spacings_of_field(const FileName& file, const NamedField& field,
     if (fields.points.empty() && num_points == cells.size()) fields.points = cells;
     if (fields.points.empty()) continue;
     result.places = std::move(fields.points);
+    for (const auto& [attribute, text] : fields.arrays.front().attributes) {
+      if (attribute == "units") result.units = text;
+    }
     result.values = std::move(fields.arrays.front().values);
     return result;
   }
@@ -153,6 +158,20 @@ void drop_missing(const FileName& file, Spacings& spacings) {
   spacings.values.resize(kept);
 }
 
+// Kilometers of one unit of length.
+double kilometers_of(const FileName& file, const std::string& units) {
+  const std::string_view text = io::without_blanks(units);
+  for (const std::string_view name :
+       {"", "km", "kilometer", "kilometers", "kilometre", "kilometres"}) {
+    if (text == name) return 1;
+  }
+  for (const std::string_view name : {"m", "meter", "meters", "metre", "metres"}) {
+    if (text == name) return 1e-3;
+  }
+  throw FileError(file.path + ": the spacings have the units '" + units +
+                  "', which are neither kilometers nor meters");
+}
+
 // Linear on the triangulation of the places.
 SizeFunction function_of(const Spacings& spacings, std::size_t steps, const Execution& execution) {
   const Interpolator interpolator(delaunay(Sites::view(spacings.places), {}, execution));
@@ -187,6 +206,7 @@ SizeFunction read_spacings(const FileName& file, const std::string& name, double
                            std::size_t steps, const Execution& execution) {
   Spacings spacings = spacings_of(file, name, execution);
   drop_missing(file, spacings);
+  unit *= kilometers_of(file, spacings.units);
   for (std::size_t i = 0; i < spacings.values.size(); ++i) {
     double& value = spacings.values[i];
     if (!(value * unit > 0 && value * unit < 3)) {
