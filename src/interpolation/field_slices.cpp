@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "io/bad_value.h"
+#include "io/cf_names.h"
+#include "io/cf_reader.h"
 #include "io/number.h"
 #include "rondel/delaunay.h"
 #include "system/shortest_text.h"
@@ -124,11 +126,13 @@ FieldSlices::FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wante
     if (variable == nullptr ? add_one_of_several(name) : add(*variable)) continue;
     if (fields_.num_points != 0) refuse_shape(file, file.require(name), wanted);
     throw io::BadValue("no longitudes and latitudes of variable " +
-                       io::in_quotes(file.require(name).name));
+                       io::in_quotes(file.require(name).name) +
+                       io::remark_on_units(io::headers_of(file)));
   }
   if (wanted.names.empty()) add_all();
   if (fields_.arrays.empty()) {
     std::string why;
+    if (fields_.num_points == 0) why = io::remark_on_units(io::headers_of(file));
     for (const std::string& remark : fields_.remarks) why += "; " + remark;
     throw io::BadValue("no variable has " +
                        (fields_.num_points == 0 ? std::string("longitudes and latitudes")
@@ -270,7 +274,7 @@ void FieldSlices::read_all_points(const SlicedVariable& source, std::size_t firs
   const std::size_t n = source.num_points;
   if (source.blocks.are_apart()) {
     file_.read_numbers(*source.variable, first * n, out);
-    source.rules.apply(out);
+    mean(source, out);
     return;
   }
   while (!out.empty()) {
@@ -293,7 +297,20 @@ void FieldSlices::read_block(const SlicedVariable& source, const FieldBlock& blo
                              std::span<double> out) const {
   io::read_in_order(file_, *source.variable, source.blocks.box_of(block), source.layout.order(),
                     out);
-  source.rules.apply(out);
+  mean(source, out);
+}
+
+// Makes what is meant of the numbers in the file. Tables refuse infinite values, too.
+void FieldSlices::mean(const SlicedVariable& source, std::span<double> values) {
+  source.rules.apply(values);
+  const auto infinite =
+      std::ranges::find_if(values, [](double value) { return std::isinf(value); });
+  if (infinite == values.end()) return;
+  throw io::BadValue(
+      "variable " + io::in_quotes(source.variable->name) + ": value " +
+      (*infinite > 0 ? "inf" : "-inf") + " at point " +
+      std::to_string(static_cast<std::size_t>(infinite - values.begin()) % source.num_points) +
+      " is not finite");
 }
 
 void FieldSlices::keep_block(const SlicedVariable& source, const FieldBlock& block) const {

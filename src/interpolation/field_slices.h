@@ -51,6 +51,7 @@ class FieldSlices {
                        std::span<double> out) const;
   void read_block(const SlicedVariable& source, const FieldBlock& block,
                   std::span<double> out) const;
+  static void mean(const SlicedVariable& source, std::span<double> values);
   void keep_block(const SlicedVariable& source, const FieldBlock& block) const;
 
   const io::NetcdfReader& file_;

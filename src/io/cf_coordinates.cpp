@@ -223,6 +223,19 @@ int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind) {
   return !is_denied && io::is_known_name(variable.name, kind) ? 1 : 0;
 }
 
+std::string remark_on_units(std::span<const VariableHeader> variables) {
+  std::string remark;
+  for (const VariableHeader& variable : variables) {
+    const std::string units = variable.text("units");
+    const bool is_called_so = is_known_name(variable.name, CoordinateKind::lon) ||
+                              is_known_name(variable.name, CoordinateKind::lat);
+    if (!is_called_so || without_blanks(units).empty() || degrees_per_unit(units)) continue;
+    remark += "; '" + variable.name + "' has the units '" + units +
+              "', which are neither degrees nor radians";
+  }
+  return remark;
+}
+
 }  // namespace io
 
 std::string VariableHeader::text(std::string_view attribute) const {

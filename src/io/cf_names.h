@@ -4,6 +4,7 @@
 // The names by which CF and models know longitudes, latitudes and their bounds.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -22,6 +23,8 @@ enum class CoordinateKind { lon, lat };
 bool is_known_name(std::string_view name, CoordinateKind kind);
 // Whether a variable holds longitudes, or latitudes. 0: no, 1: by its name, 2: by its units, 3: by its standard_name.
 RONDEL_API int coordinate_evidence(const VariableHeader& variable, CoordinateKind kind);
+// A sentence for each variable that is called as longitudes or latitudes are, and whose units are no degrees; each begins with "; ".
+RONDEL_API std::string remark_on_units(std::span<const VariableHeader> variables);
 // Whether MPAS or ICON, whose coordinates are radians, has a variable of this name.
 bool is_in_radians(std::string_view name);
 // Whether a variable of this name in a mesh of MPAS or ICON, or with this cf_role of UGRID, has the numbers of neighbors and corners.

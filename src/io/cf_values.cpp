@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "io/bad_value.h"
@@ -47,8 +48,20 @@ std::vector<double> numbers_of_attribute(const NetcdfVariable& variable, std::st
   const NetcdfAttribute* const attribute = find_attribute(variable.attributes, name);
   if (attribute == nullptr) return {};
   if (!attribute->numbers.empty()) return attribute->numbers;
-  const std::optional<double> number = number_of_text(attribute->text);
-  return number ? std::vector<double>{*number} : std::vector<double>{};
+  std::vector<double> numbers;
+  std::string word;
+  for (const char c : attribute->text + ' ') {
+    if (c != ' ' && c != ',' && c != '\t') {
+      word += c;
+      continue;
+    }
+    if (word.empty()) continue;
+    const std::optional<double> number = number_of_text(word);
+    if (!number) return {};
+    numbers.push_back(*number);
+    word.clear();
+  }
+  return numbers;
 }
 
 bool has_type(const NetcdfVariable& variable, std::string_view name, NetcdfType type) {
@@ -123,6 +136,13 @@ ValueRules::ValueRules(const NetcdfVariable& variable)
   if (range.size() == 2) {
     lowest_ = range[0];
     highest_ = range[1];
+  }
+  for (const auto& [name, numbers, count] :
+       {std::tuple("valid_range", &range, 2U), std::tuple("valid_min", &least, 1U),
+        std::tuple("valid_max", &most, 1U)}) {
+    if (numbers->size() == count || find_attribute(variable.attributes, name) == nullptr) continue;
+    remark_ = "variable " + in_quotes(variable.name) + ": attribute " + name +
+              " is not heeded: it is not " + (count == 1 ? "one number" : "two numbers");
   }
   if (least.size() == 1) lowest_ = least[0];
   if (most.size() == 1) highest_ = most[0];

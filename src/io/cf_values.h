@@ -6,7 +6,7 @@
 //
 // 1. Missing are _FillValue, each number of missing_value, numbers outside of valid_min, valid_max or valid_range, NaN, and without
 //    _FillValue the fill that netCDF writes where nobody wrote (types of one byte have none).
-// 2. These attributes may have any type of numbers, or be a text that is a number; they are compared in the less precise of both types.
+// 2. These attributes may have any type of numbers, or be a text of numbers; they are compared in the less precise of both types.
 // 3. They are compared with the packed numbers. valid_* are compared with the unpacked ones where their type is that of scale_factor or
 //    add_offset and not the variable's.
 // 4. _Unsigned = "true" makes signed integers unsigned, "false" the reverse.
@@ -32,7 +32,7 @@ class RONDEL_API ValueRules {
   void apply_to_unpacked(std::span<double> values) const;
   // Whether apply() changes numbers that are not missing.
   [[nodiscard]] bool is_packed() const { return scale_ != 1 || offset_ != 0; }
-  // A sentence if scale_factor or add_offset is a text; else empty.
+  // A sentence if scale_factor or add_offset is a text, or valid_min, valid_max or valid_range no numbers; else empty.
   [[nodiscard]] const std::string& remark() const { return remark_; }
 
  private:

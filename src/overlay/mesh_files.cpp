@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "io/bad_value.h"
+#include "io/cf_names.h"
+#include "io/cf_reader.h"
 #include "io/ending.h"
 #include "io/file_bytes.h"
 #include "io/file_part.h"
@@ -36,10 +38,10 @@ overlay::MeshContent read_mesh(const io::NetcdfReader& file, const std::string& 
   if (!name.empty()) {
     throw io::BadValue("it has no cells that variable " + io::in_quotes(name) + " is on");
   }
-  throw io::BadValue(
+  const std::string text =
       "it has no cells: it follows none of UGRID, SCRIP, ESMF, MPAS, ICON, OASIS and Exodus, and "
-      "has "
-      "no longitudes and latitudes of CF");
+      "has no longitudes and latitudes of CF";
+  throw io::BadValue(text + io::remark_on_units(io::headers_of(file)));
 }
 
 constexpr double same_place = 1e-10;  // radians
