@@ -5,6 +5,7 @@
 #include "rondel/fields.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -164,6 +165,35 @@ class NpySink : public FieldSink {
   io::AtomicFile& file_;
 };
 
+template <typename Number>
+double loaded(const char* data, std::endian order) {
+  const auto number = io::load<Number>(data, order);
+  return io::exact_double(number);
+}
+
+struct NpyNumbers {
+  std::string_view type;
+  std::size_t size;
+  double (*load)(const char*, std::endian);
+};
+constexpr NpyNumbers npy_numbers[] = {
+    {"f8", 8, &loaded<double>},        {"f4", 4, &loaded<float>},
+    {"b1", 1, &loaded<std::uint8_t>},  {"i1", 1, &loaded<std::int8_t>},
+    {"i2", 2, &loaded<std::int16_t>},  {"i4", 4, &loaded<std::int32_t>},
+    {"i8", 8, &loaded<std::int64_t>},  {"u1", 1, &loaded<std::uint8_t>},
+    {"u2", 2, &loaded<std::uint16_t>}, {"u4", 4, &loaded<std::uint32_t>},
+    {"u8", 8, &loaded<std::uint64_t>}};
+
+const NpyNumbers& type_of_npy(const std::string& dtype) {
+  const std::string_view type =
+      std::string_view(dtype).substr(std::min<std::size_t>(1, dtype.size()));
+  const auto* const found = std::ranges::find(npy_numbers, type, &NpyNumbers::type);
+  const bool has_order = dtype.starts_with('<') || dtype.starts_with('>') || dtype.starts_with('|');
+  if (found != std::end(npy_numbers) && has_order) return *found;
+  throw io::BadValue("dtype " + io::in_quotes(dtype) +
+                     " where float64, float32, an integer or bool is needed");
+}
+
 }  // namespace
 
 FieldSet read_fields_csv(std::string_view bytes, const FieldsToRead& wanted) {
@@ -176,12 +206,9 @@ FieldSet read_fields_tsv(std::string_view bytes, const FieldsToRead& wanted) {
 FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted) {
   if (!wanted.names.empty()) throw io::BadValue("fields are named, but .npy files have no names");
   const io::NpyHeader header = io::parse_npy_header(bytes);
-  const bool is_double = header.dtype == "<f8" || header.dtype == ">f8";
-  if (!is_double && header.dtype != "<f4" && header.dtype != ">f4") {
-    throw io::BadValue("dtype " + io::in_quotes(header.dtype) + " where f8 or f4 is needed");
-  }
+  const NpyNumbers& type = type_of_npy(header.dtype);
   const std::size_t rank = header.shape.size();
-  const std::size_t item = is_double ? 8 : 4;
+  const std::size_t item = type.size;
   const std::uint64_t n = rank == 0 ? 0 : header.shape.back();
   const std::uint64_t count = rank == 2 ? header.shape[0] : 1;
   std::uint64_t size = 0;
@@ -206,8 +233,7 @@ FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted) {
   array.values.resize(size / item);
   const char* data = bytes.data() + header.data_offset;
   for (std::size_t i = 0; i < array.values.size(); ++i) {
-    array.values[i] = is_double ? io::load<double>(data + i * item, order)
-                                : double{io::load<float>(data + i * item, order)};
+    array.values[i] = type.load(data + i * item, order);
   }
   fields.arrays.push_back(std::move(array));
   return fields;

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <limits>
 #include <system_error>
-#include <type_traits>
 
 #include "io/bad_value.h"
 #include "io/file_bytes.h"
@@ -20,20 +18,6 @@
 
 namespace rondel::io {
 namespace {
-
-// The doubles nearest to most integers of 64 bits are others.
-template <typename Number>
-double exact_double(Number value) {
-  if constexpr (std::is_integral_v<Number> && sizeof(Number) == 8) {
-    constexpr int most_bits = std::numeric_limits<double>::digits;
-    const auto bits = static_cast<std::uint64_t>(value);
-    const std::uint64_t magnitude = value < 0 ? 0 - bits : bits;
-    if (magnitude != 0 && magnitude >> std::countr_zero(magnitude) >> most_bits != 0) {
-      throw BadValue(std::to_string(value) + " is no double");
-    }
-  }
-  return static_cast<double>(value);
-}
 
 template <typename Number>
 void add_rows_of(const NpyTable& array, std::uint64_t first_row, SiteCollector& collector) {

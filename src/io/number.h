@@ -4,12 +4,14 @@
 // Numbers as text, and what a coordinate and an index may be.
 #pragma once
 
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "io/bad_value.h"
 #include "rondel/export.h"
@@ -32,6 +34,20 @@ Index checked_index(Integer value) {
     throw BadValue("index " + std::to_string(value) + " is too large");
   }
   return static_cast<Index>(value);
+}
+
+// The number as a double. The doubles nearest to most integers of 64 bits are others: BadValue.
+template <typename Number>
+double exact_double(Number value) {
+  if constexpr (std::is_integral_v<Number> && sizeof(Number) == 8) {
+    constexpr int most_bits = std::numeric_limits<double>::digits;
+    const auto bits = static_cast<std::uint64_t>(value);
+    const std::uint64_t magnitude = value < 0 ? 0 - bits : bits;
+    if (magnitude != 0 && magnitude >> std::countr_zero(magnitude) >> most_bits != 0) {
+      throw BadValue(std::to_string(value) + " is no double");
+    }
+  }
+  return static_cast<double>(value);
 }
 
 // The shortest digits that give back the same bits.
