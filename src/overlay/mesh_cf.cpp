@@ -49,8 +49,11 @@ class CfGrids {
   // The first pair that has cells, those along which variables lie before others; null if there is no pair.
   const CoordinatePair* best() {
     if (pairs_.empty()) return nullptr;
-    const auto found =
-        std::ranges::find_if(pairs_, [](const CoordinatePair& pair) { return has_cells(pair); });
+    // Axes along which no variable lies are no grid where other coordinates have variables.
+    const bool has_used = std::ranges::any_of(pairs_, &CoordinatePair::is_used);
+    const auto found = std::ranges::find_if(pairs_, [&](const CoordinatePair& pair) {
+      return has_cells(pair) && (pair.is_used || !has_used);
+    });
     if (found == pairs_.end()) {
       throw BadValue("its longitudes and latitudes have no bounds, so no cells");
     }

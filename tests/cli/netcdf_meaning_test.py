@@ -135,6 +135,153 @@ class Meaning(unittest.TestCase):
             self.assertEqual(out["v"].getncattr("_FillValue"), -999)
             self.assertEqual(list(np.ma.getmaskarray(out["v"][:])), [True, False])
 
+    def test_axes_along_which_nothing_lies_are_no_grid(self):
+        lon, lat = (grid.ravel() for grid in np.meshgrid(LON, LAT))
+        data = self.new("cells.nc")
+        data.createDimension("cell", len(lon))
+        data.createDimension("level", 3)
+        add(data, "clon", ("cell",), lon, units="degrees_east")
+        add(data, "clat", ("cell",), lat, units="degrees_north")
+        add(data, "level", ("level",), np.arange(3.0), units="degrees_north")
+        add(data, "zm", ("level",), np.arange(3.0))
+        add(data, "v", ("cell",), height(lon, lat), coordinates="clon clat")
+        data.close()
+        said = self.run_tool("interpolate", "cells.nc", "--to", "to.csv", "-o", "o.csv")
+        self.assertIn(f"{len(lon)} sites", said)
+        self.assertEqual(self.table("o.csv")[0], "lon,lat,v")
+
+    def test_infinite_values_are_refused(self):
+        values = height(LON[None, :], LAT[:, None])
+        values[4, 9] = np.inf
+        data = self.new("inf.nc")
+        add_axes(data)
+        add(data, "v", ("lat", "lon"), values)
+        data.close()
+        said = self.run_tool("interpolate", "inf.nc", "--to", "to.csv", "-o", "n.csv", status=1)
+        place = 4 * len(LON) + 9
+        self.assertEqual(
+            said, f'rondel: inf.nc: variable "v": value inf at point {place} is not finite\n'
+        )
+        self.assertFalse((self.folder / "n.csv").exists())
+
+    def test_ranges_that_are_texts(self):
+        values = height(LON[None, :], LAT[:, None])
+        values[4, 9] = 99
+        for text, is_heeded in (("-5 5", True), ("-5, 5", True), ("some", False)):
+            with self.subTest(text):
+                data = self.new("range.nc")
+                add_axes(data)
+                add(data, "v", ("lat", "lon"), values, valid_range=text)
+                data.close()
+                said = self.run_tool("interpolate", "range.nc", "--to", "to.csv", "-o", "o.csv")
+                value = float(self.table("o.csv")[1].split(",")[2])
+                self.assertEqual(value < 2, is_heeded)
+                self.assertEqual("valid_range is not heeded" in said, not is_heeded)
+
+    def test_units_that_are_no_degrees_are_named(self):
+        for units in ("m", "gon"):
+            data = self.new("units.nc")
+            add_axes(data, units=(units, units))
+            add(data, "v", ("lat", "lon"), np.ones((len(LAT), len(LON))))
+            data.close()
+            for command in (
+                ("interpolate", "units.nc", "--to", "to.csv", "-o", "n.csv"),
+                ("delaunay", "units.nc", "-o", "n.npy"),
+                ("remap", "units.nc", "grid:90", "-o", "n.nc"),
+            ):
+                with self.subTest(command, units=units):
+                    said = self.run_tool(*command, status=1)
+                    self.assertIn(f"'lon' has the units '{units}'", said)
+                    self.assertIn(f"'lat' has the units '{units}'", said)
+
+    def test_radius_of_a_mesh_that_is_read(self):
+        sites = np.random.default_rng(1).normal(size=(92, 3))
+        np.save(self.folder / "sites.npy", sites / np.linalg.norm(sites, axis=1)[:, None])
+        self.run_tool("mesh", "convert", "sites.npy", "-o", "unit.nc")
+        radius = 6371229.0
+        (self.folder / "none.csv").write_text("remove\n" + "0\n" * 92)
+        for command in (
+            ("convert", "unit.nc", "-o", "o.nc"),
+            ("cull", "unit.nc", "-o", "o.nc", "--mask", "none.csv:remove"),
+        ):
+            with self.subTest(command):
+                self.run_tool("mesh", *command, "--sphere-radius", str(radius))
+                with (
+                    netCDF4.Dataset(self.folder / "unit.nc") as unit,
+                    netCDF4.Dataset(self.folder / "o.nc") as out,
+                ):
+                    self.assertEqual(out.sphere_radius, radius)
+                    for name, power in (
+                        ("xCell", 1),
+                        ("zVertex", 1),
+                        ("yEdge", 1),
+                        ("dcEdge", 1),
+                        ("dvEdge", 1),
+                        ("areaCell", 2),
+                        ("areaTriangle", 2),
+                        ("kiteAreasOnVertex", 2),
+                        ("lonCell", 0),
+                        ("angleEdge", 0),
+                        ("weightsOnEdge", 0),
+                    ):
+                        wanted = unit[name][:] * radius**power
+                        np.testing.assert_allclose(out[name][:], wanted, 1e-12, 1e-9 * power)
+                # Without the option the mesh keeps its own.
+                self.run_tool("mesh", "convert", "o.nc", "-o", "again.nc")
+                with netCDF4.Dataset(self.folder / "again.nc") as again:
+                    self.assertEqual(again.sphere_radius, radius)
+
+    def test_masks_and_fields_of_any_number_type(self):
+        sites = np.random.default_rng(2).normal(size=(50, 3))
+        np.save(self.folder / "sites.npy", sites / np.linalg.norm(sites, axis=1)[:, None])
+        self.run_tool("mesh", "convert", "sites.npy", "-o", "mesh.nc")
+        self.run_tool("interpolate", "sites.npy", "--to", "to.csv", "--weights", "w.npz")
+        mask = np.zeros(50)
+        mask[7] = 1
+        results = set()
+        for dtype in ("f8", "f4", "?", "u1", "i1", "<i2", ">u2", "i4", ">i4", "u4", "i8", "u8"):
+            with self.subTest(dtype):
+                np.save(self.folder / "mask.npy", mask.astype(dtype))
+                self.run_tool("mesh", "cull", "mesh.nc", "--mask", "mask.npy", "-o", "o.nc")
+                with netCDF4.Dataset(self.folder / "o.nc") as out:
+                    self.assertEqual(out.dimensions["nCells"].size, 49)
+                values = np.array([np.arange(50), mask]).astype(dtype)
+                np.save(self.folder / "values.npy", values)
+                self.run_tool("apply", "w.npz", "values.npy", "-o", "o.npy")
+                found = np.load(self.folder / "o.npy")
+                if dtype != "?":
+                    results.add(found.tobytes())
+        self.assertEqual(len(results), 1)
+        np.save(self.folder / "values.npy", np.full(50, 2**53 + 1))
+        said = self.run_tool("apply", "w.npz", "values.npy", "-o", "n.npy", status=1)
+        self.assertIn("9007199254740993 is no double", said)
+        np.save(self.folder / "values.npy", np.zeros(50, complex))
+        said = self.run_tool("apply", "w.npz", "values.npy", "-o", "n.npy", status=1)
+        self.assertIn('dtype "<c16"', said)
+
+    def test_units_of_spacings(self):
+        def cells(units, factor):
+            data = self.new("spacing.nc")
+            add_axes(data)
+            values = np.full((len(LAT), len(LON)), 2500.0 * factor)
+            add(data, "h", ("lat", "lon"), values, **({"units": units} if units else {}))
+            data.close()
+            command = ("mesh", "scvt", "--spacing", "spacing.nc:h", "--max-steps", "1")
+            return *command, "-o", "mesh.nc"
+
+        expected = None
+        for units, factor in (("", 1), ("m", 1000)):
+            with self.subTest(units):
+                self.run_tool(*cells(units, factor), "--quiet")
+                with netCDF4.Dataset(self.folder / "mesh.nc") as mesh:
+                    number = mesh.dimensions["nCells"].size
+                expected = expected or number
+                self.assertEqual(number, expected)
+        for units in ("degrees", "1"):
+            with self.subTest(units):
+                said = self.run_tool(*cells(units, 1), "--quiet", status=1)
+                self.assertIn(f"the spacings have the units '{units}'", said)
+
 
 if __name__ == "__main__":
     unittest.main()
