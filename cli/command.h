@@ -24,6 +24,7 @@
 
 #include "rondel/error.h"
 #include "rondel/io.h"
+#include "rondel/mesh_files.h"
 #include "rondel/triangulation.h"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): not ours
@@ -114,6 +115,9 @@ class Job {
   /// \throws FileError
   SiteTable read(const FileName& file, const ReadOptions& read,
                  std::span<const std::string> names = {});
+  /// The same with what netCDF says of the grid of the sites. \throws FileError
+  NetcdfSites read_grid(const FileName& file, const ReadOptions& read,
+                        std::span<const std::string> names = {});
   /// \throws FileError with the file and line of a site that the library does not accept.
   /// The result refers to the table's sites, which must live as long.
   Triangulation triangulate(const SiteTable& table);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -142,8 +143,9 @@ void interpolate_columns(Job& job, const InterpolateOptions& options, const Site
 }
 
 // Carries the fields of netCDF along the dimensions that they have beside that of the sites; one at a time is in memory.
-void interpolate_fields(Job& job, const InterpolateOptions& options, const SiteTable& table,
+void interpolate_fields(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
                         const Targets& targets, InterpolateCounts& counts) {
+  const SiteTable& table = grid.table;
   const auto [file, variable] = netcdf_part(options.common.source());
   std::vector<std::string> names = options.columns;
   if (names.empty() && !variable.empty()) names.push_back(variable);
@@ -159,6 +161,9 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const SiteT
     for (std::size_t f = 0; f < out.arrays[a].num_fields(); ++f) {
       std::vector<double> values(table.sites.size());
       in.read(a, f, values);
+      for (std::size_t i = 0; i < grid.mask.size(); ++i) {
+        if (grid.mask[i] == 0) values[i] = std::numeric_limits<double>::quiet_NaN();
+      }
       const std::vector<double> carried = carrier.carry(std::move(values));
       job.time(Stage::write, [&] { writer.write(carried); });
     }
@@ -166,9 +171,38 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const SiteT
   job.time(Stage::write, [&] { writer.finish(); });
 }
 
-void write_weights_of(Job& job, const InterpolateOptions& options, const SiteTable& table,
+// The numbers of the cells that are not masked.
+std::vector<Index> unmasked(const NetcdfSites& grid) {
+  std::vector<Index> numbers;
+  for (std::size_t i = 0; i < grid.table.sites.size(); ++i) {
+    if (grid.mask.empty() || grid.mask[i] != 0) numbers.push_back(static_cast<Index>(i));
+  }
+  return numbers;
+}
+
+// Weights of the cells that are not masked become those of all.
+void spread(const std::vector<Index>& numbers, const SiteTable& table, WeightFile& file) {
+  Weights& weights = file.weights;
+  for (Index& column : weights.columns) column = numbers[column];
+  weights.num_columns = table.sites.size();
+  weights.sites_hash = point_set_hash(table.sites);
+  std::vector<double> areas(table.sites.size(), 0);
+  for (std::size_t k = 0; k < numbers.size(); ++k) areas[numbers[k]] = file.source.areas[k];
+  file.source.areas = std::move(areas);
+}
+
+void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
                       Targets& targets, InterpolateCounts& counts) {
-  const Triangulation triangulation = triangulated(job, options, table);
+  const SiteTable& table = grid.table;
+  const std::vector<Index> numbers = unmasked(grid);
+  const bool has_masked = numbers.size() < table.sites.size();
+  SiteTable kept;  // what the triangulation refers to
+  if (has_masked) {
+    std::vector<double> values(table.sites.size(), std::numeric_limits<double>::quiet_NaN());
+    for (const Index number : numbers) values[number] = 0;
+    kept = with_values(table, values);
+  }
+  const Triangulation triangulation = triangulated(job, options, has_masked ? kept : table);
   const Interpolator interpolator(triangulation);
   WeightFile file;
   job.time(Stage::query, [&] {
@@ -180,6 +214,9 @@ void write_weights_of(Job& job, const InterpolateOptions& options, const SiteTab
   file.normalization = "none";
   file.source.points = table.is_lonlat() ? table.positions : lonlats(table.sites);
   job.time(Stage::dual, [&] { file.source.areas = areas(triangulation, job.execution()); });
+  if (has_masked) spread(numbers, table, file);
+  if (grid.shape.size() > 1) file.source.shape = grid.shape;
+  file.source.mask = grid.mask;
   file.target = std::move(targets.side);
   if (options.target.starts_with("grid:")) add_grid_cells(file.target);
   for (std::size_t r = 0; r < file.weights.num_rows(); ++r) {
@@ -209,14 +246,15 @@ ExitStatus run_interpolate(const InterpolateOptions& options) {
   Job job(common);
   ReadOptions read = common.read;
   read.keep_columns = has_values && !is_netcdf;
-  const SiteTable table = job.read(common.source(), read, options.columns);
+  const NetcdfSites grid = job.read_grid(common.source(), read, options.columns);
+  const SiteTable& table = grid.table;
   Targets targets = read_targets(options.target, common.read);
   InterpolateCounts counts{table.sites.size(), targets.table.sites.size(), 0, 0};
-  if (has_values && is_netcdf) interpolate_fields(job, options, table, targets, counts);
+  if (has_values && is_netcdf) interpolate_fields(job, options, grid, targets, counts);
   if (has_values && !is_netcdf) interpolate_columns(job, options, table, targets, counts);
   if (!options.weights.empty()) {
     counts.missing = 0;
-    write_weights_of(job, options, table, targets, counts);
+    write_weights_of(job, options, grid, targets, counts);
   }
   report(job, options, counts);
   return done;

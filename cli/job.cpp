@@ -57,18 +57,23 @@ SiteTable Job::read() { return read(state_->options.source(), state_->options.re
 
 SiteTable Job::read(const FileName& file, const ReadOptions& read,
                     std::span<const std::string> names) {
+  return read_grid(file, read, names).table;
+}
+
+NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,
+                           std::span<const std::string> names) {
   const Clock::time_point start = Clock::now();
   const auto part = netcdf_part(file);
   const bool is_netcdf = is_netcdf_file(part.first);
   if (!part.second.empty()) names = {&part.second, 1};
-  SiteTable table;
+  NetcdfSites sites;
   if (is_netcdf) {
-    NetcdfSites sites = read_netcdf_sites(part.first, names, read.keep_columns);
+    sites = read_netcdf_sites(part.first, names, read.keep_columns);
     tell(part.first.path, sites.remarks);
-    table = std::move(sites.table);
   } else {
-    table = read_sites(file, read, execution());
+    sites.table = read_sites(file, read, execution());
   }
+  const SiteTable& table = sites.table;
   state_->seconds.read += seconds_since(start);
   state_->num_unlocated += table.num_unlocated;
   if (table.num_unlocated > 0 && !state_->options.quiet) {
@@ -76,7 +81,7 @@ SiteTable Job::read(const FileName& file, const ReadOptions& read,
     std::fprintf(stderr, "rondel: %s: left out %s without a place\n", table.name.c_str(),
                  count(table.num_unlocated, "feature", "features").c_str());
   }
-  return table;
+  return sites;
 }
 
 Triangulation Job::triangulate(const SiteTable& table) {

@@ -78,6 +78,8 @@ RONDEL_API bool can_read_cells(const FileName& file);
 struct NetcdfSites {
   SiteTable table;                   ///< with positions
   std::vector<std::uint64_t> shape;  ///< the lengths of their dimensions: nlat, nlon for a grid
+  /// 0: a mask of SCRIP, ESMF or OASIS says that the cell takes no part; empty: all do.
+  std::vector<std::int32_t> mask;
   std::vector<std::string> remarks;  ///< those of the cells; what is no column, and why
 };
 

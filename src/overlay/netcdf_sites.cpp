@@ -66,6 +66,10 @@ std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::str
     sites.remarks = std::move(cells.remarks);
     sites.table.positions = std::move(cells.centers);
     sites.shape = std::move(cells.shape);
+    // Elsewhere the mask is of cells whose corners are missing.
+    for (const std::string_view convention : {"SCRIP", "ESMF", "OASIS"}) {
+      if (cells.convention == convention) sites.mask = cells.mask;
+    }
     return sites;
   } catch (const FileError&) {
     return std::nullopt;  // fields need no cells

@@ -259,6 +259,57 @@ class Meaning(unittest.TestCase):
         said = self.run_tool("apply", "w.npz", "values.npy", "-o", "n.npy", status=1)
         self.assertIn('dtype "<c16"', said)
 
+    def test_masked_cells_of_scrip_are_no_sites(self):
+        lon, lat = (grid.ravel() for grid in np.meshgrid(LON, LAT))
+        mask = np.ones(len(lon), "i4")
+        mask[::5] = 0
+        data = self.new("scrip.nc")
+        for name, size in (("grid_size", len(lon)), ("grid_corners", 4), ("grid_rank", 2)):
+            data.createDimension(name, size)
+        add(data, "grid_dims", ("grid_rank",), np.array([len(LON), len(LAT)], "i4"))
+        add(data, "grid_imask", ("grid_size",), mask)
+        for name, values, around in (
+            ("lon", lon, np.array([-10, 10, 10, -10])),
+            ("lat", lat, np.array([-10, -10, 10, 10])),
+        ):
+            add(data, f"grid_center_{name}", ("grid_size",), values, units="degrees")
+            corners = values[:, None] + around
+            dimensions = ("grid_size", "grid_corners")
+            add(data, f"grid_corner_{name}", dimensions, corners, units="degrees")
+        add(data, "v", ("grid_size",), np.where(mask == 1, height(lon, lat), 1e6))
+        data.close()
+        (self.folder / "kept.csv").write_text(
+            "lon,lat,v\n"
+            + "".join(
+                f"{x!r},{y!r},{v!r}\n"
+                for x, y, v, m in zip(
+                    lon.tolist(), lat.tolist(), height(lon, lat).tolist(), mask, strict=True
+                )
+                if m
+            )
+        )
+        said = self.run_tool("interpolate", "scrip.nc:v", "--to", "to.csv", "-o", "o.csv")
+        self.assertIn("left out", said)
+        self.run_tool(
+            "interpolate", "kept.csv", "--value", "v", "--to", "to.csv", "-o", "kept.o.csv"
+        )
+        self.assertEqual(self.table("o.csv"), self.table("kept.o.csv"))
+        self.run_tool("interpolate", "scrip.nc:v", "--to", "to.csv", "--weights", "w.nc")
+        with netCDF4.Dataset(self.folder / "w.nc") as weights:
+            self.assertEqual(list(weights["src_grid_dims"][:]), [len(LON), len(LAT)])
+            self.assertEqual(list(weights["mask_a"][:]), list(mask))
+        self.run_tool("apply", "w.nc", "scrip.nc:v", "-o", "o.csv")
+        self.assertEqual(
+            [row.split(",")[-1] for row in self.table("o.csv")],
+            [row.split(",")[-1] for row in self.table("kept.o.csv")],
+        )
+
+    def test_weights_have_the_shape_of_the_grid(self):
+        self.grid()
+        self.run_tool("interpolate", "grid.nc", "--to", "to.csv", "--weights", "w.nc")
+        with netCDF4.Dataset(self.folder / "w.nc") as weights:
+            self.assertEqual(list(weights["src_grid_dims"][:]), [len(LON), len(LAT)])
+
     def test_units_of_spacings(self):
         def cells(units, factor):
             data = self.new("spacing.nc")
