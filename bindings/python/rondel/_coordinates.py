@@ -118,6 +118,12 @@ class Coordinates:
         return made
 
 
+def lies_elsewhere(data: xarray.Dataset, name: str) -> bool:
+    """Whether the Dataset has longitudes and latitudes of this variable."""
+    pairs, _ = _core.find_coordinates(_headers(data), "", "", name)
+    return bool(pairs)
+
+
 def _not_found(headers: list[tuple[Any, ...]], lon: Hashable | None, lat: Hashable | None) -> str:
     if lon is not None and lat is not None:
         return f"{lon} and {lat} must have the same dimensions, or one dimension each"

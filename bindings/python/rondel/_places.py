@@ -14,7 +14,7 @@ import xarray
 
 from . import _core
 from ._arrays import lonlat, point_set_hash, unit_vectors
-from ._coordinates import MARKS, Coordinates, missing_marker
+from ._coordinates import MARKS, Coordinates, lies_elsewhere, missing_marker
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._geometries import in_degrees
 from ._partition import Partition
@@ -373,10 +373,26 @@ def carried(
     }
     rest = data.drop_vars([name for name in source.own_names if name in data.variables])
     rest = rest.drop_dims(source.dims)
-    whole = rest.assign(taken).assign_coords(wanted.coordinates)
+    whole = _without_other_places(rest, data, wanted)
+    whole = whole.assign(taken).assign_coords(wanted.coordinates)
     if not keep_attrs:
         whole = whole.drop_attrs(deep=False)
     return whole[[name for name in data.data_vars if name in whole.data_vars]]
+
+
+def _without_other_places(rest: xarray.Dataset, data: xarray.Dataset, wanted: Places) -> Any:
+    """Leaves out fields that are elsewhere, and dimensions with the names of the target's."""
+    sizes = dict(zip(wanted.dims, wanted.shape, strict=True))
+    others = [dim for dim, size in sizes.items() if rest.sizes.get(dim, size) != size]
+    left_out = [
+        str(name)
+        for name, array in rest.data_vars.items()
+        if set(others) & set(array.dims) or lies_elsewhere(data, str(name))
+    ]
+    if left_out:
+        names = ", ".join(left_out)
+        _warn(f"left out, as their longitudes and latitudes are not those of the source: {names}")
+    return rest.drop_vars(left_out).drop_dims(others)
 
 
 def _kind(array: Any) -> Any:

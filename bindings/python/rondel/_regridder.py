@@ -164,6 +164,13 @@ class Regridder(Described):
             made = weights if isinstance(weights, Weights) else read_weights(weights)
             if made.shape != shape:
                 raise ValueError(f"the weights have shape {made.shape}, the grids {shape}")
+            # Those of masked points have the hash of the points that are left.
+            is_whole = self._source.mask() is None and self._target.mask() is None
+            if is_whole and not made.is_of(
+                self._source.points() if made.sites_hash else None,
+                self._target.points() if made.targets_hash else None,
+            ):
+                raise ValueError("the weights are of other places, or of these in another order")
         self.weights = made
 
     @property

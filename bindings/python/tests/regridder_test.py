@@ -323,3 +323,29 @@ def test_lines_of_cells_in_the_reverse_order():
     far = ds.assign_coords(lat=lat + 20)
     with pytest.raises(ValueError, match="latitude 105 is far from its cell, 90 to 80"):
         rondel.Regridder(far, target, "conservative")
+
+
+def test_fields_on_another_grid_are_left_out_and_told():
+    two = dataset(FINE, v=(("lat", "lon"), field(FINE)))
+    axes = {name: (f"{name}_2", COARSE[name], two[name].attrs) for name in ("lon", "lat")}
+    two = two.assign_coords(lon_2=axes["lon"], lat_2=axes["lat"])
+    two["w"] = (("lat_2", "lon_2"), field(COARSE))
+    target = {"lon": np.arange(0.0, 360, 20), "lat": np.arange(-80.0, 81, 20)}
+    made = rondel.Regridder(two, target, "bilinear", lon="lon_2", lat="lat_2")
+    with pytest.warns(UserWarning, match="not those of the source: v$"):
+        found = made(two)
+    assert list(found.data_vars) == ["w"]
+    assert np.abs(found["w"] - field(target)).max() < 0.1
+    made = rondel.Regridder(two, target, "bilinear", lon="lon", lat="lat")
+    with pytest.warns(UserWarning, match="not those of the source: w$"):
+        assert list(made(two).data_vars) == ["v"]
+
+
+def test_weights_of_a_grid_in_another_order_are_refused(tmp_path):
+    source = dataset(FINE, v=(("lat", "lon"), field(FINE)))
+    rondel.Regridder(source, COARSE, "bilinear").to_netcdf(tmp_path / "w.nc")
+    rondel.Regridder(source, COARSE, "bilinear", weights=tmp_path / "w.nc")
+    turned = {"lon": COARSE["lon"], "lat": COARSE["lat"][::-1]}
+    for grids in ((source.isel(lat=slice(None, None, -1)), COARSE), (source, turned)):
+        with pytest.raises(ValueError, match="in another order"):
+            rondel.Regridder(*grids, "bilinear", weights=tmp_path / "w.nc")
