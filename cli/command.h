@@ -115,7 +115,7 @@ class Job {
   /// \throws FileError
   SiteTable read(const FileName& file, const ReadOptions& read,
                  std::span<const std::string> names = {});
-  /// The same with what netCDF says of the grid of the sites. \throws FileError
+  /// Reads sites as read() does, and what netCDF says of their grid. \throws FileError
   NetcdfSites read_grid(const FileName& file, const ReadOptions& read,
                         std::span<const std::string> names = {});
   /// \throws FileError with the file and line of a site that the library does not accept.

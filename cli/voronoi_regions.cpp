@@ -248,7 +248,7 @@ Cut cut_cells_of_features(const VoronoiOptions& options, const FeatureTable& tab
   return cut;
 }
 
-// What to tell of features that have a place and no cell.
+// Features that have a place and no cell are told.
 std::vector<std::string> remarks_on(const FeatureTable& table, const CellRings& cells) {
   std::size_t without = 0;
   std::size_t first = 0;

@@ -63,7 +63,7 @@ struct FieldSet {
 /// | `.npy` | shape (n,) or (fields, n); no `names` |
 /// | `.nc`, `.nc4`, `.cdf`, `.ncf`, or what begins as netCDF | the variables `names`, or all that are fields at the points |
 ///
-/// Of a variable with several fields a name may choose one: "tas[3]", "tas[-1]" and "tas[3, 0]" by its place along the other
+/// A name may choose one of the several fields of a variable: "tas[3]", "tas[-1]" and "tas[3, 0]" by its place along the other
 /// dimensions, "tas_2001-07-15" as names_of_fields() calls it.
 ///
 /// In netCDF the dimensions of the points are those of their longitudes and latitudes (rondel/conventions.h), in any order and at any

@@ -23,7 +23,7 @@ namespace {
 
 using SlicedNetcdf = io::NetcdfReader::Variable;
 
-// What a field still is at other points.
+// The attributes that are true of values at other points, too.
 std::vector<std::pair<std::string, std::string>> kept_attributes(const SlicedNetcdf& variable) {
   std::vector<std::pair<std::string, std::string>> kept;
   for (const io::NetcdfAttribute& attribute : variable.attributes) {
@@ -84,7 +84,7 @@ void require_places(const SlicedNetcdf& variable, std::span<const LonLat> places
                      ") have the " + std::to_string(wanted.num_points) + " points" + grid);
 }
 
-// Of "[3, 1]" the field at places 3 and 1 along the dimensions; counted from the end where they are negative.
+// "[3, 1]" means the field at places 3 and 1 along the dimensions; negative places count from the end.
 std::size_t number_of_field(const FieldArray& several, std::string_view places) {
   std::string meant = several.name;
   meant += places;
@@ -149,7 +149,7 @@ bool FieldSlices::add(const SlicedNetcdf& variable) {
   return true;
 }
 
-// Of "tas[3]" the field with number 3 of variable tas, of "tas_2001-07-15" the one that is called so where each is a column.
+// "tas[3]" means field 3 of variable tas, "tas_2001-07-15" the field that has this name where each is a column.
 bool FieldSlices::add_one_of_several(const std::string& name) {
   std::vector<const SlicedNetcdf*> beginnings;
   for (const SlicedNetcdf& variable : file_.variables()) {

@@ -164,7 +164,7 @@ class Regridder(Described):
             made = weights if isinstance(weights, Weights) else read_weights(weights)
             if made.shape != shape:
                 raise ValueError(f"the weights have shape {made.shape}, the grids {shape}")
-            # Those of masked points have the hash of the points that are left.
+            # Weights of masked points have the hash of the points that are left.
             is_whole = self._source.mask() is None and self._target.mask() is None
             if is_whole and not made.is_of(
                 self._source.points() if made.sites_hash else None,

@@ -72,7 +72,7 @@ def test_axes(tmp_path, bounds):
                 turned = bounds == "transposed"
                 value = (value * scale).astype(dtype)
                 ds[key] = (dims[::-1], value.T) if turned else (dims, value)
-        # What the cells are.
+        # The cells that the reader should find.
         if not has_bounds:
             turns = np.unwrap(lon, period=360)
             if along == "both ends":
