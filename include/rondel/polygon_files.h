@@ -32,15 +32,17 @@ enum class PolygonOverlap : std::uint8_t {
   first,  ///< what is in several belongs to the first of them
 };
 
+/// Whether a feature, with this number and the properties of all features, is taken.
+using FeatureChoice = std::function<bool(std::size_t feature, std::span<const Column> columns)>;
+
 struct PolygonOptions {
   PolygonEdges edges = PolygonEdges::lonlat;
   /// How far arcs may be from straight lines in longitude and latitude, which get more corners until they
   /// are so near: degrees.
   double tolerance_deg = 1e-4;
   PolygonOverlap overlap = PolygonOverlap::keep;
-  /// Says of each feature, by its number and the properties of all, whether it is taken. The others take no space:
-  /// their cells are empty. Empty: all are taken.
-  std::function<bool(std::size_t feature, std::span<const Column> columns)> is_taken = {};
+  /// Features that are not taken take no space: their cells are empty. Without a choice all are taken.
+  FeatureChoice is_taken = {};
 };
 
 /// The polygons of a file: cell i is feature i.
