@@ -151,6 +151,7 @@ std::vector<CommonCorners::RingArc> CommonCorners::unmatched_arcs(const CellRing
 // Cells come in any order, but ArcBoxes wants neighbors to follow each other.
 void CommonCorners::sort_along_curve(std::vector<RingArc>& arcs) {
   std::vector<Point> ends;
+  ends.reserve(arcs.size());
   for (const RingArc& arc : arcs) ends.push_back(arc.from);
   std::vector<std::uint64_t> keys(arcs.size());
   order::place_keys(ends, Model::projected, {}, keys);

@@ -161,7 +161,7 @@ class Stitching {
     std::vector<bool> is_used(next_.size(), false);
     for (std::size_t first = 0; first < next_.size(); ++first) {
       if (is_used[first]) continue;
-      std::vector<LonLat>& loop = out.emplace_back();
+      std::vector<LonLat> loop;
       for (std::size_t chain = first; !is_used[chain]; chain = next_[chain].chain) {
         is_used[chain] = true;
         for (std::size_t i = trace_.starts[chain]; i < past(chain); ++i) {
@@ -171,6 +171,7 @@ class Stitching {
           loop.push_back(corners[side % num_sides]);
         }
       }
+      out.push_back(std::move(loop));
     }
   }
 

@@ -143,7 +143,8 @@ Rectangle rectangle_of_pixel(const GridPlace& c) {
 std::vector<GridSide> rounded(const GridLines& lines, const Rectangles& rectangles,
                               std::vector<GridPlace> crossings) {
   std::vector<std::vector<GridPlace>> inner(lines.size());
-  for (const GridPlace& pixel : hot_pixels(lines, std::move(crossings))) {
+  const std::vector<GridPlace> pixels = hot_pixels(lines, std::move(crossings));
+  for (const GridPlace& pixel : pixels) {
     rectangles.find_overlapping(rectangle_of_pixel(pixel), [&](const Line& line) {
       const auto& [low, high] = lines[line.name];
       if (pixel != low && pixel != high && meets_pixel(low, high, pixel))

@@ -198,8 +198,10 @@ ShapeInPlane PlaneShapes::islands(bool is_world) {
   PolygonInPlane world = {planar_box(-180, -90, 180, 90)};
   if (is_world) shape.plus = world;
   for (std::size_t k = 0; k < n; ++k) {
-    const LonLat at = {p.lon_deg - radius + step * static_cast<double>(2 * (k % side) + 1),
-                       p.lat_deg - radius + step * static_cast<double>(2 * (k / side) + 1)};
+    const std::size_t row = k / side;
+    const std::size_t column = k % side;
+    const LonLat at = {p.lon_deg - radius + step * static_cast<double>(2 * column + 1),
+                       p.lat_deg - radius + step * static_cast<double>(2 * row + 1)};
     const double size = 0.9 * step * power(-3, 0);
     const RingInPlane island = circle(at, size, 3 + below(6));
     (is_world ? shape.minus : shape.plus).push_back(island);

@@ -458,9 +458,10 @@ std::vector<RegionOracle::Piece> RegionOracle::level_set(const std::vector<Piece
 }
 
 Wide RegionOracle::area_of(const std::vector<Piece>& border) {
-  if (border.empty()) return Wide(0);
+  Wide sum(0);
+  if (border.empty()) return sum;
   static const Wide sphere = 16 * atan(Wide(1));
-  Wide sum = constant_of(border) * sphere;
+  sum = constant_of(border) * sphere;
   Wide below(4);
   for (const Piece& piece : border) {
     sum += triangle(piece.origin->wide(), piece.side.from.wide(), piece.side.to.wide(), below);
@@ -640,7 +641,7 @@ class BoxIntegral {
     return true;
   }
   // Of a part that is wholly below, within or above.
-  N between(const OracleVector<N>& a, const OracleVector<N>& b) const {
+  [[nodiscard]] N between(const OracleVector<N>& a, const OracleVector<N>& b) const {
     using std::atan2;
     const N turn = atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
     const OracleVector<N> middle = unit(plus(a, b));

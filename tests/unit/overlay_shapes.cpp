@@ -67,8 +67,10 @@ class ShapeMaker {
     const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(n))));
     const double step = radius / static_cast<double>(side);
     for (std::size_t k = 0; k < n; ++k) {
-      const double x = step * static_cast<double>(2 * (k % side)) - radius + step;
-      const double y = step * static_cast<double>(2 * (k / side)) - radius + step;
+      const std::size_t row = k / side;
+      const std::size_t column = k % side;
+      const double x = step * static_cast<double>(2 * column) - radius + step;
+      const double y = step * static_cast<double>(2 * row) - radius + step;
       result.push_back(circle(placed(center, x, y), 0.6 * step * power(-3, 0), 3 + below(6)));
     }
     return result;

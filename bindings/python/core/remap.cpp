@@ -130,7 +130,7 @@ RemapOut remap_of(const Partition& source, const Partition& target, unsigned ord
 }  // namespace
 
 void add_remap(nb::module_& module) {
-  nb::class_<CellColumns>(module, "CellColumns");
+  [[maybe_unused]] const nb::class_<CellColumns> columns(module, "CellColumns");
   nb::class_<Partition>(module, "Partition")
       .def_static(
           "voronoi",
