@@ -12,7 +12,7 @@
 
 #include "exact/vector.h"
 #include "map/arc.h"
-#include "order/place_keys.h"
+#include "order/along_the_curve.h"
 #include "system/parallel.h"
 
 namespace rondel::map {
@@ -126,7 +126,8 @@ class CommonCorners::ArcBoxes {
   std::vector<std::vector<ArcBox>> levels_;
 };
 
-std::vector<CommonCorners::RingArc> CommonCorners::unmatched_arcs(const CellRings& cells) {
+std::vector<CommonCorners::RingArc> CommonCorners::unmatched_arcs(const CellRings& cells,
+                                                                  unsigned threads) {
   const OutgoingArcs outgoing(cells);
   std::vector<RingArc> arcs;
   for (std::size_t r = 0; r + 1 < cells.rings.size(); ++r) {
@@ -144,25 +145,24 @@ std::vector<CommonCorners::RingArc> CommonCorners::unmatched_arcs(const CellRing
     return arc.from == arc.to ||
            std::ranges::binary_search(sorted, RingArc{arc.to, arc.from}, ArcsInSpace());
   });
-  sort_along_curve(arcs);
+  sort_along_curve(arcs, threads);
   return arcs;
 }
 
 // Cells come in any order, but ArcBoxes wants neighbors to follow each other.
-void CommonCorners::sort_along_curve(std::vector<RingArc>& arcs) {
-  std::vector<Point> ends;
-  ends.reserve(arcs.size());
-  for (const RingArc& arc : arcs) ends.push_back(arc.from);
-  std::vector<std::uint64_t> keys(arcs.size());
-  order::place_keys(ends, Model::projected, {}, keys);
-  std::vector<std::pair<std::uint64_t, RingArc>> keyed;
-  for (std::size_t i = 0; i < arcs.size(); ++i) keyed.emplace_back(keys[i], arcs[i]);
-  std::ranges::stable_sort(keyed, {}, &std::pair<std::uint64_t, RingArc>::first);
-  for (std::size_t i = 0; i < arcs.size(); ++i) arcs[i] = keyed[i].second;
+void CommonCorners::sort_along_curve(std::vector<RingArc>& arcs, unsigned threads) {
+  std::vector<Index> indices(arcs.size());
+  std::iota(indices.begin(), indices.end(), Index{0});
+  const order::KeyedIndices order = order::along_the_curve(
+      std::move(indices), Model::projected, {}, threads, [&](Index i) { return arcs[i].from; });
+  std::vector<RingArc> sorted;
+  sorted.reserve(arcs.size());
+  for (const Index i : order.indices) sorted.push_back(arcs[i]);
+  arcs = std::move(sorted);
 }
 
 CommonCorners::CommonCorners(const CellRings& cells, unsigned threads) {
-  const std::vector<RingArc> arcs = unmatched_arcs(cells);
+  const std::vector<RingArc> arcs = unmatched_arcs(cells, threads);
   std::vector<Point> corners;
   for (const RingArc& arc : arcs) {
     corners.push_back(arc.from);

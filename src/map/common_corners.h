@@ -36,8 +36,8 @@ class CommonCorners {
   struct ArcBox;
   class ArcBoxes;
 
-  static std::vector<RingArc> unmatched_arcs(const CellRings& cells);
-  static void sort_along_curve(std::vector<RingArc>& arcs);
+  static std::vector<RingArc> unmatched_arcs(const CellRings& cells, unsigned threads);
+  static void sort_along_curve(std::vector<RingArc>& arcs, unsigned threads);
 
   std::map<RingArc, std::vector<Point>, ArcsInSpace> inner_;  // from the arc's beginning on
 };

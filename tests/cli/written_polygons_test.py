@@ -200,8 +200,11 @@ class Maker:
         self.folder = pathlib.Path(folder)
 
     def run(self, *arguments):
+        return self.call(*arguments, "--threads", "1")
+
+    def call(self, *arguments):
         done = subprocess.run(
-            [self.options.tool.resolve(), *map(str, arguments), "--quiet", "--threads", "1"],
+            [self.options.tool.resolve(), *map(str, arguments), "--quiet"],
             cwd=self.folder,
             capture_output=True,
             text=True,
@@ -216,27 +219,7 @@ class Maker:
     def generate(self, kind, rng, seed):
         number = COUNTS.get(kind, rng.randrange(4, self.options.sites + 1))
         arguments = ["--angle", "25"] if kind == "poisson" else ["-n", number]
-        return self.run_generate(kind, seed, arguments)
-
-    def run_generate(self, kind, seed, arguments):
-        done = subprocess.run(
-            [
-                self.options.tool.resolve(),
-                "generate",
-                kind,
-                "--seed",
-                str(seed),
-                "-o",
-                "sites.csv",
-                "--quiet",
-            ]
-            + [str(a) for a in arguments],
-            cwd=self.folder,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        return (done.stderr.strip() or f"status {done.returncode}") if done.returncode else ""
+        return self.call("generate", kind, "--seed", seed, "-o", "sites.csv", *arguments)
 
     def add_field(self, rng):
         with open(self.folder / "sites.csv", encoding="utf-8") as file:
@@ -313,7 +296,7 @@ class Maker:
     def make_regions(self, rng, tolerance):
         seed = rng.randrange(1 << 30)
         kept = (self.folder / "sites.csv").rename(self.folder / "kept.csv")
-        self.run_generate("uniform", seed, ["-n", rng.choice([6, 20, 60])])
+        self.call("generate", "uniform", "--seed", seed, "-o", "sites.csv", "-n", rng.choice([6, 20, 60]))
         (self.folder / "sites.csv").rename(self.folder / "others.csv")
         kept.rename(self.folder / "sites.csv")
         self.run("voronoi", "others.csv", "-o", "others.geojson", "--tolerance", tolerance)
