@@ -253,7 +253,7 @@ void FieldSlices::add_axes(const SlicedNetcdf& variable, const FieldDimensions& 
   }
 }
 
-// Where points are left out, field by field.
+// Fields are read one by one where points are left out, several at once elsewhere.
 void FieldSlices::read(std::size_t array, std::size_t first, std::span<double> out) const {
   const SlicedVariable& source = sources_[array];
   const std::vector<std::size_t>& kept = source.layout.kept;

@@ -25,7 +25,7 @@ class FieldSlices {
   FieldSlices(const io::NetcdfReader& file, const FieldsToRead& wanted,
               std::size_t most_of_block = usual_block);
 
-  // With the values of the axes alone.
+  // Only axes have their values here; read() reads those of the fields.
   [[nodiscard]] const FieldSet& fields() const { return fields_; }
   // As FieldFile::read().
   void read(std::size_t array, std::size_t first, std::span<double> out) const;

@@ -37,7 +37,7 @@ class PointsOut {
     num_points_ = num_points;
   }
 
-  // Those of its dimensions and coordinates.
+  // The names that its dimensions and coordinates take.
   [[nodiscard]] std::set<std::string> names() const {
     std::set<std::string> names;
     if (is_grid_ || !side_.points.empty()) names = {"lat", "lon"};

@@ -10,10 +10,10 @@
 
 namespace rondel::interpolation::fits {
 
-// Of linear, quadratic and cubic fits: one or two more than terms, lest a pair of close sites decide.
+// Linear, quadratic and cubic fits take so many neighbors: one or two more than terms, lest a pair of close sites decide.
 inline constexpr system::PlainArray<double, 3> least_neighbors = {2, 6, 11};
 
-// Of the equations for the weights of the slopes along a' and b': the left side, and what solves it.
+// The equations for the weights of the slopes along a' and b' have this left side, and this solves it.
 struct Solution {
   system::PlainArray<Terms, max_terms> rows;
   Terms diagonal;

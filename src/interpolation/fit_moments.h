@@ -24,7 +24,7 @@ RONDEL_ALWAYS_INLINE constexpr std::size_t moment_of(std::size_t i, std::size_t 
 
 using Products = system::PlainArray<double, num_moments>;
 
-// Those of degree s from those of s - 1.
+// Makes the products of degree s from those of degree s - 1.
 template <std::size_t S, std::size_t... Q>
 RONDEL_ALWAYS_INLINE inline void raise(double a, double b, std::index_sequence<Q...> /*powers*/,
                                        Products& products) {
