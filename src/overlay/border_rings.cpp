@@ -24,6 +24,7 @@ namespace rondel::overlay {
 namespace {
 
 constexpr std::size_t keys_per_block = 256;
+constexpr double of_holes = 8;  // times area_of_rounding()
 
 bool is_before(const Point& a, const Point& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
@@ -206,6 +207,8 @@ class RingMaker {
     return best;
   }
 
+  // A ring that rounding has turned clockwise is no hole: alone, it would be the border of all of the sphere. Its corners are
+  // crossings of sides that had crossings as corners, so that it may be wider than a counterclockwise one.
   [[nodiscard]] bool is_rounding(const std::vector<Index>& ring) {
     double length = 0;
     border_.clear();
@@ -215,9 +218,9 @@ class RingMaker {
     }
     length += rough_length(border_.back(), border_.front());
     const double rounding = area_of_rounding(length);
-    if (map::is_surely_larger(border_, rounding)) return false;
+    if (map::is_surely_larger(border_, of_holes * rounding)) return false;
     const RingArea area = area_of_ring(border_);
-    return area.is_nothing() || std::abs(area.area) <= rounding;
+    return area.is_nothing() || (area.area <= rounding && area.area >= -of_holes * rounding);
   }
 
   const std::vector<Point>& points_;

@@ -51,6 +51,7 @@ TEST(overlay_inside, seeds_that_failed) {
                                                                     {"folded", 28},
                                                                     {"folded", 869},
                                                                     {"folded", 917},
+                                                                    {"folded", 2727},
 
                                                                     {"islands", 0},
                                                                     {"islands", 12},
