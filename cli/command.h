@@ -112,10 +112,10 @@ class Job {
   /// The sites of INPUT. \throws FileError
   SiteTable read();
   /// The sites of another file; of netCDF those of the variables `names`, which are also the columns, unless FILE:NAME names one.
-  /// \throws FileError
+  /// Those that netCDF masks are left out. \throws FileError
   SiteTable read(const FileName& file, const ReadOptions& read,
                  std::span<const std::string> names = {});
-  /// Reads sites as read() does, and what netCDF says of their grid. \throws FileError
+  /// Reads sites as read() does, also those that netCDF masks, and what it says of their grid. \throws FileError
   NetcdfSites read_grid(const FileName& file, const ReadOptions& read,
                         std::span<const std::string> names = {});
   /// \throws FileError with the file and line of a site that the library does not accept.

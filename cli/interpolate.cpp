@@ -20,26 +20,6 @@
 namespace rondel::cli {
 namespace {
 
-// The sites that have a value, with their places in the file.
-SiteTable with_values(const SiteTable& table, std::vector<double>& values) {
-  SiteTable kept;
-  kept.name = table.name;
-  kept.first_line = table.first_line;
-  std::vector<double> known;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (std::isnan(values[i])) continue;
-    known.push_back(values[i]);
-    kept.sites.push_back(table.sites[i]);
-    if (!table.lines.empty()) {
-      kept.lines.push_back(table.lines[i]);
-    } else if (table.first_line != 0) {
-      kept.lines.push_back(table.first_line + i);
-    }
-  }
-  values = std::move(known);
-  return kept;
-}
-
 struct InterpolateCounts {
   std::size_t sites = 0;
   std::size_t targets = 0;
@@ -86,21 +66,19 @@ class FieldCarrier {
       : job_(job), options_(options), table_(table), targets_(targets), counts_(counts) {}
 
   std::vector<double> carry(std::vector<double> values) {
-    std::vector<bool> gaps;
-    gaps.reserve(values.size());
-    for (const double value : values) gaps.push_back(std::isnan(value));
-    const bool is_whole = std::ranges::find(gaps, true) == gaps.end();
+    std::vector<bool> is_known;
+    is_known.reserve(values.size());
+    for (const double value : values) is_known.push_back(!std::isnan(value));
+    const bool is_whole = std::ranges::find(is_known, false) == is_known.end();
     std::optional<Interpolator>& interpolator = is_whole ? whole_ : partial_;
-    if (!is_whole && gaps != gaps_) interpolator.reset();
+    if (!is_whole && is_known != is_known_) interpolator.reset();
     if (is_whole && !interpolator) interpolator.emplace(triangulated(job_, options_, table_));
     if (!is_whole) {
-      const std::size_t num_sites = values.size();
-      SiteTable kept = with_values(table_, values);
-      counts_.left_out += num_sites - kept.sites.size();
+      counts_.left_out += std::erase_if(values, [](double value) { return std::isnan(value); });
       if (!interpolator) {
-        kept_ = std::move(kept);
+        kept_ = table_.selection(is_known);
         interpolator.emplace(triangulated(job_, options_, kept_));
-        gaps_ = std::move(gaps);
+        is_known_ = std::move(is_known);
       }
     }
     std::vector<double> carried;
@@ -124,7 +102,7 @@ class FieldCarrier {
   std::optional<Interpolator> whole_;
   std::optional<Interpolator> partial_;
   SiteTable kept_;  // of `partial_`
-  std::vector<bool> gaps_;
+  std::vector<bool> is_known_;
 };
 
 void interpolate_columns(Job& job, const InterpolateOptions& options, const SiteTable& table,
@@ -172,10 +150,11 @@ void interpolate_fields(Job& job, const InterpolateOptions& options, const Netcd
 }
 
 // The numbers of the cells that are not masked.
-std::vector<Index> unmasked(const NetcdfSites& grid) {
+std::vector<Index> unmasked_sites(const NetcdfSites& grid) {
+  const std::vector<bool> is_kept = grid.unmasked();
   std::vector<Index> numbers;
-  for (std::size_t i = 0; i < grid.table.sites.size(); ++i) {
-    if (grid.mask.empty() || grid.mask[i] != 0) numbers.push_back(static_cast<Index>(i));
+  for (std::size_t i = 0; i < is_kept.size(); ++i) {
+    if (is_kept[i]) numbers.push_back(static_cast<Index>(i));
   }
   return numbers;
 }
@@ -194,14 +173,10 @@ void spread(const std::vector<Index>& numbers, const SiteTable& table, WeightFil
 void write_weights_of(Job& job, const InterpolateOptions& options, const NetcdfSites& grid,
                       Targets& targets, InterpolateCounts& counts) {
   const SiteTable& table = grid.table;
-  const std::vector<Index> numbers = unmasked(grid);
+  const std::vector<Index> numbers = unmasked_sites(grid);
   const bool has_masked = numbers.size() < table.sites.size();
   SiteTable kept;  // what the triangulation refers to
-  if (has_masked) {
-    std::vector<double> values(table.sites.size(), std::numeric_limits<double>::quiet_NaN());
-    for (const Index number : numbers) values[number] = 0;
-    kept = with_values(table, values);
-  }
+  if (has_masked) kept = table.selection(grid.unmasked());
   const Triangulation triangulation = triangulated(job, options, has_masked ? kept : table);
   const Interpolator interpolator(triangulation);
   WeightFile file;

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -57,7 +58,12 @@ SiteTable Job::read() { return read(state_->options.source(), state_->options.re
 
 SiteTable Job::read(const FileName& file, const ReadOptions& read,
                     std::span<const std::string> names) {
-  return read_grid(file, read, names).table;
+  const NetcdfSites grid = read_grid(file, read, names);
+  const std::vector<bool> is_kept = grid.unmasked();
+  const auto num_masked = std::ranges::count(is_kept, false);
+  if (num_masked == 0) return grid.table;
+  tell(grid.table.name, {"left out " + count(num_masked, "masked site", "masked sites")});
+  return grid.table.selection(is_kept);
 }
 
 NetcdfSites Job::read_grid(const FileName& file, const ReadOptions& read,

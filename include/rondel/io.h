@@ -79,13 +79,14 @@ struct Column {
 
 /// The sites of a file.
 struct SiteTable {
-  std::string name;                  ///< the file, for messages; "<stdin>" for standard input
-  std::vector<Point> sites;          ///< unit vectors for lon/lat input, otherwise as given;
-                                     ///< of circles the polar points
-  std::vector<LonLat> positions;     ///< degrees as given; empty for xyz input
-  std::vector<double> radii_deg;     ///< of circles; empty without a radius column
-  std::vector<Column> columns;       ///< if kept; one without a name is "column_3" by its place
-  std::vector<std::uint64_t> lines;  ///< the line of each site; empty where every line is a site
+  std::string name;               ///< the file, for messages; "<stdin>" for standard input
+  std::vector<Point> sites;       ///< unit vectors for lon/lat input, otherwise as given;
+                                  ///< of circles the polar points
+  std::vector<LonLat> positions;  ///< degrees as given; empty for xyz input
+  std::vector<double> radii_deg;  ///< of circles; empty without a radius column
+  std::vector<Column> columns;    ///< if kept; one without a name is "column_3" by its place
+  /// The line of each site, or its row where the format has no lines; empty where every line, or row, is a site.
+  std::vector<std::uint64_t> lines;
   /// The line of site 0 when `lines` is empty; 0: the format has none.
   std::uint64_t first_line = 1;
   std::uint64_t num_unlocated = 0;  ///< GeoJSON: features left out, as they have no geometry
@@ -93,6 +94,8 @@ struct SiteTable {
   [[nodiscard]] bool is_lonlat() const noexcept { return !positions.empty(); }
   /// "stations.csv:17" or, for formats without lines, "sites.npy: row 16".
   [[nodiscard]] RONDEL_API std::string where(std::size_t site) const;
+  /// The sites i with keep[i], in their order, with all that the table says of them.
+  [[nodiscard]] RONDEL_API SiteTable selection(const std::vector<bool>& keep) const;
 };
 
 /// Reads .csv .tsv .xyz .txt .npy .geojson; "-" is standard input, CSV where no format is named. A

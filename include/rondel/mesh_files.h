@@ -81,6 +81,13 @@ struct NetcdfSites {
   /// 0: a mask of SCRIP, ESMF or OASIS says that the cell takes no part; empty: all do.
   std::vector<std::int32_t> mask;
   std::vector<std::string> remarks;  ///< those of the cells; what is no column, and why
+
+  /// Whether each site takes part.
+  [[nodiscard]] std::vector<bool> unmasked() const {
+    std::vector<bool> takes_part(table.sites.size(), true);
+    for (std::size_t i = 0; i < mask.size(); ++i) takes_part[i] = mask[i] != 0;
+    return takes_part;
+  }
 };
 
 /// Reads sites from netCDF: the centers of the cells that read_cells() finds, or else the places of the first of the fields

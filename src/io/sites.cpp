@@ -58,9 +58,32 @@ void require_columns(const SiteReader& reader, const ReadOptions& options, const
 }  // namespace
 
 std::string SiteTable::where(std::size_t site) const {
-  if (!lines.empty()) return name + ":" + std::to_string(lines[site]);
-  if (first_line != 0) return name + ":" + std::to_string(first_line + site);
-  return name + ": row " + std::to_string(site);
+  const std::uint64_t line = lines.empty() ? first_line + site : lines[site];
+  return name + (first_line != 0 ? ":" : ": row ") + std::to_string(line);
+}
+
+SiteTable SiteTable::selection(const std::vector<bool>& keep) const {
+  SiteTable selected;
+  selected.name = name;
+  selected.first_line = first_line;
+  selected.num_unlocated = num_unlocated;
+  for (const Column& column : columns)
+    selected.columns.push_back({column.name, column.is_numeric, {}, {}});
+  for (std::size_t i = 0; i < keep.size(); ++i) {
+    if (!keep[i]) continue;
+    selected.sites.push_back(sites[i]);
+    if (!positions.empty()) selected.positions.push_back(positions[i]);
+    if (!radii_deg.empty()) selected.radii_deg.push_back(radii_deg[i]);
+    selected.lines.push_back(lines.empty() ? first_line + i : lines[i]);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      const Column& from = columns[c];
+      const std::uint64_t begin = i == 0 ? 0 : from.ends[i - 1];
+      Column& to = selected.columns[c];
+      to.text.append(from.text, begin, from.ends[i] - begin);
+      to.ends.push_back(to.text.size());
+    }
+  }
+  return selected;
 }
 
 SiteTable read_sites(const FileName& file, const ReadOptions& options, const Execution& execution) {

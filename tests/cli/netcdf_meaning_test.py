@@ -150,6 +150,33 @@ class Meaning(unittest.TestCase):
         self.assertIn(f"{len(lon)} sites", said)
         self.assertEqual(self.table("o.csv")[0], "lon,lat,v")
 
+    def test_masked_cells_are_no_sites(self):
+        lon, lat = (grid.ravel() for grid in np.meshgrid(LON, LAT))
+        mask = np.arange(len(lon)) % 5 != 3
+        data = self.new("scrip.nc")
+        data.createDimension("grid_size", len(lon))
+        data.createDimension("grid_corners", 4)
+        add(data, "grid_center_lon", ("grid_size",), lon, units="degrees")
+        add(data, "grid_center_lat", ("grid_size",), lat, units="degrees")
+        corners = ("grid_size", "grid_corners")
+        add(data, "grid_corner_lon", corners, lon[:, None] + [-1, 1, 1, -1], units="degrees")
+        add(data, "grid_corner_lat", corners, lat[:, None] + [-1, -1, 1, 1], units="degrees")
+        add(data, "grid_imask", ("grid_size",), mask * 1.0)
+        data.close()
+        said = self.run_tool("nearest", "scrip.nc", "scrip.nc", "-o", "o.csv")
+        self.assertIn(f"left out {len(lon) - mask.sum()} masked sites", said)
+        self.assertEqual(len(self.table("o.csv")), 1 + mask.sum())
+        for command in (
+            ("delaunay", "scrip.nc", "-o", "t.npy"),
+            ("check", "scrip.nc", "t.npy"),
+            ("voronoi", "scrip.nc", "-o", "v.geojson"),
+            ("graph", "scrip.nc", "--kind", "gabriel", "-o", "g.npy"),
+            ("plot", "scrip.nc", "-o", "p.svg"),
+            ("contours", "scrip.nc", "--value", "grid_imask", "--levels", "1", "-o", "c.geojson"),
+        ):
+            with self.subTest(command):
+                self.assertIn("masked sites", self.run_tool(*command))
+
     def test_infinite_values_are_refused(self):
         values = height(LON[None, :], LAT[:, None])
         values[4, 9] = np.inf

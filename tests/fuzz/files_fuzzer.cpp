@@ -1,13 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// write_file, write_indices, write_numbers, read_sites, read_triangles, SiteTable::where on files of
+// write_file, write_indices, write_numbers, read_sites, read_triangles, SiteTable::where, SiteTable::selection on files of
 // any bytes and any ending: what a file holds, and messages of one line that begin with its name.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <vector>
 
 #include "fuzz/scratch_folder.h"
 #include "fuzz/table_input.h"
@@ -35,6 +36,14 @@ void test_sites(const std::string& path) {
     }
     for (std::size_t i = 0; i < table.sites.size(); ++i) {
       require(table.where(i).starts_with(path + ":"), "a site is somewhere");
+    }
+    std::vector<bool> is_odd;
+    for (std::size_t i = 0; i < table.sites.size(); ++i) is_odd.push_back(i % 2 == 1);
+    const SiteTable odd = table.selection(is_odd);
+    require(odd.sites.size() == table.sites.size() / 2, "a selection has the sites that are kept");
+    for (std::size_t i = 0; i < odd.sites.size(); ++i) {
+      require(odd.sites[i] == table.sites[2 * i + 1] && odd.where(i) == table.where(2 * i + 1),
+              "a selection keeps the order and the places");
     }
   } catch (const FileError& error) {
     require_message(error, path);

@@ -120,6 +120,7 @@ void test(std::string_view bytes) {
   require(is_netcdf_file(path), "the ending tells netCDF");
   expect_answer([&] {
     const NetcdfSites sites = read_netcdf_sites(path, {}, true);
+    require(sites.unmasked().size() == sites.table.sites.size(), "each site takes part or not");
     require(sites.table.positions.size() == sites.table.sites.size(), "sites have positions");
   });
   expect_answer([&] {

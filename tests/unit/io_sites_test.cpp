@@ -175,6 +175,27 @@ TEST(read_sites, names_the_line_of_every_site) {
   }
 }
 
+TEST(read_sites, a_selection_keeps_lines_and_columns) {
+  for (const char* name : {"plain.csv", "empty_lines.csv", "xyz.npy", "features.geojson"}) {
+    ReadOptions options;
+    options.keep_columns = true;
+    const SiteTable table = read_sites((corpus / "good" / name).string(), options);
+    std::vector<bool> keep(table.sites.size(), false);
+    keep[1] = keep[4] = true;
+    const SiteTable selected = table.selection(keep);
+    ASSERT_EQ(selected.sites.size(), 2U) << name;
+    EXPECT_EQ(selected.positions.size(), table.is_lonlat() ? 2U : 0U) << name;
+    for (const std::size_t i : {0U, 1U}) {
+      const std::size_t from = i == 0 ? 1 : 4;
+      EXPECT_EQ(selected.sites[i], table.sites[from]);
+      EXPECT_EQ(selected.where(i), table.where(from));
+      for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        EXPECT_EQ(cells(selected.columns[c]).at(i), cells(table.columns[c]).at(from));
+      }
+    }
+  }
+}
+
 TEST(read_sites, lists_lines_only_where_they_do_not_follow_each_other) {
   EXPECT_TRUE(read_sites((corpus / "good/plain.csv").string()).lines.empty());
   EXPECT_TRUE(read_sites((corpus / "good/comments.xyz").string()).lines.empty());
