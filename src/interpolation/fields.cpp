@@ -234,6 +234,10 @@ FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted) {
   const char* data = bytes.data() + header.data_offset;
   for (std::size_t i = 0; i < array.values.size(); ++i) {
     array.values[i] = type.load(data + i * item, order);
+    if (!std::isinf(array.values[i])) continue;
+    throw io::BadValue((rank == 2 ? "field " + std::to_string(i / n) + ": " : "") + "value " +
+                       (array.values[i] > 0 ? "inf" : "-inf") + " at point " +
+                       std::to_string(i % n) + " is not finite");
   }
   fields.arrays.push_back(std::move(array));
   return fields;

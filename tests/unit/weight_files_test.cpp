@@ -5,6 +5,7 @@
 #include "rondel/weight_files.h"
 
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "io/binary.h"
@@ -242,6 +243,27 @@ TEST(fields, come_back) {
   const std::vector<std::string> names = {"t_2000-01-01T06:00:00"};
   EXPECT_EQ(read_fields(directory.file("f.csv"), names, 4).arrays[0].values,
             (std::vector<double>{5, 6, 7, 0.1}));
+}
+
+TEST(fields, of_infinite_values_are_refused) {
+  const TemporaryDirectory directory;
+  FieldSet fields;
+  fields.num_points = 4;
+  fields.arrays = {
+      {"t", {"time"}, {2}, {1, 2, 3, 4, 5, -std::numeric_limits<double>::infinity(), 7, 8}, {}}};
+  for (const char* name : {"f.nc", "f.npy"}) {
+    const std::string file = directory.file(name);
+    write_fields(file, fields, example().target);
+    const std::string message = message_of([&] {
+      const FieldFile in(file, {}, 4);
+      std::vector<double> values(4);
+      for (std::size_t a = 0; a < in.fields().arrays.size(); ++a) {
+        for (std::size_t f = 0; f < in.fields().arrays[a].num_fields(); ++f) in.read(a, f, values);
+      }
+    });
+    EXPECT_TRUE(message.starts_with(file)) << message;
+    EXPECT_NE(message.find("-inf"), std::string::npos) << message;
+  }
 }
 
 TEST(fields, have_the_columns_of_their_points) {

@@ -354,8 +354,9 @@ def feature_cells(
     Returns
     -------
     Regions
-        One for each feature; `labels` are their numbers. A single one that is not cut has no
-        border.
+        One for each feature; `labels` are their numbers. A feature has an area of 0 if it has no
+        place, or if features before it have all of its places. A single one that is not cut has
+        no border.
 
     Raises
     ------
