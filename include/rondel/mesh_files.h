@@ -66,7 +66,7 @@ RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size
 ///    less than three corners have no ring. Rings that are clockwise are turned around.
 /// 3. Coordinates along lines and without bounds: cells end half way between them, the first and the last one as far
 ///    beyond as before, or at the pole if that is less than a cell away.
-/// 4. Cells that the file masks, and cells with a corner that is missing (NaN, a fill value), have no ring, and their mask is 0.
+/// 4. Cells that the file masks have a mask of 0, as cells with a corner that is missing (NaN, a fill value), which have no ring.
 /// 5. `FILE.nc:NAME` names the grid of several by one of its variables: a coordinate, a UGRID topology, or values on it.
 /// \throws FileError for what cannot be read, with the file, and the cell or node.
 RONDEL_API CellTable read_cells(const FileName& file);

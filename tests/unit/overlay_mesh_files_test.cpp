@@ -310,6 +310,18 @@ TEST(overlay_mesh_files, cf_lines_of_bounds) {
             360);
 }
 
+TEST(overlay_mesh_files, cf_bounds_with_the_two_ends_first) {
+  MeshWriter file;
+  const MeshWriter::Dimensions ends_first = {{"two", 2}, {"lon", 3}};
+  file.add("lon", {{"lon", 3}}, {10, 30, 60}, {{"units", "degrees_east"}, {"bounds", "lon_bnds"}});
+  file.add("lat", {{"lat", 2}}, {5, -5}, {{"units", "degrees_north"}, {"bounds", "lat_bnds"}});
+  file.add("lon_bnds", ends_first, {0, 20, 40, 20, 40, 80});
+  file.add("lat_bnds", {{"two", 2}, {"lat", 2}}, {10, 0, 0, -9});
+  const CellTable table = table_of(file);
+  EXPECT_EQ(table.grid->lon_deg, (Doubles{0, 20, 40, 80}));
+  EXPECT_EQ(table.grid->lat_deg, (Doubles{10, 0, -9}));
+}
+
 std::string refusal_of(const std::function<void()>& read) {
   try {
     read();

@@ -330,6 +330,23 @@ TEST(overlay_parts, places_of_two_cells) {
   }
 }
 
+// Each of two equal cells has half of every piece, and half of its moment around the mean that both have.
+TEST(overlay_parts, equal_cells_share_moments) {
+  const Partition once(cells_of_parts({{rectangle(0, 0, 20, 20)}}));
+  const Partition twice(cells_of_parts({{rectangle(0, 0, 20, 20)}, {rectangle(0, 0, 20, 20)}}));
+  const Partition cover = Partition::voronoi(triangulation_of("uniform", 500, 9));
+  const Remap whole = remap(once, cover, {.order = 2});
+  const Remap halves = remap(twice, cover, {.order = 2, .overlap = CellOverlap::share});
+  ASSERT_EQ(halves.columns.size(), 2 * whole.columns.size());
+  ASSERT_GT(whole.columns.size(), 4U);
+  for (std::size_t k = 0; k < halves.columns.size(); ++k) {
+    EXPECT_EQ(halves.columns[k], k % 2);
+    EXPECT_NEAR(halves.areas[k], whole.areas[k / 2] / 2, 1e-15);
+    const Point difference = halves.moments[k] - 0.5 * whole.moments[k / 2];
+    EXPECT_LT(norm(difference), 1e-15) << k;
+  }
+}
+
 // A row of cells that is there twice, as the folds of ocean grids are.
 TEST(overlay_parts, cells_that_are_there_twice) {
   const CellRings cells = Partition::voronoi(triangulation_of("uniform", 60, 10)).rings();

@@ -5,13 +5,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <fstream>
 #include <numbers>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "exact/vector.h"
 #include "overlay_support.h"
 #include "rondel/error.h"
 #include "rondel/polygon_files.h"
@@ -179,6 +182,55 @@ TEST(overlay_polygons, sides_are_geodesics_if_asked_for) {
                {.edges = PolygonEdges::geodesic});
   EXPECT_EQ(across.cells.corners, table.cells.corners);
   EXPECT_TRUE(across.cells.points == table.cells.points);
+}
+
+// A comb, whose corners go west and east again: any corner may be the first one, and either direction is taken.
+TEST(overlay_polygons, geodesics_may_begin_anywhere_and_go_either_way) {
+  std::vector<LonLat> comb = {{30, -20}, {30, 25}};
+  for (int tooth = 0; tooth < 4; ++tooth) {
+    const double lon = 20 - 15 * tooth;
+    comb.insert(comb.end(), {{lon, 25}, {lon - 2, -10.0 - tooth}, {lon - 7, 20}});
+  }
+  comb.insert(comb.end(), {{-60, 25}, {-70, 0}, {-55, -20}});
+  // The sum of the triangles that each side makes with a place, by the formula of l'Huilier.
+  const auto distance = [](const LonLat& p, const LonLat& q) {
+    const double sum = std::sin(p.lat_deg * one_degree) * std::sin(q.lat_deg * one_degree) +
+                       std::cos(p.lat_deg * one_degree) * std::cos(q.lat_deg * one_degree) *
+                           std::cos((p.lon_deg - q.lon_deg) * one_degree);
+    return std::acos(std::clamp(sum, -1.0, 1.0));
+  };
+  double expected = 0;
+  const LonLat place{-17, 3};
+  const std::vector<Point> points = unit_vectors(comb);
+  const Point origin = unit_vectors(std::vector{place})[0];
+  for (std::size_t k = 0; k < comb.size(); ++k) {
+    const std::size_t next = (k + 1) % comb.size();
+    const double a = distance(place, comb[k]);
+    const double b = distance(comb[k], comb[next]);
+    const double c = distance(comb[next], place);
+    const double half = (a + b + c) / 2;
+    const double product = std::tan(half / 2) * std::tan((half - a) / 2) *
+                           std::tan((half - b) / 2) * std::tan((half - c) / 2);
+    const double area = 4 * std::atan(std::sqrt(std::max(product, 0.0)));
+    const Point normal = cross(points[k], points[next]);
+    expected += dot(origin, normal) > 0 ? area : -area;
+  }
+  for (const bool is_reversed : {false, true}) {
+    std::vector<LonLat> corners = comb;
+    if (is_reversed) std::ranges::reverse(corners);
+    for (std::size_t first = 0; first < comb.size(); ++first) {
+      std::rotate(corners.begin(), corners.begin() + 1, corners.end());
+      std::string ring;
+      for (std::size_t k = 0; k <= corners.size(); ++k) {
+        const LonLat& p = corners[k % corners.size()];
+        ring += (k == 0 ? "[" : ",[") + std::to_string(p.lon_deg) + "," +
+                std::to_string(p.lat_deg) + "]";
+      }
+      const PolygonTable table =
+          table_of(polygon("[" + ring + "]"), {.edges = PolygonEdges::geodesic});
+      EXPECT_NEAR(areas(table.cells)[0], std::abs(expected), 1e-9) << is_reversed << first;
+    }
+  }
 }
 
 TEST(overlay_polygons, holes_and_directions) {

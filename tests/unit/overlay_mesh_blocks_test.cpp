@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Cells of finite elements, of coupled models, and of curvilinear grids that give the corners of all cells.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "mesh_writer.h"
+#include "overlay_support.h"
+#include "rondel/error.h"
+#include "rondel/mesh_files.h"
+#include "support/temporary_files.h"
+
+namespace rondel::test {
+namespace {
+
+using Doubles = std::vector<double>;
+
+CellTable cells_of_file(const MeshWriter& writer) {
+  const std::string path = temporary_path("blocks_") +
+                           testing::UnitTest::GetInstance()->current_test_info()->name() + ".nc";
+  writer.write(path);
+  return read_cells(path);
+}
+
+// The corners of a cube, (x, y, z) by the bits of their numbers; the length is that of a model that counts in kilometers.
+Doubles coordinates_of_cube(unsigned bit) {
+  Doubles values;
+  for (unsigned corner = 0; corner < 8; ++corner)
+    values.push_back((corner >> bit & 1U) != 0 ? 6371 : -6371);
+  return values;
+}
+
+// Five sides are elements with four corners, one is two triangles; corners are counted from 1.
+void add_blocks(MeshWriter& file) {
+  file.add_whole("connect1", {{"num_el_in_blk1", 5}, {"num_nod_per_el1", 4}},
+                 {1, 3, 4, 2, 1, 2, 6, 5, 1, 5, 7, 3, 2, 4, 8, 6, 3, 7, 8, 4});
+  file.add_whole("connect2", {{"num_el_in_blk2", 2}, {"num_nod_per_el2", 3}}, {5, 6, 8, 5, 8, 7});
+}
+
+void expect_cube(const CellTable& table) {
+  EXPECT_EQ(table.convention, "Exodus");
+  ASSERT_EQ(table.num_cells(), 7U);
+  const Partition partition = partition_of(table);
+  EXPECT_TRUE(partition.is_cover());
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_NEAR(partition.areas()[i], 4 * std::numbers::pi / (i < 5 ? 6 : 12), 1e-14) << i;
+  }
+}
+
+TEST(overlay_mesh_blocks, exodus_with_one_array_of_coordinates) {
+  MeshWriter file;
+  Doubles all;
+  for (const unsigned bit : {0U, 1U, 2U}) {
+    const Doubles values = coordinates_of_cube(bit);
+    all.insert(all.end(), values.begin(), values.end());
+  }
+  file.add("coord", {{"num_dim", 3}, {"num_nodes", 8}}, all);
+  add_blocks(file);
+  expect_cube(cells_of_file(file));
+}
+
+TEST(overlay_mesh_blocks, exodus_with_an_array_for_each_coordinate) {
+  MeshWriter file;
+  const MeshWriter::Dimensions nodes = {{"num_nodes", 8}};
+  file.add("coordx", nodes, coordinates_of_cube(0));
+  file.add("coordy", nodes, coordinates_of_cube(1));
+  file.add("coordz", nodes, coordinates_of_cube(2));
+  add_blocks(file);
+  file.add_whole("edge_type1", {{"num_el_in_blk1", 5}, {"num_nod_per_el1", 4}},
+                 {0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0});
+  const CellTable table = cells_of_file(file);
+  expect_cube(table);
+  EXPECT_EQ(table.remarks, (std::vector<std::string>{
+                               "2 sides along parallels (edge_type) are taken for great circles"}));
+}
+
+TEST(overlay_mesh_blocks, exodus_without_a_coordinate_of_each_corner_is_refused) {
+  MeshWriter file;
+  file.add("coordx", {{"num_nodes", 8}}, coordinates_of_cube(0));
+  file.add("coordy", {{"num_nodes", 8}}, coordinates_of_cube(1));
+  file.add("coordz", {{"seven", 7}}, Doubles(7, 1.0));
+  add_blocks(file);
+  EXPECT_THROW((void)cells_of_file(file), FileError);
+}
+
+// Two tiles with 3 x 2 cells: the corners of a tile in one array, and four of each cell, give the same cells.
+TEST(overlay_mesh_blocks, corners_of_all_cells_of_tiles) {
+  const MeshWriter::Dimensions cells = {{"tile", 2}, {"y", 2}, {"x", 3}};
+  const auto lon_of = [](double tile, double y, double x) { return 20 + 90 * tile + 10 * x + y; };
+  const auto lat_of = [](double tile, double y, double x) { return 5 * tile - 8 + 7 * y + x / 2; };
+  Doubles lon, lat, lon_of_all, lat_of_all, lon_of_each, lat_of_each;
+  for (double tile = 0; tile < 2; ++tile) {
+    for (double y = 0; y < 3; ++y) {
+      for (double x = 0; x < 4; ++x) {
+        lon_of_all.push_back(lon_of(tile, y, x));
+        lat_of_all.push_back(lat_of(tile, y, x));
+        if (y == 2 || x == 3) continue;
+        lon.push_back(lon_of(tile, y + 0.5, x + 0.5));
+        lat.push_back(lat_of(tile, y + 0.5, x + 0.5));
+        for (const auto& [up, right] : {std::pair{0, 0}, {0, 1}, {1, 1}, {1, 0}}) {
+          lon_of_each.push_back(lon_of(tile, y + up, x + right));
+          lat_of_each.push_back(lat_of(tile, y + up, x + right));
+        }
+      }
+    }
+  }
+  const auto table_with = [&](const MeshWriter::Dimensions& corners, const Doubles& lons,
+                              const Doubles& lats) {
+    MeshWriter file;
+    file.add("lon", cells, lon, {{"units", "degrees_east"}, {"bounds", "lon_bnds"}});
+    file.add("lat", cells, lat, {{"units", "degrees_north"}, {"bounds", "lat_bnds"}});
+    file.add("lon_bnds", corners, lons);
+    file.add("lat_bnds", corners, lats);
+    return cells_of_file(file);
+  };
+  const CellTable of_all = table_with({{"tile", 2}, {"yc", 3}, {"xc", 4}}, lon_of_all, lat_of_all);
+  const CellTable of_each =
+      table_with({{"tile", 2}, {"y", 2}, {"x", 3}, {"nv", 4}}, lon_of_each, lat_of_each);
+  EXPECT_EQ(of_all.shape, (std::vector<std::uint64_t>{2, 2, 3}));
+  const Partition one = partition_of(of_all);
+  const Partition other = partition_of(of_each);
+  ASSERT_EQ(one.num_cells(), 12U);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(one.areas()[i], other.areas()[i]);
+    EXPECT_NEAR(one.areas()[i], 70 * std::pow(std::numbers::pi / 180, 2), 2e-3) << i;
+  }
+}
+
+// The mask of OASIS is 1 where a cell takes no part, and its corners are the first dimension.
+TEST(overlay_mesh_blocks, oasis_with_a_mask) {
+  MeshWriter file;
+  const MeshWriter::Dimensions cells = {{"y_toce", 2}, {"x_toce", 3}};
+  const MeshWriter::Dimensions corners = {{"crn_toce", 4}, {"y_toce", 2}, {"x_toce", 3}};
+  Doubles lon, lat, lon_of_corners, lat_of_corners;
+  for (const auto& [up, right] : {std::pair{0, 0}, {0, 1}, {1, 1}, {1, 0}}) {
+    for (int y = 0; y < 2; ++y) {
+      for (int x = 0; x < 3; ++x) {
+        lon_of_corners.push_back(10 * (x + right));
+        lat_of_corners.push_back(5 * (y + up));
+      }
+    }
+  }
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 3; ++x) {
+      lon.push_back(10 * x + 5);
+      lat.push_back(5 * y + 2.5);
+    }
+  }
+  file.add("toce.lon", cells, lon);
+  file.add("toce.lat", cells, lat);
+  file.add("toce.clo", corners, lon_of_corners);
+  file.add("toce.cla", corners, lat_of_corners);
+  file.add_whole("toce.msk", cells, {0, 1, 0, 0, 0, 1});
+  const CellTable table = cells_of_file(file);
+  EXPECT_EQ(table.convention, "OASIS");
+  EXPECT_EQ(table.mask, (std::vector<std::int32_t>{1, 0, 1, 1, 1, 0}));
+  EXPECT_EQ(table.remarks, (std::vector<std::string>{"2 of 6 cells are masked by \"toce.msk\""}));
+  EXPECT_EQ(table.shape, (std::vector<std::uint64_t>{2, 3}));
+  ASSERT_EQ(table.num_cells(), 6U);
+  EXPECT_EQ(table.cells.cells, (std::vector<std::uint64_t>{0, 1, 2, 3, 4, 5, 6}));
+  EXPECT_EQ(table.centers[4], (LonLat{15, 7.5}));
+}
+
+}  // namespace
+}  // namespace rondel::test
