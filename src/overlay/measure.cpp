@@ -28,8 +28,7 @@ bool add_triangles(std::span<const BorderArc> border, const Point& origin, doubl
 
 }  // namespace
 
-// Triangles around a point nearby, or, for large regions, the direction of the center of mass. Where
-// the moment is nothing but rounding, so is the area.
+// Triangles around a point nearby, or, for large regions, the direction of the center of mass.
 Measures measures_of(std::span<const BorderArc> border, const Point& nearby) {
   Measures result;
   for (const auto& [from, to] : border) {
@@ -38,8 +37,8 @@ Measures measures_of(std::span<const BorderArc> border, const Point& nearby) {
   }
   if (add_triangles(border, nearby, result.area)) return result;
   result.area = 0;
-  if (norm(result.moment) <= 4 * predicates::unit_roundoff * result.length) return result;
-  add_triangles(border, normalized(result.moment), result.area);
+  result.is_sure = norm(result.moment) > 4 * predicates::unit_roundoff * result.length;
+  if (result.is_sure) add_triangles(border, normalized(result.moment), result.area);
   return result;
 }
 

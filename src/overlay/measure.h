@@ -149,6 +149,8 @@ struct Measures {
   double area = 0;
   double length = 0;  // roughly
   Point moment{};
+  bool is_sure =
+      true;  // the area; not of regions around the sphere, as belts, whose center of mass is its center
 };
 // Of a region that fits into a hemisphere, by all arcs of its border, and a point not far from most regions'.
 Measures measures_of(std::span<const BorderArc> border, const Point& nearby);

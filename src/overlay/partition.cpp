@@ -37,13 +37,13 @@ bool is_wide(std::span<const BorderArc> border, const Point& center) {
 // Of a region with this border, a cell of Shape::other with an area: which of the two sides of its rings is the inside is
 // decided there.
 double area_of(const Subdivision& cells, Index cell, std::span<const BorderArc> border,
-               double measured) {
+               const Measures& measures) {
   const bool is_other = cells.shapes[cell] == Shape::other;
-  if (is_wide(border, cells.centers[cell])) {
+  if (!measures.is_sure || is_wide(border, cells.centers[cell])) {
     return is_other ? cells.area_of_other(cell) : cells.area_of_rings(cell);
   }
-  const bool is_wrong = is_other && std::abs(measured - cells.area_of_other(cell)) > 1;
-  return is_wrong ? cells.area_of_other(cell) : measured;
+  const bool is_wrong = is_other && std::abs(measures.area - cells.area_of_other(cell)) > 1;
+  return is_wrong ? cells.area_of_other(cell) : measures.area;
 }
 
 }  // namespace
@@ -69,7 +69,7 @@ PartitionData::PartitionData(Subdivision subdivision, std::vector<Index> whole, 
       }
       const Measures measures = measures_of(border, subdivision_.centers[c]);
       areas_[subdivision_.names[c]] =
-          area_of(subdivision_, static_cast<Index>(c), border, measures.area);
+          area_of(subdivision_, static_cast<Index>(c), border, measures);
       moments_[subdivision_.names[c]] = measures.moment;
       lengths_[subdivision_.names[c]] = measures.length;
     }

@@ -131,8 +131,8 @@ class PieceMaker {
       for (; k < sides_.size() && sides_[k].beyond == beyond; ++k) {
         border_.push_back(sides_[k].arc);
       }
-      const auto [area, length, moment] = measures_of(border_, border_.front().from);
-      pieces_.push_back({beyond, area, length, moment});
+      const Measures measures = measures_of(border_, border_.front().from);
+      pieces_.push_back({beyond, measures.area, measures.length, measures.moment});
     }
   }
   // What has one owner may be too large to be measured at once, but no cell of the cover is.

@@ -72,6 +72,28 @@ TEST(overlay_inside, seeds_that_failed) {
   }
 }
 
+// Regions that are as far around the sphere on one side as on the other.
+TEST(overlay_inside, the_center_of_mass_is_that_of_the_sphere) {
+  const auto square = [](double height, bool is_clockwise) {
+    const double radius = std::sqrt((1 - height) * (1 + height));
+    RingOfPoints ring = {
+        {-radius, 0, height}, {0, -radius, height}, {radius, 0, height}, {0, radius, height}};
+    if (is_clockwise) std::ranges::reverse(ring);
+    return ring;
+  };
+  for (const double height : {0.5, 1e-2, 1e-7, 1.9419565629710794e-08, 1e-9, 1e-12}) {
+    SCOPED_TRACE(height);
+    expect_right({square(0, false), square(height, true)}, 0);
+    expect_right({square(-height, false), square(height, true)}, 1);
+    RingOfPoints triangle = {{1, -height, -height}, {1, height, -height}, {1, 0, height}};
+    RingOfPoints opposite = {{-1, 0, -height}, {-1, height, height}, {-1, -height, height}};
+    for (RingOfPoints* ring : {&triangle, &opposite}) {
+      for (Point& p : *ring) p = normalized(p);
+    }
+    expect_right({triangle, opposite}, 2);
+  }
+}
+
 // Two loops of one size, one of them clockwise, where a side passes a corner of the other one.
 TEST(overlay_inside, a_loop_at_a_corner_on_a_side_is_refused) {
   for (const double share : {0.1, 0.5, 0.9}) {
