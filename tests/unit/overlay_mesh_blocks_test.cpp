@@ -126,12 +126,42 @@ TEST(overlay_mesh_blocks, corners_of_all_cells_of_tiles) {
   const CellTable of_each =
       table_with({{"tile", 2}, {"y", 2}, {"x", 3}, {"nv", 4}}, lon_of_each, lat_of_each);
   EXPECT_EQ(of_all.shape, (std::vector<std::uint64_t>{2, 2, 3}));
+  ASSERT_EQ(of_all.centers.size(), 12U);
+  for (std::size_t i = 0; i < 12; ++i) EXPECT_EQ(of_all.centers[i], (LonLat{lon[i], lat[i]}));
   const Partition one = partition_of(of_all);
   const Partition other = partition_of(of_each);
   ASSERT_EQ(one.num_cells(), 12U);
   for (std::size_t i = 0; i < 12; ++i) {
     EXPECT_EQ(one.areas()[i], other.areas()[i]);
     EXPECT_NEAR(one.areas()[i], 70 * std::pow(std::numbers::pi / 180, 2), 2e-3) << i;
+  }
+}
+
+// Coordinates of every place that have no bounds are those of the axes, in either order, or the axes only pretend to be degrees.
+TEST(overlay_mesh_blocks, axes_of_the_places_that_a_variable_names) {
+  const Doubles lon = {10, 30, 50, 70};
+  const Doubles lat = {-20, 0, 20};
+  const auto table_with = [&](bool is_lon_last, double lon_off, double lat_off) {
+    MeshWriter file;
+    file.add("x", {{"x", 4}}, lon, {{"units", "degrees_east"}});
+    file.add("y", {{"y", 3}}, lat, {{"units", "degrees_north"}});
+    MeshWriter::Dimensions both = {{"y", 3}, {"x", 4}};
+    if (!is_lon_last) std::swap(both[0], both[1]);
+    Doubles lons, lats;
+    for (std::size_t k = 0; k < 12; ++k) {
+      lons.push_back(lon[is_lon_last ? k % 4 : k / 3] + (k == 7 ? lon_off : 0));
+      lats.push_back(lat[is_lon_last ? k / 4 : k % 3] + (k == 7 ? lat_off : 0));
+    }
+    file.add("nav_lon", both, lons, {{"units", "degrees_east"}});
+    file.add("nav_lat", both, lats, {{"units", "degrees_north"}});
+    file.add("sst", both, Doubles(12, 1.0), {{"coordinates", "nav_lon nav_lat"}});
+    return cells_of_file(file);
+  };
+  for (const bool is_lon_last : {true, false}) {
+    EXPECT_EQ(table_with(is_lon_last, 0, 0).grid->lon_deg, (Doubles{0, 20, 40, 60, 80}));
+    EXPECT_EQ(table_with(is_lon_last, 360, 0).grid->lat_deg, (Doubles{-30, -10, 10, 30}));
+    EXPECT_THROW((void)table_with(is_lon_last, 0.01, 0), FileError);
+    EXPECT_THROW((void)table_with(is_lon_last, 0, 0.01), FileError);
   }
 }
 

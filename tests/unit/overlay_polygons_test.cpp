@@ -285,6 +285,30 @@ TEST(overlay_polygons, neighbors_share_corners) {
   EXPECT_EQ(table.columns[0].ends, (std::vector<std::uint64_t>{1, 1, 1}));
 }
 
+// A corner of one neighbor alone becomes one of both, next to the antimeridian and a turn of the globe away, too.
+TEST(overlay_polygons, neighbors_share_corners_everywhere) {
+  for (const double west :
+       {-360.0, -200.0, -190.0, -180.0, -90.0, 0.0, 120.0, 170.0, 180.0, 350.0}) {
+    for (const double off : {0.3, 5.0, 19.7}) {
+      const auto position = [&](double lon, double lat) {
+        return "[" + std::to_string(lon) + "," + std::to_string(lat) + "]";
+      };
+      const double turn = west > 0 ? -360 : 360;
+      const std::string low = ring_of_box(west, 0, west + 20, 50);
+      const std::string high =
+          "[" + position(west + turn, 50) + "," + position(west + turn + off, 50) + "," +
+          position(west + turn + 20, 50) + "," + position(west + turn + 20, 60) + "," +
+          position(west + turn, 60) + "," + position(west + turn, 50) + "]";
+      const PolygonTable table = table_of(R"({"type":"GeometryCollection","geometries":[)" +
+                                          polygon(low) + "," + polygon(high) + "]}");
+      const CellRings joined =
+          dissolve(table.cells, std::vector<Index>(table.cells.num_cells(), 0), 1);
+      EXPECT_EQ(joined.rings.size(), 2U) << west << ' ' << off;
+      EXPECT_NEAR(areas(joined)[0], area_of_box(0, 0, 20, 60), 1e-5) << west << ' ' << off;
+    }
+  }
+}
+
 TEST(overlay_polygons, cells_are_clipped_to_them) {
   const Partition cells = Partition::voronoi(triangulation_of("uniform", 500, 2));
   const PolygonTable table = table_of(polygon(ring_of_box(150, -60, 200, 70)));

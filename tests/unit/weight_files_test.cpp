@@ -245,6 +245,38 @@ TEST(fields, come_back) {
             (std::vector<double>{5, 6, 7, 0.1}));
 }
 
+TEST(fields, of_integers_of_eight_bytes) {
+  const TemporaryDirectory directory;
+  const std::vector<std::uint64_t> numbers = {3, 1, 1ULL << 40U, 7};
+  for (const char* type : {"<u8", "<i8"}) {
+    std::string bytes("\x93NUMPY\x01\x00", 8);
+    std::string header =
+        std::string("{'descr': '") + type + "', 'fortran_order': False, 'shape': (4,), }";
+    header.resize(117, ' ');
+    header += '\n';
+    bytes += static_cast<char>(header.size());
+    bytes += '\0';
+    bytes += header;
+    bytes.append(reinterpret_cast<const char*>(numbers.data()), 8 * numbers.size());
+    const FieldSet fields = read_fields(directory.with("f.npy", bytes), {}, 4);
+    EXPECT_EQ(fields.arrays[0].values, (std::vector<double>{3, 1, 0x1p40, 7})) << type;
+  }
+}
+
+TEST(fields, without_places_say_so) {
+  const TemporaryDirectory directory;
+  FieldSet fields;
+  fields.num_points = 4;
+  fields.arrays = {{"t", {}, {}, {1, 2, 3, 4}, {}}};
+  write_fields(directory.file("f.nc"), fields, WeightSide{});
+  const auto message = [&](std::size_t num_points) {
+    return message_of([&] { read_fields(directory.file("f.nc"), {}, num_points); });
+  };
+  EXPECT_NE(message(0).find("no variable has longitudes and latitudes"), std::string::npos)
+      << message(0);
+  EXPECT_NE(message(5).find("no variable has 5 points"), std::string::npos) << message(5);
+}
+
 TEST(fields, of_infinite_values_are_refused) {
   const TemporaryDirectory directory;
   FieldSet fields;
