@@ -330,6 +330,25 @@ TEST(overlay_parts, places_of_two_cells) {
   }
 }
 
+// A cell with a hole that is larger than a quarter of the sphere, inside of one cell that is nearly half of it.
+TEST(overlay_parts, a_large_cell_within_one_cell) {
+  std::vector<LonLat> places = {{0, 90}, {0, -70}, {120, -70}, {240, -70}};
+  const std::vector<Point> points = unit_vectors(places);
+  const Triangulation sites = delaunay(Sites::view(points));
+  const Partition cover = Partition::voronoi(sites);
+  std::vector<LonLat> hole = circle_of(10);
+  std::ranges::reverse(hole);
+  const Partition ring(cells_of_parts({{{circle_of(70)}, {hole}}}));
+  ASSERT_GT(ring.areas()[0], 1.1 * std::numbers::pi);
+  ASSERT_GT(cover.areas()[0], ring.areas()[0]);
+  const Remap there = remap(ring, cover);
+  const Remap back = remap(cover, ring);
+  EXPECT_NEAR(piece_of(there, 0, 0), ring.areas()[0], 1e-13);
+  EXPECT_NEAR(piece_of(back, 0, 0), ring.areas()[0], 1e-13);
+  EXPECT_EQ(there.columns.size(), 1U);
+  EXPECT_EQ(back.columns.size(), 1U);
+}
+
 // Each of two equal cells has half of every piece, and half of its moment around the mean that both have.
 TEST(overlay_parts, equal_cells_share_moments) {
   const Partition once(cells_of_parts({{rectangle(0, 0, 20, 20)}}));
