@@ -13,6 +13,7 @@
 #include "io/netcdf_reader.h"
 #include "io/netcdf_writer.h"
 #include "io_support.h"
+#include "mesh_writer.h"
 #include "rondel/delaunay.h"
 #include "rondel/fields.h"
 #include "rondel/weight_check.h"
@@ -220,6 +221,39 @@ TEST(weight_files, that_are_damaged_are_refused_or_read) {
     }
   }
   EXPECT_GT(refused, 1500U);
+}
+
+TEST(weight_files, rows_and_columns_are_as_many_as_weights) {
+  const TemporaryDirectory directory;
+  const auto message_with = [&](std::uint64_t num_rows, std::uint64_t num_columns) {
+    MeshWriter file;
+    file.add_whole("src_grid_dims", {{"src_grid_rank", 1}}, {4});
+    file.add_whole("dst_grid_dims", {{"dst_grid_rank", 1}}, {3});
+    file.add("frac_a", {{"n_a", 4}}, std::vector<double>(4, 1.0));
+    file.add("frac_b", {{"n_b", 3}}, std::vector<double>(3, 1.0));
+    file.add("S", {{"n_s", 2}}, {0.5, 0.5});
+    file.add_whole("row", {{"of_rows", num_rows}}, std::vector<double>(num_rows, 1.0));
+    file.add_whole("col", {{"of_columns", num_columns}}, std::vector<double>(num_columns, 2.0));
+    file.write(directory.file("w.nc"));
+    return message_of([&] { (void)read_weights(directory.file("w.nc")); });
+  };
+  EXPECT_EQ(message_with(2, 2), "");
+  EXPECT_NE(message_with(3, 2).find("3 rows and 2 columns for 2 weights"), std::string::npos);
+  EXPECT_NE(message_with(2, 1).find("2 rows and 1 columns for 2 weights"), std::string::npos);
+}
+
+TEST(weight_files, without_a_mask_all_take_part) {
+  const TemporaryDirectory directory;
+  WeightFile content = example();
+  content.source.mask.clear();
+  content.target.mask.clear();
+  const std::string path = directory.file("w.nc");
+  write_weights(path, content);
+  io::FileBytes bytes(path);
+  const io::NetcdfReader file(bytes);
+  for (const char* name : {"mask_a", "mask_b"}) {
+    for (const double part : file.numbers(file.require(name))) EXPECT_EQ(part, 1) << name;
+  }
 }
 
 TEST(fields, come_back) {
