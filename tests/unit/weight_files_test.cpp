@@ -242,6 +242,26 @@ TEST(weight_files, rows_and_columns_are_as_many_as_weights) {
   EXPECT_NE(message_with(2, 1).find("2 rows and 1 columns for 2 weights"), std::string::npos);
 }
 
+TEST(weight_files, of_scrip_with_gradients_are_refused) {
+  const TemporaryDirectory directory;
+  const auto message_with = [&](std::uint64_t num_weights) {
+    MeshWriter file;
+    file.add_whole("src_grid_dims", {{"src_grid_rank", 1}}, {4});
+    file.add_whole("dst_grid_dims", {{"dst_grid_rank", 1}}, {3});
+    file.add("src_grid_frac", {{"src_grid_size", 4}}, std::vector<double>(4, 1.0));
+    file.add("dst_grid_frac", {{"dst_grid_size", 3}}, std::vector<double>(3, 1.0));
+    file.add_whole("src_address", {{"num_links", 2}}, {1, 4});
+    file.add_whole("dst_address", {{"num_links", 2}}, {1, 3});
+    file.add("remap_matrix", {{"num_links", 2}, {"num_wgts", num_weights}},
+             std::vector<double>(2 * num_weights, 0.5));
+    file.write(directory.file("w.nc"));
+    return message_of([&] { (void)read_weights(FileName(directory.file("w.nc"), "scrip")); });
+  };
+  EXPECT_EQ(message_with(1), "");
+  EXPECT_NE(message_with(3).find("remap_matrix has 3 weights a link"), std::string::npos)
+      << message_with(3);
+}
+
 TEST(weight_files, without_a_mask_all_take_part) {
   const TemporaryDirectory directory;
   WeightFile content = example();
