@@ -276,6 +276,9 @@ TEST(overlay_parts, names_cells_that_overlap) {
   EXPECT_EQ(message_of({{box, within}}).substr(0, alone.size()), alone);
   EXPECT_EQ(message_of({{box, box}, {apart}}).substr(0, alone.size()), alone);
   EXPECT_EQ(message_of({{box, rectangular_hole(5, 5, 9, 9)}, {within}}), "nothing");
+  // Where the great circles through two of its sides meet, by their normals.
+  const RingOfPart bow_tie = {{{0, 0}, {20, 0}, {0, 20}, {20, 20}, {-10, 10}}};
+  EXPECT_EQ(message_of({{bow_tie}, {apart}}), alone + "4.8249 15.5662");
 }
 
 // Two covers of the sphere by lunes, which have nothing but the poles in common: whatever is beyond a side is some cell.

@@ -328,6 +328,31 @@ std::string message_of(const std::string& text) {
   return "";
 }
 
+TEST(overlay_polygons, longitudes_are_up_to_ten_turns_away) {
+  const double whole_turns = 3600;
+  const PolygonTable table = table_of(polygon(ring_of_box(whole_turns - 10, 0, whole_turns, 5)));
+  EXPECT_NEAR(areas(table.cells)[0], area_of_box(0, 0, 10, 5), 1e-5);
+  EXPECT_THROW((void)table_of(polygon(ring_of_box(whole_turns - 10, 0, whole_turns + 1e-3, 5))),
+               FileError);
+}
+
+// A side along a pole is as long as the ring has longitudes there, and asks for no advice.
+TEST(overlay_polygons, advice_is_about_sides_across_the_map) {
+  const auto message = [](const std::string& ring) -> std::string {
+    try {
+      (void)table_of(polygon(ring));
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string crossing = message(
+      "[[-180,90],[180,90],[180,10],[90,50],[100,20],[110,50],[80,30],[-90,30],[-180,10],[-180,90]"
+      "]");
+  EXPECT_NE(crossing.find("crosses itself"), std::string::npos) << crossing;
+  EXPECT_EQ(crossing.find("crosses the map"), std::string::npos) << crossing;
+}
+
 TEST(overlay_polygons, messages_say_where) {
   EXPECT_EQ(message_of(R"({"type":"Point","coordinates":[1,2]})"),
             R"(1: type "Point" where a Polygon is needed)");
