@@ -32,7 +32,8 @@ enum class CellOverlap : std::uint8_t {
 
 struct RemapOptions {
   /// 1: the field is constant in each source cell. 2: it is linear, with a gradient by least squares over
-  /// the neighbors (cells that share an edge) and the cell's mean kept; the integral is kept by both.
+  /// the neighbors (cells that share an edge), 0 across the line of neighbors that are nearly on one, and the cell's
+  /// mean kept; the integral is kept by both.
   unsigned order = 1;
   RemapNorm norm = RemapNorm::destarea;
   /// 0 by cell: it takes no part, as if it were no cell of its partition. Empty: all take part.

@@ -12,8 +12,10 @@
 namespace rondel::overlay {
 namespace {
 
-// Of the determinant of the normal equations, relative to the square of their trace.
-constexpr double least_determinant = 1e-9;
+// The normal equations know a direction if their eigenvalue there is this share of the largest one. Two neighbors on a line that
+// bends by the angle b have tan^2(b / 2). Along a parallel b is about the width of the cells: what the curvature of a field
+// is, divided by b, would be the gradient across the line.
+constexpr double least_share = 1.0 / 16;
 
 struct Sample {
   Index neighbor;
@@ -28,6 +30,54 @@ std::pair<Point, Point> tangents(const Point& n) {
   const Point u = normalized(cross(n, axis));
   return {u, cross(n, u)};
 }
+
+struct Slope {
+  double along_u;
+  double along_v;
+};
+
+// The inverse of the normal equations, but for directions that they do not know, along which gradients are 0.
+class NormalEquations {
+ public:
+  void add(const Sample& s) {
+    xx_ += s.weight * s.x * s.x;
+    xy_ += s.weight * s.x * s.y;
+    yy_ += s.weight * s.y * s.y;
+  }
+  void solve() {
+    const double trace = xx_ + yy_;
+    determinant_ = xx_ * yy_ - xy_ * xy_;
+    if (determinant_ > least_share / ((1 + least_share) * (1 + least_share)) * trace * trace)
+      return;
+    determinant_ = 0;
+    const double difference = xx_ - yy_;
+    largest_ = (trace + std::sqrt(difference * difference + 4 * xy_ * xy_)) / 2;
+    const double x = difference > 0 ? largest_ - yy_ : xy_;
+    const double y = difference > 0 ? xy_ : largest_ - xx_;
+    const double square = x * x + y * y;
+    if (!(square > 0 && largest_ > 0)) return;
+    x_ = x / std::sqrt(square);
+    y_ = y / std::sqrt(square);
+  }
+  [[nodiscard]] Slope slope_of(const Sample& s) const {
+    if (determinant_ > 0) {
+      return {s.weight * (yy_ * s.x - xy_ * s.y) / determinant_,
+              s.weight * (xx_ * s.y - xy_ * s.x) / determinant_};
+    }
+    if (!(largest_ > 0)) return {};
+    const double along = s.weight * (x_ * s.x + y_ * s.y) / largest_;
+    return {along * x_, along * y_};
+  }
+
+ private:
+  double xx_ = 0;
+  double xy_ = 0;
+  double yy_ = 0;
+  double determinant_ = 0;  // 0: one direction is not known
+  double largest_ = 0;      // eigenvalue, and its direction, (x, y)
+  double x_ = 0;
+  double y_ = 0;
+};
 
 // The cells that share an edge with others, by name.
 class NeighborLists {
@@ -85,27 +135,19 @@ CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> 
     const Point& center = centers[name];
     const auto [u, v] = tangents(normalized(center));
     std::vector<Sample> samples;
-    double xx = 0;
-    double xy = 0;
-    double yy = 0;
+    NormalEquations equations;
     for (const Index neighbor : neighbors_of(c)) {
       const Point step = centers[neighbor] - center;
       const Sample sample{neighbor, dot(u, step), dot(v, step), 1 / dot(step, step)};
       samples.push_back(sample);
-      xx += sample.weight * sample.x * sample.x;
-      xy += sample.weight * sample.x * sample.y;
-      yy += sample.weight * sample.y * sample.y;
+      equations.add(sample);
     }
-    const double determinant = xx * yy - xy * xy;
-    const bool is_determined = determinant > least_determinant * (xx + yy) * (xx + yy);
+    equations.solve();
     std::uint64_t k = result.offsets[name];
     for (const Sample& s : samples) {
       result.neighbors[k] = s.neighbor;
-      if (is_determined) {
-        const double along_u = s.weight * (yy * s.x - xy * s.y) / determinant;
-        const double along_v = s.weight * (xx * s.y - xy * s.x) / determinant;
-        result.slopes[k] = along_u * u + along_v * v;
-      }
+      const auto [along_u, along_v] = equations.slope_of(s);
+      result.slopes[k] = along_u * u + along_v * v;
       ++k;
     }
   };

@@ -21,7 +21,7 @@ struct CellGradients {
 };
 
 // Least squares over the cells that share an edge, weighted by the inverse squares of distances, in the
-// tangent plane of the center of mass; none where these do not determine it. `centers` and `mask` by name; where there
+// tangent plane of the center of mass; 0 along a direction that these do not determine. `centers` and `mask` by name; where there
 // is a mask, cells of 0 are no neighbors.
 CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> centers,
                              std::span<const std::int32_t> mask, unsigned threads);

@@ -401,5 +401,49 @@ TEST(overlay_remap, names_what_is_wrong) {
                InvalidInput);
 }
 
+double largest_weight(const Remap& remap) {
+  double largest = 0;
+  for (const double weight : remap.weights.values) largest = std::max(largest, std::abs(weight));
+  return largest;
+}
+
+// A strip knows no gradient across itself: with one of the bend of a parallel, weights were up to 400 in place of 1.
+TEST(overlay_remap, gradients_of_strips_go_along_them) {
+  for (const double step : {10.0, 1.0, 0.25, 1e-3}) {
+    for (const double south : {-89.0, -60.0, 0.0, 30.0, 80.0}) {
+      LonLatGrid coarse{{}, {south, south + step}};
+      LonLatGrid fine{{}, {south, south + step / 2, south + step}};
+      for (int k = 0; k <= 12; ++k) coarse.lon_deg.push_back(k * step);
+      for (int k = 0; k <= 36; ++k) fine.lon_deg.push_back(k * step / 3);
+      for (const GridSides sides : {GridSides::parallels, GridSides::great_circles}) {
+        if (south + step > 85 && sides == GridSides::great_circles) continue;
+        const Remap there = remap(Partition::lonlat_grid(coarse, sides),
+                                  Partition::lonlat_grid(fine, sides), {.order = 2});
+        EXPECT_LT(largest_weight(there), 1.5) << step << ' ' << south;
+        // A strip around a pole is no line, and wide cells with other sides stick out of it.
+        if (south < -85 || step > 1) continue;
+        std::vector<double> values(12);
+        std::vector<double> found(72);
+        for (std::size_t k = 0; k < 12; ++k) values[k] = static_cast<double>(k);
+        apply(there.weights, values, found);
+        for (std::size_t k = 3; k < 33; ++k) {
+          EXPECT_NEAR(found[k], (static_cast<double>(k) - 1) / 3, 0.05) << step << ' ' << south;
+        }
+      }
+    }
+  }
+}
+
+TEST(overlay_remap, masks_make_no_gradients_large) {
+  const Partition fine = Partition::voronoi(triangulation_of("uniform", 900, 3));
+  Random random(12);
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    const Partition cells = Partition::voronoi(triangulation_of("uniform", 200, seed));
+    std::vector<std::int32_t> mask(cells.num_cells());
+    for (std::int32_t& part : mask) part = random.below(10) < 2 + seed % 6 ? 0 : 1;
+    EXPECT_LT(largest_weight(remap(cells, fine, {.order = 2, .source_mask = mask})), 8) << seed;
+  }
+}
+
 }  // namespace
 }  // namespace rondel::test

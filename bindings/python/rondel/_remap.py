@@ -135,7 +135,7 @@ def remap(
         The cells of parts of the sphere, or of all of it; of a triangulation the triangles.
     order : {1, 2}, optional
         1: the field is constant in each source cell. 2: it has a gradient there, by least squares
-        over the neighbors.
+        over the neighbors; across neighbors that are nearly on a line it is 0.
     norm : {'destarea', 'fracarea'}, optional
         What the sum over a target is divided by: its area, so that the integral is kept, or the
         part that sources cover, so that constants are.
