@@ -58,7 +58,7 @@ struct NamedField {
 
 struct NetcdfFields {
   std::vector<NamedField> fields;
-  bool is_mesh = false;  // of MPAS, SCRIP, ESMF or ICON: no attribute says where its cells are
+  bool is_mesh = false;  // cells whose coordinates no attribute of a field may name
 };
 
 NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
@@ -67,8 +67,12 @@ NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
     const io::NetcdfReader reader(bytes);
     NetcdfFields found;
     for (const char* of_meshes :
-         {"verticesOnCell", "grid_corner_lon", "elementConn", "vertex_of_cell"}) {
+         {"verticesOnCell", "grid_corner_lon", "elementConn", "vertex_of_cell", "connect1"}) {
       found.is_mesh = found.is_mesh || reader.find(of_meshes) != nullptr;
+    }
+    for (const io::NetcdfReader::Variable& variable : reader.variables()) {
+      found.is_mesh = found.is_mesh ||
+                      !io::netcdf_text(variable.attributes, "face_node_connectivity").empty();
     }
     const auto add = [&](const io::NetcdfReader::Variable& variable) {
       NamedField field = {variable.name, {}};

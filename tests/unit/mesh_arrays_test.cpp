@@ -257,5 +257,15 @@ TEST(mesh_arrays, cocircular_sites_are_named_or_allowed) {
   EXPECT_EQ(std::ranges::count(moved.vertex_distances, 0.0), 3);
 }
 
+TEST(mesh_arrays, radii_are_from_the_least_to_the_largest) {
+  const Triangulation triangulation = delaunay(mesh_sites(20, 1));
+  for (const double radius : {mesh::least_radius, mesh::largest_radius}) {
+    EXPECT_EQ(mesh::arrays(triangulation, {.radius = radius}).radius, radius);
+  }
+  for (const double radius : {mesh::least_radius / 2, mesh::largest_radius * 2, 0.0, -1.0}) {
+    EXPECT_THROW((void)mesh::arrays(triangulation, {.radius = radius}), InvalidInput);
+  }
+}
+
 }  // namespace
 }  // namespace rondel::test

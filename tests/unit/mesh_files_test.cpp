@@ -70,6 +70,22 @@ TEST_F(MeshFiles, mpas_comes_back_bit_for_bit) {
   }
 }
 
+// What a file is says its content, not its name.
+TEST_F(MeshFiles, netcdf_of_any_name_is_read) {
+  const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(20, 12)), {});
+  mesh::write(path("m.nc"), arrays, {});
+  std::filesystem::rename(path("m.nc"), path("m.mesh"));
+  EXPECT_EQ(mesh::read_mesh(path("m.mesh")), arrays);
+  std::ofstream(path("t.mesh")) << "a text";
+  try {
+    (void)mesh::read_mesh(path("t.mesh"));
+    ADD_FAILURE();
+  } catch (const FileError& error) {
+    EXPECT_NE(std::string(error.what()).find("meshes are read from netCDF"), std::string::npos)
+        << error.what();
+  }
+}
+
 TEST_F(MeshFiles, threads_do_not_change_a_byte) {
   const std::size_t n = is_shortened() ? 9000 : 20000;  // a thread takes 256 KiB of rows at a time
   const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(n, 13)));

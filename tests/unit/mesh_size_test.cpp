@@ -125,6 +125,49 @@ TEST(mesh_size, limited_spacing_grows_slowly_and_is_lowered_no_more_than_that) {
   }
 }
 
+// Where faces of the cube meet, a place belongs to several of them, at the first or the last of their nodes.
+TEST(mesh_size, edges_of_the_cube_are_no_seams) {
+  const SizeFunction size = SizeFunction::from_function(
+      [](std::span<const Point> at, std::span<double> out) {
+        for (std::size_t i = 0; i < at.size(); ++i)
+          out[i] = 0.02 + 0.005 * at[i].x + 0.003 * at[i].y;
+      },
+      64);
+  for (const double along : {-1.0, -0.37, 0.0, 0.6, 1.0}) {
+    for (const double sign : {-1.0, 1.0}) {
+      for (const double other : {-1.0, 1.0}) {
+        for (const Point& p :
+             {Point{sign, other, along}, Point{along, sign, other}, Point{other, along, sign}}) {
+          const double length = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
+          EXPECT_NEAR(size.spacing(p), 0.02 + (0.005 * p.x + 0.003 * p.y) / length, 1e-5);
+        }
+      }
+    }
+  }
+}
+
+// All that surrounds a place is held against it, also across the edges of the cube.
+TEST(mesh_size, limited_spacing_grows_slowly_everywhere) {
+  for (const Point& middle :
+       {Point{1, 0.99, 0.1}, Point{1, -0.99, -0.4}, Point{-0.98, 0.2, -1}, Point{0.9, -1, 0.97}}) {
+    const Point center =
+        unit_vector(LonLat{std::atan2(middle.y, middle.x) * 180 / pi,
+                           std::atan2(middle.z, std::hypot(middle.x, middle.y)) * 180 / pi});
+    const SizeFunction steep = SizeFunction::from_function(
+        [&](std::span<const Point> at, std::span<double> out) {
+          for (std::size_t i = 0; i < at.size(); ++i)
+            out[i] = angle(at[i], center) < 0.05 ? 0.01 : 0.2;
+        },
+        64);
+    const SizeFunction gentle = steep.limited(0.2);
+    for (const Point& p : places()) {
+      const double wanted = std::min(0.2, 0.01 + 0.2 * std::max(0.0, angle(p, center) - 0.05));
+      EXPECT_LE(gentle.spacing(p), 1.04 * wanted + 0.012);
+      EXPECT_GE(gentle.spacing(p), wanted - 0.012);
+    }
+  }
+}
+
 TEST(mesh_size, what_is_no_size_is_refused) {
   EXPECT_THROW(SizeFunction::constant(0), InvalidInput);
   EXPECT_THROW(SizeFunction::constant(std::nan("")), InvalidInput);

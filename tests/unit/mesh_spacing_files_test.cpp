@@ -161,6 +161,48 @@ TEST(mesh_spacing_files, cells_of_meshes) {
   expect_wanted(read_spacings({path, {}}, "h", 1e-3, 256), 4e-3);
 }
 
+// Faces of UGRID that have no coordinates are where their corners are.
+TEST(mesh_spacing_files, faces_without_centers) {
+  MeshWriter file;
+  const std::vector<Point> sites = sampled_sites(3000, nullptr, 5);
+  const Triangulation triangulation = delaunay(Sites::view(sites));
+  std::vector<double> lon;
+  std::vector<double> lat;
+  for (const Point& site : sites) {
+    lon.push_back(std::atan2(site.y, site.x) * 180 / std::numbers::pi);
+    lat.push_back(std::asin(site.z) * 180 / std::numbers::pi);
+  }
+  std::vector<double> corners;
+  std::vector<double> spacings;
+  for (const Triple& face : triangulation.faces()) {
+    Point sum{};
+    for (const Index corner : face) {
+      const Point& p = sites[corner];
+      sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
+      corners.push_back(corner);
+    }
+    const double length = std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z);
+    spacings.push_back(wanted({sum.x / length, sum.y / length, sum.z / length}));
+  }
+  const std::uint64_t num_faces = triangulation.num_faces();
+  file.add_whole("mesh", {}, {0},
+                 {{"cf_role", "mesh_topology"},
+                  {"node_coordinates", "node_x node_y"},
+                  {"face_dimension", "face"},
+                  {"face_node_connectivity", "face_nodes"}},
+                 {{"topology_dimension", 2}});
+  file.add("node_x", {{"node", lon.size()}}, lon, eastward);
+  file.add("node_y", {{"node", lat.size()}}, lat, northward);
+  file.add_whole("face_nodes", {{"face", num_faces}, {"three", 3}}, corners, {},
+                 {{"start_index", 0}});
+  file.add("h", {{"face", num_faces}}, spacings,
+           {{"units", "km"}, {"mesh", "mesh"}, {"location", "face"}});
+  file.add("empty", {{"none", 0}}, {});
+  const std::string path = path_of("faces.nc");
+  file.write(path);
+  expect_wanted(read_spacings({path, {}}, "h", 1e-3, 64), 3e-2);
+}
+
 TEST(mesh_spacing_files, values_that_are_no_spacings_are_named) {
   const std::string path = path_of("bad_spacings.nc");
   const auto message = [&](std::vector<double> values) {
