@@ -57,7 +57,8 @@ enum class CircleCenters : std::uint8_t {
 
 /// The k largest circles of the faces, the largest first; all if there are fewer. Faces with one circle
 /// count once. Of equal radii (as rounded) that of the first face comes first. Below dimension 2 there are none
-/// but, anywhere, those around the poles of a great circle of sites that no open half of it has.
+/// but, anywhere, those around the poles of a great circle of sites that no open half of it has. A circle of a face touches
+/// three sites: where all are in half of the sphere, one that touches two alone may be larger.
 /// \throws InvalidInput if the sites are weighted.
 RONDEL_API std::vector<EmptyCircle> largest_empty_circles(
     const Triangulation& triangulation, std::size_t k,

@@ -147,6 +147,9 @@ class Graphs:
     def largest_empty_circles(self, k: int = 1, *, anywhere: bool = False) -> EmptyCircles:
         """The largest circles of the faces, which have no site inside.
 
+        Each touches three sites or more. Where all sites are in half of the sphere, a circle that
+        touches two sites alone may be larger.
+
         Parameters
         ----------
         k : int
