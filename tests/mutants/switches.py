@@ -24,14 +24,24 @@ DEFINITION = rb"""
 #include <fcntl.h>
 #include <sys/mman.h>
 
+#include <unistd.h>
+
 #include <atomic>
 #include <cstdlib>
+
+// Closes the file again, as a program without standard input would take it for that.
+static void* mapped(const char* name) noexcept {
+  const int file = open(name, O_RDWR);
+  void* const result = mmap(nullptr, %d, PROT_WRITE, MAP_SHARED, file, 0);
+  close(file);
+  return result;
+}
 
 bool rondel_mutant(int number) noexcept {
   static const char* const chosen = std::getenv("RONDEL_MUTANT");
   static const int active = chosen == nullptr ? -1 : std::atoi(chosen);
   static const char* const name = std::getenv("RONDEL_REACHED");
-  static void* const file = name == nullptr ? nullptr : mmap(nullptr, %d, PROT_WRITE, MAP_SHARED, open(name, O_RDWR), 0);
+  static void* const file = name == nullptr ? nullptr : mapped(name);
   if (file != nullptr && file != MAP_FAILED) {
     std::atomic_ref(static_cast<char*>(file)[number]).store(1, std::memory_order_relaxed);
   }
