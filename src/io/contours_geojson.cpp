@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <span>
 #include <string>
 #include <utility>
@@ -18,8 +19,10 @@
 #include "io/number.h"
 #include "io/number_text.h"
 #include "map/arc.h"
+#include "map/merged_points.h"
 #include "map/planar_loops.h"
 #include "map/region.h"
+#include "map/ring_area.h"
 #include "map/valid_regions.h"
 #include "rondel/contours.h"
 #include "rondel/error.h"
@@ -139,20 +142,37 @@ void find_border(const Bands& bands, std::vector<map::DrawnRegion>& drawn) {
   chosen->loops.push_back(map::border_loop());
 }
 
+std::vector<map::UnitVectors> rings_of_band(const Bands& bands, std::span<const Point> points,
+                                            std::size_t band) {
+  std::vector<map::UnitVectors> rings;
+  for (auto ring = bands.polygon_offsets[bands.band_offsets[band]];
+       ring < bands.polygon_offsets[bands.band_offsets[band + 1]]; ++ring) {
+    rings.push_back(points.subspan(bands.ring_offsets[ring],
+                                   bands.ring_offsets[ring + 1] - bands.ring_offsets[ring]));
+  }
+  return rings;
+}
+
+// Where lines do not tell which side of them a band is its area does, by its points as they were before they were merged.
+map::BorderKnowledge border_by_area(std::span<const map::UnitVectors> rings) {
+  double area = 0;
+  for (const map::UnitVectors ring : rings) area += map::area_on_left(ring);
+  return area < 0 || area > 2 * std::numbers::pi ? map::BorderKnowledge::seems_inside
+                                                 : map::BorderKnowledge::seems_outside;
+}
+
 // The polygons of each band; those of one are one region, as they may meet in points.
 std::vector<map::PolygonsOfRegion> draw_bands(const BandsToWrite& job) {
   const Bands& bands = job.bands;
+  const std::vector<Point> points = map::merged_points(bands.points);
   std::vector<map::DrawnRegion> drawn(bands.num_bands());
   system::parallel_for(
       job.execution.threads, drawn.size(), 1, [&](std::size_t begin, std::size_t end) {
         for (std::size_t band = begin; band < end; ++band) {
           if (bands.band_offsets[band] == bands.band_offsets[band + 1]) continue;
-          std::vector<map::UnitVectors> rings;
-          for (auto ring = bands.polygon_offsets[bands.band_offsets[band]];
-               ring < bands.polygon_offsets[bands.band_offsets[band + 1]]; ++ring) {
-            rings.push_back(row(bands.points, bands.ring_offsets, ring));
-          }
-          drawn[band] = map::draw_region(rings, job.tolerance);
+          drawn[band] = map::draw_region(rings_of_band(bands, points, band), job.tolerance);
+          if (is_unsure(drawn[band]))
+            drawn[band].border = border_by_area(rings_of_band(bands, bands.points, band));
         }
       });
   const bool may_overlap = std::ranges::any_of(drawn, is_unsure);

@@ -18,6 +18,7 @@
 #include "io/number.h"
 #include "map/arc.h"
 #include "map/common_corners.h"
+#include "map/merged_points.h"
 #include "map/region.h"
 #include "map/ring_area.h"
 #include "map/valid_regions.h"
@@ -45,16 +46,16 @@ std::span<const Index> ring_of(const CellRings& cells, std::uint64_t ring) {
 // The points of the rings of a cell.
 class RingsOfCell {
  public:
-  RingsOfCell(const CellRings& cells, std::size_t cell,
-              const map::CommonCorners* common = nullptr) {
-    for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
-      std::vector<Point>& ring = points_.emplace_back();
-      if (common != nullptr) {
-        common->append_ring(ring_of(cells, r), cells.points, ring);
-      } else {
-        for (const Index corner : ring_of(cells, r)) ring.push_back(cells.points[corner]);
-      }
-    }
+  RingsOfCell(const CellRings& cells, std::size_t cell)
+      : RingsOfCell(cells, cell, [&](std::span<const Index> corners, std::vector<Point>& ring) {
+          for (const Index corner : corners) ring.push_back(cells.points[corner]);
+        }) {}
+
+  // `append_ring` appends the points of corners.
+  template <class AppendRing>
+  RingsOfCell(const CellRings& cells, std::size_t cell, const AppendRing& append_ring) {
+    for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r)
+      append_ring(ring_of(cells, r), points_.emplace_back());
     rings_.assign(points_.begin(), points_.end());
   }
   [[nodiscard]] std::span<const map::UnitVectors> rings() const { return rings_; }
@@ -70,15 +71,29 @@ double area_of(std::span<const map::UnitVectors> rings) {
   return area < 0 ? area + 4 * std::numbers::pi : area;
 }
 
+// Where lines do not tell which side of them a cell is its area does, by its corners as they were before points were merged.
+map::LoopsOfRegion loops_of_cell(const RegionsToWrite& job, std::size_t cell,
+                                 std::span<const map::UnitVectors> rings) {
+  map::DrawnRegion region = map::draw_region(rings, job.tolerance);
+  if (region.border != map::BorderKnowledge::is_known &&
+      area_of(RingsOfCell(job.cells, cell).rings()) > 2 * std::numbers::pi)
+    region.loops.push_back(map::border_loop());
+  return std::move(region.loops);
+}
+
 std::vector<map::PolygonsOfRegion> draw(const RegionsToWrite& job) {
-  const map::CommonCorners common(job.cells, job.execution.threads);
+  const std::vector<Point> points = map::merged_points(job.cells.points);
+  const map::CommonCorners common(job.cells, points, job.execution.threads);
+  const auto append_ring = [&](std::span<const Index> corners, std::vector<Point>& ring) {
+    common.append_ring(corners, points, ring);
+  };
   std::vector<map::LoopsOfRegion> loops(job.cells.num_cells());
   system::parallel_for(job.execution.threads, loops.size(), cells_per_task,
                        [&](std::size_t begin, std::size_t end) {
                          for (std::size_t i = begin; i < end; ++i) {
-                           const RingsOfCell cell(job.cells, i, &common);
+                           const RingsOfCell cell(job.cells, i, append_ring);
                            if (cell.rings().empty() && !job.cells.is_whole(i)) continue;
-                           loops[i] = map::region_loops(cell.rings(), job.tolerance);
+                           loops[i] = loops_of_cell(job, i, cell.rings());
                          }
                        });
   return map::valid_regions(std::move(loops), job.execution.threads);

@@ -127,6 +127,7 @@ class CommonCorners::ArcBoxes {
 };
 
 std::vector<CommonCorners::RingArc> CommonCorners::unmatched_arcs(const CellRings& cells,
+                                                                  std::span<const Point> points,
                                                                   unsigned threads) {
   const OutgoingArcs outgoing(cells);
   std::vector<RingArc> arcs;
@@ -135,7 +136,7 @@ std::vector<CommonCorners::RingArc> CommonCorners::unmatched_arcs(const CellRing
       const std::uint64_t next = k + 1 < cells.rings[r + 1] ? k + 1 : cells.rings[r];
       const Index from = cells.corners[k];
       const Index to = cells.corners[next];
-      if (!outgoing.has(to, from)) arcs.push_back({cells.points[from], cells.points[to]});
+      if (!outgoing.has(to, from)) arcs.push_back({points[from], points[to]});
     }
   }
   // Points of several numbers may have one place.
@@ -161,8 +162,9 @@ void CommonCorners::sort_along_curve(std::vector<RingArc>& arcs, unsigned thread
   arcs = std::move(sorted);
 }
 
-CommonCorners::CommonCorners(const CellRings& cells, unsigned threads) {
-  const std::vector<RingArc> arcs = unmatched_arcs(cells, threads);
+CommonCorners::CommonCorners(const CellRings& cells, std::span<const Point> points,
+                             unsigned threads) {
+  const std::vector<RingArc> arcs = unmatched_arcs(cells, points, threads);
   std::vector<Point> corners;
   for (const RingArc& arc : arcs) {
     corners.push_back(arc.from);

@@ -15,10 +15,11 @@
 
 namespace rondel::map {
 
-// Arcs that two rings have in common, in opposite directions, need no corners: only the other ones are compared.
+// Of rings with these points in place of their own, merged_points(). Arcs that two rings have in common, in opposite
+// directions, need no corners: only the other ones are compared.
 class CommonCorners {
  public:
-  CommonCorners(const CellRings& cells, unsigned threads);
+  CommonCorners(const CellRings& cells, std::span<const Point> points, unsigned threads);
 
   // Appends a ring with the corners within merge_distance of its arcs.
   void append_ring(std::span<const Index> corners, std::span<const Point> points,
@@ -36,7 +37,8 @@ class CommonCorners {
   struct ArcBox;
   class ArcBoxes;
 
-  static std::vector<RingArc> unmatched_arcs(const CellRings& cells, unsigned threads);
+  static std::vector<RingArc> unmatched_arcs(const CellRings& cells, std::span<const Point> points,
+                                             unsigned threads);
   static void sort_along_curve(std::vector<RingArc>& arcs, unsigned threads);
 
   std::map<RingArc, std::vector<Point>, ArcsInSpace> inner_;  // from the arc's beginning on

@@ -3,6 +3,7 @@
 rondel_add_test(cells_test
   cells_arrays_test.cpp
   cells_map_test.cpp
+  cells_merged_test.cpp
   cells_parts_test.cpp
   cells_polygon_test.cpp
   cells_settled_test.cpp

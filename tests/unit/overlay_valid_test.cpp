@@ -104,6 +104,25 @@ TEST(overlay_valid, a_corner_in_one_neighbor_is_one_of_both) {
   EXPECT_EQ(both, count_single_sides(apart));
 }
 
+// Four cells around a corner, which is one point for the two in the west and another one for those in the east.
+TEST(overlay_valid, corners_that_are_one_but_for_rounding) {
+  for (const double away : {0.0, 1e-17, 5e-17, 1e-15, 3e-14}) {
+    const LonLat south{0, 2};
+    const LonLat north{0, 39};
+    const LonLat corner{0, 26};
+    const LonLat other{away, 26};
+    const auto regions = drawn_regions(cells_of({{south, corner, {-30, 20}},
+                                                 {corner, north, {-30, 20}},
+                                                 {north, other, {30, 25}},
+                                                 {other, south, {30, 25}}}));
+    for (const PlanarRegion& region : regions) EXPECT_EQ(why_invalid(region), "") << away;
+    const std::size_t num_single = count_single_sides(regions);
+    const std::size_t num_in_west = count_single_sides({regions[0], regions[1]});
+    const std::size_t num_in_east = count_single_sides({regions[2], regions[3]});
+    EXPECT_EQ(num_single, num_in_west + num_in_east - 4) << away;
+  }
+}
+
 TEST(overlay_valid, the_whole_sphere_is_the_box) {
   CellRings cells;
   cells.cells = {0, 0, 0};

@@ -1,0 +1,77 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+// Points and positions of a map that become one, and those that must not.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "map/arc.h"
+#include "map/merged_points.h"
+#include "support/random.h"
+
+namespace rondel::test {
+namespace {
+
+// Some places, and many points at most three times merge_distance from each.
+std::vector<Point> clusters_of_points(Random& random, std::size_t num_places) {
+  std::vector<Point> points;
+  for (std::size_t k = 0; k < num_places; ++k) {
+    const Point place = random.direction();
+    for (std::size_t i = 1 + random.below(40); i-- > 0;) {
+      const double reach = 3 * map::merge_distance * random.unit();
+      points.push_back(normalized(place + reach * random.direction()));
+    }
+  }
+  for (std::size_t i = points.size(); i-- > 1;) std::swap(points[i], points[random.below(i + 1)]);
+  return points;
+}
+
+TEST(merged_points, are_those_of_all_pairs) {
+  Random random(31);
+  for (int round = 0; round < 20; ++round) {
+    const std::vector<Point> points = clusters_of_points(random, 1 + random.below(12));
+    std::vector<Point> kept;
+    std::vector<Point> expected;
+    for (const Point& p : points) {
+      const auto near = std::ranges::find_if(
+          kept, [&](const Point& q) { return map::distance(p, q) <= map::merge_distance; });
+      expected.push_back(near == kept.end() ? p : *near);
+      if (near == kept.end()) kept.push_back(p);
+    }
+    EXPECT_EQ(map::merged_points(points), expected);
+    EXPECT_LT(kept.size(), points.size());
+  }
+}
+
+TEST(merged_points, of_points_apart_are_themselves) {
+  Random random(32);
+  std::vector<Point> points(2000);
+  std::ranges::generate(points, [&] { return random.direction(); });
+  EXPECT_EQ(map::merged_points(points), points);
+  EXPECT_TRUE(map::merged_points({}).empty());
+}
+
+// What others have there too stays where it is, though a point nearby comes first.
+TEST(merged_points, stay_on_poles_and_antimeridian) {
+  const double away = 1.2 * map::merge_distance;
+  const std::vector<Point> points = {
+      {away, 0, 1}, {0, 0, 1}, {away / 3, away / 3, 1}, {-0.6, away, 0.8}, {-0.6, away / 4, 0.8}};
+  const std::vector<Point> merged = map::merged_points(points);
+  const Point pole{0, 0, 1};
+  const Point on_antimeridian{-0.6, 0, 0.8};
+  EXPECT_EQ(merged[0], points[0]);
+  EXPECT_EQ(merged[1], pole);
+  EXPECT_EQ(merged[2], pole);
+  EXPECT_EQ(merged[3], points[3]);
+  EXPECT_EQ(merged[4], on_antimeridian);
+  const std::vector<Point> beside = {{-0.6, away / 2, 0.8}, {-0.6, -away / 3, 0.8}};
+  EXPECT_EQ(map::merged_points(beside), std::vector(2, on_antimeridian));
+}
+
+}  // namespace
+}  // namespace rondel::test
