@@ -20,6 +20,18 @@ struct InPlane {
   }
 };
 
+// Degrees, along the axes.
+inline double distance_in_plane(const LonLat& p, const LonLat& q) {
+  return std::abs(p.lon_deg - q.lon_deg) + std::abs(p.lat_deg - q.lat_deg);
+}
+
+// Whether a line that ends at one position may end at the other instead. Next to a pole points that are near each other on
+// the sphere have any longitudes, and the line would be elsewhere all the way.
+inline bool are_near_in_plane(const LonLat& p, const LonLat& q) {
+  constexpr double most = 1e-6;
+  return distance_in_plane(p, q) <= most;
+}
+
 // Positive if r is to the left of the line from p to q; exact. The rounded determinant is off by at most (3 + 16 u) u
 // times the sum of its two products, u = 2^-53 (Shewchuk 1997, Orient2D), which 2^-51 exceeds; the smallest normal
 // number covers products that underflow.

@@ -100,8 +100,9 @@ bool Mending::align(const LonLat& a, const LonLat& b, const LonLat& corner) {
   const Point v = point_at(corner);
   const std::optional<Point> foot = foot_on_arc(v, p, q);
   if (!foot || distance(*foot, p) <= reach_ || distance(*foot, q) <= reach_) return false;
-  if (distance(*foot, v) <= reach_) return divide(a, b, corner);
-  return divide(a, b, position_between(*foot, a, b));
+  const LonLat opposite = position_between(*foot, a, b);
+  const bool is_on_line = distance(*foot, v) <= reach_ && are_near_in_plane(opposite, corner);
+  return divide(a, b, is_on_line ? corner : opposite);
 }
 
 // On its arc, where the line is farther from that than the reach.
@@ -154,7 +155,9 @@ void Mending::snap(const Trouble& lines) {
     if (join(end, other)) return;
     const Point corner = point_at(other);
     const auto foot = foot_on_arc(corner, point_at(a), point_at(end));
-    if (foot && distance(*foot, corner) <= reach_ && divide(a, end, other)) return;
+    if (foot && distance(*foot, corner) <= reach_ &&
+        are_near_in_plane(position_between(*foot, a, end), other) && divide(a, end, other))
+      return;
   }
 }
 

@@ -53,12 +53,7 @@ bool SharedLines::divide(const LonLat& a, const LonLat& b, const LonLat& at) {
   const LonLat position = place(at);
   if (position == a || position == b) return false;
   if (leads_back(a, b, position)) {
-    constexpr double most = 1e-6;  // degrees; what is farther from both ends would change the shape
-    const auto away = [&](const LonLat& end) {
-      return std::abs(position.lon_deg - end.lon_deg) + std::abs(position.lat_deg - end.lat_deg);
-    };
-    if (std::min(away(a), away(b)) > most) return false;
-    return merge(away(a) < away(b) ? a : b, position);
+    return merge(distance_in_plane(a, position) < distance_in_plane(b, position) ? a : b, position);
   }
   divisions_.insert_or_assign(std::minmax(a, b, InPlane()), position);
   return true;
@@ -67,7 +62,7 @@ bool SharedLines::divide(const LonLat& a, const LonLat& b, const LonLat& at) {
 bool SharedLines::merge(const LonLat& a, const LonLat& b) {
   LonLat kept = place(a);
   LonLat gone = place(b);
-  if (kept == gone) return false;
+  if (kept == gone || !are_near_in_plane(kept, gone)) return false;
   if (is_on_border(kept) == is_on_border(gone) ? InPlane()(gone, kept) : is_on_border(gone))
     std::swap(kept, gone);
   if (is_on_border(gone) && std::abs(gone.lon_deg) != std::abs(kept.lon_deg)) return false;

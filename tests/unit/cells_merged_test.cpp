@@ -12,6 +12,7 @@
 
 #include "map/arc.h"
 #include "map/merged_points.h"
+#include "map/shared_lines.h"
 #include "support/random.h"
 
 namespace rondel::test {
@@ -71,6 +72,18 @@ TEST(merged_points, stay_on_poles_and_antimeridian) {
   EXPECT_EQ(merged[4], on_antimeridian);
   const std::vector<Point> beside = {{-0.6, away / 2, 0.8}, {-0.6, -away / 3, 0.8}};
   EXPECT_EQ(map::merged_points(beside), std::vector(2, on_antimeridian));
+}
+
+// Next to a pole two points may be near each other and have any longitudes: a line to one of them is not one to the other.
+TEST(shared_lines, merge_what_is_near_in_the_plane) {
+  constexpr double next_to_pole = 89.9999999999992;
+  map::SharedLines lines;
+  EXPECT_FALSE(lines.merge({169.5, next_to_pole}, {179, next_to_pole}));
+  EXPECT_TRUE(lines.merge({169.5, next_to_pole}, {169.5 + 1e-9, next_to_pole}));
+  const LonLat far_south{169.5, 8};
+  const LonLat middle{174, 50};
+  EXPECT_TRUE(lines.divide(far_south, {10, 20}, middle));
+  EXPECT_FALSE(lines.divide(far_south, middle, {10, 20}));  // leads back, and is far from both ends
 }
 
 }  // namespace
