@@ -35,9 +35,7 @@ class PositionOwners {
         for (const LonLat& p : loop) all_.push_back({p, i});
       }
     }
-    std::ranges::sort(all_, [](const OwnedPosition& x, const OwnedPosition& y) {
-      return x.position == y.position ? x.region < y.region : InPlane()(x.position, y.position);
-    });
+    std::ranges::sort(all_, is_before);
   }
 
   [[nodiscard]] std::set<std::size_t> of(const LonLat& p) const {
@@ -56,11 +54,27 @@ class PositionOwners {
     more_[p].insert(owners.begin(), owners.end());
   }
 
+  // A line that a region has got may have been divided before.
+  void add_starts(std::span<const DirectedLine> sides, std::size_t region) {
+    for (const DirectedLine& side : sides) {
+      if (!has_first(side.from, region)) more_[side.from].insert(region);
+    }
+  }
+
  private:
   struct OwnedPosition {
     LonLat position;
     std::size_t region;
   };
+  static bool is_before(const OwnedPosition& x, const OwnedPosition& y) {
+    return x.position == y.position ? x.region < y.region : InPlane()(x.position, y.position);
+  }
+
+  // Whether a region has had a position from the beginning.
+  [[nodiscard]] bool has_first(const LonLat& p, std::size_t region) const {
+    return std::ranges::binary_search(all_, OwnedPosition{p, region}, is_before);
+  }
+
   std::vector<OwnedPosition> all_;
   std::map<LonLat, std::set<std::size_t>, InPlane> more_;
 };
@@ -99,6 +113,8 @@ class RegionsInPlane {
                              looks_[i] = look_at_region(regions_[i], lines_, memories_[i]);
                            }
                          });
+    if (!owners_) return;
+    for (const std::size_t i : open) owners_->add_starts(memories_[i].sides, i);
   }
 
   [[nodiscard]] std::size_t most_changes() const {

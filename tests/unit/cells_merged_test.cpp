@@ -13,6 +13,9 @@
 #include "map/arc.h"
 #include "map/merged_points.h"
 #include "map/shared_lines.h"
+#include "map/valid_regions.h"
+#include "support/planar_check.h"
+#include "support/planar_features.h"
 #include "support/random.h"
 
 namespace rondel::test {
@@ -84,6 +87,25 @@ TEST(shared_lines, merge_what_is_near_in_the_plane) {
   const LonLat middle{174, 50};
   EXPECT_TRUE(lines.divide(far_south, {10, 20}, middle));
   EXPECT_FALSE(lines.divide(far_south, middle, {10, 20}));  // leads back, and is far from both ends
+}
+
+// Along the meridian 0 the region in the west meets itself in two positions, which divide its side one after the other, and
+// a notch of another one; the side in the east is longer, and divided first where the next region in the west begins.
+TEST(valid_regions, divide_lines_for_all_that_have_got_them) {
+  const std::vector<map::LoopsOfRegion> loops = {
+      {{{0, 0}, {0, 40}, {-10, 20}}, {{0, 20}, {0, 10}, {-3, 15}}},
+      {{{0, 10}, {0, 20}, {-3, 15}}},
+      {{{0, 60}, {0, 0}, {10, 30}}},
+      {{{0, 40}, {0, 60}, {-10, 50}}}};
+  std::vector<PlanarRegion> regions;
+  for (const map::PolygonsOfRegion& polygons : map::valid_regions(loops, 1)) {
+    PlanarRegion& region = regions.emplace_back();
+    for (const map::PolygonWithHoles& polygon : polygons) region.push_back(polygon.rings);
+    EXPECT_EQ(why_invalid(region), "");
+  }
+  ASSERT_EQ(regions[2].size(), 1U);
+  EXPECT_EQ(regions[2][0][0].size(), 7U);  // three corners, three on the side, and the first again
+  EXPECT_EQ(count_single_sides(regions), 6U);
 }
 
 }  // namespace
