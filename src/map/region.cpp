@@ -117,16 +117,6 @@ class RegionDrawing {
     }
   }
 
-  // Square radians, far above what is lost between arcs and lines.
-  static constexpr double small_area = 1e-3;
-  static constexpr double whole_area = 2 * std::numbers::pi * std::numbers::pi;
-
-  static double area_in_plane(std::span<const Loop> loops) {
-    double doubled = 0;
-    for (const Loop& loop : loops) doubled += doubled_loop_area(loop);
-    return doubled / (2 * degrees_per_radian * degrees_per_radian);
-  }
-
   // What lines of the plane enclose on the sphere: the integral of the sine of latitude.
   static double area_of_lines(std::span<const Loop> loops) {
     double area = 0;
@@ -141,21 +131,24 @@ class RegionDrawing {
     return area / degrees_per_radian;
   }
 
-  // Of the region, but for multiples of that of the sphere.
+  static constexpr double hemisphere = 2 * std::numbers::pi;
+
+  // Of the region, from 0 to 4 pi: rings tell it but for multiples of that.
   [[nodiscard]] double area_on_sphere() const {
     double area = 0;
     for (const std::vector<Point>& ring : rings_) area += area_on_left(ring);
-    return area;
+    return area - 2 * hemisphere * std::floor(area / (2 * hemisphere));
   }
 
   // Whether a region whose rings do not reach the border of the rectangle has it inside: then its loops are holes, and
-  // enclose a negative area. The lines of a thin region may enclose what its arcs do not; its rings tell.
+  // enclose what it has less than the sphere. Lines may be far from the arcs of a thin region, and enclose a little where
+  // these have nothing to their left, or the other way round; but not half of the sphere.
   [[nodiscard]] bool has_border() {
-    const double in_plane = area_in_plane(loops_);
-    if (std::abs(in_plane) >= small_area) return in_plane < 0;
-    const double area = area_on_sphere();
-    const bool is_inside = area < 0 || area > 2 * std::numbers::pi;
-    if (!is_rounding(area)) return is_inside;
+    const double drawn = area_of_lines(loops_);
+    if (std::abs(drawn) > hemisphere) return drawn < 0;
+    const double own = area_on_sphere();
+    const bool is_inside = own > hemisphere + drawn;
+    if (!is_rounding(own)) return is_inside;
     border_ = is_inside ? BorderKnowledge::seems_inside : BorderKnowledge::seems_outside;
     return false;
   }
@@ -200,21 +193,32 @@ class RegionDrawing {
     std::vector<std::size_t> ends = starts;
     std::ranges::stable_sort(starts, {}, [&](std::size_t i) { return chains_[i].start; });
     std::ranges::stable_sort(ends, {}, [&](std::size_t i) { return chains_[i].end; });
-    const bool is_inside = has_first_corner(starts, ends);
-    std::vector<Loop> joined = joined_chains(starts, ends, is_inside);
-    const double on_sphere = area_on_sphere();
-    if (!is_rounding(on_sphere)) {
-      const double drawn = area_of_lines(joined) + area_of_lines(loops_);
-      const double own = on_sphere < 0 ? on_sphere + 4 * std::numbers::pi : on_sphere;
-      const bool is_other = std::abs(drawn - own) > 2 * std::numbers::pi;
-      return is_other ? joined_chains(starts, ends, !is_inside) : joined;
-    }
-    const double area = area_in_plane(joined) + area_in_plane(loops_);
-    if (std::abs(area) < small_area) {
-      border_ = BorderKnowledge::seems_outside;
-    } else if (std::abs(area - whole_area) < small_area) {
-      border_ = BorderKnowledge::seems_inside;
-      joined = joined_chains(starts, ends, !is_inside);
+    const int likely = has_first_corner(starts, ends) ? 1 : 0;
+    std::vector<Loop> joined = joined_chains(starts, ends, likely == 1);
+    const int times = times_around(area_of_lines(joined) + area_of_lines(loops_));
+    return times == 0 ? joined : joined_around(starts, ends, likely - times);
+  }
+
+  // How often lines that enclose so much on the sphere go around all of it more often than the region.
+  [[nodiscard]] int times_around(double drawn) {
+    const double own = area_on_sphere();
+    const bool is_known = !is_rounding(own);
+    const auto times =
+        static_cast<int>(std::lround((drawn - (is_known ? own : 0)) / (2 * hemisphere)));
+    if (!is_known)
+      border_ = times == 1 ? BorderKnowledge::seems_inside : BorderKnowledge::seems_outside;
+    return times;
+  }
+
+  // With the first corner of the border so often inside: once or never, but where chains that are nearer to each other than
+  // lines to arcs have changed places next to a pole, and the region is where its lines go around least often.
+  [[nodiscard]] std::vector<Loop> joined_around(std::span<const std::size_t> starts,
+                                                std::span<const std::size_t> ends,
+                                                int times) const {
+    std::vector<Loop> joined = joined_chains(starts, ends, times > 0);
+    for (int k = times > 0 ? 1 : 0; k != times; k += times > 0 ? 1 : -1) {
+      joined.push_back(border_loop());
+      if (times < 0) std::ranges::reverse(joined.back());
     }
     return joined;
   }

@@ -12,6 +12,8 @@
 
 #include "map/arc.h"
 #include "map/merged_points.h"
+#include "map/planar_loops.h"
+#include "map/region.h"
 #include "map/shared_lines.h"
 #include "map/valid_regions.h"
 #include "support/planar_check.h"
@@ -106,6 +108,31 @@ TEST(valid_regions, divide_lines_for_all_that_have_got_them) {
   ASSERT_EQ(regions[2].size(), 1U);
   EXPECT_EQ(regions[2][0][0].size(), 7U);  // three corners, three on the side, and the first again
   EXPECT_EQ(count_single_sides(regions), 6U);
+}
+
+// Sectors of which one corner is hardly farther from the pole than what lies on it, where its longitude is that of the
+// antimeridian: the lines that lead there and back have changed places.
+TEST(map_regions, sectors_end_next_to_a_pole) {
+  for (const double lon : {-172.347, -60.0, 35.0, 120.0}) {
+    for (const double pole : {1.0, -1.0}) {
+      for (const double x : {-1.9233e-14, -1.6e-14, 1.6e-14, 3e-14}) {
+        std::vector<Point> ring = {map::point_at({lon, pole * 25}),
+                                   map::point_at({lon + 14.25, pole * 25}),
+                                   map::point_at({lon + 14.25, pole * 62}),
+                                   {x, -7.7891e-15, pole},
+                                   {-9.4e-16, -1.8e-16, pole}};
+        if (pole < 0) std::ranges::reverse(ring);
+        PlanarRegion region;
+        for (const auto& polygon : map::region_polygons(std::array{map::UnitVectors(ring)}, 2e-4))
+          region.push_back(polygon.rings);
+        EXPECT_EQ(why_invalid(region), "") << lon << ' ' << x;
+        double area = 0;
+        for (const PlanarPolygon& polygon : region)
+          area += map::doubled_loop_area(polygon.front()) / 2;
+        EXPECT_NEAR(area, 14.25 * 65, 8) << lon << ' ' << x;
+      }
+    }
+  }
 }
 
 }  // namespace

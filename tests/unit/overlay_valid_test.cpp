@@ -123,6 +123,19 @@ TEST(overlay_valid, corners_that_are_one_but_for_rounding) {
   }
 }
 
+// A crescent next to the pole, thinner than the tolerance: its lines enclose a part of the sphere to the right.
+TEST(overlay_valid, thin_cells_do_not_become_all_else) {
+  const CellRings crescent = cells_of(
+      {{{123.7, 80.8}, {61.4, 72.4}, {72.7, 74.4}, {92.2, 75.9}, {101.1, 78.1}, {113.7, 80}}});
+  for (const double tolerance : {0.01, 0.3, 1.0, 3.0, 10.0}) {
+    const auto regions = regions_of(region_polygons(crescent, tolerance), 1);
+    EXPECT_EQ(why_invalid(regions[0]), "") << tolerance;
+    for (const PlanarPolygon& polygon : regions[0]) {
+      for (const LonLat& p : polygon.front()) EXPECT_LT(std::abs(p.lon_deg), 130) << tolerance;
+    }
+  }
+}
+
 TEST(overlay_valid, the_whole_sphere_is_the_box) {
   CellRings cells;
   cells.cells = {0, 0, 0};
