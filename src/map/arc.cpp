@@ -35,6 +35,13 @@ double tolerance_along(const Point& p, const Point& q, const ArcTolerance& arc) 
   return std::min(arc.most, std::max(arc.least, distance / 8));
 }
 
+// What is nearer to zero than any rounding becomes zero: programs that read the numbers multiply them, and products of
+// tiny ones underflow. Adding zero turns -0 into 0.
+double without_tiny(double degrees) {
+  constexpr double tiny = 0x1p-64;
+  return std::abs(degrees) < tiny ? 0 : degrees + 0.0;
+}
+
 // Whether the straight line is within the tolerance of the arc, by its distance from the plane of
 // the great circle at three places. The circle has at most one inflection between p and q, so
 // the distance vanishes at most once inside and its maximum is at most 1.1 times the largest
@@ -90,8 +97,7 @@ LonLat lonlat_of(const Point& p, bool east) {
   double lon = exact::argument(p.y, p.x) * degrees_per_radian;
   if (p.y == 0) lon = p.x > 0 ? 0 : (east ? 180 : -180);
   const double lat = exact::argument(p.z, distance_from_axis(p)) * degrees_per_radian;
-  // Adding zero turns -0 into 0.
-  return {std::clamp(lon, -180.0, 180.0) + 0.0, std::clamp(lat, -90.0, 90.0) + 0.0};
+  return {without_tiny(std::clamp(lon, -180.0, 180.0)), without_tiny(std::clamp(lat, -90.0, 90.0))};
 }
 
 bool is_surely_one_line(const MapPoint& p, const MapPoint& q, double tolerance) {

@@ -91,6 +91,14 @@ TEST(shared_lines, merge_what_is_near_in_the_plane) {
   EXPECT_FALSE(lines.divide(far_south, middle, {10, 20}));  // leads back, and is far from both ends
 }
 
+TEST(map_positions, are_not_next_to_zero) {
+  for (const double tiny : {1e-300, 1e-200, 1e-100, 1e-45, 1e-22}) {
+    EXPECT_EQ(map::lonlat_of({1, tiny, -tiny}, true), (LonLat{0, 0}));
+    EXPECT_EQ(map::lonlat_of({0, 1, tiny}, true), (LonLat{90, 0}));
+  }
+  EXPECT_GT(map::lonlat_of({1, 1e-20, 0}, true).lon_deg, 0);
+}
+
 // Along the meridian 0 the region in the west meets itself in two positions, which divide its side one after the other, and
 // a notch of another one; the side in the east is longer, and divided first where the next region in the west begins.
 TEST(valid_regions, divide_lines_for_all_that_have_got_them) {
