@@ -3,28 +3,32 @@
 # SPDX-License-Identifier: Apache-2.0
 """Polygons in files are valid for GEOS and equal along shared borders, for every kind of `rondel generate`.
 
-    written_polygons_test.py RONDEL [--count N] [--kinds KIND,KIND] [--seed S] [--minutes M] [--sites N]
+    written_polygons_test.py RONDEL [--count N] [--kinds KIND,KIND] [--products PRODUCT,PRODUCT] [--seed S]
+                             [--minutes M] [--sites N] [--keep FOLDER] [--bindings FOLDER --repeats R]
 
 Writes, of each kind, N files each of Voronoi cells, of bands of a random field, of cells clipped to random polygons, of cells
 cut by regions that share borders, and of triangles, and judges them by shapely, which shares no code with rondel:
 
 1. Every geometry is valid. A cell without a geometry has an area below 1e-8 steradians.
-2. Each side of a polygon inside of what is covered is, bit by bit, a side of one neighbor in the other direction. Cells and
-   bands cover the whole map; clipped cells and their parts the polygons to which they are clipped.
+2. Each side of a polygon inside of what is covered is, bit by bit, a side of one neighbor in the other direction. Cells
+   cover the whole map, and so do triangles and bands of sites around the center, if all have a value; clipped cells and
+   their parts cover the polygons to which they are clipped.
 3. The areas in the plane add up to that of the map where that is covered, and no two geometries overlap (GEOS' coverages).
 4. The property `area` is the area of the polygons on the sphere, but for what the tolerance allows.
 
+With --bindings the Python package writes the files, in this process: a hundred a second, as many as --minutes allow. A fault
+is told with seed, number, kind and product: --seed, --first, --kinds and --products repeat it.
 Without shapely ctest says "Skipped".
 """
 
 import argparse
 import csv
 import importlib.util
-import json
+import itertools
 import math
 import pathlib
 import random
-import subprocess
+import re
 import sys
 import tempfile
 import time
@@ -34,117 +38,29 @@ if any(importlib.util.find_spec(name) is None for name in ("numpy", "shapely")):
     sys.exit(77)
 import numpy as np
 import shapely
+from written_polygons_judge import Outline, faults_of, read_features
+from written_polygons_makers import Bindings, Tool
 
 PARSER = argparse.ArgumentParser(description=__doc__.splitlines()[0])
 PARSER.add_argument("tool", type=pathlib.Path)
-PARSER.add_argument("--count", type=int, default=1, help="files of each product and kind")
+PARSER.add_argument("--count", type=int, help="files of each product and kind (default: 1)")
+PARSER.add_argument("--first", type=int, default=0, help="the number of the first of these files")
 PARSER.add_argument("--kinds", default="", help="some kinds, with commas (default: all)")
+PARSER.add_argument("--products", default="", help="some products, with commas (default: all)")
 PARSER.add_argument("--seed", type=int, default=1)
-PARSER.add_argument("--minutes", type=float, default=math.inf, help="end after so long")
+PARSER.add_argument("--minutes", type=float, help="instead of --count: end after so long")
 PARSER.add_argument("--sites", type=int, default=32, help="at most so many")
+PARSER.add_argument(
+    "--repeats", type=int, default=1, help="bands, clips and countries of the same sites"
+)
 PARSER.add_argument("--keep", type=pathlib.Path, help="a folder for inputs of faults")
+PARSER.add_argument("--bindings", help="the folder of the Python package, which is to write")
 
 # Numbers of sites of the sets that have no other ones, near --sites.
+# Kinds of sites for the model "weighted", too.
+IN_SPACE = ("ball", "cube", "gaussian", "mixed-weights", "integer")
+TOLERANCES = (0.01, 0.3, 3.0)  # degrees
 COUNTS = {"icosahedral": 42, "healpix": 48, "reduced-gaussian": 40, "cubed-sphere": 24}
-TOLERANCE = 0.01  # degrees, the tool's own
-THIN = 1e-8  # steradians
-
-
-def spherical_area(ring):
-    """The area inside straight sides in longitude and latitude: -sin(lat) d lon around the ring."""
-    lon, lat = np.radians(ring).T
-    half = np.diff(lat) / 2
-    middle = (lat[1:] + lat[:-1]) / 2
-    return -math.fsum(np.diff(lon) * np.sin(middle) * np.sinc(half / np.pi))
-
-
-def sides_without_partner(geometries):
-    """The sides, (m, 2, 2), which are not there in the other direction, those along the border of the map apart."""
-    sides = []
-    for polygon in shapely.get_parts(geometries):
-        for ring in shapely.get_rings(polygon):
-            places = shapely.get_coordinates(ring)
-            sides.append(np.stack([places[:-1], places[1:]], axis=1))
-    if not sides:
-        return np.empty((0, 2, 2))
-    all_sides = np.concatenate(sides) + 0.0  # no negative zeros
-    on_border = (
-        (all_sides[:, 0, 0] == all_sides[:, 1, 0]) & (np.abs(all_sides[:, 0, 0]) == 180)
-    ) | ((all_sides[:, 0, 1] == all_sides[:, 1, 1]) & (np.abs(all_sides[:, 0, 1]) == 90))
-    all_sides = all_sides[~on_border]
-    forward = [side.tobytes() for side in all_sides]
-    counts = {}
-    for key in forward:
-        counts[key] = counts.get(key, 0) + 1
-    for side in all_sides:
-        back = np.ascontiguousarray(side[::-1]).tobytes()
-        if back in counts:
-            counts[back] -= 1
-    alone = [
-        i for i, side in enumerate(all_sides) if counts[forward[i]] > 0 or counts[forward[i]] < 0
-    ]
-    return all_sides[alone]
-
-
-def faults_of(features, whole, outline=None, has_areas=True):
-    """What is wrong with features; `outline` is that of what they cover, where it is not the whole map."""
-    shapes = [None if f["geometry"] is None else json.dumps(f["geometry"]) for f in features]
-    geometries = shapely.from_geojson(np.array(shapes, dtype=object))
-    for i, (geometry, feature) in enumerate(zip(geometries, features)):
-        area = feature["properties"].get("area", 0) if has_areas else 0
-        if geometry is None:
-            if area > THIN:
-                yield f"feature {i} of {area} steradians has no geometry"
-            continue
-        if not shapely.is_valid(geometry):
-            yield f"feature {i}: {shapely.is_valid_reason(geometry)}"
-        if has_areas:
-            rings = [
-                shapely.get_coordinates(r)
-                for p in shapely.get_parts(geometry)
-                for r in shapely.get_rings(p)
-            ]
-            drawn = sum(spherical_area(ring) for ring in rings)
-            bound = 1e-9 + math.radians(TOLERANCE) * 2 * math.pi * (
-                1 + len(shapely.get_parts(geometry))
-            )
-            if abs(drawn - area) > bound:
-                yield f"feature {i} has an area of {area}, its polygons of {drawn}"
-    geometries = geometries[[g is not None for g in geometries]]
-    alone = sides_without_partner(geometries)
-    if whole:
-        if len(alone):
-            yield f"{len(alone)} sides are none of a neighbor, the first {alone[0].tolist()}"
-        total = math.fsum(shapely.area(geometries))
-        if len(geometries) and abs(total - 360 * 180) > 1e-6:
-            yield f"the map has {total} square degrees"
-    elif outline is not None and len(alone):
-        middles = alone.mean(axis=1)
-        scale = np.cos(np.radians(np.minimum(np.abs(alone[:, :, 1]).max(axis=1), 89.9)))
-        away = shapely.distance(outline, shapely.points(middles)) * scale
-        far = away > 2 * TOLERANCE
-        if far.any():
-            yield f"{far.sum()} sides are none of a neighbor, as {alone[far][0].tolist()}"
-    if len(geometries) > 1 and not shapely.coverage_is_valid(geometries):
-        yield from faults_of_coverage(geometries, alone)
-
-
-def faults_of_coverage(geometries, alone):
-    """GEOS also refuses borders of the whole in whose ends several geometries meet: are they what it says?"""
-    try:
-        union = shapely.union_all(geometries)
-    except shapely.errors.GEOSException:  # numbers near the smallest double
-        union = shapely.union_all(geometries, grid_size=1e-10)
-    twice = math.fsum(shapely.area(geometries)) - shapely.area(union)
-    if twice > 1e-7:
-        yield f"{twice} square degrees belong to several geometries"
-    along = alone[:, 1] - alone[:, 0]
-    length = np.hypot(*along.T)[:, np.newaxis]
-    right = np.stack([along[:, 1], -along[:, 0]], axis=1) / length
-    beside = alone.mean(axis=1) + np.minimum(1e-7, length / 1000) * right
-    inside = shapely.contains(union, shapely.points(beside))
-    if inside.any():
-        yield f"{inside.sum()} sides have other corners in a neighbor, as {alone[inside][0].tolist()}"
 
 
 def star(rng, lon, lat, size, corners, spikes):
@@ -160,14 +76,15 @@ def star(rng, lon, lat, size, corners, spikes):
 
 
 def random_polygons(rng):
-    """Polygons that do not overlap: one or several, small or large, a few with holes."""
+    """Polygons that do not overlap: one or several, small or large, a few with holes, with round numbers or not."""
     found = []
+    step = rng.choice([0, 0, 0.5, 5, 45])
     for _ in range(rng.choice([1, 1, 2, 4])):
         size = rng.choice([0.01, 1, 10, 40, 80])
         ring = star(
             rng, rng.uniform(-180, 180), rng.uniform(-90, 90), size, rng.randrange(3, 24), 0.9
         )
-        polygon = shapely.Polygon(ring)
+        polygon = shapely.Polygon(np.round(np.array(ring) / step) * step if step else ring)
         if not polygon.is_valid:
             continue
         if rng.random() < 0.3:
@@ -178,53 +95,58 @@ def random_polygons(rng):
     return found
 
 
-def collection(geometries, names=None):
-    features = []
-    for i, geometry in enumerate(geometries):
-        properties = {"name": names[i]} if names else {}
-        features.append(
-            {
-                "type": "Feature",
-                "properties": properties,
-                "geometry": json.loads(shapely.to_geojson(geometry)),
-            }
-        )
-    return {"type": "FeatureCollection", "features": features}
+def random_boxes(rng):
+    """Of a grid with round numbers, around both poles and along the antimeridian."""
+    step = rng.choice([15, 30, 45, 90])
+    lon = [x for x in range(-180, 181, step) if abs(x) == 180 or rng.random() < 0.7]
+    lat = [y for y in range(-90, 91, step) if abs(y) == 90 or rng.random() < 0.7]
+    lon, lat = (list(itertools.pairwise(lines)) for lines in (lon, lat))
+    return [shapely.box(west, south, east, north) for west, east in lon for south, north in lat]
 
 
-class Maker:
-    """Runs the tool in a folder."""
+def feature(properties, geometry):
+    return f'{{"type":"Feature","properties":{properties},"geometry":{geometry}}}'
 
-    def __init__(self, options, folder):
+
+def feature_of(geometry):
+    return feature("{}", shapely.to_geojson(geometry))
+
+
+class Products:
+    """Random files of a kind, and what is wrong with them: lists, empty where all is right.
+
+    Regions to which cells are clipped are the same for all kinds of a number.
+    """
+
+    def __init__(self, options, maker):
         self.options = options
-        self.folder = pathlib.Path(folder)
+        self.maker = maker
+        self.folder = maker.folder
+        self.number = None
+        self.num_geometries = 0
 
-    def run(self, *arguments):
-        return self.call(*arguments, "--threads", "1")
-
-    def call(self, *arguments):
-        done = subprocess.run(
-            [self.options.tool.resolve(), *map(str, arguments), "--quiet"],
-            cwd=self.folder,
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-        return (done.stderr.strip() or f"status {done.returncode}") if done.returncode else ""
-
-    def features(self, name):
-        with open(self.folder / name, encoding="utf-8") as file:
-            return json.load(file)["features"]
+    def begin(self, number):
+        self.number = number
+        self.regions = {}
 
     def generate(self, kind, rng, seed):
+        self.model = "weighted" if kind in IN_SPACE and seed % 2 else "projected"
         number = COUNTS.get(kind, rng.randrange(4, self.options.sites + 1))
         arguments = ["--angle", "25"] if kind == "poisson" else ["-n", number]
-        return self.call("generate", kind, "--seed", seed, "-o", "sites.csv", *arguments)
+        return self.maker.generate("sites.csv", kind, seed, *arguments)
+
+    def regions_of(self, name, make):
+        """The regions with this name, which `make` writes."""
+        if name not in self.regions:
+            rng = random.Random(f"{self.options.seed}/{self.number}/{name}")
+            self.regions[name] = make(rng, f"{name}.geojson")
+        return self.regions[name]
 
     def add_field(self, rng):
         with open(self.folder / "sites.csv", encoding="utf-8") as file:
             rows = list(csv.reader(file))
         which = rng.randrange(4)
+        self.is_complete = rng.random() < 0.6
         frequency = rng.choice([0.3, 2, 9])
         for i, row in enumerate(rows):
             if i == 0:
@@ -236,173 +158,200 @@ class Maker:
                 repr(round(2 * math.sin(frequency * i), 1)),
                 repr(i / len(rows) * 3 - 1),
             ]
-            row += [numbers[which] if rng.random() < 0.97 else "", "abc"[rng.randrange(3)]]
+            is_known = self.is_complete or rng.random() < 0.95
+            row += [numbers[which] if is_known else "", "abc"[rng.randrange(3)]]
         with open(self.folder / "field.csv", "w", encoding="utf-8", newline="") as file:
             csv.writer(file).writerows(rows)
 
-    def cells(self, rng):
-        why = self.run("voronoi", "field.csv", "-o", "out.geojson")
-        return [why] if why else faults_of(self.features("out.geojson"), whole=True)
-
-    def bands(self, rng):
-        levels = sorted({round(rng.uniform(-1.5, 3), 1) for _ in range(rng.randrange(1, 6))})
-        text = ",".join(map(repr, levels))
-        why = self.run(
-            "contours",
-            "field.csv",
-            "--value",
-            "value",
-            f"--levels={text}",
-            "--bands",
-            "-o",
-            "out.geojson",
-        )
-        return (
-            [why] if why else faults_of(self.features("out.geojson"), whole=False, has_areas=False)
-        )
-
-    def triangles(self, rng):
-        why = self.run("delaunay", "field.csv", "-o", "out.geojson")
-        return (
-            [why] if why else faults_of(self.features("out.geojson"), whole=False, has_areas=False)
-        )
-
-    def clips(self, rng):
-        polygons = random_polygons(rng)
-        if not polygons:
-            return []
-        with open(self.folder / "clip.geojson", "w", encoding="utf-8") as file:
-            json.dump(collection(polygons), file)
-        more = ["--group", "owner"] if rng.random() < 0.3 else []
-        why = self.run("voronoi", "field.csv", "--clip", "clip.geojson", "-o", "out.geojson", *more)
-        outline = shapely.boundary(shapely.MultiPolygon(polygons))
-        return (
-            [why] if why else faults_of(self.features("out.geojson"), whole=False, outline=outline)
-        )
-
-    def countries(self, rng):
-        """Regions that share borders: cells of other sites, which are joined to a few regions."""
-        edges = rng.choice(["lonlat", "geodesic"])
-        # Long sides are great circles or straight; short ones are both.
-        self.make_regions(rng, rng.choice(["0.01", "1", "5"]) if edges == "lonlat" else "0.01")
-        clip = ["--clip", "regions.geojson", "--clip-value", "owner", "--edges", edges]
-        more = ["--group", "owner"] if rng.random() < 0.3 else []
-        why = self.run("voronoi", "field.csv", *clip, "-o", "out.geojson", *more)
+    def judge(self, why, tolerance, has_areas=True, **what):
         if why:
             return [why]
-        features = self.features("out.geojson")
-        return faults_of(features, whole=False, outline=self.outline)
+        geometries, areas = read_features(self.folder / "out.geojson")
+        self.num_geometries += len(geometries)
+        return list(faults_of(geometries, tolerance, areas if has_areas else None, **what))
 
-    def make_regions(self, rng, tolerance):
-        seed = rng.randrange(1 << 30)
-        kept = (self.folder / "sites.csv").rename(self.folder / "kept.csv")
-        self.call("generate", "uniform", "--seed", seed, "-o", "sites.csv", "-n", rng.choice([6, 20, 60]))
-        (self.folder / "sites.csv").rename(self.folder / "others.csv")
-        kept.rename(self.folder / "sites.csv")
-        self.run("voronoi", "others.csv", "-o", "others.geojson", "--tolerance", tolerance)
-        features = [
-            f for f in self.features("others.geojson") if f["geometry"] and rng.random() < 0.8
-        ]
-        for feature in features:
-            feature["properties"] = {"owner": "xyz"[rng.randrange(3)]}
-        with open(self.folder / "regions.geojson", "w", encoding="utf-8") as file:
-            json.dump({"type": "FeatureCollection", "features": features}, file)
-        shapes = [shapely.from_geojson(json.dumps(f["geometry"])) for f in features]
-        self.outline = shapely.unary_union([shapely.boundary(s) for s in shapes])
+    def cells(self, rng, _):
+        tolerance = rng.choice(TOLERANCES)
+        why = self.maker.voronoi("field.csv", "out.geojson", tolerance, self.model)
+        return self.judge(why, tolerance, whole=True)
+
+    def bands(self, rng, _):
+        levels = sorted({round(rng.uniform(-1.5, 3), 1) for _ in range(rng.randrange(1, 6))})
+        tolerance = rng.choice(TOLERANCES)
+        why = self.maker.bands("field.csv", "out.geojson", tolerance, levels)
+        return self.judge(why, tolerance, has_areas=False, seems_whole=self.is_complete)
+
+    def triangles(self, *_):
+        why = self.maker.delaunay("field.csv", "out.geojson")
+        return self.judge(why, TOLERANCES[0], has_areas=False, seems_whole=True)
+
+    def clips(self, rng, name):
+        outline = self.regions_of(name, self.write_polygons)
+        if outline is None:
+            return []
+        tolerance = rng.choice(TOLERANCES)
+        is_grouped = rng.random() < 0.3
+        rules = [self.model, f"{name}.geojson", is_grouped]
+        why = self.maker.clip("field.csv", "out.geojson", tolerance, *rules)
+        return self.judge(why, tolerance, outline=outline)
+
+    def write_polygons(self, rng, file):
+        polygons = random_polygons(rng)
+        if not polygons:
+            return None
+        self.write_features(file, map(feature_of, polygons))
+        return Outline(shapely.boundary(polygons), 0)
+
+    def countries(self, rng, name):
+        """Regions that share borders."""
+        owners, edges, outline = self.regions_of(name, self.write_countries)
+        if not owners:
+            return []
+        tolerance = rng.choice(TOLERANCES)
+        rules = [self.model, f"{name}.geojson", owners, edges, rng.random() < 0.3]
+        why = self.maker.cut("field.csv", "out.geojson", tolerance, *rules)
+        return self.judge(why, tolerance, outline=outline)
+
+    def write_countries(self, rng, file):
+        """Most of some cells, or of the boxes of a grid, joined to three regions."""
+        tolerance = rng.choice(TOLERANCES)
+        edges = rng.choice(["lonlat", "geodesic", "geodesic", "geodesic", "boxes"])
+        if edges == "boxes":
+            edges = "lonlat"
+            geometries = [shapely.to_geojson(box) for box in random_boxes(rng)]
+        else:
+            geometries = self.other_cells(rng, file, tolerance)
+        geometries = [geometry for geometry in geometries if rng.random() < 0.8]
+        owners = [rng.choice("xyz") for _ in geometries]
+        properties = [f'{{"owner":"{owner}"}}' for owner in owners]
+        self.write_features(file, map(feature, properties, geometries))
+        borders = shapely.boundary(shapely.from_geojson(geometries))
+        return owners, edges, Outline(borders, tolerance if edges == "geodesic" else 0)
+
+    def other_cells(self, rng, file, tolerance):
+        with open(self.folder / "others.csv", "w", encoding="utf-8") as others:
+            others.write("x,y,z\n")
+            for _ in range(rng.choice([6, 20, 60])):
+                others.write(",".join(repr(rng.gauss(0, 1)) for _ in range(3)) + "\n")
+        self.maker.voronoi("others.csv", file, tolerance)
+        text = (self.folder / file).read_text("utf-8")
+        return re.findall(r'"geometry":(\{.*?\})\}', text)
+
+    def write_features(self, name, features):
+        text = ",\n".join(features)
+        (self.folder / name).write_text(f'{{"type":"FeatureCollection","features":[{text}]}}')
 
 
 PRODUCTS = ("cells", "bands", "triangles", "clips", "countries")
-
-
-def kinds_of(tool):
-    """All kinds that the tool lists in its help."""
-    text = subprocess.run(
-        [tool.resolve(), "generate", "--help"], capture_output=True, text=True, check=True
-    ).stdout
-    kinds = []
-    is_list = False
-    for line in text.splitlines():
-        if line and not line.startswith(" "):
-            is_list = line.startswith(("Kinds:", "Sets of", "Hostile"))
-        elif is_list and line.startswith("  ") and not line.startswith("   "):
-            kinds.append(line.split()[0])
-    return kinds
+RANDOM_PRODUCTS = ("bands", "clips", "countries")
 
 
 def run_all(options, report):
-    """Judges files until the count or the time is reached; reports each fault, and counts files."""
-    kinds = options.kinds.split(",") if options.kinds else kinds_of(options.tool)
+    """Judges files until the count or the time is reached; reports each fault, and counts files and geometries."""
     counts = {}
-    end = time.monotonic() + 60 * options.minutes
+    end = time.monotonic() + 60 * (options.minutes or math.inf)
+    numbers = itertools.count(options.first)
+    if options.count or not options.minutes:
+        numbers = itertools.islice(numbers, options.count or 1)
     with tempfile.TemporaryDirectory() as folder:
-        maker = Maker(options, folder)
-        for number in range(options.count):
+        maker = Bindings if options.bindings else Tool
+        products = Products(options, maker(options.tool, folder))
+        kinds = options.kinds.split(",") if options.kinds else products.maker.kinds()
+        for number in numbers:
+            products.begin(number)
             for kind in kinds:
-                for product in PRODUCTS:
+                seed = f"{options.seed}/{number}/{kind}"
+                rng = random.Random(seed)
+                why = products.generate(kind, rng, rng.randrange(1 << 30))
+                if why:
+                    report(f"{seed}: {why}")
+                    continue
+                products.add_field(rng)
+                for product, name in names_of(options):
                     if time.monotonic() > end:
-                        return counts
-                    seed = f"{options.seed}/{number}/{kind}"
-                    rng = random.Random(seed)
-                    why = maker.generate(kind, rng, rng.randrange(1 << 30))
-                    if why:
-                        report(f"{seed}: {why}")
-                        break
-                    maker.add_field(rng)
-                    rng = random.Random(f"{seed}/{product}")
-                    faults = list(getattr(maker, product)(rng))
-                    key = (kind, product)
-                    counts[key] = counts.get(key, 0) + 1
+                        return counts, products.num_geometries
+                    faults = getattr(products, product)(random.Random(f"{seed}/{name}"), name)
+                    counts[kind, product] = counts.get((kind, product), 0) + 1
                     for fault in faults[:3]:
-                        report(f"{seed}/{product}: {fault}")
+                        report(f"{seed}/{name}: {fault}")
                     if faults and options.keep:
-                        target = options.keep / f"{seed}/{product}".replace("/", "_")
-                        target.mkdir(parents=True, exist_ok=True)
-                        for path in maker.folder.iterdir():
-                            (target / path.name).write_bytes(path.read_bytes())
-    return counts
+                        keep(folder, options.keep / f"{seed}/{name}".replace("/", "_"))
+    return counts, products.num_geometries
+
+
+def names_of(options):
+    """Pairs of a product and its name in messages, which has the number of the repetition."""
+    for product in PRODUCTS:
+        if options.products and product not in options.products.split(","):
+            continue
+        for k in range(options.repeats if product in RANDOM_PRODUCTS else 1):
+            yield product, f"{product}{k or ''}"
+
+
+def keep(folder, target):
+    target.mkdir(parents=True, exist_ok=True)
+    for path in pathlib.Path(folder).iterdir():
+        (target / path.name).write_bytes(path.read_bytes())
 
 
 class Written(unittest.TestCase):
     def test_all_kinds(self):
         faults = []
-        counts = run_all(OPTIONS, faults.append)
-        self.assertGreater(len(counts), 0)
+        _, num_geometries = run_all(OPTIONS, faults.append)
+        self.assertGreater(num_geometries, 0)
         self.assertEqual(faults, [])
 
     def test_the_judge_sees_faults(self):
-        def feature(*ring, area=None):
-            geometry = {"type": "Polygon", "coordinates": [[*ring, ring[0]]]}
-            return {"properties": {"area": area}, "geometry": geometry}
+        def polygon(*ring):
+            return shapely.Polygon(ring)
 
-        low = feature([0, 0], [4, 0], [4, 1], [0, 1])
-        high = feature([0, 1], [4, 1], [4, 2], [0, 2])
-        outline = shapely.boundary(shapely.box(0, 0, 4, 2))
-        judge = {"whole": False, "outline": outline, "has_areas": False}
-        self.assertEqual(list(faults_of([low, high], **judge)), [])
-        corner = feature([0, 1], [2, 1], [4, 1], [4, 2], [0, 2])
-        self.assertNotEqual(list(faults_of([low, corner], **judge)), [])
-        apart = feature([0, 1.00000000000001], [4, 1], [4, 2], [0, 2])
-        self.assertNotEqual(list(faults_of([low, apart], **judge)), [])
-        bow_tie = feature([0, 1], [4, 2], [4, 1], [0, 2])
-        self.assertNotEqual(list(faults_of([bow_tie], **judge)), [])
-        self.assertNotEqual(list(faults_of([low, high], whole=True, has_areas=False)), [])
-        lost = {"properties": {"area": 1e-3}, "geometry": None}
-        self.assertNotEqual(list(faults_of([lost], whole=False)), [])
+        def judge(*geometries, **what):
+            return list(faults_of(np.array(geometries, dtype=object), 0.01, **what))
+
+        outline = Outline(shapely.boundary([shapely.box(0, 0, 4, 2)]), 0)
+        low = polygon([0, 0], [4, 0], [4, 1], [0, 1])
+        high = polygon([0, 1], [4, 1], [4, 2], [0, 2])
+        self.assertEqual(judge(low, high, outline=outline), [])
+        corner = polygon([0, 1], [2, 1], [4, 1], [4, 2], [0, 2])
+        self.assertNotEqual(judge(low, corner, outline=outline), [])
+        apart = polygon([0, 1.00000000000001], [4, 1], [4, 2], [0, 2])
+        self.assertNotEqual(judge(low, apart, outline=outline), [])
+        away = polygon([0, 1], [2, 1.00000000000001], [4, 1], [4, 2], [0, 2])
+        self.assertNotEqual(judge(low, away, outline=outline), [])
+        bow_tie = polygon([0, 1], [4, 2], [4, 1], [0, 2])
+        self.assertNotEqual(judge(low, bow_tie, outline=outline), [])
+        self.assertNotEqual(judge(low, high, whole=True), [])
+        west = polygon([-180, -90], [0, -90], [0, 90], [-180, 90])
+        east = polygon([0, -90], [180, -90], [180, 90], [0, 90])
+        self.assertEqual(judge(west, east, seems_whole=True), [])
+        east = polygon([0, -90], [180, -90], [180, 90], [0, 90], [1e-14, 3])
+        self.assertNotEqual(judge(west, east, seems_whole=True), [])
+        self.assertNotEqual(judge(None, areas=np.array([1e-3])), [])
+        self.assertEqual(judge(low, areas=np.array([4 * (math.pi / 180) ** 2])), [])
+        self.assertNotEqual(judge(low, areas=np.array([0.1])), [])
+        self.assertNotEqual(judge(low, polygon([1, 0.5], [3, 0.5], [2, 0.9])), [])
 
 
 def main():
     start = time.monotonic()
     faults = []
-    counts = run_all(OPTIONS, lambda fault: (faults.append(fault), print(fault, flush=True)))
+    counts, num_geometries = run_all(
+        OPTIONS, lambda fault: (faults.append(fault), print(fault, flush=True))
+    )
     for kind in dict.fromkeys(kind for kind, _ in counts):
         numbers = ", ".join(f"{counts.get((kind, p), 0)} {p}" for p in PRODUCTS)
         print(f"{kind}: {numbers}")
-    print(f"{sum(counts.values())} files, {len(faults)} faults, {time.monotonic() - start:.0f} s")
+    print(
+        f"{sum(counts.values())} files of {num_geometries} geometries, {len(faults)} faults, "
+        f"{time.monotonic() - start:.0f} s"
+    )
     return 1 if faults else 0
 
 
 if __name__ == "__main__":
     OPTIONS = PARSER.parse_args()
-    if OPTIONS.count > 1 or OPTIONS.kinds or OPTIONS.minutes < math.inf:
+    if OPTIONS.bindings:
+        sys.path.insert(0, OPTIONS.bindings)
+    if OPTIONS.count or OPTIONS.minutes or OPTIONS.kinds:
         sys.exit(main())
     unittest.main(argv=sys.argv[:1])
