@@ -37,7 +37,7 @@ struct Slope {
 };
 
 // The inverse of the normal equations, but for directions that they do not know, along which gradients are 0.
-class NormalEquations {
+class SlopeEquations {
  public:
   void add(const Sample& s) {
     xx_ += s.weight * s.x * s.x;
@@ -135,7 +135,7 @@ CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> 
     const Point& center = centers[name];
     const auto [u, v] = tangents(normalized(center));
     std::vector<Sample> samples;
-    NormalEquations equations;
+    SlopeEquations equations;
     for (const Index neighbor : neighbors_of(c)) {
       const Point step = centers[neighbor] - center;
       const Sample sample{neighbor, dot(u, step), dot(v, step), 1 / dot(step, step)};
