@@ -12,6 +12,8 @@ from ._arrays import as_floats, point_set_hash, unit_vectors
 from ._types import ArrayLike, FloatArray
 from ._weights import Weights
 
+_CYCLIC_DEG = 1e-4  # a turn in float32 is known so well
+
 
 def bilinear_weights(
     lon: ArrayLike, lat: ArrayLike, to_lon: ArrayLike, to_lat: ArrayLike
@@ -19,6 +21,8 @@ def bilinear_weights(
     """Bilinear in the rectangles between four places of a grid; around the globe if it is.
 
     Beyond the last row of a grid that goes around the globe the mean of that row is at the pole.
+    A column that repeats the first one a turn later takes no part. Axes that decrease give what
+    the same places give in increasing order.
 
     Parameters
     ----------
@@ -33,10 +37,13 @@ def bilinear_weights(
         Columns are the places of the grid, latitude by latitude. Targets outside have no entry.
 
     """
-    lons, lats = _axis(lon, "lon", period=360.0), _axis(lat, "lat")
+    every_lon, every_lat = _axis(lon, "lon", period=360.0), _axis(lat, "lat")
     x, y = as_floats(to_lon, "to_lon"), as_floats(to_lat, "to_lat")
+    # Both axes as increasing ones, without the column that repeats the first one a turn later.
+    columns, rows_of_grid = _increasing(every_lon), _increasing(every_lat)
+    columns = columns[every_lon[columns] < every_lon[columns[0]] + 360 - _CYCLIC_DEG]
+    lons, lats = every_lon[columns], every_lat[rows_of_grid]
     west, east, across, is_in = _between_meridians(lons, x)
-    around = _is_around(lons)
     south, along = _between(lats, y)
     inside = (along >= 0) & (along <= 1) & is_in
     nlon, rows = len(lons), np.arange(len(x))
@@ -45,27 +52,44 @@ def bilinear_weights(
         for row, v in ((0, 1 - along), (1, along))
         for column, u in ((west, 1 - across), (east, across))
     ]
-    if around:
-        for beyond, last in ((along < 0, np.argmin(lats)), (along > 1, np.argmax(lats))):
+    if _is_around(lons):
+        for beyond, last in ((along < 0, 0), (along > 1, len(lats) - 1)):
             beyond = beyond & (np.abs(y) > np.abs(lats[last])) & (np.sign(y) == np.sign(lats[last]))
             parts += _to_pole(rows, beyond, y, lats[last], last * nlon, nlon, (west, east, across))
-    row, column, weight = (np.concatenate(part) for part in zip(*parts, strict=True))
-    used = weight != 0
-    order = np.argsort(row[used], kind="stable")
+    row, place, weight = _joined(parts, nlon * len(lats))
     offsets = np.zeros(len(x) + 1, np.int64)
-    np.cumsum(np.bincount(row[used], minlength=len(x)), out=offsets[1:])
+    np.cumsum(np.bincount(row, minlength=len(x)), out=offsets[1:])
     return Weights(
         offsets,
-        column[used][order],
-        weight[used][order],
-        (len(x), nlon * len(lats)),
-        sites_hash=point_set_hash(unit_vectors(lons, lats[:, None])),
+        rows_of_grid[place // nlon] * len(every_lon) + columns[place % nlon],
+        weight,
+        (len(x), len(every_lon) * len(every_lat)),
+        sites_hash=point_set_hash(unit_vectors(every_lon, every_lat[:, None])),
         targets_hash=point_set_hash(unit_vectors(x, y)),
     )
 
 
+def _increasing(axis: FloatArray) -> Any:
+    """The positions of an axis's numbers from the least to the greatest."""
+    positions = np.arange(len(axis))
+    return positions if axis[1] > axis[0] else positions[::-1]
+
+
+def _joined(parts: list[Any], num_places: int) -> tuple[Any, Any, FloatArray]:
+    """Rows, places and weights in order; one entry for each place of a row, none that is 0."""
+    row, place, weight = (np.concatenate(part) for part in zip(*parts, strict=True))
+    used = weight != 0
+    keys, entry = np.unique(row[used] * num_places + place[used], return_inverse=True)
+    sums: FloatArray = np.zeros(len(keys))
+    np.add.at(sums, entry, weight[used])
+    return keys // num_places, keys % num_places, sums
+
+
 def _axis(values: ArrayLike, name: str, period: float | None = None) -> FloatArray:
     axis = as_floats(values, name)
+    missing = np.flatnonzero(~np.isfinite(axis))
+    if axis.ndim == 1 and missing.size:
+        raise ValueError(f"{name}[{missing[0]}] is {axis[missing[0]]}: an axis has no gaps")
     if period is not None:
         axis = np.unwrap(axis, period=period)
     steps = np.diff(axis)
@@ -75,27 +99,22 @@ def _axis(values: ArrayLike, name: str, period: float | None = None) -> FloatArr
 
 
 def _is_around(lons: FloatArray) -> bool:
-    widest = np.abs(np.diff(lons)).max()
-    return bool(360 - abs(lons[-1] - lons[0]) <= 1.5 * widest)
+    return bool(360 - (lons[-1] - lons[0]) <= 1.5 * np.diff(lons).max())
 
 
-# The row before each value, and how far it is from there to the next one, in steps.
+# The row of an increasing axis before each value, and how far it is from there to the next one,
+# in steps.
 def _between(axis: FloatArray, values: FloatArray) -> tuple[Any, FloatArray]:
-    sign = 1 if axis[1] > axis[0] else -1
-    first = np.searchsorted(sign * axis, sign * values, side="right") - 1
+    first = np.searchsorted(axis, values, side="right") - 1
     first = np.clip(first, 0, len(axis) - 2)
     return first, (values - axis[first]) / (axis[first + 1] - axis[first])
 
 
 # The columns on both sides of each longitude, the share of the second, and whether it is between.
 def _between_meridians(lons: FloatArray, x: FloatArray) -> tuple[Any, Any, FloatArray, Any]:
-    low = lons.min()
-    axis = lons
-    if _is_around(lons):
-        axis = np.append(lons, lons[0] + np.copysign(360, lons[1] - lons[0]))
-        low = axis.min()
-    wrapped = low + np.mod(x - low, 360)
-    wrapped = np.where(wrapped > axis.max(), wrapped - 360, wrapped)
+    axis = np.append(lons, lons[0] + 360) if _is_around(lons) else lons
+    wrapped = lons[0] + np.mod(x - lons[0], 360)
+    wrapped = np.where(wrapped > axis[-1], wrapped - 360, wrapped)
     west, across = _between(axis, wrapped)
     return west, (west + 1) % len(lons), across, (across >= 0) & (across <= 1)
 
