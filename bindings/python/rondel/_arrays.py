@@ -16,7 +16,8 @@ import numpy.typing as npt
 
 from . import _core
 from ._errors import InvalidInput
-from ._types import ArrayLike, FloatArray, IntArray, Model, Path
+from ._properties import is_missing
+from ._types import ArrayLike, BoolArray, FloatArray, IntArray, Model, Path
 
 Number = TypeVar("Number", bound=np.generic)
 
@@ -28,10 +29,7 @@ HINT_OF_DEGREES = "rondel.unit_vectors(lon, lat) makes them of longitudes and la
 
 def as_floats(values: ArrayLike, name: str) -> FloatArray:
     """C-contiguous float64, the same memory if it is that already."""
-    if np.ma.is_masked(values):
-        first = int(np.flatnonzero(np.ma.getmaskarray(np.ma.asarray(values)))[0])
-        row = first // max(1, int(np.prod(np.shape(values)[1:])))
-        raise InvalidInput(f"{name}[{row}] is masked", row)
+    require_unmasked(values, name)
     if hasattr(values, "geom_type"):
         hint = "; points have x (longitude) and y (latitude)"
         raise TypeError(f"{name} must be real numbers, not geometries{hint}")
@@ -44,6 +42,36 @@ def as_floats(values: ArrayLike, name: str) -> FloatArray:
         if array.dtype.kind != "O":
             raise
         raise TypeError(f"{name} must be real numbers: {error}") from None
+
+
+def require_unmasked(values: Any, name: str) -> None:
+    """Refuses masked values, also those of masked arrays in a list, by the first one's name."""
+    if isinstance(values, (list, tuple)):
+        for row, value in enumerate(values):
+            if isinstance(value, np.ma.MaskedArray) and np.ma.is_masked(value):
+                raise InvalidInput(f"{name}[{row}] is masked", row)
+    elif np.ma.is_masked(values):
+        first = int(np.flatnonzero(np.ma.getmaskarray(np.ma.asarray(values)))[0])
+        row = first // max(1, int(np.prod(np.shape(values)[1:])))
+        raise InvalidInput(f"{name}[{row}] is masked", row)
+
+
+def as_mask(values: Any, name: str) -> BoolArray:
+    """Which take part: those whose number is neither 0 nor missing (NaN, NA, None, or masked)."""
+    missing = np.ma.getmaskarray(values) if np.ma.isMaskedArray(values) else np.False_
+    array = np.asarray(values)
+    if array.dtype.kind == "O":
+        missing = missing | np.array(np.frompyfunc(is_missing, 1, 1)(array), bool)
+        array = np.where(missing, False, array)
+        for value in array.flat:
+            if not isinstance(value, (bool, int, float, np.bool_, np.number)):
+                raise TypeError(f"{name} must be numbers or booleans, not {type(value).__name__}")
+        array = array.astype(np.float64)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"{name} must be numbers or booleans, not {_in_words(array)}")
+    if array.dtype.kind == "f":
+        missing = missing | np.isnan(array)
+    return (array != 0) & ~missing
 
 
 def _in_words(array: npt.NDArray[Any]) -> str:
@@ -122,6 +150,7 @@ def as_lonlat(lon: ArrayLike, lat: ArrayLike) -> FloatArray:
 
 def as_indices(values: ArrayLike, name: str) -> IntArray:
     """One-dimensional int32."""
+    require_unmasked(values, name)
     array = np.asarray(values)
     if array.size == 0:
         return np.zeros(0, np.int32)
@@ -219,11 +248,18 @@ def lonlat(points: ArrayLike, center: ArrayLike = ORIGIN) -> FloatArray:
     return np.degrees(np.stack([np.arctan2(y, x), np.arctan2(z, np.hypot(x, y))], axis=-1))
 
 
+def unmasked(values: Any) -> Any:
+    """The same, where numbers are masked as float64 with NaN there."""
+    if isinstance(values, (list, tuple)) and any(map(np.ma.isMaskedArray, values)):
+        values = np.ma.stack(values)
+    if not np.ma.isMaskedArray(values):
+        return values
+    return np.ma.filled(np.ma.asarray(values).astype(np.float64), np.nan)
+
+
 def as_fields(values: ArrayLike, num_sites: int, name: str = "values") -> FloatArray:
     """Values of shape (..., n) as float64; what is masked is NaN."""
-    if np.ma.isMaskedArray(values):
-        values = np.ma.filled(np.ma.asarray(values).astype(np.float64), np.nan)
-    array = as_floats(values, name)
+    array = as_floats(unmasked(values), name)
     if array.ndim == 0 or array.shape[-1] != num_sites:
         shape = array.shape
         hint = "; the sites are the last axis" if num_sites in shape[:-1] else ""

@@ -20,7 +20,7 @@ import numpy as np
 
 from . import _core
 from ._arrays import lonlat
-from ._properties import checked_properties, json_cells
+from ._properties import checked_properties, json_cells, with_gaps
 from ._types import Divided, FloatArray, IntArray, Triangulated
 
 if TYPE_CHECKING:
@@ -95,8 +95,8 @@ def cells_to_geojson(
         Where to write the text; otherwise it is returned, parsed.
     properties : mapping of str to sequence, optional
         More properties: for each a value for every site. Numbers, booleans, texts and what else
-        JSON has stay what they are; None, nan and infinities become null, dates ISO 8601 texts. No
-        property is called `site` or `area`.
+        JSON has stay what they are; None, nan, infinities and what is masked become null, dates
+        ISO 8601 texts. No property is called `site` or `area`.
     tolerance_deg : float, optional
         How far the straight lines of a polygon may be from its arcs, in degrees.
 
@@ -258,7 +258,8 @@ def cells_to_xarray(self: Divided, *, properties: Properties | None = None) -> x
     Parameters
     ----------
     properties : mapping of str to sequence, optional
-        More variables of faces: for each a value for every site.
+        More variables of faces: for each a value for every site. What is masked is NaN, NaT or
+        None.
 
     Returns
     -------
@@ -291,7 +292,7 @@ def cells_to_xarray(self: Divided, *, properties: Properties | None = None) -> x
     mesh["face_area"] = ("n_face", self._diagram.areas[sites], {**area, **face})
     mesh["face_area"].encoding["_FillValue"] = None
     for name, values in given.items():
-        mesh[name] = ("n_face", np.asarray(values)[sites], face)
+        mesh[name] = ("n_face", with_gaps(values)[sites], face)
     return mesh
 
 

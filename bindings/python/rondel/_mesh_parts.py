@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Protocol, TypeAlias, cast
 import numpy as np
 
 from . import _core
-from ._arrays import as_floats, as_points, as_threads, lonlat
+from ._arrays import as_floats, as_points, as_threads, lonlat, require_unmasked
 from ._geometries import Edges, features_of, is_file
 from ._lonlat import arcs
 from ._plot import draw_coast_lines, line_options, make_map
@@ -52,6 +52,7 @@ def removed_cells(
         raise TypeError("cull() needs mask, inside or outside")
     removed = np.zeros(len(points), bool)
     if mask is not None:
+        require_unmasked(mask, "mask")
         given = np.asarray(mask)
         if given.shape != removed.shape:
             raise ValueError(f"mask has the shape {given.shape}, not {removed.shape}")

@@ -13,7 +13,7 @@ import numpy as np
 import xarray
 
 from . import _core
-from ._arrays import lonlat, point_set_hash, unit_vectors
+from ._arrays import as_mask, lonlat, point_set_hash, unit_vectors, unmasked
 from ._coordinates import MARKS, Coordinates, lies_elsewhere, missing_marker
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._geometries import in_degrees
@@ -72,7 +72,7 @@ class Places:
         self.lon, self.lat = west.values, south.values
         located = np.isfinite(self.lon) & np.isfinite(self.lat)
         self._located = None if located.all() else located.reshape(-1)
-        if self._located is not None and not self.are_axes:
+        if self._located is not None:
             count = int(np.count_nonzero(~self._located))
             _warn(
                 f"{count} of {self.lon.size} places have no longitude or latitude and are left out"
@@ -118,12 +118,15 @@ class Places:
         return self._found.lon.values, self._found.lat.values
 
     def mask(self) -> BoolArray | None:
-        """Which places take part: those with longitude and latitude where `mask` is not 0."""
+        """Which take part: those with a place where `mask` is neither 0 nor missing."""
         if self._partition is not None:
             return self._partition.mask
         if isinstance(self._data, xarray.DataArray) or "mask" not in self._data:
             return self._located
-        mask = np.asarray(self._data["mask"].transpose(*self.dims) != 0).reshape(-1)
+        given = self._data["mask"]
+        if set(given.dims) != set(self.dims):
+            raise ValueError(f"mask has the dimensions {given.dims}, not {self.dims}")
+        mask = as_mask(given.transpose(*self.dims).values, "mask").reshape(-1)
         return mask if self._located is None else mask & self._located
 
     def triangulated(
@@ -192,7 +195,7 @@ def _paired(lon: Any, lat: Any) -> xarray.Dataset:
     """
     if isinstance(lon, xarray.DataArray) and isinstance(lat, xarray.DataArray):
         return _marked({"lon": lon.variable, "lat": lat.variable})
-    lons, lats = np.asarray(lon), np.asarray(lat)
+    lons, lats = np.asarray(unmasked(lon)), np.asarray(unmasked(lat))
     try:
         lons, lats = np.broadcast_arrays(lons, lats)
     except ValueError:
@@ -289,8 +292,17 @@ def _dataset(arrays: dict[Any, Any], are_points: bool) -> xarray.Dataset:
     else:
         dims = {"lon": ("lon",), "lat": ("lat",), "mask": ("lat", "lon")}
     variables = {}
+    shapes = {
+        dim: length
+        for kind in ("lat", "lon")
+        for dim, length in zip(dims[kind], np.shape(arrays[kind]), strict=True)
+    }
+    wanted = tuple(shapes[dim] for dim in dims["mask"])
+    if "mask" in arrays and np.shape(arrays["mask"]) != wanted:
+        raise ValueError(f"mask must have shape {wanted}, not {np.shape(arrays['mask'])}")
     for name, values in arrays.items():
-        array = np.asarray(values)
+        # xarray makes NaN of what is masked.
+        array = np.ma.asarray(values) if np.ma.is_masked(values) else np.asarray(values)
         own = tuple(f"{name}_{k}" for k in range(array.ndim))
         variables[name] = (dims.get(name, own), array)
     return _marked(variables)

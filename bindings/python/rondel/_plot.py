@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _core
+from ._arrays import unmasked
 from ._lonlat import LonLatTriangles, arcs, flat_triangles
 from ._projection import LonLatMap, ProjectedMap
 from ._types import ArrayLike, Divided, FloatArray, Triangulated
@@ -144,7 +145,7 @@ def plot_cells(
     """
     drawn = make_map(ax, projection)
     if values is not None:
-        cells, known = _draw_cells(self, drawn, np.asarray(values), {"cmap": cmap})
+        cells, known = _draw_cells(self, drawn, np.asarray(unmasked(values)), {"cmap": cmap})
         cells.set_clim(*_limits(known, vmin, vmax))
     _draw_coast(self.delaunay, drawn, coast)
     ends = ((self.cells[2] - self.center) / self.radius)[self.ridge_vertices]
@@ -194,7 +195,7 @@ def plot_regions(
         If Matplotlib is not installed.
 
     """
-    numbers = None if values is None else np.asarray(values)
+    numbers = None if values is None else np.asarray(unmasked(values))
     if numbers is not None and len(numbers) != len(self):
         raise ValueError(f"{len(numbers)} values for {len(self)} regions")
     drawn = make_map(ax, projection)

@@ -30,6 +30,10 @@ def checked_properties(
 
 def json_cells(values: Any) -> list[str]:
     """Each value as JSON; an empty text is null."""
+    if np.ma.is_masked(values):
+        masked = np.ma.getmaskarray(values).reshape(len(values), -1).all(axis=1)
+        cells = json_cells(np.ma.getdata(values))
+        return ["" if gone else cell for cell, gone in zip(cells, masked.tolist(), strict=True)]
     array = np.asarray(values if hasattr(values, "dtype") else [])
     kind = array.dtype.kind if array.shape == (len(values),) else "O"
     if kind in "iu":
@@ -49,7 +53,7 @@ def _json_cell(value: Any) -> str:
     """One value of a sequence of any."""
     if isinstance(value, np.generic) and value.dtype.kind in "iubfM":
         return json_cells(np.array([value]))[0]
-    if value is None or is_missing(value):
+    if is_missing(value):
         return ""
     if isinstance(value, float) and not math.isfinite(value):
         return ""
@@ -57,8 +61,26 @@ def _json_cell(value: Any) -> str:
 
 
 def is_missing(value: Any) -> bool:
-    """Whether it is pandas' NaT or NA, which cannot be compared."""
-    return type(value).__name__ in ("NaTType", "NAType")
+    """Whether it is None, what is masked, or pandas' NaT or NA, which cannot be compared."""
+    return value is None or value is np.ma.masked or type(value).__name__ in ("NaTType", "NAType")
+
+
+def with_gaps(values: Any) -> Any:
+    """An array; what is masked is NaN or NaT, or None where the values are no numbers or times."""
+    if isinstance(values, (list, tuple)) and any(value is np.ma.masked for value in values):
+        values = np.ma.stack(values)
+    array = np.asarray(values)
+    if not np.ma.is_masked(values):
+        return array
+    masked = np.ma.getmaskarray(values)
+    if array.dtype.kind in "mM":
+        return np.where(masked, np.array("NaT", array.dtype), array)
+    if array.dtype.kind in "biuf":
+        kind = array.dtype if array.dtype.kind == "f" else np.float64
+        return np.where(masked, np.nan, array).astype(kind)
+    found = array.astype(object)
+    found[masked] = None
+    return found
 
 
 def _as_text(value: Any) -> str:

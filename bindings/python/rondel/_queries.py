@@ -10,7 +10,7 @@ from typing import Any, NoReturn, overload
 
 import numpy as np
 
-from ._arrays import HINT_OF_DEGREES, as_indices, as_queries, as_threads
+from ._arrays import HINT_OF_DEGREES, as_indices, as_queries, as_threads, require_unmasked
 from ._mesh import Lists
 from ._types import ArrayLike, FloatArray, IntArray
 
@@ -144,6 +144,7 @@ class Queries:
 
         """
         queries, shape = as_queries(xi)
+        require_unmasked(sites, "sites")
         sites = np.asarray(sites)
         shape = np.broadcast_shapes(shape, sites.shape)
         rows = np.broadcast_to(np.reshape(queries, (*np.shape(xi)[:-1], 3)), (*shape, 3))

@@ -430,7 +430,7 @@ def _numbered(groups: Any) -> tuple[Any, np.ndarray[Any, Any]]:
     known: dict[Hashable, int] = {}
     numbers = np.full(len(values), -1, np.int32)
     for i, value in enumerate(values):
-        if value is None or is_missing(value) or value != value:
+        if is_missing(value) or value != value:
             continue
         numbers[i] = known.setdefault(value, len(known))
     labels = np.empty(len(known), object)

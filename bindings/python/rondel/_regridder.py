@@ -56,7 +56,8 @@ class Regridder(Described):
         files (formats): axes of a grid, curvilinear, or of points; degrees, or radians where the
         attribute `units` says so. Conservative methods take the cells: by the coordinates'
         attribute `bounds`, or `lon_b` and `lat_b`; of axes without these, half way between. A
-        variable `mask` is 0 where places take no part. Places without longitude or latitude, and
+        variable `mask` is 0 or missing where places take no part. What is masked in arrays of NumPy
+        counts as NaN. Places without longitude or latitude, and
         cells with a corner that is missing, are left out with a warning that counts them.
     method : str
         'bilinear', 'conservative', 'conservative_normed', 'conservative_2nd', 'nearest_s2d' and

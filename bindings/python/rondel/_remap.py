@@ -11,7 +11,7 @@ from typing import Any, Literal
 import numpy as np
 
 from . import _core
-from ._arrays import as_threads
+from ._arrays import as_mask, as_threads
 from ._delaunay import SphericalDelaunay
 from ._diagram import Diagram
 from ._geo import Path
@@ -140,7 +140,8 @@ def remap(
         What the sum over a target is divided by: its area, so that the integral is kept, or the
         part that sources cover, so that constants are.
     source_mask, target_mask : array_like of bool, optional
-        Which cells take part; by default what the partition's file says.
+        Which cells take part; by default what the partition's file says. Numbers are true unless
+        they are 0; what is missing (NaN, NA, None, or masked) takes no part.
     overlap : {'error', 'first', 'share'}, optional
         What becomes of a place that several cells of one side have. By default two of the cells
         and the place are named in an error. 'first' gives the place to the cell with the lowest
@@ -158,6 +159,8 @@ def remap(
     InvalidInput
         If a mask has another length, cells of one side overlap and `overlap` is 'error', or a cell
         crosses or overlaps itself.
+    TypeError
+        If a mask has texts, or others that are neither numbers nor booleans.
 
     Examples
     --------
@@ -176,7 +179,10 @@ def remap(
     if operator.index(order) not in (1, 2):
         raise ValueError(f"order must be 1 or 2, not {order}")
     cells = [_as_partition(side, threads) for side in (source, target)]
-    masks = _as_mask(source_mask, cells[0]), _as_mask(target_mask, cells[1])
+    masks = (
+        _as_mask(source_mask, "source_mask", cells[0]),
+        _as_mask(target_mask, "target_mask", cells[1]),
+    )
     weights, *measures = _core.remap(
         cells[0]._partition,
         cells[1]._partition,
@@ -209,7 +215,7 @@ def _as_partition(cells: Any, threads: int | None) -> Partition:
 
 
 # An empty one: all take part.
-def _as_mask(mask: ArrayLike | None, partition: Partition) -> IntArray:
+def _as_mask(mask: ArrayLike | None, name: str, partition: Partition) -> IntArray:
     if mask is None:
         return partition._mask
-    return np.ascontiguousarray(np.asarray(mask, bool).reshape(-1), np.int32)
+    return np.ascontiguousarray(as_mask(mask, name).reshape(-1), np.int32)

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import as_fields, as_floats, as_threads, point_set_hash
+from ._arrays import as_fields, as_floats, as_threads, point_set_hash, require_unmasked
 from ._geo import Path
 from ._repr import Described, count
 from ._tables import _replaced
@@ -270,6 +270,7 @@ def _unpickled(
 
 
 def _as_integers(values: ArrayLike, kind: Any, name: str) -> Any:
+    require_unmasked(values, name)
     array = np.asarray(values)
     if array.size == 0:
         array = array.astype(kind)
