@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "arrays.h"
@@ -68,6 +69,16 @@ void add_weight_files(nb::module_& module) {
   module.def(
       "read_weights",
       [](const std::string& path) { return unlocked([&] { return read_weights(path).weights; }); },
+      nb::arg("path"));
+  // The weights, the method and its normalization, and the masks of sources and targets, empty where all take part.
+  module.def(
+      "read_weight_file",
+      [](const std::string& path) {
+        WeightFile file = unlocked([&] { return read_weights(path); });
+        return std::tuple(std::move(file.weights), file.method, file.normalization,
+                          to_array<std::int32_t>(std::move(file.source.mask)),
+                          to_array<std::int32_t>(std::move(file.target.mask)));
+      },
       nb::arg("path"));
 }
 

@@ -19,6 +19,7 @@ from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._geometries import in_degrees
 from ._partition import Partition
 from ._types import BoolArray, FloatArray
+from ._weight_files import Side
 from ._weights import Weights
 
 # The names of columns that tables usually have.
@@ -128,6 +129,16 @@ class Places:
             raise ValueError(f"mask has the dimensions {given.dims}, not {self.dims}")
         mask = as_mask(given.transpose(*self.dims).values, "mask").reshape(-1)
         return mask if self._located is None else mask & self._located
+
+    def side(self) -> Side:
+        """What a file of weights says of the places."""
+        lon, lat = self.degrees()
+        mask = self.mask()
+        return Side(
+            np.column_stack([lon.reshape(-1), lat.reshape(-1)]).astype(np.float64),
+            shape=self.shape,
+            mask=None if mask is None or mask.all() else mask.astype(np.int32),
+        )
 
     def triangulated(
         self, mask: BoolArray | None = None, threads: int | None = None

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Hashable
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
@@ -14,8 +13,10 @@ from ._bilinear import bilinear_weights
 from ._geo import Path
 from ._remap import Remap, remap
 from ._repr import Described, count
+from ._reuse import reused
 from ._types import BoolArray, Progress
-from ._weights import Weights, read_weights
+from ._weight_files import write_weights
+from ._weights import Weights
 
 if TYPE_CHECKING:
     from ._places import Places
@@ -73,7 +74,8 @@ class Regridder(Described):
     unmapped_to_nan : bool, optional
         Whether targets without a value are NaN, or else 0.
     weights : path-like or Weights, optional
-        Those of `to_netcdf` of a former one, with the same grids.
+        Those of `to_netcdf` of a former one, with the same grids, masks and method; others are
+        refused where the file or the entries say so.
     overlap : {'error', 'first', 'share'}, optional
         What conservative methods do where cells of one grid overlap; as in `remap`.
     filename : path-like, optional
@@ -153,25 +155,15 @@ class Regridder(Described):
         self._source = Places(ds_in, lon, lat, are_points=locstream_in)
         self._target = Places(ds_out, lon_out, lat_out, are_points=locstream_out)
         self._fill = np.nan if unmapped_to_nan else 0.0
-        shape = (self._target.lon.size, self._source.lon.size)
         if weights is None:
             found = _made(self._source, self._target, method, overlap, threads, progress)
             made = found.weights if isinstance(found, Remap) else found
-            if extrap_method is not None:
-                made = _filled(made, self._source, self._target)
-            elif isinstance(found, Remap):
+            if extrap_method is None and isinstance(found, Remap):
                 self._remap = found
         else:
-            made = weights if isinstance(weights, Weights) else read_weights(weights)
-            if made.shape != shape:
-                raise ValueError(f"the weights have shape {made.shape}, the grids {shape}")
-            # Weights of masked points have the hash of the points that are left.
-            is_whole = self._source.mask() is None and self._target.mask() is None
-            if is_whole and not made.is_of(
-                self._source.points() if made.sites_hash else None,
-                self._target.points() if made.targets_hash else None,
-            ):
-                raise ValueError("the weights are of other places, or of these in another order")
+            made = reused(weights, method, self._source, self._target, threads)
+        if extrap_method is not None:
+            made = _filled(made, self._source, self._target)
         self.weights = made
 
     @property
@@ -261,7 +253,8 @@ class Regridder(Described):
         if self._remap is not None:
             self._remap.to_netcdf(path)
         else:
-            self.weights.to_netcdf(os.fspath(path), method=self.method)
+            source, target = self._source.side(), self._target.side()
+            write_weights(path, "esmf", self.weights, source, target, self.method, "none")
 
     def _facts(self) -> list[tuple[str, str]]:
         def text(shape: tuple[int, ...]) -> str:
@@ -349,7 +342,8 @@ def _filled(weights: Weights, source: Places, target: Places) -> Weights:
     """The nearest source where a target has nothing, but for those that take no part."""
     empty = np.diff(weights.indptr) == 0
     mask = target.mask()
-    return _with_rows(weights, empty if mask is None else empty & mask, _nearest(source, target))
+    rows = empty if mask is None else empty & mask
+    return _with_rows(weights, rows, _nearest(source, target)) if rows.any() else weights
 
 
 def _with_rows(weights: Weights, rows: BoolArray, others: Weights | None = None) -> Weights:
