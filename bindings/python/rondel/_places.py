@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: The Rondel authors
 # SPDX-License-Identifier: Apache-2.0
-"""The places and cells of what xarray holds, and fields that are carried from one to another."""
+"""The places and cells of what xarray holds."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ import xarray
 
 from . import _core
 from ._arrays import as_mask, lonlat, point_set_hash, unit_vectors, unmasked
-from ._coordinates import MARKS, Coordinates, lies_elsewhere, missing_marker
+from ._coordinates import MARKS, Coordinates
 from ._delaunay import SphericalDelaunay, delaunay_lonlat
 from ._geometries import in_degrees
 from ._partition import Partition
@@ -75,7 +75,7 @@ class Places:
         self._located = None if located.all() else located.reshape(-1)
         if self._located is not None:
             count = int(np.count_nonzero(~self._located))
-            _warn(
+            warn_caller(
                 f"{count} of {self.lon.size} places have no longitude or latitude and are left out"
             )
 
@@ -176,7 +176,7 @@ class Places:
         if self._partition is not None:
             return self._partition, self.mask()
         for remark in self._found.remarks:
-            _warn(remark)
+            warn_caller(remark)
         lon, lat = self._found.bounds()
         if self.are_axes:
             lines = [
@@ -259,7 +259,9 @@ def _cells_of_corners(
     if lacking.all():
         raise ValueError("no cell has corners: they are missing")
     if untold:
-        _warn(f"{untold} of {lacking.size} cells have corners that are missing and are left out")
+        warn_caller(
+            f"{untold} of {lacking.size} cells have corners that are missing and are left out"
+        )
     nowhere = lacking.reshape(lon.shape[:-1])[..., None]
     made = Partition.corners(np.where(nowhere, 0, lon), np.where(nowhere, 0, lat), threads=threads)
     return made, ~lacking if mask is None else mask & ~lacking
@@ -274,7 +276,7 @@ def _filled_up(lon: FloatArray, lat: FloatArray, missing: BoolArray) -> tuple[An
     return lon[rows, source], lat[rows, source], missing[rows, source]
 
 
-def _warn(text: str) -> None:
+def warn_caller(text: str) -> None:
     """Warns in the name of the line that called this package."""
     frame, level = inspect.currentframe(), 1
     while frame is not None and frame.f_globals.get("__package__") == __package__:
@@ -339,84 +341,3 @@ def _four(corners: Any, shape: tuple[int, ...]) -> FloatArray:
         corners[..., 1:, :-1],
     )
     return np.stack(around, axis=-1)
-
-
-def carried(
-    data: Any,
-    weights: Weights,
-    source: Places,
-    wanted: Places,
-    *,
-    skipna: bool,
-    most_missing: float,
-    fill: float = np.nan,
-    keep_attrs: bool = True,
-) -> Any:
-    """A Dataset or DataArray at other places."""
-    source.require_same(data)
-
-    def applied(values: Any, marker: Any) -> Any:
-        dtype = _kind(values)
-        if marker is not None:
-            values = marker(values)
-        fields = values.reshape(*values.shape[: values.ndim - len(source.dims)], -1)
-        found = weights.apply(fields, skipna=skipna, most_missing=most_missing, fill=fill)
-        shape = (*found.shape[:-1], *wanted.shape)
-        return found.reshape(shape).astype(dtype, copy=False)
-
-    def moved(array: xarray.DataArray) -> xarray.DataArray:
-        if "scale_factor" in array.attrs or "add_offset" in array.attrs:
-            name = "data" if array.name is None else array.name
-            _warn(f"{name} are packed: their attribute scale_factor or add_offset is not applied")
-        found = xarray.apply_ufunc(
-            applied,
-            array,
-            input_core_dims=[source.dims],
-            output_core_dims=[wanted.dims],
-            exclude_dims=set(source.dims),
-            keep_attrs=keep_attrs,
-            dask="parallelized",
-            output_dtypes=[_kind(array)],
-            kwargs={"marker": missing_marker(array)},
-            dask_gufunc_kwargs={
-                "output_sizes": dict(zip(wanted.dims, wanted.shape, strict=True)),
-                "allow_rechunk": True,
-            },
-        )
-        return found.assign_coords(wanted.coordinates)
-
-    if isinstance(data, xarray.DataArray):
-        return moved(data)
-    taken = {
-        name: moved(array)
-        for name, array in data.data_vars.items()
-        if set(source.dims) <= set(array.dims)
-        and array.dtype.kind in "iuf"
-        and str(name) not in source.own_names
-    }
-    rest = data.drop_vars([name for name in source.own_names if name in data.variables])
-    rest = rest.drop_dims(source.dims)
-    whole = _without_other_places(rest, data, wanted)
-    whole = whole.assign(taken).assign_coords(wanted.coordinates)
-    if not keep_attrs:
-        whole = whole.drop_attrs(deep=False)
-    return whole[[name for name in data.data_vars if name in whole.data_vars]]
-
-
-def _without_other_places(rest: xarray.Dataset, data: xarray.Dataset, wanted: Places) -> Any:
-    """Leaves out fields that are elsewhere, and dimensions with the names of the target's."""
-    sizes = dict(zip(wanted.dims, wanted.shape, strict=True))
-    others = [dim for dim, size in sizes.items() if rest.sizes.get(dim, size) != size]
-    left_out = [
-        str(name)
-        for name, array in rest.data_vars.items()
-        if set(others) & set(array.dims) or lies_elsewhere(data, str(name))
-    ]
-    if left_out:
-        names = ", ".join(left_out)
-        _warn(f"left out, as their longitudes and latitudes are not those of the source: {names}")
-    return rest.drop_vars(left_out).drop_dims(others)
-
-
-def _kind(array: Any) -> Any:
-    return array.dtype if array.dtype.kind == "f" else np.dtype(np.float64)

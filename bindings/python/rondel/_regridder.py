@@ -195,17 +195,20 @@ class Regridder(Described):
         Returns
         -------
         ndarray, DataArray or Dataset
-            As the source. Arrays of Dask stay lazy.
+            As the source; booleans are 0 and 1. Variables of a Dataset that depend on place and are
+            no numbers, or have only some of the source's dimensions, are left out with a warning
+            that names them. Arrays of Dask stay lazy.
 
         Raises
         ------
         ValueError
-            If the data have another shape.
+            If the data have another shape, or share a dimension with the target, such as the time
+            of a track: rename the target's.
 
         """
         import xarray
 
-        from ._places import carried
+        from ._carried import carried
 
         options: Any = {"skipna": skipna, "most_missing": na_thres, "fill": self._fill}
         dims = self._source.dims

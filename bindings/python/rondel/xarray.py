@@ -14,8 +14,9 @@ from typing import Any
 
 import xarray
 
+from ._carried import carried
 from ._interpolation import Method
-from ._places import Places, carried
+from ._places import Places
 from ._weights import Weights
 
 __all__ = ["RondelAccessor"]
@@ -94,14 +95,16 @@ class RondelAccessor:
         Returns
         -------
         Dataset or DataArray
-            As the source: numbers are interpolated, in their type if it is a floating one; what
-            does not depend on place stays; other variables of the places, such as texts, are left
-            out. Arrays of Dask stay lazy.
+            As the source: numbers are interpolated, in their type if it is a floating one, and
+            booleans as 0 and 1; what does not depend on place stays; other variables of the
+            places, such as texts, are left out with a warning that names them. Arrays of Dask stay
+            lazy.
 
         Raises
         ------
         ValueError
-            If longitudes or latitudes are not found, or the weights are of other places.
+            If longitudes or latitudes are not found, the weights are of other places, or data and
+            target share a dimension, such as the time of a track: rename the target's.
 
         """
         source, wanted = Places(self._data, lon, lat), _target(target, grid=grid)

@@ -14,7 +14,10 @@ try:
     import rondel.xarray
 except ImportError:
     xarray = None
-pytestmark = pytest.mark.skipif(xarray is None, reason="needs xarray")
+pytestmark = [
+    pytest.mark.skipif(xarray is None, reason="needs xarray"),
+    pytest.mark.filterwarnings("ignore:left out, as they are no real numbers. name$"),
+]
 
 LON, LAT = rondel.lonlat(clouds.uniform(120)).T
 TEMPERATURE = np.random.default_rng(0).normal(size=(3, 120))

@@ -1,0 +1,134 @@
+# SPDX-FileCopyrightText: The Rondel authors
+# SPDX-License-Identifier: Apache-2.0
+"""Fields of what xarray holds, carried from one set of places to another."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import xarray
+
+from ._coordinates import lies_elsewhere, missing_marker
+from ._places import Places, warn_caller
+from ._weights import Weights
+
+
+def carried(
+    data: Any,
+    weights: Weights,
+    source: Places,
+    wanted: Places,
+    *,
+    skipna: bool,
+    most_missing: float,
+    fill: float = np.nan,
+    keep_attrs: bool = True,
+) -> Any:
+    """A Dataset or DataArray at other places."""
+    source.require_same(data)
+
+    def applied(values: Any, marker: Any) -> Any:
+        dtype = _kind(values)
+        if marker is not None:
+            values = marker(values)
+        leading = values.shape[: values.ndim - len(source.dims)]
+        fields = values.reshape(*leading, source.lon.size)
+        found = weights.apply(fields, skipna=skipna, most_missing=most_missing, fill=fill)
+        shape = (*found.shape[:-1], *wanted.shape)
+        return found.reshape(shape).astype(dtype, copy=False)
+
+    def moved(array: xarray.DataArray) -> xarray.DataArray:
+        _require_no_shared_dimension(array, source, wanted)
+        if "scale_factor" in array.attrs or "add_offset" in array.attrs:
+            name = "data" if array.name is None else array.name
+            warn_caller(
+                f"{name} are packed: their attribute scale_factor or add_offset is not applied"
+            )
+        found = xarray.apply_ufunc(
+            applied,
+            array,
+            input_core_dims=[source.dims],
+            output_core_dims=[wanted.dims],
+            exclude_dims=set(source.dims),
+            keep_attrs=keep_attrs,
+            dask="parallelized",
+            output_dtypes=[_kind(array)],
+            kwargs={"marker": missing_marker(array)},
+            dask_gufunc_kwargs={
+                "output_sizes": dict(zip(wanted.dims, wanted.shape, strict=True)),
+                "allow_rechunk": True,
+            },
+        )
+        return found.assign_coords(wanted.coordinates)
+
+    if isinstance(data, xarray.DataArray):
+        return moved(data)
+    lost = [str(dim) for dim in source.dims if dim not in data.dims]
+    if lost:
+        raise ValueError(
+            f"the data have no dimension {' and no '.join(lost)}, which the source has"
+        )
+    own_names = source.own_names
+    fields = {name: data[name] for name in data.data_vars if str(name) not in own_names}
+    _tell_of_others(fields, source)
+    taken = {name: moved(array) for name, array in fields.items() if _is_field(array, source)}
+    rest = data.drop_vars([name for name in own_names if name in data.variables])
+    rest = rest.drop_dims(source.dims)
+    whole = _without_other_places(rest, data, wanted)
+    whole = whole.assign(taken).assign_coords(wanted.coordinates)
+    if not keep_attrs:
+        whole = whole.drop_attrs(deep=False)
+    return whole[[name for name in data.data_vars if name in whole.data_vars]]
+
+
+def _is_field(array: xarray.DataArray, source: Places) -> bool:
+    return set(source.dims) <= set(array.dims) and array.dtype.kind in "biuf"
+
+
+def _tell_of_others(fields: dict[Any, xarray.DataArray], source: Places) -> None:
+    """Warns of variables that depend on place and cannot be carried."""
+    dims = set(source.dims)
+    names = ", ".join(map(str, source.dims))
+    texts = [str(n) for n, a in fields.items() if dims <= set(a.dims) and not _is_field(a, source)]
+    parts = [str(n) for n, a in fields.items() if dims & set(a.dims) and not dims <= set(a.dims)]
+    if texts:
+        warn_caller(f"left out, as they are no real numbers: {', '.join(texts)}")
+    if parts:
+        warn_caller(
+            f"left out, as they have only some of the dimensions {names}: {', '.join(parts)}"
+        )
+
+
+def _require_no_shared_dimension(array: xarray.DataArray, source: Places, wanted: Places) -> None:
+    """Refuses a field that has, beside the source's dimensions, one of the targets', as a time of
+    both: whether each target wants all of its values is not known.
+    """
+    for dim in wanted.dims:
+        if dim in array.dims and dim not in source.dims:
+            name = "the data" if array.name is None else repr(array.name)
+            raise ValueError(
+                f"{name} and the targets both have the dimension {dim!r}: rename that of the "
+                f"targets for the values of every {dim} at each of them"
+            )
+
+
+def _without_other_places(rest: xarray.Dataset, data: xarray.Dataset, wanted: Places) -> Any:
+    """Leaves out fields that are elsewhere, and dimensions with the names of the target's."""
+    sizes = dict(zip(wanted.dims, wanted.shape, strict=True))
+    others = [dim for dim, size in sizes.items() if rest.sizes.get(dim, size) != size]
+    left_out = [
+        str(name)
+        for name, array in rest.data_vars.items()
+        if set(others) & set(array.dims) or lies_elsewhere(data, str(name))
+    ]
+    if left_out:
+        names = ", ".join(left_out)
+        warn_caller(
+            f"left out, as their longitudes and latitudes are not those of the source: {names}"
+        )
+    return rest.drop_vars(left_out).drop_dims(others)
+
+
+def _kind(array: Any) -> Any:
+    return array.dtype if array.dtype.kind == "f" else np.dtype(np.float64)
