@@ -115,19 +115,31 @@ def _require_no_shared_dimension(array: xarray.DataArray, source: Places, wanted
 
 def _without_other_places(rest: xarray.Dataset, data: xarray.Dataset, wanted: Places) -> Any:
     """Leaves out fields that are elsewhere, and dimensions with the names of the target's."""
-    sizes = dict(zip(wanted.dims, wanted.shape, strict=True))
-    others = [dim for dim, size in sizes.items() if rest.sizes.get(dim, size) != size]
-    left_out = [
+    others = [
+        dim
+        for dim, size in zip(wanted.dims, wanted.shape, strict=True)
+        if dim in rest.sizes and not _is_same_dimension(rest, dim, size, wanted.index(dim))
+    ]
+    away = [str(name) for name in rest.data_vars if lies_elsewhere(data, str(name))]
+    taken = [
         str(name)
         for name, array in rest.data_vars.items()
-        if set(others) & set(array.dims) or lies_elsewhere(data, str(name))
+        if set(others) & set(array.dims) and str(name) not in away
     ]
-    if left_out:
-        names = ", ".join(left_out)
-        warn_caller(
-            f"left out, as their longitudes and latitudes are not those of the source: {names}"
-        )
-    return rest.drop_vars(left_out).drop_dims(others)
+    for names, why in (
+        (away, "their longitudes and latitudes are not those of the source"),
+        (taken, f"the targets have another dimension {' or '.join(map(str, others))}"),
+    ):
+        if names:
+            warn_caller(f"left out, as {why}: {', '.join(names)}")
+    return rest.drop_vars([*away, *taken]).drop_dims(others)
+
+
+def _is_same_dimension(rest: xarray.Dataset, dim: Any, size: int, index: Any) -> bool:
+    """Whether it has the targets' length and, where its places have labels, theirs."""
+    if rest.sizes[dim] != size:
+        return False
+    return dim not in rest.indexes or (index is not None and rest.indexes[dim].equals(index))
 
 
 def _kind(array: Any) -> Any:

@@ -99,6 +99,10 @@ class Places:
         """Variables that are coordinates or bounds, and so no fields."""
         return {*map(str, self.coordinates), *self._found.bounds_names}
 
+    def index(self, dim: Hashable) -> Any:
+        """The labels along a dimension, or None."""
+        return self._data.indexes.get(dim)
+
     def points(self) -> FloatArray:
         """Unit vectors; anywhere for places without longitude or latitude."""
         return unit_vectors(*self.degrees())

@@ -116,6 +116,20 @@ def test_tracks_with_the_time_of_the_data_are_refused(carry, times):
 
 
 @WAYS
+def test_dimensions_of_the_targets_are_not_mixed_up(carry):
+    data = dataset(3, step=("time", [1, 2, 3])).isel(time=0, drop=True)
+    data = data.assign(step=("time", [1, 2, 3])).assign_coords(time=[10, 20, 30])
+    track = TARGET.rename(place="time")
+    with pytest.warns(UserWarning, match="left out, as the targets have another dimension time: s"):
+        found = carry(data, track)
+    assert list(found.data_vars) == ["t"]
+    assert "time" not in found.coords
+    # The times of the track are those of the data.
+    found = carry(data, track.assign_coords(time=[10, 20, 30]))
+    assert found.step.values.tolist() == [1, 2, 3]
+
+
+@WAYS
 def test_data_of_no_time(carry):
     found = carry(dataset(0))
     assert found.t.shape == (0, 3)
