@@ -39,7 +39,7 @@ def carried(
         return found.reshape(shape).astype(dtype, copy=False)
 
     def moved(array: xarray.DataArray) -> xarray.DataArray:
-        _require_no_shared_dimension(array, source, wanted)
+        _require_dimensions(array, source, wanted)
         if "scale_factor" in array.attrs or "add_offset" in array.attrs:
             name = "data" if array.name is None else array.name
             warn_caller(
@@ -100,13 +100,18 @@ def _tell_of_others(fields: dict[Any, xarray.DataArray], source: Places) -> None
         )
 
 
-def _require_no_shared_dimension(array: xarray.DataArray, source: Places, wanted: Places) -> None:
-    """Refuses a field that has, beside the source's dimensions, one of the targets', as a time of
-    both: whether each target wants all of its values is not known.
+def _require_dimensions(array: xarray.DataArray, source: Places, wanted: Places) -> None:
+    """Refuses other lengths than the source's, and a field that has, beside its dimensions, one of
+    the targets', as a time of both: whether each target wants all of its values is not known.
     """
+    name = "the data" if array.name is None else repr(array.name)
+    for dim, length in zip(source.dims, source.shape, strict=True):
+        if array.sizes[dim] != length:
+            raise ValueError(
+                f"{name} and the source differ in the length of {dim}: {array.sizes[dim]}, {length}"
+            )
     for dim in wanted.dims:
         if dim in array.dims and dim not in source.dims:
-            name = "the data" if array.name is None else repr(array.name)
             raise ValueError(
                 f"{name} and the targets both have the dimension {dim!r}: rename that of the "
                 f"targets for the values of every {dim} at each of them"

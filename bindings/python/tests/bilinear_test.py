@@ -89,6 +89,7 @@ def test_rows_have_one_entry_of_a_place():
     assert np.allclose(weights.apply(np.ones(weights.shape[1])), 1, atol=1e-14, rtol=0)
 
 
+@pytest.mark.filterwarnings("ignore:.*are left out")
 @pytest.mark.parametrize("name", ["lon", "lat"])
 def test_axes_with_gaps_are_refused(name):
     axes = {"lon": LON.copy(), "lat": LAT.copy()}

@@ -86,6 +86,8 @@ def test_data_without_the_dimensions_of_the_source_are_refused():
     regridder = rondel.Regridder(dataset(), TARGET, "bilinear")
     with pytest.raises(ValueError, match="the data have no dimension lat and no lon, which the"):
         regridder(dataset().rename(lat="y", lon="x"))
+    with pytest.raises(ValueError, match="'t' and the source differ in the length of lon: 23, 24"):
+        regridder(dataset().isel(lon=slice(1, None)))
 
 
 @pytest.mark.parametrize("name", ["lon", "lat"])
