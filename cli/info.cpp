@@ -110,6 +110,12 @@ Json json_of(const Range& range) {
   return {{"min", range.min}, {"max", range.max}};
 }
 
+// null where there are no sites.
+Json json_of_coordinates(const SiteTable& table) {
+  if (table.sites.empty()) return nullptr;
+  return table.is_lonlat() ? "lonlat" : "xyz";
+}
+
 std::string json_of(const SiteTable& table, const Facts& facts, const Seconds& seconds) {
   Json bounds = Json::object();
   for (const auto& [name, range] : facts.bounds) bounds[name] = json_of(range);
@@ -119,7 +125,7 @@ std::string json_of(const SiteTable& table, const Facts& facts, const Seconds& s
   }
   const Triangulation& triangulation = facts.triangulation;
   const Json json = {{"sites", table.sites.size()},
-                     {"coordinates", table.is_lonlat() ? "lonlat" : "xyz"},
+                     {"coordinates", json_of_coordinates(table)},
                      {"circles", !table.radii_deg.empty()},
                      {"bounds", bounds},
                      {"distance_from_sphere", json_of(facts.height)},
@@ -142,15 +148,20 @@ std::string text_of(const char* name, const Range& range) {
   return text;
 }
 
+// Nothing where there are no sites: the table does not say what its header names.
 std::string coordinates_of(const SiteTable& table) {
-  if (table.radii_deg.empty()) return table.is_lonlat() ? "longitude and latitude" : "x, y, z";
-  return table.is_lonlat() ? "longitude, latitude and radius" : "x, y, z and radius";
+  if (table.sites.empty()) return {};
+  const std::string given = ", given as ";
+  if (table.radii_deg.empty()) {
+    return given + (table.is_lonlat() ? "longitude and latitude" : "x, y, z");
+  }
+  return given + (table.is_lonlat() ? "longitude, latitude and radius" : "x, y, z and radius");
 }
 
 std::string text_of(const SiteTable& table, const Facts& facts) {
   const Triangulation& triangulation = facts.triangulation;
-  std::string text = table.name + ": " + count(table.sites.size(), "site", "sites") +
-                     ", given as " + coordinates_of(table) + '\n';
+  std::string text =
+      table.name + ": " + count(table.sites.size(), "site", "sites") + coordinates_of(table) + '\n';
   for (const auto& [name, range] : facts.bounds) text += text_of(name, range);
   text += text_of("distance from the sphere", facts.height);
   if (facts.at_center > 0) text += "at the center: " + std::to_string(facts.at_center) + '\n';

@@ -30,8 +30,9 @@ bool CsvRecords::next() {
 
 void CsvRecords::skip_empty_lines() {
   while (next_ != end_) {
-    const char* const p = *next_ == '\r' && next_ + 1 != end_ ? next_ + 1 : next_;
-    if (*p != '\n') return;
+    const char* p = next_;
+    while (p != end_ && *p == '\r') ++p;
+    if (p == end_ || *p != '\n') return;
     next_ = p + 1;
     ++next_line_;
   }
@@ -45,18 +46,19 @@ bool CsvRecords::read_field() {
   }
   const char* const first = next_;
   const char* p = first;
-  while (p != end_ && *p != delimiter_ && *p != '\n') ++p;
+  while (p != end_ && *p != delimiter_ && *p != '\n' && *p != '\r') ++p;
   next_ = p;
-  if (p != first && p[-1] == '\r' && (p == end_ || *p == '\n')) --p;
   fields_.emplace_back(first, p);
   return finish_field();
 }
 
 // At a delimiter, at the end of a line or of the text, or else behind a quoted field.
 bool CsvRecords::finish_field() {
-  if (next_ != end_ && *next_ == '\r' && (next_ + 1 == end_ || next_[1] == '\n')) ++next_;
+  bool is_return = false;
+  for (; next_ != end_ && *next_ == '\r'; ++next_) is_return = true;
   if (next_ == end_) return false;
   const char c = *next_++;
+  if (is_return && c != '\n') throw BadValue("lines end with CR alone, not LF");
   if (c == delimiter_) return true;
   if (c != '\n') throw BadValue("text behind the closing quote of a field");
   ++next_line_;

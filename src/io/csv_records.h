@@ -18,7 +18,8 @@ namespace rondel::io {
 // The bytes of a table without the byte order mark of UTF-8. Throws BadValue for UTF-16.
 RONDEL_API std::string_view table_text(std::string_view bytes);
 
-// 1. Records end with LF or CRLF, the last one also with the text. Empty lines are skipped.
+// 1. Records end with LF or CRLF, the last one also with the text. Empty lines are skipped. CR alone ends no record, and stands
+//    only in quotes.
 // 2. A field that starts with a quote ends with the next single quote; inside, two quotes stand for
 //    one and line ends are part of it. Elsewhere quotes are ordinary characters.
 class RONDEL_API CsvRecords {
@@ -26,7 +27,7 @@ class RONDEL_API CsvRecords {
   CsvRecords(std::string_view text, char delimiter)
       : next_(text.data()), start_(next_), end_(next_ + text.size()), delimiter_(delimiter) {}
 
-  // Goes to the next record; false at the end. Throws BadValue for a broken quote.
+  // Goes to the next record; false at the end. Throws BadValue for a broken quote and for CR alone.
   bool next();
 
   // Valid until the next call of next().

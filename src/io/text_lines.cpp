@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "io/bad_value.h"
+
 namespace rondel::io {
 
 bool TextLines::next() {
@@ -14,6 +16,8 @@ bool TextLines::next() {
     const std::size_t end = std::min(text_.find('\n', position_), text_.size());
     std::string_view line = text_.substr(position_, end - position_);
     position_ = end == text_.size() ? end : end + 1;
+    while (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.find('\r') != line.npos) throw BadValue("lines end with CR alone, not LF");
     line = line.substr(0, line.find('#'));
     std::size_t first = line.find_first_not_of(blanks);
     while (first != std::string_view::npos) {

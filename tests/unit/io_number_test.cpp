@@ -136,7 +136,8 @@ TEST(csv_records, split_as_rfc_4180_says) {
   EXPECT_EQ(records_of("a,b"), (Records{{"a", "b"}}));
   EXPECT_EQ(records_of("a,\r\n,b\r\n"), (Records{{"a", ""}, {"", "b"}}));
   EXPECT_EQ(records_of("a\r"), (Records{{"a"}}));
-  EXPECT_EQ(records_of("a\rb\n"), (Records{{"a\rb"}}));
+  EXPECT_THROW(records_of("a\rb\n"), BadValue);
+  EXPECT_EQ(records_of("a\r\r\n\"b\rc\"\r\n"), (Records{{"a"}, {"b\rc"}}));
   EXPECT_EQ(records_of("\"\",\"a,\"\"\r\n\"\"\"\r\nc,\" d\""),
             (Records{{"", "a,\"\r\n\""}, {"c", " d"}}));
   EXPECT_EQ(records_of("a\"b, \"c\"\n"), (Records{{"a\"b", " \"c\""}}));

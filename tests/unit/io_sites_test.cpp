@@ -161,6 +161,38 @@ TEST(read_sites, refuses_geojson_whose_crs_is_not_in_degrees) {
   EXPECT_NE(message_of([&] { read_sites(bare); }).find("EPSG:3857"), std::string::npos);
 }
 
+// CR alone once made one record of the whole text, which was the header, so that no row was left.
+TEST(read_sites, refuses_lines_that_end_with_cr_alone) {
+  const TemporaryDirectory directory;
+  const std::string what = ": lines end with CR alone, not LF";
+  const std::pair<const char*, const char*> texts[] = {
+      {"lon,lat,v\r10,5,1\r10,20,1\r", ":1"},
+      {"v,lon,lat\r1,10,5\r", ":1"},
+      {"\"lon\",\"lat\",\"v\"\r10,5,1\r", ":1"},
+      {"\r\rlon,lat\r1,2\r", ":1"},
+      {"lon,lat,v\n10,5,1\r10,20,1\r", ":2"},
+      {"lon,lat,v\r\n10,5,1\r\n10,20,one\rtwo\r\n", ":3"},
+  };
+  for (const auto& [text, line] : texts) {
+    const std::string file = directory.with("a.csv", text);
+    EXPECT_EQ(message_of([&] { read_sites(file); }), file + line + what) << text;
+  }
+  const std::string points = directory.with("a.xyz", "# three numbers\r1 0 0\r0 1 0\r");
+  EXPECT_EQ(message_of([&] { read_sites(points); }), points + ":1" + what);
+}
+
+TEST(read_sites, reads_cr_in_quotes_and_before_lf) {
+  const TemporaryDirectory directory;
+  ReadOptions options;
+  options.keep_columns = true;
+  const SiteTable table = read_sites(
+      directory.with("a.csv", "lon,lat,v\r\r\n\r\r\n1,2,\"a\rb\"\r\r\n3,4,\"c\"\r\n5,6,d\r"),
+      options);
+  EXPECT_EQ(table.positions, (std::vector<LonLat>{{1, 2}, {3, 4}, {5, 6}}));
+  EXPECT_EQ(cells(table.columns[2]), (std::vector<std::string>{"a\rb", "c", "d"}));
+  EXPECT_EQ(table.where(0), table.name + ":3");
+}
+
 TEST(read_sites, names_the_line_of_every_site) {
   const std::map<std::string, std::pair<std::string, std::string>> first_and_last = {
       {"plain.csv", {":2", ":7"}},          {"bom_crlf_no_final_newline.csv", {":2", ":12"}},
