@@ -76,12 +76,13 @@ RONDEL_API std::vector<CoordinatePair> find_coordinates(
     std::vector<std::string>* remarks = nullptr);
 
 /// Returns the number of degrees in a unit of this coordinate, by its attribute `units`. Without one the convention decides: radians for the
-/// names of MPAS and ICON (`lonCell`, `latVertex`, `clon`, `vlat` ...), degrees for others. Bounds without units have those of
-/// their coordinate (CF 7.1).
-/// \param coordinate  the coordinate that bounds belong to; null for what is no bounds
+/// names of MPAS and ICON (`lonCell`, `latVertex`, `clon`, `vlat` ...), degrees for others. But first what belongs to the same places
+/// is asked: bounds without units have those of their coordinate (CF 7.1), and latitudes those of the longitudes.
+/// \param relatives  variables whose units it has, if it has none: those of the first one that has any. The first is of the same kind,
+///                   as the coordinate that bounds belong to; of the others the unit has no direction. Null: there is no such one
 /// \throws InvalidInput if the units are neither degrees nor radians
 RONDEL_API double degrees_per_unit(const VariableHeader& variable,
-                                   const VariableHeader* coordinate = nullptr);
+                                   std::span<const VariableHeader* const> relatives = {});
 
 /// Tells which dimensions of coordinates of two or more dimensions hold no places, because neither the longitudes nor the latitudes
 /// change along them, as in WRF's XLAT(Time, south_north, west_east). A dimension of length 1 is one of them only if it is called time.

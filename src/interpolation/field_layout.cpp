@@ -90,8 +90,9 @@ const FieldDimensionFinder::KnownPlaces& FieldDimensionFinder::places_of_pair(
   if (pair.are_axes) {
     known.dimensions = {lat.dimensions[0], lon.dimensions[0]};
     known.shape = {lat.shape[0], lon.shape[0]};
-    const std::vector<double> lons = io::degrees_of(file_, lon);
-    for (const double y : io::degrees_of(file_, lat)) {
+    const std::vector<double> lons =
+        io::degrees_of(file_, lon, io::UsualUnits::of_name, {nullptr, &lat});
+    for (const double y : io::degrees_of(file_, lat, io::UsualUnits::of_name, {nullptr, &lon})) {
       for (const double x : lons) known.places.push_back({x, y});
     }
   } else {

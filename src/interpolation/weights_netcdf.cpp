@@ -67,19 +67,32 @@ std::vector<double> numbers_of(const io::NetcdfReader& file, const std::string& 
                                std::size_t size) {
   const io::NetcdfReader::Variable* const variable = file.find(name);
   if (variable == nullptr) return {};
-  std::vector<double> values = file.numbers(*variable);
+  std::vector<double> values = io::meant_numbers(file, *variable);
   require_size(name, values, size);
   if (std::ranges::all_of(values, [](double value) { return value == 0; })) values.clear();
   return values;
 }
 
+using NamesOfPair = std::array<std::string, 2>;
+
+// The longitudes and latitudes of the first pair. What has no units has those of the other one of its kind, or else of any of the four.
+std::array<std::vector<double>, 2> degrees_of_pair(const io::NetcdfReader& file,
+                                                   const NamesOfPair& wanted,
+                                                   const NamesOfPair& related) {
+  std::array<std::vector<double>, 2> degrees;
+  for (const std::size_t k : {0U, 1U}) {
+    degrees[k] = io::degrees_of(
+        file, file.require(wanted[k]), io::UsualUnits::degrees,
+        {file.find(related[k]), file.find(wanted[1 - k]), file.find(related[1 - k])});
+  }
+  return degrees;
+}
+
 void read_corners(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
                   WeightSide& side) {
   if (file.find(names.corner_lon) == nullptr || file.find(names.corner_lat) == nullptr) return;
-  const std::vector<double> lon =
-      io::degrees_of(file, file.require(names.corner_lon), io::UsualUnits::degrees);
-  const std::vector<double> lat =
-      io::degrees_of(file, file.require(names.corner_lat), io::UsualUnits::degrees);
+  const auto [lon, lat] =
+      degrees_of_pair(file, {names.corner_lon, names.corner_lat}, {names.lon, names.lat});
   if (lon.size() <= size) return;
   if (size == 0 || lon.size() % size != 0) {
     throw io::BadValue("variable " + io::in_quotes(names.corner_lon) + " has " +
@@ -162,10 +175,8 @@ void read_own_attributes(const io::NetcdfReader& file, WeightFile& content) {
 void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t size,
                WeightSide& side) {
   if (file.find(names.lon) != nullptr && file.find(names.lat) != nullptr) {
-    const std::vector<double> lon =
-        io::degrees_of(file, file.require(names.lon), io::UsualUnits::degrees);
-    const std::vector<double> lat =
-        io::degrees_of(file, file.require(names.lat), io::UsualUnits::degrees);
+    const auto [lon, lat] =
+        degrees_of_pair(file, {names.lon, names.lat}, {names.corner_lon, names.corner_lat});
     require_size(names.lon, lon, size);
     require_size(names.lat, lat, size);
     side.points.resize(size);

@@ -45,22 +45,34 @@ std::vector<double> meant_numbers(const NetcdfReader& file,
   return values;
 }
 
+namespace {
+
+double degrees_per_unit_of(const NetcdfReader& file, const NetcdfReader::Variable& variable,
+                           UsualUnits usual,
+                           std::initializer_list<const NetcdfReader::Variable*> relatives) {
+  const VariableHeader own = header_of(file, variable);
+  std::vector<VariableHeader> headers;
+  headers.reserve(relatives.size());
+  std::vector<const VariableHeader*> known;
+  bool has_units = !without_blanks(own.text("units")).empty();
+  for (const NetcdfReader::Variable* const relative : relatives) {
+    known.push_back(nullptr);
+    if (relative == nullptr) continue;
+    known.back() = &headers.emplace_back(header_of(file, *relative));
+    has_units = has_units || !without_blanks(headers.back().text("units")).empty();
+  }
+  if (has_units || usual == UsualUnits::of_name) return degrees_per_unit(own, known);
+  return usual == UsualUnits::radians ? 180 / std::numbers::pi : 1;
+}
+
+}  // namespace
+
 std::vector<double> degrees_of(const NetcdfReader& file, const NetcdfReader::Variable& variable,
-                               UsualUnits usual, const NetcdfReader::Variable* coordinate) {
-  const bool has_units = !netcdf_text(variable.attributes, "units").empty();
+                               UsualUnits usual,
+                               std::initializer_list<const NetcdfReader::Variable*> relatives) {
   double factor = 1;
   try {
-    if (has_units || usual == UsualUnits::of_name) {
-      const VariableHeader own = header_of(file, variable);
-      if (coordinate == nullptr) {
-        factor = degrees_per_unit(own);
-      } else {
-        const VariableHeader of = header_of(file, *coordinate);
-        factor = degrees_per_unit(own, &of);
-      }
-    } else if (usual == UsualUnits::radians) {
-      factor = 180 / std::numbers::pi;
-    }
+    factor = degrees_per_unit_of(file, variable, usual, relatives);
   } catch (const InvalidInput& error) {
     throw BadValue(error.what());
   }
@@ -146,8 +158,11 @@ PlaceArrays places_of(const NetcdfReader& file, const NetcdfReader::Variable& lo
       is_repeated_along_first(file, lat)) {
     return places_of(file, at_first_place(lon), at_first_place(lat), usual);
   }
-  PlaceArrays places{
-      lon.dimensions, lon.shape, {}, degrees_of(file, lon, usual), degrees_of(file, lat, usual)};
+  PlaceArrays places{lon.dimensions,
+                     lon.shape,
+                     {},
+                     degrees_of(file, lon, usual, {nullptr, &lat}),
+                     degrees_of(file, lat, usual, {nullptr, &lon})};
   if (places.lon.size() != places.lat.size()) {
     throw BadValue("variable " + in_quotes(lat.name) + " has " + std::to_string(lat.num_values) +
                    " values instead of " + std::to_string(lon.num_values));

@@ -6,6 +6,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -25,13 +26,15 @@ RONDEL_API VariableHeader header_of(const NetcdfReader& file,
 RONDEL_API std::vector<double> meant_numbers(const NetcdfReader& file,
                                              const NetcdfReader::Variable& variable);
 
-// A coordinate without units has those of `coordinate`, or otherwise those of its convention.
+// What a coordinate is in that neither has units nor is related to one that has.
 enum class UsualUnits { of_name, degrees, radians };
-// Coordinates in degrees; missing ones NaN. Throws BadValue for units that are neither degrees nor radians.
-RONDEL_API std::vector<double> degrees_of(const NetcdfReader& file,
-                                          const NetcdfReader::Variable& variable,
-                                          UsualUnits usual = UsualUnits::of_name,
-                                          const NetcdfReader::Variable* coordinate = nullptr);
+// Coordinates in degrees; missing ones NaN. A variable without units has those of the first of its relatives that has some; null is
+// none. The first relative is of the same kind: corners of longitudes are west of Greenwich as the centers are, latitudes
+// are not. Throws BadValue for units that are neither degrees nor radians.
+RONDEL_API std::vector<double> degrees_of(
+    const NetcdfReader& file, const NetcdfReader::Variable& variable,
+    UsualUnits usual = UsualUnits::of_name,
+    std::initializer_list<const NetcdfReader::Variable*> relatives = {});
 
 // An array with its dimensions in another order: `order` has the place of each among those of `shape`.
 RONDEL_API std::vector<double> transposed(std::span<const std::uint64_t> shape,

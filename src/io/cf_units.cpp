@@ -4,6 +4,7 @@
 // Units of angles as UDUNITS 2.2 spells them. Its names count in any case and have a plural; its symbols count as they are.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <string>
 
@@ -97,7 +98,8 @@ std::optional<double> degrees_per_unit(std::string_view units) {
   return std::nullopt;
 }
 
-double degrees_per_unit(const VariableHeader& variable, const VariableHeader* coordinate) {
+double degrees_per_unit(const VariableHeader& variable,
+                        std::span<const VariableHeader* const> relatives) {
   const std::string units = variable.text("units");
   if (const std::optional<double> degrees = degrees_per_unit(units)) return *degrees;
   if (!io::without_blanks(units).empty()) {
@@ -105,8 +107,17 @@ double degrees_per_unit(const VariableHeader& variable, const VariableHeader* co
         "units '" + units + "' of variable '" + variable.name + "' are neither degrees nor radians",
         0);
   }
-  if (coordinate != nullptr) return degrees_per_unit(*coordinate);
-  return io::is_in_radians(variable.name) ? degrees_per_radian : 1;
+  bool is_in_radians = io::is_in_radians(variable.name);
+  for (const VariableHeader* const relative : relatives) {
+    if (relative == nullptr) continue;
+    const bool is_first = relative == relatives.front();
+    if (!io::without_blanks(relative->text("units")).empty()) {
+      const double degrees = degrees_per_unit(*relative);
+      return is_first ? degrees : std::abs(degrees);
+    }
+    is_in_radians = is_in_radians || (is_first && io::is_in_radians(relative->name));
+  }
+  return is_in_radians ? degrees_per_radian : 1;
 }
 
 }  // namespace rondel

@@ -116,14 +116,14 @@ std::optional<MeshContent> read_oasis(const NetcdfReader& file, const std::strin
   }
   const MeshVariable& lon = file.require(*chosen + ".clo");
   const MeshVariable& lat = file.require(*chosen + ".cla");
-  const MeshVariable* const center_lon = file.find(*chosen + ".lon");
+  const MeshCoordinates centers = {file.find(*chosen + ".lon"), file.find(*chosen + ".lat")};
   if (lon.shape.size() < 2 || lon.shape != lat.shape || lon.num_values >= no_index) {
     throw BadValue("variables " + io::in_quotes(lon.name) + " and " + io::in_quotes(lat.name) +
                    " are no corners of cells");
   }
-  const std::size_t corner = corner_dimension(lon, center_lon);
-  mesh.nodes = corners_last(lon, corner, io::degrees_of(file, lon, UsualUnits::degrees),
-                            io::degrees_of(file, lat, UsualUnits::degrees));
+  const std::size_t corner = corner_dimension(lon, centers.lon);
+  const auto [lons, lats] = degrees_of_both(file, {&lon, &lat}, centers, UsualUnits::degrees);
+  mesh.nodes = corners_last(lon, corner, lons, lats);
   mesh.names = io::in_quotes(lon.name) + " and " + io::in_quotes(lat.name);
   mesh.is_single = lon.type == io::NetcdfType::float32;
   if (mesh.nodes.empty()) throw BadValue("grid " + *chosen + " has no cells");
@@ -132,7 +132,7 @@ std::optional<MeshContent> read_oasis(const NetcdfReader& file, const std::strin
   }
   end_cells_of_nodes(lon.shape[corner], mesh.shape.empty(), mesh);
   take_oasis_mask(file, *chosen + ".msk", mesh);
-  take_centers(file, center_lon, file.find(*chosen + ".lat"), UsualUnits::degrees, mesh);
+  take_centers(file, centers, {&lon, &lat}, UsualUnits::degrees, mesh);
   return mesh;
 }
 

@@ -89,8 +89,11 @@ class CfGrids {
     const std::vector<std::string> own = dimensions_of(first);
     if (!axes.are_axes || !are_among(dimensions_of(axes), own) || first.are_axes) return;
     const io::PlaceArrays places = io::places_of(file_, variable(first.lon), variable(first.lat));
-    const std::vector<double> lon = io::degrees_of(file_, variable(axes.lon));
-    const std::vector<double> lat = io::degrees_of(file_, variable(axes.lat));
+    const MeshVariable* const pair[] = {&variable(axes.lon), &variable(axes.lat)};
+    const std::vector<double> lon =
+        io::degrees_of(file_, *pair[0], UsualUnits::of_name, {nullptr, pair[1]});
+    const std::vector<double> lat =
+        io::degrees_of(file_, *pair[1], UsualUnits::of_name, {nullptr, pair[0]});
     const bool is_lon_last = places.dimensions.back() == variable(axes.lon).dimensions[0];
     constexpr double most_apart = 1e-3;  // degrees
     for (std::size_t i = 0; i < places.lon.size(); ++i) {
@@ -137,7 +140,7 @@ class CfGrids {
 
 // The bounds of an axis in degrees, those of each cell one after the other; none if there are none.
 std::vector<double> bounds_of_axis(const NetcdfReader& file, const MeshVariable& axis,
-                                   const MeshVariable* bounds) {
+                                   const MeshVariable& other, const MeshVariable* bounds) {
   if (bounds == nullptr) return {};
   const bool are_lines = bounds->num_values == axis.num_values + 1;
   if (bounds->num_values != 2 * axis.num_values && !are_lines) {
@@ -145,7 +148,7 @@ std::vector<double> bounds_of_axis(const NetcdfReader& file, const MeshVariable&
                    std::to_string(bounds->num_values) + " values instead of " +
                    std::to_string(2 * axis.num_values));
   }
-  std::vector<double> values = io::degrees_of(file, *bounds, UsualUnits::of_name, &axis);
+  std::vector<double> values = io::degrees_of(file, *bounds, UsualUnits::of_name, {&axis, &other});
   if (bounds->dimensions.size() == 2 && bounds->dimensions[1] == axis.dimensions[0] &&
       bounds->dimensions[0] != axis.dimensions[0]) {
     values =
@@ -155,10 +158,12 @@ std::vector<double> bounds_of_axis(const NetcdfReader& file, const MeshVariable&
 }
 
 std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
-                             const MeshVariable* bounds, bool is_longitude) {
-  const std::vector<double> values = io::degrees_of(file, axis);
+                             const MeshVariable& other, const MeshVariable* bounds,
+                             bool is_longitude) {
+  const std::vector<double> values =
+      io::degrees_of(file, axis, UsualUnits::of_name, {bounds, &other});
   try {
-    return axis_lines(values, bounds_of_axis(file, axis, bounds), is_longitude);
+    return axis_lines(values, bounds_of_axis(file, axis, other, bounds), is_longitude);
   } catch (const InvalidInput& error) {
     const std::string name = io::in_quotes(bounds == nullptr ? axis.name : bounds->name);
     throw BadValue("variable " + name + ": " + error.what());
@@ -168,9 +173,10 @@ std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
 // The corners of cells, those of each one after the other, from bounds with one more dimension than the coordinate, or from the corners
 // of all cells of a grid (ny + 1, nx + 1); `of_each` becomes their number.
 std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariable& coordinate,
-                                      const MeshVariable& bounds, const io::PlaceArrays& places,
-                                      std::size_t& of_each) {
-  std::vector<double> values = io::degrees_of(file, bounds, UsualUnits::of_name, &coordinate);
+                                      const MeshVariable& other, const MeshVariable& bounds,
+                                      const io::PlaceArrays& places, std::size_t& of_each) {
+  std::vector<double> values =
+      io::degrees_of(file, bounds, UsualUnits::of_name, {&coordinate, &other});
   const std::size_t num_cells = places.lon.size();
   const std::size_t rank = places.dimensions.size();
   const auto is_of_bounds = [&](std::size_t dimension) {
@@ -233,8 +239,9 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
   const io::PlaceArrays places = io::places_of(file, lon, lat);
   std::size_t of_each = 0;
   std::size_t of_each_lat = 0;
-  const std::vector<double> lons = corners_of_bounds(file, lon, lon_bounds, places, of_each);
-  const std::vector<double> lats = corners_of_bounds(file, lat, lat_bounds, places, of_each_lat);
+  const std::vector<double> lons = corners_of_bounds(file, lon, lat, lon_bounds, places, of_each);
+  const std::vector<double> lats =
+      corners_of_bounds(file, lat, lon, lat_bounds, places, of_each_lat);
   if (of_each != of_each_lat || lons.size() != lats.size() || lons.size() >= no_index) {
     throw BadValue("variables " + io::in_quotes(lon_bounds.name) + " and " +
                    io::in_quotes(lat_bounds.name) + " have not as many corners");
@@ -258,11 +265,15 @@ MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
   const auto bounds = [&](std::size_t index) {
     return index == no_variable ? nullptr : &grids.variable(index);
   };
-  mesh.grid = LonLatGrid{lines_of(file, lon, bounds(pair.lon_bounds), true),
-                         lines_of(file, lat, bounds(pair.lat_bounds), false)};
+  const MeshVariable* const lon_bounds = bounds(pair.lon_bounds);
+  const MeshVariable* const lat_bounds = bounds(pair.lat_bounds);
+  mesh.grid = LonLatGrid{lines_of(file, lon, lat, lon_bounds, true),
+                         lines_of(file, lat, lon, lat_bounds, false)};
   mesh.shape = {lat.num_values, lon.num_values};
-  const std::vector<double> lons = io::degrees_of(file, lon);
-  const std::vector<double> lats = io::degrees_of(file, lat);
+  const std::vector<double> lons =
+      io::degrees_of(file, lon, UsualUnits::of_name, {lon_bounds, &lat});
+  const std::vector<double> lats =
+      io::degrees_of(file, lat, UsualUnits::of_name, {lat_bounds, &lon});
   const std::string name = io::in_quotes(lat.name);
   for (std::size_t j = 0; j < lats.size(); ++j) {
     for (const double at : lons) mesh.centers.push_back(require_position(name, j, {at, lats[j]}));

@@ -34,11 +34,10 @@ std::vector<std::string> words_of(const std::string& text) {
 }
 
 // Of the variables that the attribute names the longitudes and latitudes: as they say it, or else the first two.
-std::pair<const MeshVariable*, const MeshVariable*> coordinates_of(const NetcdfReader& file,
-                                                                   const MeshVariable& of,
-                                                                   const char* attribute) {
+MeshCoordinates coordinates_of(const NetcdfReader& file, const MeshVariable& of,
+                               const char* attribute) {
   const std::vector<std::string> names = words_of(io::netcdf_text(of.attributes, attribute));
-  if (names.size() < 2) return {nullptr, nullptr};
+  if (names.size() < 2) return {};
   const MeshVariable* lon = nullptr;
   const MeshVariable* lat = nullptr;
   for (const std::string& name : names) {
@@ -57,12 +56,13 @@ std::pair<const MeshVariable*, const MeshVariable*> coordinates_of(const NetcdfR
 }
 
 // One variable with both coordinates of each place, as ESMF has them.
-std::vector<LonLat> pairs_of(const NetcdfReader& file, const MeshVariable& variable) {
+std::vector<LonLat> pairs_of(const NetcdfReader& file, const MeshVariable& variable,
+                             const MeshVariable* related) {
   if (require_rank(variable, 2).shape[1] != 2) {
     throw BadValue("variable " + io::in_quotes(variable.name) + " has " +
                    std::to_string(variable.shape[1]) + " coordinates instead of 2");
   }
-  const std::vector<double> values = io::degrees_of(file, variable, UsualUnits::degrees);
+  const std::vector<double> values = io::degrees_of(file, variable, UsualUnits::degrees, {related});
   std::vector<LonLat> places;
   for (std::size_t i = 0; i + 1 < values.size(); i += 2) {
     places.push_back({values[i], values[i + 1]});
@@ -109,12 +109,13 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::strin
   MeshContent mesh;
   const MeshVariable* const topology = topology_of(file, name, mesh);
   if (topology == nullptr) return std::nullopt;
-  const auto [lon, lat] = coordinates_of(file, *topology, "node_coordinates");
-  if (lon == nullptr) {
+  const MeshCoordinates nodes = coordinates_of(file, *topology, "node_coordinates");
+  const MeshCoordinates centers = coordinates_of(file, *topology, "face_coordinates");
+  if (nodes.lon == nullptr) {
     throw BadValue("variable " + io::in_quotes(topology->name) + " names no node_coordinates");
   }
   mesh.convention = "UGRID";
-  take_nodes(file, *lon, *lat, UsualUnits::degrees, mesh);
+  take_nodes(file, nodes, centers, UsualUnits::degrees, mesh);
   const MeshVariable& faces = require_rank(
       file.require(io::netcdf_text(topology->attributes, "face_node_connectivity")), 2);
   const std::string dimension = io::netcdf_text(topology->attributes, "face_dimension");
@@ -125,8 +126,7 @@ std::optional<MeshContent> read_ugrid(const NetcdfReader& file, const std::strin
   const std::uint64_t of_each = faces.shape[is_transposed ? 0 : 1];
   const double first = number_or(faces, "start_index", 0);
   take_connectivity(file, {faces, num_cells, of_each, is_transposed, first, first}, {}, mesh);
-  const auto [center_lon, center_lat] = coordinates_of(file, *topology, "face_coordinates");
-  take_centers(file, center_lon, center_lat, UsualUnits::degrees, mesh);
+  take_centers(file, centers, nodes, UsualUnits::degrees, mesh);
   return mesh;
 }
 
@@ -137,17 +137,17 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::
   MeshContent mesh;
   mesh.convention = "SCRIP";
   (void)require_rank(*lon, 2);
-  const MeshVariable* const center_lon = file.find("grid_center_lon");
-  const bool is_transposed = center_lon != nullptr && center_lon->dimensions.size() == 1 &&
-                             center_lon->dimensions[0] == lon->dimensions[1] &&
-                             center_lon->dimensions[0] != lon->dimensions[0];
+  const MeshCoordinates centers = {file.find("grid_center_lon"), file.find("grid_center_lat")};
+  const bool is_transposed = centers.lon != nullptr && centers.lon->dimensions.size() == 1 &&
+                             centers.lon->dimensions[0] == lon->dimensions[1] &&
+                             centers.lon->dimensions[0] != lon->dimensions[0];
   const std::uint64_t num_cells = lon->shape[is_transposed ? 1 : 0];
   if (num_cells == 0 || lon->num_values >= no_index) {
     throw BadValue("variable " + io::in_quotes(lon->name) + " has " +
                    std::to_string(lon->num_values) + " values for " + std::to_string(num_cells) +
                    " cells");
   }
-  take_nodes(file, *lon, *lat, UsualUnits::degrees, mesh);
+  take_nodes(file, {lon, lat}, centers, UsualUnits::degrees, mesh);
   const std::uint64_t of_each = lon->num_values / num_cells;
   if (is_transposed) {
     std::vector<LonLat> nodes;
@@ -161,7 +161,7 @@ std::optional<MeshContent> read_scrip_grid(const NetcdfReader& file, const std::
   }
   end_cells_of_nodes(of_each, mesh.shape.size() < 2, mesh);
   take_mask(file, "grid_imask", mesh);
-  take_centers(file, center_lon, file.find("grid_center_lat"), UsualUnits::degrees, mesh);
+  take_centers(file, centers, {lon, lat}, UsualUnits::degrees, mesh);
   return mesh;
 }
 
@@ -173,7 +173,8 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::s
   if (!is_meant(file, name, numbers)) return std::nullopt;
   MeshContent mesh;
   mesh.convention = "ESMF";
-  mesh.nodes = pairs_of(file, *nodes);
+  const MeshVariable* const centers = file.find("centerCoords");
+  mesh.nodes = pairs_of(file, *nodes, centers);
   mesh.names = io::in_quotes(nodes->name);
   mesh.is_single = nodes->type == io::NetcdfType::float32;
   const std::vector<double> counts = file.numbers(numbers);
@@ -194,8 +195,8 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::s
         counts, mesh);
   }
   take_mask(file, "elementMask", mesh);
-  if (const MeshVariable* const centers = file.find("centerCoords")) {
-    mesh.centers = pairs_of(file, *centers);
+  if (centers != nullptr) {
+    mesh.centers = pairs_of(file, *centers, nodes);
     if (mesh.centers.size() != counts.size()) mesh.centers.clear();
   }
   return mesh;
@@ -209,7 +210,9 @@ std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string
   }
   MeshContent mesh;
   mesh.convention = "MPAS";
-  take_nodes(file, file.require("lonVertex"), file.require("latVertex"), UsualUnits::radians, mesh);
+  const MeshCoordinates nodes = {&file.require("lonVertex"), &file.require("latVertex")};
+  const MeshCoordinates centers = {file.find("lonCell"), file.find("latCell")};
+  take_nodes(file, nodes, centers, UsualUnits::radians, mesh);
   const std::vector<double> counts = file.numbers(file.require("nEdgesOnCell"));
   require_rank(*vertices, 2);
   if (counts.size() != vertices->shape[0]) {
@@ -219,7 +222,7 @@ std::optional<MeshContent> read_mpas(const NetcdfReader& file, const std::string
   }
   take_connectivity(file, {*vertices, vertices->shape[0], vertices->shape[1], false, 1, 1}, counts,
                     mesh);
-  take_centers(file, file.find("lonCell"), file.find("latCell"), UsualUnits::radians, mesh);
+  take_centers(file, centers, nodes, UsualUnits::radians, mesh);
   return mesh;
 }
 
@@ -232,11 +235,12 @@ std::optional<MeshContent> read_icon(const NetcdfReader& file, const std::string
   }
   MeshContent mesh;
   mesh.convention = "ICON";
-  take_nodes(file, *lon, *lat, UsualUnits::radians, mesh);
+  const MeshCoordinates centers = {file.find("clon"), file.find("clat")};
+  take_nodes(file, {lon, lat}, centers, UsualUnits::radians, mesh);
   require_rank(*vertices, 2);
   take_connectivity(file, {*vertices, vertices->shape[1], vertices->shape[0], true, 1, 1}, {},
                     mesh);
-  take_centers(file, file.find("clon"), file.find("clat"), UsualUnits::radians, mesh);
+  take_centers(file, centers, {lon, lat}, UsualUnits::radians, mesh);
   return mesh;
 }
 

@@ -4,6 +4,7 @@
 // The conventions by which netCDF holds cells, one function each.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -59,11 +60,21 @@ using io::UsualUnits;
 // Whether no variable is named, or one that has a dimension of `cells`.
 bool is_meant(const io::NetcdfReader& file, const std::string& name, const MeshVariable& cells);
 
-// Two variables as positions in degrees. Throws BadValue if they are not of one length.
-std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshVariable& lon,
-                                 const MeshVariable& lat, UsualUnits usual);
-void take_nodes(const io::NetcdfReader& file, const MeshVariable& lon, const MeshVariable& lat,
-                UsualUnits usual, MeshContent& mesh);
+// Variables of longitudes and latitudes; null: none.
+struct MeshCoordinates {
+  const MeshVariable* lon = nullptr;
+  const MeshVariable* lat = nullptr;
+};
+// Longitudes, then latitudes in degrees. A variable without units has those of the related one, or else of another one of the four.
+std::array<std::vector<double>, 2> degrees_of_both(const io::NetcdfReader& file,
+                                                   const MeshCoordinates& wanted,
+                                                   const MeshCoordinates& related,
+                                                   UsualUnits usual);
+// The same as positions. Throws BadValue if the variables are not of one length.
+std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshCoordinates& wanted,
+                                 const MeshCoordinates& related, UsualUnits usual);
+void take_nodes(const io::NetcdfReader& file, const MeshCoordinates& nodes,
+                const MeshCoordinates& centers, UsualUnits usual, MeshContent& mesh);
 bool is_missing_place(const LonLat& place);
 // The place, its latitude not beyond a pole by rounding. Throws BadValue with i and the names of the variables if there is no such
 // place.
@@ -84,8 +95,8 @@ void take_connectivity(const io::NetcdfReader& file, const Connectivity& connect
                        const std::vector<double>& counts, MeshContent& mesh);
 // 0 and not 0, of the number of cells.
 void take_mask(const io::NetcdfReader& file, std::string_view name, MeshContent& mesh);
-void take_centers(const io::NetcdfReader& file, const MeshVariable* lon, const MeshVariable* lat,
-                  UsualUnits usual, MeshContent& mesh);
+void take_centers(const io::NetcdfReader& file, const MeshCoordinates& centers,
+                  const MeshCoordinates& nodes, UsualUnits usual, MeshContent& mesh);
 // Leaves out the cells that have a corner at no place: their rings go, their mask becomes 0, and how many they are becomes a remark.
 // Throws BadValue for other nodes that are no places.
 void leave_out_cells_without_corners(MeshContent& mesh);

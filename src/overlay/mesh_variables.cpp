@@ -74,11 +74,20 @@ bool is_missing_place(const LonLat& place) {
   return std::isnan(place.lon_deg) || std::isnan(place.lat_deg);
 }
 
-std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshVariable& lon,
-                                 const MeshVariable& lat, UsualUnits usual) {
+std::array<std::vector<double>, 2> degrees_of_both(const io::NetcdfReader& file,
+                                                   const MeshCoordinates& wanted,
+                                                   const MeshCoordinates& related,
+                                                   UsualUnits usual) {
+  return {io::degrees_of(file, *wanted.lon, usual, {related.lon, wanted.lat, related.lat}),
+          io::degrees_of(file, *wanted.lat, usual, {related.lat, wanted.lon, related.lon})};
+}
+
+std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshCoordinates& wanted,
+                                 const MeshCoordinates& related, UsualUnits usual) {
+  const MeshVariable& lon = *wanted.lon;
+  const MeshVariable& lat = *wanted.lat;
   require_values(lat, lon.num_values);
-  const std::vector<double> lons = io::degrees_of(file, lon, usual);
-  std::vector<double> lats = io::degrees_of(file, lat, usual);
+  auto [lons, lats] = degrees_of_both(file, wanted, related, usual);
   if (lon.dimensions != lat.dimensions &&
       std::ranges::is_permutation(lon.dimensions, lat.dimensions)) {
     lats = io::in_order(lat, lon.dimensions, std::move(lats));
@@ -97,11 +106,11 @@ LonLat require_position(const std::string& names, std::size_t i, const LonLat& p
   return {place.lon_deg, std::clamp(place.lat_deg, -90.0, 90.0)};
 }
 
-void take_nodes(const io::NetcdfReader& file, const MeshVariable& lon, const MeshVariable& lat,
-                UsualUnits usual, MeshContent& mesh) {
-  mesh.nodes = positions_of(file, lon, lat, usual);
-  mesh.names = io::in_quotes(lon.name) + " and " + io::in_quotes(lat.name);
-  mesh.is_single = lon.type == io::NetcdfType::float32;
+void take_nodes(const io::NetcdfReader& file, const MeshCoordinates& nodes,
+                const MeshCoordinates& centers, UsualUnits usual, MeshContent& mesh) {
+  mesh.nodes = positions_of(file, nodes, centers, usual);
+  mesh.names = io::in_quotes(nodes.lon->name) + " and " + io::in_quotes(nodes.lat->name);
+  mesh.is_single = nodes.lon->type == io::NetcdfType::float32;
 }
 
 void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mesh) {
@@ -188,11 +197,11 @@ void take_mask(const io::NetcdfReader& file, std::string_view name, MeshContent&
   }
 }
 
-void take_centers(const io::NetcdfReader& file, const MeshVariable* lon, const MeshVariable* lat,
-                  UsualUnits usual, MeshContent& mesh) {
-  if (lon == nullptr || lat == nullptr) return;
-  require_values(*lon, mesh.cells.size() - 1);
-  mesh.centers = positions_of(file, *lon, *lat, usual);
+void take_centers(const io::NetcdfReader& file, const MeshCoordinates& centers,
+                  const MeshCoordinates& nodes, UsualUnits usual, MeshContent& mesh) {
+  if (centers.lon == nullptr || centers.lat == nullptr) return;
+  require_values(*centers.lon, mesh.cells.size() - 1);
+  mesh.centers = positions_of(file, centers, nodes, usual);
 }
 
 void leave_out_cells_without_corners(MeshContent& mesh) {

@@ -65,10 +65,33 @@ TEST(conventions, what_has_no_units_has_those_of_its_convention) {
   EXPECT_NEAR(degrees_per_unit(header("vlat", {"vertex"}, {{"units", " "}})), 57.3, 0.1);
   EXPECT_EQ(degrees_per_unit(header("lon", {"lon"})), 1);
   const VariableHeader radians = header("clon", {"cell"}, {{"units", "radian"}});
-  EXPECT_NEAR(degrees_per_unit(header("clon_bnds", {"cell", "nv"}), &radians), 57.3, 0.1);
+  const VariableHeader* const of_bounds[] = {&radians};
+  EXPECT_NEAR(degrees_per_unit(header("clon_bnds", {"cell", "nv"}), of_bounds), 57.3, 0.1);
   const VariableHeader own = header("clon_bnds", {"cell", "nv"}, {{"units", "degrees"}});
-  EXPECT_EQ(degrees_per_unit(own, &radians), 1);
+  EXPECT_EQ(degrees_per_unit(own, of_bounds), 1);
   EXPECT_THROW((void)degrees_per_unit(header("x", {"x"}, {{"units", "m"}})), InvalidInput);
+}
+
+TEST(conventions, what_has_no_units_has_those_of_the_first_relative_with_some) {
+  const VariableHeader none = header("lon_corners", {"cell", "nv"});
+  const VariableHeader lon = header("lon", {"cell"});
+  const VariableHeader blank = header("lon", {"cell"}, {{"units", " "}});
+  const VariableHeader west = header("lon", {"cell"}, {{"units", "degrees_west"}});
+  const VariableHeader radians = header("lat", {"cell"}, {{"units", "radians"}});
+  const VariableHeader meters = header("lat", {"cell"}, {{"units", "m"}});
+  const auto unit = [&](const VariableHeader* first, const VariableHeader* second) {
+    const VariableHeader* const relatives[] = {first, second};
+    return degrees_per_unit(none, relatives);
+  };
+  EXPECT_EQ(unit(nullptr, nullptr), 1);
+  EXPECT_EQ(unit(&lon, &blank), 1);
+  for (const VariableHeader* const first : {&lon, &blank}) {
+    EXPECT_NEAR(unit(first, &radians), 57.3, 0.1);
+  }
+  EXPECT_NEAR(unit(nullptr, &radians), 57.3, 0.1);
+  EXPECT_EQ(unit(&west, &radians), -1);  // corners are west as the centers are
+  EXPECT_EQ(unit(nullptr, &west), 1);    // latitudes are not
+  EXPECT_THROW((void)unit(&lon, &meters), InvalidInput);
 }
 
 TEST(conventions, coordinates_are_found_by_attributes_then_names) {

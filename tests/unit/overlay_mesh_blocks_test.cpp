@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -198,6 +199,22 @@ TEST(overlay_mesh_blocks, oasis_with_a_mask) {
   ASSERT_EQ(table.num_cells(), 6U);
   EXPECT_EQ(table.cells.cells, (std::vector<std::uint64_t>{0, 1, 2, 3, 4, 5, 6}));
   EXPECT_EQ(table.centers[4], (LonLat{15, 7.5}));
+}
+
+TEST(overlay_mesh_blocks, oasis_corners_without_units_have_those_of_the_centers) {
+  MeshWriter file;
+  const MeshWriter::Dimensions corners = {{"crn_toce", 4}, {"y_toce", 1}, {"x_toce", 1}};
+  const MeshWriter::Dimensions cells = {{"y_toce", 1}, {"x_toce", 1}};
+  file.add("toce.lon", cells, {1.25}, {{"units", "radians"}});
+  file.add("toce.lat", cells, {0.25});
+  file.add("toce.clo", corners, {1, 1.5, 1.5, 1});
+  file.add("toce.cla", corners, {0, 0, 0.5, 0.5});
+  const CellTable table = cells_of_file(file);
+  ASSERT_EQ(table.centers.size(), 1U);
+  EXPECT_NEAR(table.centers[0].lat_deg, 0.25 * 180 / std::numbers::pi, 1e-13);
+  double north = 0;
+  for (const Point& corner : table.cells.points) north = std::max(north, corner.z);
+  EXPECT_NEAR(north, std::sin(0.5), 1e-15);
 }
 
 }  // namespace

@@ -156,6 +156,38 @@ TEST(overlay_mesh_files, scrip) {
   for (std::size_t i = 0; i < num_sites; ++i) EXPECT_EQ(table.mask[i], i == 7 ? 0 : 1);
 }
 
+// Radians everywhere, of which one of the four variables says so.
+TEST(overlay_mesh_files, scrip_coordinates_without_units_have_those_of_the_others) {
+  const MeshOfDiagram mesh(6);
+  constexpr double degree = std::numbers::pi / 180;
+  const MeshWriter::Dimensions cells = {{"grid_size", num_sites}};
+  const MeshWriter::Dimensions corners = {{"grid_size", num_sites}, {"grid_corners", mesh.most}};
+  const auto corners_in_radians = [&](const std::vector<double>& values) {
+    return scaled_by(mesh.corners([&](std::size_t node) { return values[node]; },
+                                  [&](const auto& ring) { return values[ring.back()]; }),
+                     degree);
+  };
+  for (const std::string with_units :
+       {"grid_corner_lon", "grid_corner_lat", "grid_center_lon", "grid_center_lat"}) {
+    MeshWriter file;
+    const auto add = [&](const std::string& name, const MeshWriter::Dimensions& dimensions,
+                         const std::vector<double>& values) {
+      MeshWriter::Texts texts;
+      if (name == with_units) texts = {{"units", "radians"}};
+      file.add(name, dimensions, values, texts);
+    };
+    add("grid_corner_lon", corners, corners_in_radians(mesh.lon));
+    add("grid_corner_lat", corners, corners_in_radians(mesh.lat));
+    add("grid_center_lon", cells, std::vector<double>(num_sites, 1.5));
+    add("grid_center_lat", cells, std::vector<double>(num_sites, -0.5));
+    const CellTable table = table_of(file);
+    expect_diagram(table, mesh, "SCRIP");
+    ASSERT_EQ(table.centers.size(), num_sites) << with_units;
+    EXPECT_NEAR(table.centers[3].lon_deg, 1.5 / degree, 1e-12) << with_units;
+    EXPECT_NEAR(table.centers[3].lat_deg, -0.5 / degree, 1e-12) << with_units;
+  }
+}
+
 TEST(overlay_mesh_files, lengths_that_do_not_multiply_to_the_cells) {
   const MeshOfDiagram mesh(2);
   const auto file_with = [&](const std::vector<double>& lengths) {
@@ -195,6 +227,24 @@ TEST(overlay_mesh_files, esmf) {
   }
   file.add("nodeCoords", {{"nodeCount", mesh.lon.size()}, {"coordDim", 2}}, pairs,
            {{"units", "degrees"}});
+  file.add_whole("elementConn", {{"elementCount", num_sites}, {"maxNodePElement", mesh.most}},
+                 mesh.corners(counted_from_1, [](const auto&) { return -1; }), {},
+                 {{"_FillValue", -1}});
+  file.add_whole("numElementConn", {{"elementCount", num_sites}}, mesh.counts());
+  expect_diagram(table_of(file), mesh, "ESMF");
+}
+
+TEST(overlay_mesh_files, esmf_nodes_without_units_have_those_of_the_centers) {
+  const MeshOfDiagram mesh(3);
+  MeshWriter file;
+  constexpr double degree = std::numbers::pi / 180;
+  std::vector<double> pairs;
+  for (std::size_t i = 0; i < mesh.lon.size(); ++i) {
+    pairs.insert(pairs.end(), {mesh.lon[i] * degree, mesh.lat[i] * degree});
+  }
+  file.add("nodeCoords", {{"nodeCount", mesh.lon.size()}, {"coordDim", 2}}, pairs);
+  file.add("centerCoords", {{"elementCount", num_sites}, {"coordDim", 2}},
+           std::vector<double>(2 * num_sites, 0.25), {{"units", "radians"}});
   file.add_whole("elementConn", {{"elementCount", num_sites}, {"maxNodePElement", mesh.most}},
                  mesh.corners(counted_from_1, [](const auto&) { return -1; }), {},
                  {{"_FillValue", -1}});

@@ -43,12 +43,16 @@ PairOut pair_out(const std::vector<VariableHeader>& headers, const CoordinatePai
   for (const std::size_t index : {pair.lon, pair.lat, pair.lon_bounds, pair.lat_bounds}) {
     indices.push_back(index == CoordinatePair::none ? -1 : static_cast<std::int64_t>(index));
   }
-  units = {degrees_per_unit(headers[pair.lon]), degrees_per_unit(headers[pair.lat])};
-  for (const auto& [bounds, of] :
-       {std::pair(pair.lon_bounds, pair.lon), std::pair(pair.lat_bounds, pair.lat)}) {
-    units.push_back(
-        bounds == CoordinatePair::none ? 1 : degrees_per_unit(headers[bounds], &headers[of]));
-  }
+  const auto header_at = [&](std::size_t index) {
+    return index == CoordinatePair::none ? nullptr : &headers[index];
+  };
+  const VariableHeader* const lon[] = {header_at(pair.lon_bounds), &headers[pair.lat]};
+  const VariableHeader* const lat[] = {header_at(pair.lat_bounds), &headers[pair.lon]};
+  const VariableHeader* const lon_bounds[] = {&headers[pair.lon], &headers[pair.lat]};
+  const VariableHeader* const lat_bounds[] = {&headers[pair.lat], &headers[pair.lon]};
+  units = {degrees_per_unit(headers[pair.lon], lon), degrees_per_unit(headers[pair.lat], lat),
+           lon[0] == nullptr ? 1 : degrees_per_unit(*lon[0], lon_bounds),
+           lat[0] == nullptr ? 1 : degrees_per_unit(*lat[0], lat_bounds)};
   are_axes = pair.are_axes;
   rank = pair.rank;
   return out;
