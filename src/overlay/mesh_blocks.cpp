@@ -6,6 +6,7 @@
 // 1. OASIS: grids.nc, several grids in one file by the beginnings of their variables' names (OASIS3-MCT user guide, section 5.1)
 // 2. Exodus II: blocks of elements with as many corners each, at points in space (Schoof and Yarberry, SAND92-2137)
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -95,6 +96,61 @@ std::vector<Point> points_of_exodus(const NetcdfReader& file) {
   return points;
 }
 
+// The blocks' numbers one after the other: `global_id1`, `global_id2` ... as TempestRemap has them. Empty if a block has none.
+std::vector<double> ids_of_blocks(const NetcdfReader& file, std::size_t num_blocks) {
+  std::vector<double> ids;
+  for (std::size_t block = 1; block <= num_blocks; ++block) {
+    const MeshVariable* const of_block = file.find("global_id" + std::to_string(block));
+    if (of_block == nullptr) return {};
+    const std::vector<double> numbers = file.numbers(*of_block);
+    ids.insert(ids.end(), numbers.begin(), numbers.end());
+  }
+  return ids;
+}
+
+// The place of each number among `numbers`; empty if they are not 1 to n, each once.
+std::vector<std::size_t> places_of_numbers(const std::vector<double>& numbers, std::size_t n) {
+  std::vector<std::size_t> places(n, n);
+  if (numbers.size() != n) return {};
+  for (std::size_t k = 0; k < n; ++k) {
+    const double number = numbers[k];
+    if (!(number >= 1 && number <= static_cast<double>(n)) || number != std::floor(number))
+      return {};
+    std::size_t& place = places[static_cast<std::size_t>(number) - 1];
+    if (place != n) return {};
+    place = k;
+  }
+  return places;
+}
+
+// Puts the cells into the order of their numbers: the blocks have them by their number of corners.
+void order_by_number(const NetcdfReader& file, std::size_t num_blocks, MeshContent& mesh) {
+  const std::size_t n = mesh.cells.size() - 1;
+  const MeshVariable* const map = file.find("elem_num_map");
+  std::vector<std::size_t> places;
+  if (map != nullptr) places = places_of_numbers(file.numbers(*map), n);
+  if (places.empty()) places = places_of_numbers(ids_of_blocks(file, num_blocks), n);
+  if (places.empty()) {
+    if (map == nullptr) return;
+    mesh.remarks.push_back("the numbers of " + io::in_quotes(map->name) + " are not 1 to " +
+                           std::to_string(n) + ", each once: cells are in the order of the blocks");
+    return;
+  }
+  MeshContent ordered;
+  for (const std::size_t place : places) {
+    for (std::uint64_t ring = mesh.cells[place]; ring < mesh.cells[place + 1]; ++ring) {
+      for (std::uint64_t k = mesh.rings[ring]; k < mesh.rings[ring + 1]; ++k) {
+        ordered.corners.push_back(mesh.corners[k]);
+      }
+      ordered.end_ring();
+    }
+    ordered.end_cell();
+  }
+  mesh.corners = std::move(ordered.corners);
+  mesh.rings = std::move(ordered.rings);
+  mesh.cells = std::move(ordered.cells);
+}
+
 }  // namespace
 
 std::optional<MeshContent> read_oasis(const NetcdfReader& file, const std::string& name) {
@@ -144,15 +200,17 @@ std::optional<MeshContent> read_exodus(const NetcdfReader& file, const std::stri
   mesh.nodes = lonlats(points_of_exodus(file));
   mesh.names = "the coordinates";
   std::size_t num_along_parallels = 0;
-  for (std::size_t block = 1;; ++block) {
-    const MeshVariable* const corners = file.find("connect" + std::to_string(block));
-    if (corners == nullptr) break;
+  std::size_t num_blocks = 0;
+  while (const MeshVariable* const corners =
+             file.find("connect" + std::to_string(num_blocks + 1))) {
+    const std::size_t block = ++num_blocks;
     const auto& shape = require_rank(*corners, 2).shape;
     take_connectivity(file, {*corners, shape[0], shape[1], false, 1, 1}, {}, mesh);
     if (const MeshVariable* const kinds = file.find("edge_type" + std::to_string(block))) {
       for (const double kind : file.numbers(*kinds)) num_along_parallels += kind == 1 ? 1U : 0U;
     }
   }
+  order_by_number(file, num_blocks, mesh);
   if (num_along_parallels > 0) {
     mesh.remarks.push_back(std::to_string(num_along_parallels) +
                            " sides along parallels (edge_type) are taken for great circles");

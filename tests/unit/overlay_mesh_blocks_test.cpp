@@ -166,6 +166,56 @@ TEST(overlay_mesh_blocks, axes_of_the_places_that_a_variable_names) {
   }
 }
 
+// The seven cells of the cube, told apart by their numbers of corners and the areas: a numbering that mixes the two blocks.
+TEST(overlay_mesh_blocks, exodus_cells_are_in_the_order_of_their_numbers) {
+  const auto table = [](const std::vector<std::pair<std::string, Doubles>>& numbers) {
+    MeshWriter file;
+    for (const unsigned bit : {0U, 1U, 2U}) {
+      file.add("coord" + std::string(1, "xyz"[bit]), {{"num_nodes", 8}}, coordinates_of_cube(bit));
+    }
+    add_blocks(file);
+    for (const auto& [name, values] : numbers) {
+      file.add_whole(name, {{"of_" + name, values.size()}}, values);
+    }
+    return cells_of_file(file);
+  };
+  const auto counts = [](const CellTable& cells) {
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < cells.num_cells(); ++i) {
+      const std::uint64_t ring = cells.cells.cells[i];
+      result.push_back(cells.cells.rings[ring + 1] - cells.cells.rings[ring]);
+    }
+    return result;
+  };
+  const std::vector<std::size_t> of_blocks = {4, 4, 4, 4, 4, 3, 3};
+  const std::vector<std::size_t> by_number = {3, 4, 4, 3, 4, 4, 4};
+  const Doubles numbers = {7, 2, 3, 5, 6, 1, 4};
+  const CellTable plain = table({});
+  EXPECT_EQ(counts(plain), of_blocks);
+  const CellTable mapped = table({{"elem_num_map", numbers}});
+  EXPECT_EQ(counts(mapped), by_number);
+  EXPECT_TRUE(mapped.remarks.empty());
+  const std::vector<Point> in_blocks = partition_of(plain).centers();
+  const std::vector<Point> ordered = partition_of(mapped).centers();
+  for (std::size_t k = 0; k < numbers.size(); ++k) {
+    EXPECT_EQ(ordered[static_cast<std::size_t>(numbers[k]) - 1], in_blocks[k]) << k;
+  }
+  const std::pair<std::string, Doubles> first = {"global_id1", {7, 2, 3, 5, 6}};
+  const std::pair<std::string, Doubles> second = {"global_id2", {1, 4}};
+  EXPECT_EQ(counts(table({first, second})), by_number);
+  EXPECT_EQ(counts(table({first})), of_blocks);
+  // Numbers of a part of a larger mesh say nothing of the order; one twice does not either.
+  for (const Doubles& others : {Doubles{7, 2, 3, 5, 6, 1, 8}, Doubles{7, 2, 3, 5, 6, 1, 1},
+                                Doubles{7, 2, 3, 5, 6, 0, 4}, Doubles{1, 2, 3}}) {
+    const CellTable left = table({{"elem_num_map", others}});
+    EXPECT_EQ(counts(left), of_blocks);
+    EXPECT_EQ(left.remarks, (std::vector<std::string>{
+                                "the numbers of \"elem_num_map\" are not 1 to 7, each once: "
+                                "cells are in the order of the blocks"}));
+    EXPECT_EQ(counts(table({{"elem_num_map", others}, first, second})), by_number);
+  }
+}
+
 // The mask of OASIS is 1 where a cell takes no part, and its corners are the first dimension.
 TEST(overlay_mesh_blocks, oasis_with_a_mask) {
   MeshWriter file;
