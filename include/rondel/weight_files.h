@@ -20,7 +20,7 @@ namespace rondel {
 
 /// What a file says of the sources or of the targets of its weights; any of the arrays may be empty.
 struct WeightSide {
-  std::vector<LonLat> points;        ///< centers of cells, or sites
+  std::vector<LonLat> points;        ///< centers of cells, or sites; NaN of what has no place
   std::vector<double> areas;         ///< steradians
   std::vector<double> fractions;     ///< the share of a cell that takes part
   std::vector<std::int32_t> mask;    ///< 0: takes no part
@@ -61,7 +61,7 @@ RONDEL_API void write_weights(const FileName& file, const WeightFile& content,
 /// fractions that are all 0, masks that are all 1, and cells of one corner are not there.
 RONDEL_API WeightFile read_weights(const FileName& file);
 
-/// Longitudes and latitudes of the rays from the origin through points; longitude 0 at the poles.
+/// Longitudes and latitudes of the rays from the origin through points; longitude 0 at the poles, NaN for the origin.
 RONDEL_API std::vector<LonLat> lonlats(std::span<const Point> points);
 
 }  // namespace rondel

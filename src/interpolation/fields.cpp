@@ -121,9 +121,9 @@ class TableSink : public FieldSink {
       };
       if (!points.empty()) {
         separate();
-        io::append_number(text, points[i].lon_deg);
+        if (!std::isnan(points[i].lon_deg)) io::append_number(text, points[i].lon_deg);
         separate();
-        io::append_number(text, points[i].lat_deg);
+        if (!std::isnan(points[i].lat_deg)) io::append_number(text, points[i].lat_deg);
       }
       for (const Column& column : job_.side.columns) {
         separate();

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "interpolation/weight_formats.h"
 #include "io/bad_value.h"
@@ -99,6 +100,11 @@ std::vector<LonLat> lonlats(std::span<const Point> points) {
   std::vector<LonLat> result;
   result.reserve(points.size());
   for (const Point& point : points) {
+    if (point == Point{0, 0, 0}) {  // no ray goes through it
+      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+      result.push_back({nan, nan});
+      continue;
+    }
     const Point u = map::direction(point, {});
     if (map::is_pole(u)) {
       result.push_back({0, std::copysign(90.0, u.z)});

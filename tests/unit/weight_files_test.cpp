@@ -153,6 +153,30 @@ TEST(weight_files, of_esmf_have_points_as_cells_of_one_corner) {
   EXPECT_THROW(write_weights(directory.file("w.nc"), none), InvalidInput);
 }
 
+TEST(weight_files, have_no_place_for_cells_without_one) {
+  const std::vector<Point> points = {{0, 0, 0}, {0, 0, -2}, {3, 0, 0}};
+  const std::vector<LonLat> places = lonlats(points);
+  EXPECT_TRUE(std::isnan(places[0].lon_deg) && std::isnan(places[0].lat_deg));
+  EXPECT_EQ(places[1], (LonLat{0, -90}));
+  EXPECT_EQ(places[2], (LonLat{0, 0}));
+  const TemporaryDirectory directory;
+  WeightSide side;
+  side.points = places;
+  FieldSet fields;
+  fields.num_points = 3;
+  FieldArray array;
+  array.name = "v";
+  array.values = {std::numeric_limits<double>::quiet_NaN(), 2, 3};
+  fields.arrays.push_back(array);
+  const std::string table = directory.file("a.csv");
+  write_fields(table, fields, side);
+  EXPECT_EQ(read_all(table), "lon,lat,v\n,,\n0,-90,2\n0,0,3\n");
+  const std::string file = directory.file("a.nc");
+  write_fields(file, fields, side);
+  const FieldSet read = read_fields(file, {}, 0);
+  EXPECT_EQ(read.num_without_place, 1U);
+}
+
 TEST(weight_files, may_have_no_entries) {
   const TemporaryDirectory directory;
   WeightFile content;
