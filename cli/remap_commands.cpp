@@ -116,6 +116,8 @@ Command add_check_weights_command(CLI::App& tool) {
       "  of its target; where sources are given to their nearest targets (nearest_d2s, nearest\n"
       "  destination to source), a source with entries is not given away as a whole, once;\n"
       "- a fraction is above 1, negative or not a number, or an area negative or not finite;\n"
+      "- cells of a conservative method with entries have no areas, or areas that are all 0, but\n"
+      "  those of the other side have some;\n"
       "- a weight is negative although the method is an average: conservative of first order,\n"
       "  nearest, linear, laplace, sibson, largest share. Weights of second order, bilinear,\n"
       "  patch, hermite and cubic may be negative, and those of methods that are not known;\n"

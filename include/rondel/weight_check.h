@@ -58,7 +58,7 @@ struct WeightCheckOptions {
 /// | `negative` | a weight is negative, though the method is an average: conservative of first order, |
 /// |            | nearest, linear, laplace, sibson, or the largest share |
 /// | `target fraction`, `source fraction` | a fraction is negative, above 1 or not a number |
-/// | `target area`, `source area` | an area is negative or not finite |
+/// | `target area`, `source area` | an area is negative or not finite, or no cell of one side has an area, though a conservative method gives it entries and the other side has areas |
 /// | `missing row` | a conservative method gives no entry to a target whose fraction is not 0 |
 /// | `conservation` | what a conservative method takes of a source, weights times areas of targets, is |
 /// |                | not the area of the source times its fraction |

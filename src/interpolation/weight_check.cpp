@@ -180,10 +180,25 @@ class WeightChecker {
     }
   }
 
+  // Cells that share pieces with those of an area have one.
+  void check_areas_of_one_side() {
+    if (!method_.is_conservative) return;
+    const bool is_of_targets = file_.target.areas.empty();
+    const std::string word = is_of_targets ? "target" : "source";
+    FaultCounter faults(word + " area", "area of a " + word + " with entries is 0",
+                        "areas of " + word + "s with entries are 0");
+    const std::vector<std::size_t> entries = is_of_targets ? entries_of_rows() : entries_of_column_;
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (entries[i] > 0) faults.add(word + ' ' + std::to_string(i), 0);
+    }
+    faults.move_to(side_faults_);
+  }
+
   // What all targets take of a source is the part of it that they cover.
   void check_columns() {
     const std::vector<double>& to = file_.target.areas;
     const std::vector<double>& from = file_.source.areas;
+    if (to.empty() != from.empty()) check_areas_of_one_side();
     if (to.empty() || from.empty()) return;
     std::vector<double> taken(weights_.num_columns);
     for (std::size_t r = 0; r < weights_.num_rows(); ++r) {

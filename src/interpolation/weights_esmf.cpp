@@ -4,6 +4,7 @@
 // Weights as ESMF's offline regridding writes them: "Regrid Interpolation File Format" of
 // https://earthsystemmodeling.org/docs/release/latest/ESMF_refdoc/node3.html
 #include "interpolation/weight_formats.h"
+#include "io/cf_reader.h"
 
 namespace rondel::interpolation {
 namespace {
@@ -80,7 +81,7 @@ WeightFile read_esmf(const io::NetcdfReader& file) {
   read_side(file, target_names(), num_targets, content.target);
   content.weights =
       rows_of_entries(file.integers(file.require("row")), file.integers(file.require("col")),
-                      file.numbers(file.require("S")), num_targets, num_sources);
+                      io::meant_numbers(file, file.require("S")), num_targets, num_sources);
   read_own_attributes(file, content);
   return content;
 }

@@ -186,9 +186,9 @@ void read_side(const io::NetcdfReader& file, const SideNames& names, std::size_t
   side.areas = numbers_of(file, names.area, size);
   side.fractions = numbers_of(file, names.fraction, size);
   if (const auto* const mask = file.find(names.mask)) {
-    const std::vector<double> values = file.numbers(*mask);
+    const std::vector<double> values = io::meant_numbers(file, *mask);
     require_size(names.mask, values, size);
-    for (const double value : values) side.mask.push_back(value == 0 ? 0 : 1);
+    for (const double value : values) side.mask.push_back(value == 0 || value != value ? 0 : 1);
     if (std::ranges::count(side.mask, 0) == 0) side.mask.clear();
   }
   if (const auto* const dims = file.find(names.dims)) {

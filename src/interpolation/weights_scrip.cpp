@@ -6,6 +6,7 @@
 
 #include "interpolation/weight_formats.h"
 #include "io/bad_value.h"
+#include "io/cf_reader.h"
 
 namespace rondel::interpolation {
 namespace {
@@ -90,7 +91,7 @@ WeightFile read_scrip(const io::NetcdfReader& file) {
   }
   content.weights = rows_of_entries(file.integers(file.require("dst_address")),
                                     file.integers(file.require("src_address")),
-                                    file.numbers(matrix), num_targets, num_sources);
+                                    io::meant_numbers(file, matrix), num_targets, num_sources);
   read_own_attributes(file, content);
   return content;
 }

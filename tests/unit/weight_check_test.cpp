@@ -99,11 +99,13 @@ TEST(weight_check, names_sums_of_rows) {
 TEST(weight_check, names_entries_that_are_repeated_or_no_numbers) {
   WeightFile file = three_of_four();
   file.source = {};
+  file.target.areas.clear();
   file.weights.columns = {1, 1, 2, 3};
   EXPECT_EQ(faults_of(file),
             (Lines{"repeated: 1 entry repeats a source of its row (target 0, source 1: 0.75)"}));
   file = three_of_four();
   file.source = {};
+  file.target.areas.clear();
   file.weights.values[3] = std::numeric_limits<double>::infinity();
   EXPECT_EQ(
       faults_of(file),
@@ -165,6 +167,25 @@ TEST(weight_check, names_areas_and_what_is_not_conserved) {
                    "(source 2: 0)"}));
   // Interpolation conserves nothing, and says nothing of targets without weights.
   file.method = "bilinear";
+  EXPECT_EQ(faults_of(file), Lines{});
+}
+
+// Areas that are all 0 are read as none. Those of the other side say that areas are meant.
+TEST(weight_check, names_areas_that_only_the_other_side_has) {
+  WeightFile file = three_of_four();
+  file.target.areas.clear();
+  EXPECT_EQ(faults_of(file),
+            (Lines{"target area: 3 areas of targets with entries are 0 (first target 0: 0)"}));
+  file.source.areas.clear();
+  EXPECT_EQ(faults_of(file), Lines{});
+  file.target.areas = {0.4, 0.2, 0.2};
+  file.weights.offsets = {0, 1, 1, 1};
+  file.weights.columns = {2};
+  file.weights.values = {1};
+  file.target.fractions = {1, 0, 0};
+  EXPECT_EQ(faults_of(file),
+            (Lines{"source area: 1 area of a source with entries is 0 (source 2: 0)"}));
+  file.method = "bilinear";  // no pieces of areas
   EXPECT_EQ(faults_of(file), Lines{});
 }
 

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "io/binary.h"
@@ -321,6 +322,46 @@ TEST(fields, come_back) {
   const std::vector<std::string> names = {"t_2000-01-01T06:00:00"};
   EXPECT_EQ(read_fields(directory.file("f.csv"), names, 4).arrays[0].values,
             (std::vector<double>{5, 6, 7, 0.1}));
+}
+
+TEST(fields, of_an_array_that_is_cut_or_too_long_say_how_long_it_is) {
+  const TemporaryDirectory directory;
+  FieldSet fields;
+  fields.num_points = 3;
+  fields.arrays = {{"v", {}, {}, {1, 2, 3}, {}}};
+  const std::string path = directory.file("v.npy");
+  write_fields(path, fields, {});
+  const std::string bytes = read_all(path);
+  const auto message = [&](const std::string& changed) {
+    const std::string file = directory.with("w.npy", changed);
+    return message_of([&] { (void)read_fields(file, {}, 3); }).substr(file.size());
+  };
+  EXPECT_EQ(message(bytes.substr(0, bytes.size() - 5)),
+            ": shape (3,): 3 numbers of 8 bytes are needed, there are 19 bytes");
+  EXPECT_EQ(message(bytes + "more"),
+            ": shape (3,): 3 numbers of 8 bytes are needed, there are 28 bytes");
+}
+
+// netCDF's rules for names; programs refuse a classic file with others.
+TEST(fields, have_names_that_netcdf_takes) {
+  const TemporaryDirectory directory;
+  WeightSide side;
+  side.points = {{0, 0}, {1, 1}};
+  FieldSet fields;
+  fields.num_points = 2;
+  for (const char* name : {"a/b", "a_b", "a b", "/", "t\n", "end ", "-x", "2m", "\xC3\xA9"}) {
+    FieldArray array;
+    array.name = name;
+    array.values = {1, 2};
+    fields.arrays.push_back(array);
+  }
+  write_fields(directory.file("f.nc"), fields, side);
+  const std::string bytes = read_all(directory.file("f.nc"));
+  const io::NetcdfReader file(bytes);
+  std::vector<std::string> names;
+  for (const auto& variable : file.variables()) names.push_back(variable.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"lat", "lon", "a_b", "a_b_2", "a b", "_", "t_", "end_",
+                                             "column_-x", "2m", "\xC3\xA9"}));
 }
 
 TEST(fields, of_integers_of_eight_bytes) {
