@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <cmath>
 #include <memory>
 
 #include "mesh.h"
@@ -58,8 +59,11 @@ std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_
     const double value = array->values[k];
     const std::size_t cell = k % num_cells;
     if (value != 0 && value != 1) {
-      throw FileError(file + ": the number of cell " + std::to_string(cell) +
-                      " is neither 0 nor 1");
+      const std::string place =
+          fields.lines.empty() ? file : file + ':' + std::to_string(fields.lines[cell]);
+      const std::string what = "the number of cell " + std::to_string(cell);
+      throw FileError(place + ": " + what +
+                      (std::isnan(value) ? " is missing" : " is neither 0 nor 1"));
     }
     if (value == 1) mask[cell] = 1;
   }

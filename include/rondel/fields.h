@@ -53,6 +53,7 @@ struct FieldSet {
   /// The number that the values have where they are missing, as a file that is written says it (`_FillValue`); in files that are read NaN.
   double fill = std::numeric_limits<double>::quiet_NaN();
   std::vector<std::string> remarks;  ///< sentences: which variables of netCDF are left out, and why
+  std::vector<std::uint64_t> lines;  ///< of a table: where each point is, from 1 on; else empty
 };
 
 /// Reads values at points:

@@ -15,16 +15,29 @@ namespace rondel::interpolation {
 
 using io::NetcdfType;
 
+// netCDF User's Guide, "NetCDF names": letters, digits, underscores and UTF-8 begin a name, a slash and control characters are not in it,
+// and a blank does not end it.
+std::string netcdf_name(std::string name) {
+  for (char& c : name) {
+    if (c == '/' || static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '_';
+  }
+  for (std::size_t k = name.size(); k > 0 && name[k - 1] == ' '; --k) name[k - 1] = '_';
+  const auto may_begin = [](char c) {
+    return ((c | 0x20) >= 'a' && (c | 0x20) <= 'z') || (c >= '0' && c <= '9') || c == '_' ||
+           static_cast<unsigned char>(c) >= 0x80;
+  };
+  if (name.empty() || !may_begin(name.front())) name.insert(0, "column_");
+  return name;
+}
+
 namespace {
 
-// A name that netCDF takes and that nothing else has.
+// A name that nothing else has and that programs take for that of a variable of their own: it has no blanks and begins with a letter.
 std::string name_of_variable(const Column& column, std::set<std::string>& used) {
-  std::string name = column.name;
-  for (char& c : name) {
-    if (c == '/' || static_cast<unsigned char>(c) <= ' ' || c == '\x7f') c = '_';
-  }
+  std::string name = netcdf_name(column.name);
+  std::ranges::replace(name, ' ', '_');
   const auto is_letter = [](char c) { return (c | 0x20) >= 'a' && (c | 0x20) <= 'z'; };
-  if (name.empty() || !is_letter(name.front())) name.insert(0, "column_");
+  if (!is_letter(name.front())) name.insert(0, "column_");
   std::string text = name;
   for (std::size_t k = 2; !used.insert(text).second; ++k) text = name + "_" + std::to_string(k);
   return text;

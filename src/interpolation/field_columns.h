@@ -15,6 +15,9 @@
 
 namespace rondel::interpolation {
 
+// The name of a variable or a dimension for this one: what netCDF does not take becomes an underscore.
+std::string netcdf_name(std::string name);
+
 class ColumnsOut {
  public:
   explicit ColumnsOut(std::span<const Column> columns) : columns_(columns) {}

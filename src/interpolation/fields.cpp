@@ -58,6 +58,7 @@ FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& 
         array.values.push_back(value_of(records.fields()[columns[c]], array.name));
       }
     });
+    fields.lines.push_back(records.line());
     ++fields.num_points;
   }
   if (wanted.num_points != 0 && fields.num_points != wanted.num_points) {
@@ -214,12 +215,16 @@ FieldSet read_fields_npy(std::string_view bytes, const FieldsToRead& wanted) {
   std::uint64_t size = 0;
   if (rank < 1 || rank > 2 || (wanted.num_points != 0 && n != wanted.num_points) ||
       (rank == 2 && header.is_fortran_order) || __builtin_mul_overflow(n, count, &size) ||
-      __builtin_mul_overflow(size, std::uint64_t{item}, &size) ||
-      size != bytes.size() - header.data_offset) {
+      __builtin_mul_overflow(size, std::uint64_t{item}, &size)) {
     throw io::BadValue("shape " + io::shape_text(header.shape) +
                        " where (n,) or (fields, n) in C "
                        "order is needed, n being " +
                        std::to_string(wanted.num_points));
+  }
+  if (const std::size_t found = bytes.size() - header.data_offset; found != size) {
+    throw io::BadValue("shape " + io::shape_text(header.shape) + ": " + std::to_string(n * count) +
+                       " numbers of " + std::to_string(item) + " bytes are needed, there are " +
+                       std::to_string(found) + " bytes");
   }
   FieldSet fields;
   fields.num_points = n;

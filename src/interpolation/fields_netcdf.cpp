@@ -86,8 +86,9 @@ class PointsOut {
   std::vector<std::size_t> dimensions_;
 };
 
-// The name, with a number if it is taken.
-std::string take_name(const std::string& name, std::set<std::string>& taken) {
+// The name as netCDF takes it, with a number if it is taken.
+std::string take_name(const std::string& given, std::set<std::string>& taken) {
+  const std::string name = netcdf_name(given);
   std::string own = name;
   for (std::size_t k = 2; !taken.insert(own).second; ++k) own = name + "_" + std::to_string(k);
   return own;

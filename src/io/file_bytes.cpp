@@ -3,6 +3,7 @@
 #include "io/file_bytes.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
 #include <system_error>
 #include <utility>
@@ -23,6 +24,12 @@ constexpr std::pair<std::string_view, const char*> compressed[] = {{"\x1F\x8B", 
                                                                     "xz"},
                                                                    {"\x28\xB5\x2F\xFD", "zstd"}};
 
+// Whether standard input had bytes before; what is read of it once is gone.
+bool had_standard_input(bool has_bytes) {
+  static std::atomic<bool> had_bytes = false;
+  return has_bytes ? had_bytes.exchange(true) : had_bytes.load();
+}
+
 }  // namespace
 
 FileBytes::FileBytes(const std::string& path, bool may_be_zip)
@@ -33,6 +40,9 @@ FileBytes::FileBytes(const std::string& path, bool may_be_zip)
   claimed_size_ = system::size_of(descriptor_.value);
   bytes_ = system::make_large_array<char>(head_size);
   read_up_to(head_size);
+  if (path == "-" && had_standard_input(num_read_ > 0) && num_read_ == 0) {
+    throw FileError(name_ + ": standard input can be read once, and has been read before");
+  }
   for (const auto& [magic, format] : compressed) {
     if (!head().starts_with(magic) || (may_be_zip && format == std::string_view("zip"))) continue;
     throw FileError(name_ + ": compressed (" + format + "); unpack it first");

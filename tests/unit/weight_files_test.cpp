@@ -287,6 +287,34 @@ TEST(weight_files, of_scrip_with_gradients_are_refused) {
       << message_with(3);
 }
 
+// Packed weights are meant unpacked, and coordinates without units are in those of the others.
+TEST(weight_files, have_the_numbers_that_their_attributes_mean) {
+  const TemporaryDirectory directory;
+  MeshWriter file;
+  file.add_whole("src_grid_dims", {{"src_grid_rank", 1}}, {2});
+  file.add_whole("dst_grid_dims", {{"dst_grid_rank", 1}}, {1});
+  file.add("xc_a", {{"n_a", 2}}, {0, 0.5});
+  file.add("yc_a", {{"n_a", 2}}, {0, -0.25}, {{"units", "radians"}});
+  file.add("xv_a", {{"n_a", 2}, {"nv_a", 3}}, {0, 0.5, 0, 0, 0.5, 0.5});
+  file.add("yv_a", {{"n_a", 2}, {"nv_a", 3}}, {0, 0, 0.5, 0, 0, 0.5});
+  file.add("area_a", {{"n_a", 2}}, {1, 2}, {}, {{"scale_factor", 3}});
+  file.add("frac_b", {{"n_b", 1}}, {1});
+  file.add_whole("S", {{"n_s", 2}}, {1, 3}, {}, {{"scale_factor", 2}});
+  file.add_whole("row", {{"n_s", 2}}, {1, 1});
+  file.add_whole("col", {{"n_s", 2}}, {1, 2});
+  file.write(directory.file("w.nc"));
+  const WeightFile read = read_weights(directory.file("w.nc"));
+  EXPECT_EQ(read.weights.values, (std::vector<double>{2, 6}));
+  EXPECT_EQ(read.source.areas, (std::vector<double>{3, 6}));
+  constexpr double half = 0.5 * 180 / std::numbers::pi;
+  ASSERT_EQ(read.source.points.size(), 2U);
+  EXPECT_NEAR(read.source.points[1].lon_deg, half, 1e-13);
+  EXPECT_NEAR(read.source.points[1].lat_deg, -half / 2, 1e-13);
+  ASSERT_EQ(read.source.corners.size(), 6U);
+  EXPECT_NEAR(read.source.corners[5].lon_deg, half, 1e-13);
+  EXPECT_NEAR(read.source.corners[5].lat_deg, half, 1e-13);
+}
+
 TEST(weight_files, without_a_mask_all_take_part) {
   const TemporaryDirectory directory;
   WeightFile content = example();
