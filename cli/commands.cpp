@@ -4,8 +4,11 @@
 // The arguments and the help of every command (plot apart: plot.cpp).
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 #include "command.h"
 #include "inputs/kinds.h"
@@ -16,6 +19,16 @@
 
 namespace rondel::cli {
 namespace {
+
+// Its areas are numbers.
+std::string earth_radius_error(const std::string& text) {
+  std::string error = positive_error(text);
+  if (!error.empty()) return error;
+  double radius = 0;
+  std::from_chars(text.data(), text.data() + text.size(), radius);
+  if (std::isnormal(4 * std::numbers::pi * (radius * radius))) return {};
+  return "'" + text + "' is the radius of a sphere whose area is no number";
+}
 
 std::string kind_error(const std::string& text) {
   return find_kind(text) != nullptr ? std::string() : "'" + text + "' is not a kind";
@@ -183,7 +196,7 @@ Command add_voronoi_command(CLI::App& tool) {
       ->add_option("--earth-radius", options->earth_radius_km,
                    "Adds areas on a sphere of this radius, 'area_km2' (the Earth's mean radius\n"
                    "is 6371.0088, which --densify supposes)")
-      ->check(positive_error)
+      ->check(earth_radius_error)
       ->type_name("KM");
   add_build_options(*parser, options->common);
   add_report_options(*parser, options->common);

@@ -248,14 +248,25 @@ Cut cut_cells_of_features(const VoronoiOptions& options, const FeatureTable& tab
   return cut;
 }
 
+bool has_place(const FeatureTable& table, std::size_t feature) {
+  return table.lines.features[feature] < table.lines.features[feature + 1] ||
+         table.polygons.cells[feature] < table.polygons.cells[feature + 1];
+}
+
+std::size_t count_unplaced(const FeatureTable& table) {
+  std::size_t unplaced = 0;
+  for (std::size_t f = 0; f < table.lines.num_features(); ++f) {
+    if (!has_place(table, f)) ++unplaced;
+  }
+  return unplaced;
+}
+
 // Features that have a place and no cell are told.
 std::vector<std::string> remarks_on(const FeatureTable& table, const CellRings& cells) {
   std::size_t without = 0;
   std::size_t first = 0;
   for (std::size_t f = 0; f < cells.num_cells(); ++f) {
-    const bool has_place = table.lines.features[f] < table.lines.features[f + 1] ||
-                           table.polygons.cells[f] < table.polygons.cells[f + 1];
-    if (!has_place || cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f)) continue;
+    if (!has_place(table, f) || cells.cells[f] < cells.cells[f + 1] || cells.is_whole(f)) continue;
     if (without++ == 0) first = f;
   }
   if (without == 0) return {};
@@ -277,6 +288,10 @@ ExitStatus write_cells_of_features(const VoronoiOptions& options) {
       groups = groups_of(column_of(table.columns, table.name, options.group, "--group"));
     }
     Cut cut = cut_cells_of_features(options, table, execution);
+    const std::size_t unplaced = count_unplaced(table);
+    if (unplaced > 0 && !options.common.quiet) {
+      tell(table.name, {"left out " + count(unplaced, "feature", "features") + " without a place"});
+    }
     if (options.clip.empty()) tell(table.name, remarks_on(table, cut.cells));
     made = features_of(options, std::move(cut), groups,
                        numbered("feature", table.lines.num_features(), std::move(table.columns)),

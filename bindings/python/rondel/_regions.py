@@ -87,8 +87,19 @@ class Regions(Described):
         return self._rings.areas()
 
     def areas_km2(self, radius_km: float = EARTH_RADIUS_KM) -> FloatArray:
-        """The areas on a sphere of this radius, by default the Earth's mean one (WGS 84)."""
-        return self.areas * float(radius_km) ** 2
+        """The areas on a sphere of this radius, by default the Earth's mean one (WGS 84).
+
+        Raises
+        ------
+        ValueError
+            If the radius is not positive, or the sphere's area is no finite number.
+
+        """
+        radius_km = float(radius_km)
+        squared = radius_km * radius_km
+        if not (radius_km > 0 and np.finfo(float).tiny <= 4 * np.pi * squared < np.inf):
+            raise ValueError(f"radius_km is {radius_km}, not positive with a finite area")
+        return self.areas * squared
 
     def partition(self, *, threads: int | None = None) -> Partition:
         """The regions as cells, to be laid over others by `remap`."""

@@ -176,6 +176,15 @@ def test_areas_in_square_kilometers():
     assert np.allclose(frame["area_km2"], clipped.areas_km2()[frame["site"]], rtol=1e-15)
 
 
+@pytest.mark.parametrize("radius", [-1, 0, np.nan, np.inf, 1e308, 1e-170])
+def test_no_areas_of_what_is_no_radius(radius):
+    clipped = CELLS.clip(ISLANDS)
+    with pytest.raises(ValueError, match="radius_km is"):
+        clipped.areas_km2(radius)
+    with pytest.raises(ValueError, match="radius_km is"):
+        clipped.to_geojson(radius_km=radius)
+
+
 def test_geojson(tmp_path):
     clipped = CELLS.clip(ISLANDS)
     found = clipped.to_geojson(properties={"name": [f"site {i}" for i in range(200)]})
