@@ -43,12 +43,17 @@ void require_places(const ApplyCommandOptions& options, const WeightFile& file,
                   options.common.input + ", or not in this order");
 }
 
+bool are_columns_named(const ReadOptions& read) {
+  return !(read.lon + read.x + read.radius).empty();  // the others go with these
+}
+
 void require_places_of_table(const ApplyCommandOptions& options, const WeightFile& file) {
   if (file.weights.sites_hash == 0 && file.source.points.empty()) return;
   SiteTable table;
   try {
     table = read_sites(options.values_file, options.common.read);
   } catch (const FileError&) {
+    if (are_columns_named(options.common.read)) throw;
     return;  // it has no places
   }
   require_places(options, file, table.sites, true);
@@ -106,7 +111,12 @@ ExitStatus run_apply(const ApplyCommandOptions& options) {
   Job job(common);
   const WeightFile file = read_weights(common.source());
   const Weights& weights = file.weights;
-  if (is_table(options.values_file)) require_places_of_table(options, file);
+  if (is_table(options.values_file)) {
+    require_places_of_table(options, file);
+  } else if (are_columns_named(common.read)) {
+    throw UsageError("columns of places are named, but '" + options.values_file +
+                     "' is no table (.csv .tsv)");
+  }
   const auto [values_file, variable] = netcdf_part(options.values_file);
   std::vector<std::string> names = options.columns;
   if (names.empty() && !variable.empty()) names.push_back(variable);

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "command.h"
+#include "table_options.h"
 #include "validate.h"
 
 namespace rondel::cli {
@@ -67,6 +68,9 @@ void add_input(CLI::App& command, CommonOptions& options, const std::string& wha
                   "Format of standard input (default: csv) or, where that is not read, of\n"
                   "INPUT (default: by its ending)")
       ->type_name("FORMAT");
+}
+
+void add_delimiter(CLI::App& command, CommonOptions& options) {
   command
       .add_option_function<std::string>(
           "--delimiter",
@@ -99,6 +103,11 @@ void add_radius(CLI::App& command, CommonOptions& options) {
 
 void add_input_options(CLI::App& command, CommonOptions& options, const std::string& what) {
   add_input(command, options, what);
+  add_table_options(command, options);
+}
+
+void add_table_options(CLI::App& command, CommonOptions& options) {
+  add_delimiter(command, options);
   add_radius(command, options);
   add_columns(command, options.read);
 }
@@ -106,6 +115,7 @@ void add_input_options(CLI::App& command, CommonOptions& options, const std::str
 void add_point_input_options(CLI::App& command, CommonOptions& options) {
   add_input(command, options,
             "The points, x, y, z: .csv .tsv .xyz .txt .npy, or - for standard input");
+  add_delimiter(command, options);
   add_xyz(command, options.read);
 }
 

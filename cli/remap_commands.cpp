@@ -11,6 +11,7 @@
 
 #include "netcdf_options.h"
 #include "remap.h"
+#include "table_options.h"
 #include "validate.h"
 #include "words.h"
 
@@ -86,6 +87,7 @@ Command add_apply_command(CLI::App& tool) {
                    "from 0 (default) to 1; the other weights are scaled up")
       ->check(share_error)
       ->type_name("SHARE");
+  add_table_options(*parser, options->common);
   add_netcdf_options(*parser, options->netcdf);
   add_threads_option(*parser, options->common);
   add_report_options(*parser, options->common);
@@ -95,7 +97,8 @@ Command add_apply_command(CLI::App& tool) {
       "The values are those of the sources, in their order. Where the file of weights knows the\n"
       "sources, this is held against a table's columns of longitude and latitude, or x, y, z, and\n"
       "against the longitudes and latitudes of a netCDF file, to 1e-4 degrees. Of .npy, and of\n"
-      "files without coordinates, only the number of the values is.\n\n"
+      "files without coordinates, only the number of the values is. What reads the table is\n"
+      "told as for rondel interpolate: --lon, --lat, --delimiter ...\n\n"
       "Examples:\n"
       "  rondel apply weights.nc temperature.nc -o on-grid.nc\n"
       "  rondel apply weights.nc stations.csv --value temperature -o on-grid.csv");
