@@ -29,6 +29,19 @@ double value_of(std::string_view cell, const std::string& name) {
   return is_missing ? std::numeric_limits<double>::quiet_NaN() : io::parse_number(cell, name);
 }
 
+// Of a table with one column an empty field looks like no row. `records` are at their end.
+std::string text_of_empty_line(std::vector<std::uint64_t> lines, const io::CsvRecords& records) {
+  lines.push_back(records.line());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const std::uint64_t next = i == 0 ? 2 : lines[i - 1] + 1;
+    if (lines[i] > next) {
+      return "; line " + std::to_string(next) +
+             R"( is empty, which is no row: "" is a missing value)";
+    }
+  }
+  return {};
+}
+
 FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& wanted) {
   if (wanted.names.empty()) throw io::BadValue("no column of the table is named (--value)");
   io::CsvRecords records(io::table_text(bytes),
@@ -63,7 +76,8 @@ FieldSet read_table(std::string_view bytes, char delimiter, const FieldsToRead& 
   }
   if (wanted.num_points != 0 && fields.num_points != wanted.num_points) {
     throw io::BadValue(std::to_string(fields.num_points) + " rows for " +
-                       std::to_string(wanted.num_points) + " points");
+                       std::to_string(wanted.num_points) + " points" +
+                       (header.size() == 1 ? text_of_empty_line(fields.lines, records) : ""));
   }
   return fields;
 }

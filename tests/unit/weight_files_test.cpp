@@ -352,6 +352,25 @@ TEST(fields, come_back) {
             (std::vector<double>{5, 6, 7, 0.1}));
 }
 
+TEST(fields, of_a_column_with_empty_lines_say_which) {
+  const TemporaryDirectory directory;
+  const std::vector<std::string> names = {"m"};
+  const auto message = [&](const std::string& text) {
+    const std::string file = directory.with("m.csv", text);
+    return message_of([&] { (void)read_fields(file, names, 3); }).substr(file.size());
+  };
+  const std::string rows = ": 2 rows for 3 points";
+  const std::string no_row = R"( is empty, which is no row: "" is a missing value)";
+  EXPECT_EQ(message("m\n1\n\n0\n"), rows + "; line 3" + no_row);
+  EXPECT_EQ(message("m\r\n\r\n1\r\n0\r\n"), rows + "; line 2" + no_row);
+  EXPECT_EQ(message("m\n1\n0\n\n"), rows + "; line 4" + no_row);
+  EXPECT_EQ(message("m\n1\n0\n"), rows);
+  EXPECT_EQ(message("m,n\n1,\"\n\"\n0,\n"), rows);
+  const FieldSet read = read_fields(directory.with("n.csv", "m\n1\n\"\"\n\n0\n"), names, 3);
+  EXPECT_TRUE(std::isnan(read.arrays.at(0).values.at(1)));
+  EXPECT_EQ(read.lines, (std::vector<std::uint64_t>{2, 3, 5}));
+}
+
 TEST(fields, of_an_array_that_is_cut_or_too_long_say_how_long_it_is) {
   const TemporaryDirectory directory;
   FieldSet fields;
