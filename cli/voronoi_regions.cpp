@@ -99,6 +99,7 @@ Column rows_of(const Column& column, std::span<const Index> rows) {
     const std::uint64_t begin = row == 0 ? 0 : column.ends[row - 1];
     made.text.append(column.text, begin, column.ends[row] - begin);
     made.ends.push_back(made.text.size());
+    if (!column.is_number.empty()) made.is_number.push_back(column.is_number[row]);
   }
   return made;
 }

@@ -173,11 +173,18 @@ void PropertyColumns::add(const JsonTree& properties, std::size_t row) {
     pad(column, row);
     append_cell(column, value.is_null() ? std::string() : unquoted(value));
     if (!value.is_number() && !value.is_null()) column.is_numeric = false;
+    column.is_number.resize(row);
+    column.is_number.push_back(value.is_number());
   }
 }
 
 void PropertyColumns::finish(std::size_t num_rows) {
-  for (Column& column : columns_) pad(column, num_rows);
+  for (Column& column : columns_) {
+    pad(column, num_rows);
+    column.is_number.resize(num_rows);
+    const bool is_mixed = !column.is_numeric && std::ranges::count(column.is_number, true) > 0;
+    if (!is_mixed) column.is_number = {};
+  }
 }
 
 }  // namespace rondel::io

@@ -35,7 +35,7 @@ void append_value(std::string& out, const Column& column, std::size_t row) {
       std::string_view(column.text).substr(start, column.ends[row] - start);
   if (text.empty()) {
     out += "null";
-  } else if (column.is_numeric) {
+  } else if (column.is_numeric || (!column.is_number.empty() && column.is_number[row])) {
     out += text;
   } else {
     out += json_string(text);

@@ -81,6 +81,7 @@ SiteTable SiteTable::selection(const std::vector<bool>& keep) const {
       Column& to = selected.columns[c];
       to.text.append(from.text, begin, from.ends[i] - begin);
       to.ends.push_back(to.text.size());
+      if (!from.is_number.empty()) to.is_number.push_back(from.is_number[i]);
     }
   }
   return selected;

@@ -305,6 +305,30 @@ TEST(read_sites, turns_properties_into_columns) {
   EXPECT_EQ(cells(table.columns[2]), (std::vector<std::string>{"", "", "", ""}));
 }
 
+// One text among numbers leaves the others numbers.
+TEST(read_sites, tells_numbers_of_a_property_from_texts) {
+  const TemporaryDirectory directory;
+  const auto point = [](const std::string& properties) {
+    return R"({"type":"Feature","properties":)" + properties +
+           R"(,"geometry":{"type":"Point","coordinates":[1,2]}})";
+  };
+  const std::string file = directory.with(
+      "a.geojson", R"({"type":"FeatureCollection","features":[)" + point(R"({"v":1,"n":5})") + "," +
+                       point(R"({"v":"2","t":"3"})") + "," + point(R"({"v":null})") + "," +
+                       point(R"({"v":4})") + "," + point("null") + "]}");
+  ReadOptions options;
+  options.keep_columns = true;
+  const SiteTable table = read_sites(file, options);
+  const auto column = [](const SiteTable& of, const char* name) {
+    return *std::ranges::find(of.columns, name, &Column::name);
+  };
+  EXPECT_EQ(column(table, "v").is_number, (std::vector<bool>{true, false, false, true, false}));
+  EXPECT_TRUE(column(table, "n").is_number.empty());
+  EXPECT_TRUE(column(table, "t").is_number.empty());
+  const SiteTable selected = table.selection({false, true, false, true, false});
+  EXPECT_EQ(column(selected, "v").is_number, (std::vector<bool>{false, true}));
+}
+
 TEST(read_sites, converts_radians) {
   const TemporaryDirectory directory;
   const double half_pi = std::numbers::pi / 2;
