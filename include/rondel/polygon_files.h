@@ -38,7 +38,8 @@ using FeatureChoice = std::function<bool(std::size_t feature, std::span<const Co
 struct PolygonOptions {
   PolygonEdges edges = PolygonEdges::lonlat;
   /// How far arcs may be from straight lines in longitude and latitude, which get more corners until they
-  /// are so near: degrees.
+  /// are so near: degrees. The lines of a feature get more until its area is within 1/1000 of that between the lines, or within
+  /// 10 times a tolerance of less than 1e-4.
   double tolerance_deg = 1e-4;
   PolygonOverlap overlap = PolygonOverlap::keep;
   /// Features that are not taken take no space: their cells are empty. Without a choice all are taken.

@@ -21,7 +21,7 @@
 #include "overlay/cell_sets.h"
 #include "overlay/first_of_cells.h"
 #include "overlay/long_side.h"
-#include "overlay/plane_arcs.h"
+#include "overlay/plane_areas.h"
 #include "overlay/plane_sweep.h"
 #include "overlay/shared_corners.h"
 #include "rondel/delaunay.h"
@@ -172,8 +172,8 @@ class FeatureCells {
     std::vector<Index> owners;
     std::vector<std::size_t> turns(features_.rings.size());
     sweep(sides, owners, turns);
-    const DividedSides divided =
-        divide_sides(sides, options_.tolerance_deg * (std::numbers::pi / 180), execution_.threads);
+    const DividedSides divided = divide_for_areas(
+        sides, owners, options_.tolerance_deg * (std::numbers::pi / 180), execution_.threads);
     std::vector<Point> corners(divided.positions.size());
     std::ranges::transform(divided.positions, corners.begin(),
                            [](const LonLat& p) { return unit_vector(p); });

@@ -12,6 +12,7 @@
 
 #include "exact/argument.h"
 #include "exact/degrees.h"
+#include "overlay/arc_bulge.h"
 #include "overlay/measure.h"
 
 namespace rondel::overlay {
@@ -26,38 +27,6 @@ double along(const Point& m, const Point& x) { return m.x * x.x + m.y * x.y; }
 
 double radius_of(const Point& x) { return std::sqrt(x.x * x.x + x.y * x.y); }
 
-// Of tan(h) for h up to 1/8.
-double small_tangent(double h) {
-  const double u = h * h;
-  return h * (1 + u * (1.0 / 3 +
-                       u * (2.0 / 15 +
-                            u * (17.0 / 315 +
-                                 u * (62.0 / 2835 +
-                                      u * (1382.0 / 155925 + u * (21844.0 / 6081075 +
-                                                                  u * (929569.0 / 638512875))))))));
-}
-
-// atan(t) / t - 1 of t^2 = u up to 1/63.
-double small_arc_tangent(double u) {
-  return -u * (1.0 / 3 -
-               u * (1.0 / 5 -
-                    u * (1.0 / 7 -
-                         u * (1.0 / 9 -
-                              u * (1.0 / 11 - u * (1.0 / 13 - u * (1.0 / 15 - u * (1.0 / 17))))))));
-}
-
-// 2 atan(k tan(width / 2)) - k width.
-double bulge(double width, double k) {
-  constexpr double small = 0.25;
-  if (width <= small) {
-    const double t = small_tangent(width / 2);
-    const double u = t * t;
-    return 2 * k * t * (small_arc_tangent(k * k * u) - small_arc_tangent(u));
-  }
-  const exact::SineCosine half = exact::sine_cosine_of_degrees(width * (90 / pi));
-  return 2 * exact::argument(k * half.sine, half.cosine) - k * width;
-}
-
 // Between the arc from p to q, which spans `width` of longitude, and a parallel. That between the arc and the equator
 // is 2 atan(k tan(width / 2)) with k = (sin p + sin q) / (1 + cos(p - q)), latitudes.
 double area_above(const Graticule::Parallel& parallel, const GraticulePlace& p,
@@ -69,7 +38,8 @@ double area_above(const Graticule::Parallel& parallel, const GraticulePlace& p,
   const double rise =
       ((p.point.z - parallel.sine) + (q.point.z - parallel.sine) + parallel.sine * bend) /
       (2 - bend);
-  return width * rise + bulge(width, parallel.sine + rise);
+  const double k = parallel.sine + rise;
+  return width * rise + area_of_bulge(width, k, 1);
 }
 
 Point meridian_of(const Graticule& grid, const GraticulePlace& place) {

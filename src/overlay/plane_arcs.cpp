@@ -80,13 +80,6 @@ class LineDivider {
   std::vector<LonLat>& positions_;
 };
 
-// A piece of a side, which has a number; it goes from west to east.
-struct LinePiece {
-  Index side;
-  LonLat west;
-  LonLat east;
-};
-
 // The largest distance in latitude of an arc from its straight line, in degrees. Along a great circle the latitude f has the second
 // derivative -sin f cos f - 2 tan f (f')^2 by longitude, and a function is within w^2/8 of that from its chord; twice
 // that, as f may leave the line.
@@ -111,11 +104,25 @@ double lat_on(const LinePiece& piece, double lon_deg) {
                                   (piece.east.lat_deg - piece.west.lat_deg);
 }
 
+// At least bulge_deg(), and less work.
+double simple_bulge_deg(const LonLat& west, const LonLat& east) {
+  const double width = east.lon_deg - west.lon_deg;
+  return width * width * (rad_per_deg / 8) + 2 * std::abs(east.lat_deg - west.lat_deg);
+}
+
 // Positions on the piece, from west to east, on the meridians of corners that are near.
-void find_cuts(const LinePiece& piece, const PlaneCorners& corners, std::vector<LonLat>& cuts) {
+void find_cuts(const LinePiece& piece, const PlaneCorners& corners, bool are_few,
+               std::vector<LonLat>& cuts) {
   cuts.clear();
   if (piece.west.lon_deg == piece.east.lon_deg || (is_pole(piece.west) && is_pole(piece.east)))
     return;
+  if (are_few) {
+    bool has_any = false;
+    corners.visit_near(piece.west, piece.east,
+                       simple_bulge_deg(piece.west, piece.east) + on_side_deg,
+                       [&](const LonLat&, Index) { has_any = true; });
+    if (!has_any) return;
+  }
   const double bulge = bulge_deg(piece.west, piece.east) + on_side_deg;
   corners.visit_near(piece.west, piece.east, bulge, [&](const LonLat& p, Index) {
     if (p.lon_deg <= piece.west.lon_deg || p.lon_deg >= piece.east.lon_deg) return;
@@ -126,8 +133,9 @@ void find_cuts(const LinePiece& piece, const PlaneCorners& corners, std::vector<
   cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
 }
 
-// Divides the pieces at the corners; returns those that are new.
-std::vector<LonLat> divide_at(const PlaneCorners& corners, std::vector<LinePiece>& pieces,
+// Divides the pieces at the corners; returns those that are new, and appends the sides.
+std::vector<LonLat> divide_at(const PlaneCorners& corners, bool are_few,
+                              std::vector<LinePiece>& pieces, std::vector<Index>& changed,
                               unsigned threads) {
   std::vector<std::vector<std::pair<std::size_t, std::vector<LonLat>>>> found(
       system::num_pieces(pieces.size(), pieces_per_block));
@@ -135,7 +143,7 @@ std::vector<LonLat> divide_at(const PlaneCorners& corners, std::vector<LinePiece
                        [&](std::size_t begin, std::size_t end) {
                          std::vector<LonLat> cuts;
                          for (std::size_t k = begin; k < end; ++k) {
-                           find_cuts(pieces[k], corners, cuts);
+                           find_cuts(pieces[k], corners, are_few, cuts);
                            if (!cuts.empty()) found[begin / pieces_per_block].emplace_back(k, cuts);
                          }
                        });
@@ -143,6 +151,7 @@ std::vector<LonLat> divide_at(const PlaneCorners& corners, std::vector<LinePiece
   for (const auto& of_block : found) {
     for (const auto& [k, cuts] : of_block) {
       const LonLat east = pieces[k].east;
+      changed.push_back(pieces[k].side);
       pieces[k].east = cuts.front();
       for (std::size_t i = 0; i < cuts.size(); ++i) {
         pieces.push_back({pieces[k].side, cuts[i], i + 1 < cuts.size() ? cuts[i + 1] : east});
@@ -162,6 +171,18 @@ PlaneCorners corners_at(std::span<const LonLat> positions) {
   return PlaneCorners(std::move(corners));
 }
 
+// The positions of the piece halved so many times, without the last one.
+void append_halved(const LonLat& west, const LonLat& east, unsigned times,
+                   std::vector<LonLat>& positions) {
+  if (times == 0) {
+    positions.push_back(west);
+    return;
+  }
+  const LonLat middle = {(west.lon_deg + east.lon_deg) / 2, (west.lat_deg + east.lat_deg) / 2};
+  append_halved(west, middle, times - 1, positions);
+  append_halved(middle, east, times - 1, positions);
+}
+
 }  // namespace
 
 void append_divided(const LonLat& from, const LonLat& to, double tolerance,
@@ -169,8 +190,8 @@ void append_divided(const LonLat& from, const LonLat& to, double tolerance,
   LineDivider(tolerance, positions).append_between(from, unit_vector(from), to, unit_vector(to), 0);
 }
 
-DividedSides divide_sides(std::span<const PlaneSide> sides, double tolerance, unsigned threads) {
-  std::vector<LinePiece> pieces;
+SideDivider::SideDivider(std::span<const PlaneSide> sides, double tolerance, unsigned threads)
+    : sides_(sides), threads_(threads) {
   std::vector<LonLat> added;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     const bool goes_east = is_west_of(sides[s].from, sides[s].to);
@@ -179,25 +200,54 @@ DividedSides divide_sides(std::span<const PlaneSide> sides, double tolerance, un
     const std::size_t first = added.size();
     append_divided(west, east, tolerance, added);
     for (std::size_t k = first; k < added.size(); ++k) {
-      pieces.push_back(
+      pieces_.push_back(
           {static_cast<Index>(s), added[k], k + 1 < added.size() ? added[k + 1] : east});
     }
   }
   // The last corner of a side is the first one of another.
   for (const PlaneSide& side : sides) added.push_back(side.to);
-  while (!added.empty()) added = divide_at(corners_at(added), pieces, threads);
+  match(std::move(added), false);
+}
 
-  std::ranges::sort(pieces, [](const LinePiece& p, const LinePiece& q) {
+void SideDivider::match(std::vector<LonLat> added, bool are_few) {
+  while (!added.empty()) {
+    added = divide_at(corners_at(added), are_few, pieces_, changed_, threads_);
+  }
+}
+
+std::vector<Index> SideDivider::halve(std::span<const std::uint8_t> times) {
+  changed_.clear();
+  std::vector<LonLat> added;
+  for (std::size_t k = 0, end = pieces_.size(); k < end; ++k) {
+    const auto [side, west, east] = pieces_[k];
+    if (times[side] == 0 || west.lon_deg == east.lon_deg) continue;
+    const std::size_t first = added.size();
+    append_halved(west, east, times[side], added);
+    pieces_[k].east = added[first + 1];
+    for (std::size_t i = first + 1; i < added.size(); ++i) {
+      pieces_.push_back({side, added[i], i + 1 < added.size() ? added[i + 1] : east});
+    }
+    changed_.push_back(side);
+  }
+  match(std::move(added), true);
+  std::ranges::sort(changed_);
+  changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
+  return std::move(changed_);
+}
+
+DividedSides SideDivider::divided() {
+  std::ranges::sort(pieces_, [](const LinePiece& p, const LinePiece& q) {
     return p.side != q.side ? p.side < q.side : is_west_of(p.west, q.west);
   });
   DividedSides result;
-  result.positions.reserve(pieces.size());
-  for (std::size_t first = 0; first < pieces.size();) {
+  result.positions.reserve(pieces_.size());
+  for (std::size_t first = 0; first < pieces_.size();) {
     std::size_t end = first;
-    while (end < pieces.size() && pieces[end].side == pieces[first].side) ++end;
-    const bool goes_east = is_west_of(sides[pieces[first].side].from, sides[pieces[first].side].to);
+    while (end < pieces_.size() && pieces_[end].side == pieces_[first].side) ++end;
+    const PlaneSide& side = sides_[pieces_[first].side];
+    const bool goes_east = is_west_of(side.from, side.to);
     for (std::size_t k = first; k < end; ++k) {
-      result.positions.push_back(goes_east ? pieces[k].west : pieces[first + (end - 1 - k)].east);
+      result.positions.push_back(goes_east ? pieces_[k].west : pieces_[first + (end - 1 - k)].east);
     }
     result.offsets.push_back(result.positions.size());
     first = end;

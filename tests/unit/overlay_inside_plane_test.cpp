@@ -41,7 +41,6 @@ struct ShapeInPlane {
   std::vector<PolygonInPlane> polygons;
   std::vector<RingInPlane> plus = {};   // the area is that of these
   std::vector<RingInPlane> minus = {};  // less that of these
-  double width = 1;                     // of what is thin, in degrees
   bool may_be_nothing = false;
 };
 
@@ -108,7 +107,6 @@ ShapeInPlane PlaneShapes::sliver() {
   }
   if (one_of(2)) std::ranges::reverse(ring);
   ShapeInPlane shape = one(ring);
-  shape.width = width;
   shape.may_be_nothing = width < 1e-12;
   return shape;
 }
@@ -126,7 +124,6 @@ ShapeInPlane PlaneShapes::fold() {
     ring.push_back({p.lon_deg + t * along.lon_deg, p.lat_deg + t * along.lat_deg});
   }
   ShapeInPlane shape = one(ring);
-  shape.width = 0;
   shape.may_be_nothing = true;
   return shape;
 }
@@ -232,7 +229,6 @@ ShapeInPlane PlaneShapes::belt() {
   RingInPlane ring = planar_box(west, south, west + 360, south + width);
   if (one_of(2)) ring.insert(ring.begin() + 1, {west + uniform(1, 350), south - width / 3});
   ShapeInPlane shape = one(ring);
-  shape.width = width;
   return shape;
 }
 
@@ -367,7 +363,7 @@ std::vector<RingOfPoints> rings_of_cell(const CellRings& cells) {
   return rings;
 }
 
-// As wide as the widest of arcs of this length may be beside their lines, at most the tolerance.
+// As wide as the widest of arcs of this length may be beside their lines, at most the tolerance, and at most a thousandth of the area.
 double tolerance_of(const ShapeInPlane& shape, double area) {
   double length = 0;
   for (const auto& rings : {shape.plus, shape.minus}) {
@@ -375,8 +371,7 @@ double tolerance_of(const ShapeInPlane& shape, double area) {
   }
   const double arc = std::min(1e-4 * std::numbers::pi / 180, length * length);
   const double rounding = 1e-14 * length;
-  return rounding +
-         (shape.width < 1e-7 ? std::min(0.4 * area, 2 * arc * length) : 2 * arc * length);
+  return rounding + std::min(1e-3 * area, 2 * arc * length);
 }
 
 void expect_pieces_of_cells(const CellRings& cells, std::uint64_t seed) {
