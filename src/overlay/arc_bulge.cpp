@@ -50,12 +50,8 @@ double sine_ratio_less_one(double x) {
   return sum;
 }
 
-double area_of_bulge(double width, double k, double gap) {
+double area_of_bulge(double width, double k) {
   constexpr double small = 0.25;
-  constexpr double near_pole = 0x1p-10;
-  if (gap < near_pole) {
-    return k > 0 ? bulge_at_pole(width, k, gap) : -bulge_at_pole(width, -k, gap);
-  }
   if (width <= small) {
     const double t = small_tangent(width / 2);
     const double u = t * t;
@@ -63,6 +59,12 @@ double area_of_bulge(double width, double k, double gap) {
   }
   const exact::SineCosine half = exact::sine_cosine_of_degrees(width * (90 / std::numbers::pi));
   return 2 * exact::argument(k * half.sine, half.cosine) - k * width;
+}
+
+double area_of_bulge(double width, double k, double gap) {
+  constexpr double near_pole = 0x1p-10;
+  if (gap >= near_pole) return area_of_bulge(width, k);
+  return k > 0 ? bulge_at_pole(width, k, gap) : -bulge_at_pole(width, -k, gap);
 }
 
 }  // namespace rondel::overlay

@@ -9,8 +9,10 @@ namespace rondel::overlay {
 // sin(x) / x - 1 for |x| up to pi / 2.
 double sine_ratio_less_one(double x);
 
-// 2 atan(k tan(width / 2)) - k width for 0 <= width <= pi, where `k` is between -1 and 1, and 1 - |k| is `gap`, to rounding
-// of the gap.
+// 2 atan(k tan(width / 2)) - k width for 0 <= width <= pi and |k| <= 1.
+double area_of_bulge(double width, double k);
+
+// The same where 1 - |k| is `gap`, next to a pole to rounding of the gap.
 double area_of_bulge(double width, double k, double gap);
 
 }  // namespace rondel::overlay

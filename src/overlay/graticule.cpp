@@ -12,6 +12,7 @@
 
 #include "exact/argument.h"
 #include "exact/degrees.h"
+#include "overlay/arc_bulge.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "system/shortest_text.h"
@@ -102,7 +103,11 @@ void Graticule::take_rows(std::vector<double> lat) {
   if (lat.back() < 90) lat.push_back(90);
   for (const double latitude : lat) {
     const exact::SineCosine angle = exact::sine_cosine_of_degrees(latitude);
-    parallels_.push_back({angle.sine, angle.cosine});
+    const double gap = height_of(angle.sine, angle.cosine).gap;
+    parallels_.push_back({angle.sine, angle.cosine, latitude, gap});
+  }
+  for (std::size_t r = 0; r + 1 < parallels_.size(); ++r) {
+    heights_.push_back(height_between(parallels_[r], parallels_[r + 1]));
   }
 }
 
@@ -137,7 +142,8 @@ std::vector<Point> Graticule::moments() const {
   for (Index c = 0; c < num_columns_of_grid_; ++c) {
     const Point run = meridian(c, columns_[c].width) - columns_[c].west;
     for (Index r = first_row_; r < first_row_ + num_rows_of_grid_; ++r) {
-      result[cell(c, r)] = moment_of_row(parallels_[r], parallels_[r + 1], columns_[c].width, run);
+      result[cell(c, r)] =
+          moment_of_row(parallels_[r], parallels_[r + 1], heights_[r], columns_[c].width, run);
     }
   }
   return result;
@@ -148,7 +154,9 @@ std::vector<double> Graticule::lengths() const {
   for (Index c = 0; c < num_columns_of_grid_; ++c) {
     for (Index r = 0; r < num_rows_of_grid_; ++r) {
       const double height = (latitudes_[r + std::size_t{1}] - latitudes_[r]) * radians_per_degree;
-      result[cell(c, first_row_ + r)] = 2 * (columns_[c].width + height);
+      const Index row = first_row_ + r;
+      const double cosines = parallels_[row].cosine + parallels_[row + 1].cosine;
+      result[cell(c, row)] = columns_[c].width * cosines + 2 * height;
     }
   }
   return result;
@@ -164,14 +172,40 @@ void Graticule::append_neighbors(Index cell, std::vector<Index>& neighbors) cons
   if (num_cells() - cell > n) append(cell + n);
 }
 
-// The integral of sqrt(1 - s^2) over s is (phi + s sqrt(1 - s^2)) / 2, with s = sin(phi).
+// Differences of latitudes, and distances from a pole, are exact where they are small.
+double height_between(const Graticule::Parallel& south, const Graticule::Parallel& north) {
+  constexpr double half_way = 45;
+  const double middle = south.lat_deg / 2 + north.lat_deg / 2;
+  const double from_pole = (90 - std::abs(south.lat_deg)) / 2 + (90 - std::abs(north.lat_deg)) / 2;
+  const double cosine = std::abs(middle) > half_way ? exact::sine_cosine_of_degrees(from_pole).sine
+                                                    : exact::sine_cosine_of_degrees(middle).cosine;
+  const double half = north.lat_deg / 2 - south.lat_deg / 2;
+  return 2 * cosine * exact::sine_cosine_of_degrees(half).sine;
+}
+
+namespace {
+
+// The integral of cos^2 over the latitudes between two parallels: (phi + s sqrt(1 - s^2)) / 2 with s = sin(phi), and near a pole
+// (c - sin(2 c) / 2) / 2 with the distances c from it.
+double inward_between(const Graticule::Parallel& south, const Graticule::Parallel& north) {
+  if (is_polar(south.height(), north.height())) {
+    const auto from_pole = [](const Graticule::Parallel& parallel) {
+      const double c = (90 - std::abs(parallel.lat_deg)) * radians_per_degree;
+      return -c / 2 * sine_ratio_less_one(2 * c);
+    };
+    return std::abs(from_pole(south) - from_pole(north));
+  }
+  const double angle = exact::argument(north.sine * south.cosine - north.cosine * south.sine,
+                                       north.cosine * south.cosine + north.sine * south.sine);
+  return (angle + (north.sine * north.cosine - south.sine * south.cosine)) / 2;
+}
+
+}  // namespace
+
 Point moment_of_row(const Graticule::Parallel& south, const Graticule::Parallel& north,
-                    double width, const Point& run) {
-  const double height = exact::argument(north.sine * south.cosine - north.cosine * south.sine,
-                                        north.cosine * south.cosine + north.sine * south.sine);
-  const double inward = (height + (north.sine * north.cosine - south.sine * south.cosine)) / 2;
-  return {inward * run.y, -inward * run.x,
-          width * (north.sine - south.sine) * (north.sine + south.sine) / 2};
+                    double height, double width, const Point& run) {
+  const double inward = inward_between(south, north);
+  return {inward * run.y, -inward * run.x, width * height * (north.sine + south.sine) / 2};
 }
 
 CellRings rings_of(const LonLatGrid& grid) {

@@ -4,6 +4,7 @@
 // Grids of meridians and parallels, prepared for an overlay.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -12,6 +13,30 @@
 #include "rondel/types.h"
 
 namespace rondel::overlay {
+
+// From here on to the poles, 2.5 degrees, heights are compared by their gaps.
+inline constexpr double polar_sine = 1 - 0x1p-10;
+
+// A place's distance from the equator's plane, and what it lacks to 1, which is known better near the poles; 0 elsewhere.
+struct SphereHeight {
+  double sine;
+  double gap;
+};
+inline SphereHeight height_of(double sine, double radius) {
+  const double above = std::abs(sine);
+  return {sine, above > polar_sine ? radius * radius / (1 + above) : 0};
+}
+
+inline bool is_polar(const SphereHeight& low, const SphereHeight& high) {
+  return std::abs(low.sine) > polar_sine && std::abs(high.sine) > polar_sine &&
+         (low.sine > 0) == (high.sine > 0);
+}
+
+// By how much the sine of `high` is larger: to rounding of that near the equator, and near a pole to rounding of the gaps.
+inline double rise(const SphereHeight& low, const SphereHeight& high) {
+  if (!is_polar(low, high)) return high.sine - low.sine;
+  return low.sine > 0 ? low.gap - high.gap : high.gap - low.gap;
+}
 
 // Meridians, or parallels, nearer than this to each other are one.
 inline constexpr double same_line_degrees = 0x1p-44 * 360;
@@ -31,6 +56,9 @@ class Graticule {
   struct Parallel {
     double sine;
     double cosine;
+    double lat_deg;
+    double gap;
+    [[nodiscard]] SphereHeight height() const { return {sine, gap}; }
   };
 
   // Throws InvalidInput.
@@ -54,8 +82,10 @@ class Graticule {
   // The cell there; no_index: none.
   [[nodiscard]] Index cell(Index column, Index row) const;
   [[nodiscard]] double area(Index column, Index row) const {
-    return columns_[column].width * (parallels_[row + 1].sine - parallels_[row].sine);
+    return columns_[column].width * heights_[row];
   }
+  // What the sines of a row's parallels differ by.
+  [[nodiscard]] double height(Index row) const { return heights_[row]; }
   // Where the meridian `offset` radians east of a column's western one meets the equator.
   [[nodiscard]] Point meridian(Index column, double offset) const;
   [[nodiscard]] Point eastern_meridian(Index column) const {
@@ -65,7 +95,7 @@ class Graticule {
   // By cell.
   [[nodiscard]] std::vector<double> areas() const;
   [[nodiscard]] std::vector<Point> moments() const;
-  // Of borders: of the parallels as if they were at the equator.
+  // Of borders.
   [[nodiscard]] std::vector<double> lengths() const;
   // Cells that share a side, in any order, some of them twice.
   void append_neighbors(Index cell, std::vector<Index>& neighbors) const;
@@ -81,13 +111,17 @@ class Graticule {
   Index first_row_ = 0;        // that is one of the grid
   std::vector<Lune> columns_;
   std::vector<Parallel> parallels_;
+  std::vector<double> heights_;  // of rows
   std::vector<double> latitudes_;
 };
 
-// The integral of q over the part of a row where q's longitude is in a range: `run` is the difference of the eastern
-// and the western end of the range, on the equator.
+// What the sines of two parallels differ by, to some units in the last place.
+double height_between(const Graticule::Parallel& south, const Graticule::Parallel& north);
+
+// The integral of q over the part of a row, of this height_between(), where q's longitude is in a range: `run` is the
+// difference of the eastern and the western end of the range, on the equator.
 Point moment_of_row(const Graticule::Parallel& south, const Graticule::Parallel& north,
-                    double width, const Point& run);
+                    double height, double width, const Point& run);
 
 // The cells of a grid with sides on great circles, named as those of the grid.
 CellRings rings_of(const LonLatGrid& grid);

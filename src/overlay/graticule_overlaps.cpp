@@ -100,6 +100,7 @@ struct LatRange {
   Index row;
   Graticule::Parallel south;
   Graticule::Parallel north;
+  double height;
 };
 
 LatRange range_of(const Overlap& overlap, const Graticule& grid, const Graticule& other) {
@@ -110,7 +111,9 @@ LatRange range_of(const Overlap& overlap, const Graticule& grid, const Graticule
     const Index of_other = other.first_row() + overlap.second;
     return other.parallel(latitude == other.latitudes()[overlap.second] ? of_other : of_other + 1);
   };
-  return {other.first_row() + overlap.second, parallel(overlap.low), parallel(overlap.high)};
+  const Graticule::Parallel south = parallel(overlap.low);
+  const Graticule::Parallel north = parallel(overlap.high);
+  return {other.first_row() + overlap.second, south, north, height_between(south, north)};
 }
 
 struct BoxPiece {
@@ -164,9 +167,8 @@ PieceRows pieces(const Graticule& rows, const Graticule& columns, bool has_momen
     row.clear();
     for (const LatRange& lat : across[j]) {
       for (const LonRange& lon : along[i]) {
-        row.push_back({columns.cell(lon.column, lat.row),
-                       lon.width * (lat.north.sine - lat.south.sine),
-                       moment_of_row(lat.south, lat.north, lon.width, lon.run)});
+        row.push_back({columns.cell(lon.column, lat.row), lon.width * lat.height,
+                       moment_of_row(lat.south, lat.north, lat.height, lon.width, lon.run)});
       }
     }
     std::ranges::stable_sort(row, {}, &BoxPiece::cell);

@@ -34,6 +34,44 @@ struct Fill {
   Point run{};
 };
 
+// The strips of a row in one column.
+class RowStrips {
+ public:
+  void add(const Strip& strip) {
+    area_ += strip.area;
+    if (strip.pole == 0) {
+      has_others_ = true;
+    } else if (strip.pole > 0) {
+      northern_ += strip.width;
+      has_northern_ = true;
+    } else {
+      southern_ += strip.width;
+      has_southern_ = true;
+    }
+  }
+  // What is south of the strips and of a part of the row's northern parallel, `above` wide, and north of its southern parallel. Of
+  // that `below` is left, which knows better than the sum of all widths where that vanishes.
+  [[nodiscard]] double area(const Graticule& grid, Index row, double above, double below) const {
+    if (!has_northern_ && !has_southern_) return area_ + above * grid.height(row);
+    const SphereHeight south = grid.parallel(row).height();
+    const SphereHeight north = grid.parallel(row + 1).height();
+    if (has_northern_ != has_southern_ && !has_others_) {
+      const SphereHeight pole = {has_northern_ ? 1.0 : -1.0, 0};
+      return area_ + (below * rise(south, pole) - above * rise(north, pole));
+    }
+    return area_ + above * grid.height(row) + northern_ * rise(south, {1, 0}) +
+           southern_ * rise(south, {-1, 0});
+  }
+
+ private:
+  double area_ = 0;
+  double northern_ = 0;  // the widths of those whose areas begin at a pole
+  double southern_ = 0;
+  bool has_northern_ = false;
+  bool has_southern_ = false;
+  bool has_others_ = false;
+};
+
 class GridPieceMaker {
  public:
   GridPieceMaker(const PartitionData& cells, const Graticule& grid,
@@ -92,7 +130,8 @@ class GridPieceMaker {
   [[nodiscard]] bool has_north_pole(double area) const {
     double south = 0;
     for (const Strip& strip : strips_) {
-      south += strip.area + strip.width * (1 + grid_.parallel(strip.row).sine);
+      const double floor = strip.pole != 0 ? strip.pole : grid_.parallel(strip.row).sine;
+      south += strip.area + strip.width * (1 + floor);
     }
     return area - south > 2 * std::numbers::pi;
   }
@@ -118,22 +157,25 @@ class GridPieceMaker {
     for (;; --row) {
       GridPiece piece = row_of(column, row, fill);
       Fill below = fill;
+      RowStrips strips;
       for (; next < end && strips_[next].row == row; ++next) {
         const Strip& strip = strips_[next];
-        piece.area += strip.area;
+        strips.add(strip);
         piece.length += strip.length;
         piece.moment = piece.moment + strip.moment;
         below.width += strip.width;
         below.size += std::abs(strip.width);
         below.run = below.run + strip.run;
       }
-      const bool is_from_above = fill.width != 0;
+      const double width_above = fill.width;
       fill = below;
       // Longitudes are off by some u, and sums of n by n u.
       const double rounding = predicates::unit_roundoff * (16 + 4 * summands * fill.size);
       if (std::abs(fill.width) <= rounding) fill = {};
       if (std::abs(fill.width - grid_.columns()[column].width) <= rounding) fill = filled(column);
-      if (is_from_above && fill.width != 0) piece.length += height_of(row);
+      piece.area = strips.area(grid_, row, width_above, fill.width);
+      piece.length += fill.size * grid_.parallel(row).cosine;
+      if (width_above != 0 && fill.width != 0) piece.length += grid_.height(row);
       if (piece.cell != no_index) pieces_.push_back(piece);
       if (row == 0 || (next == end && fill.width == 0)) return end;
       if (fill.width == 0) row = strips_[next].row + 1;
@@ -145,20 +187,16 @@ class GridPieceMaker {
     return {width, width, grid_.eastern_meridian(column) - grid_.columns()[column].west};
   }
 
-  [[nodiscard]] double height_of(Index row) const {
-    return grid_.parallel(row + 1).sine - grid_.parallel(row).sine;
-  }
-
   // The part of a row that is filled all the way down. Its sides count where they run through all of the row; those of what
   // begins or ends there are among the strips.
   [[nodiscard]] GridPiece row_of(Index column, Index row, const Fill& fill) const {
     const Graticule::Parallel& south = grid_.parallel(row);
     const Graticule::Parallel& north = grid_.parallel(row + 1);
-    GridPiece piece{grid_.cell(column, row), fill.width * height_of(row), 0, {}};
+    GridPiece piece{grid_.cell(column, row), 0, 0, {}};
     if (fill.width == 0) return piece;
-    piece.length = fill.size;
+    piece.length = fill.size * north.cosine;
     if (has_moments_) {
-      piece.moment = moment_of_row(south, north, fill.width, fill.run);
+      piece.moment = moment_of_row(south, north, grid_.height(row), fill.width, fill.run);
     }
     return piece;
   }

@@ -14,6 +14,7 @@
 #include "exact/degrees.h"
 #include "overlay/arc_bulge.h"
 #include "overlay/measure.h"
+#include "predicates/bounds.h"
 
 namespace rondel::overlay {
 namespace {
@@ -35,11 +36,56 @@ double area_above(const Graticule::Parallel& parallel, const GraticulePlace& p,
   const double dz = q.point.z - p.point.z;
   const double dr = q.radius - p.radius;
   const double bend = (dz * dz + dr * dr) / 2;  // 1 - cos(p - q)
-  const double rise =
+  const double middle =
       ((p.point.z - parallel.sine) + (q.point.z - parallel.sine) + parallel.sine * bend) /
       (2 - bend);
-  const double k = parallel.sine + rise;
-  return width * rise + area_of_bulge(width, k, 1);
+  return width * middle + area_of_bulge(width, parallel.sine + middle);
+}
+
+// Between the arc and the pole next to it: with t = tan(width / 2) it is 2 (atan(t) - atan(k t)) = 2 atan(g t / (1 + k t^2)), where
+// g = 1 - k = ((1 - sin p) (1 - sin q) + cos p cos q) / (1 + cos(p - q)) for the northern one.
+double area_at_pole(const GraticulePlace& p, const GraticulePlace& q) {
+  const double radii = p.radius * q.radius;
+  const double g = (p.gap * q.gap + radii) / (1 + p.point.z * q.point.z + radii);
+  const exact::SineCosine half = exact::sine_cosine_of_degrees((q.offset - p.offset) * (90 / pi));
+  return 2 * exact::argument(g * half.sine * half.cosine,
+                             half.cosine * half.cosine + (1 - g) * half.sine * half.sine);
+}
+
+// Places that differ from a parallel by rounding are on it.
+bool is_south_of(const SphereHeight& height, const Graticule::Parallel& parallel) {
+  constexpr double of_gap = 8 * predicates::unit_roundoff;
+  const SphereHeight low = parallel.height();
+  const double above = rise(low, height);
+  return is_polar(low, height) ? above < -of_gap * low.gap : above < 0;
+}
+
+void set_point(GraticulePlace& place, const Point& point) {
+  place.point = point;
+  place.radius = radius_of(point);
+  place.gap = height_of(point.z, place.radius).gap;
+}
+
+// How far the place a part t along the chord between two points is above a parallel, times its distance from the center, and the
+// derivative of that by t, roughly.
+struct RiseAlongChord {
+  double above;
+  double slope;
+};
+RiseAlongChord rise_along(const Point& from, const Point& chord, double square, double t,
+                          const Graticule::Parallel& parallel) {
+  const double length = std::sqrt(1 - t * (1 - t) * square);
+  if (std::abs(parallel.sine) > polar_sine) {
+    const Point p = from + t * chord;
+    const SphereHeight height = height_of(p.z / length, radius_of(p) / length);
+    if (is_polar(parallel.height(), height)) {
+      const double outward =
+          2 * (p.x * chord.x + p.y * chord.y) / (length * (1 + std::abs(height.sine)));
+      return {rise(parallel.height(), height) * length, parallel.sine > 0 ? -outward : outward};
+    }
+  }
+  return {from.z + t * chord.z - parallel.sine * length,
+          chord.z + parallel.sine * (1 - 2 * t) * square / (2 * length)};
 }
 
 Point meridian_of(const Graticule& grid, const GraticulePlace& place) {
@@ -59,7 +105,8 @@ Point moment_of_meridian(const Graticule::Parallel& south, const GraticulePlace&
 
 GraticulePlace GraticuleWalk::place_of(const Point& point) const {
   const auto& columns = grid_.columns();
-  GraticulePlace place{point, radius_of(point)};
+  GraticulePlace place;
+  set_point(place, point);
   const Point& first = columns.front().west;
   double turn = exact::argument(side(first, point), along(first, point));
   if (turn < 0) turn += 2 * pi;
@@ -74,12 +121,16 @@ GraticulePlace GraticuleWalk::place_of(const Point& point) const {
   return place;
 }
 
-Index GraticuleWalk::row_of(double sine) const {
+Index GraticuleWalk::row_of(const SphereHeight& height) const {
   Index low = 0;
   Index high = grid_.num_rows();
+  const bool is_near_pole = std::abs(height.sine) > polar_sine;
   while (high - low > 1) {
     const Index middle = low + (high - low) / 2;
-    (grid_.parallel(middle).sine <= sine ? low : high) = middle;
+    const Graticule::Parallel& parallel = grid_.parallel(middle);
+    const bool is_south =
+        is_near_pole ? is_south_of(height, parallel) : height.sine < parallel.sine;
+    (is_south ? high : low) = middle;
   }
   return low;
 }
@@ -106,6 +157,7 @@ void GraticuleWalk::append(const GraticulePlace& from, const GraticulePlace& to,
     GraticulePlace turned_to = is_first ? *east : *west;
     turned_to.point = is_first ? west->point : east->point;
     turned_to.radius = 0;
+    turned_to.gap = 0;
     append_columns(is_first ? *west : turned_to, is_first ? turned_to : *east, out);
     return;
   }
@@ -126,12 +178,14 @@ bool GraticuleWalk::has_extreme(const GraticulePlace& from, const GraticulePlace
   const double rise_to = side(normal, to.point);
   if (!(rise_from > 0 && rise_to < 0) && !(rise_from < 0 && rise_to > 0)) return false;
   const Point point = normalized(std::abs(rise_to) * from.point + std::abs(rise_from) * to.point);
-  const auto [south, north] = std::minmax(from.point.z, to.point.z);
-  const Index row = row_of(point.z);
-  // An arc to an end on a parallel that comes from the north meets that parallel once more.
-  const bool is_met_twice = row > row_of(south) && north == grid_.parallel(row).sine;
-  if (row >= row_of(south) && row <= row_of(north) && !is_met_twice) return false;
   extreme = place_of(point);
+  const bool is_rising = rise(from.height(), to.height()) > 0;
+  const SphereHeight south = (is_rising ? from : to).height();
+  const SphereHeight north = (is_rising ? to : from).height();
+  const Index row = row_of(extreme.height());
+  // An arc to an end on a parallel that comes from the north meets that parallel once more.
+  const bool is_met_twice = row > row_of(south) && rise(grid_.parallel(row).height(), north) == 0;
+  if (row >= row_of(south) && row <= row_of(north) && !is_met_twice) return false;
   const auto east_of = [&](const GraticulePlace& place) {
     const double turned = turn(place) - turn(from);
     return turned < -1 ? turned + 2 * pi : turned;
@@ -158,12 +212,12 @@ void GraticuleWalk::append_columns(const GraticulePlace& from, const GraticulePl
     const double west = std::max(-side(border, from.point), 0.0);
     GraticulePlace next = last;
     if (east > 0 || west > 0) {
-      next.point = normalized(east * from.point + west * to.point);
-      next.radius = radius_of(next.point);
+      set_point(next, normalized(east * from.point + west * to.point));
     } else if (!(along(border, from.point) >
                  0)) {  // the arc has come through a pole to this meridian
       next.point = to.point;
       next.radius = to.radius;
+      next.gap = to.gap;
     }
     next.offset = grid_.columns()[last.column].width;
     append_rows(last, next, out);
@@ -177,12 +231,13 @@ void GraticuleWalk::append_columns(const GraticulePlace& from, const GraticulePl
 void GraticuleWalk::append_rows(const GraticulePlace& from, const GraticulePlace& to,
                                 const Out& out) const {
   if (!(from.offset < to.offset)) return;
-  Index row = row_of(from.point.z);
-  const Index last_row = row_of(to.point.z);
+  Index row = row_of(from.height());
+  const Index last_row = row_of(to.height());
   GraticulePlace last = from;
   while (row != last_row) {
     const bool is_north = last_row > row;
-    const GraticulePlace next = on_parallel(last, to, grid_.parallel(is_north ? row + 1 : row));
+    const GraticulePlace next =
+        on_parallel(last, to, grid_.parallel(is_north ? row + 1 : row), is_north);
     append_strip(last, next, row, out);
     last = next;
     row = is_north ? row + 1 : row - 1;
@@ -192,19 +247,17 @@ void GraticuleWalk::append_rows(const GraticulePlace& from, const GraticulePlace
 
 // Newton's method along the chord, within what is known to hold the place.
 GraticulePlace GraticuleWalk::on_parallel(const GraticulePlace& from, const GraticulePlace& to,
-                                          const Graticule::Parallel& parallel) const {
+                                          const Graticule::Parallel& parallel,
+                                          bool is_north) const {
   const Point chord = to.point - from.point;
   const double square = dot(chord, chord);
-  const bool is_north = chord.z > 0;
   double low = 0;
   double high = 1;
-  double t = (parallel.sine - from.point.z) / chord.z;
+  double t = rise(from.height(), parallel.height()) / rise(from.height(), to.height());
   constexpr int most_steps = 60;
   for (int step = 0; step < most_steps; ++step) {
     if (!(t > low && t < high)) t = (low + high) / 2;
-    const double length = std::sqrt(1 - t * (1 - t) * square);
-    const double above = from.point.z + t * chord.z - parallel.sine * length;
-    const double slope = chord.z + parallel.sine * (1 - 2 * t) * square / (2 * length);
+    const auto [above, slope] = rise_along(from.point, chord, square, t, parallel);
     if (above == 0) break;
     ((above > 0) == is_north ? high : low) = t;
     const double next = t - above / slope;
@@ -219,6 +272,7 @@ GraticulePlace GraticuleWalk::on_parallel(const GraticulePlace& from, const Grat
   place.offset = std::clamp(offset, from.offset, to.offset);
   place.point.z = parallel.sine;
   place.radius = parallel.cosine;
+  place.gap = parallel.height().gap;
   return place;
 }
 
@@ -229,7 +283,12 @@ void GraticuleWalk::append_strip(const GraticulePlace& from, const GraticulePlac
   strip.width = out.sign * (to.offset - from.offset);
   if (strip.width == 0) return;
   strip.length = rough_length(from.point, to.point);
-  strip.area = out.sign * area_above(parallel, from, to);
+  if (is_polar(from.height(), to.height())) {
+    strip.pole = from.point.z > 0 ? 1 : -1;
+    strip.area = -out.sign * strip.pole * area_at_pole(from, to);
+  } else {
+    strip.area = out.sign * area_above(parallel, from, to);
+  }
   if (has_moments_) {
     const Point west = meridian_of(grid_, from);
     const Point east = meridian_of(grid_, to);

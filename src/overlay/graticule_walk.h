@@ -17,15 +17,19 @@ namespace rondel::overlay {
 struct GraticulePlace {
   Point point;
   double radius = 0;  // distance from the axis
+  double gap = 0;     // of its height
   Index column = 0;
   double offset = 0;  // radians east of the column's western meridian
+
+  [[nodiscard]] SphereHeight height() const { return {point.z, gap}; }
 };
 
-// What is between the part of an arc in a row of a column and the row's southern parallel; negative for arcs that
-// run east, whose cell is to the north.
+// What is between the part of an arc in a row of a column and the row's southern parallel, or near a pole that pole, which is
+// counted as if it was south of the arc. It is negative for arcs that run east, whose cell is to the north.
 struct Strip {
   Index column = 0;
   Index row = 0;
+  double pole = 0;  // its sine; 0: the area is above the parallel
   double area = 0;
   double width = 0;   // radians
   double length = 0;  // of the arc, roughly
@@ -51,11 +55,12 @@ class GraticuleWalk {
   [[nodiscard]] double turn(const GraticulePlace& place) const {
     return grid_.columns()[place.column].start + place.offset;
   }
-  [[nodiscard]] Index row_of(double sine) const;
+  [[nodiscard]] Index row_of(const SphereHeight& height) const;
   [[nodiscard]] bool has_extreme(const GraticulePlace& from, const GraticulePlace& to,
                                  GraticulePlace& extreme) const;
   [[nodiscard]] GraticulePlace on_parallel(const GraticulePlace& from, const GraticulePlace& to,
-                                           const Graticule::Parallel& parallel) const;
+                                           const Graticule::Parallel& parallel,
+                                           bool is_north) const;
   // From west to east.
   void append_columns(const GraticulePlace& from, const GraticulePlace& to, const Out& out) const;
   void append_rows(const GraticulePlace& from, const GraticulePlace& to, const Out& out) const;
