@@ -27,7 +27,7 @@ enum class RemapNorm : std::uint8_t {
 enum class CellOverlap : std::uint8_t {
   error,  ///< it is refused, with two of the cells and the place
   first,  ///< the cell with the lowest index has it, as if the others ended there
-  share,  ///< it counts for each of them, divided by their number
+  share,  ///< it counts for each of them, divided by their number, on both sides if cells of both overlap
 };
 
 struct RemapOptions {

@@ -18,29 +18,30 @@
 namespace rondel::overlay {
 namespace {
 
-// A part of a cell, in so many cells of those that overlap with it, itself included.
-struct CountedPart {
+// A part of a cell, and all cells that have it.
+struct OwnedPart {
   CellRings rings;
-  unsigned count;
+  std::vector<Index> owners;
 };
 
-// The parts of a cell that count, as `others` that overlap with it, or come before it, leave them.
-std::vector<CountedPart> parts_of_cell(const CellRings& cells, Index cell,
-                                       const std::vector<Index>& others, CellOverlap rule,
-                                       const Execution& execution) {
-  std::vector<CountedPart> parts = {{one_cell(cells, cell), 1}};
+// The parts of a cell that cells before it do not have. Those that cells behind it have as well are apart.
+std::vector<OwnedPart> parts_of_cell(const CellRings& cells, Index cell,
+                                     const std::vector<Index>& others, const Execution& execution) {
+  std::vector<OwnedPart> parts = {{one_cell(cells, cell), {cell}}};
   for (const Index other : others) {
     const CellRings there = one_cell(cells, other);
     const Partition inside(there);
     const Partition outside(beyond_cell(there));
-    std::vector<CountedPart> cut;
-    for (const CountedPart& part : parts) {
+    std::vector<OwnedPart> cut;
+    for (const OwnedPart& part : parts) {
       const Partition whole_part(part.rings);
       CellRings left = clip(whole_part, outside, execution);
-      if (has_any(left)) cut.push_back({std::move(left), part.count});
-      if (rule != CellOverlap::share) continue;
+      if (has_any(left)) cut.push_back({std::move(left), part.owners});
+      if (other < cell) continue;
       CellRings both = clip(whole_part, inside, execution);
-      if (has_any(both)) cut.push_back({std::move(both), part.count + 1});
+      if (!has_any(both)) continue;
+      cut.push_back({std::move(both), part.owners});
+      cut.back().owners.push_back(other);
     }
     parts = std::move(cut);
   }
@@ -48,15 +49,16 @@ std::vector<CountedPart> parts_of_cell(const CellRings& cells, Index cell,
 }
 
 TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>& others,
-                  CellOverlap rule, const Execution& execution) {
+                  const Execution& execution) {
   const Execution told{.threads = execution.threads, .stop = execution.stop};
   TakingPart result;
   CellRings all;
   all.points = cells.points;
-  const auto own = [&](Index cell, unsigned count) {
-    result.owners.push_back(cell);
-    result.shares.push_back(1.0 / count);
+  const auto own = [&](const std::vector<Index>& owners) {
+    result.owners.insert(result.owners.end(), owners.begin(), owners.end());
+    result.offsets.push_back(result.owners.size());
   };
+  result.offsets = {0};
   for (Index i = 0; i < cells.num_cells(); ++i) {
     if (others[i].empty()) {
       if (cells.is_whole(i)) all.whole.push_back(static_cast<Index>(all.num_cells()));
@@ -67,12 +69,12 @@ TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>&
         all.rings.push_back(all.corners.size());
       }
       all.cells.push_back(all.rings.size() - 1);
-      own(i, 1);
+      own({i});
       continue;
     }
-    for (const CountedPart& part : parts_of_cell(cells, i, others[i], rule, told)) {
+    for (const OwnedPart& part : parts_of_cell(cells, i, others[i], told)) {
       append(part.rings, all);
-      own(i, part.count);
+      own(part.owners);
     }
   }
   merge_equal_points(all);
@@ -123,12 +125,17 @@ TakingPart taking_part(const PartitionData& cells, const std::vector<std::int32_
     others[pair.second].push_back(pair.first);
     if (rule == CellOverlap::share) others[pair.first].push_back(pair.second);
   }
-  return cut_up(rings, others, rule, execution);
+  return cut_up(rings, others, execution);
+}
+
+std::span<const Index> TakingPart::owners_of(const Index& part) const {
+  if (offsets.empty()) return {&part, 1};
+  return std::span(owners).subspan(offsets[part], offsets[part + std::size_t{1}] - offsets[part]);
 }
 
 PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
                        const TakingPart& columns) {
-  if (rows.owners.empty() && columns.owners.empty()) return pieces;
+  if (!rows.has_parts() && !columns.has_parts()) return pieces;
   struct PartPiece {
     Index row;
     Index column;
@@ -137,15 +144,16 @@ PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num
   };
   std::vector<PartPiece> entries;
   entries.reserve(pieces.columns.size());
-  for (std::size_t j = 0; j + 1 < pieces.offsets.size(); ++j) {
-    const auto row = rows.owners.empty() ? static_cast<Index>(j) : rows.owners[j];
-    const double of_row = rows.owners.empty() ? 1 : rows.shares[j];
-    for (std::uint64_t k = pieces.offsets[j]; k < pieces.offsets[j + 1]; ++k) {
-      const Index part = pieces.columns[k];
-      const double share = of_row * (columns.owners.empty() ? 1 : columns.shares[part]);
-      entries.push_back({row, columns.owners.empty() ? part : columns.owners[part],
-                         share * pieces.areas[k],
-                         pieces.moments.empty() ? Point{} : share * pieces.moments[k]});
+  for (Index j = 0; j + std::size_t{1} < pieces.offsets.size(); ++j) {
+    const std::span<const Index> of_row = rows.owners_of(j);
+    for (std::uint64_t k = pieces.offsets[j]; k < pieces.offsets[j + std::size_t{1}]; ++k) {
+      const std::span<const Index> of_column = columns.owners_of(pieces.columns[k]);
+      const double share = 1.0 / static_cast<double>(of_row.size() * of_column.size());
+      const double area = share * pieces.areas[k];
+      const Point moment = pieces.moments.empty() ? Point{} : share * pieces.moments[k];
+      for (const Index row : of_row) {
+        for (const Index column : of_column) entries.push_back({row, column, area, moment});
+      }
     }
   }
   std::ranges::stable_sort(entries, {},
@@ -170,17 +178,20 @@ PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num
 }
 
 CountedSizes::CountedSizes(const PartitionData& cells, const TakingPart& part)
-    : cells_(cells), of_parts_(!part.owners.empty()) {
+    : cells_(cells), of_parts_(part.has_parts()) {
   if (!of_parts_) return;
   const std::size_t n = cells.areas().size();
   areas_.resize(n);
   lengths_.resize(n);
   moments_.resize(n);
-  for (std::size_t k = 0; k < part.owners.size(); ++k) {
-    const Index owner = part.owners[k];
-    areas_[owner] += part.shares[k] * part.data->areas()[k];
-    lengths_[owner] += part.data->lengths()[k];
-    moments_[owner] = moments_[owner] + part.shares[k] * part.data->moments()[k];
+  for (Index k = 0; k + std::size_t{1} < part.offsets.size(); ++k) {
+    const std::span<const Index> owners = part.owners_of(k);
+    const double share = 1.0 / static_cast<double>(owners.size());
+    for (const Index owner : owners) {
+      areas_[owner] += share * part.data->areas()[k];
+      lengths_[owner] += part.data->lengths()[k];
+      moments_[owner] = moments_[owner] + share * part.data->moments()[k];
+    }
   }
 }
 

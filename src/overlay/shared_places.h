@@ -1,11 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells that overlap, cut into parts of which each has a share.
+// Cells that overlap, cut into parts that are apart.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "overlay/partition_data.h"
@@ -19,9 +20,13 @@ namespace rondel::overlay {
 struct TakingPart {
   const PartitionData* data = nullptr;
   std::shared_ptr<const PartitionData> parts = nullptr;  // owns `data`, if these are not the cells
-  // The cell of each part, and the share of its area that counts; empty if the parts are the cells.
+  // The cells that have part k are owners[offsets[k]] to owners[offsets[k + 1] - 1]; each has its share of it. Both are empty if
+  // the parts are the cells.
+  std::vector<std::uint64_t> offsets = {};
   std::vector<Index> owners = {};
-  std::vector<double> shares = {};
+
+  [[nodiscard]] bool has_parts() const { return !offsets.empty(); }
+  [[nodiscard]] std::span<const Index> owners_of(const Index& part) const;
 };
 
 // The cells that are not masked. Throws InvalidInput if some of them overlap and `rule` is error, or if one overlaps itself,

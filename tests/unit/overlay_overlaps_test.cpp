@@ -4,15 +4,20 @@
 // Which cells overlap, by more than rounding.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "exact/vector.h"
+#include "overlay_planar.h"
 #include "overlay_support.h"
 #include "rondel/error.h"
 #include "rondel/regions.h"
+#include "rondel/remap.h"
+#include "support/random.h"
 
 namespace rondel::test {
 namespace {
@@ -134,6 +139,101 @@ TEST(overlay_overlaps, of_covers_with_cells_twice) {
     twice.cells.push_back(twice.rings.size() - 1);
   }
   EXPECT_EQ(pairs_of(twice), expected);
+}
+
+// Boxes in longitude and latitude, some of them in others, some twice.
+struct PlaneBox {
+  double west, south, east, north;
+  [[nodiscard]] bool has(double lon, double lat) const {
+    return west < lon && lon < east && south < lat && lat < north;
+  }
+};
+
+std::vector<PlaneBox> random_boxes(Random& random) {
+  std::vector<PlaneBox> boxes;
+  for (std::size_t k = 3 + random.below(3); k > 0; --k) {
+    if (!boxes.empty() && random.below(5) == 0) {
+      boxes.push_back(boxes.front());
+      continue;
+    }
+    const double west = 40 * random.unit();
+    const double south = 30 * random.unit() - 10;
+    boxes.push_back({west, south, west + 2 + 20 * random.unit(), south + 2 + 15 * random.unit()});
+  }
+  return boxes;
+}
+
+Partition cells_of_boxes(const std::vector<PlaneBox>& boxes) {
+  std::vector<std::vector<std::string>> features;
+  for (const auto& [west, south, east, north] : boxes) {
+    features.push_back({planar_polygon({planar_box(west, south, east, north)})});
+  }
+  return Partition(planar_table(features).cells);
+}
+
+// What each pair has of the boxes between all lines, each of which counts for the cells that have it by its rule.
+std::vector<double> shares_of_pairs(const std::vector<PlaneBox>& from,
+                                    const std::vector<PlaneBox>& to, CellOverlap rule) {
+  std::vector<double> lons;
+  std::vector<double> lats;
+  for (const auto* boxes : {&from, &to}) {
+    for (const auto& [west, south, east, north] : *boxes) {
+      lons.insert(lons.end(), {west, east});
+      lats.insert(lats.end(), {south, north});
+    }
+  }
+  std::ranges::sort(lons);
+  std::ranges::sort(lats);
+  const auto owners = [&](const std::vector<PlaneBox>& boxes, double lon, double lat) {
+    std::vector<std::size_t> found;
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      if (boxes[k].has(lon, lat)) found.push_back(k);
+    }
+    if (rule == CellOverlap::first && found.size() > 1) found.resize(1);
+    return found;
+  };
+  std::vector<double> shares(from.size() * to.size(), 0);
+  for (std::size_t x = 0; x + 1 < lons.size(); ++x) {
+    for (std::size_t y = 0; y + 1 < lats.size(); ++y) {
+      const double lon = (lons[x] + lons[x + 1]) / 2;
+      const double lat = (lats[y] + lats[y + 1]) / 2;
+      const std::vector<std::size_t> sources = owners(from, lon, lat);
+      const std::vector<std::size_t> targets = owners(to, lon, lat);
+      for (const std::size_t s : sources) {
+        for (const std::size_t t : targets) {
+          shares[s * to.size() + t] +=
+              area_in_plane(planar_box(lons[x], lats[y], lons[x + 1], lats[y + 1])) /
+              static_cast<double>(sources.size() * targets.size());
+        }
+      }
+    }
+  }
+  return shares;
+}
+
+TEST(overlay_overlaps, places_of_several_cells_of_both_sides_are_shared) {
+  Random random(11);
+  for (int trial = 0; trial < 8; ++trial) {
+    const std::vector<PlaneBox> from = random_boxes(random);
+    const std::vector<PlaneBox> to = random_boxes(random);
+    const Partition source = cells_of_boxes(from);
+    const Partition target = cells_of_boxes(to);
+    for (const CellOverlap rule : {CellOverlap::share, CellOverlap::first}) {
+      const Remap found = remap(source, target, {.overlap = rule});
+      const Remap second = remap(source, target, {.order = 2, .overlap = rule});
+      const std::vector<double> expected = shares_of_pairs(from, to, rule);
+      const std::vector<double> of_sources = shares_of_pairs(from, {{-90, -80, 90, 80}}, rule);
+      constexpr double arcs = 2e-6;
+      for (std::size_t s = 0; s < from.size(); ++s) {
+        EXPECT_NEAR(found.source_areas[s], of_sources[s], arcs) << trial << ' ' << s;
+        for (std::size_t t = 0; t < to.size(); ++t) {
+          EXPECT_NEAR(piece_of(found, s, t), expected[s * to.size() + t], arcs)
+              << trial << ": " << s << ' ' << t;
+          EXPECT_NEAR(piece_of(second, s, t), piece_of(found, s, t), 1e-14);
+        }
+      }
+    }
+  }
 }
 
 }  // namespace
