@@ -51,9 +51,13 @@ class RONDEL_API Partition {
   ///         great circles also with a cell that is 180 degrees wide.
   static Partition lonlat_grid(const LonLatGrid& grid, GridSides sides = GridSides::parallels,
                                const Execution& execution = {});
-  /// Any cells.
+  /// Any cells. Of cells that are neither convex nor nearly so, sides that run to and fro between two corners vanish, and so
+  /// do ways that turn back on themselves.
   /// \throws InvalidInput with the cell that has an index out of range, a ring of less than three corners,
-  /// a corner that is no unit vector, or rings although it is named as the whole sphere.
+  /// a corner that is no unit vector, or rings although it is named as the whole sphere; or whose sides all run to and fro, as
+  /// those of a ring and a hole of the same corners, or of two parts that share all of their border, so that it may be nothing
+  /// or the whole sphere. But rings no wider than rounding of their corners are nothing. Cells that cross or overlap
+  /// themselves, or each other, are refused by what is done with them (remap.h, regions.h).
   explicit Partition(const CellRings& cells, const Execution& execution = {});
 
   [[nodiscard]] std::size_t num_cells() const;

@@ -56,8 +56,8 @@ struct PolygonTable {
 /// Reads .geojson (or .json): Polygon, MultiPolygon, and collections of them, in features or bare. "-" is
 /// standard input.
 ///
-/// 1. A feature without a place is a cell without rings. One that covers the sphere (-180 -90 180 90) has none
-///    either, and `cells.whole` names it.
+/// 1. A feature without a place is a cell without rings. One that covers the sphere (-180 -90 180 90, or parts
+///    that have all of their sides in common) has none either, and `cells.whole` names it.
 /// 2. Straight lines in longitude and latitude mean the plane of these coordinates: a place is inside of a polygon if it lies in it
 ///    there, by exact signs. Arcs get so many corners that they cross and touch no more than the lines do, however thin a
 ///    polygon is.
@@ -72,7 +72,7 @@ struct PolygonTable {
 /// 6. Features that share a line of positions share the corners that it gets, bit by bit. A corner of one feature that lies
 ///    on a side of another, but for some roundings (2^-42 degrees), becomes a corner of that, too.
 /// \throws FileError for what cannot be read, with file, line and feature; for sides that cross, holes outside of their
-///         shell or in another hole, parts that overlap, rings without an area, with feature, ring and place; for
+///         shell or in another hole, parts that overlap, rings without an area, holes that leave nothing, with feature, ring and place; for
 ///         features that overlap if options say so.
 /// \throws InvalidInput if the tolerance is not positive.
 RONDEL_API PolygonTable read_polygons(const FileName& file, const PolygonOptions& options = {},

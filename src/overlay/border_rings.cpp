@@ -263,4 +263,17 @@ CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, uns
   return result;
 }
 
+bool is_nothing(std::span<const KeyedArc> arcs) {
+  using Ends = std::tuple<double, double, double, double, double, double>;
+  std::vector<Ends> there;
+  std::vector<Ends> back;
+  for (const auto& [key, p, q] : arcs) {
+    there.emplace_back(p.x, p.y, p.z, q.x, q.y, q.z);
+    back.emplace_back(q.x, q.y, q.z, p.x, p.y, p.z);
+  }
+  std::ranges::sort(there);
+  std::ranges::sort(back);
+  return there == back;
+}
+
 }  // namespace rondel::overlay

@@ -28,4 +28,7 @@ struct KeyedArc {
 // 4. Rings that are no larger than what rounding of their corners may make are left out.
 CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, unsigned threads);
 
+// Whether there are as many arcs from any point to any other one as back, so that they bound nothing.
+bool is_nothing(std::span<const KeyedArc> arcs);
+
 }  // namespace rondel::overlay

@@ -4,10 +4,8 @@
 #include "overlay/feature_polygons.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <limits>
 #include <numbers>
 #include <numeric>
@@ -15,45 +13,24 @@
 #include <utility>
 #include <vector>
 
-#include "exact/vector.h"
-#include "map/ring_area.h"
 #include "overlay/border_rings.h"
 #include "overlay/cell_sets.h"
+#include "overlay/feature_faults.h"
 #include "overlay/first_of_cells.h"
+#include "overlay/geodesic_polygons.h"
 #include "overlay/long_side.h"
 #include "overlay/plane_areas.h"
 #include "overlay/plane_sweep.h"
 #include "overlay/shared_corners.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
-#include "rondel/predicates.h"
 #include "rondel/regions.h"
-#include "rondel/weight_files.h"
 #include "system/parallel.h"
 
 namespace rondel::overlay {
 namespace {
 
 constexpr std::size_t swept_per_block = 16;
-
-std::string text_of_place(const LonLat& place) {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), "%.10g %.10g", place.lon_deg, place.lat_deg);
-  return text.data();
-}
-std::string text_of_place(const Point& place) {
-  return text_of_place(lonlats(std::vector<Point>{place}).front());
-}
-
-std::string ring_name(const std::vector<io::LonLatRing>& rings, Index ring) {
-  std::size_t part = 0;
-  std::size_t in_part = 0;
-  for (std::size_t r = 1; r <= ring; ++r) {
-    part += rings[r].is_hole ? 0 : 1;
-    in_part = rings[r].is_hole ? in_part + 1 : 0;
-  }
-  return "ring " + std::to_string(in_part) + " of part " + std::to_string(part);
-}
 
 std::string text_of_fault(const std::vector<io::LonLatRing>& rings, const PlaneFault& fault) {
   const std::string second = ring_name(rings, fault.second);
@@ -98,7 +75,7 @@ class FeatureCells {
 
   CellRings operator()() {
     const bool is_geodesic = options_.edges == PolygonEdges::geodesic;
-    CellRings cells = is_geodesic ? geodesic_cells() : plane_cells();
+    CellRings cells = is_geodesic ? geodesic_cells(features_, quiet()) : plane_cells();
     if (options_.overlap == PolygonOverlap::keep && !is_geodesic) {
       require_parts_apart(cells);
       return cells;
@@ -119,8 +96,7 @@ class FeatureCells {
 
  private:
   [[noreturn]] void refuse(std::size_t feature, const std::string& what) const {
-    throw FileError(features_.name + ": feature " + feature_name(features_.columns, feature) +
-                    ": " + what);
+    refuse_feature(features_, feature, what);
   }
   [[nodiscard]] Execution quiet() const {
     return {.threads = execution_.threads, .stop = execution_.stop};
@@ -254,82 +230,6 @@ class FeatureCells {
       sides.insert(sides.end(), regions[f].sides.begin(), regions[f].sides.end());
       owners.insert(owners.end(), regions[f].sides.size(), static_cast<Index>(f));
     }
-  }
-
-  [[nodiscard]] CellRings geodesic_cells() const {
-    std::vector<KeyedArc> arcs;
-    CellRings given;
-    for (std::size_t f = 0; f < features_.rings.size(); ++f) {
-      const std::vector<io::LonLatRing>& rings = features_.rings[f];
-      for (Index r = 0; r < rings.size(); ++r) {
-        const std::size_t first = arcs.size();
-        append_geodesic(f, r, arcs);
-        for (std::size_t k = first; k < arcs.size(); ++k) {
-          given.corners.push_back(static_cast<Index>(k));
-          given.points.push_back(arcs[k].from);
-        }
-        given.rings.push_back(arcs.size());
-      }
-      given.cells.push_back(given.rings.size() - 1);
-    }
-    for (const CrossingCells& pair : crossing_cells(given, quiet())) {
-      if (pair.first != pair.second) continue;
-      refuse(pair.first, "the polygon crosses itself at " + text_of_place(pair.place));
-    }
-    return rings_around(arcs, features_.rings.size(), execution_.threads);
-  }
-
-  void append_geodesic(std::size_t feature, Index ring, std::vector<KeyedArc>& arcs) const {
-    const std::vector<io::LonLatRing>& rings = features_.rings[feature];
-    std::vector<LonLat> positions = rings[ring].positions;
-    const auto is_same = [](const LonLat& p, const LonLat& q) {
-      return unit_vector(p) == unit_vector(q);
-    };
-    positions.erase(std::unique(positions.begin(), positions.end(), is_same), positions.end());
-    while (positions.size() > 1 && is_same(positions.front(), positions.back()))
-      positions.pop_back();
-    std::vector<Point> corners(positions.size());
-    std::ranges::transform(positions, corners.begin(),
-                           [](const LonLat& p) { return unit_vector(p); });
-    if (goes_clockwise(positions, corners) != rings[ring].is_hole) std::ranges::reverse(corners);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Point& to = corners[k + 1 < corners.size() ? k + 1 : 0];
-      if (corners[k] == -1.0 * to) {
-        refuse(feature, ring_name(rings, ring) +
-                            " joins antipodes: there is no shortest way from " +
-                            text_of_place(corners[k]) + " to " + text_of_place(to));
-      }
-      arcs.push_back({static_cast<Index>(feature), corners[k], to});
-    }
-  }
-
-  // Of a ring within less than half a turn, without a pole, the direction at its westernmost corner, exactly: its meridian
-  // has the ring on one side. Of others, that of the larger side.
-  static bool goes_clockwise(const std::vector<LonLat>& positions,
-                             const std::vector<Point>& corners) {
-    const std::size_t n = positions.size();
-    double lon = 0;
-    double west = 0;
-    double east = 0;
-    std::size_t corner = 0;
-    for (std::size_t k = 1; k <= n; ++k) {
-      const LonLat& p = positions[k < n ? k : 0];
-      const double step = std::remainder(p.lon_deg - positions[k - 1].lon_deg, 360.0);
-      if (std::abs(p.lat_deg) == 90 || std::abs(step) == 180) return map::area_on_left(corners) < 0;
-      lon += step;
-      if (k == n) break;
-      if (lon < west || (lon == west && p.lat_deg < positions[corner].lat_deg)) corner = k;
-      west = std::min(west, lon);
-      east = std::max(east, lon);
-    }
-    // A corner that the ring passes again may have a spike.
-    const bool is_passed_once = std::ranges::count(corners, corners[corner]) == 1;
-    if (is_passed_once && east - west < 180 && std::abs(lon) < 180 && n > 2) {
-      const Sign sign = orientation(corners[corner > 0 ? corner - 1 : n - 1], corners[corner],
-                                    corners[corner + 1 < n ? corner + 1 : 0]);
-      if (sign != Sign::zero) return sign == Sign::negative;
-    }
-    return map::area_on_left(corners) < 0;
   }
 
   io::PolygonFeatures& features_;

@@ -109,16 +109,7 @@ std::optional<std::vector<KeyedArc>> arcs_of_cell(const CellRings& cells, std::s
 // Throws InvalidInput for a cell whose sides all run to and fro, if one of its rings is wider than rounding: it may be
 // nothing, as a ring and a hole that is as large, or all, as two parts that share their border.
 void require_nothing(const CellRings& cells, std::size_t cell, std::span<const KeyedArc> arcs) {
-  using Ends = std::tuple<double, double, double, double, double, double>;
-  std::vector<Ends> there;
-  std::vector<Ends> back;
-  for (const auto& [key, p, q] : arcs) {
-    there.emplace_back(p.x, p.y, p.z, q.x, q.y, q.z);
-    back.emplace_back(q.x, q.y, q.z, p.x, p.y, p.z);
-  }
-  std::ranges::sort(there);
-  std::ranges::sort(back);
-  if (there != back) return;
+  if (!is_nothing(arcs)) return;
   std::vector<Point> ring;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
     ring.clear();

@@ -331,5 +331,42 @@ TEST(overlay_plane, geodesic_rings_are_checked_on_the_sphere) {
   }
 }
 
+// Sides that run to and fro vanish: what is left of a feature is all, or nothing, or less than its parts are.
+TEST(overlay_plane, geodesic_parts_that_cancel_each_other) {
+  const PolygonOptions geodesic = {.edges = PolygonEdges::geodesic};
+  std::vector<std::string> octants;
+  for (const double pole : {90, -90}) {
+    for (const double west : {-180, -90, 0, 90}) {
+      octants.push_back(planar_polygon({{{west, 0}, {west + 90, 0}, {0, pole}}}));
+    }
+  }
+  const CellRings all = planar_table({octants, {}}, geodesic).cells;
+  EXPECT_EQ(all.whole, std::vector<Index>{0});
+  EXPECT_EQ(areas(all), (std::vector<double>{4 * std::numbers::pi, 0}));
+  const auto message = [&](const std::vector<std::string>& parts) {
+    return planar_message({parts}, geodesic);
+  };
+  std::vector<std::string> more = octants;
+  more.push_back(octants[5]);
+  EXPECT_TRUE(message(more).starts_with("feature 0 (f0): part 5 and part 8 overlap at "))
+      << message(more);
+  more.insert(more.end(), octants.begin(), octants.end());
+  EXPECT_TRUE(message(more).starts_with("feature 0 (f0): part 0 and part 9 overlap at "))
+      << message(more);
+  octants.pop_back();
+  EXPECT_NEAR(areas(planar_table({octants}, geodesic).cells)[0], 3.5 * std::numbers::pi, 1e-14);
+
+  const RingInPlane box = planar_box(10, 10, 20, 20);
+  EXPECT_EQ(message({planar_polygon({box, box})}),
+            "feature 0 (f0): the holes of ring 0 of part 0 leave nothing of it");
+  EXPECT_EQ(message({octants[0],
+                     planar_polygon({box, {box[0], box[1], box[2]}, {box[0], box[2], box[3]}})}),
+            "feature 0 (f0): the holes of ring 0 of part 1 leave nothing of it");
+  EXPECT_EQ(message({planar_polygon({{{5, 5}, {10, 8}, {20, 3}, {10, 8}}})}),
+            "feature 0 (f0): ring 0 of part 0 runs to and fro along a line at 5 5");
+  EXPECT_EQ(message({planar_polygon({box, {{12, 12}, {13, 15}, {14, 12}, {13, 15}}})}),
+            "feature 0 (f0): ring 1 of part 0 runs to and fro along a line at 12 12");
+}
+
 }  // namespace
 }  // namespace rondel::test

@@ -1,0 +1,186 @@
+// SPDX-FileCopyrightText: The Rondel authors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "overlay/geodesic_polygons.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <numbers>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "exact/vector.h"
+#include "map/ring_area.h"
+#include "overlay/border_rings.h"
+#include "overlay/feature_faults.h"
+#include "rondel/delaunay.h"
+#include "rondel/predicates.h"
+#include "rondel/regions.h"
+
+namespace rondel::overlay {
+namespace {
+
+class GeodesicCells {
+ public:
+  GeodesicCells(const io::PolygonFeatures& features, const Execution& execution)
+      : features_(features), execution_(execution), areas_(features.rings.size(), 0) {}
+
+  CellRings operator()() {
+    CellRings given;
+    for (std::size_t f = 0; f < features_.rings.size(); ++f) {
+      const std::vector<io::LonLatRing>& rings = features_.rings[f];
+      std::size_t part = arcs_.size();
+      Index shell = 0;
+      for (Index r = 0; r < rings.size(); ++r) {
+        const std::size_t first = arcs_.size();
+        append(f, r);
+        for (std::size_t k = first; k < arcs_.size(); ++k) {
+          given.corners.push_back(static_cast<Index>(k));
+          given.points.push_back(arcs_[k].from);
+        }
+        given.rings.push_back(arcs_.size());
+        require_area(f, r, first);
+        if (!rings[r].is_hole) {
+          part = first;
+          shell = r;
+        } else if (is_nothing(std::span(arcs_).subspan(part))) {
+          refuse_feature(features_, f,
+                         "the holes of " + ring_name(rings, shell) + " leave nothing of it");
+        }
+      }
+      given.cells.push_back(given.rings.size() - 1);
+    }
+    for (const CrossingCells& pair : crossing_cells(given, execution_)) {
+      if (pair.first != pair.second) continue;
+      refuse_feature(features_, pair.first,
+                     "the polygon crosses itself at " + text_of_place(pair.place));
+    }
+    CellRings cells = rings_around(arcs_, features_.rings.size(), execution_.threads);
+    take_whole(given, cells);
+    return cells;
+  }
+
+ private:
+  void require_area(std::size_t feature, Index ring, std::size_t first_arc) const {
+    const std::span<const KeyedArc> arcs = std::span(arcs_).subspan(first_arc);
+    if (!is_nothing(arcs)) return;
+    const std::vector<io::LonLatRing>& rings = features_.rings[feature];
+    refuse_feature(features_, feature,
+                   ring_name(rings, ring) + " runs to and fro along a line at " +
+                       text_of_place(rings[ring].positions.front()));
+  }
+
+  // What is left of the sides bounds the feature but for whole spheres, so areas tell how many.
+  void take_whole(const CellRings& given, CellRings& cells) const {
+    constexpr double sphere = 4 * std::numbers::pi;
+    const std::vector<double> left = areas(cells);
+    for (std::size_t f = 0; f < left.size(); ++f) {
+      const double spheres = std::round((areas_[f] - left[f]) / sphere);
+      if (spheres == 0) continue;
+      if (spheres == 1 && cells.cells[f] == cells.cells[f + 1]) {
+        cells.whole.push_back(static_cast<Index>(f));
+      } else {
+        refuse_overlap(given, f);
+      }
+    }
+  }
+
+  [[noreturn]] void refuse_overlap(const CellRings& given, std::size_t feature) const {
+    CellRings parts;
+    parts.points = given.points;
+    for (std::uint64_t r = given.cells[feature]; r < given.cells[feature + 1]; ++r) {
+      const bool is_hole = features_.rings[feature][r - given.cells[feature]].is_hole;
+      for (std::uint64_t k = given.rings[r]; k < given.rings[r + 1]; ++k) {
+        parts.corners.push_back(given.corners[k]);
+      }
+      parts.rings.push_back(parts.corners.size());
+      if (is_hole && parts.num_cells() > 0) {
+        parts.cells.back() = parts.rings.size() - 1;
+      } else {
+        parts.cells.push_back(parts.rings.size() - 1);
+      }
+    }
+    for (const CrossingCells& pair : overlapping_cells(parts, execution_)) {
+      const std::string first = "part " + std::to_string(pair.first);
+      refuse_feature(features_, feature,
+                     (pair.first == pair.second
+                          ? first + " crosses or overlaps itself at "
+                          : first + " and part " + std::to_string(pair.second) + " overlap at ") +
+                         text_of_place(pair.place));
+    }
+    refuse_feature(features_, feature, "parts of it overlap");
+  }
+
+  void append(std::size_t feature, Index ring) {
+    const std::vector<io::LonLatRing>& rings = features_.rings[feature];
+    std::vector<LonLat> positions = rings[ring].positions;
+    const auto is_same = [](const LonLat& p, const LonLat& q) {
+      return unit_vector(p) == unit_vector(q);
+    };
+    positions.erase(std::unique(positions.begin(), positions.end(), is_same), positions.end());
+    while (positions.size() > 1 && is_same(positions.front(), positions.back()))
+      positions.pop_back();
+    std::vector<Point> corners(positions.size());
+    std::ranges::transform(positions, corners.begin(),
+                           [](const LonLat& p) { return unit_vector(p); });
+    if (goes_clockwise(positions, corners) != rings[ring].is_hole) std::ranges::reverse(corners);
+    if (corners.size() > 2) {
+      const double area = std::abs(map::area_on_left(corners));
+      areas_[feature] += rings[ring].is_hole ? -area : area;
+    }
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Point& to = corners[k + 1 < corners.size() ? k + 1 : 0];
+      if (corners[k] == -1.0 * to) {
+        refuse_feature(features_, feature,
+                       ring_name(rings, ring) + " joins antipodes: there is no shortest way from " +
+                           text_of_place(corners[k]) + " to " + text_of_place(to));
+      }
+      arcs_.push_back({static_cast<Index>(feature), corners[k], to});
+    }
+  }
+
+  // Of a ring within less than half a turn, without a pole, the direction at its westernmost corner, exactly: its meridian
+  // has the ring on one side. Of others, that of the larger side.
+  static bool goes_clockwise(const std::vector<LonLat>& positions,
+                             const std::vector<Point>& corners) {
+    const std::size_t n = positions.size();
+    double lon = 0;
+    double west = 0;
+    double east = 0;
+    std::size_t corner = 0;
+    for (std::size_t k = 1; k <= n; ++k) {
+      const LonLat& p = positions[k < n ? k : 0];
+      const double step = std::remainder(p.lon_deg - positions[k - 1].lon_deg, 360.0);
+      if (std::abs(p.lat_deg) == 90 || std::abs(step) == 180) return map::area_on_left(corners) < 0;
+      lon += step;
+      if (k == n) break;
+      if (lon < west || (lon == west && p.lat_deg < positions[corner].lat_deg)) corner = k;
+      west = std::min(west, lon);
+      east = std::max(east, lon);
+    }
+    // A corner that the ring passes again may have a spike.
+    const bool is_passed_once = std::ranges::count(corners, corners[corner]) == 1;
+    if (is_passed_once && east - west < 180 && std::abs(lon) < 180 && n > 2) {
+      const Sign sign = orientation(corners[corner > 0 ? corner - 1 : n - 1], corners[corner],
+                                    corners[corner + 1 < n ? corner + 1 : 0]);
+      if (sign != Sign::zero) return sign == Sign::negative;
+    }
+    return map::area_on_left(corners) < 0;
+  }
+
+  const io::PolygonFeatures& features_;
+  const Execution& execution_;
+  std::vector<KeyedArc> arcs_;
+  std::vector<double> areas_;  // of each feature the sum over its rings
+};
+
+}  // namespace
+
+CellRings geodesic_cells(const io::PolygonFeatures& features, const Execution& execution) {
+  return GeodesicCells(features, execution)();
+}
+
+}  // namespace rondel::overlay
