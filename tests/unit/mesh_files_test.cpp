@@ -23,6 +23,7 @@
 #include "rondel/mesh_quality.h"
 #include "support/temporary_files.h"
 #include "unit/mesh_support.h"
+#include "unit/mesh_writer.h"
 
 namespace rondel::test {
 namespace {
@@ -344,6 +345,34 @@ TEST_F(MeshFiles, damaged_lists_are_refused_with_their_place) {
             std::string::npos);
   put("text.nc", "lon,lat\n");
   EXPECT_NE(file_error([&] { mesh::read_mesh(path("text.nc")); }), "");
+}
+
+// Three lunes from pole to pole; two of the meridians between them have a corner on the equator.
+TEST_F(MeshFiles, three_cells_without_a_border_are_refused) {
+  MeshWriter file;
+  const auto add_points = [&](const std::string& of, const std::vector<LonLat>& places) {
+    const std::vector<Point> points = unit_vectors(places);
+    for (const auto& [axis, coordinate] :
+         {std::pair("x", &Point::x), std::pair("y", &Point::y), std::pair("z", &Point::z)}) {
+      std::vector<double> values;
+      for (const Point& p : points) values.push_back(p.*coordinate);
+      file.add(axis + of, {{"n" + of, points.size()}}, values);
+    }
+  };
+  const double pi = std::numbers::pi;
+  add_points("Cell", {{60, 0}, {180, 0}, {300, 0}});
+  add_points("Edge", {{0, 0}, {120, 45}, {120, -45}, {240, 45}, {240, -45}});
+  add_points("Vertex", {{0, 90}, {0, -90}, {120, 0}, {240, 0}});
+  file.add("areaCell", {{"nCell", 3}}, {4 * pi / 3, 4 * pi / 3, 4 * pi / 3});
+  file.add("dcEdge", {{"nEdge", 5}}, std::vector<double>(5, 2 * pi / 3));
+  file.add("dvEdge", {{"nEdge", 5}}, {pi, pi / 2, pi / 2, pi / 2, pi / 2});
+  file.add("angleEdge", {{"nEdge", 5}}, std::vector<double>(5, 0));
+  file.add("areaTriangle", {{"nVertex", 4}}, std::vector<double>(4, pi));
+  file.add_whole("cellsOnEdge", {{"nEdge", 5}, {"two", 2}}, {3, 1, 1, 2, 1, 2, 2, 3, 2, 3});
+  file.add_whole("verticesOnEdge", {{"nEdge", 5}, {"two", 2}}, {2, 1, 3, 1, 2, 3, 4, 1, 2, 4});
+  file.write(path("three.nc"));
+  EXPECT_EQ(file_error([&] { mesh::read_mpas(path("three.nc")); }),
+            path("three.nc") + ": less than four cells do not cover a sphere");
 }
 
 // Huge coordinates overflowed in the report on quality.

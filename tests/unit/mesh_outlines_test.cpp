@@ -132,6 +132,25 @@ TEST(mesh_outlines, the_rest_of_a_side_is_a_coast) {
   EXPECT_LT(distance_to_lines(lines, {180, 15}), 1e-9);
 }
 
+// A closed line that two islands cut twice, given from each corner of the longer rest.
+TEST(mesh_outlines, a_coast_does_not_depend_on_where_its_line_begins) {
+  const auto island = [](double south, double north) {
+    return polygon({{-180, south}, {-170, south}, {-170, north}, {-180, north}, {-180, south}});
+  };
+  const Positions corners = {{180, 20}, {180, 30}, {170, 30}, {170, -30}, {180, -30}};
+  std::vector<FileLines> found;
+  for (std::ptrdiff_t first = 0; first < 5; ++first) {
+    Positions closed = corners;
+    std::rotate(closed.begin(), closed.begin() + first, closed.end());
+    closed.push_back(LonLat(closed.front()));
+    found.push_back(read({line(closed), island(-20, -10), island(10, 20)}));
+  }
+  ASSERT_EQ(found[0].size(), 1U);
+  EXPECT_TRUE(is_closed(found[0][0]));
+  EXPECT_GT(distance_to_lines(found[0], {180, 15}), 4);
+  for (const FileLines& one : found) EXPECT_EQ(one, found[0]);
+}
+
 TEST(mesh_outlines, a_side_that_nothing_continues_is_a_coast) {
   const FileLines lines = read({polygon(western)});
   ASSERT_EQ(lines.size(), 1U);

@@ -145,6 +145,19 @@ TEST(mesh_quality, shares_and_spacings_are_those_of_all_cells) {
   EXPECT_NEAR(quality.spacing_range[1], spacings[8549] / spacings[4500], 1e-14);
 }
 
+// Also where the equal values are in several pieces.
+TEST(mesh_quality, the_first_of_equal_values_is_named) {
+  MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(3000, 13)));
+  std::ranges::fill(arrays.vertex_distances, 1);
+  std::ranges::fill(arrays.cell_distances, 2);
+  std::ranges::fill(arrays.cell_areas, 0.01);
+  const Quality quality = mesh::quality(arrays);
+  EXPECT_EQ(quality.min_edge_ratio.value, 0.5);
+  EXPECT_EQ(quality.min_edge_ratio.where, 0U);
+  EXPECT_EQ(quality.max_gradient.value, 0);
+  EXPECT_EQ(quality.max_gradient.where, 0U);
+}
+
 TEST(mesh_quality, threads_do_not_change_a_bit) {
   const MeshArrays arrays = mesh::arrays(delaunay(mesh_sites(30000, 10)));
   EXPECT_EQ(mesh::quality_json(mesh::quality(arrays, {.threads = 1})),

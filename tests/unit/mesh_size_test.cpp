@@ -12,6 +12,7 @@
 #include <string>
 
 #include "meshing/scvt_levels.h"
+#include "meshing/size_raster.h"
 #include "rondel/delaunay.h"
 #include "rondel/error.h"
 #include "rondel/mesh_size_files.h"
@@ -165,6 +166,22 @@ TEST(mesh_size, limited_spacing_grows_slowly_everywhere) {
       EXPECT_LE(gentle.spacing(p), 1.04 * wanted + 0.012);
       EXPECT_GE(gentle.spacing(p), wanted - 0.012);
     }
+  }
+}
+
+// Four nodes are around each place of the cube's surface, also where a face ends; both coordinates give the place back.
+TEST(mesh_size, places_are_among_nodes_of_their_face) {
+  const CubeRaster cube{8};
+  for (std::size_t node = 0; node < 6 * 33 * 33; ++node) {
+    const auto p = CubeRaster{32}.on_cube(node / (33 * 33), node % 33, node / 33 % 33);
+    const CubeRaster::RasterPlace found = cube.spot({p[0], p[1], p[2]});
+    ASSERT_LT(found.i, cube.steps);
+    ASSERT_LT(found.j, cube.steps);
+    const auto at = cube.on_cube(found.face, found.i, found.j);
+    const std::size_t axis = found.face / 2;
+    EXPECT_EQ(p[axis], at[axis]);
+    EXPECT_EQ(p[(axis + 1) % 3], at[(axis + 1) % 3] + found.s / 4);
+    EXPECT_EQ(p[(axis + 2) % 3], at[(axis + 2) % 3] + found.t / 4);
   }
 }
 

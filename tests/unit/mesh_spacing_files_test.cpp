@@ -110,6 +110,26 @@ TEST(mesh_spacing_files, points_of_netcdf_and_tables) {
   expect_wanted(read_spacings({path_of("spacings.csv"), {}}, "h", 1e-3, 256), 2e-3);
 }
 
+// A record that nothing has been written to, and a variable along a dimension of length 0.
+TEST(mesh_spacing_files, variables_without_values_are_no_fields) {
+  std::vector<double> lon;
+  std::vector<double> lat;
+  std::vector<double> spacings;
+  for (const Point& p : sampled_sites(4000, nullptr, 2)) {
+    lon.push_back(std::atan2(p.y, p.x) * 180 / std::numbers::pi);
+    lat.push_back(std::asin(p.z) * 180 / std::numbers::pi);
+    spacings.push_back(wanted(p));
+  }
+  MeshWriter file;
+  file.add("lon", {{"place", lon.size()}}, lon, eastward);
+  file.add("lat", {{"place", lon.size()}}, lat, northward);
+  file.add("empty", {{"none", 0}}, {});
+  file.add("record", {{"time", 0}, {"place", lon.size()}}, {});
+  file.add("h", {{"place", lon.size()}}, spacings);
+  file.write(path_of("empty.nc"));
+  expect_wanted(read_spacings({path_of("empty.nc"), {}}, "", 1e-3, 64), 1e-2);
+}
+
 // Values on meshes of the formats that the library writes are at the places of their cells.
 TEST(mesh_spacing_files, cells_of_meshes) {
   const std::vector<Point> sites = sampled_sites(2000, nullptr, 5);

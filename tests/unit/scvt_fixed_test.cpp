@@ -235,6 +235,20 @@ TEST(mesh_lines, rows_have_the_spacing_of_their_place) {
   }
 }
 
+// Each at a right angle to the line, also beside the last station, behind which the first one follows.
+TEST(mesh_lines, rows_beside_a_parallel_are_two_parallels) {
+  const double spacing = 0.1;
+  const LineSites rows = sites_along(Lines{circle().line}, SizeFunction::constant(spacing, 64));
+  EXPECT_EQ(rows.num_left_out, 0U);
+  const double offset = std::atan(std::sqrt(3.0) / 4 * spacing);
+  const std::size_t n = rows.sites.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    const double turn = 2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(n);
+    const Point wanted = on_curve(turn, k % 2 == 0 ? 0.8 - offset : 0.8 + offset);
+    EXPECT_LT(away(rows.sites[k], wanted), 1e-4) << k << " of " << n;
+  }
+}
+
 TEST(mesh_lines, what_is_too_near_is_left_out) {
   const SizeFunction size = SizeFunction::constant(0.05, 64);
   // To and fro: a strait of 0.02.
