@@ -9,6 +9,7 @@ rondel_add_test(scvt_test
   scvt_energy_test.cpp
   scvt_fixed_test.cpp
   scvt_memory_test.cpp
+  scvt_minimizer_test.cpp
   scvt_repair_test.cpp
   scvt_steps_test.cpp
   scvt_test.cpp
