@@ -369,6 +369,33 @@ TEST(overlay_parts, equal_cells_share_moments) {
   }
 }
 
+// Gradients of cells are those that they have without two equal cells elsewhere.
+TEST(overlay_parts, equal_cells_do_not_turn_gradients) {
+  std::vector<std::vector<RingOfPart>> plain;
+  for (int k = 0; k < 25; ++k) {
+    const double west = 8 * (k % 5);
+    const double south = 8 * std::floor(k / 5.0);
+    plain.push_back({rectangle(west, south, west + 8, south + 8)});
+  }
+  std::vector<std::vector<RingOfPart>> more = plain;
+  for (int twice = 0; twice < 2; ++twice) more.push_back({rectangle(150, 0, 158, 8)});
+  const Partition cover = Partition::voronoi(triangulation_of("uniform", 2000, 11));
+  const Weights wanted = remap(Partition(cells_of_parts(plain)), cover, {.order = 2}).weights;
+  const Weights found =
+      remap(Partition(cells_of_parts(more)), cover, {.order = 2, .overlap = CellOverlap::share})
+          .weights;
+  ASSERT_GT(wanted.values.size(), 100U);
+  for (std::size_t j = 0; j < cover.num_cells(); ++j) {
+    const std::uint64_t size = wanted.offsets[j + 1] - wanted.offsets[j];
+    if (size == 0) continue;
+    ASSERT_EQ(found.offsets[j + 1] - found.offsets[j], size) << j;
+    for (std::uint64_t k = 0; k < size; ++k) {
+      EXPECT_EQ(found.columns[found.offsets[j] + k], wanted.columns[wanted.offsets[j] + k]);
+      EXPECT_NEAR(found.values[found.offsets[j] + k], wanted.values[wanted.offsets[j] + k], 1e-10);
+    }
+  }
+}
+
 // A row of cells that is there twice, as the folds of ocean grids are.
 TEST(overlay_parts, cells_that_are_there_twice) {
   const CellRings cells = Partition::voronoi(triangulation_of("uniform", 60, 10)).rings();

@@ -288,7 +288,7 @@ TEST(overlay_polygons, neighbors_share_corners) {
 // A corner of one neighbor alone becomes one of both, next to the antimeridian and a turn of the globe away, too.
 TEST(overlay_polygons, neighbors_share_corners_everywhere) {
   for (const double west :
-       {-360.0, -200.0, -190.0, -180.0, -90.0, 0.0, 120.0, 170.0, 180.0, 350.0}) {
+       {-360.0, -200.0, -190.0, -180.5, -180.0, -90.0, 0.0, 120.0, 170.0, 179.5, 180.0, 350.0}) {
     for (const double off : {0.3, 5.0, 19.7}) {
       const auto position = [&](double lon, double lat) {
         return "[" + std::to_string(lon) + "," + std::to_string(lat) + "]";
