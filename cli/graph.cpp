@@ -121,7 +121,9 @@ Command add_graph_command(CLI::App& tool) {
                    "alpha: the largest radius of a triangle's circle, in degrees")
       ->check(positive_error)
       ->type_name("DEG");
-  parser->add_option("--count", options->count, "circles: how many of those of the faces, the largest first (default: 1)")
+  parser
+      ->add_option("--count", options->count,
+                   "circles: how many of those of the faces, the largest first (default: 1)")
       ->check(positive_error)
       ->type_name("N");
   parser->add_flag("--anywhere", options->anywhere,
