@@ -60,7 +60,7 @@ SiteTable Job::read(const FileName& file, const ReadOptions& read,
                     std::span<const std::string> names) {
   const NetcdfSites grid = read_grid(file, read, names);
   const std::vector<bool> is_kept = grid.unmasked();
-  const auto num_masked = std::ranges::count(is_kept, false);
+  const auto num_masked = static_cast<std::size_t>(std::ranges::count(is_kept, false));
   if (num_masked == 0) return grid.table;
   tell(grid.table.name, {"left out " + count(num_masked, "masked site", "masked sites")});
   return grid.table.selection(is_kept);

@@ -61,9 +61,8 @@ std::vector<std::uint8_t> mask_of_file(const std::string& text, std::size_t num_
     if (value != 0 && value != 1) {
       const std::string place =
           fields.lines.empty() ? file : file + ':' + std::to_string(fields.lines[cell]);
-      const std::string what = "the number of cell " + std::to_string(cell);
-      throw FileError(place + ": " + what +
-                      (std::isnan(value) ? " is missing" : " is neither 0 nor 1"));
+      const char* const what = std::isnan(value) ? " is missing" : " is neither 0 nor 1";
+      throw FileError(place + ": the number of cell " + std::to_string(cell) + what);
     }
     if (value == 1) mask[cell] = 1;
   }

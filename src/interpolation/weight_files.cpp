@@ -101,8 +101,8 @@ std::vector<LonLat> lonlats(std::span<const Point> points) {
   result.reserve(points.size());
   for (const Point& point : points) {
     if (point == Point{0, 0, 0}) {  // no ray goes through it
-      constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-      result.push_back({nan, nan});
+      constexpr double no_place = std::numeric_limits<double>::quiet_NaN();
+      result.push_back({no_place, no_place});
       continue;
     }
     const Point u = map::direction(point, {});

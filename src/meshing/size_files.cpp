@@ -71,8 +71,8 @@ NetcdfFields netcdf_fields(const FileName& file, const std::string& name) {
       found.is_mesh = found.is_mesh || reader.find(of_meshes) != nullptr;
     }
     for (const io::NetcdfReader::Variable& variable : reader.variables()) {
-      found.is_mesh = found.is_mesh ||
-                      !io::netcdf_text(variable.attributes, "face_node_connectivity").empty();
+      found.is_mesh =
+          found.is_mesh || !io::netcdf_text(variable.attributes, "face_node_connectivity").empty();
     }
     const auto add = [&](const io::NetcdfReader::Variable& variable) {
       NamedField field = {variable.name, {}};

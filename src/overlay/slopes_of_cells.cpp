@@ -17,6 +17,11 @@ namespace {
 // is, divided by b, would be the gradient across the line.
 constexpr double least_share = 1.0 / 16;
 
+// The least squares of the distances between centers, relative to the area of the cell. A cell within a ring may have the
+// center of the ring: the difference of both is no slope. A single direction has to be that of neighbors beside the cell.
+constexpr double least_square = 0x1p-16;
+constexpr double least_square_on_line = 0x1p-6;
+
 struct Sample {
   Index neighbor;
   double x;
@@ -39,10 +44,17 @@ struct Slope {
 // The inverse of the normal equations, but for directions that they do not know, along which gradients are 0.
 class SlopeEquations {
  public:
-  void add(const Sample& s) {
+  explicit SlopeEquations(double area) : area_(area) {}
+
+  // Whether the neighbor takes part; one whose center is opposite is in no direction.
+  bool add(const Sample& s) {
+    const bool is_in_plane = s.weight * (s.x * s.x + s.y * s.y) >= least_share;
+    if (!is_in_plane || !(s.weight * least_square * area_ <= 1)) return false;
+    largest_weight_ = std::max(largest_weight_, s.weight);
     xx_ += s.weight * s.x * s.x;
     xy_ += s.weight * s.x * s.y;
     yy_ += s.weight * s.y * s.y;
+    return true;
   }
   void solve() {
     const double trace = xx_ + yy_;
@@ -50,6 +62,7 @@ class SlopeEquations {
     if (determinant_ > least_share / ((1 + least_share) * (1 + least_share)) * trace * trace)
       return;
     determinant_ = 0;
+    if (!(largest_weight_ * least_square_on_line * area_ <= 1)) return;
     const double difference = xx_ - yy_;
     largest_ = (trace + std::sqrt(difference * difference + 4 * xy_ * xy_)) / 2;
     const double x = difference > 0 ? largest_ - yy_ : xy_;
@@ -70,6 +83,8 @@ class SlopeEquations {
   }
 
  private:
+  double area_;
+  double largest_weight_ = 0;
   double xx_ = 0;
   double xy_ = 0;
   double yy_ = 0;
@@ -135,12 +150,12 @@ CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> 
     const Point& center = centers[name];
     const auto [u, v] = tangents(normalized(center));
     std::vector<Sample> samples;
-    SlopeEquations equations;
+    SlopeEquations equations(cells.areas()[name]);
     for (const Index neighbor : neighbors_of(c)) {
       const Point step = centers[neighbor] - center;
-      const Sample sample{neighbor, dot(u, step), dot(v, step), 1 / dot(step, step)};
+      Sample sample{neighbor, dot(u, step), dot(v, step), 1 / dot(step, step)};
+      if (!equations.add(sample)) sample.weight = 0;
       samples.push_back(sample);
-      equations.add(sample);
     }
     equations.solve();
     std::uint64_t k = result.offsets[name];
