@@ -172,8 +172,10 @@ TEST(mesh_size, limited_spacing_grows_slowly_everywhere) {
 // Four nodes are around each place of the cube's surface, also where a face ends; both coordinates give the place back.
 TEST(mesh_size, places_are_among_nodes_of_their_face) {
   const CubeRaster cube{8};
-  for (std::size_t node = 0; node < 6 * 33 * 33; ++node) {
-    const auto p = CubeRaster{32}.on_cube(node / (33 * 33), node % 33, node / 33 % 33);
+  constexpr std::size_t side = 33;
+  for (std::size_t node = 0; node < 6 * side * side; ++node) {
+    const auto p =
+        CubeRaster{side - 1}.on_cube(node / (side * side), node % side, node / side % side);
     const CubeRaster::RasterPlace found = cube.spot({p[0], p[1], p[2]});
     ASSERT_LT(found.i, cube.steps);
     ASSERT_LT(found.j, cube.steps);

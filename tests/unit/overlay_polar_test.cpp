@@ -22,7 +22,7 @@
 namespace rondel::test {
 namespace {
 
-constexpr double unit = 0x1p-53;
+constexpr double half_ulp = 0x1p-53;
 
 Wide wide_pi() { return acos(Wide(-1)); }
 Wide wide_radians(double degrees) { return Wide(degrees) * wide_pi() / 180; }
@@ -73,14 +73,14 @@ TEST(overlay_polar, areas_of_thin_rows_are_right_to_some_units) {
       for (std::size_t i = 0; i < 2; ++i) {
         const auto area = static_cast<double>(
             wide_box(grid.lon_deg[i], grid.lat_deg[j], grid.lon_deg[i + 1], grid.lat_deg[j + 1]));
-        EXPECT_NEAR(cells.areas()[2 * j + i], area, 8 * unit * area) << grid.lat_deg[j];
+        EXPECT_NEAR(cells.areas()[2 * j + i], area, 8 * half_ulp * area) << grid.lat_deg[j];
       }
     }
   }
   // Of 2 pi (1 - sin(lat)).
   const Partition cap = Partition::lonlat_grid({{-180, 180}, {90 - 1e-4, 90}});
   const auto area = static_cast<double>(2 * wide_pi() * (1 - sin(wide_radians(90 - 1e-4))));
-  EXPECT_NEAR(cap.areas()[0], area, 4 * unit * area);
+  EXPECT_NEAR(cap.areas()[0], area, 4 * half_ulp * area);
 }
 
 TEST(overlay_polar, pieces_of_two_grids_are_right_to_some_units) {
@@ -102,7 +102,7 @@ TEST(overlay_polar, pieces_of_two_grids_are_right_to_some_units) {
         const double north = std::min(from.lat_deg[s / 2 + 1], to.lat_deg[t / 2 + 1]);
         const bool is_empty = !(west < east) || !(south < north);
         const double area = is_empty ? 0 : static_cast<double>(wide_box(west, south, east, north));
-        EXPECT_NEAR(piece_of(remap, s, t), area, 16 * unit * area) << trial;
+        EXPECT_NEAR(piece_of(remap, s, t), area, 16 * half_ulp * area) << trial;
       }
     }
   }
@@ -213,7 +213,7 @@ TEST(overlay_polar, pieces_of_triangles_are_right_to_rounding_of_their_place) {
       // Places are right to rounding, and nearer to the pole to that of their distance, so areas are to that times a length.
       const double radius = std::min(90 - std::min(std::abs(south), std::abs(north)), 4 * size);
       EXPECT_NEAR(piece_of(remap, 0, row), part_between(ring, south, north),
-                  64 * unit * radius * std::numbers::pi / 180)
+                  64 * half_ulp * radius * std::numbers::pi / 180)
           << trial << ", row " << row << ", size " << size << ", distance " << distance;
     }
   }

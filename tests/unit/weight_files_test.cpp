@@ -435,8 +435,8 @@ TEST(fields, without_places_say_so) {
   fields.num_points = 4;
   fields.arrays = {{"t", {}, {}, {1, 2, 3, 4}, {}}};
   write_fields(directory.file("f.nc"), fields, WeightSide{});
-  const auto message = [&](std::size_t num_points) {
-    return message_of([&] { read_fields(directory.file("f.nc"), {}, num_points); });
+  const auto message = [&](std::size_t count) {
+    return message_of([&] { read_fields(directory.file("f.nc"), {}, count); });
   };
   EXPECT_NE(message(0).find("no variable has longitudes and latitudes"), std::string::npos)
       << message(0);
