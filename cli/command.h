@@ -112,7 +112,7 @@ class Job {
   /// The sites of INPUT. \throws FileError
   SiteTable read();
   /// The sites of another file; of netCDF those of the variables `names`, which are also the columns, unless FILE:NAME names one.
-  /// Those that netCDF masks are left out. \throws FileError
+  /// Sites that netCDF masks are left out. \throws FileError
   SiteTable read(const FileName& file, const ReadOptions& read,
                  std::span<const std::string> names = {});
   /// Reads sites as read() does, also those that netCDF masks, and what it says of their grid. \throws FileError

@@ -75,7 +75,7 @@ struct Column {
   bool is_numeric = false;
   std::string text;                 ///< all cells, one after the other
   std::vector<std::uint64_t> ends;  ///< where each cell ends in `text`
-  /// Of a GeoJSON property that is here a number and there a text: which cells are numbers. Else empty.
+  /// Which cells are numbers, where a GeoJSON property is here a number and there a text; else empty.
   std::vector<bool> is_number = {};
 };
 

@@ -29,7 +29,7 @@ double value_of(std::string_view cell, const std::string& name) {
   return is_missing ? std::numeric_limits<double>::quiet_NaN() : io::parse_number(cell, name);
 }
 
-// Of a table with one column an empty field looks like no row. `records` are at their end.
+// Says which line of a table with one column is empty, as an empty field looks like no row there. `records` are at their end.
 std::string text_of_empty_line(std::vector<std::uint64_t> lines, const io::CsvRecords& records) {
   lines.push_back(records.line());
   for (std::size_t i = 0; i < lines.size(); ++i) {

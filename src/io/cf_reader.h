@@ -26,7 +26,7 @@ RONDEL_API VariableHeader header_of(const NetcdfReader& file,
 RONDEL_API std::vector<double> meant_numbers(const NetcdfReader& file,
                                              const NetcdfReader::Variable& variable);
 
-// What a coordinate is in that neither has units nor is related to one that has.
+// The units of a coordinate that has none and is related to no variable with units.
 enum class UsualUnits { of_name, degrees, radians };
 // Coordinates in degrees; missing ones NaN. A variable without units has those of the first of its relatives that has some; null is
 // none. The first relative is of the same kind: corners of longitudes are west of Greenwich as the centers are, latitudes

@@ -153,7 +153,8 @@ std::vector<map::UnitVectors> rings_of_band(const Bands& bands, std::span<const 
   return rings;
 }
 
-// Where lines do not tell which side of them a band is its area does, by its points as they were before they were merged.
+// The area of a band tells on which side of its lines it is where these do not, by its points as they were before they were
+// merged.
 map::BorderKnowledge border_by_area(std::span<const map::UnitVectors> rings) {
   double area = 0;
   for (const map::UnitVectors ring : rings) area += map::area_on_left(ring);

@@ -71,7 +71,8 @@ double area_of(std::span<const map::UnitVectors> rings) {
   return area < 0 ? area + 4 * std::numbers::pi : area;
 }
 
-// Where lines do not tell which side of them a cell is its area does, by its corners as they were before points were merged.
+// The lines around a cell. Where they do not tell on which side of them the cell is, its area does, by the corners as they were
+// before points were merged.
 map::LoopsOfRegion loops_of_cell(const RegionsToWrite& job, std::size_t cell,
                                  std::span<const map::UnitVectors> rings) {
   map::DrawnRegion region = map::draw_region(rings, job.tolerance);

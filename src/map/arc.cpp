@@ -35,8 +35,8 @@ double tolerance_along(const Point& p, const Point& q, const ArcTolerance& arc) 
   return std::min(arc.most, std::max(arc.least, distance / 8));
 }
 
-// What is nearer to zero than any rounding becomes zero: programs that read the numbers multiply them, and products of
-// tiny ones underflow. Adding zero turns -0 into 0.
+// Degrees nearer to zero than any rounding become zero: programs that read the numbers multiply them, and products of tiny
+// ones underflow. Adding zero turns -0 into 0.
 double without_tiny(double degrees) {
   constexpr double tiny = 0x1p-64;
   return std::abs(degrees) < tiny ? 0 : degrees + 0.0;

@@ -15,8 +15,8 @@
 
 namespace rondel::map {
 
-// Of rings with these points in place of their own, merged_points(). Arcs that two rings have in common, in opposite
-// directions, need no corners: only the other ones are compared.
+// The corners of rings that lie on arcs of other rings; merged_points() stand in place of the rings' own points. Arcs that two
+// rings have in common, in opposite directions, need no corners: only the other ones are compared.
 class CommonCorners {
  public:
   CommonCorners(const CellRings& cells, std::span<const Point> points, unsigned threads);

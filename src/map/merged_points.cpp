@@ -21,7 +21,7 @@ struct Cube {
   std::array<std::int64_t, 3> place{};
 };
 
-// Of coordinates from -2 to 2, rounded, from 0 on; larger for no smaller one.
+// The number of the cube along an axis, from 0 on, for a coordinate from -2 to 2. It does not decrease with the coordinate.
 std::int64_t place_of(double coordinate) {
   return static_cast<std::int64_t>((coordinate + 2) * cubes_per_unit);
 }

@@ -11,9 +11,9 @@
 
 namespace rondel::map {
 
-// Of unit vectors, in order, snapped(), so that poles and what is on the antimeridian stay there: each is kept, or becomes
-// one that is kept and within merge_distance of it. Those that are kept are farther apart. So no region leaves out a corner,
-// or itself, as it is too small for the map, while its neighbors keep the corners around it.
+// Returns a point for each unit vector, in order: the vector itself, snapped(), so that poles and what is on the antimeridian
+// stay there, or an earlier one that is kept and within merge_distance of it. Points that are kept are farther apart. So no
+// region leaves out a corner, or itself, as it is too small for the map, while its neighbors keep the corners around it.
 std::vector<Point> merged_points(std::span<const Point> points);
 
 }  // namespace rondel::map
