@@ -58,10 +58,11 @@ SiteTable Job::read() { return read(state_->options.source(), state_->options.re
 
 SiteTable Job::read(const FileName& file, const ReadOptions& read,
                     std::span<const std::string> names) {
-  const NetcdfSites grid = read_grid(file, read, names);
+  NetcdfSites grid = read_grid(file, read, names);
+  if (grid.mask.empty()) return std::move(grid.table);
   const std::vector<bool> is_kept = grid.unmasked();
   const auto num_masked = static_cast<std::size_t>(std::ranges::count(is_kept, false));
-  if (num_masked == 0) return grid.table;
+  if (num_masked == 0) return std::move(grid.table);
   tell(grid.table.name, {"left out " + count(num_masked, "masked site", "masked sites")});
   return grid.table.selection(is_kept);
 }

@@ -100,17 +100,19 @@ TEST(overlay_polygons, sides_across_the_equator_are_straight) {
   }
 }
 
+// Why a polygon with this ring is refused; empty if it is not.
+std::string refusal_of_ring(const std::string& ring) {
+  try {
+    (void)table_of(polygon(ring));
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "";
+}
+
 TEST(overlay_polygons, rings_around_a_pole_have_to_be_led_there) {
-  const auto message = [](const std::string& ring) -> std::string {
-    try {
-      (void)table_of(polygon(ring));
-    } catch (const FileError& error) {
-      return error.what();
-    }
-    return "";
-  };
   const auto names = [&](const std::string& ring, const std::string& side) {
-    return message(ring).find(side + " spans more than 180 degrees of longitude") !=
+    return refusal_of_ring(ring).find(side + " spans more than 180 degrees of longitude") !=
            std::string::npos;
   };
   EXPECT_TRUE(names("[[-160,-60],[-80,-62],[0,-61],[80,-62],[160,-60],[-160,-60]]",
@@ -127,7 +129,7 @@ TEST(overlay_polygons, rings_around_a_pole_have_to_be_led_there) {
         std::string("[[0,50],[90,51],[180,52],[270,51],[135,50],[0,50]]"),
         std::string("[[0,40],[100,35],[200,40],[200,70],[0,70],[0,40]]"),
         std::string("[[-100,-10],[100,-10],[0,40],[-100,-10]]")}) {
-    EXPECT_EQ(message(ring), "");
+    EXPECT_EQ(refusal_of_ring(ring), "");
   }
 }
 
@@ -338,15 +340,7 @@ TEST(overlay_polygons, longitudes_are_up_to_ten_turns_away) {
 
 // A side along a pole is as long as the ring has longitudes there, and asks for no advice.
 TEST(overlay_polygons, advice_is_about_sides_across_the_map) {
-  const auto message = [](const std::string& ring) -> std::string {
-    try {
-      (void)table_of(polygon(ring));
-    } catch (const FileError& error) {
-      return error.what();
-    }
-    return "";
-  };
-  const std::string crossing = message(
+  const std::string crossing = refusal_of_ring(
       "[[-180,90],[180,90],[180,10],[90,50],[100,20],[110,50],[80,30],[-90,30],[-180,10],[-180,90]"
       "]");
   EXPECT_NE(crossing.find("crosses itself"), std::string::npos) << crossing;
