@@ -32,6 +32,12 @@ inline DoubleDouble fast_two_sum(double a, double b) {
   return {s, b - (s - a)};
 }
 
+// A sum and its error so far take a term more: of many terms that cancel, as it were in twice the precision.
+inline void add_term(double term, DoubleDouble& sum) {
+  const DoubleDouble next = two_sum(sum.hi, term);
+  sum = {next.hi, sum.lo + next.lo};
+}
+
 inline DoubleDouble two_diff(double a, double b) { return two_sum(a, -b); }
 
 // Veltkamp's splitting: a = hi + lo, each with at most 26 bits.

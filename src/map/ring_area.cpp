@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "exact/eft.h"
 #include "exact/triangle_area.h"
 #include "exact/vector.h"
 
@@ -74,13 +75,13 @@ std::pair<double, double> sines_at_first(std::span<const Point> ring) {
 
 // By triangles, which have their areas but for multiples of 4 pi: so has the sum, of whatever they overlap.
 double area_around(const Point& a, std::span<const Point> ring) {
-  double area = 0;
+  exact::DoubleDouble area{};
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const Point& b = ring[i];
     const Point& c = ring[i + 1 < ring.size() ? i + 1 : 0];
-    if (b != a && c != a) area += exact::triangle_area(a, b, c);
+    if (b != a && c != a) add_term(exact::triangle_area(a, b, c), area);
   }
-  return std::remainder(area, 4 * std::numbers::pi);
+  return std::remainder(area.hi + area.lo, 4 * std::numbers::pi);
 }
 
 // Two sides of 60 degrees or less enclose at most 0.68: so many corners, nine triangles, less than 2 pi.

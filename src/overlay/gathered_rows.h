@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "exact/eft.h"
 #include "overlay/pieces.h"
 #include "system/parallel.h"
 #include "system/stage_progress.h"

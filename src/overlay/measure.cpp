@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string>
 
+#include "exact/eft.h"
 #include "predicates/bounds.h"
 #include "rondel/error.h"
 
@@ -14,15 +15,17 @@ namespace rondel::overlay {
 
 namespace {
 
-// Whether no triangle is large.
+// Whether no triangle is large. A belt may have thousands of arcs, whose triangles cancel.
 bool add_triangles(std::span<const BorderArc> border, const Point& origin, double& area) {
   const LocalAxes axes(origin);
   bool is_any_large = false;
+  exact::DoubleDouble sum{};
   for (const auto& [from, to] : border) {
     const Triangle triangle(axes.place_of(from), axes.place_of(to));
     is_any_large |= triangle.is_large();
-    area += triangle.area();
+    add_term(triangle.area(), sum);
   }
+  area = sum.hi + sum.lo;
   return !is_any_large;
 }
 

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "exact/eft.h"
 #include "overlay/arcs.h"
 #include "overlay/crossings.h"
 #include "overlay/filling.h"

@@ -8,7 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "exact/eft.h"
 #include "overlay/subdivision.h"
 #include "rondel/types.h"
 
@@ -25,11 +24,6 @@ struct PieceRows {
   std::vector<double> column_sums;
 };
 
-// A sum and its error so far: a cell may have a thousand pieces.
-inline void add_term(double term, exact::DoubleDouble& sum) {
-  const exact::DoubleDouble next = exact::two_sum(sum.hi, term);
-  sum = {next.hi, sum.lo + next.lo};
-}
 void find_sums(PieceRows& pieces, std::size_t num_columns);
 
 // The sums that the pieces of each cell should have, by name.

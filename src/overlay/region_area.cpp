@@ -12,7 +12,6 @@
 #include "exact/vector.h"
 #include "map/ring_area.h"
 #include "overlay/measure.h"
-#include "overlay/pieces.h"
 #include "predicates/bounds.h"
 
 namespace rondel::overlay {
@@ -77,15 +76,16 @@ RingArea area_of_ring(std::span<const Point> ring) {
 }
 
 void RegionArea::add(std::span<const Point> ring) {
-  sum_ += map::area_on_left(ring);
+  add_term(map::area_on_left(ring), sum_);
   points_.insert(points_.end(), ring.begin(), ring.end());
   ends_.push_back(points_.size());
 }
 
 double RegionArea::value() const {
-  const double least = std::remainder(sum_, whole_area);
+  const double total = sum_.hi + sum_.lo;
+  const double least = std::remainder(total, whole_area);
   if (std::abs(least) > unsure_area(points_.size())) {
-    if (sum_ > 0 && sum_ < whole_area) return sum_;
+    if (total > 0 && total < whole_area) return total;
     return least < 0 ? least + whole_area : least;
   }
   exact::DoubleDouble sum{};

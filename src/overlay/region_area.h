@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "exact/eft.h"
 #include "rondel/types.h"
 
 namespace rondel::overlay {
@@ -31,7 +32,7 @@ class RegionArea {
   [[nodiscard]] double value() const;
 
  private:
-  double sum_ = 0;
+  exact::DoubleDouble sum_;
   std::vector<Point> points_;
   std::vector<std::size_t> ends_;  // of the rings among the points
 };

@@ -60,6 +60,22 @@ TEST(overlay_rings, areas_on_the_left) {
   EXPECT_NEAR(std::abs(map::area_on_left(lune)), std::numbers::pi, 1e-14);
 }
 
+// The roundings of a sum of so many triangles would be some 1e-12 together.
+TEST(overlay_rings, areas_of_very_many_corners) {
+  constexpr int corners = 300'000;
+  for (const double radius : {0.4, 1.2, 1.5}) {
+    const long double half_angle = std::numbers::pi_v<long double> / corners;
+    const long double c = std::cos(static_cast<long double>(radius));
+    const long double s = std::sin(static_cast<long double>(radius));
+    // A triangle at the center with two sides of this radius.
+    const long double above = s * s * std::sin(2 * half_angle);
+    const long double below = 1 + 2 * c + c * c + s * s * std::cos(2 * half_angle);
+    const auto expected = static_cast<double>(corners * 2 * std::atan2(above, below));
+    const double found = map::area_on_left(circle(radius, 0.7, corners));
+    EXPECT_NEAR(found, expected, 1e-13) << radius;
+  }
+}
+
 // The center of mass of caps at both poles, joined by a line to and fro, is the sphere's: no triangles there.
 TEST(overlay_rings, areas_of_what_is_balanced) {
   for (const double tilt : {0.0, 0.4, std::numbers::pi / 2}) {
