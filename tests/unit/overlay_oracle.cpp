@@ -511,7 +511,8 @@ OracleAnswer answer_of(const N& area, double length, const N& below) {
     return {static_cast<double>(area), 1e-40};
   } else {
     const double smallness = std::max(static_cast<double>(below), 1e-10);
-    return {static_cast<double>(area), roundings * length * 4 / smallness + 1e-25};
+    const auto rounded = static_cast<double>(area);
+    return {rounded, roundings * length * 4 / smallness + 0x1p-52 * std::abs(rounded) + 1e-25};
   }
 }
 
@@ -529,6 +530,16 @@ OracleAnswer RegionOracle::area_in() const {
     length += 4 * piece.radius;
   }
   return answer_of(sum, length, below);
+}
+
+// By how much a rounding of the ends of a cell's sides moves their great circles elsewhere in the cell, at most.
+double leverage_of(const OracleCell& cell) {
+  double shortest = cell.radius;
+  for (std::size_t k = 0; k < cell.corners.size(); ++k) {
+    shortest =
+        std::min(shortest, distance(cell.corners[k], cell.corners[(k + 1) % cell.corners.size()]));
+  }
+  return cell.radius / shortest;
 }
 
 // The triangles of each side of a region, cut by the sides of a cell, with their signs.
@@ -566,7 +577,7 @@ OracleAnswer RegionOracle::piece_in_cell(const OracleCell& cell) const {
     sum += constant_ * area_of_cell<N>(cell);
     length += 6 * cell.radius;
   }
-  return answer_of(sum, length, below);
+  return answer_of(sum, length * leverage_of(cell), below);
 }
 
 namespace {

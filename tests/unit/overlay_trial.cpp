@@ -216,7 +216,9 @@ void Trial::expect_pieces(const Cover& cover, std::uint64_t way) const {
         << error.what() << ", but it is a region of " << oracle_.area(true).area;
     return;
   }
-  if (is_wrong()) {
+  // In a region nearly as large as the sphere it may be less than rounding of the area.
+  const bool is_seen = oracle_.excess() > rounding_of(oracle_.length(), oracle_.area(false).area);
+  if (is_wrong() && is_seen) {
     ADD_FAILURE() << "nothing was said, but " << oracle_.excess() << " is wrong of "
                   << oracle_.area(true).area;
     return;
