@@ -129,9 +129,14 @@ class Places:
         if isinstance(self._data, xarray.DataArray) or "mask" not in self._data:
             return self._located
         given = self._data["mask"]
-        if set(given.dims) != set(self.dims):
+        others = [dim for dim in given.dims if dim not in self.dims]
+        if len(given.dims) != len(others) + len(self.dims):
             raise ValueError(f"mask has the dimensions {given.dims}, not {self.dims}")
-        mask = as_mask(given.transpose(*self.dims).values, "mask").reshape(-1)
+        masks = as_mask(given.transpose(*others, *self.dims).values, "mask")
+        masks = masks.reshape(-1, np.prod(masks.shape[len(others) :], dtype=int))
+        if len(masks) == 0 or not (masks == masks[0]).all():
+            raise ValueError(f"mask changes along {', '.join(map(str, others))}: choose one")
+        mask = masks[0]
         return mask if self._located is None else mask & self._located
 
     def side(self) -> Side:

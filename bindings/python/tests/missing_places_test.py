@@ -102,6 +102,23 @@ def test_masks_that_are_refused():
         rondel.Regridder(data, TARGET, "nearest_s2d")
 
 
+@pytest.mark.parametrize("method", METHODS)
+def test_masks_that_times_repeat(method):
+    """As WRF repeats all of a grid."""
+    axes = {"lon": LON, "lat": LAT}
+    wanted = regridded({**axes, "mask": ~LAND}, TARGET, method)
+    times = xarray.DataArray([~LAND] * 3, axes, ("Time", "lat", "lon"))
+    for given in (times, times.transpose("lat", "Time", "lon")):
+        found = regridded(xarray.Dataset({"mask": given}), TARGET, method)
+        assert np.array_equal(found, wanted, equal_nan=True)
+    changing = times.copy()
+    changing[2, 4, 5] = 1 - changing[2, 4, 5]
+    with pytest.raises(ValueError, match=r"mask changes along Time"):
+        regridded(xarray.Dataset({"mask": changing}), TARGET, method)
+    with pytest.raises(ValueError, match=r"mask changes along Time"):
+        regridded(xarray.Dataset({"mask": times[:0]}), TARGET, method)
+
+
 @pytest.mark.parametrize("name", ["source_mask", "target_mask"])
 def test_masks_of_remap(name):
     halves = rondel.lonlat_grid(2, 1)
