@@ -11,6 +11,7 @@
 
 #include "exact/vector.h"
 #include "interpolation/collected_rows.h"
+#include "interpolation/large_sums.h"
 #include "interpolation/place_values.h"
 #include "interpolation/row.h"
 #include "interpolation/slopes.h"
@@ -29,7 +30,7 @@ class FieldSums {
   [[nodiscard]] double operator()(std::size_t f, const Row& row) const {
     double sum = 0;
     for (const auto& [vertex, weight] : row) sum += weight * values_(f, vertex);
-    return std::isfinite(sum) ? sum : small_sum(f, row) / small;
+    return std::isfinite(sum) ? sum : small_sum(f, row) / scale_of_large;
   }
   // At a site its gradient does not count, whatever it is.
   [[nodiscard]] double operator()(std::size_t f, const SlopeRow& row) const {
@@ -38,22 +39,20 @@ class FieldSums {
       sum += weight * values_(f, vertex);
       if (slope != Point{}) sum += dot(slope, (*gradients_)(f, vertex));
     }
-    return std::isfinite(sum) ? sum : small_sum(f, row) / small;
+    return std::isfinite(sum) ? sum : small_sum(f, row) / scale_of_large;
   }
 
  private:
-  // Weights may be more than 1: sums that go beyond the largest number come back.
-  static constexpr double small = 0x1p-8;
   [[nodiscard]] double small_sum(std::size_t f, const Row& row) const {
     double sum = 0;
-    for (const auto& [vertex, weight] : row) sum += weight * (small * values_(f, vertex));
+    for (const auto& [vertex, weight] : row) sum += weight * (scale_of_large * values_(f, vertex));
     return sum;
   }
   [[nodiscard]] double small_sum(std::size_t f, const SlopeRow& row) const {
     double sum = 0;
     for (const auto& [vertex, weight, slope] : row) {
-      sum += weight * (small * values_(f, vertex));
-      if (slope != Point{}) sum += dot(slope, small * (*gradients_)(f, vertex));
+      sum += weight * (scale_of_large * values_(f, vertex));
+      if (slope != Point{}) sum += dot(slope, scale_of_large * (*gradients_)(f, vertex));
     }
     return sum;
   }

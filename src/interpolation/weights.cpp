@@ -8,6 +8,7 @@
 #include <limits>
 #include <string>
 
+#include "interpolation/large_sums.h"
 #include "rondel/error.h"
 #include "system/job.h"
 #include "system/parallel.h"
@@ -62,10 +63,11 @@ void require_rows(const Weights& weights) {
   }
 }
 
-// The sum over a row of which some values may be missing.
+// The sum over a row of which some values may be missing, or in which it goes beyond the largest number and comes back.
 double sum_of_present(const Weights& weights, std::size_t row, const double* in,
                       const ApplyOptions& options) {
   double sum = 0;
+  double small_sum = 0;
   double present = 0;
   double all = 0;
   double absolute_missing = 0;
@@ -79,12 +81,15 @@ double sum_of_present(const Weights& weights, std::size_t row, const double* in,
       absolute_missing += std::abs(weight);
     } else {
       sum += weight * value;
+      small_sum += weight * (interpolation::scale_of_large * value);
       present += weight;
     }
   }
-  if (absolute_missing == 0) return sum;
+  const bool is_whole = absolute_missing == 0;
   const bool is_enough = absolute_missing <= options.most_missing * absolute;
-  return is_enough && present != 0 ? sum * (all / present) : options.fill;
+  if (!is_whole && (!is_enough || present == 0)) return options.fill;
+  const double share = is_whole ? 1 : all / present;
+  return std::isfinite(sum) ? sum * share : small_sum * share / interpolation::scale_of_large;
 }
 
 void apply_rows(const Weights& weights, std::size_t begin, std::size_t end, const double* in,
@@ -103,7 +108,7 @@ void apply_rows(const Weights& weights, std::size_t begin, std::size_t end, cons
       if (ahead < num_entries) system::prefetch(&in[weights.columns[ahead]]);
       sum += weights.values[k] * in[weights.columns[k]];
     }
-    out[r] = std::isnan(sum) ? sum_of_present(weights, r, in, options) : sum;
+    out[r] = std::isfinite(sum) ? sum : sum_of_present(weights, r, in, options);
   }
 }
 

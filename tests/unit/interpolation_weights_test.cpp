@@ -65,6 +65,20 @@ TEST(interpolation_weights, infinite_values_are_values) {
   EXPECT_EQ(applied({infinity, 0, 0, 0})[2], infinity);
 }
 
+TEST(interpolation_weights, sums_beyond_the_largest_number_come_back) {
+  const Weights steep = {
+      .offsets = {0, 3}, .columns = {0, 1, 2}, .values = {3, -2.5, 0.5}, .num_columns = 3};
+  std::vector<double> out(1);
+  const auto sum_of = [&](const std::vector<double>& in, const ApplyOptions& options = {}) {
+    apply(steep, in, out, 1, options);
+    return out[0];
+  };
+  EXPECT_EQ(sum_of({0x1p1023, 0x1p1023, 0x1p1023}), 0x1p1023);
+  EXPECT_EQ(sum_of({-0x1p1023, -0x1p1023, 0}), -0x1p1022);
+  EXPECT_EQ(sum_of({0x1p1023, 0x1p1023, nan}, {.most_missing = 0.5}), 0x1p1023);
+  EXPECT_EQ(sum_of({0x1p1023, 0, 0}), std::numeric_limits<double>::infinity());
+}
+
 TEST(interpolation_weights, threads_change_no_byte) {
   Random random(3);
   Weights weights;
