@@ -92,15 +92,15 @@ void keep_if(std::vector<NearPair>& candidates, const Execution& execution, cons
 // Whether a corner across keeps the edge from being the longest one of its face.
 bool is_in_urquhart(const Chords& chords, const NearPair& candidate) {
   const auto [a, b] = candidate.edge;
-  return std::ranges::none_of(candidate.across, [&, a = a, b = b](Index c) {
-    return c != no_index && chords.is_shorter(a, c, a, b) && chords.is_shorter(b, c, a, b);
+  return std::ranges::none_of(candidate.across, [&, p = a, q = b](Index c) {
+    return c != no_index && chords.is_shorter(p, c, p, q) && chords.is_shorter(q, c, p, q);
   });
 }
 
 bool is_in_gabriel(const Chords& chords, const NearPair& candidate) {
   const auto [a, b] = candidate.edge;
-  return std::ranges::none_of(candidate.across, [&, a = a, b = b](Index c) {
-    return c != no_index && chords.is_in_cap(a, b, c);
+  return std::ranges::none_of(candidate.across, [&, p = a, q = b](Index c) {
+    return c != no_index && chords.is_in_cap(p, q, c);
   });
 }
 
