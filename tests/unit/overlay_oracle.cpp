@@ -685,7 +685,7 @@ OracleAnswer RegionOracle::piece_in_box(const OracleBox& box) const {
     sum += integral(vector_of<N>(piece.side.from), vector_of<N>(piece.side.to));
     length += distance(piece.side.from.rounded(), piece.side.to.rounded());
   }
-  constexpr double rounding_of_angles = 1e-15;  // next to a pole, as far as is_near below allows
+  constexpr double rounding_of_angles = 2e-15;  // next to a pole, as far as is_near below allows
   OracleAnswer answer = answer_of(sum, length, N(4));
   if constexpr (!std::is_same_v<N, Wide>) answer.error += rounding_of_angles;
   return answer;
@@ -705,7 +705,7 @@ OracleAnswer RegionOracle::piece(const OracleCell& cell, bool in_full) const {
 
 // Next to a pole all depends on the last digits.
 OracleAnswer RegionOracle::piece(const OracleBox& box, bool in_full) const {
-  constexpr double near = 1e-8;
+  constexpr double near = 1e-4;
   const bool is_near = std::ranges::any_of(border_, [](const Piece& piece) {
     const auto a = piece.side.from.extended();
     const auto b = piece.side.to.extended();
