@@ -7,6 +7,7 @@
 
 #include "io/bad_value.h"
 #include "io/netcdf4_output.h"
+#include "io/number.h"
 
 namespace rondel::io {
 namespace {
@@ -138,6 +139,10 @@ std::string NetcdfWriter::header(int version, std::uint64_t first_offset) const 
   bytes.attributes(attributes_);
   bytes.list(netcdf_variables_tag, variables_.size());
   std::uint64_t offset = first_offset;
+  std::uint64_t offset_of_records = first_offset;
+  for (const NetcdfVariable& variable : variables_) {
+    offset_of_records += netcdf_padded(size_of_values(variable));
+  }
   for (const NetcdfVariable& variable : variables_) {
     bytes.name(variable.name);
     bytes.count(variable.dimensions.size());
@@ -149,13 +154,39 @@ std::string NetcdfWriter::header(int version, std::uint64_t first_offset) const 
     bytes.attributes(variable.attributes);
     bytes.u32(static_cast<std::uint32_t>(variable.type));
     bytes.count(netcdf_padded(of_record));
-    bytes.offset(offset);
-    offset += netcdf_padded(size_of_values(variable));
+    // Records, of which there are none, would come behind all else.
+    const std::uint64_t size = size_of_values(variable);
+    std::uint64_t& next = size == 0 ? offset_of_records : offset;
+    bytes.offset(next);
+    next += netcdf_padded(size == 0 ? of_record : size);
   }
   return bytes.take();
 }
 
+// A dimension of length 0 is that of records: there is one at most, and variables begin with it.
+void NetcdfWriter::require_records() const {
+  const NetcdfDimension* records = nullptr;
+  for (const NetcdfDimension& dimension : dimensions_) {
+    if (dimension.size != 0) continue;
+    if (records != nullptr) {
+      throw BadValue("dimensions " + in_quotes(records->name) + " and " +
+                     in_quotes(dimension.name) +
+                     " have length 0, of which classic netCDF holds one; netCDF-4 can");
+    }
+    records = &dimension;
+  }
+  for (const NetcdfVariable& variable : variables_) {
+    for (std::size_t k = 1; k < variable.dimensions.size(); ++k) {
+      if (dimensions_[variable.dimensions[k]].size != 0) continue;
+      throw BadValue("dimension " + in_quotes(records->name) + " has length 0, but variable " +
+                     in_quotes(variable.name) +
+                     " does not begin with it, as it does in classic netCDF; netCDF-4 can");
+    }
+  }
+}
+
 void NetcdfWriter::begin(int version) {
+  require_records();
   const int needed = needed_version();
   if (version == 0) version = needed;
   if (version < needed) {

@@ -109,6 +109,7 @@ class RONDEL_API NetcdfWriter {
 
   [[nodiscard]] std::uint64_t size_of_values(const NetcdfVariable& variable) const;
   [[nodiscard]] int needed_version() const;
+  void require_records() const;
   [[nodiscard]] std::string header(int version, std::uint64_t first_offset) const;
   template <typename T>
   void write_block(std::span<const T> values) {

@@ -7,6 +7,7 @@ Without netCDF4-python ctest says "Skipped".
 """
 
 import importlib.util
+import json
 import pathlib
 import subprocess
 import sys
@@ -359,6 +360,27 @@ class Meaning(unittest.TestCase):
             with self.subTest(units):
                 said = self.run_tool(*cells(units, 1), "--quiet", status=1)
                 self.assertIn(f"the spacings have the units '{units}'", said)
+
+    def test_weights_without_entries_are_read_by_others(self):
+        """Polygons that do not meet: the dimension of entries has length 0, as classic netCDF allows for one."""
+        for name, west in (("a.geojson", 0), ("b.geojson", 90)):
+            ring = [[west, 0], [west + 10, 0], [west + 10, 10], [west, 10], [west, 0]]
+            geometry = {"type": "Polygon", "coordinates": [ring]}
+            feature = {"type": "Feature", "properties": {}, "geometry": geometry}
+            (self.folder / name).write_text(json.dumps(feature))
+        for options in ([], ["--kind", "cdf2"], ["--kind", "cdf5"], ["--format", "scrip"]):
+            self.run_tool("remap", "a.geojson", "b.geojson", "-o", "w.nc", *options)
+            with netCDF4.Dataset(self.folder / "w.nc") as data:
+                lengths = {name: data[name][:].shape for name in data.variables}
+                area = data["src_grid_area" if "scrip" in options else "area_a"][:]
+            self.assertIn((0,), lengths.values(), options)
+            self.assertEqual(area.shape, (1,))
+            self.assertGreater(area[0], 0.03)
+            self.run_tool("check-weights", "w.nc")
+        (self.folder / "none.geojson").write_text('{"type":"FeatureCollection","features":[]}')
+        said = self.run_tool("remap", "none.geojson", "b.geojson", "-o", "n.nc", status=1)
+        self.assertIn('dimensions "n_a" and "n_s" have length 0', said)
+        self.assertFalse((self.folder / "n.nc").exists())
 
 
 if __name__ == "__main__":
