@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Voronoi cells of lines and polygons: which river, road, border or country is nearest (target rondel::remap).
+/// Voronoi cells of lines and polygons: the part of the sphere to which a river, road, border or country is
+/// nearest (target rondel::remap).
 #pragma once
 
 #include <cstddef>
@@ -20,69 +21,74 @@
 
 namespace rondel {
 
-/// Lines of arcs in compressed rows. Feature i has the lines `features[i] ... features[i+1]-1`; line l goes along
-/// shorter arcs from `points[lines[l]]` to `points[lines[l+1]-1]`. A line of one point is that point.
+/// Polylines of features, in compressed rows. Feature i has the lines `features[i] ... features[i+1]-1`.
+/// Line l goes along shorter arcs of great circles from `points[lines[l]]` to `points[lines[l+1]-1]`. A line
+/// of one point is that point.
 struct FeatureLines {
-  std::vector<std::uint64_t> features = {0};  ///< number of features + 1
-  std::vector<std::uint64_t> lines = {0};     ///< number of lines + 1
+  std::vector<std::uint64_t> features = {0};  ///< one offset more than features; counts lines
+  std::vector<std::uint64_t> lines = {0};     ///< one offset more than lines; counts points
   std::vector<Point> points;                  ///< unit vectors
 
   [[nodiscard]] std::size_t num_features() const { return features.size() - 1; }
 };
 
-/// Points of features, and the feature of each.
+/// Sites along the lines of features, with the index of the feature that each belongs to.
 struct FeatureSites {
-  std::vector<Point> sites;     ///< in the order of the features; places may occur twice
-  std::vector<Index> features;  ///< never decreasing
+  std::vector<Point> sites;  ///< unit vectors, in the order of the features; places may occur twice
+  std::vector<Index> features;  ///< the feature of each site, never decreasing
 };
 
-/// Points along lines, as few as the tolerance allows: close together where another feature is near, far apart
-/// where none is.
+/// Places sites along lines, as few as the tolerance allows: close together where another feature is near, far
+/// apart where no other feature is.
 ///
-/// 1. If a point q belongs to the nearest site's feature, that feature is at most `tolerance` radians (as rounded)
-///    farther from q than the nearest one.
-/// 2. Between two sites is at most 2 max(tolerance, sqrt(tolerance d)), with d the distance of the line there from
-///    other features.
+/// 1. The feature of the site nearest to a point q is at most `tolerance` farther from q than the feature that
+///    is nearest to q (up to rounding).
+/// 2. Neighboring sites are at most 2 max(tolerance, sqrt(tolerance d)) apart, where d is the distance of the
+///    line there from the nearest other feature.
 /// 3. All points of the lines are sites.
+/// \param tolerance  radians, positive
 /// \throws InvalidInput if offsets do not fit, a point is no unit vector, neighbors in a line are antipodes, the
 ///         tolerance is not positive, or there would be more sites than an Index counts.
 RONDEL_API FeatureSites feature_sites(const FeatureLines& lines, double tolerance,
                                       const Execution& execution = {});
 
-/// The part of the sphere to which each feature is the nearest, within the tolerance of feature_sites(): lines, and
-/// cells of which each is the polygons of its feature.
+/// Computes the cell of each feature: the part of the sphere to which it is the nearest feature, within the
+/// tolerance of feature_sites(). A feature consists of its lines and of its polygon.
 ///
-/// 1. A place in a polygon belongs to that polygon, exactly. Polygons may touch, but not overlap.
-/// 2. Cells cover the sphere; where two meet both have the same corners, bit by bit. A single feature has the
-///    whole sphere, which has no border, and so no rings.
-/// 3. Where features share a line, or a point, the first of them has what is nearest to that.
-/// \throws InvalidInput as feature_sites() and Partition(), if there are cells, but not one a feature, or if polygons
-///         cross (with the first one and a place) or overlap.
+/// 1. A place inside of a polygon belongs to that polygon, exactly. Polygons may touch, but not overlap.
+/// 2. The cells cover the sphere; where two of them meet, both have the same corners, bit by bit. A single
+///    feature has the whole sphere, which has no border and so no rings.
+/// 3. Where features share a line or a point, the first of them gets what is nearest to it.
+/// \param polygons  a cell for each feature, without rings where it has no polygon; or no cells at all
+/// \param tolerance  radians, positive
+/// \throws InvalidInput as feature_sites() and Partition(), if the number of cells is neither 0 nor that of the
+///         features, or if polygons cross or overlap (the message has the first pair and a place).
 RONDEL_API CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons,
                                    double tolerance, const Execution& execution = {});
 
-/// The part of each of these cells that lies in any of the regions, as clip() cuts it. A single feature has all of them.
-/// \throws InvalidInput as feature_cells() and clip().
+/// Computes the part of each feature's cell that lies in any of the regions, as clip() cuts cells.
+/// A single feature gets all regions. \throws InvalidInput as feature_cells() and clip().
 RONDEL_API CellRings clipped_feature_cells(const FeatureLines& lines, const CellRings& polygons,
                                            double tolerance, const Partition& regions,
                                            const Execution& execution = {});
 
-/// What these cells have in common with each region, as intersection() makes it; `cells` are the features.
-/// \throws InvalidInput as feature_cells() and intersection().
+/// Computes the intersection of each feature's cell with each region, as intersection() does. The
+/// `cells` of the result are indices of features. \throws InvalidInput as feature_cells() and
+/// intersection().
 RONDEL_API RegionPieces feature_pieces(const FeatureLines& lines, const CellRings& polygons,
                                        double tolerance, const Partition& regions,
                                        const Execution& execution = {});
 
-/// The features of a file.
+/// The features that a file has.
 struct FeatureTable {
-  std::string name;             ///< the file, for messages
-  FeatureLines lines;           ///< and points; polygons have none
+  std::string name;             ///< the file's name, for messages
+  FeatureLines lines;           ///< lines and points; a polygon has none here
   CellRings polygons;           ///< a cell for each feature, without rings where it has no polygon
-  std::vector<Column> columns;  ///< the properties
+  std::vector<Column> columns;  ///< the properties of the features
 };
 
-/// Reads .geojson (or .json) as read_polygons() does, points and lines too, and collections of all.
-/// \throws as read_polygons().
+/// Reads a .geojson or .json file as read_polygons() does, with points, lines and collections of
+/// them as well. \throws what read_polygons() throws.
 RONDEL_API FeatureTable read_features(const FileName& file, const PolygonOptions& options = {},
                                       const Execution& execution = {});
 

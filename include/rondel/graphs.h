@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Graphs of who is near to whom, read from a triangulation.
+/// Proximity graphs of the vertices of a triangulation: Delaunay, Urquhart, Gabriel, relative
+/// neighborhoods, minimum spanning tree.
 #pragma once
 
 #include <array>
@@ -16,56 +17,65 @@
 
 namespace rondel {
 
-/// spanning_tree is part of relative, relative of gabriel and of urquhart, all of delaunay. |ab| is the angle between the rays of two sites.
+/// The kinds of proximity graphs, each a subgraph of the one above it: spanning_tree of relative,
+/// relative of gabriel and of urquhart, and these of delaunay. |ab| is the angle between the rays
+/// of two sites.
 enum class GraphKind : std::uint8_t {
-  delaunay,  ///< the edges of solid faces
-  urquhart,  ///< of these, all but those longer than both other edges of one of their solid faces
-  gabriel,   ///< no other vertex in the closed cap with diameter ab
-  relative,  ///< no vertex c with |ac| < |ab| and |bc| < |ab|: relative neighborhoods
-  spanning_tree,  ///< the shortest tree of edges that has all vertices
+  delaunay,       ///< the edges of solid faces
+  urquhart,       ///< Delaunay edges that are not the longest edge of a solid face
+  gabriel,        ///< edges ab without another vertex in the closed cap with the diameter ab
+  relative,       ///< edges ab without a vertex c such that |ac| < |ab| and |bc| < |ab|
+  spanning_tree,  ///< the minimum spanning tree of all vertices
 };
 
-/// Edges between vertices, and how long they are.
+/// The edges of a graph between vertices, with their lengths.
 struct SiteGraph {
-  std::vector<std::array<Index, 2>> edges;  ///< the lower index first, in lexicographic order
-  std::vector<double> lengths;              ///< radians along the great circle, to 8e-16 of itself
+  /// two sites, the lower index first; edges in lexicographic order
+  std::vector<std::array<Index, 2>> edges;
+  std::vector<double> lengths;  ///< radians along the great circle, relative error at most 8e-16
 };
 
-/// The graph of the vertices of an unweighted triangulation.
+/// Returns a proximity graph of the vertices of an unweighted triangulation.
 ///
 /// 1. All decisions are exact for the rays of the sites, ties included.
-/// 2. Ties depend on places alone: a vertex on the border of a cap is in it; a vertex c as far from a
-///    or b as these are from each other takes no edge away, so an equilateral face keeps its edges. Where
-///    there are several shortest trees, of equal edges those first in lexicographic order are taken.
-/// 3. spanning_tree is part of relative, relative of gabriel and of urquhart, these of
-///    delaunay. So all are connected.
-/// 4. Duplicates are represented by the lowest index of their place; other sites there have no edges.
-/// 5. Below dimension 2 the faces are the arcs shorter than 180 degrees between neighbors around the
-///    great circle, and two vertices alone have one edge in all graphs, even antipodes.
+/// 2. Ties depend on the positions of the vertices alone. A vertex on the border of a cap is in the cap. A
+///    vertex c that is as far from a or b as these are from each other removes no edge, so an equilateral
+///    face keeps its edges. Where several minimum spanning trees exist, edges of equal length are taken in
+///    lexicographic order.
+/// 3. spanning_tree is a subgraph of relative, relative of gabriel and of urquhart, and these of delaunay.
+///    So all graphs are connected.
+/// 4. Duplicates are represented by the site of lowest index at their place; the others have no edges.
+/// 5. Below dimension 2 the Delaunay edges are the arcs shorter than 180 degrees between neighbors around
+///    the great circle. Two vertices alone have one edge in all graphs, even if they are antipodes.
 ///
-/// Expected time: O(n), relative O(n) for sites of even density, spanning_tree O(n log n).
+/// The expected time is O(n); it is O(n log n) for spanning_tree, and O(n) for relative only if the density
+/// of sites is even.
+/// \param triangulation a triangulation with Model::projected
 /// \throws InvalidInput if the sites are weighted.
 RONDEL_API SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
                                 const Execution& execution = {});
 
-/// Which directions of its edges a graph is given with.
+/// The directions in which edge_index() lists an edge.
 enum class EdgeDirections : std::uint8_t {
-  one,   ///< from the lower index to the higher
-  both,  ///< both, one after the other in lexicographic order of source and target
+  one,   ///< from the lower index to the higher one
+  both,  ///< both, all in lexicographic order of source and target
 };
 
-/// The edges as libraries for graph learning take them: shape (2, E), sources before targets.
+/// The edges of a graph as libraries for graph learning take them: an array of shape (2, E),
+/// sources before targets.
 struct EdgeIndex {
-  std::vector<std::int64_t> ends;  ///< 2 E
-  std::vector<double> lengths;     ///< E, radians
+  std::vector<std::int64_t> ends;  ///< E sources, then E targets; sites
+  std::vector<double> lengths;     ///< the lengths of the E edges, radians
 };
 RONDEL_API EdgeIndex edge_index(const SiteGraph& graph,
                                 EdgeDirections directions = EdgeDirections::both);
 
-/// Writes an edge a row or feature, with its `source`, `target` and `length_deg`: .csv, .geojson (RFC 7946: a
-/// MultiLineString, cut at the antimeridian, within the tolerance of its arc), or .npy (the sites alone, uint32,
-/// shape (E, 2)).
-/// \throws InvalidInput if an edge has another site than those, or no length.
+/// Writes a graph, one row or feature for each edge, with `source`, `target` (sites) and `length_deg`.
+/// \param file  .csv; .geojson (RFC 7946: a MultiLineString, cut at the antimeridian); or .npy (the sites
+///              alone, uint32, shape (E, 2))
+/// \param tolerance_deg  how far drawn lines of a GeoJSON file may leave the arcs, degrees
+/// \throws InvalidInput if an edge has an end that is no site of `triangulation`, or no finite length.
+/// \throws FileError if the file cannot be written.
 RONDEL_API void write_graph(const FileName& file, const Triangulation& triangulation,
                             const SiteGraph& graph, double tolerance_deg = 0.01,
                             const Execution& execution = {});

@@ -27,14 +27,15 @@ using exact::Ball;
 using exact::DoubleDouble;
 using exact::SplitPoint;
 
-// The sign of a value, zero where that is unsure: where it is within `bound` times the longer of two lengths,
-// whose squares are given.
+// Returns the sign of a value that is off by at most `bound` times the longer of two lengths, whose
+// squares are given; zero where this error leaves the sign open.
 Sign sign_beyond(double value, double bound, double square, double other) {
   if (!(value * value > bound * bound * std::max(square, other))) return Sign::zero;
   return value > 0 ? Sign::positive : Sign::negative;
 }
 
-// The sign of p sqrt(s) - q sqrt(t), if it is known.
+// Returns the sign of p sqrt(s) - q sqrt(t), or nothing if the intervals of the four numbers leave
+// it open.
 template <std::size_t N>
 std::optional<Sign> sign_of_roots(const Ball<N>& p, const Ball<N>& s, const Ball<N>& q,
                                   const Ball<N>& t) {
@@ -50,7 +51,8 @@ std::optional<Sign> sign_of_roots(const Ball<N>& p, const Ball<N>& s, const Ball
              : (*sign == Sign::zero ? Sign::zero : *size);
 }
 
-// Formulas of degree 12 in steps between points: 12 * 2101 + 64 bits are less than 400 words.
+// The formulas have degree 12 in differences of points. Their exact values have at most 12 * 2101 +
+// 64 bits, which fit into the 400 words of 64 bits of the last rung.
 template <class Formula>
 Sign sign_of_degree_12(const Formula& formula) {
   const std::optional<Sign> sign = exact::first_known_sign<6, 16, 400>(formula);
@@ -58,7 +60,8 @@ Sign sign_of_degree_12(const Formula& formula) {
   return *sign;
 }
 
-// cos(cd) - cos(ab), times lengths: (c.d) |a||b| - (a.b) |c||d|.
+// Returns the sign of cos(cd) - cos(ab) times positive lengths, (c.d) |a||b| - (a.b) |c||d|. It is
+// the sign of |ab| - |cd|, since a larger angle has a smaller cosine.
 Sign compare_exactly(const Point& a, const Point& b, const Point& c, const Point& d,
                      const Point& center) {
   return sign_of_degree_12([&](const auto& step) {
@@ -71,11 +74,12 @@ Sign compare_exactly(const Point& a, const Point& b, const Point& c, const Point
   });
 }
 
-// The sign of (u_c - u_a).(u_b - u_c), times lengths. With A = a.a and so on it is
+// Returns the sign of (u_c - u_a).(u_b - u_c) for unit vectors u, times positive lengths. With A = a.a
+// and so on this is
 //
 //     R - L,   R = (c.b) sqrt(A) - (a.b) sqrt(C),   L = sqrt(B) (sqrt(A C) - c.a) >= 0
 //
-// so negative where R is, and otherwise that of R^2 - L^2 = X + 2 Y sqrt(A C) with
+// so it is negative where R is. Otherwise it has the sign of R^2 - L^2 = X + 2 Y sqrt(A C) with
 //
 //     X = (c.b)^2 A + (a.b)^2 C - A B C - B (c.a)^2,   Y = B (c.a) - (c.b)(a.b)
 Sign cap_sign_exactly(const Point& a, const Point& b, const Point& c, const Point& center) {
@@ -153,10 +157,12 @@ Sign Chords::compare(Index a, Index b, Index c, Index d) const {
   return sign != Sign::zero ? sign : compare(a, b, squared(a, b), c, d, squared(c, d));
 }
 
-// (c-a).(c-b) of unit vectors that are off by e each is off by 2e (|c-a| + |c-b|) + 4e^2, and by 8u
-// |c-a||c-b| of rounding, where lengths are at most 2: with e = u below 32u times the longer
-// one, with e = 2^-100 and products off by 2^-99 of their size below 2^-95 times it. A value beyond that
-// is at most the square of the longer one, which then is far longer than e, so its own error is no matter.
+// The product (c-a).(c-b) of unit vectors that are off by e each is off by 2e (|c-a| + |c-b|) +
+// 4e^2, and by 8u |c-a||c-b| of rounding, where lengths are at most 2. For doubles, e = u, this is
+// below 32u times the longer length; for double_doubles, with e = 2^-100 and products off by 2^-99
+// of their size, it is below 2^-95 times that length. A product beyond such a bound is at most the
+// square of the longer length, which then is far longer than e, so that the error of the length
+// itself does not matter.
 bool Chords::is_in_cap(Index a, Index b, Index c) const {
   const auto difference = [](const SplitPoint& p, const SplitPoint& q) {
     return exact::Vector3<DoubleDouble>{

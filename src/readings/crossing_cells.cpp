@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sides sorted by the least x that they may have; each is tested with those after it whose box meets its own.
+// Finds all pairs of cells whose sides cross, by sweeping: sides are sorted by the least x of their
+// boxes, and each side is tested with the sides after it whose boxes meet its own.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -22,7 +23,7 @@ namespace {
 
 constexpr std::size_t sides_per_piece = 1024;
 
-// The shorter arc from a to b, and a box that has it.
+// The side of a cell: the shorter arc from a to b, with an axis-aligned box that contains the arc.
 struct BoxedSide {
   Index cell;
   Point a, b;
@@ -30,14 +31,15 @@ struct BoxedSide {
 
   BoxedSide(Index cell_index, const Point& from, const Point& to)
       : cell(cell_index), a(from), b(to) {
-    // An arc is less than an eighth of its squared length away from its chord, if it is no longer than a
-    // quarter of a circle, and in any case within a quarter of it.
+    // An arc of at most 90 degrees leaves its chord by less than an eighth of the chord's squared
+    // length, and any shorter arc by less than a quarter of it.
     const Point chord = b - a;
     const double bulge = dot(chord, chord) / 4;
     low = {std::min(a.x, b.x) - bulge, std::min(a.y, b.y) - bulge, std::min(a.z, b.z) - bulge};
     high = {std::max(a.x, b.x) + bulge, std::max(a.y, b.y) + bulge, std::max(a.z, b.z) + bulge};
   }
 
+  // True if the boxes overlap in y and z. The sweep has already compared their x.
   [[nodiscard]] bool may_meet(const BoxedSide& other) const {
     return low[1] <= other.high[1] && other.low[1] <= high[1] && low[2] <= other.high[2] &&
            other.low[2] <= high[2];
@@ -46,14 +48,15 @@ struct BoxedSide {
 
 bool are_opposite(Sign s, Sign t) { return s * t == Sign::negative; }
 
-// Where the insides of two sides cross.
+// Returns the point where two sides cross, or nothing if they only touch or do not meet.
 std::optional<Point> crossing_of(const BoxedSide& s, const BoxedSide& t) {
   if (!are_opposite(orientation(s.a, s.b, t.a), orientation(s.a, s.b, t.b)) ||
       !are_opposite(orientation(t.a, t.b, s.a), orientation(t.a, t.b, s.b))) {
     return std::nullopt;
   }
-  // The great circles cross within both arcs, or within one and opposite of the other. What is within an arc is less than
-  // a quarter of a circle from its middle.
+  // The two great circles cross in two antipodes. One of them lies within both arcs, or within one
+  // arc and opposite of the other. A point within an arc is less than 90 degrees from the middle of
+  // the arc, which tells these cases apart.
   const Point line = normalized(cross(cross(s.a, s.b - s.a), cross(t.a, t.b - t.a)));
   const Point place = dot(line, s.a + s.b) < 0 ? -1.0 * line : line;
   if (dot(place, t.a + t.b) <= 0) return std::nullopt;

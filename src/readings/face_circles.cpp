@@ -30,9 +30,11 @@ WideVector wide(const exact::SplitPoint& p) {
   return {{p.hi.x, p.lo.x}, {p.hi.y, p.lo.y}, {p.hi.z, p.lo.z}};
 }
 
-// With the normal n = (b-a) x (c-a) of a face, its circle has the sine |b-a||c-b||a-c| / 2|n| and the
-// cosine n.a / |n|. Unit vectors off by e make n off by less than 8e times the longest side: e = 2^-100, so a
-// height of 2^-45 leaves a relative 2^-52. Lower faces have the angle between center and corner, off by some ulp.
+// Returns the radius of a face's circle in radians. With the normal n = (b-a) x (c-a), the circle
+// has the sine |b-a||c-b||a-c| / 2|n| and the cosine n.a / |n|. Unit vectors that are off by e put
+// n off by less than 8e times the longest side. Here e = 2^-100, so a height of 2^-45 leaves a
+// relative error of 2^-52. For lower faces the radius is the angle between `middle` and a corner,
+// which is off by some ulp.
 double radius_of(const Triangulation& triangulation, const Triple& face, const Point& middle) {
   const Point& center = triangulation.sphere().center;
   const WideVector a = wide(exact::unit_vector(triangulation.sites()[face[0]], center));
@@ -58,7 +60,8 @@ FaceCircles face_circles(const Triangulation& triangulation, const Execution& ex
   const auto faces = triangulation.faces();
   const auto neighbors = triangulation.neighbors();
   const Sites& sites = triangulation.sites();
-  // Bit i: the face across edge i has the same circle.
+  // Bit i of is_same[f] is set if the face across edge i of f has the same circle as f. Only the
+  // face with the lower index keeps the bit.
   std::vector<std::uint8_t> is_same(faces.size());
   FaceCircles circles;
   circles.centers = circumcenters(triangulation, execution);
@@ -80,7 +83,8 @@ FaceCircles face_circles(const Triangulation& triangulation, const Execution& ex
           }
         }
       });
-  // Sets of faces: each points to an earlier one, the first to itself.
+  // The faces with one circle are a set of a union-find forest: each face points to one of lower or
+  // equal index, and the root is the lowest face of the set.
   std::vector<Index>& first = circles.first_face;
   first.resize(faces.size());
   const auto root = [&first](Index f) {

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The circles around the faces.
+// The circumscribed circles of the faces of a triangulation, and which faces have the same circle.
+//
+// in    an unweighted triangulation
+// out   a center, a radius and a representative for each face
+// index faces, ghost faces included
 #pragma once
 
 #include <vector>
@@ -12,9 +16,9 @@
 namespace rondel::readings {
 
 struct FaceCircles {
-  std::vector<Index> first_face;  // of the faces with the circle of this face, exactly
-  std::vector<Point> centers;     // of each face: unit vectors
-  std::vector<double> radii;      // of each face that is its own first one: radians
+  std::vector<Index> first_face;  // the lowest face with exactly the same circle
+  std::vector<Point> centers;     // unit vectors
+  std::vector<double> radii;      // radians; exact to some ulp where first_face[f] == f
 };
 
 // Precondition: Model::projected.

@@ -1,8 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells of sites along lines and the borders of polygons, joined by feature. What is inside of a polygon is cut out
-// of them and joined to its feature.
+// Voronoi cells of features: lines and polygon borders are replaced by sites along them
+// (feature_sites.cpp), and the Voronoi cells of these sites are joined by feature. Where features
+// have polygons, the part of each cell inside of any polygon is cut off and joined to that
+// polygon's feature.
 #include "rondel/feature_cells.h"
 
 #include <cstddef>
@@ -24,13 +26,14 @@
 namespace rondel {
 namespace {
 
+// Appends the corners of one ring to `points`.
 void append_ring_points(const CellRings& cells, std::uint64_t ring, std::vector<Point>& points) {
   for (std::uint64_t k = cells.rings[ring]; k < cells.rings[ring + 1]; ++k) {
     points.push_back(cells.points[cells.corners[k]]);
   }
 }
 
-// The lines of each feature, and the borders of its polygons as closed ones.
+// Returns the lines of each feature, followed by the rings of its polygon as closed lines.
 FeatureLines with_borders(const FeatureLines& lines, const CellRings& polygons) {
   FeatureLines all;
   for (std::size_t f = 0; f < lines.num_features(); ++f) {
@@ -52,6 +55,8 @@ FeatureLines with_borders(const FeatureLines& lines, const CellRings& polygons) 
   return all;
 }
 
+// Throws InvalidInput, with the first pair of cells and a point of both, if two polygons overlap or
+// one overlaps itself.
 void require_disjoint(const CellRings& polygons, const Execution& execution) {
   const std::vector<CrossingCells> overlaps =
       overlapping_cells(polygons, {.threads = execution.threads, .stop = execution.stop});
@@ -66,11 +71,13 @@ void require_disjoint(const CellRings& polygons, const Execution& execution) {
                      one.first);
 }
 
-// Cells, or pieces of them, and which feature each belongs to.
+// Pairwise disjoint cells that cover the sphere, or pieces of such cells, with the feature that
+// each belongs to.
 struct OwnedCells {
   Partition cells;
   std::vector<Index> owners;
-  std::optional<CellRings> joined;  // the cells of the features, where they had to be made
+  // the union of the cells of each feature, if it was computed on the way
+  std::optional<CellRings> joined;
 };
 OwnedCells owned_cells(const FeatureLines& lines, const CellRings& polygons, double tolerance,
                        const Execution& execution) {
@@ -98,7 +105,8 @@ OwnedCells owned_cells(const FeatureLines& lines, const CellRings& polygons, dou
   return {Partition(pieces.rings, execution), std::move(owners), std::move(joined)};
 }
 
-// What cuts the cells once more tells nothing of it: fractions must not decrease.
+// Returns execution options without a progress callback if owned_cells() has already reported its
+// progress, since reported fractions must not decrease.
 Execution quiet_after(const OwnedCells& owned, const Execution& execution) {
   if (!owned.joined) return execution;
   return {.threads = execution.threads, .stop = execution.stop};

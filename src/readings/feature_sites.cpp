@@ -1,18 +1,24 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Lines are halved until every piece is short enough for the tolerance t. Why that suffices:
+// Places sites along lines so that the nearest site's feature is the nearest feature up to a tolerance t.
+// Each segment between neighboring sites of a line is halved until it is short enough for t:
 //
-//            x         Let q be nearest to p in a piece of half-length h of feature F, at distance d, but belong to a
-//           /|         site of feature G, which is nearer than the piece's ends: at most sqrt(d^2 + h^2) away (on the
-//         /  | d       sphere it is less than in the plane). So G is at most e = sqrt(d^2 + h^2) - d farther than F,
-//       /    |         and e <= h. Let G be D from p: D <= 2 d + e, and as e (2 d + e) = h^2, e <= h^2 / D.
-//     o------p--o      So e <= t if h <= t or h^2 <= t D: h <= H(D) = max(t, sqrt(t D)).
-//        h
-// D is not known, but d1, how far the middle m of the piece is from the nearest *site* of another feature. Let the
-// other feature be D from m, in a piece of half-length h'. That piece is tested as well: h' <= H(D + h), as D + h is a
-// bound for what it knows of its distance. So d1 <= D + h' <= D + H(D + h), which bounds D from below, and D - h is a
-// bound for all p in the piece. With u = D + h and K = d1 + h that is u + H(u) >= K, and the test h^2 <= t (u - 2 h).
+//            x         Let p be a segment's point nearest to x, at distance d, in a segment of feature F
+//           /|         with half-length h. Let the site nearest to x belong to another feature G. This
+//         /  | d       site is nearer than the segment's ends, so at most sqrt(d^2 + h^2) away (on the
+//       /    |         sphere it is less than in the plane). So G is at most e = sqrt(d^2 + h^2) - d
+//     o------p--o      farther than F, and e <= h. Let D be the distance of G from p. Then D <= 2 d + e,
+//        h             and as e (2 d + e) = h^2, e <= h^2 / D.
+//
+// So e <= t if h <= t or h^2 <= t D, that is if h <= H(D) = max(t, sqrt(t D)).
+//
+// D is not known; known is d1, the distance of the segment's middle m from the nearest *site* of another
+// feature. Let D now be the distance of that feature from m, attained in a segment of half-length h'.
+// That segment passes the same test, so h' <= H(D + h), as D + h bounds what its test knows of its
+// distance. So d1 <= D + h' <= D + H(D + h), which bounds D from below, and D - h is a bound for all
+// points p of the segment. With u = D + h and K = d1 + h this is u + H(u) >= K, and the test is
+// h^2 <= t (u - 2 h).
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -31,7 +37,8 @@
 namespace rondel {
 namespace {
 
-// Points of lines; `is_joined` to the next one, or the last of its line.
+// The sites along all lines, in the order of the lines. is_joined[i] is 1 if a segment goes from
+// site i to site i + 1, and 0 if site i is the last one of its line.
 struct LinePoints {
   std::vector<Point> points;
   std::vector<Index> features;
@@ -44,17 +51,22 @@ struct LinePoints {
   }
 };
 
+// A segment that may be too long.
 struct PieceMiddle {
-  std::size_t first;  // point of the piece
-  double half;        // of its length
+  std::size_t first;  // index of the segment's first site
+  double half;        // half of the segment's length, radians
 };
 
+// Returns the angle between two unit vectors in radians.
 double angle_of(const Point& a, const Point& b) {
   const Point difference = a - b;
   const Point sum = a + b;
   return 2 * exact::argument(std::sqrt(dot(difference, difference)), std::sqrt(dot(sum, sum)));
 }
 
+// True if a segment needs no further site, by the test above with `half` = h and `to_other_site` =
+// d1, all in radians. The positive root of u + sqrt(tolerance u) = h + d1 is the least u; where it
+// is below the tolerance, H is the tolerance itself.
 bool is_short_enough(double half, double to_other_site, double tolerance) {
   if (half <= tolerance) return true;
   const double sum = to_other_site + half;
@@ -64,6 +76,8 @@ bool is_short_enough(double half, double to_other_site, double tolerance) {
   return half * half <= tolerance * (bound - 2 * half);
 }
 
+// Throws InvalidInput unless the offsets are compressed rows and all points are unit vectors to
+// 1e-9.
 void require_lines(const FeatureLines& lines) {
   const auto fits = [](std::span<const std::uint64_t> offsets, std::size_t size) {
     return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
@@ -82,6 +96,8 @@ void require_lines(const FeatureLines& lines) {
   }
 }
 
+// Returns the corners of all lines without repeated neighbors. Throws InvalidInput if neighbors are
+// antipodes, between which no shorter arc exists.
 LinePoints points_of_lines(const FeatureLines& lines) {
   LinePoints all;
   for (std::size_t f = 0; f < lines.num_features(); ++f) {
@@ -101,7 +117,8 @@ LinePoints points_of_lines(const FeatureLines& lines) {
   return all;
 }
 
-// The points with the middles of pieces that are too long, none if there is none such.
+// Returns the sites with the middle of every segment that is too long inserted, or no sites at all
+// if no segment is too long.
 LinePoints halved(const LinePoints& all, double tolerance, const Execution& execution) {
   std::vector<PieceMiddle> pieces;
   std::vector<Point> middles;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Graphs, outlines and circles as files.
+// Writes graphs, outlines and empty circles as files.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,20 +26,23 @@
 namespace rondel {
 namespace {
 
+// What a writer of graphs gets.
 struct GraphToWrite {
   const Triangulation& triangulation;
   const SiteGraph& graph;
   double tolerance;  // radians
 };
 
+// What a writer of outlines gets.
 struct OutlineToWrite {
   const Triangulation& triangulation;
   const Outline& outline;
-  double tolerance;
+  double tolerance;  // radians
 };
 
 using Circles = std::span<const EmptyCircle>;
 
+// Converts a tolerance to radians. Throws InvalidInput unless it is positive.
 double tolerance_of(double degrees) {
   if (!(degrees > 0)) throw InvalidInput("the tolerance is not positive");
   return degrees / map::degrees_per_radian;
@@ -49,13 +52,15 @@ Point unit_of(const Triangulation& triangulation, Index site) {
   return exact::unit_vector(triangulation.sites()[site], triangulation.sphere().center).hi;
 }
 
+// Appends "longitude,latitude" in degrees.
 void append_position(std::string& out, const LonLat& position) {
   io::append_number(out, position.lon_deg);
   out += ',';
   io::append_number(out, position.lat_deg);
 }
 
-// [[[lon,lat],...],...]
+// Appends nested arrays of GeoJSON: [[[lon,lat],...],...]. There must be a line, and each must have
+// a position.
 void append_lines(std::string& out, const std::vector<std::vector<LonLat>>& lines) {
   out += '[';
   for (const std::vector<LonLat>& line : lines) {
@@ -71,6 +76,8 @@ void append_lines(std::string& out, const std::vector<std::vector<LonLat>>& line
   out.back() = ']';
 }
 
+// Appends the beginning of a GeoJSON feature up to its properties; `item` counts the features
+// before.
 void append_start(std::string& out, std::size_t item) {
   out += item == 0 ? "\n" : ",\n";
   out += R"({"type":"Feature","properties":{)";
@@ -202,6 +209,7 @@ constexpr std::array<OutlineWriter, 1> outline_writers = {{{".geojson", &write_o
 constexpr std::array<CircleWriter, 2> circle_writers = {
     {{".geojson", &write_circles_geojson}, {".csv", &write_circles_csv}}};
 
+// True if the offsets begin with 0, end with `end` and never decrease.
 bool are_offsets(std::span<const std::uint64_t> offsets, std::size_t end) {
   return !offsets.empty() && offsets.front() == 0 && offsets.back() == end &&
          std::ranges::is_sorted(offsets);

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Why edges of solid faces are enough, and for caps the two corners across an edge
-// (docs/theory/graphs.md). For the shortest tree, sort the edges that Urquhart's graph leaves.
+// Computes proximity graphs by removing edges of solid faces. docs/theory/graphs.md proves that
+// these edges suffice, and that for a cap the two corners across an edge decide. The spanning tree
+// is Kruskal's, which sorts only the edges of the Urquhart graph, a supergraph of the tree.
 #include "rondel/graphs.h"
 
 #include <algorithm>
@@ -26,12 +27,14 @@ using Edge = std::array<Index, 2>;
 
 constexpr std::size_t edges_per_piece = 1024;
 
-// An edge and the corners across it, no_index where there is no solid face.
+// An edge and the two corners across it. A corner is no_index where the face on that side is a
+// ghost or does not exist.
 struct NearPair {
   Edge edge{};
   std::array<Index, 2> across = {no_index, no_index};
 };
 
+// Returns each edge that has a solid face on at least one side, once.
 std::vector<NearPair> face_candidates(const Triangulation& triangulation) {
   const auto faces = triangulation.faces();
   const auto neighbors = triangulation.neighbors();
@@ -57,8 +60,9 @@ std::vector<NearPair> face_candidates(const Triangulation& triangulation) {
   return found;
 }
 
-// The arcs around a great circle whose points are all at less than 180 degrees: the cap of such an arc
-// has no other vertex.
+// Returns the arcs between neighbors around the great circle, for a triangulation of dimension
+// below 2. An arc of 180 degrees or more is left out: its cap has another vertex. The cap of a
+// shorter arc has none.
 std::vector<NearPair> ring_candidates(const Triangulation& triangulation, const Chords& chords) {
   const auto ring = triangulation.ring();
   std::vector<NearPair> found;
@@ -73,7 +77,8 @@ std::vector<NearPair> ring_candidates(const Triangulation& triangulation, const 
   return found;
 }
 
-// Of each candidate whether it stays; those that do not are erased.
+// Removes the candidates that fail a test, in parallel. stays() makes the test of one thread: a
+// callable that takes a candidate and returns whether it stays.
 template <class Stays>
 void keep_if(std::vector<NearPair>& candidates, const Execution& execution, const Stays& stays) {
   std::vector<std::uint8_t> is_kept(candidates.size());
@@ -89,7 +94,7 @@ void keep_if(std::vector<NearPair>& candidates, const Execution& execution, cons
   candidates.resize(size);
 }
 
-// Whether a corner across keeps the edge from being the longest one of its face.
+// True if the edge is in no solid face longer than both other sides.
 bool is_in_urquhart(const Chords& chords, const NearPair& candidate) {
   const auto [a, b] = candidate.edge;
   return std::ranges::none_of(candidate.across, [&, p = a, q = b](Index c) {
@@ -104,14 +109,14 @@ bool is_in_gabriel(const Chords& chords, const NearPair& candidate) {
   });
 }
 
-// Joined sets of sites, each known by one of them.
+// A union-find forest of sites, whose sets are connected components.
 class Components {
  public:
   explicit Components(std::size_t size) : parents_(size) {
     std::iota(parents_.begin(), parents_.end(), 0U);
   }
 
-  // Whether a and b were apart.
+  // Joins the components of a and b, and returns whether they were different.
   bool join(Index a, Index b) {
     a = root_of(a);
     b = root_of(b);
@@ -131,7 +136,8 @@ class Components {
   std::vector<Index> parents_;
 };
 
-// Kruskal's tree of some candidates that have it.
+// Reduces the candidates to the shortest spanning tree by Kruskal's algorithm. Precondition: the
+// candidates contain the tree. Edges of equal length are taken in lexicographic order.
 void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<NearPair>& candidates) {
   struct Keyed {
     exact::DoubleDouble square;
@@ -157,6 +163,7 @@ void keep_tree(const Chords& chords, std::size_t num_sites, std::vector<NearPair
   }
 }
 
+// Reduces the candidates, all Delaunay edges, to the edges of a graph of this kind.
 void keep_kind(const Triangulation& triangulation, const Chords& chords, GraphKind kind,
                std::vector<NearPair>& candidates, const Execution& execution) {
   if (kind == GraphKind::delaunay) return;
@@ -178,13 +185,14 @@ void keep_kind(const Triangulation& triangulation, const Chords& chords, GraphKi
   if (kind == GraphKind::spanning_tree) keep_tree(chords, triangulation.num_sites(), candidates);
 }
 
-// One counting sort by the lower end, then the few edges of each site.
+// Sorts the candidates lexicographically: by counting for the lower end, then by comparing the few
+// edges of each site.
 void sort_by_edge(std::size_t num_sites, std::vector<NearPair>& candidates) {
   std::vector<std::size_t> ends(num_sites + 1);
   for (const NearPair& c : candidates) ++ends[c.edge[0] + 1];
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
   std::vector<NearPair> sorted(candidates.size());
-  // ends[a] moves from the first place of a's edges to the first place after them.
+  // ends[a] moves from the place of the first edge of a to the place after its last edge.
   for (const NearPair& c : candidates) sorted[ends[c.edge[0]]++] = c;
   std::size_t begin = 0;
   for (const std::size_t end : ends) {

@@ -1,7 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The places nearer to both ends of an edge than these are to each other, and whether a vertex is there.
+// Decides which edges belong to the relative neighborhood graph. The lune of an edge ab has the points
+// that are nearer to a and nearer to b than a and b are to each other; the edge stays if its lune has
+// no vertex.
+//
+// in    the exact distances of sites, the edges of the Delaunay triangulation
+// out   whether the lune of an edge is empty
+// index sites
 #pragma once
 
 #include <array>
@@ -15,7 +21,8 @@
 
 namespace rondel::readings {
 
-// The neighbors of each vertex.
+// Lists the neighbors of each vertex, in compressed rows: row v has the other ends of the edges at
+// v.
 class Adjacency {
  public:
   Adjacency(std::size_t num_sites, std::span<const std::array<Index, 2>> edges);
@@ -28,9 +35,10 @@ class Adjacency {
   std::vector<Index> ends_;
 };
 
-// Looks for a vertex nearer to both ends of an edge than these are to each other. The vertices nearer to
-// one end are connected by edges (query/graph.h), and so are found from it; from both ends by turns, as
-// there may be many around the one.
+// Looks for a vertex in the lune of an edge. The vertices that are nearer to one end than the other
+// end is are connected by Delaunay edges (query/graph.h), so that a breadth-first search from this
+// end finds them all. The search advances from both ends by turns and stops when either is
+// exhausted, since one end may have many such vertices.
 class LuneSearch {
  public:
   LuneSearch(const Chords& chords, const Adjacency& adjacency)
@@ -39,6 +47,8 @@ class LuneSearch {
   bool is_empty(const std::array<Index, 2>& edge);
 
  private:
+  // The breadth-first search from one end: the queue has the vertices found, `next` is the first of
+  // them whose neighbors were not visited.
   struct Front {
     query::VisitedSet visited;
     std::vector<Index> queue;
@@ -48,7 +58,8 @@ class LuneSearch {
     [[nodiscard]] bool is_at_end() const { return next == queue.size(); }
   };
 
-  // Whether a neighbor of the next vertex is nearer to both; those nearer to `from` are queued.
+  // Visits the neighbors of the next vertex in the queue and returns whether one of them is in the
+  // lune. Neighbors that are only nearer to `from` than `to` is are appended to the queue.
   bool step(Front& front, Index from, Index to) const;
 
   const Chords& chords_;

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Most places have a site of another feature among their nearest sites. For those that have not, two features
-// differ in a bit of their numbers: the nearest other site is the nearest one in one of the sets of sites whose
-// features have one bit in common, which is not that of the query's feature.
+// The distance is found among the 16 nearest sites of a query in most cases. For the remaining
+// queries the sites are split by each bit of their feature's number. Two different features differ
+// in some bit, so the nearest site of another feature is the nearest one in a set of sites whose
+// features have one value of a bit, while the query's feature has the other value.
 #include "readings/other_features.h"
 
 #include <algorithm>
@@ -23,7 +24,8 @@ constexpr double no_other = std::numeric_limits<double>::infinity();
 constexpr std::size_t sites_looked_at = 16;
 constexpr std::size_t queries_per_piece = 256;
 
-// Which sites stand for a place of several features.
+// Returns 1 for each representative with a duplicate of another feature: a point of several
+// features.
 std::vector<std::uint8_t> shared_places(const Triangulation& triangulation,
                                         std::span<const Index> features) {
   std::vector<std::uint8_t> is_shared(features.size());
@@ -35,7 +37,8 @@ std::vector<std::uint8_t> shared_places(const Triangulation& triangulation,
   return is_shared;
 }
 
-// The distances to those that are among the nearest sites, and no_other.
+// Returns the distance of each query to the nearest site of another feature if it is among the 16
+// nearest sites, or infinity.
 std::vector<double> near_others(const LabelledSites& labelled, std::span<const Point> queries,
                                 std::span<const Index> features, const Execution& execution) {
   const Triangulation triangulation = delaunay(Sites::view(labelled.sites), {}, execution);
@@ -60,7 +63,7 @@ std::vector<double> near_others(const LabelledSites& labelled, std::span<const P
   return found;
 }
 
-// Of the sites and queries whose features have this bit, or have it not.
+// True for the features whose number has this bit set, or not set.
 struct ByBit {
   Index bit;
   bool is_set;
@@ -68,6 +71,8 @@ struct ByBit {
   [[nodiscard]] bool operator()(Index feature) const { return ((feature & bit) != 0) == is_set; }
 };
 
+// Lowers found[q] for each query q of `left` whose feature does not satisfy `has`, to its distance
+// from the nearest site whose feature does.
 void lower_by(const ByBit& has, const LabelledSites& labelled, std::span<const Point> queries,
               std::span<const Index> features, std::span<const std::size_t> left,
               std::vector<double>& found, const Execution& execution) {

@@ -17,13 +17,15 @@
 namespace rondel {
 namespace {
 
+// Throws InvalidInput for weighted sites, whose faces have no empty circles.
 void require_no_weights(const Triangulation& triangulation) {
   if (triangulation.model() == Model::weighted) {
     throw InvalidInput("the circles of weighted faces are not empty");
   }
 }
 
-// The border of a set of faces, ring by ring.
+// Traces the border of a set of faces and returns it as polygons, one for each set of faces that
+// are connected by edges. A ring has the set to its left.
 class Tracer {
  public:
   Tracer(const Triangulation& triangulation, std::span<const std::uint8_t> is_in)
@@ -54,7 +56,7 @@ class Tracer {
   }
 
  private:
-  // An edge of a face, opposite to a corner.
+  // A side of a face: the edge opposite to one of its corners (0, 1, 2).
   struct FaceSide {
     Index face;
     unsigned corner;
@@ -68,7 +70,8 @@ class Tracer {
     return faces_[side.face][(side.corner + 1) % 3];
   }
 
-  // The next side of the border, around the faces of the set that meet in the end of this one.
+  // Returns the next side of the border: it turns around the end of this side through the faces of
+  // the set.
   [[nodiscard]] FaceSide next(FaceSide side) const {
     const Index end = faces_[side.face][(side.corner + 2) % 3];
     side.corner = (side.corner + 1) % 3;
@@ -81,6 +84,7 @@ class Tracer {
     return side;
   }
 
+  // Appends the rings around `part`, which has the faces of one polygon in ascending order.
   void append_polygon(std::span<const Index> part) {
     for (const Index f : part) {
       for (unsigned i = 0; i < 3; ++i) {
@@ -91,7 +95,8 @@ class Tracer {
     out_.polygon_offsets.push_back(out_.ring_offsets.size() - 1);
   }
 
-  // The line along the border falls apart into rings where it comes back to a site.
+  // Appends the border that begins with a side. The closed line is split into simple rings wherever
+  // it returns to a site.
   void append_rings(const FaceSide& first) {
     std::vector<Index> line;
     FaceSide side = first;
@@ -119,8 +124,8 @@ class Tracer {
   std::span<const Triple> faces_;
   std::span<const Triple> neighbors_;
   std::span<const std::uint8_t> is_in_;
-  std::vector<std::uint8_t> is_done_;  // of the sides
-  std::vector<Index> place_;           // of a site in the line
+  std::vector<std::uint8_t> is_done_;  // a flag for each side, 3 * face + corner
+  std::vector<Index> place_;           // the place of each site in the current line, or no_index
   Outline out_;
 };
 
@@ -147,7 +152,8 @@ Outline alpha_shape(const Triangulation& triangulation, double radius, const Exe
 
 namespace {
 
-// Of sites on one great circle that no open half of it has: the circles around its poles.
+// Returns the two circles of 90 degrees around the poles of the great circle that has all sites, or
+// none if an open half of the great circle has no site. At most k circles are returned.
 std::vector<EmptyCircle> polar_circles(const Triangulation& triangulation, std::size_t k) {
   const std::span<const Index> ring = triangulation.ring();
   if (ring.size() < 3) return {};
@@ -158,7 +164,7 @@ std::vector<EmptyCircle> polar_circles(const Triangulation& triangulation, std::
     places.push_back(place / std::sqrt(dot(place, place)));
   }
   std::vector<Point> steps;
-  Point normal;  // along the longest of the steps, all of which go one way around
+  Point normal;  // a normal of the great circle: the longest cross product of two neighbors
   for (std::size_t i = 0; i < places.size(); ++i) {
     steps.push_back(cross(places[i], places[i + 1 < places.size() ? i + 1 : 0]));
     if (dot(steps.back(), steps.back()) > dot(normal, normal)) normal = steps.back();
