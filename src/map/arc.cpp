@@ -12,22 +12,25 @@
 namespace rondel::map {
 namespace {
 
-// A straight line with the rates u, v of longitude and latitude (radians, over its whole length)
-// has geodesic acceleration of at most |u| (|u| + 2|v|), so it is within an eighth of that of the
-// arc with the same ends while it is short; a seventh leaves room for the sphere's curvature.
+// A straight line in the plane whose longitude and latitude change by u and v (radians) has a
+// geodesic acceleration of at most |u| (|u| + 2|v|). While it is short, it is therefore within an
+// eighth of that of the arc with the same ends. The factor of a seventh leaves room for the
+// curvature of the sphere.
 bool is_surely_flat(const MapPoint& p, const MapPoint& q, double tolerance) {
   const double u = std::abs(q.position.lon_deg - p.position.lon_deg) / degrees_per_radian;
   const double v = std::abs(q.position.lat_deg - p.position.lat_deg) / degrees_per_radian;
   return u + v < 0.1 && u * (u + 2 * v) <= 7 * tolerance;
 }
 
+// Returns the angle between two unit vectors in radians.
 double angle(const Point& p, const Point& q) {
   const double sine = std::min(1.0, norm(p - q) / 2);
   return 2 * exact::argument(sine, std::sqrt(1 - sine * sine));
 }
 
-// The tolerance where the arc comes closest to the center: by the triangle inequality on the sphere
-// that is no nearer than half of what the way over the center is longer than the arc.
+// Returns the tolerance where the arc comes closest to the center. By the triangle inequality on
+// the sphere, the arc stays at least half as far from the center as the detour through the center
+// is longer than the arc.
 double tolerance_along(const Point& p, const Point& q, const ArcTolerance& arc) {
   if (arc.least == arc.most) return arc.most;
   const double detour = angle(p, arc.center) + angle(q, arc.center);
@@ -35,17 +38,17 @@ double tolerance_along(const Point& p, const Point& q, const ArcTolerance& arc) 
   return std::min(arc.most, std::max(arc.least, distance / 8));
 }
 
-// Degrees nearer to zero than any rounding become zero: programs that read the numbers multiply them, and products of tiny
-// ones underflow. Adding zero turns -0 into 0.
+// Replaces degrees nearer to zero than any rounding by zero: programs that read the numbers
+// multiply them, and products of tiny numbers underflow. Adding zero turns -0 into 0.
 double without_tiny(double degrees) {
   constexpr double tiny = 0x1p-64;
   return std::abs(degrees) < tiny ? 0 : degrees + 0.0;
 }
 
-// Whether the straight line is within the tolerance of the arc, by its distance from the plane of
-// the great circle at three places. The circle has at most one inflection between p and q, so
-// the distance vanishes at most once inside and its maximum is at most 1.1 times the largest
-// of the three.
+// True if the straight line is within the tolerance of the arc, judged by the distance of three of
+// its points from the plane of the great circle. The circle has at most one inflection between p
+// and q in the plane of the map, so the distance vanishes at most once inside, and its maximum is
+// at most 1.1 times the largest of the three.
 bool is_flat(const MapPoint& p, const MapPoint& q, const ArcTolerance& arc) {
   if (is_surely_flat(p, q, arc.least)) return true;
   const Point chord = q.point - p.point;
@@ -65,11 +68,11 @@ void bisect(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
             std::vector<MapPoint>& out) {
   if (is_flat(p, q, tolerance)) return;
   const Point chord = p.point + q.point;
-  if (chord == Point{}) return;  // opposite points, which are the ends of no arc of a diagram
+  if (chord == Point{}) return;  // antipodes, which no arc of a diagram joins
   MapPoint middle;
   middle.point = normalized(chord);
   if (middle.point == p.point || middle.point == q.point) return;
-  // Ends on the antimeridian have the sign of the side on which the arc lies.
+  // An end on the antimeridian has the sign of longitude of the side on which the arc lies.
   const double side = std::abs(p.position.lon_deg) > std::abs(q.position.lon_deg)
                           ? p.position.lon_deg
                           : q.position.lon_deg;

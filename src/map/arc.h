@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Arcs of great circles in the plane of longitude and latitude.
+// Arcs of great circles, drawn as polylines in the plane of longitude and latitude.
+//
+// in    unit vectors, tolerances in radians
+// out   unit vectors with longitudes and latitudes in degrees
 #pragma once
 
 #include <cmath>
@@ -17,66 +20,76 @@ namespace rondel::map {
 
 inline constexpr double degrees_per_radian = 180 / std::numbers::pi;
 
-// Points of a map nearer than this (radians; 0.1 micrometer on the earth) are one point, and what
-// is that near to a pole or to the antimeridian lies on it. The centers of circumcircles are
-// off by up to 4 * 2^-53 and a longitude or latitude in degrees by 2 * 2^-53 more:
-// whatever is farther apart than 20 times that is still in its order when it is rounded.
+// Points of a map that are nearer to each other than this are one point, and a point that is this
+// near to a pole or to the antimeridian lies on it. The unit is radians, and the value 0.1
+// micrometer on the earth. Circumcenters are off by up to 4 * 2^-53 and a longitude or latitude in
+// degrees by 2 * 2^-53 more; points that are farther apart than 20 times that keep their order when
+// they are rounded.
 inline constexpr double merge_distance = 0x1p-46;
 
 inline bool is_pole(const Point& p) { return p.x == 0 && p.y == 0; }
 
-// The point itself, or the pole or point of the antimeridian within merge_distance.
+// Returns the pole or the point of the antimeridian within merge_distance of p, or p itself.
 Point snapped(const Point& p);
 
+// Returns the distance from the line through the poles.
 inline double distance_from_axis(const Point& p) { return std::sqrt(p.x * p.x + p.y * p.y); }
 
-// Longitude and latitude of a unit vector that is not a pole. A point on the antimeridian has two
-// longitudes; it gets the one on the side of `east`: 180 if true, else -180.
+// Returns the longitude and latitude of a unit vector that is not a pole. A point on the
+// antimeridian has two longitudes: it gets 180 if `east` is true, and -180 otherwise.
 RONDEL_API LonLat lonlat_of(const Point& p, bool east);
 
-// The unit vector of a position.
+// Returns the unit vector of a position.
 Point point_at(const LonLat& position);
 
-// The unit vector from the center to a site of any size; zero for the center itself.
+// Returns the unit vector from the center to a site at any distance, or zero for the center itself.
 inline Point direction(const Point& site, const Point& center) {
   return normalized(scaled(site - center));
 }
 
+// Returns the length of the chord from p to q.
 inline double distance(const Point& p, const Point& q) { return norm(p - q); }
 
-// The point between p and q on their arc that is nearest to v; none if that is an end.
+// Returns the point of the arc from p to q that is nearest to v, or nothing if that is an end of
+// the arc.
 std::optional<Point> foot_on_arc(const Point& v, const Point& p, const Point& q);
 
+// A point with its place on the map.
 struct MapPoint {
+  // a unit vector
   Point point;
+  // degrees
   LonLat position;
 };
 
-// The antimeridian belongs to the east: think of it as shifted by an infinitesimal to the west, so
-// that every point but a pole is on one side.
+// True if a point is drawn in the east. A point on the antimeridian is: think of the antimeridian
+// as shifted to the west by an infinitesimal, so that every point but a pole is on one side of it.
 inline bool is_east(const Point& p) { return p.y >= 0; }
 
 inline MapPoint map_point(const Point& p) { return {p, lonlat_of(p, is_east(p))}; }
 
-// How far the straight lines may be from an arc (radians): `least` at the point `center`, which is
-// between two sites, from there on an eighth of the distance from it, but at most `most`.
-// So the lines keep clear of both sites and are still few on long arcs between close sites.
+// How far a polyline may be from its arc, in radians: `least` at the point `center`, which is
+// between two sites, and an eighth of the distance from `center` farther away, but at most `most`.
+// Polylines then keep clear of both sites and still have few points on long arcs between close
+// sites.
 struct ArcTolerance {
   double least = 0;
   double most = 0;
   Point center{};
 };
 
-// Appends the points, in order and without the ends, that cut the arc from p to q into pieces whose
-// straight lines in longitude and latitude are within the tolerance of them.
+// Appends points that cut the arc from p to q into pieces, in order and without p and q. The straight line of
+// each piece in longitude and latitude is within the tolerance of the piece.
+//
 // 1. The points of the arc from q to p are bit by bit the same in reverse order.
-// 2. They depend on nothing but p, q, their longitudes and the tolerance.
-// Precondition: the arc meets neither a pole nor, its ends apart, the antimeridian.
+// 2. They depend only on p, q, their longitudes and the tolerance.
+//
+// Precondition: the arc meets no pole, and meets the antimeridian at most in its ends.
 void append_arc(const MapPoint& p, const MapPoint& q, const ArcTolerance& tolerance,
                 std::vector<MapPoint>& out);
 
-// Whether a cheap test finds that the arc is drawn as one straight line, from end to end within
-// `tolerance` of it (radians) and on one side of the antimeridian and of the meridian opposite.
+// True if a cheap test finds that the arc is drawn as one straight line: it is within `tolerance`
+// (radians) of that line and on one side of the antimeridian and of the meridian of 0 degrees.
 bool is_surely_one_line(const MapPoint& p, const MapPoint& q, double tolerance);
 
 }  // namespace rondel::map

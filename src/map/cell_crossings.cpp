@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells whose lines cross though their arcs do not: CellMap's items 3 to 5.
+// Resolves cells whose lines cross although their arcs do not: items 3 and 4 of CellMap.
 #include <algorithm>
 #include <iterator>
 #include <optional>
@@ -15,17 +15,19 @@
 namespace rondel::map {
 namespace {
 
-// In radians. At a tip whole arcs of the diagram are no longer than the rounding of a distant
-// circumcenter: ends of arcs up to 6 mm on the earth merge.
+// The longest arc, in radians, whose ends may merge: 6 mm on the earth. At a tip whole arcs of the
+// diagram may be no longer than the rounding of a distant circumcenter.
 constexpr double longest_merged = 0x1p-30;
-// Away from the poles a line of this length is within 2^-23 of its arc. Where points opposite each
-// other do not help, lines are bisected further.
+// Lines of cells of circles are bisected until they are this short (radians). A line of length
+// short_line is within 2^-23 of its arc away from the poles. Where aligned points do not help,
+// lines are bisected down to shortest_line.
 constexpr double short_line = 0x1p-10;
 constexpr double shortest_line = 0x1p-20;
-// A ring with more is not bisected: a narrow cell shall not fill a file.
+// A ring with more lines is not bisected, so that a narrow cell cannot fill a file.
 constexpr std::size_t most_lines = 4096;
-// Each pass carries points across one more cell of a row of narrow ones, and may add as many as the
-// pass before it: this bounds time and size where rows are longer. docs/theory/map.md has figures.
+// Each pass carries points across one more cell in a row of narrow cells, and may add as many
+// points as the pass before. This bounds time and size where rows are longer; docs/theory/map.md
+// has measurements.
 constexpr int max_passes = 46;
 
 bool is_before(const Point& p, const Point& q) {
@@ -34,7 +36,8 @@ bool is_before(const Point& p, const Point& q) {
 
 }  // namespace
 
-// The pairs of lines that cross; of a cell of a circle that is turned over, each line.
+// Returns the pairs of lines that cross. For the cell of a circle that is turned over, it returns
+// each line, paired with itself.
 std::vector<CellMap::LinePair> CellMap::crossed_lines(const Trace& trace) const {
   std::vector<LinePair> pairs = crossing_lines(trace);
   const bool is_certain = !pairs.empty() || triangulation_.model() != Model::weighted;
@@ -43,7 +46,8 @@ std::vector<CellMap::LinePair> CellMap::crossed_lines(const Trace& trace) const 
   return pairs;
 }
 
-// The cells whose lines cross, in increasing order; finds the plain cells on the way.
+// Returns the sites of the cells whose lines cross, in increasing order, and determines which cells
+// are plain on the way.
 std::vector<std::size_t> CellMap::find_crossing_lines(const Execution& execution) {
   constexpr std::size_t grain = 1024;
   constexpr std::size_t stretch = 64 * grain;  // between two reports
@@ -71,9 +75,9 @@ std::vector<std::size_t> CellMap::find_crossing_lines(const Execution& execution
   return sites;
 }
 
-// What a cell's lines do depends on its points and their representatives alone. So the first pass
-// needs to look again only at cells whose lines crossed, and at those changed since by others: the
-// result is that of one pass over all cells in order.
+// The lines of a cell depend only on its points and their representatives. So after the first pass
+// only the cells whose lines crossed and those that others have changed since have to be tested
+// again; the result is that of a pass over all cells in order.
 void CellMap::resolve_crossing_lines(const Execution& execution) {
   const std::vector<std::size_t> crossed = find_crossing_lines(execution);
   if (crossed.empty()) return;
@@ -129,7 +133,7 @@ bool CellMap::is_end(const Edge& edge, const Point& p) const {
   return p == snapped(cells_.points[edge.first]) || p == snapped(cells_.points[edge.second]);
 }
 
-// The drawn points of each edge on which one of the lines lies, without its ends.
+// Returns the drawn points, without ends, of each edge on which one of the lines lies.
 std::map<CellMap::Edge, CellMap::Inner> CellMap::drawn_points(
     std::span<const LinePair> pairs) const {
   std::map<Edge, Inner> drawn;
@@ -142,7 +146,8 @@ std::map<CellMap::Edge, CellMap::Inner> CellMap::drawn_points(
   return drawn;
 }
 
-// Cuts the lines that are longer than `shortest` in two; false if all are short, or many.
+// Bisects the lines of these pairs that are longer than `shortest` (radians). Returns false if all
+// are shorter, or if the ring has more than most_lines.
 bool CellMap::bisect(std::span<const LinePair> pairs, double shortest) {
   if (triangulation_.model() != Model::weighted || trace_.points.size() > most_lines) return false;
   std::map<Edge, Inner> drawn = drawn_points(pairs);
@@ -151,7 +156,7 @@ bool CellMap::bisect(std::span<const LinePair> pairs, double shortest) {
     for (const std::size_t line : {i, j}) {
       const Point& from = trace_.points[line].point;
       const Point& to = line_end(line);
-      // A line to a pole is a meridian, as its arc.
+      // A line to a pole follows a meridian, as its arc does.
       if (distance(from, to) <= shortest || is_pole(from) || is_pole(to)) continue;
       const Point middle = snapped(normalized(from + to));
       if (middle == from || middle == to || is_pole(middle)) continue;
@@ -163,8 +168,8 @@ bool CellMap::bisect(std::span<const LinePair> pairs, double shortest) {
   return has_changed;
 }
 
-// Gives each of two lines that cross the points opposite the ends of the other; false if all lines
-// have them.
+// Gives each line of a crossing pair the points opposite the ends of the other line. Returns false
+// if all lines have such points already.
 bool CellMap::align(std::span<const LinePair> pairs) {
   std::map<Edge, Inner> drawn = drawn_points(pairs);
   bool has_changed = false;
@@ -183,9 +188,9 @@ const Point& CellMap::line_end(std::size_t line) const {
   return trace_.points[(line + 1) % trace_.points.size()].point;
 }
 
-// Gives a line the point opposite `p` of another edge. Points within merge_distance become one: of
-// two vertices of the diagram that of the lower index, else a vertex or the first in
-// lexicographic order, so that points do not change to and fro.
+// Gives a line the point opposite `p`, a point of another edge. Points within merge_distance are
+// merged: two vertices of the diagram into the one with the lower index, and otherwise into a
+// vertex or the lexicographically first point, so that passes do not undo each other.
 bool CellMap::align(std::size_t line, const Edge& other, const Point& p,
                     std::map<Edge, Inner>& drawn) {
   const Edge& edge = edge_of(line);
@@ -234,8 +239,8 @@ void CellMap::keep(std::map<Edge, Inner>& drawn) {
   }
 }
 
-// Shrinks a very short arc at a tip, where that moves the boundary much less than the sites are
-// apart: rounding may have turned it round, and then the sides of the tip do cross.
+// Shrinks a very short arc at a tip to a point, if that moves the boundary much less than the sites
+// are apart. Rounding may have reversed such an arc, and then the sides of the tip cross.
 bool CellMap::merge(const Edge& edge, const ArcTolerance& tolerance) {
   const auto [low, high] = std::minmax({representative(edge.first), representative(edge.second)});
   const double length = distance(cells_.points[low], cells_.points[high]);

@@ -53,7 +53,7 @@ const std::vector<LonLatPolygon>& CellMap::polygons(std::size_t site, Pen& pen) 
   return pen.polygons_;
 }
 
-// Whether the cell is its points.
+// True if the cell is drawn as the polygon of its own points.
 bool CellMap::is_unchanged(std::size_t site) const {
   return is_plain_[site] != 0 &&
          ((inner_points_.empty() && merged_.empty()) || !has_changed_arc(site));
@@ -69,7 +69,7 @@ Index CellMap::representative(Index point) const {
   return point;
 }
 
-// Shortens the way for the next time.
+// Returns the point that a point is merged with, and shortens the path to it.
 Index CellMap::find_representative(Index point) {
   while (representatives_[point] != point) {
     representatives_[point] = representatives_[representatives_[point]];
@@ -78,8 +78,9 @@ Index CellMap::find_representative(Index point) {
   return point;
 }
 
-// Faces are in spatial order: so are their corners, each where it comes first. In the order of the
-// sites each cell would be far from the one before it, and its points in no cache.
+// Lists the sites with cells in the order in which they first occur as corners of faces. Faces are
+// in spatial order, so each cell is near the one before it. In the order of sites its points would
+// be in no cache.
 void CellMap::list_cells() {
   std::vector<std::uint8_t> is_listed(sites_.size());
   const auto add = [&](std::size_t site) {
@@ -89,10 +90,12 @@ void CellMap::list_cells() {
   };
   cells_in_order_.reserve(sites_.size());
   for (const Triple& face : triangulation_.faces()) std::ranges::for_each(face, add);
-  for (std::size_t site = 0; site < sites_.size(); ++site) add(site);  // below dimension 2
+  // adds the rest below dimension 2
+  for (std::size_t site = 0; site < sites_.size(); ++site) add(site);
 }
 
-// A cell is listed soon after the first one that it touches, which asks for its site, too.
+// Prefetches what polygons() reads for the cells that follow in the list, in two steps: the offsets
+// of a cell far ahead, and the points of one less far.
 void CellMap::prefetch_listed(std::size_t cell) const {
   constexpr std::size_t distance = 128;
   if (cell + 2 * distance < cells_in_order_.size()) {
@@ -109,7 +112,8 @@ void CellMap::prefetch(std::size_t site) const {
   for (const Index point : points_of(site)) system::prefetch(&positions_[point]);
 }
 
-// The representative is the lowest of the points that are one, in whatever order they meet.
+// The representative of a set of merged points is the lowest point, in whatever order points are
+// merged.
 void CellMap::merge_close_points(const Execution& execution) {
   std::iota(representatives_.begin(), representatives_.end(), Index{0});
   constexpr std::size_t grain = 4096;
@@ -160,11 +164,10 @@ void CellMap::place_points(const Execution& execution) {
                        });
 }
 
-// Whether a cheap test finds that the cell, as long as its points and arcs stay as they are, is
-// drawn as the polygon of its points, and that no lines of it cross. Leaves their positions in the pen.
+// True if a cheap test finds that the cell is drawn as the polygon of its points and that none of its lines
+// cross, as long as its points and arcs stay as they are. The positions of the points are left in the pen.
 //
-// As in draw_ring(), of which this is the usual case: the arc that follows face (a, u, v) lies
-// between a and v.
+// This is the usual case of draw_ring(): the arc that follows face (a, u, v) lies between a and v.
 bool CellMap::find_plain(std::size_t site, Pen& pen) const {
   const std::span<const Index> points = points_of(site);
   if (triangulation_.dimension() != 2 || points.size() > longest_plain) return false;
@@ -193,11 +196,11 @@ ArcTolerance CellMap::tolerance_between(const Point& own_direction, std::size_t 
   const double least = distance(own_direction, other_direction) / 8;
   const Point middle = own_direction + other_direction;
   const double length = norm(middle);
-  if (length == 0) return {most, most, {}};  // antipodal
+  if (length == 0) return {most, most, {}};  // the sites are antipodes
   return {std::clamp(least, merge_distance, most), most, middle / length};
 }
 
-// In dimension 1 one least tolerance, that of the closest sites, serves all arcs.
+// In dimension 1 all arcs have the tolerance of the closest pair of sites.
 void CellMap::prepare_great_circle() {
   const std::span<const Index> ring = triangulation_.ring();
   const Point first = directions_[ring.front()];
@@ -214,8 +217,9 @@ void CellMap::prepare_great_circle() {
   }
 }
 
-// An arc runs between the axis and a point between two sites; but around the middle of
-// two sites there are two hemispheres.
+// Returns the tolerance of an arc from a pole of the great circle to the middle of two neighbors,
+// which is the center of the tolerance. If there are only two sites, their cells are hemispheres
+// and the tolerance has no center.
 ArcTolerance CellMap::great_circle_tolerance(Index from, Index to) const {
   ArcTolerance tolerance = circle_tolerance_;
   if (triangulation_.ring().size() == 2) return tolerance;
@@ -247,10 +251,10 @@ void CellMap::add_arc(Index from, Index to, const ArcTolerance& tolerance, Ring&
   }
 }
 
-// Fills `ring` and `trace`; false if fewer than three points are left.
+// Draws the ring of a site's cell into `ring` and `trace`. Returns false if fewer than three points are left.
 //
-// In the ring of site a the arc that follows face (a, u, v) lies between a and v; positions beyond
-// the faces are points on such an arc.
+// In the ring of site a, the arc that follows face (a, u, v) lies between a and v; points of the diagram that
+// are no circumcenters lie on such an arc.
 bool CellMap::draw_ring(std::size_t site, Ring& ring, Trace& trace) const {
   const std::span<const Index> points = points_of(site);
   const Point& own_direction = directions_[site];
@@ -266,7 +270,7 @@ bool CellMap::draw_ring(std::size_t site, Ring& ring, Trace& trace) const {
   ring.points.clear();
   ring.tolerances.clear();
   ring.edges.clear();
-  // The arc at the seam of the ring.
+  // Finds the face before the arc that closes the ring.
   static_cast<void>(std::find_if(points.rbegin(), points.rend(), read_face));
   for (std::size_t i = 0; i < points.size(); ++i) {
     read_face(points[i]);

@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The cells of a diagram as a planar map: polygons that fit together without gaps or overlaps.
+// Draws the cells of a diagram as a planar map: polygons in longitude and latitude that fit together without
+// gaps or overlaps.
+//
+// in    a triangulation and its cells, a tolerance in degrees
+// out   polygons in degrees for each site
+// index sites; points of the diagram (Index, as in Cells::points); lines of a drawn ring by their first points
 #pragma once
 
 #include <cstddef>
@@ -18,55 +23,60 @@
 
 namespace rondel::map {
 
-// Four things concern more than one cell:
-// 1. Points nearer to each other than merge_distance become one point, for all cells: between
-//    cocircular sites the order of the circumcenters is rounding.
-// 2. Between close sites the arc between their cells is densified to an eighth of the angle between
-//    them, farther from them to an eighth of the distance: so each polygon contains its site.
-// 3. Where the lines of a cell cross, as it is narrower than the tolerance resolves, each arc gets
-//    the points opposite those of the other, for the cells on both sides of it: lines between
-//    opposite points are as good as parallel, however near. Where they are nearer than
-//    merge_distance they become the same. An arc at a tip that is very short shrinks to a point.
-// 4. Cells of circles need not contain their sites, and may be far narrower than sites are apart:
-//    2 says nothing about them. Where their lines cross, or all have passed those of the
-//    other side, they are bisected on their arcs before 3, until they are short.
-// 5. Where lines of a cell still cross after that, by exact signs of rounded positions, all cells are settled_regions().
+// Draws one cell at a time. Some decisions concern several cells and are made by the constructor:
 //
-// Most cells are plain: small and with few corners, each arc one straight line, nothing crossed. A
-// plain cell is its points, which are placed on the map once for all cells; all others are drawn.
+// 1. Points nearer to each other than merge_distance become one point for all cells: the order of the
+//    circumcenters of cocircular sites is decided by rounding.
+// 2. Near two close sites the arc between their cells is densified to an eighth of the angle between
+//    the sites, and farther away to an eighth of the distance. So each polygon contains its site.
+// 3. Where the lines of a cell cross, because the cell is narrower than the tolerance, each arc gets the points
+//    opposite those of the other arc, for the cells on both sides: lines between opposite points are nearly
+//    parallel. Where such points are nearer than merge_distance they are merged. A very short arc at a tip
+//    shrinks to a point.
+// 4. Cells of circles need not contain their sites and may be far narrower than the distances of sites,
+//    so that 2 does not help. Where their lines cross, or have all passed those of the other side,
+//    the lines are bisected on their arcs before 3, until they are short.
+// 5. If lines of any cell cross after that, by exact signs of rounded positions, all cells are replaced by
+//    settled_regions().
+//
+// Most cells are plain: small and with few corners, each arc drawn as one straight line, and nothing crosses. A
+// plain cell has just its points, whose positions are computed once for all cells. Other cells are drawn.
 class CellMap {
  public:
   CellMap(const Triangulation& triangulation, const Cells& cells, double tolerance_deg,
           const Execution& execution);
 
-  // Whether the site has a cell.
+  // True if the site has a cell.
   [[nodiscard]] bool has_cell(std::size_t site) const;
 
-  // Asks for what polygons() will read, which may be far from what it read before.
+  // Prefetches the memory that polygons(site) will read, which may be far from what was read
+  // before.
   void prefetch(std::size_t site) const;
 
-  // Memory for drawing a cell; one for each thread.
+  // The working memory for drawing a cell. Each thread needs its own.
   class Pen;
 
-  // The polygons of a site's cell, valid and without holes, until the pen is used again; none if the cell is no wider
-  // than rounding.
+  // Returns the polygons of a site's cell: valid, without holes, and empty if the cell is no wider
+  // than rounding. The reference is valid until the pen is used again.
   [[nodiscard]] const std::vector<LonLatPolygon>& polygons(std::size_t site, Pen& pen) const;
 
  private:
-  using Edge = std::pair<Index, Index>;  // two points, the lower one first
+  using Edge = std::pair<Index, Index>;  // two points of the diagram, the lower index first
+  // two lines of a drawn ring
   using LinePair = std::pair<std::size_t, std::size_t>;
 
-  // Points of an edge between its ends, in any order.
+  // The points of an edge between its ends, in no order: those that stay and those that are
+  // removed.
   struct Inner {
     std::vector<Point> kept;
     std::vector<Point> dropped;
   };
 
-  // The ring of a cell: its points and those that bisect its arcs further.
+  // The ring of a cell: its points and the points that bisect its arcs further.
   struct Ring {
     std::vector<Point> points;
-    std::vector<ArcTolerance> tolerances;  // of the arcs from each point
-    std::vector<Edge> edges;               // of the diagram, on which they lie
+    std::vector<ArcTolerance> tolerances;  // the tolerance of the arc that begins at each point
+    std::vector<Edge> edges;               // the edge of the diagram on which each arc lies
   };
 
   void find_directions(const Execution& execution);
@@ -107,20 +117,24 @@ class CellMap {
   const Triangulation& triangulation_;
   const Cells& cells_;
   double tolerance_;               // radians
-  ArcTolerance circle_tolerance_;  // below dimension 2
-  Point axis_{};                   // of the great circle of the sites in dimension 1
+  ArcTolerance circle_tolerance_;  // tolerance below dimension 2
+  Point axis_{};                   // normal of the great circle of the sites in dimension 1
+  // the vertex in dimension 0
   std::size_t only_vertex_;
-  std::vector<Point> directions_;  // of the sites, from the center
+  std::vector<Point> directions_;  // unit vectors from the center to the sites
+  // for each point, the point that it is merged with
   std::vector<Index> representatives_;
-  std::vector<Index> cells_in_order_;   // sites, those next to each other close together
-  std::vector<LonLat> positions_;       // of the points
-  std::vector<std::uint8_t> is_plain_;  // whether find_plain() is true; of sites
-  std::map<Edge, std::vector<Point>> inner_points_;  // from the lower point on
-  std::set<Index> merged_;                           // where lines crossed
-  std::set<std::size_t> unresolved_;                 // cells whose lines cross
-  Ring ring_;                                        // of the cell that is being resolved
-  Trace trace_;                                      // of that cell
-  std::vector<std::vector<LonLatPolygon>> settled_;  // of all sites, if any
+  std::vector<Index> cells_in_order_;   // sites; neighbors are close to each other in the list
+  std::vector<LonLat> positions_;       // of each point, degrees
+  std::vector<std::uint8_t> is_plain_;  // for each site, the result of find_plain()
+  // the points that divide an edge, from its lower end on
+  std::map<Edge, std::vector<Point>> inner_points_;
+  std::set<Index> merged_;            // points that were merged because lines crossed
+  std::set<std::size_t> unresolved_;  // sites whose cells have crossing lines
+  Ring ring_;                         // the ring of the cell that is being resolved
+  Trace trace_;                       // the drawing of that cell
+  // the polygons of each site if cells were settled; else empty
+  std::vector<std::vector<LonLatPolygon>> settled_;
 };
 
 class CellMap::Pen {

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells that are no polygons in the plane: CellMap's item 5.
+// Replaces cells that are not valid polygons in the plane: item 5 of CellMap.
 #include <atomic>
 #include <cstddef>
 #include <vector>

@@ -22,7 +22,7 @@ bool is_before_in_space(const Point& p, const Point& q) {
   return std::tie(p.x, p.y, p.z) < std::tie(q.x, q.y, q.z);
 }
 
-// To which points arcs of rings go from each point.
+// Knows which points are joined by an arc of a ring in this direction.
 class OutgoingArcs {
  public:
   explicit OutgoingArcs(const CellRings& cells) : begins_(cells.points.size() + 1) {
@@ -55,7 +55,7 @@ bool CommonCorners::ArcsInSpace::operator()(const RingArc& a, const RingArc& b) 
   return a.from == b.from ? is_before_in_space(a.to, b.to) : is_before_in_space(a.from, b.from);
 }
 
-// Around arcs: those of the chord, and as much more as the arc is away from it.
+// The box of an arc: that of its chord, widened by the largest distance of the arc from the chord.
 struct CommonCorners::ArcBox {
   std::array<double, 3> low{};
   std::array<double, 3> high{};
@@ -64,7 +64,7 @@ struct CommonCorners::ArcBox {
     ArcBox box;
     const Point chord = arc.to - arc.from;
     const double room =
-        dot(chord, chord) / 4 + merge_distance;  // the height is at most |chord|^2 / 4
+        dot(chord, chord) / 4 + merge_distance;  // the arc is at most |chord|^2 / 4 above the chord
     const std::array<double, 3> p{arc.from.x, arc.from.y, arc.from.z};
     const std::array<double, 3> q{arc.to.x, arc.to.y, arc.to.z};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -89,7 +89,8 @@ struct CommonCorners::ArcBox {
   }
 };
 
-// Those of the arcs, of the arcs 2i and 2i + 1, and so on: arcs that follow each other are near each other.
+// A tree of boxes: level 0 has the boxes of the arcs, level 1 those of the arcs 2i and 2i + 1, and
+// so on. Arcs that follow each other are near each other, so the boxes are small.
 class CommonCorners::ArcBoxes {
  public:
   explicit ArcBoxes(std::span<const RingArc> arcs) {
@@ -105,7 +106,7 @@ class CommonCorners::ArcBoxes {
     }
   }
 
-  // Calls `report` with each arc whose box has the point.
+  // Calls `report` with the number of each arc whose box contains the point.
   template <class Report>
   void find(const Point& p, const Report& report) const {
     if (!levels_.front().empty()) find(p, levels_.size() - 1, 0, report);
@@ -139,7 +140,7 @@ std::vector<CommonCorners::RingArc> CommonCorners::unmatched_arcs(const CellRing
       if (!outgoing.has(to, from)) arcs.push_back({points[from], points[to]});
     }
   }
-  // Points of several numbers may have one place.
+  // Several points may have the same coordinates, so arcs are compared by coordinates once more.
   std::vector<RingArc> sorted = arcs;
   std::ranges::sort(sorted, ArcsInSpace());
   std::erase_if(arcs, [&](const RingArc& arc) {
@@ -150,7 +151,8 @@ std::vector<CommonCorners::RingArc> CommonCorners::unmatched_arcs(const CellRing
   return arcs;
 }
 
-// Cells come in any order, but ArcBoxes wants neighbors to follow each other.
+// Sorts arcs along a space-filling curve, since ArcBoxes needs neighbors to follow each other,
+// while cells come in any order.
 void CommonCorners::sort_along_curve(std::vector<RingArc>& arcs, unsigned threads) {
   std::vector<Index> indices(arcs.size());
   std::iota(indices.begin(), indices.end(), Index{0});

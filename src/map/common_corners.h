@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Corners on arcs of other rings: where one of two neighbors has a corner on their border, the other one gets it too.
+// Makes neighboring regions have the same corners on their common border: where one of them has a
+// corner on an arc of the other, the other gets the corner too.
 #pragma once
 
 #include <cstddef>
@@ -15,23 +16,27 @@
 
 namespace rondel::map {
 
-// The corners of rings that lie on arcs of other rings; merged_points() stand in place of the rings' own points. Arcs that two
-// rings have in common, in opposite directions, need no corners: only the other ones are compared.
+// The corners of rings that lie on arcs of other rings. Arcs that two rings have in common in
+// opposite directions need no corners, so only the other arcs are compared. `points` are the
+// merged_points() of the cells; they stand in for cells.points.
 class CommonCorners {
  public:
   CommonCorners(const CellRings& cells, std::span<const Point> points, unsigned threads);
 
-  // Appends a ring with the corners within merge_distance of its arcs.
+  // Appends the points of a ring to `out`, and after each the corners of other rings within
+  // merge_distance of the arc that begins there. `corners` are indices into `points`.
   void append_ring(std::span<const Index> corners, std::span<const Point> points,
                    std::vector<Point>& out) const;
 
  private:
   struct RingArc {
+    // An arc of a ring that no other ring has in the opposite direction.
     Point from;
     Point to;
     friend bool operator==(const RingArc&, const RingArc&) = default;
   };
   struct ArcsInSpace {
+    // Orders arcs lexicographically by the coordinates of their ends.
     bool operator()(const RingArc& a, const RingArc& b) const;
   };
   struct ArcBox;
@@ -41,7 +46,8 @@ class CommonCorners {
                                              unsigned threads);
   static void sort_along_curve(std::vector<RingArc>& arcs, unsigned threads);
 
-  std::map<RingArc, std::vector<Point>, ArcsInSpace> inner_;  // from the arc's beginning on
+  // the corners on an arc, from its beginning on
+  std::map<RingArc, std::vector<Point>, ArcsInSpace> inner_;
 };
 
 }  // namespace rondel::map

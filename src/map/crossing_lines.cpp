@@ -10,8 +10,9 @@
 namespace rondel::map {
 namespace {
 
-// By how much the longitude turns beyond the rectangle where one chain ends and the next starts:
-// across the antimeridian, or around the pole that both touch with the region to the left.
+// Returns by how many degrees the longitude changes beyond the rectangle between the end of one
+// chain and the start of the next: 360 across the antimeridian, or the turn around the pole that
+// both touch, with the region to the left.
 double turn(const MapPoint& end, const MapPoint& start) {
   const double step = start.position.lon_deg - end.position.lon_deg;
   if (!is_pole(start.point)) return step < 0 ? 360 : -360;
@@ -19,7 +20,8 @@ double turn(const MapPoint& end, const MapPoint& start) {
   return step < 0 ? 360 : 0;
 }
 
-// The chains one after the other as if the rectangle had no sides.
+// Returns the lines of all chains one after the other, with longitudes that continue beyond the
+// sides of the rectangle.
 std::vector<Line> unrolled(const Trace& trace) {
   std::vector<Line> lines;
   lines.reserve(trace.points.size());
@@ -42,7 +44,8 @@ std::vector<Line> unrolled(const Trace& trace) {
   return lines;
 }
 
-// Whether they meet, and not in a common end. Precondition: their rectangles overlap.
+// True if two lines meet in a point that is not an end of both. Precondition: their rectangles
+// overlap.
 bool meet(const Line& a, const Line& b) {
   if (a.from == b.from || a.from == b.to || a.to == b.from || a.to == b.to) return false;
   return do_lines_cross(a.from, a.to, b.from, b.to) || is_between(a.from, a.to, b.from) ||

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Whether a drawn ring crosses itself in the plane, though it does not on the sphere.
+// Finds the places where a ring that is simple on the sphere crosses itself when it is drawn in the
+// plane.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +14,13 @@
 
 namespace rondel::map {
 
-// The pairs of lines of a trace, named by their first points, that meet without being neighbors.
-// Two nearly parallel arcs have such lines where they are densified at different places.
-// Time: n log n, and the number of lines whose rectangles overlap.
+// Returns all pairs of lines of a trace that meet without being neighbors. A line is named by its
+// first point. Nearly parallel arcs that are densified at different places have such lines. The
+// time is O(n log n) plus the number of pairs of lines whose rectangles overlap.
 std::vector<std::pair<std::size_t, std::size_t>> crossing_lines(const Trace& trace);
 
-// Whether two lines of a closed loop of these positions, no two of which are equal, meet so. Time: n^2.
+// True if two lines of a closed loop of distinct positions meet without being neighbors. The time
+// is O(n^2).
 bool has_crossing_lines(std::span<const LonLat> loop);
 
 }  // namespace rondel::map

@@ -18,8 +18,9 @@ constexpr double largest_tolerance_deg = 0.01;
 constexpr double least_tolerance_deg = 1e-5;
 constexpr std::size_t faces_per_piece = 1024;
 
-// Doubles do not tell which way the arc between two opposite corners takes. A solid face has no
-// opposite corners, but they may be opposite when they are rounded.
+// True if no two corners are antipodes up to rounding, so that doubles determine the arcs between
+// them. A solid face has no antipodes among its corners, but they may become antipodes when they
+// are rounded.
 bool is_determined(const std::array<Point, 3>& ring) {
   const auto are_opposite = [](const Point& p, const Point& q) {
     return norm(p + q) <= merge_distance;
@@ -110,7 +111,7 @@ const std::vector<LonLatPolygon>& FaceMap::polygons(Index face, Pen& pen) const 
   return pen;
 }
 
-// Whether a cheap test finds that the face is drawn as the polygon of its corners.
+// True if a cheap test finds that the face is drawn as the polygon of its corners.
 bool FaceMap::is_plain(const Corners& corners, std::span<const LonLat> positions,
                        const std::array<double, 3>& tolerances_deg) const {
   std::array<MapPoint, 3> ends;
@@ -123,13 +124,14 @@ bool FaceMap::is_plain(const Corners& corners, std::span<const LonLat> positions
   return is_plain_loop(positions);
 }
 
-// The corners on the unit sphere.
+// Returns the corners of a face as unit vectors.
 FaceMap::Corners FaceMap::ring(Index face) const {
   const auto& [a, b, c] = triangulation_.faces()[face];
   return {directions_[a], directions_[b], directions_[c]};
 }
 
-// The tolerances of the edges 01, 12 and 20.
+// Returns the tolerances of the edges 01, 12 and 20 in degrees: for each the smaller one of the two
+// faces at the edge.
 std::array<double, 3> FaceMap::tolerances(Index face) const {
   const auto& neighbors = triangulation_.neighbors()[face];
   const double own = tolerances_deg_[face];
@@ -145,7 +147,7 @@ double FaceMap::tolerance(Index face) const {
   const Point ab = b - a;
   const Point bc = c - b;
   const double longest = std::max({norm(ab), norm(bc), norm(a - c)});
-  if (longest == 0) return least_tolerance_deg;  // one place after rounding
+  if (longest == 0) return least_tolerance_deg;  // the corners are one point after rounding
   const double height_deg = norm(cross(ab, bc)) / longest * degrees_per_radian;
   return std::clamp(height_deg / 10, least_tolerance_deg, largest_tolerance_deg);
 }

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The solid faces of a triangulation as polygons in longitude and latitude.
+// Draws the solid faces of a triangulation as polygons in longitude and latitude.
+//
+// in    a triangulation
+// out   polygons in degrees for each solid face
+// index faces
 #pragma once
 
 #include <array>
@@ -14,24 +18,24 @@
 
 namespace rondel::map {
 
-// Sides are within a hundredth of a degree of the arcs, and within a tenth of the width of the
-// thinner of the two faces at an edge, so that faces do not overlap; but never closer than a meter
-// on the earth.
+// Draws one face at a time. A side is within a hundredth of a degree of its arc, and within a tenth of the width of
+// the thinner one of the two faces at the edge, so that faces do not overlap, but never nearer than a meter on the
+// earth.
 //
-// Where lines of a face cross nevertheless, or have passed each other, as it is narrower than rounding or that meter, all
-// faces are settled_regions().
+// If lines of a face cross nevertheless, or have passed each other, because the face is narrower than rounding or
+// that meter, all faces are replaced by settled_regions().
 //
-// Most faces are small, and each of their sides is one straight line: such a face is its corners,
-// which are placed on the map once for all faces. All others are drawn.
+// Most faces are small, and each of their sides is one straight line. Such a face has just its corners, whose positions
+// are computed once for all faces. Other faces are drawn.
 class FaceMap {
  public:
   FaceMap(const Triangulation& triangulation, const Execution& execution);
 
-  // Memory for drawing a face; one for each thread.
+  // The working memory for drawing a face. Each thread needs its own.
   using Pen = std::vector<LonLatPolygon>;
 
-  // The polygons of a solid face, until the pen is used again; none if the face is no wider than
-  // rounding.
+  // Returns the polygons of a solid face, empty if the face is no wider than rounding. The
+  // reference is valid until the pen is used again.
   [[nodiscard]] const std::vector<LonLatPolygon>& polygons(Index face, Pen& pen) const;
 
  private:
@@ -48,10 +52,11 @@ class FaceMap {
                               const std::array<double, 3>& tolerances_deg) const;
 
   const Triangulation& triangulation_;
-  std::vector<Point> directions_;                    // of the sites, from the center
-  std::vector<LonLat> positions_;                    // of the sites
-  std::vector<double> tolerances_deg_;               // of the faces
-  std::vector<std::vector<LonLatPolygon>> settled_;  // of all faces, if any
+  std::vector<Point> directions_;       // unit vectors from the center to the sites
+  std::vector<LonLat> positions_;       // of each site, degrees
+  std::vector<double> tolerances_deg_;  // of each face
+  // the polygons of each face if faces were settled; else empty
+  std::vector<std::vector<LonLatPolygon>> settled_;
 };
 
 }  // namespace rondel::map

@@ -15,6 +15,7 @@ namespace {
 
 using TroubleKind = Trouble::TroubleKind;
 
+// Appends the troubles of two sides: ends of one inside of the other, or else a crossing.
 void append_troubles(const Line& i, const Line& j, std::vector<Trouble>& troubles) {
   const std::size_t before = troubles.size();
   for (const auto& [line, other] : {std::pair(i, j), std::pair(j, i)}) {
@@ -35,12 +36,12 @@ bool has_side(const std::vector<DirectedLine>& sorted, const LonLat& a, const Lo
   return std::ranges::binary_search(sorted, DirectedLine{a, b}, is_earlier_side);
 }
 
-// Each position of closed loops starts a side.
+// True if a side of the region starts at a position. Each position of closed loops starts a side.
 bool has_start(const std::vector<DirectedLine>& sorted, const LonLat& p) {
   return std::ranges::binary_search(sorted, p, InPlane(), &DirectedLine::from);
 }
 
-// Of the earlier meetings those that are still there.
+// Returns the meetings found earlier whose sides and positions still exist.
 std::vector<Trouble> lasting_meetings(const RegionMemory& memory,
                                       const std::vector<DirectedLine>& sorted) {
   std::vector<Trouble> troubles;
@@ -51,6 +52,7 @@ std::vector<Trouble> lasting_meetings(const RegionMemory& memory,
   return troubles;
 }
 
+// Returns all touchings and crossings of sides, and stores them with the sides in `memory`.
 std::vector<Trouble> troubles_of(std::span<const DirectedLine> sides, RegionMemory& memory) {
   std::vector<Line> lines;
   lines.reserve(sides.size());
@@ -79,6 +81,7 @@ std::vector<Trouble> troubles_of(std::span<const DirectedLine> sides, RegionMemo
   return troubles;
 }
 
+// Returns the polygons of simple loops, with a trouble for each misplaced loop.
 RegionLook look_at_loops(std::vector<Loop> loops) {
   RegionLook look;
   PolygonsOfLoops found = polygons_of_loops(std::move(loops));
@@ -92,7 +95,8 @@ RegionLook look_at_loops(std::vector<Loop> loops) {
   return look;
 }
 
-// One loop of few positions, counterclockwise, that meets itself nowhere.
+// True if the region is one counterclockwise loop of at most 16 positions that meets itself
+// nowhere.
 bool is_plain_region(std::span<const Loop> loops) {
   constexpr std::size_t few = 16;
   return loops.size() == 1 && loops[0].size() >= 3 && loops[0].size() <= few &&

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What keeps the loops of a region from being polygons; by exact signs.
+// Finds what keeps the loops of a region from being valid polygons, by exact signs.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,18 @@
 
 namespace rondel::map {
 
+// One defect of a region's loops.
 struct Trouble {
   enum class TroubleKind : std::uint8_t {
-    touching,  // c is on the line from a to b
+    touching,  // the position c is on the line from a to b
     crossing,  // the lines from a to b and from c to d cross
-    unpaired,  // lines from a to b and from a to d (c is a) are next to each other, with the region on the same side
-    beside,  // the same, at a position with unpaired lines, but of these with the region between them or outside
-    turned,  // `loop` has the region on its wrong side
+    // the lines from a to b and from a to d (c equals a) are neighbors around a and have the region
+    // on the same side
+    unpaired,
+    // the lines from a to b and from a to d (c equals a) are neighbors around a, where other lines are
+    // unpaired; these two have the region between them, or outside of both
+    beside,
+    turned,  // `loop` is misplaced: it has the region on the wrong side
   };
   TroubleKind kind;
   LonLat a{};
@@ -28,22 +33,26 @@ struct Trouble {
   Loop loop{};
 };
 
-// The polygons of a region, if there is no trouble; beside loops that are turned, those of its other loops.
+// The polygons of a region if it has no trouble. If its only troubles are turned loops, the polygons
+// of its other loops.
 struct RegionLook {
   std::vector<PolygonWithHoles> polygons;
   std::vector<Trouble> troubles;
 };
 
-// The sides of a region when it was looked at, in order, and where they met: what is the same is not compared again.
+// What look_at_region() found last time: the region's sides in order, and where they met. Pairs of
+// unchanged sides are not compared again.
 struct RegionMemory {
   std::vector<DirectedLine> sides;
   std::vector<Trouble> meetings;
 };
 
+// Returns the polygons or the troubles of a region whose loops are drawn with the divisions and
+// merges of `shared`.
 RegionLook look_at_region(const std::vector<Loop>& loops, const SharedLines& shared,
                           RegionMemory& memory);
 
-// Whether loops as they are have any trouble.
+// True if the loops, as they are, have any trouble.
 bool is_in_trouble(const std::vector<Loop>& loops);
 
 }  // namespace rondel::map

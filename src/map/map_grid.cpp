@@ -20,8 +20,8 @@ GridProduct doubled_area_of(const GridPlace& a, const GridPlace& b, const GridPl
 
 int sign_of(const GridProduct& product) { return product > 0 ? 1 : (product < 0 ? -1 : 0); }
 
-// The largest integer up to length * part / whole, 0 <= part <= whole < 2^110; digit by digit, so that no number is as large
-// as 3 * 2^110.
+// Returns the floor of length * part / whole, with 0 <= part <= whole < 2^110. It is computed digit
+// by digit, so that no intermediate number reaches 3 * 2^110.
 std::int64_t floor_of_share(std::int64_t length, const GridProduct& part,
                             const GridProduct& whole) {
   const auto size = static_cast<std::uint64_t>(length < 0 ? -length : length);
@@ -36,7 +36,8 @@ std::int64_t floor_of_share(std::int64_t length, const GridProduct& part,
   return rest == 0 ? -quotient : -quotient - 1;
 }
 
-// The even number in whose interval [c - 1, c + 1) the number lies that has this floor.
+// Returns the even number c whose interval [c - 1, c + 1) contains all numbers with the given
+// floor.
 std::int64_t pixel_of(std::int64_t floor) { return 2 * ((floor + 1) >> 1); }
 
 }  // namespace
@@ -61,9 +62,10 @@ bool is_before_along(const GridPlace& a, const GridPlace& b, const GridPlace& p,
   return GridProduct{b.x - a.x} * (q.x - p.x) + GridProduct{b.y - a.y} * (q.y - p.y) > 0;
 }
 
-// The rectangle around the line meets the square by its sides; then the line does if corners of the square lie on both
-// sides of it. If they do not, it touches at most the border: a side that belongs to the square, with the corner in the south
-// west, or that corner, or what does not belong to it.
+// A line whose rectangle does not meet the square does not meet it either. Otherwise the line meets
+// the square if the square has corners on both sides of it. If not, the line touches at most the
+// border of the square: a side that belongs to it (with the corner in the south west), or that
+// corner alone, or a part that does not belong to it.
 bool meets_pixel(const GridPlace& a, const GridPlace& b, const GridPlace& c) {
   const auto [west, east] = std::minmax(a.x, b.x);
   const auto [south, north] = std::minmax(a.y, b.y);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Exact signs in the plane of longitude and latitude, of positions as doubles.
+// Predicates in the plane of longitude and latitude, exact for positions given as doubles.
 #pragma once
 
 #include <algorithm>
@@ -13,28 +13,29 @@
 
 namespace rondel::map {
 
-// A position's order: by longitude, then by latitude.
+// Orders positions by longitude, then by latitude.
 struct InPlane {
   bool operator()(const LonLat& p, const LonLat& q) const {
     return p.lon_deg != q.lon_deg ? p.lon_deg < q.lon_deg : p.lat_deg < q.lat_deg;
   }
 };
 
-// Degrees, along the axes.
+// Returns the distance |dlon| + |dlat| in degrees.
 inline double distance_in_plane(const LonLat& p, const LonLat& q) {
   return std::abs(p.lon_deg - q.lon_deg) + std::abs(p.lat_deg - q.lat_deg);
 }
 
-// Whether a line that ends at one position may end at the other instead. Next to a pole points that are near each other on
-// the sphere have any longitudes, and the line would be elsewhere all the way.
+// True if two positions are within 1e-6 degrees of each other, so that a line that ends at one of
+// them may end at the other instead. Nearness on the sphere does not suffice: next to a pole, near
+// points can have any longitudes, and the line would be elsewhere.
 inline bool are_near_in_plane(const LonLat& p, const LonLat& q) {
   constexpr double most = 1e-6;
   return distance_in_plane(p, q) <= most;
 }
 
-// Positive if r is to the left of the line from p to q; exact. The rounded determinant is off by at most (3 + 16 u) u
-// times the sum of its two products, u = 2^-53 (Shewchuk 1997, Orient2D), which 2^-51 exceeds; the smallest normal
-// number covers products that underflow.
+// Returns positive if r is to the left of the line from p to q, exactly. The rounded determinant is
+// off by at most (3 + 16 u) u times the sum of the sizes of its two products, u = 2^-53 (Shewchuk
+// 1997, Orient2D), which 2^-51 exceeds. The smallest normal number covers products that underflow.
 inline Sign side_of_line(const LonLat& p, const LonLat& q, const LonLat& r) {
   const double left = (q.lon_deg - p.lon_deg) * (r.lat_deg - p.lat_deg);
   const double right = (q.lat_deg - p.lat_deg) * (r.lon_deg - p.lon_deg);
@@ -45,19 +46,19 @@ inline Sign side_of_line(const LonLat& p, const LonLat& q, const LonLat& r) {
                      {r.lon_deg, r.lat_deg, 1});
 }
 
-// Whether p lies in the rectangle around a line.
+// True if p lies in the closed rectangle around a line.
 inline bool is_beside(const LonLat& a, const LonLat& b, const LonLat& p) {
   const auto [west, east] = std::minmax(a.lon_deg, b.lon_deg);
   const auto [south, north] = std::minmax(a.lat_deg, b.lat_deg);
   return west <= p.lon_deg && p.lon_deg <= east && south <= p.lat_deg && p.lat_deg <= north;
 }
 
-// Whether p is on the line between a and b and none of them; exact.
+// True if p is on the line between a and b, and is neither a nor b; exact.
 inline bool is_between(const LonLat& a, const LonLat& b, const LonLat& p) {
   return is_beside(a, b, p) && !(p == a) && !(p == b) && side_of_line(a, b, p) == Sign::zero;
 }
 
-// Whether two lines cross at a point inside of both; exact.
+// True if the lines ab and cd cross in a point inside of both; exact.
 inline bool do_lines_cross(const LonLat& a, const LonLat& b, const LonLat& c, const LonLat& d) {
   const Sign sign_c = side_of_line(a, b, c);
   const Sign sign_d = side_of_line(a, b, d);
@@ -67,7 +68,8 @@ inline bool do_lines_cross(const LonLat& a, const LonLat& b, const LonLat& c, co
   return sign_a != sign_b && sign_a != Sign::zero && sign_b != Sign::zero;
 }
 
-// Whether, counterclockwise around a position from the east on, x comes before y; exact.
+// True if, counterclockwise around the position `at` and beginning in the east, x comes before y;
+// exact.
 inline bool is_before_around(const LonLat& at, const LonLat& x, const LonLat& y) {
   const auto is_low = [&](const LonLat& p) {
     return p.lat_deg < at.lat_deg || (p.lat_deg == at.lat_deg && p.lon_deg < at.lon_deg);
@@ -76,7 +78,7 @@ inline bool is_before_around(const LonLat& at, const LonLat& x, const LonLat& y)
   return side_of_line(at, x, y) == Sign::positive;
 }
 
-// Whether a loop goes back on the line on which it came.
+// True if a loop turns back by 180 degrees somewhere, so that two consecutive sides overlap.
 inline bool has_spike(std::span<const LonLat> loop) {
   for (std::size_t k = 0; k < loop.size(); ++k) {
     const LonLat& p = loop[k];
@@ -87,7 +89,7 @@ inline bool has_spike(std::span<const LonLat> loop) {
   return false;
 }
 
-// Whether a simple loop, not all on one line, is counterclockwise; exact.
+// True if a loop is counterclockwise; exact. Precondition: it is simple and not all on one line.
 inline bool is_counterclockwise(std::span<const LonLat> loop) {
   const auto first = std::ranges::min_element(loop, InPlane());
   const auto k = static_cast<std::size_t>(first - loop.begin());

@@ -16,7 +16,9 @@ namespace {
 
 bool is_at_pole(const LonLat& p) { return std::abs(p.lat_deg) == 90; }
 
-// A point of the arc between two positions, which no meridian leaves and no antimeridian divides.
+// Returns the position of a point of the arc between two positions. Precondition: the arc is on one
+// side of the antimeridian. A point on the antimeridian gets the sign of longitude of the
+// positions.
 LonLat position_between(const Point& p, const LonLat& a, const LonLat& b) {
   const auto [west, east] = std::minmax(a.lon_deg, b.lon_deg);
   LonLat position = lonlat_of(p, std::abs(west) > std::abs(east) ? west > 0 : east > 0);
@@ -28,7 +30,7 @@ LonLat middle_in_plane(const LonLat& a, const LonLat& b) {
   return {std::midpoint(a.lon_deg, b.lon_deg), std::midpoint(a.lat_deg, b.lat_deg)};
 }
 
-// Where two lines that cross do so, rounded.
+// Returns the position where two crossing lines cross, rounded.
 LonLat crossing_of(const Trouble& lines) {
   const auto& [kind, a, b, c, d, loop] = lines;
   const LonLat u{b.lon_deg - a.lon_deg, b.lat_deg - a.lat_deg};
@@ -85,13 +87,13 @@ bool Mending::merge(const LonLat& a, const LonLat& b) {
   return true;
 }
 
-// Merges two corners within the reach of each other.
+// Merges two corners that are within the reach of each other.
 bool Mending::join(const LonLat& a, const LonLat& b) {
   if (a == b || is_at_pole(a) || is_at_pole(b)) return false;
   return distance(point_at(a), point_at(b)) <= reach_ && merge(a, b);
 }
 
-// Gives a line the point of its arc opposite a corner.
+// Divides a line at the point of its arc opposite a corner.
 bool Mending::align(const LonLat& a, const LonLat& b, const LonLat& corner) {
   if (corner == a || corner == b || is_at_pole(corner) || !lines_.is_current(a, b)) return false;
   if (is_at_pole(a) && is_at_pole(b)) return false;
@@ -105,7 +107,8 @@ bool Mending::align(const LonLat& a, const LonLat& b, const LonLat& corner) {
   return divide(a, b, is_on_line ? corner : opposite);
 }
 
-// On its arc, where the line is farther from that than the reach.
+// Divides a line at the middle of its arc if the line's own middle is farther from that than the
+// reach.
 bool Mending::bisect(const LonLat& a, const LonLat& b) {
   if (a.lon_deg == b.lon_deg || (is_at_pole(a) && is_at_pole(b)) || !lines_.is_current(a, b))
     return false;
@@ -127,6 +130,8 @@ bool Mending::bisect_both(const LonLat& a, const LonLat& b, const LonLat& c, con
   return bisect(c, d) || has_changed;
 }
 
+// Mends two lines that cross: merges ends, aligns or bisects, and if nothing helps divides both at
+// the crossing.
 void Mending::uncross(const Trouble& lines) {
   const auto& [kind, a, b, c, d, loop] = lines;
   if (!lines_.is_current(a, b) || !lines_.is_current(c, d)) return;
@@ -139,6 +144,7 @@ void Mending::uncross(const Trouble& lines) {
   divide(c, d, place);
 }
 
+// Mends two unpaired lines that leave one position.
 void Mending::pair(const Trouble& lines) {
   const auto& [kind, a, b, c, d, loop] = lines;
   if (!lines_.is_current(a, b) || !lines_.is_current(a, d)) return;
@@ -146,7 +152,8 @@ void Mending::pair(const Trouble& lines) {
   bisect_both(a, b, a, d);
 }
 
-// Divides one of two lines that leave a position at the end of the other, if that is within the reach.
+// Divides one of two lines that leave a position at the end of the other line, if that end is
+// within the reach.
 void Mending::snap(const Trouble& lines) {
   const auto& [kind, a, b, c, d, loop] = lines;
   for (const auto& [end, other] : {std::pair(b, d), std::pair(d, b)}) {
@@ -161,7 +168,8 @@ void Mending::snap(const Trouble& lines) {
   }
 }
 
-// Each corner and the line nearest to it; the lines are bisected where that does not help.
+// Mends a loop with its region on the wrong side: aligns the line nearest to each corner with that
+// corner, and bisects all lines if that changes nothing.
 void Mending::turn(const Loop& loop) {
   constexpr std::size_t most = 512;
   const std::size_t n = loop.size();

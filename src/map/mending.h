@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The steps of valid_regions().
+// Repairs the troubles of regions, one pass after the other: the steps of valid_regions().
 #pragma once
 
 #include <vector>
@@ -14,12 +14,15 @@ namespace rondel::map {
 
 inline constexpr double longest_reach = 0x1p-30;  // radians; 6 mm on the earth
 
-// Grows where passes do not end.
+// Returns the distance in radians within which a pass merges or aligns corners. It grows with the
+// number of the pass if passes do not end.
 double reach_of_pass(int pass);
 
+// Mends the troubles of one pass by dividing lines and merging positions.
 class Mending {
  public:
-  // A position that divides the line from a to b, or that a and b have become.
+  // A change of the lines: `position` divides the line from a to b, or a and b have become
+  // `position`.
   struct Change {
     LonLat a;
     LonLat b;
@@ -27,8 +30,8 @@ class Mending {
     bool is_merge = false;
   };
 
-  // Keeps a reference. In each third of late passes lines are bisected before they are aligned: points opposite each
-  // other on lines at an angle approach the crossing slowly.
+  // Keeps a reference to `lines`. In every third late pass lines are bisected before they are
+  // aligned, since corners opposite each other on lines at an angle approach the crossing slowly.
   Mending(SharedLines& lines, int pass);
 
   void mend(const Trouble& trouble);

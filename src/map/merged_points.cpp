@@ -13,20 +13,21 @@
 namespace rondel::map {
 namespace {
 
-// Cubes are sixteen times as wide as merge_distance: in most of them no neighbor has to be searched, and as points that are
-// kept are apart, none has many.
+// Cubes are 16 times as wide as merge_distance. So most points need no search in a neighboring
+// cube, and since kept points are apart, no cube has many.
 constexpr double cubes_per_unit = 1 / (16 * merge_distance);
 
 struct Cube {
   std::array<std::int64_t, 3> place{};
 };
 
-// The number of the cube along an axis, from 0 on, for a coordinate from -2 to 2. It does not decrease with the coordinate.
+// Returns the number of the cube along an axis, at least 0, for a coordinate from -2 to 2. It is a
+// non-decreasing function of the coordinate.
 std::int64_t place_of(double coordinate) {
   return static_cast<std::int64_t>((coordinate + 2) * cubes_per_unit);
 }
 
-// Points that are kept, in lists by the slot of their cube.
+// The points that are kept, in linked lists by the slot of their cube.
 class KeptPoints {
  public:
   explicit KeptPoints(std::span<const Point> points)
@@ -34,7 +35,8 @@ class KeptPoints {
         firsts_(std::bit_ceil(2 * points.size() + 1), no_index),
         next_(points.size(), no_index) {}
 
-  // The first point, in the order in which they were added, within merge_distance of another one; or no_index.
+  // Returns the first kept point, in the order of addition, within merge_distance of a point, or
+  // no_index.
   [[nodiscard]] Index find_near(const Point& p) const {
     const Cube low = cube_of({p.x - merge_distance, p.y - merge_distance, p.z - merge_distance});
     const Cube high = cube_of({p.x + merge_distance, p.y + merge_distance, p.z + merge_distance});

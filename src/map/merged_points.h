@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Points that a map cannot tell apart become one, for all regions that have them.
+// Merges points that a map cannot tell apart, for all regions that have them.
 #pragma once
 
 #include <span>
@@ -11,9 +11,10 @@
 
 namespace rondel::map {
 
-// Returns a point for each unit vector, in order: the vector itself, snapped(), so that poles and what is on the antimeridian
-// stay there, or an earlier one that is kept and within merge_distance of it. Points that are kept are farther apart. So no
-// region leaves out a corner, or itself, as it is too small for the map, while its neighbors keep the corners around it.
+// Returns a point for each unit vector, in order: the vector itself, snapped() to the poles and the
+// antimeridian, or an earlier point that was kept and is within merge_distance of it. Points that
+// are kept are farther than that from each other. So a region that is too small for the map does
+// not drop a corner that its neighbors keep.
 std::vector<Point> merged_points(std::span<const Point> points);
 
 }  // namespace rondel::map

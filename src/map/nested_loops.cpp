@@ -16,7 +16,7 @@ namespace {
 
 using Ring = std::span<const LonLat>;
 
-// The sides of all loops, listed by longitude.
+// Lists the sides of all loops by longitude, to find those above a position.
 class SidesByLongitude {
  public:
   explicit SidesByLongitude(std::span<const std::vector<LonLat>> loops) : loops_(loops) {
@@ -36,7 +36,8 @@ class SidesByLongitude {
     }
   }
 
-  // Which loops have the position inside; those that have it as a corner in `touched`.
+  // Finds the loops that have a position inside (inside[i] is true), and those that have it as a
+  // corner (`touched`, for which `inside` means nothing).
   void find_around(const LonLat& p, std::map<std::size_t, bool>& inside,
                    std::set<std::size_t>& touched) const {
     for (const auto& [i, k] : lists_[list_at(p.lon_deg)]) {
@@ -63,14 +64,15 @@ class SidesByLongitude {
   std::vector<std::vector<std::pair<std::size_t, std::size_t>>> lists_;
 };
 
-// Whether d comes between a and b, counterclockwise around a position from a on.
+// True if the direction to d comes between those to a and b, counterclockwise around the position
+// `at`.
 bool is_in_turn(const LonLat& at, const LonLat& a, const LonLat& d, const LonLat& b) {
   const bool after_a = is_before_around(at, a, d);
   const bool before_b = is_before_around(at, d, b);
   return is_before_around(at, a, b) ? after_a && before_b : after_a || before_b;
 }
 
-// Whether a side that leaves a corner of a loop begins inside of it.
+// True if a side from a corner of a loop to `end` begins inside of the loop.
 bool begins_inside(Ring loop, const LonLat& corner, const LonLat& end) {
   const auto k = static_cast<std::size_t>(std::ranges::find(loop, corner) - loop.begin());
   const LonLat& before = loop[k == 0 ? loop.size() - 1 : k - 1];
@@ -79,8 +81,8 @@ bool begins_inside(Ring loop, const LonLat& corner, const LonLat& end) {
                                    : is_in_turn(corner, before, end, after);
 }
 
-// The loops around loop i: by its corner in the south, and where another loop has that corner too, by its next ones;
-// where another one has all corners, by a side.
+// Returns the loops around loop `self`. Its southernmost corner decides; for a loop that has this
+// corner too, the next corner that it has not; for a loop that has all corners, a side.
 std::set<std::size_t> loops_around(const SidesByLongitude& sides,
                                    std::span<const std::vector<LonLat>> loops, std::size_t self) {
   const Ring loop = loops[self];

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Which loops of the plane lie in which; by exact signs.
+// Determines which loops of the plane lie inside of which, by exact signs.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,13 @@ namespace rondel::map {
 
 inline constexpr std::size_t misplaced = std::numeric_limits<std::size_t>::max();
 
-// The first `num_outer` of the loops are counterclockwise, the others clockwise. A clockwise one belongs to the
-// smallest counterclockwise one around it, if it lies once more in counterclockwise loops than in clockwise ones; a
-// counterclockwise one to itself, if it lies in as many of both. Others are misplaced.
-// Precondition: the loops are simple, and meet in positions of both only.
+// Returns the index of the counterclockwise loop that each loop belongs to, or `misplaced`.
+//
+// The first `num_outer` loops are counterclockwise, the others clockwise. A clockwise loop belongs to the smallest
+// counterclockwise loop around it, if it lies in one counterclockwise loop more than in clockwise ones. A
+// counterclockwise loop belongs to itself, if it lies in as many counterclockwise loops as clockwise ones. Other
+// loops are misplaced.
+// Precondition: the loops are simple, and two loops meet only in positions that both have.
 std::vector<std::size_t> owners_of(std::span<const std::vector<LonLat>> loops,
                                    std::size_t num_outer);
 

@@ -12,7 +12,7 @@
 namespace rondel::map {
 namespace {
 
-// A side with its lower end first, and whether it leads from there.
+// A side with its lower end first; `is_upward` is true if it leads from there.
 struct SideEnds {
   LonLat low;
   LonLat high;
@@ -29,14 +29,15 @@ void append_ends(const LonLat& p, const LonLat& q, std::vector<SideEnds>& sides)
   sides.push_back({is_upward ? p : q, is_upward ? q : p, is_upward});
 }
 
-// The side of the map, counterclockwise from the one in the south, and how far along it; exact.
+// Returns the side of the map on which a position of its border lies (0 south, 1 east, 2 north, 3
+// west) and its place along that side counterclockwise; exact.
 std::pair<int, double> place_on_border(const LonLat& p) {
   if (p.lat_deg == -90) return {0, p.lon_deg};
   if (p.lon_deg == 180) return {1, p.lat_deg};
   return p.lat_deg == 90 ? std::pair(2, -p.lon_deg) : std::pair(3, -p.lat_deg);
 }
 
-// The border clockwise, through all positions on it.
+// Appends the border of the map, clockwise, divided at all positions that lie on it.
 void append_border(std::vector<LonLat> positions, std::vector<SideEnds>& sides) {
   std::ranges::sort(positions, {}, &place_on_border);
   positions.erase(std::unique(positions.begin(), positions.end()), positions.end());
@@ -60,7 +61,7 @@ std::vector<SideEnds> all_sides(std::span<const std::vector<Loop>> regions) {
   return sides;
 }
 
-// Those left after sides in both directions are gone, turned around.
+// Removes the sides that occur in both directions and returns the rest, reversed.
 std::vector<DirectedLine> single_sides(std::vector<SideEnds> sides) {
   std::ranges::sort(sides, [](const SideEnds& x, const SideEnds& y) {
     return x.low == y.low ? InPlane()(x.high, y.high) : InPlane()(x.low, y.low);

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What of the map no region covers.
+// Computes the part of the map that no region covers.
 #pragma once
 
 #include <span>
@@ -11,8 +11,9 @@
 
 namespace rondel::map {
 
-// Loops with that to the left: the border of the map, and the sides of all regions turned around, without what is there in
-// both directions. Where regions cover the map there are none.
+// Returns loops with the uncovered part to their left: the border of the map and the sides of all
+// regions reversed, without sides that occur in both directions. The result is empty where regions
+// cover the map.
 std::vector<Loop> outside_loops(std::span<const std::vector<Loop>> regions);
 
 }  // namespace rondel::map

@@ -14,7 +14,7 @@ namespace {
 
 using RegionCounts = std::vector<NodedLine::RegionCount>;
 
-// The sum, or with `sign` -1 the difference.
+// Returns counts + sign * more.
 RegionCounts added(const RegionCounts& counts, const RegionCounts& more, int sign) {
   RegionCounts sum;
   auto count = counts.begin();
@@ -35,6 +35,7 @@ RegionCounts added(const RegionCounts& counts, const RegionCounts& more, int sig
   return sum;
 }
 
+// Returns the region with the largest positive count, the first one of several, or no_region.
 std::size_t region_of_counts(const RegionCounts& counts) {
   std::size_t region = no_region;
   int most = 0;
@@ -46,7 +47,7 @@ std::size_t region_of_counts(const RegionCounts& counts) {
   return region;
 }
 
-// Whether line x is below line y at a longitude that both have, just to the east of it.
+// True if line x is below line y just to the east of a longitude that both have.
 bool is_lower_line(const NodedLine& x, const NodedLine& y) {
   for (const LonLat& end : {x.from, x.to}) {
     if (end.lon_deg < y.from.lon_deg || end.lon_deg > y.to.lon_deg) continue;
@@ -86,7 +87,8 @@ void PlanarFaces::sort_around_positions() {
   });
 }
 
-// Where a halfedge ends the face goes on along the first one clockwise from where it came.
+// Links the halfedges of faces: at the end of a halfedge, its face continues with the next halfedge
+// clockwise from the one that leads back.
 void PlanarFaces::find_faces() {
   next_.resize(order_.size());
   for (std::size_t first = 0; first < order_.size();) {
@@ -105,8 +107,10 @@ void PlanarFaces::find_faces() {
   }
 }
 
-// Lines that hang together have their position farthest in the west, of several the one in the south, before all of their
-// others in the order, and after those of what lies around them: a line below that position starts before it.
+// Counts how often the sides of each region go around each face. In the order of halfedges, the
+// westernmost position of a connected set of lines (the southernmost of several) comes before the
+// others of the set, and after a line below it, which starts before it. So the face around the set
+// is counted when the set is reached.
 void PlanarFaces::count_all() {
   counts_.resize(firsts_.size());
   is_counted_.assign(firsts_.size(), false);
@@ -122,7 +126,8 @@ void PlanarFaces::count_all() {
   }
 }
 
-// All lines at the position lead to the east, or straight up: the face in the west of it is to the left of the last one
+// Returns the halfedge at the westernmost position of a connected set that has the outer face to
+// its left. All lines there lead to the east or straight up, so it is the last one
 // counterclockwise.
 std::size_t PlanarFaces::outer_halfedge(std::size_t first, std::size_t past) const {
   std::size_t outer = order_[first];
@@ -176,7 +181,7 @@ void PlanarFaces::give_to_lost() {
   }
 }
 
-// Those of the face below a position, just to the east of it.
+// Returns the counts of the face just below a position, slightly to the east of it.
 PlanarFaces::Counts PlanarFaces::counts_below(const LonLat& position) const {
   std::optional<std::size_t> highest;
   for (const std::size_t i : lists_[list_at(position.lon_deg)]) {

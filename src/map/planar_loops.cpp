@@ -15,9 +15,9 @@ namespace {
 
 bool is_lower(const LonLat& p, const LonLat& q) { return InPlane()(p, q); }
 
-// The lines at positions that more than one of them leaves.
+// The sides at a position that more than one side leaves.
 struct Star {
-  std::vector<LonLat> out;  // ends of lines that leave
+  std::vector<LonLat> out;  // the beginnings of sides that reach the position
   std::vector<LonLat> in;   // beginnings of lines that reach it
 };
 using Stars = std::map<LonLat, Star, InPlane>;
@@ -41,7 +41,7 @@ Stars stars_of(std::span<const DirectedLine> lines) {
   return stars;
 }
 
-// A line at a position, seen from there.
+// A side at a position, seen from the position: its other end.
 struct SideRay {
   LonLat end;
   bool leaves = false;
@@ -56,11 +56,12 @@ std::vector<SideRay> rays_around(const LonLat& at, const Star& star) {
   return rays;
 }
 
-// Where each loop goes on from a position: a line that reaches it goes on in the first one clockwise, through the region.
+// Maps a position and the one before it to the one after it. A side that reaches the position is
+// continued by the first side clockwise from it, across the region.
 std::map<std::pair<LonLat, LonLat>, LonLat,
          bool (*)(const std::pair<LonLat, LonLat>&, const std::pair<LonLat, LonLat>&)>
 turns_at(const Stars& stars) {
-  using Key = std::pair<LonLat, LonLat>;  // the position, the one before it
+  using Key = std::pair<LonLat, LonLat>;  // a position, and the one before it
   std::map<Key, LonLat, bool (*)(const Key&, const Key&)> turns([](const Key& x, const Key& y) {
     return x.first == y.first ? is_lower(x.second, y.second) : is_lower(x.first, y.first);
   });
@@ -74,7 +75,7 @@ turns_at(const Stars& stars) {
   return turns;
 }
 
-// The loops between two visits of a position.
+// Splits a loop into simple loops, one for each part between two visits of a position.
 void append_simple(const Loop& loop, std::vector<Loop>& found) {
   std::map<LonLat, std::size_t, InPlane> places;
   Loop open;

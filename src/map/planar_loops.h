@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Loops of positions in the plane of longitude and latitude, and the polygons that they bound; by exact signs.
+// Loops of positions in the plane of longitude and latitude, and the polygons that they bound. All
+// decisions use exact signs.
 #pragma once
 
 #include <cstddef>
@@ -17,37 +18,41 @@ namespace rondel::map {
 
 using Loop = std::vector<LonLat>;  // closed, without repeating the first position at the end
 
-// Twice the area, positive if the loop is counterclockwise; square degrees, rounded.
+// Returns twice the area of a loop in square degrees (rounded), positive if the loop is
+// counterclockwise.
 double doubled_loop_area(std::span<const LonLat> loop);
 
-// Whether a position is in the loops twice.
+// True if a position occurs twice in the loops.
 bool has_touching(std::span<const Loop> loops);
 
-// Takes out the sides that are there in both directions; the others keep their order.
+// Removes the sides that occur in both directions; the others keep their order.
 void cancel_opposite(std::vector<DirectedLine>& lines);
 
-// Two sides next to each other around a position: where regions do not overlap themselves, those that leave it and those
-// that reach it take turns. `is_paired` if they do.
+// Two sides that are neighbors around the position `at`, which they share. Around a position of
+// regions that do not overlap themselves, sides that leave it and sides that reach it alternate.
+// `is_paired` is true if these two do.
 struct SideWedge {
   LonLat at;
   LonLat first;
   LonLat second;
   bool is_paired;
 };
-// All of the positions where they do not.
+// Returns the wedges of all positions around which leaving and reaching sides do not alternate.
 std::vector<SideWedge> unpaired_sides(std::span<const DirectedLine> lines);
 
-// The simple loops of sides that have no unpaired ones: each keeps to one fan of the region, so that two parts of it
-// that touch in a position only have no loop in common.
+// Returns the simple loops that the sides form. Two parts of the region that touch only in a
+// position share no loop. Precondition: unpaired_sides() finds none.
 std::vector<Loop> traced_loops(std::span<const DirectedLine> lines);
 
-// Polygons, or the loops that lie wrong: a clockwise one in no other, a counterclockwise one inside the region.
+// Polygons, and the loops that are misplaced: a clockwise loop in no other loop, or a
+// counterclockwise loop inside of the region.
 struct PolygonsOfLoops {
   std::vector<PolygonWithHoles> polygons;
   std::vector<Loop> misplaced;
 };
 
-// The polygons of simple loops that meet in positions of both only, in the order of their outer loops; rings are closed.
+// Returns the polygons of loops, in the order of their outer loops, with closed rings.
+// Precondition: the loops are simple, and two loops meet only in positions that both have.
 PolygonsOfLoops polygons_of_loops(std::vector<Loop> loops);
 
 }  // namespace rondel::map

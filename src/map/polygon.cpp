@@ -13,14 +13,14 @@
 namespace rondel::map {
 namespace {
 
-// The border of the rectangle, counterclockwise from its corner in the north west.
+// The sides of the rectangle's border, counterclockwise from its corner in the north west.
 enum Side : std::size_t { left, bottom, right, top };
 constexpr std::size_t num_sides = 4;
 
 // The corner at the end of each side.
 constexpr std::array<LonLat, num_sides> corners{{{-180, -90}, {180, -90}, {180, 90}, {-180, 90}}};
 
-// An end of a chain: a place on the border, by side and the distance along it.
+// An end of a chain: its place on the border, as a side and a distance along it.
 struct Gate {
   Side side;
   double along;
@@ -39,6 +39,7 @@ Gate gate_at(const MapPoint& end, std::size_t chain) {
   return lon > 0 ? Gate{right, lat, chain} : Gate{left, -lat, chain};
 }
 
+// Returns twice the area of a ring in square degrees, positive if it is counterclockwise.
 double doubled_area(std::span<const LonLat> ring) {
   double area = 0;
   const LonLat origin = ring.front();
@@ -49,7 +50,8 @@ double doubled_area(std::span<const LonLat> ring) {
   return area;
 }
 
-// Few positions are compared faster than they are copied and sorted.
+// True if a position occurs twice. A few positions are compared faster than they are copied and
+// sorted.
 bool visits_twice(std::span<const LonLat> positions) {
   if (positions.size() <= longest_plain) {
     for (std::size_t i = 1; i < positions.size(); ++i) {
@@ -63,17 +65,18 @@ bool visits_twice(std::span<const LonLat> positions) {
   return std::adjacent_find(ring.begin(), ring.end()) != ring.end();
 }
 
-// Twice what a sliver as wide as rounding covers, from one end of the map to the other, in square
-// degrees.
+// Twice the area, in square degrees, of a sliver as wide as rounding from one end of the map to the
+// other.
 constexpr double area_of_rounding = 2 * 360 * merge_distance * degrees_per_radian;
 
 struct Loops {
   std::vector<LonLatPolygon> polygons;
-  bool is_turned_over = false;  // one is clockwise, and wider than rounding
+  bool is_turned_over = false;  // true if a loop is clockwise and wider than rounding
 };
 
-// Without area is what lay along the antimeridian; clockwise only what is narrower than its lines
-// resolve.
+// Appends a simple loop as a polygon. A loop without area is a line along the antimeridian and is
+// dropped. A clockwise loop is narrower than its lines resolve: it is dropped if it is a part of a
+// ring, and reversed otherwise.
 void append_simple_loop(std::vector<LonLat> ring, bool is_part, Loops& out) {
   if (ring.size() < 3) return;
   const double area = doubled_area(ring);
@@ -84,8 +87,7 @@ void append_simple_loop(std::vector<LonLat> ring, bool is_part, Loops& out) {
   out.polygons.push_back({std::move(ring)});
 }
 
-// Takes the loops apart of which a ring consists that comes back to the same positions: one
-// between two visits of a position that has no such visits itself.
+// Splits a ring that visits positions several times into simple loops, and appends them.
 void append_loops_of(const std::vector<LonLat>& ring, Loops& out) {
   std::map<LonLat, std::size_t, InPlane> places;
   std::vector<LonLat> open;
@@ -103,7 +105,8 @@ void append_loops_of(const std::vector<LonLat>& ring, Loops& out) {
   append_simple_loop(std::move(open), true, out);
 }
 
-// Appends the loop as polygons, without repeated positions and sides that run to and fro.
+// Appends a loop as polygons, without repeated positions and without sides that go back on
+// themselves.
 void append_loop(const std::vector<LonLat>& loop, Loops& out) {
   std::vector<LonLat> ring;
   for (const LonLat& position : loop) {
@@ -122,10 +125,10 @@ void append_loop(const std::vector<LonLat>& loop, Loops& out) {
   }
 }
 
-// A convex region has none of its antipodes, and antipodes have the same area in the plane: it
-// covers at most half of the rectangle. What covers nearly all of it is the outside of a region no
-// wider than rounding.
-constexpr double most_of_rectangle = 1.5 * 360 * 180;  // twice the area
+// A convex region contains no pair of antipodes, and antipodal regions have the same area in the
+// plane, so it covers at most half of the rectangle. Polygons that cover nearly all of it are the
+// outside of a region no wider than rounding.
+constexpr double most_of_rectangle = 1.5 * 360 * 180;  // twice the area, square degrees
 
 bool is_outside(const std::vector<LonLatPolygon>& polygons) {
   double doubled = 0;
@@ -133,11 +136,10 @@ bool is_outside(const std::vector<LonLatPolygon>& polygons) {
   return doubled > most_of_rectangle;
 }
 
-// Joins chains along the border into loops. With the region to the left, the border belongs to it
-// from the end of a chain counterclockwise to the next start; so in that order the k-th end leads
-// to the k-th start, or to the one after it if the region has the north west corner inside.
-// Ends and starts are sorted apart: if rounding has exchanged an end and a start that are
-// next to each other, the effect stays between them.
+// Joins chains along the border into loops. With the region to the left, the border belongs to the region
+// counterclockwise from the end of a chain to the next start. So in that order the k-th end leads to the k-th start,
+// or to the start after it if the region has the corner in the north west inside. Ends and starts are sorted
+// separately: if rounding has exchanged a neighboring end and start, the effect stays between them.
 class Stitching {
  public:
   explicit Stitching(const Trace& trace) : trace_(trace), next_(trace.starts.size()) {
@@ -176,7 +178,8 @@ class Stitching {
   }
 
  private:
-  // The chain that follows a chain, and the sides at whose ends the border turns on the way.
+  // The chain that follows a chain, and the range of sides at whose ends the border turns on the
+  // way.
   struct NextChain {
     std::size_t chain = 0;
     std::size_t first_side = 0;
@@ -209,7 +212,7 @@ Loops loops_of(const Trace& trace) {
   return {.polygons = {}, .is_turned_over = true};
 }
 
-// False if fewer than three points are left.
+// Draws a ring of snapped points. Returns false if fewer than three distinct points are left.
 bool draw_snapped(std::span<const Point> ring, std::span<const double> tolerances_deg,
                   Trace& trace) {
   std::vector<Point> points;

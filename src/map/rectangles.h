@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Lines of the plane whose rectangles overlap.
+// Finds pairs of lines in the plane whose bounding rectangles overlap.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,14 @@
 
 namespace rondel::map {
 
+// A line of the plane. `name` is an index of the caller.
 struct Line {
   LonLat from;
   LonLat to;
   std::size_t name;
 };
 
+// A closed rectangle along the axes, in degrees.
 struct Rectangle {
   double west;
   double east;
@@ -36,9 +38,9 @@ struct Rectangle {
   }
 };
 
-// The rectangles around the lines, around the lines 2i and 2i + 1, and so on up to one around all:
-// lines that follow each other are near each other, so that the rectangles are small. A sweep
-// would compare all lines of a meridian with each other.
+// A tree of rectangles: level 0 has the rectangles around the lines, level 1 those around the lines
+// 2i and 2i + 1, and so on up to one around all. Lines that follow each other are near each other,
+// so the rectangles are small. A sweep would compare all lines along a meridian with each other.
 class Rectangles {
  public:
   explicit Rectangles(const std::vector<Line>& lines) : lines_(lines) {
@@ -55,7 +57,7 @@ class Rectangles {
     firsts_.push_back(all_.size());
   }
 
-  // Calls `report` with each line whose rectangle overlaps this one.
+  // Calls `report` with each line whose rectangle overlaps the given one.
   template <typename Report>
   void find_overlapping(const Rectangle& rectangle, const Report& report) const {
     if (!lines_.empty()) around(firsts_.size() - 2, 0, rectangle, report);
@@ -93,7 +95,7 @@ class Rectangles {
       around(level - 1, k, rectangle, report);
   }
 
-  // The pairs inside one rectangle.
+  // Reports the pairs of overlapping lines inside one rectangle.
   template <typename Report>
   void within(std::size_t level, std::size_t i, const Report& report) const {
     if (level == 0) return;
@@ -104,7 +106,7 @@ class Rectangles {
     between(level - 1, first, first + 1, report);
   }
 
-  // The pairs of a line in one rectangle with a line in another of the same level.
+  // Reports the pairs of a line in one rectangle with a line in another of the same level.
   template <typename Report>
   void between(std::size_t level, std::size_t i, std::size_t j, const Report& report) const {
     if (!at(level, i).overlaps(at(level, j))) return;
@@ -121,8 +123,8 @@ class Rectangles {
   }
 
   const std::vector<Line>& lines_;
-  std::vector<Rectangle> all_;          // level by level
-  std::vector<std::size_t> firsts_{0};  // of each level, and the end
+  std::vector<Rectangle> all_;          // of all levels, from the lowest on
+  std::vector<std::size_t> firsts_{0};  // where each level begins, and the end of the last
 };
 
 }  // namespace rondel::map

@@ -20,16 +20,18 @@
 namespace rondel::map {
 namespace {
 
-// The border of the rectangle counterclockwise from its corner in the north west, as a distance along it.
+// The corners of the rectangle, counterclockwise from the one in the north west, and the lengths of
+// its sides in degrees.
 constexpr std::array<LonLat, 4> border_corners{{{-180, -90}, {180, -90}, {180, 90}, {-180, 90}}};
 constexpr std::array<double, 4> border_lengths{180, 360, 180, 360};
 
+// A place on the border of the rectangle.
 struct BorderPlace {
   std::size_t side = 0;
-  double along = 0;  // the side
+  double along = 0;  // degrees along the side
 
   friend auto operator<=>(const BorderPlace&, const BorderPlace&) = default;
-  // From the first corner on.
+  // Returns the distance along the border from the first corner, in degrees.
   [[nodiscard]] double distance() const {
     double sum = along;
     for (std::size_t i = 0; i < side; ++i) sum += border_lengths[i];
@@ -45,14 +47,15 @@ BorderPlace border_place(const MapPoint& end) {
   return lon > 0 ? BorderPlace{2, lat + 90} : BorderPlace{0, 90 - lat};
 }
 
-// A part of a ring from side to side of the rectangle.
+// A part of a ring that runs from side to side of the rectangle.
 struct Chain {
   Loop positions;
   BorderPlace start;
   BorderPlace end;
 };
 
-// Snapped to the poles and the antimeridian, and without points that are where the one before is.
+// Returns the points of a line, snapped to the poles and the antimeridian, without a point that
+// equals the one before it.
 std::vector<Point> cleaned(UnitVectors line, bool is_closed) {
   std::vector<Point> points;
   for (const Point& p : line) {
@@ -77,7 +80,8 @@ std::vector<Loop> positions_of_chains(const Trace& trace) {
   return chains;
 }
 
-// A region that is cut into chains and loops.
+// Cuts the border of a region into chains and closed loops, and joins the chains along the border
+// of the rectangle.
 class RegionDrawing {
  public:
   RegionDrawing(std::span<const UnitVectors> rings, double tolerance) {
@@ -117,7 +121,8 @@ class RegionDrawing {
     }
   }
 
-  // What lines of the plane enclose on the sphere: the integral of the sine of latitude.
+  // Returns the area that lines of the plane enclose on the sphere, in steradians: the integral of
+  // the sine of latitude over longitude.
   static double area_of_lines(std::span<const Loop> loops) {
     double area = 0;
     for (const Loop& loop : loops) {
@@ -133,16 +138,17 @@ class RegionDrawing {
 
   static constexpr double hemisphere = 2 * std::numbers::pi;
 
-  // Of the region, from 0 to 4 pi: rings tell it but for multiples of that.
+  // Returns the area of the region, from 0 to 4 pi. The rings determine it up to multiples of 4 pi.
   [[nodiscard]] double area_on_sphere() const {
     double area = 0;
     for (const std::vector<Point>& ring : rings_) area += area_on_left(ring);
     return area - 2 * hemisphere * std::floor(area / (2 * hemisphere));
   }
 
-  // Whether a region whose rings do not reach the border of the rectangle has it inside: then its loops are holes, and
-  // enclose what it has less than the sphere. Lines may be far from the arcs of a thin region, and enclose a little where
-  // these have nothing to their left, or the other way round; but not half of the sphere.
+  // True if a region whose rings do not reach the border of the rectangle has the border inside.
+  // Then its loops are holes, whose (negative) area is that of the region minus that of the sphere.
+  // Lines may be far from the arcs of a thin region, so that the areas of lines and of arcs have
+  // different signs, but they never differ by half of the sphere.
   [[nodiscard]] bool has_border() {
     const double drawn = area_of_lines(loops_);
     if (std::abs(drawn) > hemisphere) return drawn < 0;
@@ -160,15 +166,16 @@ class RegionDrawing {
            merge_distance * static_cast<double>(num_points);
   }
 
-  // Along the border of the rectangle the region begins where a chain ends and ends where one starts. Its
-  // first corner is inside if otherwise more of the border were inside twice or less than never: in
-  // this count rounding, which may exchange neighbors, hardly weighs.
+  // True if the first corner of the border is inside of the region. Along the border the region
+  // begins where a chain ends and ends where a chain starts. The corner is inside if otherwise a
+  // longer part of the border would be inside twice, or less than never. Neighbors that rounding
+  // has exchanged hardly weigh in this count.
   [[nodiscard]] bool has_first_corner(std::span<const std::size_t> starts,
                                       std::span<const std::size_t> ends) const {
     double wrong_if_outside = 0;
     double wrong_if_inside = 0;
     double last = 0;
-    int inside = 0;  // relative to the corner
+    int inside = 0;  // how often the place is inside, minus that of the corner
     std::size_t s = 0;
     std::size_t e = 0;
     while (s < starts.size() || e < ends.size()) {
@@ -185,7 +192,9 @@ class RegionDrawing {
     return wrong_if_inside < wrong_if_outside;
   }
 
-  // Rings without an area but rounding enclose what is to the left of all chains, or all else.
+  // Joins the chains along the border. If the area of the rings is within rounding, the loops are
+  // those of the part to the left of all chains, and border_ says whether the region seems to be
+  // all but that part.
   [[nodiscard]] std::vector<Loop> stitched() {
     const std::size_t n = chains_.size();
     std::vector<std::size_t> starts(n);
@@ -199,7 +208,8 @@ class RegionDrawing {
     return times == 0 ? joined : joined_around(starts, ends, likely - times);
   }
 
-  // How often lines that enclose so much on the sphere go around all of it more often than the region.
+  // Returns how many times more often than the region the lines, which enclose `drawn` steradians,
+  // go around the whole sphere.
   [[nodiscard]] int times_around(double drawn) {
     const double own = area_on_sphere();
     const bool is_known = !is_rounding(own);
@@ -210,8 +220,9 @@ class RegionDrawing {
     return times;
   }
 
-  // With the first corner of the border so often inside: once or never, but where chains that are nearer to each other than
-  // lines to arcs have changed places next to a pole, and the region is where its lines go around least often.
+  // Joins the chains so that the first corner of the border is `times` times inside. This is 0 or 1
+  // except where chains that are nearer to each other than lines to arcs have changed places next
+  // to a pole. Then whole borders are added, and the region is where lines go around least often.
   [[nodiscard]] std::vector<Loop> joined_around(std::span<const std::size_t> starts,
                                                 std::span<const std::size_t> ends,
                                                 int times) const {

@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Regions and lines of any shape in the plane of longitude and latitude: not convex, with holes, with poles
-// inside. polygon.h has what is convex.
+// Draws regions and lines of any shape in the plane of longitude and latitude: not convex, with holes, with
+// poles inside. (polygon.h draws convex regions.)
+//
+// in    rings or lines of unit vectors, a tolerance in radians
+// out   loops, polygons and lines in degrees
 #pragma once
 
 #include <cstdint>
@@ -14,46 +17,52 @@
 
 namespace rondel::map {
 
-// A polygon with holes, as GeoJSON has it (RFC 7946): the outer ring first, counterclockwise, the holes
-// clockwise; each closed (the last position is the first).
+// A polygon with holes, as in GeoJSON (RFC 7946): the outer ring first, counterclockwise, then the
+// holes, clockwise. Each ring is closed: its last position is the first one.
 struct PolygonWithHoles {
   std::vector<std::vector<LonLat>> rings;
 };
 
 using UnitVectors = std::span<const Point>;
 
-// Whether rings tell that a region has the border of the rectangle inside, and the poles with it. Where they enclose no
-// area but that of rounding, the region may be that sliver or all else: areas tell by chance.
+// Says whether the rings of a region decide that the border of the rectangle, and with it the
+// poles, is inside of the region. If they enclose no more area than rounding, the region may be a
+// sliver or all but that sliver; the computed areas then only suggest an answer.
 enum class BorderKnowledge : std::uint8_t { is_known, seems_outside, seems_inside };
 
-// Loops with the region to the left. Where nothing is known they are those of the sliver.
+// Loops with the region to the left. If `border` is not known, they are the loops of the sliver.
 struct DrawnRegion {
   std::vector<std::vector<LonLat>> loops;
   BorderKnowledge border = BorderKnowledge::is_known;
 };
 
+// Draws the region to the left of all rings. `tolerance` is in radians.
 DrawnRegion draw_region(std::span<const UnitVectors> rings, double tolerance);
 
-// The border of the rectangle, counterclockwise.
+// Returns the border of the rectangle [-180, 180] x [-90, 90], counterclockwise.
 std::vector<LonLat> border_loop();
 
-// The region to the left of all of the rings, consecutive points of which (and the last and the first) are
-// joined by the shorter arc of a great circle, as loops inside [-180, 180] x [-90, 90] that have it to the left: cut
-// along the antimeridian, at a pole they reach the side lat = +-90. Without rings it is the whole sphere. Loops may
-// cross each other and themselves, where rings are nearer to each other than lines are to arcs. Areas decide what
-// draw_region() does not know.
+// Returns the region to the left of all rings as loops that have it to their left. Consecutive points of a ring
+// (and the last and the first) are joined by the shorter arc of a great circle. The loops are inside
+// [-180, 180] x [-90, 90]: they are cut along the antimeridian, and at a pole they reach the side lat = +-90.
+// Without rings the region is the whole sphere. Loops may cross each other and themselves where rings are nearer to
+// each other than lines to arcs. Where draw_region() does not know the border, computed areas decide.
+//
 // 1. Sides are within the tolerance (radians) of the arcs.
 // 2. An arc gives the same positions, bit by bit, to the regions on both sides of it.
-// Precondition: the rings are simple and meet at most in points.
+//
+// Precondition: the rings are simple, and two rings meet at most in points.
 std::vector<std::vector<LonLat>> region_loops(std::span<const UnitVectors> rings, double tolerance);
 
-// The polygons of a region that shares its border with no other one that is drawn, as valid_regions() makes them.
-// What is no wider than rounding is left out.
+// Returns the polygons of a region that shares its border with no other drawn region, as
+// valid_regions() does. Parts that are no wider than rounding are dropped. `tolerance` is in
+// radians.
 RONDEL_API std::vector<PolygonWithHoles> region_polygons(std::span<const UnitVectors> rings,
                                                          double tolerance);
 
-// A line, cut at the antimeridian and at the poles: each part has two positions or more. A closed line, of
-// three points or more, that meets neither is one part whose last position is the first.
+// Returns the parts of a line that is cut at the antimeridian and at the poles; each part has at
+// least two positions. A closed line (of three or more points) that meets neither is one part whose
+// last position is the first one. `tolerance` is in radians.
 RONDEL_API std::vector<std::vector<LonLat>> line_parts(UnitVectors line, bool is_closed,
                                                        double tolerance);
 

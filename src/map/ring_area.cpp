@@ -17,14 +17,16 @@ namespace rondel::map {
 
 namespace {
 
-// Triangles at a point more than 60 degrees away may be ill-defined.
+// True if two unit vectors are more than 60 degrees apart. The areas of triangles at such a point
+// may be ill-defined.
 bool is_far(const Point& p, const Point& q) { return dot(p, q) < 0.5; }
 
+// Returns the determinant of three points, from differences of nearby points.
 double determinant(const Point& a, const Point& b, const Point& c) {
   return dot(a, cross(b - a, c - a));
 }
 
-// A multiple of about the center of mass of the region to the left of the ring.
+// Returns a multiple of the approximate center of mass of the region to the left of the ring.
 Point moment_of(std::span<const Point> ring) {
   Point sum{};
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -37,14 +39,16 @@ bool is_large(std::span<const Point> ring) {
   return std::ranges::any_of(ring, [&](const Point& p) { return is_far(ring.front(), p); });
 }
 
-// How far the antipode of a point is from all corners: half of the least square of a distance.
+// Returns how far the antipode of `origin` is from all corners, as half of the least squared
+// distance.
 double room(std::span<const Point> ring, const Point& origin) {
   double least = 2;
   for (const Point& p : ring) least = std::min(least, 1 + dot(origin, p));
   return least;
 }
 
-// A point whose triangles are well-defined: this one, or the end of an axis that has the most room.
+// Returns a point around which triangles to all sides are well-defined: `first`, or the end of an
+// axis that has the most room.
 Point origin_for(std::span<const Point> ring, const Point& first) {
   constexpr double enough = 1e-3;
   double most = room(ring, first);
@@ -61,7 +65,8 @@ Point origin_for(std::span<const Point> ring, const Point& first) {
   return best;
 }
 
-// Of the triangles at the first corner the least and the greatest sine, and 0.
+// Returns the least and the greatest of 0 and the determinants of the triangles at the first
+// corner.
 std::pair<double, double> sines_at_first(std::span<const Point> ring) {
   double least = 0;
   double most = 0;
@@ -73,7 +78,8 @@ std::pair<double, double> sines_at_first(std::span<const Point> ring) {
   return {least, most};
 }
 
-// By triangles, which have their areas but for multiples of 4 pi: so has the sum, of whatever they overlap.
+// Returns the sum of the triangles of a and each side, brought into [-2 pi, 2 pi]. Triangles are
+// known up to multiples of 4 pi, and so is the sum, even where they overlap.
 double area_around(const Point& a, std::span<const Point> ring) {
   exact::DoubleDouble area{};
   for (std::size_t i = 0; i < ring.size(); ++i) {
@@ -84,7 +90,8 @@ double area_around(const Point& a, std::span<const Point> ring) {
   return std::remainder(area.hi + area.lo, 4 * std::numbers::pi);
 }
 
-// Two sides of 60 degrees or less enclose at most 0.68: so many corners, nine triangles, less than 2 pi.
+// A triangle with two sides of 60 degrees or less has an area of at most 0.68. So a ring of this
+// many corners, which has nine triangles, has less than 2 pi.
 constexpr std::size_t few_corners = 11;
 
 }  // namespace
@@ -94,7 +101,9 @@ double area_on_left(std::span<const Point> ring) {
   constexpr double least = 1e-12;
   const Point moment = moment_of(ring);
   const bool is_balanced =
-      norm(moment) < least;  // a line to and fro, or an area whose center of mass is the sphere's
+      // the ring goes back on itself, or the center of mass of its region is the center of the
+      // sphere
+      norm(moment) < least;
   const Point middle = is_balanced ? Point{0, 0, 1} : normalized(moment);
   const double area = area_around(origin_for(ring, middle), ring);
   return is_balanced && std::abs(area) < least ? 0 : area;
@@ -109,7 +118,7 @@ bool is_clockwise(std::span<const Point> ring) {
 bool is_surely_larger(std::span<const Point> ring, double area) {
   if (ring.size() > few_corners || is_large(ring)) return false;
   const auto [least, most] = sines_at_first(ring);
-  // A triangle with sine s and cosine c <= 4 has an area of 2 atan(s / c) >= s / 3, as s <= 1.
+  // A triangle with sine s and cosine c <= 4 has an area of 2 atan(s / c) >= s / 3, since s <= 1.
   return (least >= 0 && most > 4 * area) || (most <= 0 && least < -4 * area);
 }
 

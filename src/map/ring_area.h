@@ -8,18 +8,23 @@
 #include "rondel/export.h"
 #include "rondel/types.h"
 
+// The signed area of rings of arcs.
+//
+// in    rings of unit vectors
+// out   steradians
 namespace rondel::map {
 
-// The area to the left of a ring (Oosterom, Strackee 1983), from -2 pi to 2 pi, by triangles at its first point:
-// of a small ring it has the right sign however thin the ring is. Of a large one they are triangles at its center of
-// mass, or at another point whose antipode is no corner.
+// Returns the area to the left of a ring, from -2 pi to 2 pi, as the sum of triangles (van
+// Oosterom, Strackee 1983). For a small ring the triangles are at its first point, and the sign is
+// right however thin the ring is. For a large ring they are at its center of mass, or at another
+// point whose antipode is no corner.
 RONDEL_API double area_on_left(std::span<const Point> ring);
 
-// Whether area_on_left() is less than 0. Triangles that all turn one way tell without an angle.
+// True if area_on_left() is less than 0. If all triangles turn the same way, no angle is computed.
 RONDEL_API bool is_clockwise(std::span<const Point> ring);
 
-// Whether that is at least so much to the right or to the left, where triangles that all turn one way tell without an
-// angle; false says nothing.
+// True only if the size of area_on_left() is at least `area`. The test computes no angle and needs
+// triangles that all turn the same way; false says nothing.
 RONDEL_API bool is_surely_larger(std::span<const Point> ring, double area);
 
 }  // namespace rondel::map

@@ -15,7 +15,7 @@
 namespace rondel::map {
 namespace {
 
-// The lines between faces of different regions.
+// Returns for each region the lines between its faces and those of other regions.
 std::vector<std::vector<DirectedLine>> borders_of(std::span<const NodedLine> lines,
                                                   std::size_t num_regions) {
   const PlanarFaces faces(lines);
@@ -53,7 +53,8 @@ bool is_inside_ring(const Loop& closed, const LonLat& p) {
   return is_inside;
 }
 
-// Whether a polygon that does not cross a hole, and lies not in what the hole is cut from, fills a part of it.
+// True if a ring, which does not cross the hole and is not outside of the polygon with the hole,
+// lies in the hole.
 bool is_in_hole(const Loop& hole, const Loop& ring) {
   const Rectangle room = rectangle_of(hole);
   const Rectangle around = rectangle_of(ring);
@@ -66,7 +67,7 @@ bool is_in_hole(const Loop& hole, const Loop& ring) {
   return true;
 }
 
-// Holes become parts of their polygons, and what is in them goes.
+// Removes all holes of the polygons and the polygons that lie in these holes.
 void fill_holes(std::vector<std::vector<PolygonWithHoles>>& cells) {
   std::vector<Loop> holes;
   for (auto& cell : cells) {

@@ -70,8 +70,8 @@ bool SharedLines::merge(const LonLat& a, const LonLat& b) {
   return true;
 }
 
-// A line that its own divisions lead back to, after positions have merged, is drawn as it is: what lies between goes to
-// and fro.
+// Appends the parts of a line. After positions have been merged, the divisions of a line may lead
+// back to it; such a line is appended undivided, since the lines between go back on themselves.
 void SharedLines::append_line(const LonLat& a, const LonLat& b, Descent& descent,
                               std::vector<DirectedLine>& out) const {
   if (a == b) return;
@@ -89,7 +89,7 @@ void SharedLines::append_line(const LonLat& a, const LonLat& b, Descent& descent
   descent.path.pop_back();
 }
 
-// A line and the same line back are divided alike.
+// Appends the sides so that a line and its reverse are divided alike.
 void SharedLines::append_sides(const Loop& loop, std::vector<DirectedLine>& out) const {
   if (loop.empty()) return;
   LonLat before = place(loop.back());

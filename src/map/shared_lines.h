@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// How lines of a map are divided and positions of it merged: for all regions at once, so that those on both sides of a
-// line get the same positions, bit by bit.
+// Records how lines of a map are divided and positions of it are merged. The records are for all
+// regions at once, so that the regions on both sides of a line get the same positions, bit by bit.
 #pragma once
 
 #include <map>
@@ -16,23 +16,27 @@
 
 namespace rondel::map {
 
+// The divisions and merges so far. Lines are named by their ends, in either order.
 class SharedLines {
  public:
   [[nodiscard]] bool is_empty() const { return divisions_.empty() && merged_.empty(); }
 
-  // Where a position is now.
+  // Returns the position that a position was merged into, or the position itself.
   [[nodiscard]] LonLat place(LonLat position) const;
 
-  // Whether the line is drawn as it is.
+  // True if the line is neither divided nor has a merged end.
   [[nodiscard]] bool is_current(const LonLat& a, const LonLat& b) const;
 
-  // Gives a line a position between its ends; false if it has one, or that is one of its ends.
+  // Divides a line at a position. If the line would become a part of itself in this way, its nearer
+  // end is merged with the position instead. Returns false, and changes nothing, if the line is not
+  // current or the position is one of its ends.
   bool divide(const LonLat& a, const LonLat& b, const LonLat& at);
 
-  // Makes two positions one; false if they are.
+  // Merges two positions. Returns false, and changes nothing, if they are merged already, are far
+  // apart in the plane, or are on different sides of the map's border.
   bool merge(const LonLat& a, const LonLat& b);
 
-  // The sides of a loop as they are now.
+  // Appends the sides of a loop with all divisions and merges applied.
   void append_sides(const Loop& loop, std::vector<DirectedLine>& out) const;
 
  private:
@@ -43,19 +47,21 @@ class SharedLines {
     }
   };
 
-  // The divided lines on the way to a part of one.
+  // The path from a line to a part of it through the divided lines between, to detect loops;
+  // `budget` limits their number.
   struct Descent {
     std::vector<Ends> path;
     int budget = 1 << 12;
   };
 
   [[nodiscard]] std::optional<LonLat> division_of(const LonLat& a, const LonLat& b) const;
-  // Whether the line would be a part of itself, divided there.
+  // True if dividing the line at this position would make it a part of itself.
   [[nodiscard]] bool leads_back(const LonLat& a, const LonLat& b, const LonLat& position) const;
   void append_line(const LonLat& a, const LonLat& b, Descent& descent,
                    std::vector<DirectedLine>& out) const;
 
-  std::map<Ends, LonLat, EndsInPlane> divisions_;  // of lines, their lower end first
+  // the division of each line, named by its ends, the lower one first
+  std::map<Ends, LonLat, EndsInPlane> divisions_;
   std::map<LonLat, LonLat, InPlane> merged_;
 };
 

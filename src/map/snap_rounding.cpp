@@ -19,7 +19,8 @@ struct GridLine {
   friend auto operator<=>(const GridLine&, const GridLine&) = default;
 };
 
-// A line of the grid that a region has, from low to high so many times more than back.
+// A line of the grid as a side of a region: how many times more often it leads from low to high
+// than back.
 struct GridSide {
   GridLine line;
   std::size_t region;
@@ -34,7 +35,8 @@ void append_side(const GridPlace& from, const GridPlace& to, std::size_t region,
       {is_upward ? GridLine{from, to} : GridLine{to, from}, region, is_upward ? count : -count});
 }
 
-// Lines, each once, in the order in which they come first, so that those near each other stay so; and the sides on each.
+// All lines, each once, in the order in which they first occur, so that near lines stay near each
+// other; with the sides that lie on each.
 class GridLines {
  public:
   explicit GridLines(std::vector<GridSide> sides) : sides_(std::move(sides)) {
@@ -90,7 +92,7 @@ std::vector<Line> lines_on_map(const GridLines& lines) {
   return all;
 }
 
-// Whether a place that is no end of a line lies on it.
+// True if a place lies on a line and is no end of it.
 bool has_inside(const GridLine& line, const GridPlace& p) {
   return turn_on_grid(line.low, line.high, p) == 0 &&
          is_before_along(line.low, line.high, line.low, p) &&
@@ -98,8 +100,8 @@ bool has_inside(const GridLine& line, const GridPlace& p) {
 }
 
 struct Meetings {
-  std::vector<GridPlace> crossings;  // their pixels
-  bool has_any = false;              // a crossing, or an end of a line inside of another one
+  std::vector<GridPlace> crossings;  // the pixels of crossings
+  bool has_any = false;              // true if lines cross, or an end of one is inside of another
 };
 
 Meetings meetings_of(const GridLines& lines, const Rectangles& rectangles) {
@@ -139,7 +141,7 @@ Rectangle rectangle_of_pixel(const GridPlace& c) {
   return {west, east, south, north};
 }
 
-// The sides along the polylines that the lines become.
+// Returns the sides along the polylines that the lines become.
 std::vector<GridSide> rounded(const GridLines& lines, const Rectangles& rectangles,
                               std::vector<GridPlace> crossings) {
   std::vector<std::vector<GridPlace>> inner(lines.size());
@@ -177,7 +179,7 @@ std::vector<NodedLine> snap_rounded(std::span<const std::vector<DirectedLine>> s
     for (const DirectedLine& side : sides_of_regions[region])
       append_side(on_grid(side.from), on_grid(side.to), region, 1, sides);
   }
-  // Once does it; what has been done is looked at.
+  // One round suffices; the second one confirms it.
   for (;;) {
     const GridLines lines(std::move(sides));
     const std::vector<Line> on_map = lines_on_map(lines);

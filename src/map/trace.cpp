@@ -8,18 +8,19 @@
 namespace rondel::map {
 namespace {
 
-// The pole within merge_distance of the arc between two points that are not poles; null if none.
+// Returns the pole within merge_distance of the arc between two points that are not poles, or null.
 const Point* pole_on_arc(const Point& p, const Point& q) {
   static constexpr Point north{0, 0, 1};
   static constexpr Point south{0, 0, -1};
-  if (p.x * q.x + p.y * q.y >= 0) return nullptr;  // the arc does not turn by 90 degrees around it
+  // the arc turns by less than 90 degrees around the axis
+  if (p.x * q.x + p.y * q.y >= 0) return nullptr;
   const Point normal = cross(p, q - p);
   if (std::abs(p.x * q.y - p.y * q.x) > merge_distance * norm(normal)) return nullptr;
   const double height = p.z * distance_from_axis(q) + q.z * distance_from_axis(p);
   return height > 0 ? &north : &south;
 }
 
-// The point where an arc from the west to the east crosses the plane of the antimeridian.
+// Returns the point where an arc from the west to the east crosses the plane of the antimeridian.
 Point crossing(const Point& west, const Point& east) {
   if (east.y == 0) return east;
   return normalized(Point{west.x * east.y - east.x * west.y, 0, west.z * east.y - east.z * west.y});
@@ -47,7 +48,7 @@ class Drawing {
     }
   }
 
-  // The end of an open line. A pole is already there.
+  // Adds the end of an open line, unless it is a pole, which has been added.
   void finish_at(const Point& end) {
     if (!is_pole(end)) add(map_point(end));
     std::vector<std::size_t>& starts = trace_.starts;
@@ -65,7 +66,7 @@ class Drawing {
     trace_.arcs.push_back(arc_);
   }
 
-  // Straight up or down a meridian, so nothing lies between the pole and the other end.
+  // Adds the line from a point to a pole, which follows a meridian and needs no points between.
   void reach_pole(const Point& p, const Point& pole) {
     const MapPoint start = map_point(p);
     add(start);
@@ -104,7 +105,7 @@ class Drawing {
     trace_.arcs.resize(trace_.points.size(), arc_);
   }
 
-  // The beginning of the ring is the end of its last chain.
+  // Rotates the points so that the ring begins with the start of its first chain.
   void rotate_to_first_start() {
     std::vector<std::size_t>& starts = trace_.starts;
     if (starts.empty()) return;
@@ -115,11 +116,12 @@ class Drawing {
     for (std::size_t& start : starts) start -= shift;
   }
 
-  // At a pole on the ring the region is a sector, at the north pole from the longitude at which the
-  // ring leaves eastward to that at which it arrives, at the south pole the other way round.
-  // Otherwise the region has the north pole inside when the ring winds around it once; for
-  // that count a ring through the south pole is pushed into its region, whose antipode at
-  // the north pole is no inner point as the region is convex.
+  // True if the region has the corners at the north pole inside.
+  //
+  // At a pole on the ring the region is a sector: at the north pole from the longitude at which the ring leaves
+  // eastward to that at which it arrives, at the south pole the other way round. Otherwise the region has
+  // the north pole inside if the ring winds around it once. For that count a ring through the south pole is
+  // moved into its region; its antipode at the north pole is no inner point, as the region is convex.
   bool has_north_corners() {
     bool visits_north = false;
     bool is_inside = false;

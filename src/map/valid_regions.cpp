@@ -22,11 +22,12 @@ namespace {
 
 constexpr std::size_t regions_per_task = 16;
 constexpr int most_passes = 40;
-// Lines that are bisected without an end would fill the memory: so many changes for each position, and some more.
+// Bounds the changes: so many for each position of the regions, and some more. Lines that are
+// bisected forever would fill the memory.
 constexpr std::size_t most_changes_of_position = 8;
 constexpr std::size_t most_changes_besides = 1 << 12;
 
-// Which regions have a position.
+// Knows which regions have a position.
 class PositionOwners {
  public:
   explicit PositionOwners(std::span<const LoopsOfRegion> regions) {
@@ -54,7 +55,7 @@ class PositionOwners {
     more_[p].insert(owners.begin(), owners.end());
   }
 
-  // A line that a region has got may have been divided before.
+  // Adds the starts of a region's sides. A line that a region gets may have been divided before.
   void add_starts(std::span<const DirectedLine> sides, std::size_t region) {
     for (const DirectedLine& side : sides) {
       if (!has_first(side.from, region)) more_[side.from].insert(region);
@@ -70,7 +71,7 @@ class PositionOwners {
     return x.position == y.position ? x.region < y.region : InPlane()(x.position, y.position);
   }
 
-  // Whether a region has had a position from the beginning.
+  // True if a region had a position from the beginning.
   [[nodiscard]] bool has_first(const LonLat& p, std::size_t region) const {
     return std::ranges::binary_search(all_, OwnedPosition{p, region}, is_before);
   }
@@ -125,7 +126,7 @@ class RegionsInPlane {
     return most_changes_of_position * num_positions + most_changes_besides;
   }
 
-  // The regions that the steps change.
+  // Mends the troubles of the open regions, and returns all regions that this changes.
   std::set<std::size_t> mend(std::span<const std::size_t> open, int pass) {
     if (!owners_) owners_.emplace(regions_);
     Mending mending(lines_, pass);
@@ -158,7 +159,8 @@ class RegionsInPlane {
   }
 
   [[nodiscard]] std::vector<PolygonsOfRegion> settled() const {
-    // Steps without an end may have led lines astray: then regions are settled as they were.
+    // Changes without end may have led lines astray, so then the regions are settled as they were
+    // given.
     const SharedLines unchanged;
     const SharedLines& lines = num_changes_ > most_changes() ? unchanged : lines_;
     std::vector<std::vector<DirectedLine>> sides(regions_.size());
@@ -168,7 +170,8 @@ class RegionsInPlane {
     return settled_regions(sides, threads_);
   }
 
-  std::vector<LoopsOfRegion> regions_;  // the last one is what no other one covers
+  // the given regions, and the part of the map outside of all of them
+  std::vector<LoopsOfRegion> regions_;
   unsigned threads_;
   std::size_t num_changes_ = 0;
   std::vector<RegionLook> looks_;

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// coast_lines: what data/coast.txt says, whose lines are a first position and steps.
+// Decodes data/coast.txt. Each line of it is a polyline: a first position and then steps from
+// position to position, longitude before latitude, in hundredths of degrees.
 #include <charconv>
 #include <cstdint>
 #include <string_view>
@@ -15,7 +16,7 @@ CoastLines coast_lines() {
   const std::string_view text = page::coast_text();
   CoastLines coast;
   std::int32_t sums[2] = {0, 0}, step = 0;  // hundredths of degrees
-  std::size_t count = 0;                    // of numbers in the line
+  std::size_t count = 0;                    // how many numbers of the current line were read
   for (const char* at = text.data(); at != text.data() + text.size(); ++at) {
     at = std::from_chars(at, text.data() + text.size(), step).ptr;
     sums[count % 2] += step;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// globe_page and write_globe: the texts of page_text.h around the arrays of page_arrays.h.
+// Assembles a globe page: the texts of page_text.h around the arrays of page_arrays.h.
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -27,14 +27,15 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Where the globe is looked at from at first, and how many times nearer than all of it.
+// The initial view of the globe: the point in its middle, and the magnification relative to a view
+// of the whole globe.
 struct FirstView {
   LonLat middle;
   double closeness = 1;
 };
 
-// If the sites are on one side of the globe, their middle, so near that they fill the picture. Otherwise a
-// little from the north at the meridian of Greenwich.
+// Returns a view that is filled by the sites if they are on one side of the globe, or else a view
+// of the meridian of Greenwich from 20 degrees north.
 FirstView view_of_sites(const std::vector<Point>& directions) {
   Point sum{};
   for (const Point& p : directions) sum = {sum.x + p.x, sum.y + p.y, sum.z + p.z};
@@ -63,7 +64,8 @@ const char* name_of(GlobeFill fill) {
   return fill == GlobeFill::none ? "none" : fill == GlobeFill::area ? "area" : "values";
 }
 
-// As JSON in ASCII, in which nothing ends the script that holds it. Text that is not UTF-8 is mended.
+// Returns the value as JSON in ASCII that cannot end the script element that contains it. Bytes
+// that are not UTF-8 are replaced.
 std::string script_json(const nlohmann::ordered_json& value) {
   std::string text;
   for (const char c : value.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace)) {
@@ -76,6 +78,7 @@ std::string script_json(const nlohmann::ordered_json& value) {
   return text;
 }
 
+// Returns the text with the characters that HTML reserves replaced by their names.
 std::string html_text(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -99,6 +102,8 @@ std::string html_text(std::string_view text) {
   return result;
 }
 
+// Returns the description of the page that the viewer reads first: counts, options, and the names
+// and lengths of all arrays.
 nlohmann::ordered_json about_page(const SiteTable& table, const Triangulation& triangulation,
                                   const GlobeOptions& options, const FirstView& view,
                                   const std::vector<page::PageArray>& arrays) {
@@ -133,7 +138,8 @@ nlohmann::ordered_json about_page(const SiteTable& table, const Triangulation& t
   return about;
 }
 
-// An element of the page for each array, whose texts are freed one by one.
+// Returns one script element for each array. The bytes of an array are freed when they have been
+// packed.
 std::string data_elements(std::vector<page::PageArray> arrays, const Execution& execution) {
   std::string text;
   for (std::size_t i = 0; i < arrays.size(); ++i) {
@@ -149,7 +155,8 @@ std::string data_elements(std::vector<page::PageArray> arrays, const Execution& 
   return text;
 }
 
-// The template with each @NAME@ replaced; what is put in is not searched again.
+// Returns the template with each @NAME@ replaced by its text; the texts that were put in are not
+// searched again.
 std::string filled_in(std::string_view frame,
                       const std::vector<std::pair<std::string_view, std::string_view>>& places) {
   std::string page;

@@ -14,10 +14,12 @@
 namespace rondel::page {
 namespace {
 
-// Large enough that what a piece cannot refer to, the 32 KiB before it, hardly matters.
+// A deflate stream refers back to at most 32 KiB. A piece cannot refer to the piece before it,
+// which hardly matters for pieces of 1 MiB.
 constexpr std::size_t piece_size = 1 << 20;
 
-// A piece of a deflate stream (RFC 1951); all but the last end at a byte with an empty block.
+// Returns a piece of a deflate stream (RFC 1951). All pieces but the last end with an empty block,
+// so that they end at a byte.
 std::string deflated(std::string_view piece, bool is_last) {
   z_stream stream{};
   constexpr int raw = -15;
@@ -54,7 +56,7 @@ std::string zlib_stream(std::string_view bytes, unsigned threads) {
   system::parallel_for(threads, count, 1, [&](std::size_t i, std::size_t) {
     pieces[i] = deflated(bytes.substr(i * piece_size, piece_size), i + 1 == count);
   });
-  std::string stream = "\x78\x9c";  // deflate with a window of 32 KiB, the usual effort
+  std::string stream = "\x78\x9c";  // header: deflate, window of 32 KiB, default effort
   for (const std::string& piece : pieces) stream += piece;
   const uLong checksum = adler32_z(adler32_z(0, nullptr, 0),
                                    reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Arrays as a page holds them: by planes, as a zlib stream (RFC 1950), in base64 (RFC 4648).
+// Packs arrays for a page: bytes sorted by planes, compressed as a zlib stream (RFC 1950), written in
+// base64 (RFC 4648).
+//
+// in    bytes
+// out   bytes, text
 #pragma once
 
 #include <cstddef>
@@ -10,14 +14,17 @@
 
 namespace rondel::page {
 
-// The first bytes of all numbers of `width` bytes, then all second ones ...: bytes of a plane are alike,
-// those of a number are not.
+// Returns the first bytes of all numbers of `width` bytes, then all second bytes, and so on. Bytes
+// of one plane resemble each other more than the bytes of one number, so they compress better.
+// Precondition: bytes.size() is a multiple of `width`.
 std::string in_planes(std::string_view bytes, std::size_t width);
 
-// Pieces of a fixed size are compressed by several threads, so that the bytes do not depend on
-// their number. Throws Interrupted where the calling thread is told to stop.
+// Returns the bytes as a zlib stream. Pieces of a fixed size are compressed by several threads, so
+// the result does not depend on their number. Throws Interrupted if the calling thread is told to
+// stop.
 std::string zlib_stream(std::string_view bytes, unsigned threads);
 
+// Returns the bytes in base64, padded with '='.
 std::string base64(std::string_view bytes);
 
 }  // namespace rondel::page

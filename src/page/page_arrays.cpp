@@ -17,6 +17,7 @@
 namespace rondel::page {
 namespace {
 
+// Returns rows of numbers as little-endian bytes; `width` is the size of one number.
 template <class Row>
 PageArray page_array(std::string name, const char* kind, std::size_t width,
                      std::span<const Row> rows) {
@@ -36,7 +37,8 @@ PageArray indices(std::string name, std::span<const Row> rows) {
   return page_array(std::move(name), "u32", sizeof(Index), rows);
 }
 
-// A direction has no length, and differences of huge coordinates are finite when they are halved.
+// Returns the unit vector from the center to a site, or (0, 0, 0). Coordinates are halved first, so
+// that the difference of huge ones is finite.
 Point direction(const Point& site, const Point& center) {
   const Point half{site.x / 2 - center.x / 2, site.y / 2 - center.y / 2, site.z / 2 - center.z / 2};
   const double largest = std::max({std::abs(half.x), std::abs(half.y), std::abs(half.z)});
@@ -46,17 +48,22 @@ Point direction(const Point& site, const Point& center) {
   return {p.x / length, p.y / length, p.z / length};
 }
 
+// Returns the distance of a site from the center of the sphere, in radii of the sphere.
 double length_in_radii(const Point& site, const Sphere& sphere) {
   const Point& c = sphere.center;
   const double half = exact::length_of(site / 2 - c / 2);
   return half / std::sqrt(sphere.squared_radius) * 2;
 }
 
-// The tangent is accurate for small circles too.
+// Returns the radius in radians of the circle that a site at this distance from the center (in
+// radii) sees: arccos(1 / length), or 0 inside of the sphere. The arctangent is accurate for small
+// circles too.
 double radius_of_circle(double length) {
   return length > 1 ? exact::argument(std::sqrt(length - 1) * std::sqrt(length + 1), 1) : 0;
 }
 
+// Returns the radius of each site's circle in radians: that of the table if it has radii, or else
+// from the site's distance. Duplicates get 0.
 std::vector<double> radii(const SiteTable& table, const Triangulation& triangulation,
                           const std::vector<double>& lengths) {
   constexpr double degree = 3.14159265358979323846 / 180;
@@ -69,7 +76,8 @@ std::vector<double> radii(const SiteTable& table, const Triangulation& triangula
   return result;
 }
 
-// What the page computes, operation by operation (viewer/src/surface.js, plainCenter).
+// Returns the circumcenter as the page computes it, operation by operation (viewer/src/surface.js,
+// plainCenter), so that both have the same bits.
 Point plain_center(const Point& a, const Point& b, const Point& c) {
   const double ux = b.x - a.x, uy = b.y - a.y, uz = b.z - a.z;
   const double vx = c.x - a.x, vy = c.y - a.y, vz = c.z - a.z;
@@ -81,10 +89,13 @@ Point plain_center(const Point& a, const Point& b, const Point& c) {
   return {x / length, y / length, z / length};
 }
 
+// Returns the bits in which two doubles differ, as a double.
 double different_bits(double a, double b) {
   return std::bit_cast<double>(std::bit_cast<std::uint64_t>(a) ^ std::bit_cast<std::uint64_t>(b));
 }
 
+// Returns the points of the diagram, with each circumcenter replaced by the bits in which it
+// differs from plain_center().
 std::vector<Point> stored_points(const Triangulation& triangulation, std::vector<Point> points,
                                  const std::vector<Point>& directions,
                                  const std::vector<double>& lengths) {
@@ -102,12 +113,13 @@ std::vector<Point> stored_points(const Triangulation& triangulation, std::vector
   return points;
 }
 
-// Rings are the faces around each site, which the page finds by itself, unless there are further points.
+// True if the rings of the cells have to be stored. Otherwise each ring has just the faces around
+// its site, which the page finds by itself.
 bool has_own_rings(const Triangulation& triangulation, const Cells& cells) {
   return triangulation.dimension() < 2 || cells.points.size() != triangulation.num_faces();
 }
 
-// A closed line with its first point at the end once more.
+// Appends the isolines as two arrays. A closed line gets its first point again at its end.
 void add_isolines(const Isolines& lines, std::vector<PageArray>& arrays) {
   std::vector<Point> points;
   std::vector<Index> ends;

@@ -12,12 +12,14 @@
 namespace rondel::page {
 namespace {
 
-// Whether `ends` are those of parts that make up [0, size).
+// True if `ends` has `count` ends of consecutive parts that make up [0, size).
 bool are_parts(const std::vector<std::uint64_t>& ends, std::size_t count, std::size_t size) {
   return ends.size() == count && std::ranges::is_sorted(ends) &&
          (count == 0 ? 0 : ends.back()) == size;
 }
 
+// True if the arrays of the diagram have the sizes that the triangulation requires and all indices
+// are in range.
 bool has_shape_of(const Triangulation& triangulation, const Diagram& diagram) {
   const Cells& cells = diagram.cells;
   const std::size_t n = triangulation.num_sites();
