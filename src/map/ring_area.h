@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// The signed area of rings of arcs.
+//
+// in    rings of unit vectors
+// out   steradians
 #pragma once
 
 #include <span>
@@ -8,10 +12,6 @@
 #include "rondel/export.h"
 #include "rondel/types.h"
 
-// The signed area of rings of arcs.
-//
-// in    rings of unit vectors
-// out   steradians
 namespace rondel::map {
 
 // Returns the area to the left of a ring, from -2 pi to 2 pi, as the sum of triangles (van

@@ -1,13 +1,17 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The boundaries of the pieces into which the cells of a subdivision are cut by those of a cover.
+// The boundaries of the pieces into which the cells of a subdivision are cut by the cells of a cover.
 //
-// The boundary of a cell is a sequence of arcs, each in one cell of the cover (crossings.h). What of the
-// cover's edges lies inside follows without a further decision: an edge that the boundary crosses on
-// its way out of a cell goes inwards in the direction of its halfedge there, to the next crossing or
-// to its end, and from there all other edges go on. The arcs with the cell b of the cover to their
-// left bound the piece of b; edges of the cover bound two.
+// in    a subdivision and a cover, which is perturbed (signs.h)
+// out   for each cell the arcs that bound its pieces, each with the cells of the cover beside it
+// index cells in the spatial orders of the subdivision and of the cover; points of one cell, from 0
+//
+// The boundary of a cell is a sequence of arcs, each in one cell of the cover (crossings.h). It determines
+// the parts of the cover's edges inside of the cell without any further decision: an edge that the
+// boundary crosses on its way out of a cell of the cover leads inwards in the direction of its halfedge
+// there, to the next crossing or to its end, and all other edges continue from that end. The arcs with
+// the cell b of the cover to their left bound the piece in b; edges of the cover bound two pieces.
 #pragma once
 
 #include <cstdint>
@@ -21,36 +25,40 @@
 
 namespace rondel::overlay {
 
-// From one point to another along a great circle.
+// An arc of a great circle that bounds a piece.
 struct PieceArc {
-  Index left;   // the cell of the cover
-  Index right;  // the same of an edge of the cover; no_index of the cell's boundary
-  Index from;   // of points()
+  Index left;  // the cell of the cover to the left
+  // for an arc of an edge of the cover, its cell to the right; no_index for an arc of the cell's
+  // boundary
+  Index right;
+  Index from;  // index into points()
   Index to;
 };
 
-// Of the cells [first_cell, end_cell).
+// Traces the boundaries of the pieces of the cells [first_cell, end_cell).
 class ArcMaker {
  public:
   ArcMaker(const Subdivision& cells, const Subdivision& cover, Index first_cell, Index end_cell)
       : cells_(cells), cover_(cover), crossings_(cells, cover, first_cell, end_cell) {}
 
-  // All arcs of a cell that has a ring: first those of its boundary, in order. The result lives until the
-  // next call.
+  // Returns all arcs of a cell that has a ring. The arcs of the cell's boundary come first, in
+  // order. The result is valid until the next call.
   std::span<const PieceArc> operator()(Index cell);
   [[nodiscard]] std::span<const Point> points() const { return points_; }
-  // Which of the points are the corners of the last cell, in order.
+  // Returns the corners of the last cell, in order, as indices into points().
   [[nodiscard]] std::span<const Index> corners() const { return corners_; }
-  // Of the last cell: whether no corner of the cover seemed to be inside of it and outside, as it may where sides cross.
+  // False if a corner of the cover seemed to be both inside and outside of the last cell, as
+  // happens if sides of the cell cross.
   [[nodiscard]] bool is_consistent() const { return is_consistent_; }
 
  private:
-  // Where the boundary leaves a cell of the cover.
+  // A place where the boundary leaves a cell of the cover.
   struct Passage {
     Halfedge edge;  // the lower one of `out` and its twin
+    // the halfedge of the cover by which the boundary leaves
     Halfedge out;
-    Halfedge by;  // of the cell
-    Index point;  // of points_
+    Halfedge by;  // the halfedge of the cell that crosses
+    Index point;  // the crossing, an index into points_
   };
 
   void follow_boundary(Index cell);
@@ -76,11 +84,11 @@ class ArcMaker {
   Crossings crossings_;
   std::vector<PieceArc> arcs_;
   std::vector<Point> points_;
-  std::vector<Index> corners_;  // of points_
+  std::vector<Index> corners_;  // indices into points_
   std::vector<Passage> passages_;
-  std::uint64_t passed_ = 0;        // digits_of() the edges that have passages
-  std::vector<Halfedge> arrivals_;  // their ends are inside, and wait
-  query::VisitedSet visited_;       // points of the cover
+  std::uint64_t passed_ = 0;        // a union of digits_of() the edges that have passages
+  std::vector<Halfedge> arrivals_;  // halfedges whose ends are inside and are still to be visited
+  query::VisitedSet visited_;       // the points of the cover whose edges were taken
   std::vector<Point> ring_;
   bool is_consistent_ = true;
 };

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Regions from what is around them: arcs in any order become rings.
+// Joins arcs in any order into rings.
+//
+// in    arcs, each with the key of the region to its left
+// out   the rings of each region
+// index keys, from 0: the cells of the result
 #pragma once
 
 #include <cstddef>
@@ -13,22 +17,26 @@
 
 namespace rondel::overlay {
 
-// From one point to another along a great circle, with a region to the left.
+// An arc of a great circle with a region to its left.
 struct KeyedArc {
-  Index key;  // of the region
+  Index key;  // the region
   Point from;
   Point to;
 };
 
-// Cell i has the rings around the region with the key i.
-// 1. Arcs of one region that run to and fro between two points vanish, so that what touches there is joined.
-// 2. Where rings of a region meet in a point each keeps to one part of it.
-// 3. Rings begin at their corner with the least coordinates and are sorted by them; points are sorted by
-//    coordinates. So nothing depends on the order of the arcs.
-// 4. Rings that are no larger than what rounding of their corners may make are left out.
+// Returns cells of which cell i has the rings around the region with the key i.
+//
+// 1. Arcs of one region that lead back and forth between two points cancel, so that parts that touch there
+//    are joined.
+// 2. Where rings of a region meet in a point, each of them bounds one part of the region there.
+// 3. A ring begins at its corner with the least coordinates, rings are sorted by these corners, and points by
+//    their coordinates. So the result does not depend on the order of the arcs.
+// 4. Rings no larger than what rounding of their corners can make are dropped.
+//
+// Throws InvalidInput if the arcs of a region do not form closed rings and are wider than rounding.
 CellRings rings_around(std::span<const KeyedArc> arcs, std::size_t num_keys, unsigned threads);
 
-// Whether there are as many arcs from any point to any other one as back, so that they bound nothing.
+// True if between any two points as many arcs lead back as forth, so that the arcs bound no region.
 bool is_nothing(std::span<const KeyedArc> arcs);
 
 }  // namespace rondel::overlay

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Single cells, taken from others, turned inside out and put together.
+// Operations on single cells: extraction, complement, concatenation. A single cell is a CellRings
+// with one cell.
 #pragma once
 
 #include "rondel/cell_rings.h"
@@ -9,13 +10,15 @@
 
 namespace rondel::overlay {
 
+// Returns one of the cells, with points of its own.
 CellRings one_cell(const CellRings& cells, Index cell);
-// The complement of a cell.
+// Returns the complement of a single cell. The complement of the whole sphere has no rings.
 CellRings beyond_cell(CellRings one);
+// True if a single cell is not empty.
 [[nodiscard]] bool has_any(const CellRings& one);
-// One cell more. Points are its own.
+// Appends a single cell to `all`, with points of its own.
 void append(const CellRings& one, CellRings& all);
-// Makes points that are equal bit by bit one, so that cells share the sides that they have in common.
+// Merges points that are equal bit by bit, so that cells share their common sides.
 void merge_equal_points(CellRings& cells);
 
 }  // namespace rondel::overlay

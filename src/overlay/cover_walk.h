@@ -1,8 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Walks along an arc through the cells of a cover. Which edges it crosses, and in which order, is decided
-// exactly, with the cover turned as signs.h says.
+// Walks along an arc through the cells of a cover.
+//
+// in    an arc that is not perturbed, and the cell of the cover that has its start
+// out   the edges of the cover that the arc crosses, in order, and the cell that has its end
+// index cells and halfedges of the cover
+//
+// All decisions are exact, with the cover perturbed (signs.h).
 #pragma once
 
 #include <algorithm>
@@ -17,8 +22,9 @@ class CoverWalk {
  public:
   explicit CoverWalk(const Subdivision& cover) : cover_(cover) {}
 
-  // From line.from() in `cell` to line.to(), whose cell it returns. Calls cross(h, edge) for each
-  // halfedge by which a cell is left, in order.
+  // Walks from line.from(), which is in `cell`, to line.to(), and returns the cell of the latter.
+  // Calls cross(h, edge) for each halfedge h by which the walk leaves a cell, in order; `edge` is
+  // the same halfedge as a CoverEdge.
   template <class Cross>
   Index operator()(const TracedLine& line, Index cell, const Cross& cross) const {
     if (cover_.num_halfedges() == 0 || line.is_point()) return cell;
@@ -36,14 +42,17 @@ class CoverWalk {
   }
 
  private:
-  static constexpr Index most_at_once = 8;  // corners: most cells of diagrams have no more
+  // the corners that are tested at once: most cells of diagrams have no more
+  static constexpr Index most_at_once = 8;
 
-  // The halfedge whose origin is right of the line and whose end is left of it.
+  // Returns the halfedge by which the line leaves a convex cell: its origin is right of the line
+  // and its end is left of it. `in` is the halfedge by which the line entered the cell, or
+  // no_index.
   [[nodiscard]] Halfedge way_out(const TracedLine& line, Index cell, Halfedge in) const {
     const Index begin = cover_.begin_of(cell);
     const Index size = cover_.end_of(cell) - begin;
     if (size <= most_at_once) {
-      // A bit for each corner, without a branch: which way it goes cannot be guessed.
+      // One bit for each corner is computed without a branch, which would be unpredictable.
       unsigned left = 0;
       unsigned sure = 0;
       for (Index k = 0; k < most_at_once; ++k) {
@@ -64,9 +73,10 @@ class CoverWalk {
   }
   [[nodiscard]] Halfedge way_out_by_search(const TracedLine& line, Index cell, Halfedge in) const;
 
-  // The halfedge of a star whose triangle with the center has p.
+  // Returns the halfedge of a cell of Shape::star whose triangle with the cell's center contains p.
   [[nodiscard]] Halfedge halfedge_before(const Point& p, Index cell) const;
-  // As way_out() of a star, or no_index where the line ends before.
+  // Returns the halfedge by which the line leaves a cell of Shape::star, or no_index if the line
+  // ends in the cell.
   [[nodiscard]] Halfedge way_out_of_star(const TracedLine& line, Index cell, Halfedge in) const;
 
   const Subdivision& cover_;

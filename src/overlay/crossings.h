@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Where the edges of cells cross those of a cover.
+// Computes where the edges of cells cross the edges of a cover.
+//
+// in    a subdivision, a range of its cells, and a cover
+// out   for each halfedge of these cells, the cover's cell at its origin and all crossings in order
+// index halfedges and cells of the subdivision and of the cover
 #pragma once
 
 #include <cstddef>
@@ -13,24 +17,27 @@
 
 namespace rondel::overlay {
 
-// Where an edge leaves a cell of the cover.
+// A crossing: an edge leaves a cell of the cover.
 struct EdgeCrossing {
-  Halfedge out;  // of the cover
+  Halfedge out;  // the halfedge of the cover that is crossed, of the cell that is left
   Point point;   // rounded
 };
 
-// Of the edges of some cells, [first_cell, end_cell), whichever others they are together with.
+// The crossings of the edges of the cells [first_cell, end_cell). The result for an edge does not
+// depend on the range.
 class Crossings {
  public:
   Crossings(const Subdivision& cells, const Subdivision& cover, Index first_cell, Index end_cell);
 
+  // The crossings of one halfedge, as a range of all crossings.
   struct EdgeTrace {
     Index start;  // the cover's cell at its origin
     Index first;
+    // true if the crossings are those of the twin, and so in reverse order
     Index count;
     bool is_backwards;  // the crossings are those of its twin
   };
-  // Of a halfedge of these cells.
+  // Returns the trace of a halfedge of these cells.
   [[nodiscard]] const EdgeTrace& trace_of(Halfedge h) const { return traces_[h - first_]; }
   [[nodiscard]] std::span<const EdgeCrossing> of(const EdgeTrace& trace) const {
     return std::span(crossings_).subspan(trace.first, trace.count);

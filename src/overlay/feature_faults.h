@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Words for what is wrong with the polygons of a file.
+// Messages about invalid polygons of a file.
 #pragma once
 
 #include <cstddef>
@@ -13,13 +13,15 @@
 
 namespace rondel::overlay {
 
+// Returns "longitude latitude" in degrees, with 10 significant digits.
 std::string text_of_place(const LonLat& place);
 std::string text_of_place(const Point& place);
 
-// "ring 0 of part 2": the shell of the third polygon.
+// Returns a name for a ring of a feature, such as "ring 0 of part 2" for the shell of the third
+// polygon.
 std::string ring_name(const std::vector<io::LonLatRing>& rings, Index ring);
 
-// Throws FileError with the file and the feature.
+// Throws FileError with the name of the file, the feature and what is wrong with it.
 [[noreturn]] void refuse_feature(const io::PolygonFeatures& features, std::size_t feature,
                                  const std::string& what);
 

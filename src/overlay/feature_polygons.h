@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Features of files as cells.
+// Converts the polygons of a file into cells.
+//
+// in    features with rings of longitudes and latitudes
+// out   a cell for each feature
+// index features
 #pragma once
 
 #include "io/geojson_polygons.h"
@@ -10,7 +14,8 @@
 
 namespace rondel::overlay {
 
-// Throws FileError for polygons that mean no region, with the feature, the ring and a place.
+// Returns the cells of all features. Throws FileError for polygons that bound no region, with the
+// feature, the ring and a place.
 CellRings cells_of_features(io::PolygonFeatures& features, const PolygonOptions& options,
                             const Execution& execution);
 

@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A cover of the sphere by triangles whose sides include those of given cells.
+// Triangulates the sphere so that the sides of given cells are edges: a constrained triangulation that makes a
+// cover of cells that are only parts of the sphere.
+//
+// in    a subdivision that need not cover the sphere
+// out   a cover by triangles, each with the cell that it belongs to
+// index cells in the spatial orders of the subdivision and of the cover
 #pragma once
 
 #include <array>
@@ -17,19 +22,23 @@
 
 namespace rondel::overlay {
 
+// A cover by triangles.
 struct Filling {
   Subdivision cover;
-  // Of each cell of the cover, the given cell that it is a part of; the number of these: none.
+  // For each triangle, the cell of the given subdivision that it is a part of; cells.num_cells()
+  // for a triangle in no cell.
   std::vector<Index> owners;
 };
 
-// A place where the sides of cells contradict each other: they cross, or the place is inside of two cells, or of one twice.
+// A place where sides of cells contradict each other: they cross, or the place is inside of two
+// cells, or twice inside of one.
 struct SideConflict {
-  Index first;  // by name, not above the second
+  Index first;  // index in the input, not above `second`
   Index second;
   Point place;
   bool is_crossing;
 };
+// Is thrown if the sides of cells contradict each other.
 class ConflictingSides : public InvalidInput {
  public:
   explicit ConflictingSides(const SideConflict& conflict);
@@ -39,20 +48,24 @@ class ConflictingSides : public InvalidInput {
   SideConflict conflict_;
 };
 
-// Whether any do, exactly. Whatever has one owner on both sides is no side.
+// Returns a conflict between sides of the cells, or nothing; exact. Sides with the same cell on
+// both sides bound nothing and are ignored.
 std::optional<SideConflict> side_conflict(const Subdivision& cells, const Execution& execution);
-// Whether none do, and no place is a side of one cell in both directions either.
+// True if there is no conflict, and no cell has a side in both directions.
 bool has_plain_sides(const Subdivision& cells, const Execution& execution);
-// Whether one cell with all of these sides has no conflict, as side_conflict() finds them.
+// True if a single cell with these sides has no conflict in the sense of side_conflict().
 bool is_region(std::span<const BorderArc> sides, const Execution& execution);
 
-// The Delaunay triangulation of the corners and of the ends of the axes, into which the sides of the cells are put, all
-// of it exactly; but corners that are on a side to rounding become corners of it where the cells would overlap else. Throws
-// InvalidInput where cells overlap by more.
+// Returns the Delaunay triangulation of the corners and of the ends of the coordinate axes, with
+// the sides of the cells inserted; all decisions are exact. Where cells would overlap otherwise,
+// corners that are on a side up to rounding become corners of the side. Throws InvalidInput
+// (ConflictingSides) if cells overlap by more.
 Filling filling_of(const Subdivision& cells, const Execution& execution);
 
-// work(is_first_filled, execution) for the one with fewer sides, or else, if that one's cells overlap, for the other one,
-// of which nothing is told, as fractions must not decrease. `what` they are is for the message where both do.
+// Calls work(is_first_filled, execution) with the subdivision of fewer sides as the one to be
+// triangulated. If its cells overlap, calls it again for the other one, without a progress callback
+// since fractions must not decrease. `what` names the two for the message of the InvalidInput that
+// is thrown if both have overlapping cells.
 template <class Work>
 auto with_one_filled(const Subdivision& first, const Subdivision& second,
                      const std::array<const char*, 2>& what, const Execution& execution,

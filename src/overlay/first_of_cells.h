@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells that overlap made disjoint.
+// Makes overlapping cells disjoint.
 #pragma once
 
 #include <span>
@@ -13,10 +13,12 @@
 
 namespace rondel::overlay {
 
-// The cells, and one more that is all that is in none of them. Precondition: no two overlap.
+// Returns the cells and one more: the complement of their union. Precondition: no two cells
+// overlap.
 RONDEL_API CellRings with_outside(CellRings cells, const Execution& execution);
 
-// Leaves a place that is in several cells to the first of them. `overlaps` are their overlapping_cells(); no cell overlaps itself.
+// Assigns each place to the first cell that has it, and returns the cells. `overlaps` are the
+// overlapping_cells() of `cells`. Precondition: no cell overlaps itself.
 CellRings first_of_cells(const CellRings& cells, std::span<const CrossingCells> overlaps,
                          const Execution& execution);
 

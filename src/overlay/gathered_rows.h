@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Rows of pieces, made by threads, put together in the order of the cells' names.
+// Assembles the rows of pieces that several threads compute, in the order of the cells' indices in the input.
+//
+// in    a function that returns the pieces of one cell
+// out   PieceRows
+// index rows: indices of the cells in the input; places: cells of the other subdivision in its own order
 #pragma once
 
 #include <algorithm>
@@ -17,10 +21,12 @@
 
 namespace rondel::overlay {
 
-// Pieces of some cells, in the order of the cells.
+// The pieces of a block of cells, in the order of the cells.
 struct RowBlock {
-  std::vector<Index> counts;  // of each cell
+  std::vector<Index> counts;  // the number of pieces of each cell
+  // the column of each piece
   std::vector<Index> columns;
+  // the place of each piece
   std::vector<Index> places;
   std::vector<double> areas;
   std::vector<Point> moments;
@@ -28,7 +34,9 @@ struct RowBlock {
 
 inline constexpr std::size_t cells_per_row_block = 1024;
 
-// By blocks one after the other: what is near on the sphere is near in memory then.
+// Returns the sums of the areas of all columns in double_double arithmetic. `names` gives the
+// column of each place. The sums go from block to block in spatial order, so that memory is read
+// and written in order.
 inline std::vector<double> column_sums(std::span<const RowBlock> blocks,
                                        std::span<const Index> names) {
   std::vector<exact::DoubleDouble> sums(names.size());
@@ -42,8 +50,9 @@ inline std::vector<double> column_sums(std::span<const RowBlock> blocks,
   return result;
 }
 
-// make(first, end) makes what the work on these cells needs; of it operator()(cell) gives pieces, with `area` and
-// `moment`, in the order of column(piece), of a cell that has a ring. column(piece) is names[place(piece)].
+// Computes the pieces of all cells in parallel and returns them as rows. make(first, end) makes a callable for the
+// cells [first, end). Its operator()(cell) returns the pieces of a cell that has a ring, each with `area` and
+// `moment`, sorted by its column(piece). Its column(piece) must be names[place(piece)].
 template <class Make>
 PieceRows gathered_rows(const Subdivision& cells, std::span<const Index> names, bool has_moments,
                         const Execution& execution, const Make& make) {

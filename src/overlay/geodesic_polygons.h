@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The polygons of files whose sides are great circles.
+// Converts the polygons of a file into cells whose sides are great circles.
 #pragma once
 
 #include "io/geojson_polygons.h"
@@ -10,11 +10,13 @@
 
 namespace rondel::overlay {
 
-// Cell i is feature i. A ring is around its smaller side, a hole around what is not in it.
-// 1. Sides of a feature that run to and fro between two corners vanish. A feature whose parts cover the sphere is `whole`.
-// 2. A ring whose sides all run to and fro, holes that leave nothing of their polygon, parts that cover a place twice, and sides
-//    that cross are refused.
-// Throws FileError.
+// Returns cells of which cell i is feature i. A ring of a shell is around its smaller side, and a hole is around the
+// part that it removes.
+//
+// 1. Sides of a feature that lead back and forth between two corners cancel. A feature whose parts cover the
+//    sphere is in `whole`.
+// 2. FileError is thrown for a ring whose sides all cancel, for holes that leave nothing of their polygon, for
+//    parts that overlap, and for sides of a feature that cross.
 CellRings geodesic_cells(const io::PolygonFeatures& features, const Execution& execution);
 
 }  // namespace rondel::overlay

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The pieces of cells in the cells of grids of meridians and parallels.
+// Computes the intersections of cells with the cells of a grid of meridians and parallels.
+//
+// in    cells of any shape, or another grid
+// out   PieceRows: areas and first moments
+// index rows: indices of the cells in the input; columns: cells of the grid
 #pragma once
 
 #include "overlay/graticule.h"
@@ -10,10 +14,12 @@
 
 namespace rondel::overlay {
 
-// Rows are the cells, columns those of the grid.
+// Returns the pieces of all cells. Throws InvalidInput if the pieces of a cell do not add up to it
+// (require_sum()).
 PieceRows pieces(const PartitionData& cells, const Graticule& grid, bool has_moments,
                  const Execution& execution);
 
+// Returns the pieces of the cells of one grid in the cells of another.
 PieceRows pieces(const Graticule& rows, const Graticule& columns, bool has_moments);
 
 }  // namespace rondel::overlay

@@ -1,10 +1,15 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Arcs of great circles, cut by the meridians and parallels of a grid.
+// Cuts arcs of great circles at the meridians and parallels of a grid.
 //
-// Nothing is decided here that rounding could get wrong: points have rounded places, arcs are what joins these
-// places, and what is summed of them is continuous in the places. An arc gives the same numbers both ways.
+// in    arcs
+// out   strips: signed areas between parts of the arc and a parallel, each in one column and row
+// index columns and rows of a Graticule
+//
+// No decision is made here that rounding could get wrong. Points have rounded places, an arc joins two such
+// places, and the sums over strips are continuous functions of the places. Both directions of an arc give the same
+// numbers.
 #pragma once
 
 #include <vector>
@@ -14,40 +19,45 @@
 
 namespace rondel::overlay {
 
+// A point with its place in the grid.
 struct GraticulePlace {
   Point point;
   double radius = 0;  // distance from the axis
-  double gap = 0;     // of its height
+  double gap = 0;     // see SphereHeight
   Index column = 0;
   double offset = 0;  // radians east of the column's western meridian
 
   [[nodiscard]] SphereHeight height() const { return {point.z, gap}; }
 };
 
-// What is between the part of an arc in a row of a column and the row's southern parallel, or near a pole that pole, which is
-// counted as if it was south of the arc. It is negative for arcs that run east, whose cell is to the north.
+// The region between the part of an arc in one row of one column and the row's southern parallel.
+// Near a pole it is the region between the arc and the pole, counted as if the pole were south of
+// the arc. Its area is negative for arcs that lead east, which have their cell to the north.
 struct Strip {
   Index column = 0;
   Index row = 0;
-  double pole = 0;  // its sine; 0: the area is above the parallel
+  double pole = 0;  // the sine of that pole's latitude; 0 if the area is above the parallel
   double area = 0;
   double width = 0;   // radians
-  double length = 0;  // of the arc, roughly
-  Point run{};        // difference of its ends' meridians on the equator
+  double length = 0;  // approximate length of the part of the arc, radians
+  Point run{};        // difference of the points where the ends' meridians meet the equator
   Point moment{};
 };
 
+// Cuts arcs into strips.
 class GraticuleWalk {
  public:
   GraticuleWalk(const Graticule& grid, bool has_moments) : grid_(grid), has_moments_(has_moments) {}
 
+  // Returns the place of a unit vector in the grid.
   [[nodiscard]] GraticulePlace place_of(const Point& point) const;
 
-  // Appends the strips of the arc from one place to the other.
+  // Appends the strips of the arc between two places.
   void append(const GraticulePlace& from, const GraticulePlace& to,
               std::vector<Strip>& strips) const;
 
  private:
+  // The strips that are appended to, and the sign of the arc's direction.
   struct Out {
     double sign;
     std::vector<Strip>& strips;
@@ -61,7 +71,7 @@ class GraticuleWalk {
   [[nodiscard]] GraticulePlace on_parallel(const GraticulePlace& from, const GraticulePlace& to,
                                            const Graticule::Parallel& parallel,
                                            bool is_north) const;
-  // From west to east.
+  // Appends the strips of an arc that leads from west to east.
   void append_columns(const GraticulePlace& from, const GraticulePlace& to, const Out& out) const;
   void append_rows(const GraticulePlace& from, const GraticulePlace& to, const Out& out) const;
   void append_strip(const GraticulePlace& from, const GraticulePlace& to, Index row,

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Indices that get numbers 0, 1, ... in the order in which they come first.
+// Numbers indices 0, 1, ... in the order in which they first occur.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,13 @@
 
 namespace rondel::overlay {
 
-// Open addressing with linear probing, at most half full. A slot is in use if it has the stamp of the time since the
-// last clear().
+// A hash table with open addressing and linear probing, at most half full. A slot is in use if its
+// stamp is that of the time since the last clear(), so that clear() takes constant time.
 class IndexNumbers {
  public:
   IndexNumbers() : slots_(least_slots) {}
 
+  // Returns the number of a key, and assigns the next number to a new key.
   Index operator()(Index key) {
     if (2 * (keys_.size() + 1) > slots_.size()) grow();
     NumberedIndex& slot = slot_of(key);
@@ -28,7 +29,7 @@ class IndexNumbers {
     }
     return slot.number;
   }
-  // By number.
+  // Returns the keys by their numbers.
   [[nodiscard]] std::span<const Index> keys() const { return keys_; }
 
   void clear() {

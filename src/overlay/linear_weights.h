@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Weights of order 2.
+// Computes the weights of conservative remapping of order 2.
 #pragma once
 
 #include <span>
@@ -12,8 +12,9 @@
 
 namespace rondel::overlay {
 
-// Of the pieces of a remapping, with their moments, and divided by `target_areas`. Targets come in the order of
-// `targets`, which is spatial or empty: what is near on the sphere is near in time then.
+// Returns the weights of a remapping with moments, divided by `target_areas`. `gradients` belong to
+// the sources. The targets are computed in the order of `targets`, which is a spatial order, or in
+// their own order if it is empty; the result does not depend on it.
 Weights linear_weights(const Remap& remap, const CellGradients& gradients,
                        std::span<const double> target_areas, std::span<const Index> targets,
                        unsigned threads);

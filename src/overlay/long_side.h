@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Rings around a pole that straight lines in longitude and latitude do not mean.
+// Detects rings around a pole that straight lines in longitude and latitude do not represent.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,10 @@
 
 namespace rondel::overlay {
 
-// The number of the only side that spans more than half a turn, of a ring on one side of the equator: along the
-// shorter way there the ring would go around the pole. Nothing if there is none,
-// it lies at the pole, or between two sides along meridians, as that of a box.
+// Returns the index of the only side of a ring that spans more than 180 degrees of longitude, for a
+// ring on one side of the equator: if this side led the other way round, the ring would go around
+// the pole. Returns nothing if there is no such side, or if it lies at the pole, or if it is
+// between two sides along meridians as a side of a box is.
 std::optional<std::size_t> lone_long_side(std::span<const LonLat> ring);
 
 }  // namespace rondel::overlay

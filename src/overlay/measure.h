@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Areas and first moments on the unit sphere, as sums over arcs of great circles.
+// Areas and first moments of regions of the unit sphere, as sums over the arcs of their borders.
+//
+// in    arcs with the region to their left
+// out   steradians; moments are integrals of the unit vector over the region
 #pragma once
 
 #include <algorithm>
@@ -16,14 +19,16 @@
 
 namespace rondel::overlay {
 
-// Of a point p, as seen from a point o: (x, y, z) = p - o along three axes, of which the third one is o.
+// Local coordinates of a point p of the sphere around a point o: (x, y, z) = p - o along three
+// axes, of which o is the third.
 using Place = exact::Vector3<double>;
 
-// Axes at o: those of the coordinates, turned from the nearer pole to o along the shortest way.
+// The axes at o. They are the coordinate axes, rotated along the shortest path from the nearer pole
+// to o.
 class LocalAxes {
  public:
   explicit LocalAxes(const Point& o) : LocalAxes(o, o.z < 0 ? -1 : 1) {}
-  // Of points of the sphere, so that z follows from the distance.
+  // Returns the local coordinates of a unit vector. Its z is computed from the distance to o.
   [[nodiscard]] Place place_of(const Point& p) const {
     const Point step = p - o_;
     return {dot(x_, step), dot(y_, step), -0.5 * dot(step, step)};
@@ -41,7 +46,7 @@ class LocalAxes {
   Point y_;
 };
 
-// The triangle (o, p, q), where p and q are given by their places. With S = q - p
+// The triangle (o, p, q), with p and q in local coordinates at o. With S = q - p
 //
 //     tan(area / 2) = o.(P x S) / (1 + o.p + p.q + q.o),    o.p = 1 + z(p), p.q = 1 - |S|^2 / 2.
 class Triangle {
@@ -52,9 +57,9 @@ class Triangle {
     below_ = 4 + (p.z + q.z) - 0.5 * dot(side, side);
     length_ = std::abs(side.x) + std::abs(side.y) + std::abs(side.z);
   }
-  // Negative if it is clockwise.
+  // Returns the area of the triangle, negative if it is clockwise.
   [[nodiscard]] double area() const {
-    constexpr double small = 0x1p-10;  // t^6 is nothing then
+    constexpr double small = 0x1p-10;  // t^6 is below rounding then
     if (std::abs(above_) < small * below_) {
       const double t = above_ / below_;
       const double t2 = t * t;
@@ -62,9 +67,9 @@ class Triangle {
     }
     return 2 * exact::argument(above_, below_);
   }
-  // Whether sides are longer than a radian or so: its area may be ill-defined.
+  // True if sides are longer than about a radian. The area may be ill-defined then.
   [[nodiscard]] bool is_large() const { return below_ < 2.5; }
-  // How long the side from p to q is, or up to sqrt(3) times that.
+  // Returns a bound for the length of the side from p to q, at most sqrt(3) times the chord.
   [[nodiscard]] double rough_length() const { return length_; }
 
  private:
@@ -73,12 +78,13 @@ class Triangle {
   double length_;
 };
 
-// The arc's share of the first moment, the integral of q over a region: half of that of q x dq along its
-// boundary, so half of the angle times the unit normal.
+// Returns the contribution of an arc to the first moment of the region to its left. The moment is
+// half of the integral of q x dq along the border, and the arc's share is half of its angle times
+// its unit normal.
 inline Point moment_of_arc(const Point& p, const Point& q) {
   const Point normal = cross(p, q - p);
   const double square = dot(normal, normal);
-  constexpr double small = 0x1p-14;  // of asin(s) / s - 1, s^8 is nothing then
+  constexpr double small = 0x1p-14;  // s^8 in asin(s) / s - 1 is below rounding then
   const double cosine = dot(p, q);
   if (square < small && cosine > 0) {
     return (0.5 + square * (1.0 / 12 + square * (3.0 / 80 + square * (5.0 / 224)))) * normal;
@@ -87,20 +93,21 @@ inline Point moment_of_arc(const Point& p, const Point& q) {
   return sine > 0 ? exact::argument(sine, cosine) / (2 * sine) * normal : Point{};
 }
 
-// How long an arc is, or up to sqrt(3) times that.
+// Returns a bound for the length of an arc: at most sqrt(3) times its chord.
 inline double rough_length(const Point& p, const Point& q) {
   return std::abs(q.x - p.x) + std::abs(q.y - p.y) + std::abs(q.z - p.z);
 }
 
-// Corners are off by 2u from their edges, or some 10u where those are as good as parallel, so areas by that
-// times the border.
+// Returns the area by which rounding of corners changes a region whose border has this length.
+// Corners are off by 2u from their edges, or by some 10u where these are nearly parallel.
 constexpr double area_of_rounding(double length) { return 16 * predicates::unit_roundoff * length; }
 
-// Throws InvalidInput with the cell, whose pieces add up to something else than its area.
+// Throws InvalidInput with the cell (its index in the input), whose pieces do not add up to its
+// area.
 [[noreturn]] void refuse_pieces(Index name, double sum, double area);
 
-// Leaves out the pieces of a cell whose area is not larger than rounding of their corners may be, by their areas and
-// lengths. But a cell that is no larger keeps its largest piece.
+// Drops the pieces of a cell whose areas are not larger than what rounding of their corners can
+// make. A cell that has no larger piece keeps its largest one.
 template <class Piece>
 void drop_rounding(std::vector<Piece>& pieces) {
   const auto is_rounding = [](const Piece& piece) {
@@ -116,12 +123,14 @@ void drop_rounding(std::vector<Piece>& pieces) {
   }
 }
 
-// The pieces of a cell add up to it. A piece is off by area_of_rounding() of its border where the triangles are no larger than
-// a radian, and the cell by that of its own; large triangles lose some digits more, for which there are four times as much
-// and a share of 1e-9. Where an edge of the cover runs along a cell, triangles of one half may cancel each other: 64 times u
-// for what is left of them. Less than nothing of a piece, or another sum, shows that a cell is not what its border says: it
-// crosses or overlaps itself.
-// A cell no wider than rounding may seem to: then it has no pieces.
+// Tests that the pieces of a cell add up to the cell's area; otherwise throws InvalidInput with `name`, the cell's
+// index in the input, or drops the pieces if the cell is no wider than rounding.
+//
+// A piece is off by area_of_rounding() of its border where its triangles are no larger than a radian, and the cell by
+// that of its own border. Large triangles lose some more digits, for which the bound has a factor of four and
+// a share of 1e-9. Where an edge of the cover runs along a cell, triangles of a hemisphere can cancel;
+// 64 u covers what is left of them. A piece with a negative area, or a sum other than the cell's area, shows that the cell
+// is not what its border says: it crosses or overlaps itself.
 template <class Piece>
 void require_sum(std::vector<Piece>& pieces, double area, double length, Index name) {
   constexpr double of_triangles = 4;
@@ -141,18 +150,23 @@ void require_sum(std::vector<Piece>& pieces, double area, double length, Index n
   pieces.clear();
 }
 
+// An arc of a border, with the region to its left.
 struct BorderArc {
   Point from;
   Point to;
 };
+// The measures of a region.
 struct Measures {
   double area = 0;
-  double length = 0;  // roughly
+  double length = 0;  // approximate length of the border, radians
   Point moment{};
+  // false if the area is not certain: the region goes around the sphere (as belts do) and has its
+  // center of mass near the center of the sphere
   bool is_sure =
       true;  // the area; not of regions around the sphere, as belts, whose center of mass is its center
 };
-// Of a region that fits into a hemisphere, by all arcs of its border, and a point not far from most regions'.
+// Returns the measures of a region that fits into a hemisphere, from all arcs of its border.
+// `nearby` is a point near the region, for most regions.
 Measures measures_of(std::span<const BorderArc> border, const Point& nearby);
 
 }  // namespace rondel::overlay

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The conventions by which netCDF holds cells, one function each.
+// The conventions by which netCDF files describe cells, one reader each.
+//
+// in    an open netCDF file and the name of a variable, or an empty name
+// out   MeshContent: nodes, rings and attributes of cells
+// index cells, rings and nodes as in the file
 #pragma once
 
 #include <array>
@@ -20,31 +24,38 @@
 
 namespace rondel::overlay {
 
-// Cells as files have them: corners may be repeated, and rings go either way around.
+// The cells as a file has them: corners may be repeated, and rings may have either direction.
 struct MeshContent {
   std::string convention;
-  std::vector<LonLat> nodes;  // as they are in the file; of missing ones both numbers are NaN
-  std::string names;          // of the variables of the nodes
-  bool is_single = false;     // the nodes have single precision
+  std::vector<LonLat> nodes;  // as in the file; both numbers of a missing node are NaN
+  std::string names;          // the quoted names of the variables of the nodes, for messages
+  bool is_single = false;     // true if the nodes have single precision
+  // compressed rows: the rings of each cell
   std::vector<std::uint64_t> cells = {0};
+  // compressed rows: the corners of each ring
   std::vector<std::uint64_t> rings = {0};
-  std::vector<Index> corners;  // nodes
+  std::vector<Index> corners;  // indices of nodes
+  // set if the cells are between meridians and parallels; then there are no nodes
   std::optional<LonLatGrid> grid;
+  // one for each cell, or none at all
   std::vector<LonLat> centers;
+  // 0 for a masked cell; empty if no cell is masked
   std::vector<std::int32_t> mask;
+  // nlat and nlon of a logically rectangular grid, or empty
   std::vector<std::uint64_t> shape;
-  std::vector<std::string> remarks;  // what the file has and the cells have not
+  std::vector<std::string> remarks;  // what the file contains that the cells cannot represent
 
   void end_ring() { rings.push_back(corners.size()); }
   void end_cell() { cells.push_back(rings.size() - 1); }
 };
 
-// What read_cells() gives of the file, or of the grid that the variable `part` is on. Throws BadValue.
+// Returns what read_cells() returns for a file, or for the grid that the variable `part` is on.
+// `file_name` is for messages. Throws BadValue.
 RONDEL_API CellTable cells_in(const io::NetcdfReader& file, const std::string& file_name,
                               const std::string& part);
 
-// Each is nothing if the file does not follow the convention, or, where a variable is named, if that is not of this convention.
-// Throws BadValue.
+// Each reader returns nothing if the file does not follow its convention, or if `name` is not empty and that
+// variable is not on cells of this convention. Throws BadValue for a file that follows the convention and is wrong.
 std::optional<MeshContent> read_ugrid(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_scrip_grid(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_esmf_mesh(const io::NetcdfReader& file, const std::string& name);
@@ -57,52 +68,64 @@ std::optional<MeshContent> read_cf_grid(const io::NetcdfReader& file, const std:
 using MeshVariable = io::NetcdfReader::Variable;
 using io::UsualUnits;
 
-// Whether no variable is named, or one that has a dimension of `cells`.
+// True if `name` is empty, or names a variable that shares a dimension with `cells`.
 bool is_meant(const io::NetcdfReader& file, const std::string& name, const MeshVariable& cells);
 
-// Variables of longitudes and latitudes; null: none.
+// The variables of longitudes and latitudes; null if there is no such variable.
 struct MeshCoordinates {
   const MeshVariable* lon = nullptr;
   const MeshVariable* lat = nullptr;
 };
-// Longitudes, then latitudes in degrees. A variable without units has those of the related one, or else of another one of the four.
+// Returns longitudes, then latitudes in degrees. A variable without units gets the units of the
+// related one, or of another one of the four, or else the usual ones.
 std::array<std::vector<double>, 2> degrees_of_both(const io::NetcdfReader& file,
                                                    const MeshCoordinates& wanted,
                                                    const MeshCoordinates& related,
                                                    UsualUnits usual);
-// The same as positions. Throws BadValue if the variables are not of one length.
+// Returns the same coordinates as positions. Throws BadValue if the two variables have different
+// numbers of values.
 std::vector<LonLat> positions_of(const io::NetcdfReader& file, const MeshCoordinates& wanted,
                                  const MeshCoordinates& related, UsualUnits usual);
+// Reads the nodes of a mesh.
 void take_nodes(const io::NetcdfReader& file, const MeshCoordinates& nodes,
                 const MeshCoordinates& centers, UsualUnits usual, MeshContent& mesh);
+// True if a coordinate of a place is NaN.
 bool is_missing_place(const LonLat& place);
-// The place, its latitude not beyond a pole by rounding. Throws BadValue with i and the names of the variables if there is no such
-// place.
+// Returns a place, with a latitude that rounding has put beyond a pole moved to the pole. Throws
+// BadValue, with i and the names of the variables, if the numbers are no place.
 LonLat require_position(const std::string& names, std::size_t i, const LonLat& place);
-// Cells that have corners of their own, which are the nodes, `of_each` a cell. Where `may_be_fewer`, those missing at the end are none.
+// Makes cells that have corners of their own: the nodes, `of_each` for each cell. If
+// `may_be_fewer`, missing nodes at the end of a cell are no corners.
 void end_cells_of_nodes(std::size_t of_each, bool may_be_fewer, MeshContent& mesh);
-// Which nodes are corners: `of_each` entries a cell, `counts` of which are in use, if there are counts; where `of_each` is 0, as many
-// as the counts say.
+// The nodes that are corners of cells. A row has `of_each` entries, of which the first are in use
+// if there are counts. If `of_each` is 0, the rows have different lengths, which are the counts.
 struct Connectivity {
   const MeshVariable& variable;
   std::uint64_t num_cells;
   std::uint64_t of_each;
-  bool is_transposed;      // the cells change fastest
-  double first;            // the number of the first node
-  double break_value = 0;  // begins a ring; `first` or more: none does
+  bool is_transposed;  // true if the cells are the last dimension
+  double first;        // the number that the file gives to the first node
+  // the entry that begins a further ring; not in use if it is `first` or more
+  double break_value = 0;
 };
+// Reads the corners of all cells. `counts` are the lengths of rows, or empty. Throws BadValue for a
+// corner that is no node.
 void take_connectivity(const io::NetcdfReader& file, const Connectivity& connectivity,
                        const std::vector<double>& counts, MeshContent& mesh);
-// 0 and not 0, of the number of cells.
+// Reads a mask of cells from a variable: 0 stays 0, other numbers become 1. Does nothing if there
+// is no such variable.
 void take_mask(const io::NetcdfReader& file, std::string_view name, MeshContent& mesh);
+// Reads the centers of cells, if the file has them.
 void take_centers(const io::NetcdfReader& file, const MeshCoordinates& centers,
                   const MeshCoordinates& nodes, UsualUnits usual, MeshContent& mesh);
-// Leaves out the cells that have a corner at no place: their rings go, their mask becomes 0, and how many they are becomes a remark.
-// Throws BadValue for other nodes that are no places.
+// Removes the rings of cells with a corner at a missing node, sets their mask to 0, and adds a
+// remark with their number. Throws BadValue for other nodes that are no places.
 void leave_out_cells_without_corners(MeshContent& mesh);
-// The first number of an attribute, or `otherwise`.
+// Returns the first number of an attribute, or `otherwise` if there is no such attribute.
 double number_or(const MeshVariable& variable, std::string_view name, double otherwise);
+// Throws BadValue unless the variable has this number of values.
 void require_values(const MeshVariable& variable, std::uint64_t wanted);
+// Throws BadValue unless the variable has this number of dimensions; returns the variable.
 const MeshVariable& require_rank(const MeshVariable& variable, std::size_t rank);
 
 }  // namespace rondel::overlay

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells of one partition that overlap each other or themselves by more than rounding of their corners.
+// Finds cells that overlap each other or themselves by more than rounding of their corners.
+//
+// in    a subdivision
+// out   pairs of cells with a place in both
+// index pairs: indices of the cells in the input
 #pragma once
 
 #include <span>
@@ -15,15 +19,16 @@
 
 namespace rondel::overlay {
 
-// The pairs of cells that overlap, by name, in lexicographic order, each once. `whole` are the names of cells that are the whole
-// sphere.
+// Returns the pairs of cells that overlap, each once, in lexicographic order. `whole` has the
+// indices of cells that are the whole sphere.
 std::vector<CrossingCells> overlaps_of(const Subdivision& cells, std::span<const Index> whole,
                                        const Execution& execution);
 
-// "cells 3 and 17 overlap at 12.5000 40.2500", or that a cell crosses or overlaps itself.
+// Returns "cells 3 and 17 overlap at 12.5000 40.2500", or a text that says that a cell crosses or
+// overlaps itself.
 std::string message_of(const CrossingCells& overlap);
 
-// Some of the cells, in this order.
+// Returns some of the cells, given by their places in spatial order, in this order.
 CellRings rings_of(const Subdivision& cells, std::span<const Index> some);
 
 }  // namespace rondel::overlay

@@ -1,6 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// What a Partition holds: cells prepared for an overlay, or a grid, with areas and moments.
+//
+// in    a subdivision or a grid
+// out   areas, moments and border lengths of the cells, and whether they cover the sphere
+// index indices of the cells in the input, except in subdivision(), which has its own spatial order
 #pragma once
 
 #include <cstddef>
@@ -19,8 +24,8 @@ namespace rondel::overlay {
 
 class PartitionData {
  public:
-  // `whole` are the cells that are the whole sphere, increasing.
-  // Whoever made the cells may know that they are apart.
+  // `whole` has the cells that are the whole sphere, in ascending order. `are_apart` says that the
+  // caller knows that no cells overlap.
   PartitionData(Subdivision subdivision, std::vector<Index> whole, unsigned threads,
                 bool are_apart = false);
   explicit PartitionData(Graticule grid);
@@ -29,20 +34,21 @@ class PartitionData {
     return *partition.data_;
   }
 
-  // Null unless the cells are between meridians and parallels.
+  // Returns the grid, or null if the cells are not between meridians and parallels.
   [[nodiscard]] const Graticule* grid() const { return grid_ ? &*grid_ : nullptr; }
-  // Without a cell if there is a grid.
+  // Returns the cells. If there is a grid, the subdivision has no cells.
   [[nodiscard]] const Subdivision& subdivision() const { return subdivision_; }
-  // The first cell that is the whole sphere; no_index: none is.
+  // Returns the first cell that is the whole sphere, or no_index.
   [[nodiscard]] Index whole() const { return all_whole_.empty() ? no_index : all_whole_.front(); }
   [[nodiscard]] const std::vector<Index>& all_whole() const { return all_whole_; }
   [[nodiscard]] bool is_cover() const { return is_cover_; }
-  // The pairs of cells that overlap, by name. The first call looks for them, but not in diagrams, grids and covers.
+  // Returns the pairs of cells that overlap. The first call computes them, except for diagrams,
+  // grids and covers, whose cells are known not to overlap. Several threads may call it.
   [[nodiscard]] const std::vector<CrossingCells>& overlaps(const Execution& execution) const;
-  // By name.
+  // Returns the area of each cell in steradians.
   [[nodiscard]] const std::vector<double>& areas() const { return areas_; }
   [[nodiscard]] const std::vector<Point>& moments() const { return moments_; }
-  // Roughly, of their borders; no less than they are.
+  // Returns bounds for the lengths of the cells' borders, in radians.
   [[nodiscard]] const std::vector<double>& lengths() const { return lengths_; }
   [[nodiscard]] CellSizes sizes() const { return {areas_, lengths_}; }
 
@@ -59,11 +65,11 @@ class PartitionData {
   std::vector<double> lengths_;
 };
 
-// The cells, by index.
+// Returns the cells in the order of the input.
 CellRings rings_of(const PartitionData& data);
 CellRings rings_of(const Subdivision& cells);
 
-// Throws InvalidInput if the cells are those of a grid.
+// Throws InvalidInput if the cells are those of a grid, whose sides are no great circles.
 void require_arcs(const PartitionData& cells);
 
 }  // namespace rondel::overlay

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The areas and first moments of the pieces into which cells are cut by those of a cover.
+// Computes the areas and first moments of the pieces into which cells are cut by other cells.
+//
+// in    two subdivisions
+// out   PieceRows
+// index rows: indices of the cells in the input; columns: indices of the other cells in their input
 #pragma once
 
 #include <cstdint>
@@ -13,35 +17,44 @@
 
 namespace rondel::overlay {
 
-// In compressed rows by the cells' names, columns increasing.
+// The pieces of all cells, in compressed rows: row i has the pieces of cell i, with ascending
+// columns.
 struct PieceRows {
+  // the cell of the other subdivision that has the piece
   std::vector<std::uint64_t> offsets = {0};
   std::vector<Index> columns;
+  // steradians
   std::vector<double> areas;
-  std::vector<Point> moments;  // empty unless asked for
-  // Of the areas, in twice the precision and then rounded; empty where find_sums() is still to be called.
+  // integrals of the unit vector over the pieces; empty unless asked for
+  std::vector<Point> moments;
+  // The sums of the areas of rows and columns, computed in double_double arithmetic and rounded.
+  // They are empty until find_sums() is called, unless the function that made the pieces knows
+  // them.
   std::vector<double> row_sums;
   std::vector<double> column_sums;
 };
 
+// Computes row_sums and column_sums.
 void find_sums(PieceRows& pieces, std::size_t num_columns);
 
-// The sums that the pieces of each cell should have, by name.
+// The area and the length of the border of each cell, by its index in the input.
 struct CellSizes {
   std::span<const double> areas;
-  std::span<const double> lengths;  // of their borders
+  std::span<const double> lengths;  // radians
 };
 
-// Pieces not larger than what rounding of their corners may be are left out. Throws InvalidInput if those of a cell do not
-// add up to it (require_sum()).
+// Returns the pieces of `cells` in the cells of a cover. Pieces not larger than what rounding of
+// their corners can make are dropped. Throws InvalidInput if the pieces of a cell do not add up to
+// it (require_sum()).
 PieceRows pieces(const Subdivision& cells, const CellSizes& sizes, const Subdivision& cover,
                  bool has_moments, const Execution& execution);
 
-// The same of two that are parts of the sphere. Throws InvalidInput where cells of `others` overlap.
+// Returns the pieces of `cells` in `others`, which need not cover the sphere. Throws InvalidInput
+// if cells of `others` overlap.
 PieceRows pieces_of_parts(const Subdivision& cells, const CellSizes& sizes,
                           const Subdivision& others, bool has_moments, const Execution& execution);
 
-// With rows and columns exchanged.
+// Returns the pieces with rows and columns exchanged.
 PieceRows transposed(const PieceRows& pieces, std::size_t num_columns);
 
 }  // namespace rondel::overlay

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Positions in the plane of longitude and latitude: exact signs, and their order from west to east.
+// Predicates for positions in the plane of longitude and latitude: exact signs, and the order from
+// west to east.
 #pragma once
 
 #include <cmath>
@@ -13,16 +14,20 @@
 
 namespace rondel::overlay {
 
-// The largest distance of a corner from a side on which it was meant to be, in degrees: some roundings of a longitude.
+// The largest distance in degrees of a corner from a side that is meant to pass through it: some
+// roundings of a longitude.
 constexpr double on_side_deg = 0x1p-42;
 
+// Orders positions by longitude, then by latitude.
 inline bool is_west_of(const LonLat& p, const LonLat& q) {
   return std::tie(p.lon_deg, p.lat_deg) < std::tie(q.lon_deg, q.lat_deg);
 }
 
-// Whether c is to the left (positive) or to the right of the line from a to b; exact.
+// Returns positive if c is to the left of the line from a to b, negative if it is to the right;
+// exact.
 inline Sign side_of_line(const LonLat& a, const LonLat& b, const LonLat& c) {
-  // The filter of Shewchuk's orient2d: its bound is (3 + 16 u) u times the sum of the products, u = 2^-53.
+  // This is the filter of Shewchuk's orient2d, whose bound is (3 + 16 u) u times the sum of the
+  // products, u = 2^-53.
   constexpr double u = std::numeric_limits<double>::epsilon() / 2;
   constexpr double bound = (3 + 16 * u) * u;
   const double left = (a.lon_deg - c.lon_deg) * (b.lat_deg - c.lat_deg);

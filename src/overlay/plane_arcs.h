@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sides that are straight in longitude and latitude as arcs of great circles.
+// Approximates sides that are straight in longitude and latitude by arcs of great circles.
+//
+// in    straight sides in degrees, a tolerance in radians
+// out   positions that divide each side
+// index sides, in the order in which they are given
 #pragma once
 
 #include <cstdint>
@@ -13,34 +17,37 @@
 
 namespace rondel::overlay {
 
-// The positions of a straight line so near to each other that arcs between them are within the tolerance (radians) of
-// it: the first one, and those between, without the last one. The same both ways.
+// Appends positions of a straight line that are so near to each other that the arcs between them
+// are within the tolerance (radians) of the line: the first one and those between, without the last
+// one. The reversed line gets the same positions.
 void append_divided(const LonLat& from, const LonLat& to, double tolerance,
                     std::vector<LonLat>& positions);
 
-// The corners of sides as arcs.
+// The corners of sides as arcs, in compressed rows.
 struct DividedSides {
   std::vector<LonLat> positions;
-  std::vector<std::uint64_t> offsets = {0};  // of each side; its positions, without the last one
+  std::vector<std::uint64_t> offsets = {0};  // of each side: its positions, without the last one
 };
 
-// A part of a side, which has a number; it goes from west to east.
+// A part of a side, from west to east.
 struct LinePiece {
   Index side;
   LonLat west;
   LonLat east;
 };
 
-// Divides sides, first by append_divided(), and further until arcs lie to each other as the straight lines do
-// (docs/theory/polygons.md): where one comes nearer to a corner than its arc may be from it, it gets a corner on that meridian.
+// Divides sides by append_divided(), and then further until the arcs have the same order and the
+// same crossings as the straight lines (docs/theory/polygons.md): a side that comes nearer to a
+// corner than its arc may be from the side gets a corner on the meridian of that corner.
 class SideDivider {
  public:
   SideDivider(std::span<const PlaneSide> sides, double tolerance, unsigned threads);
 
-  // Halves all parts of side s so many times as times[s] says, and divides sides further for that. Returns the sides that have
-  // changed, in order.
+  // Halves all parts of each side s times[s] times, and divides sides further where this requires
+  // it. Returns the sides that have changed, in order.
   std::vector<Index> halve(std::span<const std::uint8_t> times);
 
+  // Returns the divided sides. The divider is empty afterwards.
   [[nodiscard]] DividedSides divided();
 
  private:
@@ -49,7 +56,7 @@ class SideDivider {
   std::span<const PlaneSide> sides_;
   unsigned threads_;
   std::vector<LinePiece> pieces_;
-  std::vector<Index> changed_;  // sides, some of them twice
+  std::vector<Index> changed_;  // changed sides, possibly twice
 };
 
 }  // namespace rondel::overlay

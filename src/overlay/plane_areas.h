@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells of straight lines in longitude and latitude, and how much their arcs add to them.
+// Divides the sides of cells that are straight in longitude and latitude until arcs preserve the cells' areas.
+//
+// in    straight sides in degrees, each with its cell, a tolerance in radians
+// out   positions that divide each side
+// index sides, in the order in which they are given; cells
 #pragma once
 
 #include <algorithm>
@@ -14,16 +18,18 @@
 
 namespace rondel::overlay {
 
-// The largest share of a cell's area by which arcs may change it, if they may be so far from their lines (radians): that of a
-// cell a tenth of a degree wide along arcs as far away.
+// The largest share of a cell's area by which arcs may change it. If arcs may be `tolerance`
+// radians from their lines, it is the share for a cell that is a tenth of a degree wide and lies
+// along such arcs, at most most_area_share.
 constexpr double most_area_share = 1e-3;
 constexpr double area_share(double tolerance) {
   constexpr double tenth_of_degree = std::numbers::pi / 1800;
   return std::min(most_area_share, tolerance / tenth_of_degree);
 }
 
-// The sides of cells, one cell after the other, divided until the area of each cell differs from that between its lines by no more
-// than `area_share` of it and by rounding of its corners. Sides in one place are divided alike.
+// Divides the sides until the area of each cell differs from the area between its straight lines by
+// no more than `area_share` of it and rounding of its corners. owners[s] is the cell of side s; the
+// sides of a cell follow each other. Sides in the same place are divided alike.
 DividedSides divide_for_areas(std::span<const PlaneSide> sides, std::span<const Index> owners,
                               double tolerance, unsigned threads);
 

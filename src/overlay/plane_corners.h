@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Corners of the plane of longitude and latitude, found by place; longitudes are the same after a whole turn.
+// An index of corners in the plane of longitude and latitude. Longitudes that differ by 360 degrees
+// are the same.
 #pragma once
 
 #include <algorithm>
@@ -15,11 +16,13 @@
 
 namespace rondel::overlay {
 
+// Keeps each position once, in bands of one degree of latitude, sorted by longitude.
 class PlaneCorners {
  public:
+  // A corner and its feature.
   struct OwnedCorner {
     LonLat position;
-    Index owner;  // no_index: several
+    Index owner;  // no_index if several features have this position
   };
 
   explicit PlaneCorners(std::vector<OwnedCorner> corners) {
@@ -27,7 +30,7 @@ class PlaneCorners {
       if (corner.position.lon_deg < -180 || corner.position.lon_deg > 180) {
         corner.position.lon_deg = std::remainder(corner.position.lon_deg, 360.0);
       }
-      // The meridians at both ends of the map are one.
+      // The meridians at both ends of the map are the same line.
       if (corner.position.lon_deg == 180) corner.position.lon_deg = -180;
       bands_[band_of(corner.position.lat_deg)].push_back(corner);
     }
@@ -46,8 +49,9 @@ class PlaneCorners {
     }
   }
 
-  // Calls visit(position, owner) for the corners near a line, which goes east or is a meridian: those whose distance in
-  // longitude and in latitude is below `margin_deg`, and some more. Positions are on the line's own turn of the globe.
+  // Calls visit(position, owner) for the corners near a line that leads east or along a meridian:
+  // all whose distances in longitude and in latitude are below `margin_deg`, and possibly others.
+  // Positions are shifted to the line's own turn of the globe.
   template <class Visit>
   void visit_near(const LonLat& west, const LonLat& east, double margin_deg,
                   const Visit& visit) const {
@@ -58,7 +62,7 @@ class PlaneCorners {
       double low = west.lon_deg;
       double high = east.lon_deg;
       if (north > south) {
-        // The part of the line that is in the band, with room for rounding.
+        // Only the part of the line in this band is searched, with a margin for rounding.
         const double floor = static_cast<double>(band) - 90 - margin_deg;
         const double ceiling = static_cast<double>(band) - 89 + margin_deg;
         const double run = (east.lon_deg - west.lon_deg) / (east.lat_deg - west.lat_deg);
@@ -84,7 +88,7 @@ class PlaneCorners {
   template <class Visit>
   static void visit_band(const std::vector<OwnedCorner>& band, double low, double high,
                          const Visit& visit) {
-    // Corners are at -180 and east of it, below 180.
+    // Stored longitudes are at least -180 and below 180.
     const double first_turn = 360 * std::floor((low + 180) / 360);
     for (double turn = first_turn; turn - 180 <= high; turn += 360) {
       auto corner = std::ranges::lower_bound(
@@ -95,7 +99,7 @@ class PlaneCorners {
     }
   }
 
-  std::array<std::vector<OwnedCorner>, 180> bands_;  // a degree of latitude each; sorted
+  std::array<std::vector<OwnedCorner>, 180> bands_;  // one for each degree of latitude
 };
 
 }  // namespace rondel::overlay

@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Finds the inside of the polygons of one feature, in the plane of longitude and latitude, by exact signs alone.
+// Determines the inside of the polygons of one feature in the plane of longitude and latitude, by exact signs.
+//
+// in    rings of one feature: shells and their holes
+// out   the sides of the border, or the first fault
+// index rings, as given
 #pragma once
 
 #include <cstdint>
@@ -14,20 +18,23 @@
 
 namespace rondel::overlay {
 
-// A straight line of the plane with the inside to its left.
+// A straight side with the inside to its left.
 struct PlaneSide {
   LonLat from;
   LonLat to;
 };
 
+// The kinds of invalid polygons.
 enum class PlaneFaultKind : std::uint8_t {
-  crossing,  // sides of both rings cross, or of one with itself
-  overlap,   // the second ring's polygon lies in that of the first one
-  outside,  // the second ring is a hole that does not lie in its shell, or lies in the first one, a hole, too
-  no_area,  // the ring is a line to and fro
+  crossing,  // sides of two rings cross, or two sides of one ring
+  overlap,   // the second ring's polygon lies in the polygon of the first ring
+  // the second ring is a hole that does not lie in its shell, or that lies in another hole, the
+  // first ring
+  outside,
+  no_area,  // all sides of the ring cancel
 };
 
-// A fault of the rings, and its place. Rings are numbered as they were given.
+// An invalid place of the rings.
 struct PlaneFault {
   PlaneFaultKind kind;
   Index first;
@@ -35,15 +42,18 @@ struct PlaneFault {
   LonLat place;
 };
 
-// The border of what lies in any of the polygons: first of each the shell, then its holes.
+// The border of the union of the polygons.
 struct PlaneRegion {
   std::vector<PlaneSide> sides;
-  std::optional<PlaneFault> fault;  // the first one from the west; there are no sides then
+  std::optional<PlaneFault> fault;  // the westernmost fault; then there are no sides
 };
 
-// 1. A polygon is read even-odd: lines that run to and fro in it vanish, and a ring may meet itself and others in points.
+// Returns the region of the polygons, given as rings: for each polygon its shell, then its holes.
+//
+// 1. A polygon is read by the even-odd rule: sides that occur twice in it cancel, and a ring may meet itself
+//    and other rings in points.
 // 2. Corners that lie on a side, exactly, divide it.
-// 3. Polygons may share sides, which vanish, but no area.
+// 3. Polygons may share sides, which cancel, but no area.
 PlaneRegion sweep_rings(std::span<const io::LonLatRing> rings);
 
 }  // namespace rondel::overlay

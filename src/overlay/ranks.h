@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The order of a few different indices, without a branch: each is compared with each.
+// Sorts a few different indices without a branch: each of them is compared with each.
 #pragma once
 
 #include <algorithm>
@@ -13,11 +13,13 @@
 
 namespace rondel::overlay {
 
+// The places of up to `most` keys in sorted order.
 class Ranks {
  public:
   static constexpr std::size_t most = 32;
 
-  // Where key(0) ... key(size - 1), all different and none of them no_index, are when sorted: size <= most.
+  // Computes the places of key(0) ... key(size - 1) in ascending order. Preconditions: size <=
+  // most; the keys are different, and none is no_index.
   template <class Key>
   Ranks(std::size_t size, const Key& key) {
     std::array<Index, most> keys{};
@@ -31,6 +33,7 @@ class Ranks {
       }
     }
   }
+  // Returns the place of key k.
   [[nodiscard]] Index operator[](std::size_t k) const { return ranks_[k]; }
 
  private:

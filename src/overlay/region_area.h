@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The areas of regions by their rings, whatever their size and form.
+// The areas of regions of any size and form, from their rings.
+//
+// in    rings of unit vectors with the region to their left
+// out   steradians
 #pragma once
 
 #include <cstddef>
@@ -13,19 +16,22 @@
 
 namespace rondel::overlay {
 
-// The area to the left of a ring, but for a multiple of 4 pi: from -2 pi to 2 pi, and right to `rounding`.
+// The area to the left of a ring, up to multiples of 4 pi: from -2 pi to 2 pi, with an error of at
+// most `rounding`.
 struct RingArea {
   double area = 0;
   double rounding = 0;
 
-  // Whether rounding of the corners may have made all of what is left, or right, of the ring.
+  // True if rounding of the corners may have made all that is left, or all that is right, of the
+  // ring.
   [[nodiscard]] bool is_nothing() const { return area <= rounding && -area <= rounding; }
 };
 RingArea area_of_ring(std::span<const Point> ring);
 
-// Each ring gives the area but for a multiple of 4 pi, and it lies between 0 and 4 pi. So a sum that is surely negative is
-// the sphere's less that of what is missing. A sum that may be rounding is that of next to nothing, as rings have an inside
-// on their left only if they are wider than rounding of their corners.
+// The area of a region, from its rings. Each ring gives the area up to a multiple of 4 pi, and the
+// area of a region is between 0 and 4 pi. So a sum that is certainly negative is the area minus
+// that of the sphere. A sum within rounding of 0 is the area of a region that is nearly empty,
+// since a ring has an inside to its left only if it is wider than rounding of its corners.
 class RegionArea {
  public:
   void add(std::span<const Point> ring);
@@ -34,7 +40,7 @@ class RegionArea {
  private:
   exact::DoubleDouble sum_;
   std::vector<Point> points_;
-  std::vector<std::size_t> ends_;  // of the rings among the points
+  std::vector<std::size_t> ends_;  // where each ring ends among the points
 };
 
 }  // namespace rondel::overlay

@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Finds equal or nearly equal points.
+//
+// in    points or positions
+// out   for each the index of its representative
 #pragma once
 
 #include <span>
@@ -10,11 +14,12 @@
 
 namespace rondel::overlay {
 
-// For each point the first one before it, or itself, that is as near as `distance` in each coordinate and has no such
-// point itself.
+// Returns for each point the index of the first point before it, or of itself, that is within
+// `distance` of it in each coordinate and that represents itself.
 std::vector<Index> same_nodes(std::span<const Point> points, double distance);
 
-// The values that differ, in the order in which they come, and which of them each one is. 0 and -0 are equal.
+// The different values, in the order in which they first occur, and for each given value the index
+// of its equal among them. 0 and -0 are equal.
 template <class Value>
 struct Distinct {
   std::vector<Value> values;

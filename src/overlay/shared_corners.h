@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Neighbors whose border has a corner in one of them alone.
+// Adds corners to neighboring features where only one of them has a corner on their common border.
 #pragma once
 
 #include <vector>
@@ -10,8 +10,9 @@
 
 namespace rondel::overlay {
 
-// A side gets the corners of other features that lie on it, but for rounding, and those of its own feature whole turns away. Then lines
-// are straight but for rounding, and neighbors have the same corners. Sides stay straight in longitude and latitude.
+// Inserts corners into sides: those of other features that lie on the side up to rounding, and
+// those of the same feature that lie there after a shift by 360 degrees. Sides are then straight
+// only up to rounding, and neighbors have the same corners.
 void share_corners(std::vector<std::vector<io::LonLatRing>>& features, unsigned threads);
 
 }  // namespace rondel::overlay

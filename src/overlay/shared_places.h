@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells that overlap, cut into parts that are apart.
+// Cuts cells that overlap into parts that do not.
+//
+// in    a partition, a mask, the rule for overlaps
+// out   the parts with the cells that own each, and tables of parts converted to tables of cells
+// index parts, from 0; cells by their indices in the input
 #pragma once
 
 #include <cstdint>
@@ -16,12 +20,13 @@
 
 namespace rondel::overlay {
 
-// The cells that take part in an overlay, as they are or in parts.
+// The cells that take part in an overlay, as given or cut into parts.
 struct TakingPart {
+  // the cells or the parts
   const PartitionData* data = nullptr;
-  std::shared_ptr<const PartitionData> parts = nullptr;  // owns `data`, if these are not the cells
-  // The cells that have part k are owners[offsets[k]] to owners[offsets[k + 1] - 1]; each has its share of it. Both are empty if
-  // the parts are the cells.
+  std::shared_ptr<const PartitionData> parts = nullptr;  // owns `data` if these are parts
+  // Part k belongs to the cells owners[offsets[k]] ... owners[offsets[k + 1] - 1], in equal shares.
+  // Both arrays are empty if `data` has the cells themselves.
   std::vector<std::uint64_t> offsets = {};
   std::vector<Index> owners = {};
 
@@ -29,16 +34,17 @@ struct TakingPart {
   [[nodiscard]] std::span<const Index> owners_of(const Index& part) const;
 };
 
-// The cells that are not masked. Throws InvalidInput if some of them overlap and `rule` is error, or if one overlaps itself,
-// with `what` they are, the cells and a place.
+// Returns the cells that are not masked. If some of them overlap and `rule` is error, or if one
+// overlaps itself, throws InvalidInput with `what` ("source" or "target"), the cells and a place.
 TakingPart taking_part(const PartitionData& cells, const std::vector<std::int32_t>& mask,
                        CellOverlap rule, const char* what, const Execution& execution);
 
-// Rows and columns of parts, as those of their cells.
+// Converts rows and columns of parts into those of the cells that own them.
 PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
                        const TakingPart& columns);
 
-// Sums for each cell: the area that counts, its first moment, and the length of its borders.
+// The area of each cell that counts in the overlay (in steradians), its first moment, and the
+// length of its border.
 class CountedSizes {
  public:
   CountedSizes(const PartitionData& cells, const TakingPart& part);

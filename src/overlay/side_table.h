@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The directed sides of triangles by their ends: a table of one array, as all of filling waits for its answers.
+// A hash table of the directed sides of triangles by their ends. It is one array, since the time of
+// filling is that of its look-ups.
 #pragma once
 
 #include <bit>
@@ -14,26 +15,29 @@
 
 namespace rondel::overlay {
 
+// A directed side of a triangle.
 struct TriangleSide {
-  Index from = no_index;  // of no side
+  Index from = no_index;  // no_index in a free slot
   Index to = no_index;
-  Index apex = no_index;      // the corner of the triangle to its left
-  Index owner = no_index;     // what it was made a border of, to its left
-  Index triangle = no_index;  // the name of the triangle to its left
+  Index apex = no_index;      // the third corner of the triangle to its left
+  Index owner = no_index;     // the cell to its left, if the side bounds one
+  Index triangle = no_index;  // the index of the triangle to its left
 };
 
+// Open addressing with linear probing; at least half of the slots are free.
 class SideTable {
  public:
   explicit SideTable(std::size_t expected)
       : slots_(std::bit_ceil(2 * expected + 2)), shift_(64 - std::countr_zero(slots_.size())) {}
 
-  // Precondition: it was made.
+  // Returns a side. Precondition: the side is in the table.
   [[nodiscard]] const TriangleSide& at(Index from, Index to) const {
     const TriangleSide& side = slots_[slot_of(from, to)];
     assert(side.from == from);
     return side;
   }
-  // Makes it if there is none. The reference lives until the next one is made.
+  // Returns a side, and inserts it if it is not in the table. The reference is valid until the next
+  // insertion.
   TriangleSide& make(Index from, Index to) {
     std::size_t slot = slot_of(from, to);
     if (slots_[slot].from == no_index) {
@@ -49,8 +53,9 @@ class SideTable {
   }
 
  private:
-  // Where it is, or would be. Half of the slots are free at least. Sides of points with numbers that are near each other
-  // are near each other, where there is room: near points have such, and memory that is near is there sooner.
+  // Returns the slot of a side, or the free slot where it belongs. Sides of points with neighboring
+  // numbers are put near each other where there is room: such points are neighbors, so that
+  // look-ups hit the cache.
   [[nodiscard]] std::size_t slot_of(Index from, Index to) const {
     constexpr std::uint64_t odd = 0x9e37'79b9'7f4a'7c15;  // 2^64 over the golden ratio
     constexpr std::size_t of_point = 12;
@@ -78,7 +83,7 @@ class SideTable {
     }
   }
 
-  std::vector<TriangleSide> slots_;  // a power of two
+  std::vector<TriangleSide> slots_;  // as many as a power of two
   int shift_;
   std::size_t size_ = 0;
 };

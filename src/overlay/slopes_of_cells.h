@@ -1,7 +1,11 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Gradients of fields that are given by means over cells.
+// Estimates the gradients of fields that are given as means over cells.
+//
+// in    cells, their centers and a mask
+// out   rows of vectors, whose products with differences of means are gradients
+// index indices of the cells in the input
 #pragma once
 
 #include <cstdint>
@@ -13,16 +17,18 @@
 
 namespace rondel::overlay {
 
-// The gradient of cell i, by name, is the sum of slopes[k] (f[neighbors[k]] - f[i]) for its k.
+// The gradient of cell i is the sum of slopes[k] (f[neighbors[k]] - f[i]) over k from offsets[i] to
+// offsets[i + 1] - 1, for means f.
 struct CellGradients {
   std::vector<std::uint64_t> offsets = {0};
   std::vector<Index> neighbors;
   std::vector<Point> slopes;
 };
 
-// Least squares over the cells that share an edge, weighted by the inverse squares of distances, in the
-// tangent plane of the center of mass; 0 along a direction that these do not determine. `centers` and `mask` by name; where there
-// is a mask, cells of 0 are no neighbors.
+// Returns the least squares gradients over the neighbors of each cell that share an edge with it,
+// weighted by the inverse squares of distances, in the tangent plane of the cell's center of mass.
+// The gradient is 0 along a direction that the neighbors do not determine. `centers` are centers of
+// mass. Masked cells (0) are no neighbors; an empty mask masks no cell.
 CellGradients cell_gradients(const PartitionData& cells, std::span<const Point> centers,
                              std::span<const std::int32_t> mask, unsigned threads);
 

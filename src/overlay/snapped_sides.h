@@ -1,8 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Corners that are on a side only to rounding may be on either side of it, so that sides cross which should touch. Such
-// corners become corners of that side.
+// Snaps corners to sides. A corner that is on a side only up to rounding may be on either side of it, so that sides
+// that should touch cross. Such corners become corners of the side.
+//
+// in    points, and sides with the cell to their left
+// out   the sides, divided at the corners near them
+// index points; owners are cells
 #pragma once
 
 #include <span>
@@ -13,7 +17,7 @@
 
 namespace rondel::overlay {
 
-// A side from one point to another, by index, with its owner to the left.
+// A directed side between two points, with the cell `owner` to its left.
 struct OwnedSide {
   Index from;
   Index to;
@@ -21,26 +25,29 @@ struct OwnedSide {
   friend auto operator<=>(const OwnedSide&, const OwnedSide&) = default;
 };
 
-// Corners where sides cross are off by some 10u; has_sure_crossing() allows as much.
+// The distance within which corners are snapped. Corners where sides cross are off by some 10u;
+// has_sure_crossing() uses the same distance.
 inline constexpr double snapping_distance = 32 * predicates::unit_roundoff;
 
+// The corners near sides, and points that are merged because they are near each other.
 class Snaps {
  public:
-  // Finds the corners of these sides that are as near as this to others of them.
+  // Finds the corners of these sides that are within `distance` of other sides.
   Snaps(std::span<const Point> points, std::span<const OwnedSide> sides,
         double distance = snapping_distance);
   [[nodiscard]] bool is_empty() const { return passed_.empty() && !has_joined_; }
-  // Whether these sides, which may be others, become others.
+  // True if snapping changes any of these sides, which need not be those of the constructor.
   [[nodiscard]] bool change(std::span<const OwnedSide> sides) const;
-  // These sides by all corners that are on them, and without what then runs to and fro around one owner. They are sorted.
+  // Returns the sides divided at all corners near them, without those that then cancel for their
+  // owner, and sorted.
   [[nodiscard]] std::vector<OwnedSide> applied(std::span<const OwnedSide> sides) const;
 
  private:
-  // A corner on the way from one end, the lower one, of a side to the other one.
+  // A corner on the path from the lower end of a side to the higher one.
   struct PassedCorner {
     Index low;
     Index high;
-    double part;  // of the way, times a number
+    double part;  // how far along the side the corner is, in any unit
     Index corner;
   };
 
@@ -52,7 +59,8 @@ class Snaps {
 
   std::span<const Point> points_;
   double distance_;
-  std::vector<Index> parents_;  // of points that become one, the lowest stands for all
+  // a union-find forest of merged points; the lowest index is the root
+  std::vector<Index> parents_;
   std::vector<PassedCorner> passed_;
   bool has_joined_ = false;
 };

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells whose sides do not cross, as far as rounding alone has made them.
+// Prepares cells and repairs sides that cross because of rounding alone.
 #pragma once
 
 #include <vector>
@@ -12,8 +12,9 @@
 
 namespace rondel::overlay {
 
-// The tidied() cells. Which parts of a cover are inside of a cell is only known if its sides do not cross: where they do and
-// corners are on sides to rounding, these become corners of the sides, in all cells that have them. `whole` are the cells
+// Returns the tidied() cells as a subdivision. The parts of a cover inside of a cell are only known
+// if the cell's sides do not cross. Where they do because corners are on sides up to rounding,
+// these corners become corners of the sides, in all cells that have them. `whole` has the cells
 // that are the whole sphere, before and after.
 Subdivision sound_cells(const CellRings& cells, std::vector<Index>& whole,
                         const Execution& execution);

@@ -1,10 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells, prepared for an overlay: halfedges with their twins, all of it in the spatial order of the cells.
+// Cells prepared for an overlay: halfedges with their twins, in the spatial order of the cells.
 //
-// A halfedge is a position in `corners`: it runs from its corner to the next one of its ring, and its
-// cell is to its left.
+// in    CellRings
+// out   the arrays below
+// index cells: their places in spatial order, with the index in the input in `names`; halfedges: places
+//       in `corners`
+//
+// A halfedge leads from its corner to the next one of its ring, and its cell is to its left.
 #pragma once
 
 #include <cstdint>
@@ -20,34 +24,42 @@ namespace rondel::overlay {
 
 using Halfedge = Index;
 
-// Of a parallel loop over cells.
+// How many cells a piece of a parallel loop has.
 inline constexpr std::size_t cells_per_piece = 4096;
 
+// The shapes of cells, which decide how a walk goes through them.
 enum class Shape : std::uint8_t {
   empty,   // no ring
-  convex,  // strictly, one ring
-  star,  // one ring in less than a hemisphere; each halfedge turns counterclockwise around the cell's center
+  convex,  // one ring, strictly convex
+  // one ring in less than a hemisphere; each halfedge turns counterclockwise around the cell's
+  // center
+  star,
   other,
 };
 
+// All cells of one side of an overlay.
 struct Subdivision {
-  // `is_rounded`: corners may have been brought into the wrong order by rounding, and are made one then.
+  // `is_rounded` says that rounding may have put corners into the wrong order; such corners are
+  // merged.
   Subdivision(const CellRings& input, bool is_rounded, unsigned threads);
 
   std::vector<Point> points;  // in the order of their first use
   LargeVector<Index> cells;   // cell i has the rings cells[i] ... cells[i+1]-1
-  LargeVector<Index> rings;   // ring r the halfedges rings[r] ... rings[r+1]-1
+  LargeVector<Index> rings;   // ring r has the halfedges rings[r] ... rings[r+1]-1
   LargeVector<Index> begins;  // the halfedges of cell i are begins[i] ... begins[i+1]-1
+  // the point at the origin of each halfedge
   LargeVector<Index> corners;
-  LargeVector<Halfedge> twins;  // no_index: nothing is beyond
+  LargeVector<Halfedge> twins;  // the opposite halfedge; no_index if there is no cell beyond
+  // the cell of each halfedge
   LargeVector<Index> cell_of;
   LargeVector<Shape> shapes;
-  std::vector<Point> centers;  // of mass
-  // The areas of the cells of Shape::other, in their order.
+  std::vector<Point> centers;  // the directions of the centers of mass
+  // The cells of Shape::other with their areas, in ascending order of cells.
   std::vector<std::pair<Index, double>> areas_of_others;
-  LargeVector<Index> names;         // the index of each cell in the input
-  std::vector<std::uint64_t> keys;  // of the cells, increasing: their places along the curve
-  bool is_closed = false;           // every halfedge has a twin, every cell is convex or a star
+  LargeVector<Index> names;  // the index of each cell in the input
+  // of the cells, in ascending order: their places along the space-filling curve
+  std::vector<std::uint64_t> keys;
+  bool is_closed = false;  // true if every halfedge has a twin and every cell is convex or a star
 
   [[nodiscard]] std::size_t num_cells() const { return names.size(); }
   [[nodiscard]] std::size_t num_halfedges() const { return corners.size(); }
@@ -55,7 +67,7 @@ struct Subdivision {
   [[nodiscard]] Index end_of(Index cell) const { return begins[cell + 1]; }
   [[nodiscard]] const Point& origin(Halfedge h) const { return points[corners[h]]; }
 
-  // Of cells with one ring.
+  // Returns the next halfedge around a cell. Precondition: the cell has one ring.
   [[nodiscard]] Halfedge next(Halfedge h) const {
     const Index cell = cell_of[h];
     return h + 1 == end_of(cell) ? begin_of(cell) : h + 1;
@@ -66,12 +78,12 @@ struct Subdivision {
   }
   [[nodiscard]] const Point& end(Halfedge h) const { return origin(next(h)); }
 
-  // Copies a ring of any cell.
+  // Copies the corners of a ring of any cell.
   void copy_ring(Index ring, std::vector<Point>& corners_of_ring) const {
     corners_of_ring.clear();
     for (Halfedge h = rings[ring]; h < rings[ring + 1]; ++h) corners_of_ring.push_back(origin(h));
   }
-  // The areas of cells of Shape::other.
+  // Returns the area of a cell of Shape::other, in steradians.
   [[nodiscard]] double area_of_other(Index cell) const;
   [[nodiscard]] double area_of_rings(Index cell) const;
 

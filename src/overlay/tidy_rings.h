@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Rings as they are given, without what has no inside.
+// Removes the parts of rings that have no inside.
 #pragma once
 
 #include <optional>
@@ -11,9 +11,10 @@
 
 namespace rondel::overlay {
 
-// The cells, of which those of Shape::other in `known`, which are these cells, have lost sides that run to and fro, as of
-// spikes and keyholes, and rings that are no wider than rounding of their corners. All others are as they were. Nothing is
-// returned if none has any.
+// Returns the cells without sides that cancel (spikes and keyholes) and without rings no wider than
+// rounding of their corners. Only cells of Shape::other change. `known` is the subdivision of
+// `cells`. Returns nothing if no cell changes. Throws InvalidInput for a cell of which nothing is
+// left although a ring of it is wider than rounding.
 std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known);
 
 }  // namespace rondel::overlay

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
+// Merges cells that overlap.
 #pragma once
 
 #include <optional>
@@ -11,8 +12,9 @@
 
 namespace rondel::overlay {
 
-// The cells, of which those that overlap are one: the first of them is their union, and the others are empty. Nothing if
-// none do. Throws InvalidInput if a cell overlaps itself, with `what` the cells are.
+// Returns the cells with each set of overlapping cells merged: the first cell of a set becomes the
+// union, the others become empty. Returns nothing if no cells overlap. Throws InvalidInput, with
+// `what` for the cells, if a cell overlaps itself.
 std::optional<Partition> united(const PartitionData& cells, const char* what,
                                 const Execution& execution);
 
