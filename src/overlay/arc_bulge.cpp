@@ -12,7 +12,7 @@
 namespace rondel::overlay {
 namespace {
 
-// Of tan(h) for h up to 1/8.
+// Returns tan(h) for h up to 1/8, by its series.
 double small_tangent(double h) {
   const double u = h * h;
   return h * (1 + u * (1.0 / 3 +
@@ -23,7 +23,7 @@ double small_tangent(double h) {
                                                                   u * (929569.0 / 638512875))))))));
 }
 
-// atan(t) / t - 1 of t^2 = u up to 1/63.
+// Returns atan(t) / t - 1 for u = t^2 up to 1/63, by its series.
 double small_arc_tangent(double u) {
   return -u * (1.0 / 3 -
                u * (1.0 / 5 -
@@ -32,8 +32,8 @@ double small_arc_tangent(double u) {
                               u * (1.0 / 11 - u * (1.0 / 13 - u * (1.0 / 15 - u * (1.0 / 17))))))));
 }
 
-// With k = 1 - g and t = tan(width / 2), atan(t) - atan(k t) = atan(g t / (1 + k t^2)), whose numerator and denominator are
-// here times cos^2.
+// Returns area_of_bulge() for k = 1 - gap. With t = tan(width / 2), atan(t) - atan(k t) = atan(gap
+// t / (1 + k t^2)); numerator and denominator are multiplied by cos^2 here.
 double bulge_at_pole(double width, double k, double gap) {
   const exact::SineCosine half = exact::sine_cosine_of_degrees(width * (90 / std::numbers::pi));
   return gap * width - 2 * exact::argument(gap * half.sine * half.cosine,

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The area between an arc of a great circle and a straight line in longitude and the sine of latitude.
+// The area between an arc of a great circle and a parallel, in longitude and the sine of latitude.
 //
-// in    the arc's width in radians of longitude, and its slope k
+// in    the arc's width in radians of longitude, and k = (sin p + sin q) / (1 + cos(p - q)) for the
+//       latitudes p and q of its ends
 // out   areas in steradians
 #pragma once
 

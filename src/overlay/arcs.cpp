@@ -14,10 +14,12 @@
 namespace rondel::overlay {
 namespace {
 
-// Of three great circles, each through two points, whether the second one meets the first one in its
-// direction before the third does, where both do so within one arc of less than 180 degrees and
-// from right to left: the sign of N.(M x M') with normals N = y x z, M, M' of the three. Where that
-// vanishes, that of its change w.(N x (M x M')) when the first circle is turned (signs.h).
+// Compares two crossings along a great circle, each circle given by two points: positive if the circle pq meets
+// the circle yz, in the latter's direction, before the circle rs does. Both cross it from right to left and
+// within one arc of less than 180 degrees.
+//
+// With the normals N = y x z, M = p x q and M' = r x s it is the sign of N.(M x M'). Where that
+// vanishes, it is the sign of its change w.(N x (M x M')) when the first circle is perturbed (signs.h).
 Sign crossing_order(const Point& y, const Point& z, const Point& p, const Point& q, const Point& r,
                     const Point& s) {
   const auto sign_of = [&](const auto& value) {
@@ -57,6 +59,7 @@ std::span<const PieceArc> ArcMaker::operator()(Index cell) {
   return arcs_;
 }
 
+// Appends the arcs of the cell's boundary and collects the passages.
 void ArcMaker::follow_boundary(Index cell) {
   for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
     const Halfedge end = cells_.rings[ring + 1];
@@ -85,8 +88,9 @@ void ArcMaker::follow_boundary(Index cell) {
   }
 }
 
-// By edges, and along each edge in the direction of its lower halfedge. A convex cell has no edge
-// with two passages but one that comes in by the first and goes out by the second.
+// Sorts passages by edge, and those of an edge in the direction of its lower halfedge. An edge has
+// two passages of a convex cell only if the boundary comes in by the first and goes out by the
+// second.
 void ArcMaker::sort_passages(bool is_convex) {
   std::ranges::sort(passages_, [&](const Passage& a, const Passage& b) {
     if (a.edge != b.edge) return a.edge < b.edge;
@@ -95,6 +99,7 @@ void ArcMaker::sort_passages(bool is_convex) {
   });
 }
 
+// True if passage a comes before b along their common edge.
 bool ArcMaker::is_before(const Passage& a, const Passage& b) const {
   const auto end = [&](const Passage& passage) {
     const Index ring_end = *std::ranges::upper_bound(cells_.rings, passage.by);
@@ -105,16 +110,17 @@ bool ArcMaker::is_before(const Passage& a, const Passage& b) const {
   const Sign sign =
       crossing_order(cover_.origin(a.edge), cover_.end(a.edge), cells_.origin(a.by),
                      cells_.origin(end(a)), cells_.origin(b.by), cells_.origin(end(b)));
-  // An edge that is left by its own halfedge is crossed from left to right.
+  // If the boundary leaves by the edge's own halfedge, it crosses the edge from left to right.
   const bool is_turned = (a.out == a.edge) != (b.out == b.edge);
   return sign == (is_turned ? Sign::negative : Sign::positive);
 }
 
-// The parts of edges between passages, or between a passage and an end.
+// Appends the parts of edges inside of the cell that begin or end at a passage: from passage to
+// passage, or between a passage and an end of the edge.
 void ArcMaker::follow_inwards() {
   for (std::size_t k = 0; k < passages_.size(); ++k) {
     const Passage& passage = passages_[k];
-    if (passage.out != passage.edge) {  // inside is before it
+    if (passage.out != passage.edge) {  // the part before it is inside
       add_edge(passage.edge, add_point(cover_.origin(passage.edge)), passage.point);
       arrive(passage.out);
     } else if (k + 1 < passages_.size() && passages_[k + 1].edge == passage.edge) {
@@ -127,6 +133,7 @@ void ArcMaker::follow_inwards() {
   }
 }
 
+// Appends the edges that are reached from ends inside of the cell without crossing its boundary.
 void ArcMaker::flood() {
   while (!arrivals_.empty()) {
     const Halfedge arrived = arrivals_.back();
@@ -144,11 +151,12 @@ void ArcMaker::flood() {
   }
 }
 
-// Whether the boundary comes in and goes out in turn along each edge, and no end of an edge that is outside was arrived at.
+// True if along each edge the boundary comes in and goes out by turns, and no end of an edge that
+// is outside of the cell was reached from inside.
 bool ArcMaker::has_clear_ends() const {
   for (std::size_t k = 0; k < passages_.size(); ++k) {
     const auto& [edge, out, by, point] = passages_[k];
-    const bool comes_in = out == edge;  // along the edge
+    const bool comes_in = out == edge;  // in the direction of the edge
     const bool is_first = k == 0 || passages_[k - 1].edge != edge;
     const bool is_last = k + 1 == passages_.size() || passages_[k + 1].edge != edge;
     if (!is_last && comes_in == (passages_[k + 1].out == edge)) return false;
@@ -158,9 +166,11 @@ bool ArcMaker::has_clear_ends() const {
   return true;
 }
 
-// Of a cell of which no side crosses an edge: these are connected, so that all of them are inside, or none is. Each ring is
-// inside of one cell of the cover. If the edges are outside, then what is left of the rings there, negative where that is a
-// hole, adds up to the area; else it adds up to as much less the sphere.
+// True if the edges of the cover are inside of a cell none of whose sides crosses an edge. The
+// edges are connected, so all of them are inside or none is, and each ring is inside of one cell of
+// the cover. If the edges are outside, the areas to the left of the rings within these cells,
+// negative for holes, add up to the area of the cell; otherwise they add up to that area minus the
+// sphere's.
 bool ArcMaker::has_corners_of_cover(Index cell) {
   if (cells_.shapes[cell] != Shape::other) return false;
   double inside_of_rings = 0;
@@ -171,9 +181,10 @@ bool ArcMaker::has_corners_of_cover(Index cell) {
   return cells_.area_of_other(cell) - inside_of_rings > 2 * std::numbers::pi;
 }
 
-// What is left of ring_ in the cell of the cover that has it, or minus what is right of it there. A cell has less than
-// half of the sphere, so that does any side of the ring that is in it; where it is as good as half, triangles at the
-// cell's center are none with the antipode of that.
+// Returns the area to the left of ring_ within the cell of the cover that contains it, or minus the
+// area to the right of it there. A cell of a cover has less than a hemisphere, so the same is true
+// of one side of the ring within it. Where it is nearly a hemisphere, triangles at the cell's
+// center are used, none of which contains the antipode of the center.
 double ArcMaker::area_within(Index beyond) const {
   constexpr double surely_less = 2 * std::numbers::pi - 1e-3;
   const double area = map::area_on_left(ring_);
@@ -186,6 +197,7 @@ double ArcMaker::area_within(Index beyond) const {
   return sum;
 }
 
+// Appends all edges of the cover.
 void ArcMaker::take_all_edges() {
   for (Halfedge h = 0; h < cover_.num_halfedges(); ++h) {
     if (h < cover_.twins[h]) {
@@ -198,6 +210,7 @@ void ArcMaker::add_edge(Halfedge h, Index from, Index to) {
   arcs_.push_back({cover_.cell_of[h], cover_.cell_of[cover_.twins[h]], from, to});
 }
 
+// Marks the end of a halfedge as inside.
 void ArcMaker::arrive(Halfedge h) {
   if (visited_.insert(cover_.corners[cover_.next(h)])) arrivals_.push_back(h);
 }

@@ -24,27 +24,28 @@ namespace rondel::overlay {
 namespace {
 
 constexpr std::size_t keys_per_block = 256;
-constexpr double of_holes = 8;  // times area_of_rounding()
+// the area of a clockwise ring that is taken for rounding, in multiples of area_of_rounding()
+constexpr double of_holes = 8;
 
 bool is_before(const Point& a, const Point& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-// Between positions in the list of points.
+// A directed side between two points, which are named by their places in the list of points.
 struct NamedSide {
   Index from;
   Index to;
   friend auto operator<=>(const NamedSide&, const NamedSide&) = default;
 };
 
-// Points by name, and the links of each key.
+// All points in the order of their coordinates, and the sides of each key in compressed rows.
 struct Named {
   std::vector<Point> points;
   std::vector<std::uint64_t> offsets;
   std::vector<NamedSide> links;
 };
 
-// Points are named in the order of their coordinates.
+// Replaces the ends of arcs by the places of equal points in the order of coordinates.
 Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
   std::vector<Point> ends;
   ends.reserve(2 * arcs.size());
@@ -77,7 +78,7 @@ Named named(std::span<const KeyedArc> arcs, std::size_t num_keys) {
   return result;
 }
 
-// Leaves out links to themselves, and as many of each pair as run the other way. The rest is sorted.
+// Removes sides from a point to itself, and pairs of opposite sides. The rest is sorted.
 void cancel(std::vector<NamedSide>& links) {
   std::erase_if(links, [](const NamedSide& link) { return link.from == link.to; });
   const auto ends = [](const NamedSide& link) { return std::minmax(link.from, link.to); };
@@ -106,7 +107,8 @@ void cancel(std::vector<NamedSide>& links) {
   std::ranges::sort(links);
 }
 
-// The angle by which the direction to q from p is clockwise of that to `back`, from 0 to 2 pi.
+// Returns the angle at p, from 0 to 2 pi, by which the direction to q is clockwise of the direction
+// to `back`.
 double clockwise_angle(const Point& p, const Point& back, const Point& q) {
   const Point to_back = back - p;
   const Point to_q = q - p;
@@ -116,11 +118,13 @@ double clockwise_angle(const Point& p, const Point& back, const Point& q) {
   return sine < 0 ? 2 * std::numbers::pi - angle : angle;
 }
 
+// Traces the rings of one region after another.
 class RingMaker {
  public:
   explicit RingMaker(const std::vector<Point>& points) : points_(points) {}
 
-  // The rings of the region with this key, in order. Precondition: as many links end in a point as begin there.
+  // Returns the rings of the region with this key, in order. Precondition: as many sides end in
+  // each point as begin there.
   std::vector<std::vector<Index>> operator()(std::span<const NamedSide> links, std::size_t key) {
     key_ = key;
     links_.assign(links.begin(), links.end());
@@ -140,8 +144,8 @@ class RingMaker {
   }
 
  private:
-  // Whether no two of the sorted links begin in one point, so that only the one from a link's end may run the other way,
-  // and does not.
+  // True if no two of the sorted sides begin in one point and none is the reverse of another, so
+  // that no side cancels.
   [[nodiscard]] bool is_plain() const {
     for (std::size_t k = 0; k < links_.size(); ++k) {
       const auto [from, to] = links_[k];
@@ -152,7 +156,8 @@ class RingMaker {
     return true;
   }
 
-  // From a link on until it comes back; whatever it meets again on its way is a ring of its own.
+  // Follows sides from one on until the path closes. If the path meets one of its points again, the
+  // loop is cut off as a ring of its own.
   void follow(std::size_t first) {
     path_.clear();
     std::size_t k = first;
@@ -172,11 +177,12 @@ class RingMaker {
       }
     }
   }
-  // A path that does not come back.
+  // Throws InvalidInput for a path that does not close, unless it is no wider than rounding.
   void refuse_if_wide(const std::vector<Index>& path) {
     if (path.size() < 3 || is_rounding(path)) return;
     throw InvalidInput("the sides around region " + std::to_string(key_) + " do not close", key_);
   }
+  // Cuts the end of the path off as a ring.
   void cut(std::vector<Index>::iterator begin) {
     if (std::distance(begin, path_.end()) > 2) rings_.emplace_back(begin, path_.end());
     path_.erase(begin, path_.end());
@@ -186,11 +192,13 @@ class RingMaker {
     return static_cast<std::size_t>(std::ranges::lower_bound(links_, p, {}, &NamedSide::from) -
                                     links_.begin());
   }
+  // True if several sides begin in a point.
   [[nodiscard]] bool is_crowded(Index p) const {
     const std::size_t k = first_link_from(p);
     return k + 1 < links_.size() && links_[k + 1].from == p;
   }
-  // The one that keeps to the region that is left of the link: the first one clockwise of the way back.
+  // Returns the side that continues the border of the region: the first unused one clockwise from
+  // the way back, or links_.size().
   [[nodiscard]] std::size_t next_after(const NamedSide& link) const {
     std::size_t best = links_.size();
     double least = 0;
@@ -207,8 +215,10 @@ class RingMaker {
     return best;
   }
 
-  // A ring that rounding has turned clockwise is no hole: alone, it would be the border of all of the sphere. Its corners are
-  // crossings of sides that had crossings as corners, so that it may be wider than a counterclockwise one.
+  // True if a ring is no larger than what rounding can make. A ring that rounding has turned
+  // clockwise is no hole: alone it would be the border of nearly the whole sphere. Its corners are
+  // crossings of sides that themselves end in crossings, so it may be wider than a counterclockwise
+  // ring.
   [[nodiscard]] bool is_rounding(const std::vector<Index>& ring) {
     double length = 0;
     border_.clear();

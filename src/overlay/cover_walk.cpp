@@ -7,7 +7,8 @@ namespace rondel::overlay {
 
 namespace {
 
-// The last of [first, end) for which `holds`, which it does for the first, and for none behind one for which it does not.
+// Returns the last index of [first, end) for which `holds` is true, by bisection. Precondition: it
+// is true for a first part of the range, `first` included, and false for the rest.
 template <class Holds>
 Index last_of(Index first, Index end, const Holds& holds) {
   while (end - first > 1) {
@@ -19,8 +20,10 @@ Index last_of(Index first, Index end, const Holds& holds) {
 
 }  // namespace
 
-// Corners left of the line follow each other, and those right of it. One of each is known of the halfedge by which the line
-// came in, or else of the triangle of the first corner and two that follow each other which has the start.
+// Returns the exit of a large convex cell by bisection. The corners left of the line are consecutive around
+// the cell, and so are those right of it; the exit leads from the last right one to the first left one. One
+// corner of each kind is known: the ends of the halfedge by which the line entered, or else, if the line starts in
+// the cell, corners of the triangle with the start, of the fan of triangles around corner 0.
 Halfedge CoverWalk::way_out_by_search(const TracedLine& line, Index cell, Halfedge in) const {
   const Index begin = cover_.begin_of(cell);
   const Index size = cover_.end_of(cell) - begin;
@@ -46,7 +49,8 @@ Halfedge CoverWalk::way_out_by_search(const TracedLine& line, Index cell, Halfed
   return begin + last_of(right, left, is_right) % size;
 }
 
-// The corners that are less than half a turn counterclockwise of the first come before the others.
+// Finds the triangle by two bisections: the corners less than 180 degrees counterclockwise of the
+// first one come before the others.
 Halfedge CoverWalk::halfedge_before(const Point& p, Index cell) const {
   const Point& c = cover_.centers[cell];
   const Halfedge begin = cover_.begin_of(cell);
@@ -59,9 +63,9 @@ Halfedge CoverWalk::halfedge_before(const Point& p, Index cell) const {
   return half + 1 < end && is_past(half + 1) ? last_of(half + 1, end, is_past) : half;
 }
 
-// Through the triangles of the center c and each halfedge, from that which has the start or that behind
-// `in`. With c to the left, the line turns counterclockwise around it. Sides of triangles by which
-// it leaves have their origin right and their end left.
+// Goes through the triangles of the center c and each halfedge, beginning with the triangle that has the
+// start of the line or with that of `in`. If c is to the left, the line turns counterclockwise around c. The
+// sides of triangles by which the line leaves have their origin right of it and their end left of it.
 Halfedge CoverWalk::way_out_of_star(const TracedLine& line, Index cell, Halfedge in) const {
   const Point& c = cover_.centers[cell];
   Halfedge h = in == no_index ? halfedge_before(line.from(), cell) : in;

@@ -16,7 +16,7 @@
 namespace rondel::overlay {
 namespace {
 
-// Whether a point of the edge's circle is on the edge.
+// True if p, a point of the edge's great circle, lies on the edge.
 bool is_within(const CoverEdge& edge, const Point& p) {
   const Point& y = edge.start();
   const Point& z = edge.end();
@@ -24,16 +24,17 @@ bool is_within(const CoverEdge& edge, const Point& p) {
   return dot(p, z - cosine * y) >= 0 && dot(p, y - cosine * z) >= 0;
 }
 
-// Where a vector that is not zero points.
+// Returns the unit vector of a vector that is not zero.
 Point direction_of(const Vec& v) {
-  constexpr double small = 0x1p-14;  // 35/128 e^4 of (1 + e)^(-1/2) is nothing then
+  constexpr double small = 0x1p-14;  // the term 35/128 e^4 of (1 + e)^(-1/2) is below rounding then
   const double excess = dot(v, v) - 1;
   if (std::abs(excess) > small) return exact::to_point(normalized(v));
   return exact::to_point((1 - excess * (0.5 - excess * (0.375 - excess * 0.3125))) * v);
 }
 
-// A common end is where the two meet. Where they are as good as parallel, rounding may find a point that is on
-// the line but not on the edge: then the edge's nearer end is on both.
+// Returns the point where the line and the edge cross. If they have an end in common, it is that
+// end. Where they are nearly parallel, rounding may produce a point on the line that is not on the
+// edge; then the nearer end of the edge is on both.
 Point crossing_point(const TracedLine& line, const CoverEdge& edge) {
   constexpr double least_sine = 0x1p-20;
   const Point& from = line.from();
@@ -46,7 +47,7 @@ Point crossing_point(const TracedLine& line, const CoverEdge& edge) {
   const double of_end = edge.distance(to);
   const double drop = of_start - of_end;
   double part = of_start / drop;
-  if (!(part >= 0)) part = 0;  // both vanish
+  if (!(part >= 0)) part = 0;  // both distances are 0
   if (part > 1) part = 1;
   const Point p = direction_of(exact::to_vector(from) + part * line.step());
   if (drop * drop > least_sine * least_sine * edge.squared_length() * dot(line.step(), line.step()))
@@ -60,12 +61,13 @@ Point crossing_point(const TracedLine& line, const CoverEdge& edge) {
   return dot(p, y) > dot(p, z) ? y : z;
 }
 
-// A point that is strictly inside of a cell.
+// A point strictly inside of a cell of the cover.
 struct Base {
   Index cell;
   Point point;
 };
 
+// Returns a point strictly inside of a cell, or nothing if rounding leaves none.
 std::optional<Point> point_inside(const Subdivision& cover, Index cell) {
   if (cover.shapes[cell] == Shape::empty) return std::nullopt;
   const Halfedge begin = cover.begin_of(cell);
@@ -84,7 +86,7 @@ std::optional<Point> point_inside(const Subdivision& cover, Index cell) {
   return std::nullopt;
 }
 
-// One not far from p along the curve. Precondition: there is any.
+// Returns a point inside of a cell near p in spatial order. Throws InvalidInput if no cell has one.
 Base base_near(const Subdivision& cover, const Point& p) {
   std::uint64_t key = 0;
   order::place_keys(std::span(&p, 1), Model::projected, {}, std::span(&key, 1));
@@ -98,13 +100,13 @@ Base base_near(const Subdivision& cover, const Point& p) {
   throw InvalidInput("no cell has an inside");
 }
 
-// A point at a right angle to p.
+// Returns a unit vector orthogonal to p.
 Point point_beside(const Point& p) {
   const Point axis = std::abs(p.x) < 0.5 ? Point{1, 0, 0} : Point{0, 1, 0};
   return normalized(cross(p, axis));
 }
 
-// A point that moves through the cover.
+// A point that moves through the cover, with the cell that has it.
 class Walker {
  public:
   Walker(const Subdivision& cover, const Base& base)
@@ -115,6 +117,8 @@ class Walker {
     at_ = p;
     cell_ = cell;
   }
+  // Moves to p along a great circle. If p is far, the path has a corner, so that each of its arcs
+  // is shorter than 180 degrees.
   void go_to(const Point& p) {
     if (p == at_) return;
     constexpr double far = -0.5;
@@ -135,14 +139,17 @@ class Walker {
 
 }  // namespace
 
-// An edge is traced from its lower halfedge on, whoever traces it, so that all find the same points.
+// An edge is always traced from its lower halfedge on, so that the cells on both sides of it find
+// the same points.
 Crossings::Crossings(const Subdivision& cells, const Subdivision& cover, Index first_cell,
                      Index end_cell)
     : first_(cells.begin_of(first_cell)) {
   const Halfedge end = cells.begins[end_cell];
   if (first_ == end) return;
   traces_.resize(end - first_);
-  // The cover's cells at points that no cell before has: points are numbered as cells come to have them.
+  // The cover's cells at points that were reached first by these cells. Points are numbered in the
+  // order in which cells first have them, so those of earlier cells have lower numbers and are not
+  // stored.
   const auto corners = std::span(cells.corners).subspan(first_, end - first_);
   const Index points_end = *std::ranges::max_element(corners) + 1;
   const Index points_begin = points_end - std::min(points_end, end - first_);

@@ -32,6 +32,7 @@ namespace {
 
 constexpr std::size_t swept_per_block = 16;
 
+// Returns the message about a fault.
 std::string text_of_fault(const std::vector<io::LonLatRing>& rings, const PlaneFault& fault) {
   const std::string second = ring_name(rings, fault.second);
   const std::string first = fault.first == no_index ? "" : ring_name(rings, fault.first);
@@ -51,7 +52,8 @@ std::string text_of_fault(const std::vector<io::LonLatRing>& rings, const PlaneF
   return second + " runs to and fro along a line" + at;
 }
 
-// What to do with a ring around a pole; nothing for others.
+// Returns advice for a ring around a pole that is not led to the pole, or an empty text for other
+// rings.
 std::string advice_on(const io::LonLatRing& ring) {
   const std::size_t n = ring.positions.size();
   for (std::size_t k = 0; k < n; ++k) {
@@ -67,6 +69,7 @@ std::string advice_on(const io::LonLatRing& ring) {
   return "";
 }
 
+// Converts all features with one set of options.
 class FeatureCells {
  public:
   FeatureCells(io::PolygonFeatures& features, const PolygonOptions& options,
@@ -102,7 +105,8 @@ class FeatureCells {
     return {.threads = execution_.threads, .stop = execution_.stop};
   }
 
-  // The cells are those of these features.
+  // Returns the pairs of features that overlap; `features` names the feature of each cell. Throws
+  // FileError if a cell overlaps itself.
   [[nodiscard]] std::vector<CrossingCells> overlaps_in(const CellRings& cells,
                                                        const std::vector<Index>& features) const {
     std::vector<CrossingCells> overlaps;
@@ -119,7 +123,8 @@ class FeatureCells {
     return overlaps;
   }
 
-  // Parts that are apart in the plane may be on one place of the sphere, a whole turn away.
+  // Throws FileError if parts of a feature that are disjoint in the plane overlap on the sphere,
+  // because they are 360 degrees apart.
   void require_parts_apart(const CellRings& cells) const {
     std::vector<Index> features;
     CellRings wide;
@@ -140,7 +145,7 @@ class FeatureCells {
     if (!features.empty()) (void)overlaps_in(wide, features);
   }
 
-  // Straight in longitude and latitude.
+  // Returns the cells of polygons whose sides are straight in longitude and latitude.
   CellRings plane_cells() {
     for (std::size_t f = 0; f < features_.rings.size(); ++f) require_turns(f);
     share_corners(features_.rings, execution_.threads);
@@ -162,7 +167,7 @@ class FeatureCells {
       }
     }
     CellRings cells = rings_around(arcs, features_.rings.size(), execution_.threads);
-    // What has an area in the plane but no border on the sphere covers it.
+    // A feature that has an area in the plane but no border on the sphere covers the sphere.
     for (std::size_t f = 0; f < turns.size(); ++f) {
       if (turns[f] > 0 && cells.cells[f] == cells.cells[f + 1]) {
         cells.whole.push_back(static_cast<Index>(f));
@@ -183,6 +188,8 @@ class FeatureCells {
                         "edges; if the long side is meant, divide it by a position");
   }
 
+  // Throws FileError for a ring that is not closed, that has a side around a pole, or that is more
+  // than ten turns of the globe away.
   void require_turns(std::size_t feature) const {
     constexpr double most_turns = 10;
     const std::vector<io::LonLatRing>& rings = features_.rings[feature];
@@ -205,7 +212,8 @@ class FeatureCells {
     }
   }
 
-  // The sides of all features; of each, how often it covers the map, rounded.
+  // Collects the sides of all features with their features, and for each feature in `turns` how
+  // often it covers the map, rounded.
   void sweep(std::vector<PlaneSide>& sides, std::vector<Index>& owners,
              std::vector<std::size_t>& turns) const {
     std::vector<PlaneRegion> regions(features_.rings.size());

@@ -24,10 +24,11 @@ constexpr Halfedge sides_per_step = 1024;
 constexpr std::array<Point, 6> axis_ends = {
     {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {-1, 0, 0}, {0, -1, 0}, {0, 0, -1}}};
 
-// Triangles by their directed sides.
+// A triangulation of the sphere, represented by the directed sides of its triangles, into which the
+// sides of cells are inserted.
 class SideMesh {
  public:
-  // Of cells with these names, for messages.
+  // `names_of_cells` are the indices of the cells in the input, for messages.
   SideMesh(std::vector<Point> points, std::span<const Index> names_of_cells,
            const Execution& execution)
       : points_(std::move(points)),
@@ -43,14 +44,15 @@ class SideMesh {
     for (const Triple& face : triangulation.faces()) add(face[0], face[1], face[2]);
   }
 
-  // Makes the arc from p to q one or more sides of triangles with `owner` to their left.
+  // Inserts the arc from p to q with the cell `owner` to its left. The arc becomes one or more
+  // sides of triangles.
   void put(Index p, Index q, Index owner) {
     Index at = names_[p];
     const Index end = names_[q];
     while (at != end) {
       const Index next = put_first(at, end, owner);
       Index& back = sides_.make(next, at).owner;
-      if (back == owner) {  // to and fro
+      if (back == owner) {  // the owner has the side in both directions
         back = no_index;
         has_to_and_fro_ = true;
       } else {
@@ -61,9 +63,10 @@ class SideMesh {
       at = next;
     }
   }
-  // Whether any place has been a side of one owner in both directions.
+  // True if a side of one owner was inserted in both directions.
   [[nodiscard]] bool has_to_and_fro() const { return has_to_and_fro_; }
-  // The triangles, and what they are parts of. Cells that overlap are refused.
+  // Returns the triangles and the cell of each (no_index for none). Throws ConflictingSides if
+  // cells overlap.
   void take(CellRings& triangles, std::vector<Index>& owners);
 
  private:
@@ -71,6 +74,7 @@ class SideMesh {
   [[nodiscard]] Sign turn(Index a, Index b, Index c) const {
     return orientation(points_[a], points_[b], points_[c]);
   }
+  // Adds a triangle.
   void add(Index a, Index b, Index c) {
     sides_.make(a, b).apex = c;
     sides_.make(b, c).apex = a;
@@ -81,18 +85,19 @@ class SideMesh {
   }
   Index put_first(Index p, Index q, Index owner);
   [[noreturn]] void refuse(Index owner, Index other, const Point& towards, bool is_crossing) const;
-  // The side from a to b is crossed on the way from p to q.
+  // Throws ConflictingSides if the side ab, which the path from p to q crosses, bounds a cell.
   void refuse_if_crossed(Index a, Index b, Index p, Index q, Index owner) const;
   [[nodiscard]] std::vector<Index> owners_of(std::span<const Index> corners) const;
+  // Triangulates a polygon by cutting off ears.
   void fill(std::vector<Index> ring);
   [[nodiscard]] bool is_ear(const std::vector<Index>& ring, std::size_t k) const;
 
   std::vector<Point> points_;
   std::span<const Index> names_of_cells_;
-  std::vector<Index> names_;   // of points in the same direction, one
-  std::vector<Index> around_;  // an end of a side from each point
+  std::vector<Index> names_;   // for each point the first one in the same direction
+  std::vector<Index> around_;  // for each point the end of some side that begins there
   bool has_to_and_fro_ = false;
-  SideTable sides_;  // also those that were crossed: nobody asks for their apexes any more
+  SideTable sides_;  // has the sides that were crossed as well; their apexes are not read any more
 };
 
 void SideMesh::refuse(Index owner, Index other, const Point& towards, bool is_crossing) const {
@@ -112,8 +117,9 @@ void SideMesh::refuse_if_crossed(Index a, Index b, Index p, Index q, Index owner
   }
 }
 
-// Makes a side of the beginning of the arc from p to q, up to the first point on it, which is returned. All sides that
-// it crosses vanish: the points to its left, and those to its right, are then corners of two polygons along it.
+// Makes a side of the beginning of the arc from p to q, up to the first point on it, and returns
+// that point. All sides that it crosses are removed; the points to its left, and those to its
+// right, are the corners of two polygons, which are triangulated.
 Index SideMesh::put_first(Index p, Index q, Index owner) {
   Index a = around_[p];
   Index b = apex(p, a);
@@ -121,7 +127,8 @@ Index SideMesh::put_first(Index p, Index q, Index owner) {
     a = b;
     b = apex(p, a);
     if (a != around_[p]) continue;
-    throw InvalidInput("a side is 180 degrees long", names_of_cells_[owner]);  // in no direction
+    // no direction is defined
+    throw InvalidInput("a side is 180 degrees long", names_of_cells_[owner]);
   }
   if (turn(p, a, q) == Sign::zero) return a;
   std::vector<Index> left = {b};
@@ -144,7 +151,8 @@ Index SideMesh::put_first(Index p, Index q, Index owner) {
   }
 }
 
-// Corner k and its neighbors make a triangle inside the ring that no other corner is in or on.
+// True if corner k and its neighbors form a triangle inside of the polygon with no other corner in
+// it or on it.
 bool SideMesh::is_ear(const std::vector<Index>& ring, std::size_t k) const {
   const std::size_t n = ring.size();
   const Index a = ring[(k + n - 1) % n];
@@ -190,8 +198,9 @@ void SideMesh::take(CellRings& triangles, std::vector<Index>& owners) {
   owners = owners_of(triangles.corners);
 }
 
-// Of the triangles with these corners. A cell has all triangles that are beside its sides, and what is beyond these
-// through sides that bound nothing: that a cell has in both directions, or none.
+// Returns the cells of the triangles with these corners. A cell has all triangles to the left of
+// its sides, and from them all triangles beyond sides that bound nothing: sides that no cell has,
+// or that one cell has in both directions.
 std::vector<Index> SideMesh::owners_of(std::span<const Index> corners) const {
   struct Bounds {
     Index left;
@@ -229,7 +238,8 @@ std::vector<Index> SideMesh::owners_of(std::span<const Index> corners) const {
       }
     }
   }
-  // A triangle of a cell beside the side of another one, or outside of a side of its own, is in both.
+  // If the triangle to the left of a cell's side belongs to another cell, or the triangle to the
+  // right of it to any cell, then cells overlap in it.
   for (Index triangle = 0; triangle < owners.size(); ++triangle) {
     const Index owner = owners[triangle];
     for (const auto& [left, right, beyond] : bounds_of(triangle)) {
@@ -257,6 +267,7 @@ ConflictingSides::ConflictingSides(const SideConflict& conflict)
 
 namespace {
 
+// Returns the sides of all cells with their cells.
 std::vector<OwnedSide> owned_sides(const Subdivision& cells) {
   std::vector<OwnedSide> sides;
   sides.reserve(cells.num_halfedges());
@@ -271,7 +282,7 @@ std::vector<OwnedSide> owned_sides(const Subdivision& cells) {
   return sides;
 }
 
-// The triangles and their owners, of which these sides are.
+// The triangles and their cells after inserting all sides.
 struct FilledSides {
   CellRings triangles;
   std::vector<Index> owners;
@@ -296,9 +307,10 @@ FilledSides filled_with(const Subdivision& cells, std::span<const OwnedSide> sid
   return filled;
 }
 
-// Mends cells that overlap only because corners are beside sides on which they are to rounding: these corners become corners of
-// the sides. That may bring sides over other corners. An overlap that is wider, but so short that overlaps_of() takes no
-// notice of it, needs larger steps.
+// Triangulates cells. If cells overlap only because corners are beside sides on which they are up
+// to rounding, these corners become corners of the sides. That may move sides across other corners,
+// so it is repeated. An overlap that is wider, but too short for overlaps_of() to report it, needs
+// larger steps.
 FilledSides filled_by_rounding(const Subdivision& cells, const Execution& execution) {
   constexpr std::array<double, 4> steps = {1, 1, 16, 512};
   std::vector<OwnedSide> sides = owned_sides(cells);

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells that overlap others are put into layers in which none do, as few as a first fit finds. Layer after layer is laid
-// over those before, each filled up to a cover: every piece belongs to the least cell that it is of. Where sides of two
-// cells cross, each cell on either side overlaps one of the two, or ends there: so the others keep their corners.
+// Puts cells that overlap others into layers without overlaps; a first fit makes few layers. Each
+// layer is completed to a cover by its outside and laid over the union of those before; each piece
+// belongs to the lowest cell that has it. Where sides of two cells cross, each cell on either side
+// overlaps one of the two or ends there, so other cells keep their corners.
 #include "overlay/first_of_cells.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ namespace {
 
 constexpr std::size_t no_layer = static_cast<std::size_t>(-1);
 
-// The layer of each cell that overlaps another one.
+// Returns the layer of each cell that overlaps another one, or no_layer.
 std::vector<std::size_t> layers_of(std::size_t num_cells, std::span<const CrossingCells> overlaps) {
   std::vector<std::size_t> layers(num_cells, no_layer);
   std::vector<std::vector<Index>> earlier(num_cells);
@@ -36,7 +37,7 @@ std::vector<std::size_t> layers_of(std::size_t num_cells, std::span<const Crossi
   return layers;
 }
 
-// Appends a cell of `from`, whose points begin at `first_point`.
+// Appends a cell of `from`, whose points begin at `first_point` in `to`.
 void append_cell(const CellRings& from, std::size_t cell, std::size_t first_point, CellRings& to) {
   if (from.is_whole(cell)) to.whole.push_back(static_cast<Index>(to.num_cells()));
   for (std::uint64_t r = from.cells[cell]; r < from.cells[cell + 1]; ++r) {
@@ -48,7 +49,7 @@ void append_cell(const CellRings& from, std::size_t cell, std::size_t first_poin
   to.cells.push_back(to.rings.size() - 1);
 }
 
-// The cells of one layer; the others are empty.
+// Returns the cells of one layer; all other cells are empty.
 CellRings cells_of_layer(const CellRings& cells, const std::vector<std::size_t>& layers,
                          std::size_t layer) {
   CellRings kept;

@@ -23,6 +23,7 @@
 namespace rondel::overlay {
 namespace {
 
+// Converts all features.
 class GeodesicCells {
  public:
   GeodesicCells(const io::PolygonFeatures& features, const Execution& execution)
@@ -64,6 +65,7 @@ class GeodesicCells {
   }
 
  private:
+  // Throws FileError if all sides of a ring cancel.
   void require_area(std::size_t feature, Index ring, std::size_t first_arc) const {
     const std::span<const KeyedArc> arcs = std::span(arcs_).subspan(first_arc);
     if (!is_nothing(arcs)) return;
@@ -73,7 +75,9 @@ class GeodesicCells {
                        text_of_place(rings[ring].positions.front()));
   }
 
-  // What is left of the sides bounds the feature but for whole spheres, so areas tell how many.
+  // Finds the features that are the whole sphere. The sides that are left after cancelling bound a
+  // feature up to whole spheres, whose number follows from the areas. Throws FileError for features
+  // that cover a place twice.
   void take_whole(const CellRings& given, CellRings& cells) const {
     constexpr double sphere = 4 * std::numbers::pi;
     const std::vector<double> left = areas(cells);
@@ -88,6 +92,7 @@ class GeodesicCells {
     }
   }
 
+  // Throws FileError with two parts of a feature that overlap.
   [[noreturn]] void refuse_overlap(const CellRings& given, std::size_t feature) const {
     CellRings parts;
     parts.points = given.points;
@@ -114,6 +119,7 @@ class GeodesicCells {
     refuse_feature(features_, feature, "parts of it overlap");
   }
 
+  // Appends the arcs of a ring, oriented with the inside of its polygon to the left.
   void append(std::size_t feature, Index ring) {
     const std::vector<io::LonLatRing>& rings = features_.rings[feature];
     std::vector<LonLat> positions = rings[ring].positions;
@@ -142,8 +148,9 @@ class GeodesicCells {
     }
   }
 
-  // Of a ring within less than half a turn, without a pole, the direction at its westernmost corner, exactly: its meridian
-  // has the ring on one side. Of others, that of the larger side.
+  // True if a ring is clockwise. For a ring that spans less than 180 degrees of longitude and has
+  // no pole it is decided exactly by the turn at its westernmost corner, whose meridian has the
+  // ring on one side. Otherwise the smaller side is the inside.
   static bool goes_clockwise(const std::vector<LonLat>& positions,
                              const std::vector<Point>& corners) {
     const std::size_t n = positions.size();
@@ -161,7 +168,7 @@ class GeodesicCells {
       west = std::min(west, lon);
       east = std::max(east, lon);
     }
-    // A corner that the ring passes again may have a spike.
+    // A corner that the ring passes twice may be the foot of a spike, which says nothing.
     const bool is_passed_once = std::ranges::count(corners, corners[corner]) == 1;
     if (is_passed_once && east - west < 180 && std::abs(lon) < 180 && n > 2) {
       const Sign sign = orientation(corners[corner > 0 ? corner - 1 : n - 1], corners[corner],
@@ -174,7 +181,7 @@ class GeodesicCells {
   const io::PolygonFeatures& features_;
   const Execution& execution_;
   std::vector<KeyedArc> arcs_;
-  std::vector<double> areas_;  // of each feature the sum over its rings
+  std::vector<double> areas_;  // of each feature: the sum over its rings, without holes
 };
 
 }  // namespace

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
+// True if the meridians span 360 degrees.
 bool goes_around(const std::vector<double>& lon) {
   return std::abs(std::abs(lon.back() - lon.front()) - 360) <= same_line_degrees;
 }
@@ -172,7 +173,7 @@ void Graticule::append_neighbors(Index cell, std::vector<Index>& neighbors) cons
   if (num_cells() - cell > n) append(cell + n);
 }
 
-// Differences of latitudes, and distances from a pole, are exact where they are small.
+// Differences of latitudes and of distances from a pole are exact where they are small.
 double height_between(const Graticule::Parallel& south, const Graticule::Parallel& north) {
   constexpr double half_way = 45;
   const double middle = south.lat_deg / 2 + north.lat_deg / 2;
@@ -185,8 +186,8 @@ double height_between(const Graticule::Parallel& south, const Graticule::Paralle
 
 namespace {
 
-// The integral of cos^2 over the latitudes between two parallels: (phi + s sqrt(1 - s^2)) / 2 with s = sin(phi), and near a pole
-// (c - sin(2 c) / 2) / 2 with the distances c from it.
+// Returns the integral of cos^2 over the latitudes between two parallels: (phi + s sqrt(1 - s^2)) /
+// 2 with s = sin(phi), and near a pole (c - sin(2 c) / 2) / 2 with the distances c from it.
 double inward_between(const Graticule::Parallel& south, const Graticule::Parallel& north) {
   if (is_polar(south.height(), north.height())) {
     const auto from_pole = [](const Graticule::Parallel& parallel) {
@@ -216,7 +217,7 @@ CellRings rings_of(const LonLatGrid& grid) {
   const bool is_westward = grid.lon_deg[1] < grid.lon_deg[0];
   const std::size_t num_meridians = is_around ? num_columns : num_columns + 1;
   CellRings rings;
-  std::vector<Index> firsts;  // of the points on each parallel
+  std::vector<Index> firsts;  // the first point on each parallel
   for (const double lat : grid.lat_deg) {
     firsts.push_back(static_cast<Index>(rings.points.size()));
     for (std::size_t k = 0; k < (std::abs(lat) == 90 ? 1 : num_meridians); ++k) {

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The pieces of two grids of meridians and parallels: those of their columns times those of their rows.
+// Computes the intersections of two grids of meridians and parallels: the intersections of their
+// columns times those of their rows.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,7 +14,7 @@
 namespace rondel::overlay {
 namespace {
 
-// Two columns, or two rows, and what they share: from `low` to `high`.
+// A column, or a row, of each grid, and the range that they share, in degrees from `low` to `high`.
 struct Overlap {
   Index first;
   Index second;
@@ -21,12 +22,13 @@ struct Overlap {
   double high;
 };
 
-// What is between two of the places, or one of them.
+// Adds an overlap unless it is narrower than the distance of lines that are one.
 void add_overlap(Index first, Index second, double low, double high,
                  std::vector<Overlap>& overlaps) {
   if (high - low > same_line_degrees) overlaps.push_back({first, second, low, high});
 }
 
+// Returns `to` if the value is within rounding of it, or the value.
 double snapped(double to, double value) {
   return std::abs(value - to) <= same_line_degrees ? to : value;
 }
@@ -36,7 +38,7 @@ std::vector<Overlap> shared_columns(const Graticule& a, const Graticule& b) {
   for (Index i = 0; i < a.num_columns_of_grid(); ++i) {
     const double west = a.columns()[i].west_deg;
     const double east = a.columns()[i].east_deg;
-    // The columns of b from the one that holds the western meridian on, once around.
+    // Columns of b are visited from the one with the western meridian on, once around the globe.
     const Index n = b.num_columns_of_grid();
     const double first = b.columns()[0].west_deg;
     double shift = std::floor((west - first) / 360) * 360;
@@ -76,7 +78,7 @@ std::vector<Overlap> shared_rows(const Graticule& a, const Graticule& b) {
   return overlaps;
 }
 
-// What a column shares with one of the other grid.
+// The range that a column shares with a column of the other grid.
 struct LonRange {
   Index column;
   double width;
@@ -95,7 +97,7 @@ LonRange range_of(const Overlap& overlap, const Graticule& grid) {
           meridian(overlap.high) - meridian(overlap.low)};
 }
 
-// What a row shares with one of the other grid.
+// The range that a row shares with a row of the other grid.
 struct LatRange {
   Index row;
   Graticule::Parallel south;
@@ -116,16 +118,18 @@ LatRange range_of(const Overlap& overlap, const Graticule& grid, const Graticule
   return {other.first_row() + overlap.second, south, north, height_between(south, north)};
 }
 
+// The intersection of a cell with a cell of the other grid.
 struct BoxPiece {
   Index cell;
   double area;
   Point moment;
 };
 
-// Columns that go around the globe may share two parts with one.
+// Appends the pieces of a cell. A column may share two ranges with a column of a grid around the
+// globe, which make one piece.
 void append_row(const std::vector<BoxPiece>& row, bool has_moments, PieceRows& result) {
   for (const BoxPiece& piece : row) {
-    if (!(piece.area > 0)) continue;  // a row at a pole, say, that is thinner than rounding
+    if (!(piece.area > 0)) continue;  // a row at a pole can be thinner than rounding
     const bool is_same =
         result.columns.size() > result.offsets.back() && result.columns.back() == piece.cell;
     if (is_same) {

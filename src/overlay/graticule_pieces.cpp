@@ -20,21 +20,24 @@
 namespace rondel::overlay {
 namespace {
 
+// The piece of a cell in a cell of the grid.
 struct GridPiece {
   Index cell;
   double area;
-  double length;  // of its border, roughly
+  double length;  // approximate length of its border, radians
   Point moment;
 };
 
-// What the strips of one cell say of one column: of each row, how much of its width is north of the arcs seen so far.
+// The part of a column's width, at the southern parallel of a row, that lies south of the strips
+// seen so far: inside of the cell if the strips are its border. `size` is a bound of the widths
+// that were summed.
 struct Fill {
   double width = 0;
   double size = 0;
   Point run{};
 };
 
-// The strips of a row in one column.
+// The strips in one row of one column.
 class RowStrips {
  public:
   void add(const Strip& strip) {
@@ -49,8 +52,9 @@ class RowStrips {
       has_southern_ = true;
     }
   }
-  // What is south of the strips and of a part of the row's northern parallel, `above` wide, and north of its southern parallel. Of
-  // that `below` is left, which knows better than the sum of all widths where that vanishes.
+  // Returns the area of the cell in this row: the strips, and the part of the row below its
+  // northern parallel, which is `above` wide there. `below` is the width that is left at the
+  // southern parallel; it is known more accurately than the sum of all widths where that is near 0.
   [[nodiscard]] double area(const Graticule& grid, Index row, double above, double below) const {
     if (!has_northern_ && !has_southern_) return area_ + above * grid.height(row);
     const SphereHeight south = grid.parallel(row).height();
@@ -65,13 +69,15 @@ class RowStrips {
 
  private:
   double area_ = 0;
-  double northern_ = 0;  // the widths of those whose areas begin at a pole
+  double northern_ = 0;  // the sum of the widths of strips whose areas begin at the north pole
+  // the same for the south pole
   double southern_ = 0;
   bool has_northern_ = false;
   bool has_southern_ = false;
   bool has_others_ = false;
 };
 
+// Computes the pieces of one cell after another.
 class GridPieceMaker {
  public:
   GridPieceMaker(const PartitionData& cells, const Graticule& grid,
@@ -126,7 +132,8 @@ class GridPieceMaker {
   static Index place(const GridPiece& piece) { return piece.cell; }
 
  private:
-  // What is south of the arcs differs from the cell's area by the sphere's if the pole is in the cell.
+  // True if the north pole is in the cell. The area south of the arcs then differs from the cell's
+  // area by that of the sphere.
   [[nodiscard]] bool has_north_pole(double area) const {
     double south = 0;
     for (const Strip& strip : strips_) {
@@ -136,7 +143,7 @@ class GridPieceMaker {
     return area - south > 2 * std::numbers::pi;
   }
 
-  // And not around the southern pole.
+  // True if all strips are in one cell of the grid, and the cell does not go around the south pole.
   [[nodiscard]] bool is_within_one() const {
     double width = 0;
     for (const Strip& strip : strips_) {
@@ -146,7 +153,8 @@ class GridPieceMaker {
     return std::abs(width) < 1;
   }
 
-  // From strip `next` on, those of the column. Returns the one behind them.
+  // Appends the pieces of a column, whose strips begin with strip `next`. Returns the first strip
+  // after them.
   std::size_t add_column(Index column, std::size_t next, bool has_pole) {
     Fill fill;
     if (has_pole) fill = filled(column);
@@ -169,7 +177,7 @@ class GridPieceMaker {
       }
       const double width_above = fill.width;
       fill = below;
-      // Longitudes are off by some u, and sums of n by n u.
+      // Each longitude is off by some u, and a sum of n longitudes by n u.
       const double rounding = predicates::unit_roundoff * (16 + 4 * summands * fill.size);
       if (std::abs(fill.width) <= rounding) fill = {};
       if (std::abs(fill.width - grid_.columns()[column].width) <= rounding) fill = filled(column);
@@ -182,13 +190,14 @@ class GridPieceMaker {
     }
   }
 
+  // Returns the fill of a column that is inside all over its width.
   [[nodiscard]] Fill filled(Index column) const {
     const double width = grid_.columns()[column].width;
     return {width, width, grid_.eastern_meridian(column) - grid_.columns()[column].west};
   }
 
-  // The part of a row that is filled all the way down. Its sides count where they run through all of the row; those of what
-  // begins or ends there are among the strips.
+  // Returns the part of a row that is inside from parallel to parallel. Its sides count where they
+  // go through the whole row; the borders of other parts are among the strips.
   [[nodiscard]] GridPiece row_of(Index column, Index row, const Fill& fill) const {
     const Graticule::Parallel& south = grid_.parallel(row);
     const Graticule::Parallel& north = grid_.parallel(row + 1);

@@ -21,15 +21,19 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-// Positive if x is east of the meridian that meets the equator in m, by less than 180 degrees.
+// Returns a value that is positive if x is less than 180 degrees east of the meridian that meets
+// the equator in m.
 double side(const Point& m, const Point& x) { return m.x * x.y - m.y * x.x; }
 
+// Returns a value that is positive if x is less than 90 degrees of longitude from that meridian.
 double along(const Point& m, const Point& x) { return m.x * x.x + m.y * x.y; }
 
+// Returns the distance from the axis.
 double radius_of(const Point& x) { return std::sqrt(x.x * x.x + x.y * x.y); }
 
-// Between the arc from p to q, which spans `width` of longitude, and a parallel. That between the arc and the equator
-// is 2 atan(k tan(width / 2)) with k = (sin p + sin q) / (1 + cos(p - q)), latitudes.
+// Returns the area between the arc from p to q, which spans `width` of longitude, and a parallel.
+// The area between the arc and the equator is 2 atan(k tan(width / 2)) with k = (sin p + sin q) /
+// (1 + cos(p - q)), where p and q are latitudes.
 double area_above(const Graticule::Parallel& parallel, const GraticulePlace& p,
                   const GraticulePlace& q) {
   const double width = q.offset - p.offset;
@@ -42,8 +46,9 @@ double area_above(const Graticule::Parallel& parallel, const GraticulePlace& p,
   return width * middle + area_of_bulge(width, parallel.sine + middle);
 }
 
-// Between the arc and the pole next to it: with t = tan(width / 2) it is 2 (atan(t) - atan(k t)) = 2 atan(g t / (1 + k t^2)), where
-// g = 1 - k = ((1 - sin p) (1 - sin q) + cos p cos q) / (1 + cos(p - q)) for the northern one.
+// Returns the area between the arc and the pole next to it. With t = tan(width / 2) it is 2
+// (atan(t) - atan(k t)) = 2 atan(g t / (1 + k t^2)), where g = 1 - k = ((1 - sin p) (1 - sin q) +
+// cos p cos q) / (1 + cos(p - q)) for the north pole.
 double area_at_pole(const GraticulePlace& p, const GraticulePlace& q) {
   const double radii = p.radius * q.radius;
   const double g = (p.gap * q.gap + radii) / (1 + p.point.z * q.point.z + radii);
@@ -52,7 +57,8 @@ double area_at_pole(const GraticulePlace& p, const GraticulePlace& q) {
                              half.cosine * half.cosine + (1 - g) * half.sine * half.sine);
 }
 
-// Places that differ from a parallel by rounding are on it.
+// True if a place is south of a parallel. A place that differs from a parallel by rounding is on
+// it.
 bool is_south_of(const SphereHeight& height, const Graticule::Parallel& parallel) {
   constexpr double of_gap = 8 * predicates::unit_roundoff;
   const SphereHeight low = parallel.height();
@@ -66,8 +72,8 @@ void set_point(GraticulePlace& place, const Point& point) {
   place.gap = height_of(point.z, place.radius).gap;
 }
 
-// How far the place a part t along the chord between two points is above a parallel, times its distance from the center, and the
-// derivative of that by t, roughly.
+// The height of the point at part t of a chord above a parallel, times the point's distance from
+// the center, and the approximate derivative of that by t.
 struct RiseAlongChord {
   double above;
   double slope;
@@ -93,7 +99,7 @@ Point meridian_of(const Graticule& grid, const GraticulePlace& place) {
   return grid.meridian(place.column, place.offset);
 }
 
-// Half of the integral of q x dq northward along the meridian.
+// Returns half of the integral of q x dq along a meridian, northward from a parallel to a place.
 Point moment_of_meridian(const Graticule::Parallel& south, const GraticulePlace& north,
                          const Point& meridian) {
   const double height = exact::argument(north.point.z * south.cosine - north.radius * south.sine,
@@ -147,11 +153,12 @@ void GraticuleWalk::append(const GraticulePlace& from, const GraticulePlace& to,
   if (turned == 0) return;
   bool is_west = turned < 0;
   const bool has_pole = west->radius == 0 || east->radius == 0;
-  // Near a pole, or through it, where longitudes do not tell on which side.
+  // Near a pole longitudes do not tell on which side the arc passes it.
   if (!has_pole && std::abs(turned) > pi / 2) is_west = side(west->point, east->point) < 0;
   if (is_west) std::swap(west, east);
   const Out out{is_west != is_swapped ? 1.0 : -1.0, strips};
-  // A pole has a longitude, too. An arc to it is a meridian, whose strips are empty, and a turn in the pole.
+  // A pole has a longitude, too. An arc to a pole is treated as a meridian, whose strips are empty,
+  // and a turn in the pole.
   if (has_pole) {
     const bool is_first = west->radius == 0;
     GraticulePlace turned_to = is_first ? *east : *west;
@@ -170,7 +177,8 @@ void GraticuleWalk::append(const GraticulePlace& from, const GraticulePlace& to,
   }
 }
 
-// The northernmost or southernmost point of the arc, if the arc meets a parallel on both sides of it.
+// Returns true, and the northernmost or southernmost point of the arc, if the arc meets a parallel
+// on both sides of that point.
 bool GraticuleWalk::has_extreme(const GraticulePlace& from, const GraticulePlace& to,
                                 GraticulePlace& extreme) const {
   const Point normal = cross(from.point, to.point - from.point);
@@ -183,7 +191,7 @@ bool GraticuleWalk::has_extreme(const GraticulePlace& from, const GraticulePlace
   const SphereHeight south = (is_rising ? from : to).height();
   const SphereHeight north = (is_rising ? to : from).height();
   const Index row = row_of(extreme.height());
-  // An arc to an end on a parallel that comes from the north meets that parallel once more.
+  // An arc from the north that ends on a parallel has met that parallel before.
   const bool is_met_twice = row > row_of(south) && rise(grid_.parallel(row).height(), north) == 0;
   if (row >= row_of(south) && row <= row_of(north) && !is_met_twice) return false;
   const auto east_of = [&](const GraticulePlace& place) {
@@ -203,7 +211,7 @@ void GraticuleWalk::append_columns(const GraticulePlace& from, const GraticulePl
                                    const Out& out) const {
   const auto num_columns = static_cast<Index>(grid_.columns().size());
   const bool is_wrapped = turn(to) < turn(from);
-  if (!is_wrapped && to.column < from.column) return;  // no width but rounding's
+  if (!is_wrapped && to.column < from.column) return;  // the arc has no width except for rounding
   Index steps = to.column - from.column + (is_wrapped ? num_columns : 0);
   GraticulePlace last = from;
   for (; steps > 0; --steps) {
@@ -228,6 +236,7 @@ void GraticuleWalk::append_columns(const GraticulePlace& from, const GraticulePl
   append_rows(last, to, out);
 }
 
+// Appends the strips of an arc in one column, row by row.
 void GraticuleWalk::append_rows(const GraticulePlace& from, const GraticulePlace& to,
                                 const Out& out) const {
   if (!(from.offset < to.offset)) return;
@@ -245,7 +254,8 @@ void GraticuleWalk::append_rows(const GraticulePlace& from, const GraticulePlace
   append_strip(last, to, row, out);
 }
 
-// Newton's method along the chord, within what is known to hold the place.
+// Returns the place where the arc crosses a parallel, by Newton's method along the chord, within an
+// interval that is known to contain it.
 GraticulePlace GraticuleWalk::on_parallel(const GraticulePlace& from, const GraticulePlace& to,
                                           const Graticule::Parallel& parallel,
                                           bool is_north) const {

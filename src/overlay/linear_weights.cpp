@@ -20,13 +20,14 @@ namespace {
 
 constexpr std::size_t rows_per_block = 1024;
 
-// Rows one after the other.
+// Consecutive rows of weights.
 struct LinearRows {
   std::vector<Index> counts;
   std::vector<Index> columns;
   std::vector<double> values;
 };
 
+// Computes one row after another.
 class LinearRowMaker {
  public:
   LinearRowMaker(const Remap& remap, const CellGradients& gradients)
@@ -51,7 +52,7 @@ class LinearRowMaker {
   }
 
  private:
-  // What belongs to one source is added in the order of the pieces.
+  // Adds a weight of a source. Weights of one source are added in the order of the pieces.
   void add(Index source, double weight) {
     const Index number = numbers_(source);
     if (number == sums_.size()) sums_.push_back(0);
@@ -82,8 +83,8 @@ class LinearRowMaker {
   const Remap& remap_;
   const CellGradients& gradients_;
   IndexNumbers numbers_;
-  std::vector<double> sums_;  // by number
-  std::vector<Index> order_;  // of numbers
+  std::vector<double> sums_;  // the weight of each number
+  std::vector<Index> order_;  // numbers in the order of their sources
 };
 
 }  // namespace

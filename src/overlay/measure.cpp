@@ -15,7 +15,9 @@ namespace rondel::overlay {
 
 namespace {
 
-// Whether no triangle is large. A belt may have thousands of arcs, whose triangles cancel.
+// Adds the areas of all triangles at `origin`, and returns false if one of them is large. The sum
+// is kept in double_double arithmetic, since a belt can have thousands of arcs whose triangles
+// cancel.
 bool add_triangles(std::span<const BorderArc> border, const Point& origin, double& area) {
   const LocalAxes axes(origin);
   bool is_any_large = false;
@@ -31,7 +33,8 @@ bool add_triangles(std::span<const BorderArc> border, const Point& origin, doubl
 
 }  // namespace
 
-// Triangles around a point nearby, or, for large regions, the direction of the center of mass.
+// Triangles are taken at a point nearby, or, for large regions, at the direction of the center of
+// mass.
 Measures measures_of(std::span<const BorderArc> border, const Point& nearby) {
   Measures result;
   for (const auto& [from, to] : border) {

@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells of coupled models and of finite elements:
+// Readers of cells of coupled models and of finite elements:
 //
-// 1. OASIS: grids.nc, several grids in one file by the beginnings of their variables' names (OASIS3-MCT user guide, section 5.1)
-// 2. Exodus II: blocks of elements with as many corners each, at points in space (Schoof and Yarberry, SAND92-2137)
+// 1. OASIS: grids.nc, with several grids in one file, told apart by the first parts of variable names
+//    (OASIS3-MCT user guide, section 5.1)
+// 2. Exodus II: blocks of elements with the same number of corners, at points in space (Schoof and
+//    Yarberry, SAND92-2137)
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -23,7 +25,7 @@ namespace {
 using io::BadValue;
 using io::NetcdfReader;
 
-// The beginnings of names that have corners: "bt42" of bt42.clo and bt42.cla.
+// Returns the names of the grids that have corners: "bt42" for variables bt42.clo and bt42.cla.
 std::vector<std::string> oasis_grids(const NetcdfReader& file) {
   std::vector<std::string> names;
   for (const MeshVariable& variable : file.variables()) {
@@ -34,7 +36,8 @@ std::vector<std::string> oasis_grids(const NetcdfReader& file) {
   return names;
 }
 
-// The place of the dimension of corners: the one that centers have not, or else the last one.
+// Returns which dimension counts the corners of a cell: the one that the centers do not have, or
+// else the last one.
 std::size_t corner_dimension(const MeshVariable& corners, const MeshVariable* centers) {
   for (std::size_t d = 0; centers != nullptr && d < corners.dimensions.size(); ++d) {
     if (std::ranges::count(centers->dimensions, corners.dimensions[d]) == 0) return d;
@@ -42,7 +45,8 @@ std::size_t corner_dimension(const MeshVariable& corners, const MeshVariable* ce
   return corners.dimensions.size() - 1;
 }
 
-// Positions with the corners of each cell one after the other.
+// Returns positions with the corners of each cell one after the other. `corner` is the dimension
+// that counts corners.
 std::vector<LonLat> corners_last(const MeshVariable& variable, std::size_t corner,
                                  const std::vector<double>& lon, const std::vector<double>& lat) {
   std::vector<std::size_t> order;
@@ -57,7 +61,7 @@ std::vector<LonLat> corners_last(const MeshVariable& variable, std::size_t corne
   return positions;
 }
 
-// 1 is masked.
+// Reads a mask of OASIS, in which 1 means masked.
 void take_oasis_mask(const NetcdfReader& file, const std::string& name, MeshContent& mesh) {
   if (file.find(name) == nullptr) return;
   take_mask(file, name, mesh);
@@ -73,6 +77,7 @@ void take_oasis_mask(const NetcdfReader& file, const std::string& name, MeshCont
   }
 }
 
+// Returns the nodes, which are points in space.
 std::vector<Point> points_of_exodus(const NetcdfReader& file) {
   std::vector<Point> points;
   if (const MeshVariable* const all = file.find("coord")) {
@@ -96,7 +101,8 @@ std::vector<Point> points_of_exodus(const NetcdfReader& file) {
   return points;
 }
 
-// The blocks' numbers one after the other: `global_id1`, `global_id2` ... as TempestRemap has them. Empty if a block has none.
+// Returns the elements' numbers, block by block, from the variables `global_id1`, `global_id2` ...
+// that TempestRemap writes. The result is empty if a block has no such variable.
 std::vector<double> ids_of_blocks(const NetcdfReader& file, std::size_t num_blocks) {
   std::vector<double> ids;
   for (std::size_t block = 1; block <= num_blocks; ++block) {
@@ -108,7 +114,8 @@ std::vector<double> ids_of_blocks(const NetcdfReader& file, std::size_t num_bloc
   return ids;
 }
 
-// The place of each number among `numbers`; empty if they are not 1 to n, each once.
+// Returns the place of each number 1 to n among `numbers`, or nothing if they are not these
+// numbers, each once.
 std::vector<std::size_t> places_of_numbers(const std::vector<double>& numbers, std::size_t n) {
   std::vector<std::size_t> places(n, n);
   if (numbers.size() != n) return {};
@@ -123,7 +130,8 @@ std::vector<std::size_t> places_of_numbers(const std::vector<double>& numbers, s
   return places;
 }
 
-// Puts the cells into the order of their numbers: the blocks have them by their number of corners.
+// Puts the cells into the order of their numbers. The blocks have them sorted by their number of
+// corners.
 void order_by_number(const NetcdfReader& file, std::size_t num_blocks, MeshContent& mesh) {
   const std::size_t n = mesh.cells.size() - 1;
   const MeshVariable* const map = file.find("elem_num_map");

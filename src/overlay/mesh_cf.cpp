@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Grids as the Climate and Forecast conventions hold them (CF 1.11, sections 4.1, 4.2, 5.2, 7.1). Which variables are coordinates and
-// bounds rondel/conventions.h says; here they become cells.
+// Reads grids of the Climate and Forecast conventions (CF 1.11, sections 4.1, 4.2, 5.2, 7.1).
+// rondel/conventions.h decides which variables are coordinates and bounds; this file makes cells of
+// them.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -27,6 +28,7 @@ using io::NetcdfReader;
 
 constexpr std::size_t no_variable = CoordinatePair::none;
 
+// Finds the coordinates of the grid that is to be read. `remarks` gets what is noteworthy.
 class CfGrids {
  public:
   CfGrids(const NetcdfReader& file, const std::string& name, std::vector<std::string>& remarks)
@@ -35,7 +37,7 @@ class CfGrids {
       pairs_ = find_coordinates(headers_, {}, &remarks);
       return;
     }
-    // A coordinate, or a variable that has some.
+    // `name` may be that of a coordinate, or of a variable that has coordinates.
     for (const CoordinatePair& pair : find_coordinates(headers_, {}, &remarks)) {
       if (headers_[pair.lon].name == name || headers_[pair.lat].name == name)
         pairs_.push_back(pair);
@@ -46,10 +48,11 @@ class CfGrids {
     }
   }
 
-  // The first pair that has cells, those along which variables lie before others; null if there is no pair.
+  // Returns the first pair of coordinates that has cells, preferring pairs along which variables
+  // lie, or null if the file has no pair. Throws BadValue if no pair has cells.
   const CoordinatePair* best() {
     if (pairs_.empty()) return nullptr;
-    // Axes along which no variable lies are no grid where other coordinates have variables.
+    // If some pairs have variables along them, a pair without any is no grid.
     const bool has_used = std::ranges::any_of(pairs_, &CoordinatePair::is_used);
     const auto found = std::ranges::find_if(pairs_, [&](const CoordinatePair& pair) {
       return has_cells(pair) && (pair.is_used || !has_used);
@@ -67,6 +70,7 @@ class CfGrids {
   }
 
  private:
+  // True if cells can be made: the coordinates are axes, or both have bounds.
   static bool has_cells(const CoordinatePair& pair) {
     return pair.are_axes || (pair.lon_bounds != no_variable && pair.lat_bounds != no_variable);
   }
@@ -84,7 +88,9 @@ class CfGrids {
     return names;
   }
 
-  // Axes along the dimensions of coordinates that have no cells may be those of the same places, or only pretend to be degrees.
+  // Throws BadValue if axes are used instead of `first`, which has no cells, but are other places:
+  // along the same dimensions there may be axes of the same places, or variables that only seem to
+  // be degrees.
   void require_same_places(const CoordinatePair& first, const CoordinatePair& axes) const {
     const std::vector<std::string> own = dimensions_of(first);
     if (!axes.are_axes || !are_among(dimensions_of(axes), own) || first.are_axes) return;
@@ -112,6 +118,7 @@ class CfGrids {
     }
   }
 
+  // Adds a remark that names the grids that are not read.
   void tell_of_others(const CoordinatePair& taken) {
     std::string others;
     constexpr std::size_t most = 3;
@@ -138,7 +145,8 @@ class CfGrids {
   std::vector<CoordinatePair> pairs_;
 };
 
-// The bounds of an axis in degrees, those of each cell one after the other; none if there are none.
+// Returns the bounds of an axis in degrees, two for each cell or one more than cells, or none if it
+// has no bounds.
 std::vector<double> bounds_of_axis(const NetcdfReader& file, const MeshVariable& axis,
                                    const MeshVariable& other, const MeshVariable* bounds) {
   if (bounds == nullptr) return {};
@@ -157,6 +165,7 @@ std::vector<double> bounds_of_axis(const NetcdfReader& file, const MeshVariable&
   return values;
 }
 
+// Returns the lines between cells along an axis, in degrees.
 std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
                              const MeshVariable& other, const MeshVariable* bounds,
                              bool is_longitude) {
@@ -170,8 +179,9 @@ std::vector<double> lines_of(const NetcdfReader& file, const MeshVariable& axis,
   }
 }
 
-// The corners of cells, those of each one after the other, from bounds with one more dimension than the coordinate, or from the corners
-// of all cells of a grid (ny + 1, nx + 1); `of_each` becomes their number.
+// Returns one coordinate of the corners of all cells, cell by cell, and their number for each cell
+// in `of_each`. The bounds have one more dimension than the coordinate, or they are the corners of
+// a grid, (ny + 1, nx + 1).
 std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariable& coordinate,
                                       const MeshVariable& other, const MeshVariable& bounds,
                                       const io::PlaceArrays& places, std::size_t& of_each) {
@@ -183,7 +193,8 @@ std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariab
     return std::ranges::count(bounds.dimensions, dimension) == 1;
   };
   if (std::ranges::all_of(places.dimensions, is_of_bounds)) {
-    // Time first, of which the first is taken, then the places, at last the corners.
+    // Repeated dimensions such as time come first (only the first of their values is used), then
+    // the dimensions of the places, and at last the corners.
     std::vector<std::size_t> order;
     for (const std::size_t d : places.repeated) {
       if (is_of_bounds(d)) order.push_back(d);
@@ -229,6 +240,7 @@ std::vector<double> corners_of_bounds(const NetcdfReader& file, const MeshVariab
   return values;
 }
 
+// Makes the cells of coordinates with bounds.
 MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
                                const CoordinatePair& pair) {
   MeshContent mesh;
@@ -257,6 +269,7 @@ MeshContent cells_with_corners(const NetcdfReader& file, const CfGrids& grids,
   return mesh;
 }
 
+// Makes the cells of axes.
 MeshContent cells_along_axes(const NetcdfReader& file, const CfGrids& grids,
                              const CoordinatePair& pair) {
   MeshContent mesh;

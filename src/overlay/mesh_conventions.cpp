@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Unstructured meshes of netCDF files:
+// Readers of unstructured meshes of netCDF files:
 //
 // 1. UGRID: https://ugrid-conventions.github.io/ugrid-conventions
 // 2. SCRIP's grids: Jones, SCRIP user's guide, 1998, section 2.2.1
@@ -33,7 +33,8 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
-// Of the variables that the attribute names the longitudes and latitudes: as they say it, or else the first two.
+// Returns the longitudes and latitudes among the variables that an attribute names: those that say
+// what they are, or else the first two.
 MeshCoordinates coordinates_of(const NetcdfReader& file, const MeshVariable& of,
                                const char* attribute) {
   const std::vector<std::string> names = words_of(io::netcdf_text(of.attributes, attribute));
@@ -55,7 +56,7 @@ MeshCoordinates coordinates_of(const NetcdfReader& file, const MeshVariable& of,
   return {lon, lat};
 }
 
-// One variable with both coordinates of each place, as ESMF has them.
+// Returns the places of one variable with both coordinates of each place, as ESMF has them.
 std::vector<LonLat> pairs_of(const NetcdfReader& file, const MeshVariable& variable,
                              const MeshVariable* related) {
   if (require_rank(variable, 2).shape[1] != 2) {
@@ -70,7 +71,8 @@ std::vector<LonLat> pairs_of(const NetcdfReader& file, const MeshVariable& varia
   return places;
 }
 
-// The topology of faces that is named, or that a named variable is on, or the first one; null if there is none.
+// Returns the topology of faces that `name` names or that the variable `name` is on, or the first
+// one for an empty name; null if there is none.
 const MeshVariable* topology_of(const NetcdfReader& file, const std::string& name,
                                 MeshContent& mesh) {
   const MeshVariable* const named = file.find(name);
@@ -182,7 +184,7 @@ std::optional<MeshContent> read_esmf_mesh(const NetcdfReader& file, const std::s
   const double no_break = first;
   const double break_value = number_or(*elements, "polybreak_value", no_break);
   if (elements->shape.size() == 1) {
-    // Rows of different lengths, one after the other.
+    // The rows have different lengths and follow each other.
     take_connectivity(file, {*elements, counts.size(), 0, false, first, break_value}, counts, mesh);
   } else {
     if (require_rank(*elements, 2).shape[0] != counts.size()) {

@@ -27,6 +27,7 @@
 namespace rondel {
 namespace {
 
+// Reads the cells by the first convention that the file follows.
 overlay::MeshContent read_mesh(const io::NetcdfReader& file, const std::string& name) {
   const bool is_oasis = file.find(name + ".clo") != nullptr;
   if (!name.empty() && !is_oasis) (void)file.require(name);
@@ -44,13 +45,17 @@ overlay::MeshContent read_mesh(const io::NetcdfReader& file, const std::string& 
   throw io::BadValue(text + io::remark_on_units(io::headers_of(file)));
 }
 
-constexpr double same_place = 1e-10;  // radians
+// radians; nodes with double precision that are nearer are one corner
+constexpr double same_place = 1e-10;
+// the same for single precision
 constexpr double same_single_place = 1e-6;
 
 // Rings with the inside to the left, without corners that repeat the one before.
+// Makes rings with the inside to the left, without repeated corners. Nodes within a distance are
+// one corner.
 class RingsOfNodes {
  public:
-  // Precondition: nodes are places.
+  // Precondition: all nodes are places. `distance` is in radians.
   RingsOfNodes(std::span<const LonLat> nodes, double distance) {
     overlay::Distinct<LonLat> places = overlay::distinct(nodes);
     made_.points = unit_vectors(places.values);
@@ -69,6 +74,7 @@ class RingsOfNodes {
     const Index corner = corner_of_[node];
     if (ring_.empty() || corner != ring_.back()) ring_.push_back(corner);
   }
+  // Ends a ring. A ring with fewer than three different corners is dropped.
   void end_ring() {
     while (ring_.size() > 1 && ring_.back() == ring_.front()) ring_.pop_back();
     if (ring_.size() >= 3) {
@@ -85,11 +91,12 @@ class RingsOfNodes {
 
  private:
   CellRings made_;
-  std::vector<Index> corner_of_;  // by node
+  std::vector<Index> corner_of_;  // the point of each node
   std::vector<Index> ring_;
   std::vector<Point> points_;
 };
 
+// Makes cells of a mesh, and adds remarks about cells that are empty.
 CellRings cells_of(overlay::MeshContent& mesh) {
   overlay::leave_out_cells_without_corners(mesh);
   RingsOfNodes maker(mesh.nodes, mesh.is_single ? same_single_place : same_place);
@@ -116,7 +123,8 @@ CellRings cells_of(overlay::MeshContent& mesh) {
   return cells;
 }
 
-// Centers of cells that are left out may be missing. Where others are, the file has none.
+// Completes the centers: missing ones of masked cells become (0, 0). If centers of other cells are
+// missing, the mesh gets no centers.
 void require_centers(overlay::MeshContent& mesh) {
   for (std::size_t i = 0; i < mesh.centers.size(); ++i) {
     const bool is_masked = !mesh.mask.empty() && mesh.mask[i] == 0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What the conventions of cells share.
+// Functions that the readers of all conventions share.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -21,13 +21,15 @@ std::string cells_in_words(std::size_t count, std::size_t of_all) {
   return std::to_string(count) + " of " + std::to_string(of_all) + " cells";
 }
 
+// True if the numbers are a place, up to rounding of single precision.
 bool is_place(const LonLat& place) {
   // pi / 2 in single precision is 90.0000025 degrees.
   constexpr double rounding = 1e-5;
   return std::isfinite(place.lon_deg) && std::abs(place.lat_deg) <= 90 + rounding;
 }
 
-// The node with this number in the file.
+// Returns the index of the node with this number in the file. Throws BadValue if there is no such
+// node.
 Index node_of(const Connectivity& connectivity, double number, std::size_t cell,
               std::size_t num_nodes, std::span<const double> entries) {
   const double node = number - connectivity.first;
@@ -140,7 +142,7 @@ void take_connectivity(const io::NetcdfReader& file, const Connectivity& connect
   std::vector<double> meant = entries;
   io::ValueRules(variable).apply(meant);
   std::size_t num_undeclared = 0;
-  std::uint64_t begin = 0;  // of the cell's row
+  std::uint64_t begin = 0;  // where the row of the cell begins
   for (std::uint64_t i = 0; i < num_cells; ++i) {
     const std::uint64_t most = is_ragged ? entries.size() - begin : of_each;
     const double given = counts.empty() ? static_cast<double>(of_each) : counts[i];

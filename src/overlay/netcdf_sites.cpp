@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Sites of netCDF: centers of cells, or places of values.
+// Reads sites from netCDF files: the centers of cells, or the places of values.
 #include <cmath>
 #include <optional>
 #include <string>
@@ -20,7 +20,8 @@
 namespace rondel {
 namespace {
 
-// The variable that the name means: of "tas[3]" and "tas_2001-07-15" it is tas. Throws BadValue.
+// Returns the variable that a name means: for "tas[3]" or "tas_2001-07-15" it is tas. Throws
+// BadValue.
 std::string variable_of(const io::NetcdfReader& reader, const std::string& name) {
   if (name.empty() || reader.find(name) != nullptr) return name;
   std::string longest;
@@ -34,6 +35,8 @@ std::string variable_of(const io::NetcdfReader& reader, const std::string& name)
   return longest;
 }
 
+// The variable of the first column that is asked for. `is_one_of_several` is true if the name picks
+// one field of the variable.
 struct NamedVariable {
   std::string name;
   bool is_one_of_several = false;
@@ -49,7 +52,8 @@ NamedVariable named_variable(const FileName& file, std::span<const std::string> 
   });
 }
 
-// The cells that the variable is on. Nothing where the file has none with centers.
+// Returns the centers of the cells that the variable is on, or nothing if the file has no cells
+// with centers.
 std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::string& variable) {
   try {
     io::FileBytes bytes(file.path, true);
@@ -59,14 +63,14 @@ std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::str
     });
     if (cells.centers.empty() || cells.centers.size() != cells.num_cells()) return std::nullopt;
     for (std::size_t i = 0; i < cells.mask.size(); ++i) {
-      // read_cells() puts the centers there that are missing.
+      // read_cells() puts missing centers to (0, 0).
       if (cells.mask[i] == 0 && cells.centers[i] == LonLat{0, 0}) return std::nullopt;
     }
     NetcdfSites sites;
     sites.remarks = std::move(cells.remarks);
     sites.table.positions = std::move(cells.centers);
     sites.shape = std::move(cells.shape);
-    // Elsewhere the mask is of cells whose corners are missing.
+    // With other conventions the mask only marks cells with missing corners.
     for (const std::string_view convention : {"SCRIP", "ESMF", "OASIS"}) {
       if (cells.convention == convention) sites.mask = cells.mask;
     }
@@ -87,6 +91,7 @@ Column column_of(const FieldArray& array) {
   return column;
 }
 
+// Returns a message that an array has several fields and is no column.
 std::string text_of_several(const FieldArray& array, const FieldSet& fields) {
   std::string lengths;
   for (std::size_t d = 0; d < array.shape.size(); ++d) {
@@ -98,7 +103,7 @@ std::string text_of_several(const FieldArray& array, const FieldSet& fields) {
   return names.empty() ? text : text + "; one of them is " + io::in_quotes(names.front());
 }
 
-// Names are of columns as they were given.
+// Adds the columns with these names, which are given as a user wrote them.
 void add_columns(const FieldFile& file, std::span<const std::string> names, NetcdfSites& sites) {
   const FieldSet& fields = file.fields();
   for (std::size_t a = 0; a < fields.arrays.size(); ++a) {

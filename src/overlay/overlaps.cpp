@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Cells are inside of balls around their centers; those whose balls meet are tried. Two convex cells are apart if a side of
-// one has all corners of the other to its right, which is exact. Of all others one is put into a triangulation, of which
-// the pieces that the other one has in it are measured.
+// Finds overlaps of cells. Each cell is inside of a ball around its center, and pairs of cells
+// whose balls meet are tested. Two convex cells do not overlap if a side of one has all corners of
+// the other to its right, which is exact. Of any other pair, one cell is triangulated and the
+// pieces of the other one in it are measured.
 #include "overlay/overlaps.h"
 
 #include <algorithm>
@@ -31,9 +32,9 @@ namespace rondel::overlay {
 namespace {
 
 constexpr std::size_t balls_per_piece = 1024;
-constexpr double around_everything = 4;  // a radius
+constexpr double around_everything = 4;  // a radius that contains the whole sphere
 
-// A cell is inside of the part of the sphere that is in the ball.
+// A ball that contains a cell.
 struct CellBall {
   Index cell;
   Point center;
@@ -47,11 +48,11 @@ struct CellBall {
   }
 };
 
-// A cell whose corners are less than a right angle from its center is nearer to it than they are: the center of mass of
-// what is beyond would be on the other side.
+// Returns the ball of a cell. If all corners are less than 90 degrees from the center, so is the
+// whole cell: otherwise its center of mass would be on the other side.
 CellBall ball_of(const Subdivision& cells, Index cell) {
-  constexpr double quarter = 1.4;       // less than the square root of 2
-  constexpr double rounding = 0x1p-50;  // of the center
+  constexpr double quarter = 1.4;       // less than the square root of 2, the chord of 90 degrees
+  constexpr double rounding = 0x1p-50;  // the rounding of the center
   CellBall ball{cell, cells.centers[cell], 0};
   for (Halfedge h = cells.begin_of(cell); h < cells.end_of(cell); ++h) {
     const Point step = cells.origin(h) - ball.center;
@@ -61,7 +62,7 @@ CellBall ball_of(const Subdivision& cells, Index cell) {
   return ball;
 }
 
-// Whether a side of a convex cell has all corners of another cell to its right, or on it.
+// True if a side of a convex cell has all corners of another cell to its right or on it.
 bool has_on_right(const Subdivision& cells, Index cell, Index other) {
   for (Halfedge h = cells.begin_of(cell); h < cells.end_of(cell); ++h) {
     const Halfedge twin = cells.twins[h];
@@ -78,18 +79,20 @@ bool has_on_right(const Subdivision& cells, Index cell, Index other) {
   return false;
 }
 
+// True if two cells certainly do not overlap.
 bool are_apart(const Subdivision& cells, Index a, Index b) {
   const bool are_convex = cells.shapes[a] == Shape::convex && cells.shapes[b] == Shape::convex;
   return are_convex && (has_on_right(cells, a, b) || has_on_right(cells, b, a));
 }
 
-// Cells that may overlap with a cell, which is put into a triangulation.
+// A pair of cells that may overlap; `filled` is to be triangulated.
 struct Candidates {
   Index filled;
   Index other;
   friend auto operator<=>(const Candidates&, const Candidates&) = default;
 };
 
+// Returns all pairs of cells that may overlap, sorted.
 std::vector<Candidates> candidates_of(const Subdivision& cells, unsigned threads) {
   std::vector<CellBall> balls;
   for (Index c = 0; c < cells.num_cells(); ++c) {
@@ -106,7 +109,7 @@ std::vector<Candidates> candidates_of(const Subdivision& cells, unsigned threads
             if (!balls[i].may_meet(balls[k])) continue;
             const auto [a, b] = std::minmax(balls[i].cell, balls[k].cell);
             if (are_apart(cells, a, b)) continue;
-            // The larger one is filled, once for all that are near it.
+            // The cell with more corners is triangulated, once for all cells near it.
             const bool is_first =
                 cells.end_of(a) - cells.begin_of(a) >= cells.end_of(b) - cells.begin_of(b);
             block.push_back(is_first ? Candidates{a, b} : Candidates{b, a});
@@ -160,6 +163,7 @@ std::vector<BorderArc> sides_of(const Subdivision& cells) {
   return sides;
 }
 
+// Finds the overlaps of one subdivision.
 class OverlapFinder {
  public:
   OverlapFinder(const Subdivision& cells, const Execution& execution)
@@ -197,15 +201,16 @@ class OverlapFinder {
   }
 
  private:
+  // How much is known of the inside of a cell.
   enum class Soundness : std::uint8_t {
     sound,
     to_rounding,  // sides cross, but no end is beyond the other side by more than rounding
     none,
   };
 
-  // Whether all cells together are a region: how many cells have a point changes nowhere but at sides of one cell alone. If
-  // these are the border of a region, it is one number inside and one less outside, which is 0 if the cells have the
-  // region's area, and not the sphere's more.
+  // True if all cells together are one region without overlaps. The number of cells that have a
+  // place changes only at sides of a single cell. If these sides are the border of a region, the
+  // number is k inside of it and k - 1 outside; the areas tell whether k is 1.
   [[nodiscard]] bool is_one_region() const {
     constexpr double whole_area = 4 * std::numbers::pi;
     constexpr double surely = 1e-6;
@@ -229,11 +234,13 @@ class OverlapFinder {
       if (cells_.shapes[cell] != Shape::empty) difference += cells_.area_of_rings(cell);
     }
     of_border = std::remainder(of_border, whole_area);
-    if (std::abs(of_border) < surely) return false;  // nearly nothing, or nearly everything
+    // the region is nearly empty or nearly the sphere
+    if (std::abs(of_border) < surely) return false;
     if (of_border < 0) of_border += whole_area;
     return std::abs(difference - of_border) < surely && is_region(sides, told_);
   }
 
+  // Tests one cell of Shape::other for crossing sides.
   Soundness find_in_itself(Index cell) {
     const CellRings rings = rings_of(cells_, std::span(&cell, 1));
     const Subdivision one(rings, false, 1);
@@ -244,6 +251,7 @@ class OverlapFinder {
     return Soundness::none;
   }
 
+  // Finds the cells of `others` that overlap with a cell, which is triangulated.
   void find_in(Index filled, std::span<const Index> others) {
     if (others.empty()) return;
     const Subdivision cover(rings_of(cells_, std::span(&filled, 1)), false, 1);

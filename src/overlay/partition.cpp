@@ -28,14 +28,15 @@ namespace overlay {
 
 namespace {
 
-// Only then may a cell be larger than a hemisphere.
+// True if a cell with this border may be larger than a hemisphere: a corner is more than 90 degrees
+// from the center.
 bool is_wide(std::span<const BorderArc> border, const Point& center) {
   return std::ranges::any_of(border,
                              [&](const BorderArc& arc) { return dot(center, arc.from) < 0; });
 }
 
-// Of a region with this border, a cell of Shape::other with an area: which of the two sides of its rings is the inside is
-// decided there.
+// Returns the area of a cell with this border. For a cell of Shape::other the area of the
+// subdivision decides which of the two sides of the rings is the inside.
 double area_of(const Subdivision& cells, Index cell, std::span<const BorderArc> border,
                const Measures& measures) {
   const bool is_other = cells.shapes[cell] == Shape::other;
@@ -76,7 +77,8 @@ PartitionData::PartitionData(Subdivision subdivision, std::vector<Index> whole, 
   };
   system::parallel_for(threads, subdivision_.num_cells(), cells_per_piece, measure);
   for (const Index cell : all_whole_) areas_[cell] = 4 * std::numbers::pi;
-  // Cells that turn counterclockwise and close around all edges cover the sphere once or several times.
+  // Cells that turn counterclockwise and meet another cell at each edge cover the sphere, once or
+  // several times; the area tells how often.
   const double total = std::accumulate(areas_.begin(), areas_.end(), 0.0);
   is_cover_ = !all_whole_.empty() ||
               (subdivision_.is_closed && std::abs(total - 4 * std::numbers::pi) < std::numbers::pi);
@@ -133,6 +135,7 @@ namespace {
 using overlay::PartitionData;
 using overlay::Subdivision;
 
+// Returns the cells of a diagram as CellRings.
 CellRings rings_of(Cells cells) {
   CellRings rings;
   rings.points = std::move(cells.points);
@@ -144,6 +147,7 @@ CellRings rings_of(Cells cells) {
   return rings;
 }
 
+// Returns the unit vectors of the sites.
 std::vector<Point> directions(const Triangulation& triangulation) {
   std::vector<Point> result;
   result.reserve(triangulation.num_sites());
@@ -157,6 +161,7 @@ std::vector<Point> directions(const Triangulation& triangulation) {
   throw InvalidInput("cell " + std::to_string(cell) + " " + what, cell);
 }
 
+// True if the shorter arc between two unit vectors is defined and is no point.
 bool is_arc(const Point& p, const Point& q) {
   constexpr double surely = 1e-20;
   const Point normal = cross(p, q - p);
@@ -164,6 +169,7 @@ bool is_arc(const Point& p, const Point& q) {
          (!is_same_site(p, q) && !is_same_site(p, Point{-q.x, -q.y, -q.z}));
 }
 
+// Throws InvalidInput, with the cell, for arrays that are no valid cells.
 void validate(const CellRings& cells) {
   const auto is_sound = [](const std::vector<std::uint64_t>& offsets, std::size_t size) {
     return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
@@ -228,7 +234,7 @@ Partition Partition::voronoi(const Triangulation& triangulation, const Execution
     whole = {static_cast<Index>(std::ranges::find(is_hidden, false) - is_hidden.begin())};
   }
   Subdivision cells(rings_of(rondel::cells(triangulation, execution)), true, execution.threads);
-  if (!cells.areas_of_others.empty()) {  // seldom: rings_of() copies everything
+  if (!cells.areas_of_others.empty()) {  // this is rare, and rings_of() copies all cells
     if (const auto tidy = overlay::tidied(overlay::rings_of(cells), cells)) {
       cells = Subdivision(*tidy, true, execution.threads);
     }

@@ -19,17 +19,21 @@
 namespace rondel::overlay {
 namespace {
 
+// A piece of one cell.
 struct MeasuredPiece {
   Index beyond;
   double area = 0;
-  double length = 0;  // of its boundary, roughly
+  double length = 0;  // approximate length of its border, radians
   Point moment{};
 };
 
+// Computes the pieces of one cell after another.
 class PieceMaker {
  public:
-  // A piece has the place of its cell of the cover, or, if there are any, of that one's owner; of these `names` are the
-  // columns. What has no owner is measured, too: a cell may have nothing else but rounding.
+  // `owners` has for each cell of the cover the other cell that it is a part of; it is empty if the
+  // cover's cells are the other cells themselves. `beyond` of a piece is that owner, or the cell of
+  // the cover, and names[beyond] is the piece's column. Pieces without an owner are measured as
+  // well: a cell may have nothing else that is wider than rounding.
   PieceMaker(const Subdivision& cells, const CellSizes& sizes, const Subdivision& cover,
              std::span<const Index> names, std::span<const Index> owners, Index first_cell,
              Index end_cell, bool has_moments)
@@ -39,7 +43,7 @@ class PieceMaker {
         owners_(owners),
         arcs_(cells, cover, first_cell, end_cell),
         has_moments_(has_moments) {}
-  // Of a cell that has a ring, in the order of the columns.
+  // Returns the pieces of a cell that has a ring, in the order of the columns.
   std::span<const MeasuredPiece> operator()(Index cell) {
     constexpr std::size_t many = 128;
     const Index name = cells_.names[cell];
@@ -67,7 +71,8 @@ class PieceMaker {
     return piece.beyond < names_.size();
   }
 
-  // Without those that have the same on both sides.
+  // Returns the arcs with owners instead of cells of the cover, without those that have the same
+  // owner on both sides.
   std::span<const PieceArc> arcs_of_owners(std::span<const PieceArc> arcs) {
     owned_.clear();
     for (PieceArc arc : arcs) {
@@ -78,8 +83,9 @@ class PieceMaker {
     return owned_;
   }
 
-  // Triangles of each arc and the cell's center, which count for both sides of an edge. Corners are rounded by
-  // more than a triangle is, if it is not large: whether none is.
+  // Adds the triangle of each arc and the cell's center to the pieces on both sides of the arc, and
+  // returns false if a triangle is large. The rounding of a triangle that is not large is less than
+  // that of the corners.
   bool add_all(std::span<const PieceArc> arcs, const Point& center) {
     const LocalAxes axes(center);
     const auto points = arcs_.points();
@@ -106,7 +112,8 @@ class PieceMaker {
     }
     return !is_any_large;
   }
-  // Where it was or would be is remembered by the last digits, which neighbors seldom share.
+  // Returns the piece of a cell of the cover. The place of a piece in pieces_ is remembered by the
+  // last digits of the cell, in which neighbors seldom agree.
   MeasuredPiece& piece_of(Index beyond) {
     Index& known = known_[beyond % known_.size()];
     if (known < pieces_.size() && pieces_[known].beyond == beyond) return pieces_[known];
@@ -116,7 +123,7 @@ class PieceMaker {
     return pieces_[known];
   }
 
-  // The same for each piece by itself.
+  // Measures each piece by itself.
   void add_by_piece(std::span<const PieceArc> arcs) {
     sides_.clear();
     for (const PieceArc& arc : arcs) {
@@ -136,7 +143,8 @@ class PieceMaker {
       pieces_.push_back({beyond, measures.area, measures.length, measures.moment});
     }
   }
-  // What has one owner may be too large to be measured at once, but no cell of the cover is.
+  // Joins the pieces of each owner. They are measured before, since an owner may be too large to be
+  // measured at once, while no cell of the cover is.
   void join_by_owner() {
     for (MeasuredPiece& piece : pieces_) piece.beyond = owners_[piece.beyond];
     std::ranges::stable_sort(pieces_, {}, &MeasuredPiece::beyond);

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Why the arcs have the topology of the lines. Let two arcs have the same longitudes at both ends, and be in the same
-// order there. In the gnomonic plane of a point between them meridians are lines, and arcs are segments that go from one
-// of these to the other: they do not cross, nor touch but at an end. So it suffices that each arc has a corner on the
-// meridian of every corner to which it comes nearer than it may be from its line, on the line: at such a meridian the order
-// is that of the plane, at every other one the distance is larger than what could change it.
+// Why the arcs have the topology of the lines. Let two arcs have the same longitudes at both ends, and be in the
+// same order there. In the gnomonic plane of a point between them meridians are lines, and the arcs are
+// segments from one of these lines to the other: they do not cross, and touch at most at an end. So it
+// suffices that each arc has a corner on the meridian of every corner to which it comes nearer than it may be
+// from its line, with the corner on the line: at such a meridian the order is that of the plane, and at every other
+// one the distance is larger than what could change the order.
 //
-// A corner that is added may be near to a third line, which then gets one on the same meridian: no meridians but those of
-// the first corners occur, so that ends.
+// A corner that is added may be near a third line, which then gets a corner on the same meridian. Only the
+// meridians of the first corners occur, so this ends.
 #include "overlay/plane_arcs.h"
 
 #include <algorithm>
@@ -30,12 +31,14 @@ namespace {
 constexpr std::size_t pieces_per_block = 4096;
 constexpr double rad_per_deg = std::numbers::pi / 180;
 
+// Divides one line until its arcs are within the tolerance.
 class LineDivider {
  public:
   LineDivider(double tolerance, std::vector<LonLat>& positions)
       : squared_tolerance_(tolerance * tolerance), positions_(positions) {}
 
-  // The middle is the same both ways.
+  // Appends the positions between two positions. The middle is the same in both directions of the
+  // line.
   void append_between(const LonLat& from, const Point& p, const LonLat& to, const Point& q,
                       unsigned depth) const {
     constexpr unsigned most_halvings = 30;
@@ -60,8 +63,8 @@ class LineDivider {
     if (from.lon_deg == to.lon_deg) return true;
     const Point m = normalized(p + q);
     if (!is_near(m, middle)) return false;
-    // On one side of the equator an arc bends one way, and is farthest from the line about the middle. Across the equator
-    // it bends both ways, and may meet the line there.
+    // On one side of the equator an arc bends to one side and is farthest from the line near the
+    // middle. Across the equator it bends to both sides and may meet the line in the middle.
     if (!(from.lat_deg * to.lat_deg < 0)) return true;
     return is_near(normalized(p + m), middle_of(from, middle)) &&
            is_near(normalized(m + q), middle_of(middle, to));
@@ -80,9 +83,10 @@ class LineDivider {
   std::vector<LonLat>& positions_;
 };
 
-// The largest distance in latitude of an arc from its straight line, in degrees. Along a great circle the latitude f has the second
-// derivative -sin f cos f - 2 tan f (f')^2 by longitude, and a function is within w^2/8 of that from its chord; twice
-// that, as f may leave the line.
+// Returns a bound for the distance in latitude of an arc from its straight line, in degrees. Along
+// a great circle the latitude f has the second derivative -sin f cos f - 2 tan f (f')^2 by
+// longitude, and a function is within w^2/8 of that from its chord; the bound is doubled, since f
+// may leave the line.
 double bulge_deg(const LonLat& west, const LonLat& east) {
   const double width = (east.lon_deg - west.lon_deg) * rad_per_deg;
   const double height = std::abs(east.lat_deg - west.lat_deg) * rad_per_deg;
@@ -98,19 +102,21 @@ double bulge_deg(const LonLat& west, const LonLat& east) {
 
 bool is_pole(const LonLat& p) { return std::abs(p.lat_deg) == 90; }
 
+// Returns the latitude of a piece at a longitude.
 double lat_on(const LinePiece& piece, double lon_deg) {
   return piece.west.lat_deg + (lon_deg - piece.west.lon_deg) /
                                   (piece.east.lon_deg - piece.west.lon_deg) *
                                   (piece.east.lat_deg - piece.west.lat_deg);
 }
 
-// At least bulge_deg(), and less work.
+// Returns a number that is at least bulge_deg() and takes less work.
 double simple_bulge_deg(const LonLat& west, const LonLat& east) {
   const double width = east.lon_deg - west.lon_deg;
   return width * width * (rad_per_deg / 8) + 2 * std::abs(east.lat_deg - west.lat_deg);
 }
 
-// Positions on the piece, from west to east, on the meridians of corners that are near.
+// Finds the positions where a piece has to be divided, from west to east: on the meridians of
+// corners near it.
 void find_cuts(const LinePiece& piece, const PlaneCorners& corners, bool are_few,
                std::vector<LonLat>& cuts) {
   cuts.clear();
@@ -133,7 +139,8 @@ void find_cuts(const LinePiece& piece, const PlaneCorners& corners, bool are_few
   cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
 }
 
-// Divides the pieces at the corners; returns those that are new, and appends the sides.
+// Divides the pieces at the corners near them. Returns the positions that are new, and appends the
+// divided sides to `changed`.
 std::vector<LonLat> divide_at(const PlaneCorners& corners, bool are_few,
                               std::vector<LinePiece>& pieces, std::vector<Index>& changed,
                               unsigned threads) {
@@ -171,7 +178,7 @@ PlaneCorners corners_at(std::span<const LonLat> positions) {
   return PlaneCorners(std::move(corners));
 }
 
-// The positions of the piece halved so many times, without the last one.
+// Appends the positions of a piece halved `times` times, without the last one.
 void append_halved(const LonLat& west, const LonLat& east, unsigned times,
                    std::vector<LonLat>& positions) {
   if (times == 0) {
@@ -204,11 +211,12 @@ SideDivider::SideDivider(std::span<const PlaneSide> sides, double tolerance, uns
           {static_cast<Index>(s), added[k], k + 1 < added.size() ? added[k + 1] : east});
     }
   }
-  // The last corner of a side is the first one of another.
+  // The last corner of a side is the first one of another side.
   for (const PlaneSide& side : sides) added.push_back(side.to);
   match(std::move(added), false);
 }
 
+// Divides pieces at the positions that were added, until none is added any more.
 void SideDivider::match(std::vector<LonLat> added, bool are_few) {
   while (!added.empty()) {
     added = divide_at(corners_at(added), are_few, pieces_, changed_, threads_);

@@ -47,7 +47,7 @@ class SideDivider {
   // it. Returns the sides that have changed, in order.
   std::vector<Index> halve(std::span<const std::uint8_t> times);
 
-  // Returns the divided sides. The divider is empty afterwards.
+  // Returns the corners of all divided sides.
   [[nodiscard]] DividedSides divided();
 
  private:

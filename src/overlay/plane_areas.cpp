@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A cell that is as wide as the arcs of its sides are beside their lines may have another area by them, however near they
-// are. What an arc adds is known in closed form. With the middle f and half of the height h of a line that goes over d radians
-// of longitude, the integral of the sine of the latitude is
+// A cell that is only as wide as the distance of its sides' arcs from their lines may get another area by the
+// arcs, however near they are. The area that an arc adds is known in closed form. For a line over d radians of
+// longitude, with f the latitude of its middle and h half of its height, the integral of the sine of latitude is
 //
 //   d sin f sin h / h  along the line,   2 atan(k tan(d / 2)) with k = sin f / cos h  along the arc.
 //
-// Where these differences add up to more than a share of the area, all sides of the cell are halved so often that a fourth of
-// it each time is enough, as differences go with the cube of d or with d h^2.
+// Where these differences add up to more than a share of the area, all sides of the cell are halved. The number of
+// halvings assumes a fourth of the difference each time, since differences go with the cube of d or with d h^2.
 #include "overlay/plane_areas.h"
 
 #include <algorithm>
@@ -48,14 +48,14 @@ class LineStrips {
     const double middle = (from.lat_deg + to.lat_deg) / 2;
     const exact::SineCosine at_middle = exact::sine_cosine_of_degrees(middle);
     const double ratio = sine_ratio_less_one(height / 2);
-    // sin f - sin r for the reference r.
+    // This is sin f - sin r for the reference latitude r.
     const double rise = 2 * exact::sine_cosine_of_degrees((middle + reference_deg_) / 2).cosine *
                         sine_of((middle - reference_deg_) / 2);
     area_ += width * (rise + at_middle.sine * ratio);
     length_ += std::abs(width) * at_middle.cosine;
     if (std::abs(from.lat_deg) == 90 && std::abs(to.lat_deg) == 90) return;
     const exact::SineCosine half = exact::sine_cosine_of_degrees((to.lat_deg - from.lat_deg) / 2);
-    // 1 / cos h - sin h / h, and 1 - |k| by the distances from the pole.
+    // These are 1 / cos h - sin h / h, and 1 - |k| from the distances from the pole.
     const double of_slope = half.sine * half.sine / (half.cosine * (1 + half.cosine)) - ratio;
     const double gap = 2 * sine_of((90 - std::abs(from.lat_deg)) / 2) *
                        sine_of((90 - std::abs(to.lat_deg)) / 2) / half.cosine;
@@ -65,7 +65,8 @@ class LineStrips {
     excess_ += width * at_middle.sine * of_slope + (width > 0 ? bulge : -bulge);
   }
 
-  // By how much the area between arcs is larger than that between lines, as a multiple of what is allowed.
+  // Returns by how much the area between arcs exceeds that between lines, as a multiple of what is
+  // allowed.
   [[nodiscard]] double excess_ratio() const {
     return std::abs(excess_) / (share_ * std::abs(area_) + area_of_rounding(length_));
   }
@@ -73,20 +74,21 @@ class LineStrips {
  private:
   double reference_deg_;
   double share_;
-  double area_ = 0;    // between lines
-  double excess_ = 0;  // of the area between arcs
+  double area_ = 0;    // the area between lines
+  double excess_ = 0;  // what the area between arcs has more
   double length_ = 0;
 };
 
-// The positions of a cell's sides, from the first side to the end.
+// The positions of a cell's sides, from side `first` to side `end`.
 class CellLines {
  public:
   CellLines(std::span<const PlaneSide> sides, const DividedSides& divided, std::size_t first,
             std::size_t end, double share)
       : sides_(sides), divided_(divided), first_(first), end_(end), share_(share) {}
 
-  // Whether bounds without trigonometry of each line are enough: its difference is at most d (0.04 d^2 + 0.21 H^2 sin f) with its
-  // height H, both at most 90 degrees, and the area at least that in the plane times the least cosine.
+  // True if bounds for each line, which need no trigonometry, show that the area is right. The
+  // difference of a line is at most d (0.04 d^2 + 0.21 H^2 sin f) with its height H, both at most
+  // 90 degrees, and the area is at least that in the plane times the least cosine.
   [[nodiscard]] bool is_surely_right() const {
     const LonLat& origin = sides_[first_].from;
     double of_widths = 0;
@@ -131,7 +133,7 @@ class CellLines {
   double share_;
 };
 
-// A side by its ends, the same in both directions and on every turn of the globe.
+// The ends of a side, the same for both directions and for every turn of the globe.
 using SidePlace = std::tuple<double, double, double, double>;
 
 SidePlace place_of(const PlaneSide& side) {
@@ -146,13 +148,14 @@ SidePlace place_of(const PlaneSide& side) {
   return {low.first, low.second, high.first, high.second};
 }
 
+// Returns how often the sides of a cell are to be halved.
 unsigned halvings_for(double excess_ratio) {
   unsigned count = 0;
   for (; excess_ratio > 1 && count < most_halvings; excess_ratio /= 4) ++count;
   return count;
 }
 
-// Halves the sides of cells whose areas are not right.
+// Halves the sides of cells whose areas differ by too much.
 class AreaKeeper {
  public:
   AreaKeeper(std::span<const PlaneSide> sides, std::span<const Index> owners, double tolerance,
@@ -186,7 +189,8 @@ class AreaKeeper {
   }
 
  private:
-  // How often each side is to be halved for these cells; nothing if that is not needed, or does not help.
+  // Returns how often each side is to be halved for these cells, or nothing if no side is to be
+  // halved or halving does not help.
   std::vector<std::uint8_t> find_halvings(const DividedSides& divided,
                                           const std::vector<std::size_t>& cells) {
     std::vector<unsigned> of_cells(cells.size(), 0);
@@ -222,7 +226,8 @@ class AreaKeeper {
   double share_;
   unsigned threads_;
   SideDivider divider_;
-  std::vector<std::size_t> begins_;  // of the sides of each cell that has any
+  // where the sides of each cell begin, for the cells that have any
+  std::vector<std::size_t> begins_;
   std::vector<std::uint8_t> num_halvings_;
 };
 

@@ -1,15 +1,18 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A line sweeps the plane from west to east (Shamos, Hoey 1976). It keeps the sides that it crosses in their order from
-// south to north, and knows of each what is above it: inside of which polygon, or outside and in which hole.
+// A line sweeps the plane from west to east (Shamos, Hoey 1976). It keeps the sides that it crosses in their
+// order from south to north, and the state of the region above each side: inside of a polygon, or outside and
+// in a hole or in none.
 //
-//       \ above: in polygon 0       What is above a side follows from what is below it, which is above the next side
-//     ---*------------------        to the south, and from whose side it is. A side that does not fit to what is below
-//       / below: outside            it is a fault: a shell in another polygon, a hole outside of its shell.
+//       \ above: in polygon 0       The state above a side follows from the state below it, which is that above
+//     ---*------------------        the next side to the south, and from the side's ring. A side that does not
+//       / below: outside            fit to the state below is a fault: a shell in another polygon, or a hole
+//                                   outside of its shell.
 //
-// Only corners are events. Corners that lie on sides divide them, and sides that coincide are merged, when the sweep comes
-// there, so what is left either crosses properly, which is found between neighbors, or meets in corners alone.
+// Only corners are events. When the sweep arrives at a corner, the sides on which it lies are divided there, and
+// sides that coincide are merged. So the sides that are left either cross properly, which is found between
+// neighbors, or meet only in corners.
 #include "overlay/plane_sweep.h"
 
 #include <algorithm>
@@ -23,16 +26,18 @@
 namespace rondel::overlay {
 namespace {
 
-// Inside of a polygon, by its number; or outside, in a hole, by its ring, or in none.
+// The state of a place: inside of the polygon `number`, or outside, in the hole whose ring is
+// `number`, or in no hole (no_index).
 struct PlaneState {
   bool is_inside = false;
   Index number = no_index;
   friend bool operator==(const PlaneState&, const PlaneState&) = default;
 };
 
-// A side from a corner to one farther east (or north), by their numbers.
+// A side from a corner to one farther east (or north), both by their numbers.
 struct SweptSide {
   Index west;
+  // the rings that have the side, of different polygons
   Index east;
   std::vector<Index> rings;  // of different polygons
   PlaneState below{};
@@ -55,7 +60,7 @@ class PlaneSweep {
   }
 
  private:
-  // The order of active sides, and of a corner among them.
+  // Orders active sides, and a corner among them, from south to north.
   struct Southern {
     using is_transparent = void;
     const PlaneSweep* sweep;
@@ -140,7 +145,7 @@ class PlaneSweep {
     if (above != active_.end() && !fault_) require_apart(begun.back(), *above);
   }
 
-  // Ends an active side at the corner; if it goes on to the east, the rest begins there.
+  // Ends an active side at a corner. If the side goes on to the east, the rest of it begins there.
   void end_side(Index side, Index corner) {
     if (sides_[side].east != corner) {
       const Index east = std::exchange(sides_[side].east, corner);
@@ -153,7 +158,8 @@ class PlaneSweep {
     found_.push_back(done.above.is_inside ? PlaneSide{west, east} : PlaneSide{east, west});
   }
 
-  // The sides that begin at the corner, from south to north, each once. Where two coincide the longer one is divided.
+  // Returns the sides that begin at a corner, from south to north, each once. Where two coincide,
+  // the longer one is divided.
   std::vector<Index> sides_from(Index corner) {
     std::vector<Index> sides;
     for (Index s = first_from_[corner]; s != no_index; s = next_from_[s]) sides.push_back(s);
@@ -179,7 +185,7 @@ class PlaneSweep {
     }
     return kept;
   }
-  // Two of one polygon vanish.
+  // Adds a ring to those of a side. Two rings of one polygon cancel.
   void add_ring(std::vector<Index>& rings, Index ring) const {
     const auto same =
         std::ranges::find_if(rings, [&](Index r) { return parts_[r] == parts_[ring]; });
@@ -190,10 +196,11 @@ class PlaneSweep {
     }
   }
 
-  // Goes north across a side; whether it fits to what is south of it.
+  // Changes the state by going north across a side. Returns whether the side fits to the state
+  // south of it.
   bool cross(Index side, PlaneState& state, const LonLat& place) {
     std::vector<Index> rings = sides_[side].rings;
-    // Out of what the sweep is in comes first.
+    // The rings whose inside the sweep leaves come first.
     const auto is_left = [&](Index r) {
       return state == (rings_[r].is_hole ? PlaneState{false, r} : PlaneState{true, parts_[r]}) ||
              (rings_[r].is_hole && state == PlaneState{true, parts_[r]});
@@ -263,13 +270,13 @@ class PlaneSweep {
   }
 
   std::span<const io::LonLatRing> rings_;
-  std::vector<Index> parts_;                       // of each ring the number of its polygon
-  std::vector<bool> has_sides_;                    // of each ring
-  std::vector<std::optional<PlaneState>> around_;  // of each polygon, what it lies in
+  std::vector<Index> parts_;                       // for each ring the number of its polygon
+  std::vector<bool> has_sides_;                    // true for each ring that has sides left
+  std::vector<std::optional<PlaneState>> around_;  // for each polygon the state around it
   std::vector<LonLat> corners_;
   std::vector<SweptSide> sides_;
-  std::vector<Index> first_from_;  // of each corner a side that begins there
-  std::vector<Index> next_from_;   // of each side another one that begins where it does
+  std::vector<Index> first_from_;  // for each corner a side that begins there
+  std::vector<Index> next_from_;   // for each side another one with the same beginning
   Active active_;
   std::vector<PlaneSide> found_;
   std::optional<PlaneFault> fault_;

@@ -24,6 +24,7 @@ namespace {
 
 constexpr double radians_per_degree = std::numbers::pi / 180;
 
+// Reads the features of a file, and removes the geometry of those that options.is_taken() rejects.
 io::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
                                 const PolygonOptions& options) {
   if (!(options.tolerance_deg > 0)) {
@@ -39,6 +40,8 @@ io::PolygonFeatures features_of(const FileName& file, io::FeatureKinds kinds,
   return features;
 }
 
+// Returns the lines of features as arcs of great circles. Lines that are straight in longitude and
+// latitude are divided within the tolerance.
 FeatureLines lines_of_features(const io::PolygonFeatures& features, const PolygonOptions& options) {
   FeatureLines all;
   std::vector<LonLat> positions;

@@ -19,13 +19,14 @@ namespace {
 
 constexpr double whole_area = 4 * std::numbers::pi;
 
-// The triangles of a point o with each side from p to q, with d = q - p:
+// Returns the sum of the triangles of a point o with each side from p to q. With d = q - p,
 //
 //     tan(area / 2) = o.((p - o) x d) / (1 + o.p + p.q + q.o) = s / c.
 //
-// s is off by 10 u |p - o| |d| with |p - o| <= 2, and c by 12 u, so the angle by less than 32 u |d| / (s^2 + c^2) (1 + |d|)
-// where that is less than 1. Corners are off by 2 u, or some 10 u where they are crossings (area_of_rounding()): that
-// moves the area by 16 u |d|, which is what the bound is where the triangles are small, s^2 + c^2 = 16.
+// s is off by 10 u |p - o| |d| with |p - o| <= 2, and c by 12 u, so the angle by less than 32 u |d| / (s^2 + c^2) (1 +
+// |d|) where that is less than 1. Corners are off by 2 u, or some 10 u where they are crossings
+// (area_of_rounding()); that moves the area by 16 u |d|, which is the bound where the triangles are small,
+// s^2 + c^2 = 16.
 RingArea area_around(std::span<const Point> ring, const Point& origin) {
   constexpr double factor = 64 * predicates::unit_roundoff;
   constexpr double most_square = 4;
@@ -47,7 +48,8 @@ RingArea area_around(std::span<const Point> ring, const Point& origin) {
   return result;
 }
 
-// The area of a ring as seen from the direction from which it is known best.
+// Returns the area of a ring from the point from which it is known best: the first corner, or an
+// end of an axis.
 RingArea best_area_of_ring(std::span<const Point> ring) {
   RingArea best = area_around(ring, ring.front());
   for (const Point& end : {Point{1, 0, 0}, Point{0, 1, 0}, Point{0, 0, 1}}) {
@@ -59,7 +61,7 @@ RingArea best_area_of_ring(std::span<const Point> ring) {
   return best;
 }
 
-// More than area_on_left() is off.
+// Returns a bound for the error of area_on_left().
 double unsure_area(std::size_t num_corners) {
   constexpr double of_any = 1e-9;
   constexpr double of_each = 1e-14;

@@ -17,6 +17,7 @@ namespace {
 
 using GroupPair = std::pair<Index, Index>;
 
+// Returns the group of a cell. Throws InvalidInput if it has none.
 Index group_of_piece(std::span<const Index> groups, Index number, const char* what) {
   if (groups.empty()) return number;
   if (number < groups.size()) return groups[number];

@@ -35,10 +35,12 @@ using overlay::Subdivision;
 
 constexpr std::size_t cells_per_block = 64;
 constexpr double sphere_area = 4 * std::numbers::pi;
-// Two cells that are larger have half of the sphere in common, so what has no border is all of it.
+// A cell without a border is empty or the whole sphere. Two cells larger than this have at least
+// half of the sphere in common, so then it is the sphere.
 constexpr double most_of_sphere = 3 * std::numbers::pi;
 
-// Of a piece of a cell of the first subdivision and one of the second, both by name.
+// An arc on the border of a piece, with the piece to its left: the indices in the input of the cell
+// and of the region that have it.
 struct NamedArc {
   Index cell;
   Index beyond;
@@ -46,20 +48,22 @@ struct NamedArc {
   Point to;
 };
 
-// Of a cell's arcs, which begin with its boundary, those with a region to their left, from both sides. `beyond` names the
-// region of each cell of the cover, where several may have one, or none (no_index).
+// Collects the arcs on the borders of the pieces of cells. beyond[c] is the region that cell c of
+// the cover belongs to, or no_index; several cells of the cover may belong to one region.
 class NamedArcMaker {
  public:
   NamedArcMaker(const Subdivision& cells, const Subdivision& cover, std::span<const Index> beyond,
                 Index first_cell, Index end_cell)
       : cells_(cells), beyond_(beyond), make_(cells, cover, first_cell, end_cell) {}
 
+  // Appends the arcs of all pieces of a cell. Arcs between cells of the cover in one region are
+  // left out, and parts of a side within one region are joined.
   void append(Index cell, std::vector<NamedArc>& arcs) {
     const Index name = cells_.names[cell];
     const auto add = [&](Index region, const Point& from, const Point& to) {
       if (region != no_index) arcs.push_back({name, region, from, to});
     };
-    std::size_t next = 0;  // the corner to come
+    std::size_t next = 0;  // the next corner of the cell
     Index region_before = no_index;
     const std::span<const PieceArc> arcs_of_cell = make_(cell);
     if (!make_.is_consistent()) {
@@ -82,14 +86,15 @@ class NamedArcMaker {
       if (is_corner || region != region_before) {
         add(region, from, to);
       } else if (region != no_index) {
-        arcs.back().to = to;  // what was crossed is within the region
+        arcs.back().to = to;  // the edge that was crossed is within the region
       }
       region_before = region;
     }
   }
 
  private:
-  // A cell whose sides cross has no pieces if it is no wider than rounding.
+  // Throws InvalidInput for a cell whose sides cross, unless it is no wider than rounding; then it
+  // has no pieces.
   void refuse_or_skip(Index cell) const {
     double length = 0;
     for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
@@ -109,6 +114,7 @@ class NamedArcMaker {
   ArcMaker make_;
 };
 
+// Returns the arcs of all pieces of the cells in a cover.
 std::vector<NamedArc> arcs_of(const Subdivision& cells, const Subdivision& cover,
                               std::span<const Index> beyond, const Execution& execution) {
   std::vector<std::vector<NamedArc>> blocks(system::num_pieces(cells.num_cells(), cells_per_block));
@@ -131,6 +137,7 @@ std::vector<NamedArc> arcs_of(const Subdivision& cells, const Subdivision& cover
   return all;
 }
 
+// Returns the arcs of all pieces of the cells in others that need not cover the sphere.
 std::vector<NamedArc> arcs_of_parts(const Subdivision& cells, const Subdivision& others,
                                     const Execution& execution) {
   const overlay::Filling filling = overlay::filling_of(others, execution);
@@ -142,7 +149,7 @@ std::vector<NamedArc> arcs_of_parts(const Subdivision& cells, const Subdivision&
   return arcs_of(cells, filling.cover, beyond, execution);
 }
 
-// The borders of cells, each beyond the cell that is the whole sphere.
+// Returns the sides of all cells, with the cell that is the whole sphere as the region.
 std::vector<NamedArc> arcs_within(const Subdivision& cells, Index whole) {
   std::vector<NamedArc> arcs;
   for (std::size_t c = 0; c < cells.num_cells(); ++c) {
@@ -158,12 +165,15 @@ std::vector<NamedArc> arcs_within(const Subdivision& cells, Index whole) {
   return arcs;
 }
 
+// Exchanges cells and regions.
 void exchange(std::vector<NamedArc>& arcs) {
   for (NamedArc& arc : arcs) std::swap(arc.cell, arc.beyond);
 }
 
-// The cells that are the whole sphere among those that have no ring although something was cut out of them: of such a cell nothing
-// or the whole sphere is left, and it is the sphere where both cells that met there, or all that were joined, are most of it.
+// Returns the cells that are the whole sphere, among those without rings that something was left of
+// before borders cancelled. Such a cell is empty or the whole sphere. It is the sphere if
+// covered(i), the area of the smaller of the two cells that met in it or of all cells that were
+// joined, is most of it.
 std::vector<Index> whole_cells_of(const CellRings& cells, const auto& covered) {
   std::vector<Index> whole;
   for (std::size_t i = 0; i < cells.num_cells(); ++i) {
@@ -174,7 +184,7 @@ std::vector<Index> whole_cells_of(const CellRings& cells, const auto& covered) {
   return whole;
 }
 
-// Of cells and regions of which neither covers the sphere. `beyond` are the regions.
+// Returns the arcs for cells and regions of which neither covers the sphere.
 std::vector<NamedArc> overlay_of_parts(const Subdivision& cells, const Subdivision& regions,
                                        const Execution& execution) {
   const auto with = [&](bool are_cells_filled, const Execution& told) {
@@ -187,7 +197,7 @@ std::vector<NamedArc> overlay_of_parts(const Subdivision& cells, const Subdivisi
                                   with);
 }
 
-// `beyond` are the regions.
+// Returns the arcs of all pieces of cells in regions, whatever the two are.
 std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData& regions,
                                  const Execution& execution) {
   std::vector<NamedArc> arcs;
@@ -209,7 +219,7 @@ std::vector<NamedArc> overlay_of(const PartitionData& cells, const PartitionData
   return arcs;
 }
 
-// Throws InvalidInput if a cell of these overlaps itself.
+// Throws InvalidInput if a cell overlaps itself.
 void require_sound(const Partition& cells, const char* what, const Execution& execution) {
   const std::vector<CrossingCells>& found = PartitionData::of(cells).overlaps(execution);
   const auto wrong = std::ranges::find_if(
@@ -218,6 +228,7 @@ void require_sound(const Partition& cells, const char* what, const Execution& ex
   throw InvalidInput(std::string(what) + ' ' + overlay::message_of(*wrong), wrong->second);
 }
 
+// Returns the corners of a ring.
 std::vector<Point> points_of(const CellRings& cells, std::uint64_t ring) {
   std::vector<Point> points;
   points.reserve(cells.rings[ring + 1] - cells.rings[ring]);
@@ -227,6 +238,7 @@ std::vector<Point> points_of(const CellRings& cells, std::uint64_t ring) {
   return points;
 }
 
+// Returns the area of a cell in steradians.
 double area_of_cell(const CellRings& cells, std::size_t cell) {
   if (cells.is_whole(cell)) return sphere_area;
   overlay::RegionArea area;
@@ -236,7 +248,7 @@ double area_of_cell(const CellRings& cells, std::size_t cell) {
   return area.value();
 }
 
-// Clips to regions that are apart.
+// Clips cells to regions that do not overlap.
 CellRings clipped_to(const Partition& cells, const Partition& regions, const Execution& execution) {
   const std::vector<NamedArc> arcs =
       overlay_of(PartitionData::of(cells), PartitionData::of(regions), execution);

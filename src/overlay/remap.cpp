@@ -30,7 +30,8 @@ namespace {
 using overlay::PartitionData;
 using overlay::PieceRows;
 
-// One row, or one column, of a cell that is the whole sphere.
+// Returns the pieces of a cell that is the whole sphere, as row `whole`: all other cells. The
+// result is transposed if the sphere is on the other side.
 PieceRows whole_cells(const PartitionData& cells, Index whole, std::size_t num_rows) {
   PieceRows pieces;
   pieces.offsets.assign(num_rows + 1, 0);
@@ -45,7 +46,7 @@ PieceRows whole_cells(const PartitionData& cells, Index whole, std::size_t num_r
   return pieces;
 }
 
-// Fills up the one with fewer sides, or else the other, to a cover. Rows are targets.
+// Computes the pieces of two partitions of which neither covers the sphere. Rows are targets.
 PieceRows overlay_of_parts(const PartitionData& source, const PartitionData& target,
                            bool has_moments, const Execution& execution) {
   const overlay::Subdivision& sources = source.subdivision();
@@ -60,7 +61,7 @@ PieceRows overlay_of_parts(const PartitionData& source, const PartitionData& tar
   return overlay::with_one_filled(sources, targets, {"source", "target"}, execution, with);
 }
 
-// Rows are targets.
+// Computes the pieces of two partitions. Rows are targets, columns are sources.
 PieceRows overlay_of(const PartitionData& source, const PartitionData& target, bool has_moments,
                      const Execution& execution) {
   const std::size_t num_sources = source.areas().size();
@@ -88,7 +89,8 @@ PieceRows overlay_of(const PartitionData& source, const PartitionData& target, b
   return overlay_of_parts(source, target, has_moments, execution);
 }
 
-// Leaves out what is of a cell that takes no part.
+// Removes the pieces of masked cells, and the sums of rows and columns, which are not valid any
+// more.
 void drop_masked(const RemapOptions& options, PieceRows& pieces) {
   if (options.source_mask.empty() && options.target_mask.empty()) return;
   const auto is_out = [](const std::vector<std::int32_t>& mask, std::size_t cell) {
@@ -115,6 +117,7 @@ void drop_masked(const RemapOptions& options, PieceRows& pieces) {
   pieces.row_sums.clear();
 }
 
+// Throws InvalidInput unless the mask is empty or has a value for each cell.
 void require_mask(const char* name, const std::vector<std::int32_t>& mask, std::size_t num_cells) {
   if (mask.empty() || mask.size() == num_cells) return;
   throw InvalidInput(std::string("the mask of the ") + name + " has " +
@@ -122,7 +125,7 @@ void require_mask(const char* name, const std::vector<std::int32_t>& mask, std::
                      " cells");
 }
 
-// What a loop over pieces will touch, as columns are anywhere in memory.
+// Prefetches the value that a loop over pieces will need soon. Columns are anywhere in memory.
 template <class T>
 void prefetch_column(std::span<const Index> columns, std::size_t k, const std::vector<T>& values) {
   if (k + system::prefetch_distance < columns.size()) {
@@ -130,6 +133,7 @@ void prefetch_column(std::span<const Index> columns, std::size_t k, const std::v
   }
 }
 
+// Returns the sum of the moments of each column.
 std::vector<Point> column_moments(const PieceRows& pieces, std::size_t num_columns) {
   std::vector<Point> sums(num_columns);
   for (std::size_t k = 0; k < pieces.moments.size(); ++k) {
@@ -140,9 +144,10 @@ std::vector<Point> column_moments(const PieceRows& pieces, std::size_t num_colum
   return sums;
 }
 
-// What pieces sum up to differs by rounding alone from the area of a cell that is covered, and is what keeps integrals.
-// Corners on the cell's border are off it by what area_of_rounding() says. So are pieces that are left out, but
-// they may be many: as much as a share of 1e-9 together.
+// Returns the areas of cells. Where a cell is covered, the sum of its pieces differs from its area
+// only by rounding, and replaces it, since it is the sum that conserves integrals. Corners on the
+// cell's border are off by area_of_rounding(), and so are the pieces that were dropped; these may
+// be many, and have together at most a share of 1e-9.
 std::vector<double> areas_of(const std::vector<double>& covered,
                              const overlay::CountedSizes& sizes) {
   constexpr double of_many = 1e-9;
@@ -154,6 +159,7 @@ std::vector<double> areas_of(const std::vector<double>& covered,
   return areas;
 }
 
+// Returns the covered share of each cell.
 std::vector<double> fractions(const std::vector<double>& covered,
                               const std::vector<double>& areas) {
   std::vector<double> result(areas.size());
@@ -163,8 +169,9 @@ std::vector<double> fractions(const std::vector<double>& covered,
   return result;
 }
 
-// Moments around the means of sources. Their sums vanish but for rounding, which gradients would
-// multiply by the inverse of a cell's width: the largest piece of a source takes it up.
+// Returns the moments of pieces around the centers of mass of their sources. The moments of a
+// source sum up to zero except for rounding, which gradients would multiply by the inverse of a
+// cell's width; the largest piece of the source is corrected by the sum.
 std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& remap,
                                   std::vector<Point> moments) {
   std::vector<Point> sums(means.size());
@@ -184,13 +191,14 @@ std::vector<Point> moments_around(const std::vector<Point>& means, const Remap& 
   return moments;
 }
 
-// The cells by name, as they are along the curve; none of a grid, which is in order itself.
+// Returns the cells in spatial order, as indices in the input, or nothing if they are those of a
+// grid, which is in order itself.
 std::span<const Index> spatial_order_of(const PartitionData& cells) {
   if (cells.grid() != nullptr || cells.whole() != no_index) return {};
   return cells.subdivision().names;
 }
 
-// The columns of a row are different, and increase.
+// Returns the weights of order 1. The columns of a row are different and ascending.
 Weights mean_weights(const Remap& remap, const std::vector<double>& target_areas,
                      unsigned threads) {
   Weights weights;

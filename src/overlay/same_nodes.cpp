@@ -25,15 +25,15 @@ std::uint64_t hash_of(std::int64_t x, std::int64_t y, std::int64_t z) {
   return hash;
 }
 
-// The sum makes 0 of -0.
+// Returns the bits of a double. The addition turns -0 into 0.
 std::int64_t bits_of(double x) { return std::bit_cast<std::int64_t>(x + 0.0); }
 std::uint64_t hash_of(const LonLat& position) {
   return hash_of(bits_of(position.lon_deg), bits_of(position.lat_deg), 0);
 }
 std::uint64_t hash_of(const Point& p) { return hash_of(bits_of(p.x), bits_of(p.y), bits_of(p.z)); }
 
-// Points by the cubes they are in, cubes much wider than the distance, so that a point looks into one, and rarely into a
-// neighbor of it.
+// Finds points by the cubes that have them. Cubes are much wider than the distance, so that a point
+// looks into one cube, and rarely into a neighbor of it.
 class NearPoints {
  public:
   NearPoints(std::span<const Point> points, double distance)
@@ -46,7 +46,7 @@ class NearPoints {
     system::prefetch(&slots_[slot(place(p.x), place(p.y), place(p.z))]);
   }
 
-  // The first point near to it; no_index: there is none.
+  // Returns the first stored point near p, or no_index.
   [[nodiscard]] Index find(const Point& p) const {
     Index first = no_index;
     for (auto x = place(p.x - distance_); x <= place(p.x + distance_); ++x) {
@@ -88,8 +88,9 @@ class NearPoints {
   std::vector<Index> slots_;
 };
 
-// Numbers values in the order in which they come, in a table that grows with them: corners of cells come three or more
-// times each. A slot keeps half of the hash, so that hardly any other value is looked at.
+// Numbers values in the order in which they first occur, in a hash table that grows. Corners of
+// cells occur three or more times each. A slot has half of the hash, so that values are rarely
+// compared in vain.
 template <class Value>
 class KnownValues {
  public:
@@ -136,7 +137,7 @@ Distinct<Value> distinct_of(std::span<const Value> values) {
   Distinct<Value> result;
   result.numbers.resize(values.size());
   KnownValues<Value> known(result.values);
-  std::array<std::uint64_t, system::prefetch_distance> hashes{};  // of those to come
+  std::array<std::uint64_t, system::prefetch_distance> hashes{};  // the hashes of the next values
   const auto prepare = [&](std::size_t k) {
     if (k >= values.size()) return;
     hashes[k % hashes.size()] = hash_of(values[k]);

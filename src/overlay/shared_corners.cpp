@@ -17,16 +17,18 @@ namespace {
 
 constexpr std::size_t features_per_block = 16;
 
+// True if two corners are too near to each other to be different corners of a side.
 bool is_one_place(const LonLat& p, const LonLat& q) {
   return std::abs(p.lon_deg - q.lon_deg) <= 2 * on_side_deg &&
          std::abs(p.lat_deg - q.lat_deg) <= 2 * on_side_deg;
 }
 
-// Corners on a side, from its beginning on.
+// Finds the corners on a side.
 class SideCorners {
  public:
   SideCorners(const PlaneCorners& corners, Index feature) : corners_(corners), feature_(feature) {}
 
+  // Returns the corners on a side between its ends, from its beginning on.
   const std::vector<LonLat>& operator()(const LonLat& from, const LonLat& to) {
     found_.clear();
     const bool goes_east = is_west_of(from, to);
@@ -42,7 +44,8 @@ class SideCorners {
       const double part = (x * along + y * up) / squared;
       if (std::abs(along * y - up * x) > most || part <= 0 || part >= 1) return;
       if (is_one_place(p, from) || is_one_place(p, to)) return;
-      // Exact signs judge a feature's own corners, but for those that are a whole turn away, which is rounded.
+      // A feature's own corners were judged by exact signs already, except for those shifted by 360
+      // degrees, which are rounded.
       if (owner == feature_ && is_own(p)) return;
       found_.emplace_back(goes_east ? part : 1 - part, p);
     });
@@ -58,7 +61,7 @@ class SideCorners {
   }
 
  private:
-  // Whether it has not been turned.
+  // True if a corner has not been shifted by 360 degrees.
   static bool is_own(const LonLat& p) { return p.lon_deg > -180 && p.lon_deg < 180; }
 
   const PlaneCorners& corners_;

@@ -24,7 +24,8 @@ struct OwnedPart {
   std::vector<Index> owners;
 };
 
-// The parts of a cell that cells before it do not have. Those that cells behind it have as well are apart.
+// Returns the parts of a cell that no cell before it has. Parts that later cells have as well are
+// separate. `others` are the cells that overlap with the cell.
 std::vector<OwnedPart> parts_of_cell(const CellRings& cells, Index cell,
                                      const std::vector<Index>& others, const Execution& execution) {
   std::vector<OwnedPart> parts = {{one_cell(cells, cell), {cell}}};
@@ -48,6 +49,7 @@ std::vector<OwnedPart> parts_of_cell(const CellRings& cells, Index cell,
   return parts;
 }
 
+// Cuts cells into parts; others[i] are the cells whose overlaps with cell i are to be separated.
 TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>& others,
                   const Execution& execution) {
   const Execution told{.threads = execution.threads, .stop = execution.stop};
@@ -90,7 +92,7 @@ bool is_masked(const std::vector<std::int32_t>& mask, Index cell) {
   return !mask.empty() && mask[cell] == 0;
 }
 
-// The cells, of which those that are masked become empty.
+// Returns the cells, with masked cells empty.
 CellRings unmasked(const CellRings& cells, const std::vector<std::int32_t>& mask) {
   CellRings result;
   result.points = cells.points;

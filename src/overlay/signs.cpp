@@ -13,12 +13,12 @@ namespace {
 
 constexpr double least_size = 1e-100;
 
-// Of a coordinate of the change in doubles, relative to |a| |b-a| |y|: u for b-a, 3u for a product of
-// three and 3u for each scalar product.
+// The bound for a coordinate of the first-order change in doubles, relative to |a| |b-a| |y|: u for
+// b-a, 3u for a product of three numbers and 3u for each scalar product.
 constexpr double change_bound = 16 * predicates::unit_roundoff;
 
-// The sign of the first coordinate that is not zero of a (y.b) - b (y.a) = a (y.d) - d (y.a) with
-// d = b-a.
+// Returns the sign of the first coordinate that is not zero of a (y.b) - b (y.a) = a (y.d) - d
+// (y.a), d = b-a.
 Sign sign_of_change(const Point& a, const Point& b, const Point& y) {
   const Point d = b - a;
   const double value = a.x * dot(y, d) - d.x * dot(y, a);
@@ -41,8 +41,9 @@ Sign sign_of_change(const Point& a, const Point& b, const Point& y) {
   return sign;
 }
 
-// The sign of det(from, to, p) by the normal of the two and the difference d from the nearer one to p, or zero:
-// a step away it is lost in the rounding of the product with p, but not of that with d.
+// Returns the sign of det(from, to, p), or zero if it is not known. It uses the normal of the two
+// and the difference d from the nearer one to p: at a small distance the sign is lost in rounding
+// of the product with p, but not in that with d.
 Sign sign_by_nearer_end(const Vec& normal, double limit, const Point& from, const Point& to,
                         const Point& p) {
   const Vec of_from = exact::to_vector(p) - exact::to_vector(from);
@@ -52,8 +53,8 @@ Sign sign_by_nearer_end(const Vec& normal, double limit, const Point& from, cons
   return std::abs(value) > limit * size_of_step(d) ? exact::sign_of(value) : Sign::zero;
 }
 
-// The sign of the first coordinate of the change for an end y of the step from a, which are as good as unit vectors,
-// or zero.
+// Returns the sign of the first coordinate of the change for an end y of the step from a, both unit
+// vectors up to rounding, or zero if it is not known.
 Sign sign_of_change_at_end(const Point& a, const Vec& step, const Point& y) {
   const Vec end = exact::to_vector(y);
   const double value = a.x * dot(end, step) - step.x * dot(end, exact::to_vector(a));
@@ -73,7 +74,7 @@ Sign CoverEdge::nearby_sign(const Point& x) const {
   return sign_by_nearer_end(normal_, line_bound * size_of_step(step_), y_, z_, x);
 }
 
-// The change of x by an edge is that of a point by the line backwards.
+// The change of x by an edge is that of a point by the reversed line.
 bool CoverEdge::is_left_nearby(const Point& x) const {
   Sign sign = x == y_ || x == z_ ? -sign_of_change_at_end(z_, step_, x) : nearby_sign(x);
   if (sign == Sign::zero) sign = turned_edge_sign(x, y_, z_);

@@ -12,16 +12,20 @@
 namespace rondel::overlay {
 namespace {
 
-// The normal equations know a direction if their eigenvalue there is this share of the largest one. Two neighbors on a line that
-// bends by the angle b have tan^2(b / 2). Along a parallel b is about the width of the cells: what the curvature of a field
-// is, divided by b, would be the gradient across the line.
+// The normal equations determine a direction if their eigenvalue for it is at least this share of
+// the largest one. Two neighbors on a line that bends by the angle b have a share of tan^2(b / 2).
+// Along a parallel b is about the width of the cells in radians; the curvature of a field, divided
+// by b, would be taken for a gradient across the line.
 constexpr double least_share = 1.0 / 16;
 
-// The least squares of the distances between centers, relative to the area of the cell. A cell within a ring may have the
-// center of the ring: the difference of both is no slope. A single direction has to be that of neighbors beside the cell.
+// The least squared distance between centers that counts, relative to the area of the cell. A cell
+// inside of a ring may have the same center as the ring; the difference of their means is no
+// gradient. If only one direction is determined, its neighbors must be beside the cell, so the
+// bound is larger.
 constexpr double least_square = 0x1p-16;
 constexpr double least_square_on_line = 0x1p-6;
 
+// A neighbor in the tangent plane: the coordinates of its center, and its weight.
 struct Sample {
   Index neighbor;
   double x;
@@ -29,24 +33,27 @@ struct Sample {
   double weight;
 };
 
-// Two directions at right angles to n and to each other.
+// Returns two unit vectors orthogonal to n and to each other.
 std::pair<Point, Point> tangents(const Point& n) {
   const Point axis = std::abs(n.x) < 0.5 ? Point{1, 0, 0} : Point{0, 1, 0};
   const Point u = normalized(cross(n, axis));
   return {u, cross(n, u)};
 }
 
+// A vector of the tangent plane.
 struct Slope {
   double along_u;
   double along_v;
 };
 
-// The inverse of the normal equations, but for directions that they do not know, along which gradients are 0.
+// The normal equations of the least squares gradient and their inverse. Along directions that they
+// do not determine, gradients are 0.
 class SlopeEquations {
  public:
   explicit SlopeEquations(double area) : area_(area) {}
 
-  // Whether the neighbor takes part; one whose center is opposite is in no direction.
+  // Adds a neighbor. Returns false if it takes no part: it is too near, or its center is nearly
+  // opposite, so that it is in no direction.
   bool add(const Sample& s) {
     const bool is_in_plane = s.weight * (s.x * s.x + s.y * s.y) >= least_share;
     if (!is_in_plane || !(s.weight * least_square * area_ <= 1)) return false;
@@ -72,6 +79,7 @@ class SlopeEquations {
     x_ = x / std::sqrt(square);
     y_ = y / std::sqrt(square);
   }
+  // Returns the vector that the difference of the neighbor's mean is multiplied by.
   [[nodiscard]] Slope slope_of(const Sample& s) const {
     if (determinant_ > 0) {
       return {s.weight * (yy_ * s.x - xy_ * s.y) / determinant_,
@@ -88,22 +96,24 @@ class SlopeEquations {
   double xx_ = 0;
   double xy_ = 0;
   double yy_ = 0;
-  double determinant_ = 0;  // 0: one direction is not known
-  double largest_ = 0;      // eigenvalue, and its direction, (x, y)
+  double determinant_ = 0;  // 0 if a direction is not determined
+  double largest_ = 0;      // the largest eigenvalue; (x_, y_) is its direction
   double x_ = 0;
   double y_ = 0;
 };
 
-// The cells that share an edge with others, by name.
+// Finds the neighbors of cells: those that share an edge and are not masked.
 class NeighborLists {
  public:
   NeighborLists(const PartitionData& cells, std::span<const std::int32_t> mask)
       : cells_(cells), mask_(mask) {}
 
-  // Of cells in spatial order, where there is one.
+  // Returns the index in the input of the cell at place c of the spatial order; a grid is in its
+  // own order.
   [[nodiscard]] Index name(std::size_t c) const {
     return cells_.grid() != nullptr ? static_cast<Index>(c) : cells_.subdivision().names[c];
   }
+  // Returns the neighbors of the cell at place c, as indices in the input, ascending.
   [[nodiscard]] std::vector<Index> operator()(Index c) const {
     std::vector<Index> neighbors;
     if (cells_.grid() != nullptr) {

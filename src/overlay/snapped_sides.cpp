@@ -14,10 +14,10 @@
 namespace rondel::overlay {
 namespace {
 
-// The ends of a side, the same for both of its directions.
+// Returns the ends of a side, the same for both directions.
 std::pair<Index, Index> ends_of(const OwnedSide& side) { return std::minmax(side.from, side.to); }
 
-// Leaves out as many of each owner's sides between two points as run the other way.
+// Removes pairs of opposite sides of one owner.
 void cancel_owned(std::vector<OwnedSide>& sides) {
   std::ranges::sort(sides, {}, [](const OwnedSide& side) {
     return std::tuple(ends_of(side), side.owner, side.from);
@@ -66,7 +66,8 @@ Snaps::Snaps(std::span<const Point> points, std::span<const OwnedSide> sides, do
     const Point& a = points_[low];
     const Point& b = points_[high];
     const Point step = b - a;
-    const double margin = dot(step, step) / 4 + distance_;  // the arc is not so far from its chord
+    // the arc is nearer to its chord than this
+    const double margin = dot(step, step) / 4 + distance_;
     const auto x_of = [&](Index p) { return points_[p].x; };
     const auto is_beside = [margin](double from, double to, double at) {
       return at < std::min(from, to) - margin || at > std::max(from, to) + margin;
@@ -85,6 +86,7 @@ Snaps::Snaps(std::span<const Point> points, std::span<const OwnedSide> sides, do
   });
 }
 
+// True if two points are within the distance.
 bool Snaps::is_nearly(const Point& a, const Point& b) const {
   const Point step = b - a;
   return dot(step, step) <= distance_ * distance_;
@@ -106,7 +108,7 @@ void Snaps::join(Index p, Index q) {
   has_joined_ = true;
 }
 
-// Divides the side from `low` to `high` at a corner; a corner that is near to an end becomes one with it.
+// Divides the side from `low` to `high` at a corner. A corner near an end is merged with that end.
 void Snaps::take(Index low, Index high, Index corner) {
   const Point& a = points_[low];
   const Point& b = points_[high];

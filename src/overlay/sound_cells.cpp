@@ -22,6 +22,7 @@
 namespace rondel::overlay {
 namespace {
 
+// Returns the sides of a cell.
 std::vector<OwnedSide> sides_of_cell(const CellRings& cells, std::size_t cell, Index owner) {
   std::vector<OwnedSide> sides;
   for (std::uint64_t r = cells.cells[cell]; r < cells.cells[cell + 1]; ++r) {
@@ -34,8 +35,8 @@ std::vector<OwnedSide> sides_of_cell(const CellRings& cells, std::size_t cell, I
   return sides;
 }
 
-// Of the cells whose sides cross or run to and fro, but may not when corners are snapped. The order of crossings along an
-// edge of a cover has no meaning for sides on one great circle.
+// Returns the sides of the cells whose sides cross or cancel, which snapping may mend. The order of
+// crossings along an edge of a cover is not defined for sides on one great circle.
 std::vector<OwnedSide> sides_to_snap(const CellRings& cells, const Subdivision& known,
                                      const Execution& execution) {
   std::vector<OwnedSide> all;
@@ -49,7 +50,8 @@ std::vector<OwnedSide> sides_to_snap(const CellRings& cells, const Subdivision& 
   return all;
 }
 
-// The cells with corners on the sides on which they are to rounding; nothing if all cells are sound.
+// Returns the cells with corners inserted into the sides on which they are up to rounding, or
+// nothing if all cells are sound.
 std::optional<CellRings> with_corners_on_sides(const CellRings& cells, const Subdivision& known,
                                                const Execution& execution) {
   constexpr double half_of_sphere = 2 * std::numbers::pi;
@@ -66,7 +68,7 @@ std::optional<CellRings> with_corners_on_sides(const CellRings& cells, const Sub
       }
       const double before = areas(one).front();
       one = rings_around(arcs, 1, 1);
-      // What is left of less than rounding may turn the other way.
+      // A rest that is narrower than rounding may be clockwise.
       if (std::abs(areas(one).front() - before) > half_of_sphere) {
         one = CellRings{};
         one.cells.push_back(0);
@@ -83,7 +85,7 @@ std::optional<CellRings> with_corners_on_sides(const CellRings& cells, const Sub
 
 Subdivision sound_cells(const CellRings& cells, std::vector<Index>& whole,
                         const Execution& execution) {
-  constexpr int most_times = 4;  // a corner may come into the way of others
+  constexpr int most_times = 4;  // a corner may then be on another side
   const Execution told{.threads = execution.threads, .stop = execution.stop};
   Subdivision sound(cells, false, execution.threads);
   std::optional<CellRings> changed = tidied(cells, sound);

@@ -20,6 +20,7 @@
 namespace rondel::overlay {
 namespace {
 
+// True if c is to the left of the great circle from a to b; exact.
 bool is_left_turn(const Point& a, const Point& b, const Point& c) {
   const auto ray = exact::to_vector(a);
   const auto ab = exact::to_vector(b) - ray;
@@ -33,7 +34,7 @@ bool is_left_turn(const Point& a, const Point& b, const Point& c) {
 
 auto coordinates(const Point& p) { return std::tuple(p.x, p.y, p.z); }
 
-// Sets of points that have become one; the lowest stands for all.
+// A union-find forest of merged points; the lowest index is the root.
 class MergedPoints {
  public:
   explicit MergedPoints(std::size_t size) : parents_(size) {
@@ -53,7 +54,7 @@ class MergedPoints {
   std::vector<Index> parents_;
 };
 
-// The direction of the center of mass, or of any corner.
+// Returns the direction of a cell's center of mass, or of its first corner if the moment is zero.
 Point center_of(const CellRings& input, std::size_t cell) {
   Point moment{};
   Point first{1, 0, 0};
@@ -69,7 +70,7 @@ Point center_of(const CellRings& input, std::size_t cell) {
   return moment == Point{} ? first : normalized(moment);
 }
 
-// Of a ring, the position of its corner with the least coordinates.
+// Returns the position in `corners` of the ring's corner with the least coordinates.
 std::size_t least_corner(const CellRings& input, std::uint64_t ring) {
   const auto begin = input.corners.begin() + static_cast<std::ptrdiff_t>(input.rings[ring]);
   const auto end = input.corners.begin() + static_cast<std::ptrdiff_t>(input.rings[ring + 1]);
@@ -78,7 +79,7 @@ std::size_t least_corner(const CellRings& input, std::uint64_t ring) {
   return static_cast<std::size_t>(least - input.corners.begin());
 }
 
-// Sorts the cells of each key by their first corners.
+// Sorts the cells with equal keys by the coordinates of their first corners.
 void sort_equals(const CellRings& input, order::KeyedIndices& sorted) {
   const auto first_coordinates = [&](Index i) {
     if (input.cells[i] == input.cells[i + 1]) return std::tuple(2.0, 0.0, 0.0);
@@ -128,8 +129,8 @@ void Subdivision::sort_cells(const CellRings& input, unsigned threads) {
   for (const Index i : names) centers.push_back(places[i]);
 }
 
-// Rings begin at their corner with the least coordinates, so that nothing depends on the order of the
-// input but `names`.
+// Rings begin at their corner with the least coordinates, so that only `names` depends on the order
+// of the input.
 void Subdivision::take_rings(const CellRings& input) {
   std::vector<Index> new_points(input.points.size(), no_index);
   cells.reserve(num_cells() + 1);
@@ -158,10 +159,10 @@ void Subdivision::take_rings(const CellRings& input) {
   }
 }
 
-// Each edge must turn counterclockwise around the center of its cell. Where rounding has brought
-// the ends of a short one into another order, or into one place, they become one. Where it has done so
-// with a long one, the cell is narrower than that, and its short edges vanish. A cell that has fewer
-// than three corners left has no ring any more, and what was on both sides of it has become neighbors.
+// Merges corners that rounding has put into the wrong order. Each edge must turn counterclockwise around the
+// center of its cell. The ends of a short edge that does not are merged. If a long edge does not, the cell
+// is narrower than that edge's rounding, and all its short edges vanish. A cell that has fewer than three
+// corners left loses its ring, and the cells on both sides of it become neighbors.
 void Subdivision::merge_disordered() {
   constexpr double short_length = 0x1p-44;
   MergedPoints merged(points.size());
@@ -206,8 +207,8 @@ void Subdivision::merge_disordered() {
   take_merged(final_points);
 }
 
-// Leaves out the edges whose ends have become one, and rings with fewer than three corners. Each
-// cell has one ring at most.
+// Removes the edges whose ends were merged, and rings with fewer than three corners. Each cell has
+// at most one ring.
 void Subdivision::take_merged(std::span<const Index> merged) {
   Index size = 0;
   Index num_rings = 0;
@@ -251,7 +252,7 @@ void Subdivision::find_twins() {
       ends[h] = corners[h + 1 == rings[ring + 1] ? rings[ring] : h + 1];
     }
   }
-  // The halfedges of each origin.
+  // `leaving` lists the halfedges by their origins, in compressed rows.
   std::vector<Index> starts(points.size() + 1);
   for (const Index p : corners) ++starts[p + 1];
   std::partial_sum(starts.begin(), starts.end(), starts.begin());
@@ -271,8 +272,9 @@ void Subdivision::find_twins() {
   }
 }
 
-// The ring turns left in all corners, and goes around once: seen from the first corner, the others follow each other
-// counterclockwise, within half a turn of the second. Of the first two and the last of them the corners' own turns say it.
+// True if a cell is strictly convex: its ring turns left at all corners and goes around once. Seen
+// from the first corner, the other corners must follow each other counterclockwise, within 180
+// degrees of the second one. For the first two and the last of them the turns at corners say so.
 bool Subdivision::is_convex(Index cell) const {
   const Halfedge begin = begin_of(cell);
   const Halfedge end = end_of(cell);
@@ -289,8 +291,9 @@ bool Subdivision::is_convex(Index cell) const {
   return true;
 }
 
-// Whether all corners are on the center's hemisphere, and all edges turn counterclockwise around it, by less than half a turn each and
-// once all together: then only one of them comes to the half circle through the first corner, or passes it.
+// True if a cell is of Shape::star: all corners are in the hemisphere around the center, and all
+// edges turn counterclockwise around it, by less than 180 degrees each and 360 degrees together.
+// Then only one of them reaches or passes the half circle through the first corner.
 bool Subdivision::is_star(Index cell) const {
   constexpr double behind = -0x1p-10;  // cells of a diagram end at a right angle to rounding
   const Point& center = centers[cell];

@@ -13,7 +13,7 @@
 namespace rondel::overlay {
 namespace {
 
-// Whether an end of one of two arcs is on the other one to rounding.
+// True if an end of one of two arcs is within rounding of the other arc.
 bool is_touch_by_rounding(const Point& a, const Point& b, const Point& p, const Point& q) {
   constexpr double rounding = 32 * predicates::unit_roundoff;
   const auto is_near = [&](const Point& from, const Point& to, const Point& x) {
@@ -24,11 +24,12 @@ bool is_touch_by_rounding(const Point& a, const Point& b, const Point& p, const 
   return is_near(a, b, p) || is_near(a, b, q) || is_near(p, q, a) || is_near(p, q, b);
 }
 
+// True if the great circle of ab has p and q strictly on different sides.
 bool are_on_both_sides(const Point& a, const Point& b, const Point& p, const Point& q) {
   return orientation(a, b, p) * orientation(a, b, q) == Sign::negative;
 }
 
-// Sides by the least x that they may have.
+// A side with the least x that its arc may have.
 struct RangedSide {
   Point a;
   Point b;
@@ -41,7 +42,7 @@ struct RangedSide {
 bool has_sure_crossing(std::span<const BorderArc> arcs) {
   std::vector<RangedSide> sides;
   for (const auto& [a, b] : arcs) {
-    const double bulge = dot(b - a, b - a) / 4;  // more than the arc is away from its chord
+    const double bulge = dot(b - a, b - a) / 4;  // exceeds the distance of the arc from its chord
     sides.push_back({a, b, std::min(a.x, b.x) - bulge, std::max(a.x, b.x) + bulge});
   }
   std::ranges::sort(sides, {}, &RangedSide::low);

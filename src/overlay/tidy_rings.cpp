@@ -27,7 +27,8 @@ bool is_less(const Point& a, const Point& b) {
   return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
-// Whether the way from a by b to c turns back on itself: all on one great circle, with a and c on the same side of b.
+// True if the path from a over b to c turns back on itself: all three are on one great circle, with
+// a and c on the same side of b.
 bool is_turned_back(const Point& a, const Point& b, const Point& c) {
   if (a == c) return true;
   const Point to_a = a - b;
@@ -38,7 +39,8 @@ bool is_turned_back(const Point& a, const Point& b, const Point& c) {
   return dot(cross(b, to_a), cross(b, to_c)) > 0 && orientation(a, b, c) == Sign::zero;
 }
 
-// A ring without the ends of ways that turn back: the way from a by b to c is then that from a to c.
+// Returns a ring without the corners at which it turns back: a path from a over b to c is replaced
+// by that from a to c.
 std::vector<Point> without_turns(std::span<const Point> ring) {
   std::vector<Point> kept;
   const auto take = [&](const Point& p) {
@@ -48,7 +50,7 @@ std::vector<Point> without_turns(std::span<const Point> ring) {
     if (kept.empty() || !(kept.back() == p)) kept.push_back(p);
   };
   for (const Point& p : ring) take(p);
-  // Where the ring closes.
+  // The place where the ring closes is treated in the same way.
   for (bool has_changed = true; has_changed && kept.size() > 2;) {
     has_changed = false;
     const std::size_t n = kept.size();
@@ -64,8 +66,8 @@ std::vector<Point> without_turns(std::span<const Point> ring) {
   return kept;
 }
 
-// Whether anything of a ring is wider than rounding when corners that are on its sides to rounding have become corners of
-// these: then it falls into loops.
+// True if a ring is wider than rounding somewhere: after corners within rounding of its sides have
+// become corners of the sides, the ring consists of loops, of which one is wide.
 bool has_wide_loop(std::span<const Point> ring) {
   std::vector<OwnedSide> sides;
   const auto size = static_cast<Index>(ring.size());
@@ -77,7 +79,8 @@ bool has_wide_loop(std::span<const Point> ring) {
   return !rings_around(arcs, 1, 1).corners.empty();
 }
 
-// Whether a ring has no area although it is wider than rounding, as a bow tie with two loops of one size.
+// True if a ring has no area although it is wider than rounding, such as a bow tie with two equal
+// loops.
 bool is_balanced_crossing(std::span<const Point> ring) {
   if (!area_of_ring(ring).is_nothing()) return false;
   std::vector<BorderArc> sides;
@@ -87,7 +90,8 @@ bool is_balanced_crossing(std::span<const Point> ring) {
   return has_sure_crossing(sides) || has_wide_loop(ring);
 }
 
-// None of a cell that crosses itself: whoever overlays it says so.
+// Returns the arcs of a cell with turns removed, or nothing for a cell that crosses itself; whoever
+// overlays the cell reports it.
 std::optional<std::vector<KeyedArc>> arcs_of_cell(const CellRings& cells, std::size_t cell,
                                                   Index key) {
   std::vector<KeyedArc> arcs;
@@ -106,8 +110,9 @@ std::optional<std::vector<KeyedArc>> arcs_of_cell(const CellRings& cells, std::s
   return arcs;
 }
 
-// Throws InvalidInput for a cell whose sides all run to and fro, if one of its rings is wider than rounding: it may be
-// nothing, as a ring and a hole that is as large, or all, as two parts that share their border.
+// Throws InvalidInput for a cell whose sides all cancel, if one of its rings is wider than
+// rounding. Such a cell could be empty (a ring and an equal hole) or the whole sphere (two parts
+// that share their border).
 void require_nothing(const CellRings& cells, std::size_t cell, std::span<const KeyedArc> arcs) {
   if (!is_nothing(arcs)) return;
   std::vector<Point> ring;
@@ -124,7 +129,8 @@ void require_nothing(const CellRings& cells, std::size_t cell, std::span<const K
   }
 }
 
-// Whether a region is taken for what is beyond it, as it may be where less than rounding is left of either.
+// True if a region was replaced by its complement, as happens if less than rounding is left of
+// either.
 bool is_turned(double before, double after) {
   constexpr double half_of_sphere = 2 * std::numbers::pi;
   return std::abs(after - before) > half_of_sphere;
@@ -134,7 +140,7 @@ std::size_t num_corners_of(const CellRings& cells, std::size_t cell) {
   return cells.rings[cells.cells[cell + 1]] - cells.rings[cells.cells[cell]];
 }
 
-// Points of a cell by their coordinates.
+// Finds the points of a cell by their coordinates.
 class NamesOfCorners {
  public:
   NamesOfCorners(const CellRings& cells, std::size_t cell) : points_(cells.points) {
@@ -165,7 +171,7 @@ std::optional<CellRings> tidied(const CellRings& cells, const Subdivision& known
   std::vector<Index> keys(cells.num_cells(), no_index);
   std::vector<KeyedArc> arcs;
   std::vector<double> areas_before;
-  std::vector<std::size_t> begins;  // of each key's arcs
+  std::vector<std::size_t> begins;  // where the arcs of each key begin
   Index num_keys = 0;
   for (const auto& [place, area] : known.areas_of_others) {
     const Index cell = known.names[place];

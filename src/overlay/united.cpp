@@ -17,14 +17,14 @@
 namespace rondel::overlay {
 namespace {
 
-// A cell and what is beyond it.
+// Returns a cell and its complement as a partition of the sphere.
 Partition both_sides(const CellRings& one) {
   CellRings both = one;
   append(beyond_cell(one), both);
   return Partition(both);
 }
 
-// Throws InvalidInput if the pieces of a cell, those with number 0, do not add up to it.
+// Throws InvalidInput if the pieces of a cell, which are those with number 0, do not add up to it.
 void require_pieces(const CellRings& cell, const CellRings& pieces,
                     const std::vector<Index>& numbers) {
   constexpr double rounding = 1e-9;
@@ -37,7 +37,8 @@ void require_pieces(const CellRings& cell, const CellRings& pieces,
                      std::to_string(sum) + " of " + std::to_string(area) + " steradians");
 }
 
-// One overlay gives all pieces, so that they have the same corners where they meet.
+// Returns the union of two cells. All pieces come from one overlay, so that they have the same
+// corners where they meet.
 CellRings union_of(const CellRings& a, const CellRings& b, const Execution& execution) {
   const RegionPieces pieces = intersection(both_sides(a), both_sides(b), execution);
   require_pieces(a, pieces.rings, pieces.cells);

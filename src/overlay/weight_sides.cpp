@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The cells of a partition as files of weights describe them.
+// Describes the cells of a partition as files of weights do.
 #include <algorithm>
 #include <cstddef>
 #include <span>
@@ -13,8 +13,10 @@
 namespace rondel {
 namespace {
 
+// cells with more corners are written without corners
 constexpr std::size_t most_weight_corners = 16;
 
+// Returns four corners for each cell of a grid.
 std::vector<LonLat> corners_of_graticule(const overlay::Graticule& grid) {
   std::vector<LonLat> corners(4 * static_cast<std::size_t>(grid.num_cells()));
   for (Index column = 0; column < grid.num_columns_of_grid(); ++column) {
