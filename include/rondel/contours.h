@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Isolines and filled bands of values at the sites of a triangulation.
+/// Isolines, and filled bands between them, of values at the sites of a triangulation.
 #pragma once
 
 #include <cstddef>
@@ -17,22 +17,24 @@
 
 namespace rondel {
 
-/// Lines of equal value. Line i has the points line_offsets[i] ... line_offsets[i+1]-1; those of
-/// levels[k] are the lines level_offsets[k] ... level_offsets[k+1]-1.
+/// Lines of equal value, in compressed rows. Line i has the points line_offsets[i] ...
+/// line_offsets[i+1]-1, and levels[k] has the lines level_offsets[k] ... level_offsets[k+1]-1.
 struct Isolines {
   std::vector<double> levels;
-  std::vector<std::uint64_t> level_offsets = {0};  ///< number of levels + 1
-  std::vector<std::uint64_t> line_offsets = {0};   ///< number of lines + 1
-  std::vector<std::uint8_t> is_closed;  ///< of each line: the last point leads to the first
-  std::vector<Point> points;            ///< unit vectors from the center of the sphere
+  std::vector<std::uint64_t> level_offsets = {0};  ///< one offset more than levels; counts lines
+  std::vector<std::uint64_t> line_offsets = {0};   ///< one offset more than lines; counts points
+  /// 1 for a line whose last point is joined to its first one
+  std::vector<std::uint8_t> is_closed;
+  std::vector<Point> points;  ///< unit vectors from the center of the sphere
 
   [[nodiscard]] std::size_t num_lines() const noexcept { return is_closed.size(); }
 };
 
-/// Regions between levels. Band k has the values from levels[k-1] to below levels[k], the first all
-/// below, the last all from the last level on. It consists of the polygons band_offsets[k] ...
-/// band_offsets[k+1]-1; polygon i has the rings polygon_offsets[i] ... polygon_offsets[i+1]-1, and ring j
-/// the points ring_offsets[j] ... ring_offsets[j+1]-1.
+/// Regions between levels, in compressed rows. Band k has the values from levels[k-1] to below
+/// levels[k]; the first band has all values below levels[0], and the last one all values from the
+/// last level on. Band k consists of the polygons band_offsets[k] ... band_offsets[k+1]-1, polygon
+/// i of the rings polygon_offsets[i] ... polygon_offsets[i+1]-1, and ring j of the points
+/// ring_offsets[j] ... ring_offsets[j+1]-1.
 struct Bands {
   std::vector<double> levels;
   std::vector<std::uint64_t> band_offsets = {0};     ///< number of levels + 2
@@ -44,37 +46,42 @@ struct Bands {
   [[nodiscard]] std::size_t num_polygons() const noexcept { return polygon_offsets.size() - 1; }
 };
 
-/// The isolines of the field that is linear in the plane of each solid face, as Method::linear has it:
+/// Computes the isolines of the field that is linear in the plane of each solid face, as in
+/// Method::linear:
 ///
 ///     f(u) = sum w_i f_i / sum w_i,   u = sum w_i x_i,   x_i the corners' unit vectors
 ///
-/// so f(u) = c where sum w_i (f_i - c) = 0, which is linear in u: a plane through the center. Within a
-/// face an isoline is an arc of a great circle, and so it is between consecutive points of a line.
+/// So f(u) = c where sum w_i (f_i - c) = 0, which is linear in u: a plane through the center.
+/// Within a face an isoline is therefore an arc of a great circle, and so it is between consecutive
+/// points of a line.
 ///
-/// 1. An isoline of c is the border of the region f >= c, without what is no wider than a line, and
-///    without the border of the surface. Higher values are to the left.
-/// 2. A face with a corner whose value is missing (NaN) is left out, and so are ghost faces. A line
-///    that meets what is left out, or the border of the solid faces, ends there: it is open.
+/// 1. The isoline of c is the border of the region f >= c, without parts of that region that are no
+///    wider than a line, and without the border of the surface. Higher values are to the left.
+/// 2. Faces with a corner whose value is missing (NaN) are left out, and so are ghost faces. A line
+///    that meets a face that is left out, or the border of the solid faces, ends there: it is open.
 /// 3. No line visits a point twice. Lines meet at most in sites whose value is the level.
-/// 4. A point on an edge is computed from the edge's ends alone, the lower value first; a site
-///    whose value is the level is that site's unit vector.
-/// 5. The bytes depend on the values and the places of the sites, not on the order of these, nor on the number
-///    of threads. Of sites in one place the lowest index has the value that counts. (Arrays from
-///    elsewhere, Triangulation::from_arrays(): the order of the faces is that of the lines, and tells
-///    where a closed line begins.)
+/// 4. A point on an edge is computed from the edge's ends alone, the end with the lower value
+///    first. A site whose value is the level has its unit vector as a point.
+/// 5. The bytes depend on the values and the places of the sites, not on their order, nor on the
+///    number of threads. If several sites are in one place, the value of the lowest index counts.
+///    (For a Triangulation::from_arrays() the order of faces decides the order of lines, and where
+///    a closed line begins.)
 ///
-/// Expected time: O(n log k + length of the answer) for k levels. Below dimension 2 there are no lines.
-/// \throws InvalidInput if there is not one value a site, a value is infinite (its index), the levels
-///         are not finite and increasing (the first bad one), or the sites are weighted.
+/// The expected time is O(n log k + length of the result) for k levels. Below dimension 2 there are
+/// no lines.
+/// \param values  one for each site; NaN is missing
+/// \param levels  ascending
+/// \throws InvalidInput if there is not one value for each site, a value is infinite (its index),
+///         the levels are not finite and ascending (the first bad one), or the sites are weighted.
 RONDEL_API Isolines isolines(const Triangulation& triangulation, std::span<const double> values,
                              std::span<const double> levels, const Execution& execution = {});
 
-/// The bands between the levels, of the same field: polygons whose inside is to the left of all their
-/// rings.
+/// Computes the bands between the levels, of the same field, as polygons whose inside is to the
+/// left of their rings.
 ///
-/// 1. A polygon's inside is connected, its rings are simple and meet at most in points. A band's
-///    polygons do not overlap.
-/// 2. The bands together are the solid faces without missing values: where two of them meet, both
+/// 1. The inside of a polygon is connected. Rings are simple, and two rings meet at most in points.
+///    The polygons of a band do not overlap.
+/// 2. The bands together are the solid faces without missing values. Where two bands meet, both
 ///    have the same points, byte by byte, which are those of the isolines.
 /// 3. A polygon without rings is the whole sphere.
 /// 4. A face with three equal values belongs to the band of this value.
@@ -82,18 +89,21 @@ RONDEL_API Isolines isolines(const Triangulation& triangulation, std::span<const
 RONDEL_API Bands bands(const Triangulation& triangulation, std::span<const double> values,
                        std::span<const double> levels, const Execution& execution = {});
 
-/// Writes a feature a level: a MultiLineString with the property `level`, cut at the antimeridian and
-/// the poles; higher values are to the left. Without lines its geometry is null. The file is
-/// .geojson (RFC 7946), arcs are densified as write_cells() does it.
-/// \throws InvalidInput if the arrays do not fit together, or the tolerance is not positive; FileError if the file cannot be
-///         written, or has another ending
+/// Writes isolines, one feature for each level: a MultiLineString with the property `level`, cut at
+/// the antimeridian and the poles, with higher values to the left. The geometry of a level without
+/// lines is null.
+/// \param file  .geojson (RFC 7946)
+/// \param tolerance_deg  how far drawn lines may leave the arcs, degrees, as for write_cells()
+/// \throws InvalidInput if the arrays do not fit together, or the tolerance is not positive
+/// \throws FileError if the file cannot be written, or has another ending
 RONDEL_API void write_isolines(const FileName& file, const Isolines& isolines,
                                double tolerance_deg = 0.01, const Execution& execution = {});
 
-/// Writes a feature a band: a MultiPolygon with the properties `low` and `high`, null for the open
-/// ends. The polygons are valid as simple features have it, and where two bands meet both have the same positions, bit by
-/// bit; what is no wider than rounding has no polygon, and no band is refused for its form.
-/// \throws InvalidInput as write_isolines().
+/// Writes bands, one feature each: a MultiPolygon with the properties `low` and `high`, which are
+/// null for an open end. The polygons are valid in the sense of OGC simple features, and where two
+/// bands meet both have the same positions, bit by bit. Parts that are no wider than rounding have
+/// no polygon; no band is refused for its form.
+/// \throws as write_isolines().
 RONDEL_API void write_bands(const FileName& file, const Bands& bands, double tolerance_deg = 0.01,
                             const Execution& execution = {});
 

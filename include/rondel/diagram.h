@@ -17,17 +17,17 @@
 namespace rondel {
 
 /// The cells of a diagram in compressed rows: the ring of site i is
-/// `rings[offsets[i]] ... rings[offsets[i+1]-1]`, positions in `points`,
+/// `rings[offsets[i]] ... rings[offsets[i+1]-1]`, indices into `points`,
 /// counterclockwise seen from outside.
 ///
-/// 1. `points` starts with the circumcenters of the faces, so that below
-///    num_faces() a position in a ring is a face. Further points follow where an arc
+/// 1. `points` begins with the circumcenters of the faces, so that below
+///    num_faces() an index in a ring is a face. Further points follow where an arc
 ///    would be longer than 120 degrees, and in dimensions 0 and 1.
 /// 2. Consecutive points of a ring are joined by the shorter arc of a great circle.
 /// 3. Duplicates and hidden sites have empty rings. So has a single vertex, whose
 ///    cell is the whole sphere.
 struct Cells {
-  std::vector<std::uint64_t> offsets;  ///< n + 1
+  std::vector<std::uint64_t> offsets;  ///< one offset more than sites
   std::vector<Index> rings;
   std::vector<Point> points;  ///< unit vectors from the center of the sphere
 };
@@ -35,44 +35,43 @@ struct Cells {
 /// Cells and their areas.
 struct Diagram {
   Cells cells;
-  std::vector<double> areas;  ///< steradians, by input site; 0 for duplicates and hidden sites
+  std::vector<double> areas;  ///< steradians, for each site; 0 for duplicates and hidden sites
 };
 
-/// Polygons in compressed rows.
+/// Polygons in compressed rows: polygon i has the corners offsets[i] ... offsets[i+1]-1.
 struct Polygons {
   std::vector<std::uint64_t> offsets;
   std::vector<Index> corners;  ///< input indices, counterclockwise seen from outside
 };
 
-/// The circumcenters (power centers in the weighted model) of the faces, shape
-/// (m, 3): outward unit normals, also right for ghost faces. The
-/// distance to the exact value is at most 4 ulp (4 * 2^-53), whatever the face's shape.
+/// Computes the circumcenters of the faces (power centers in the weighted model), shape (m, 3):
+/// outward unit normals, also for ghost faces. The distance from the exact value is at most 4 ulp
+/// (4 * 2^-53), whatever the shape of the face.
 RONDEL_API std::vector<Point> circumcenters(const Triangulation& triangulation,
                                             const Execution& execution = {});
 
-/// The Voronoi or power cells of all sites, in every dimension.
+/// Computes the Voronoi or power cells of all sites, in every dimension.
 RONDEL_API Cells cells(const Triangulation& triangulation, const Execution& execution = {});
 
-/// The areas of the cells in steradians, length n; 0 for duplicates and hidden
-/// sites. The relative error is small for tiny cells too, as long as their sites are 1e-28 radians
-/// apart or more; the sum is 4*pi.
+/// Computes the areas of the cells in steradians, one for each site; 0 for duplicates and hidden
+/// sites. The relative error is small for tiny cells too, as long as their sites are at least 1e-28
+/// radians apart. The sum is 4 pi.
 RONDEL_API std::vector<double> areas(const Triangulation& triangulation,
                                      const Execution& execution = {});
 
-/// The cells and their areas at once, for little more than one of them.
+/// Computes the cells and their areas together, which takes little more time than one of them.
 RONDEL_API Diagram diagram(const Triangulation& triangulation, const Execution& execution = {});
 
-/// The directions of the cells' centers of mass, unit vectors, shape (n, 3);
-/// (0, 0, 0) where the center of mass is the center of the sphere or the cell is empty.
+/// Computes the directions of the cells' centers of mass, unit vectors of shape (n, 3); (0, 0, 0)
+/// where the center of mass is the center of the sphere or the cell is empty.
 RONDEL_API std::vector<Point> centroids(const Triangulation& triangulation,
                                         const Execution& execution = {});
 
-/// The edges, each once with the lower index first, in lexicographic order.
+/// Returns the edges, each once with the lower index first, in lexicographic order.
 RONDEL_API std::vector<std::array<Index, 2>> edges(const Triangulation& triangulation);
 
-/// The facets with cocircular sites: faces that lie exactly in one plane are
-/// merged into one polygon (a cube has 6 facets, not 12). Each polygon starts
-/// with its lowest index.
+/// Returns the facets of cocircular sites: faces that lie exactly in one plane are merged into one
+/// polygon (a cube has 6 facets, not 12). Each polygon begins with its lowest index.
 RONDEL_API Polygons merge_cocircular(const Triangulation& triangulation,
                                      const Execution& execution = {});
 

@@ -20,7 +20,7 @@ namespace rondel {
 /// the center of the sphere, an array of the wrong length, too many sites.
 class RONDEL_API InvalidInput : public std::invalid_argument {
  public:
-  /// The index of an argument that is no array.
+  /// The index of an error that is not about an array.
   static constexpr std::size_t no_index = SIZE_MAX;
 
   explicit InvalidInput(const std::string& message, std::size_t index = no_index);
@@ -28,7 +28,8 @@ class RONDEL_API InvalidInput : public std::invalid_argument {
   InvalidInput& operator=(const InvalidInput&) = default;
   ~InvalidInput() override;
 
-  /// The first offending position of the array that the message names; no_index where it is about no array.
+  /// Returns the first offending position of the array that the message names, or no_index if the
+  /// error is not about an array.
   [[nodiscard]] std::size_t index() const noexcept { return index_; }
 
  private:
@@ -48,14 +49,15 @@ class RONDEL_API FileError : public std::runtime_error {
   FileError& operator=(const FileError&) = default;
   ~FileError() override;
 
-  /// The error of the system; false in a condition if the system did not refuse.
+  /// Returns the error of the operating system, or no error (false as a condition) if it did not
+  /// report one.
   [[nodiscard]] const std::error_code& code() const noexcept { return code_; }
 
  private:
   std::error_code code_;
 };
 
-/// Somebody set the flag of an Execution before the work was done.
+/// The flag of an Execution was set before the work was done.
 class RONDEL_API Interrupted : public std::exception {
  public:
   [[nodiscard]] const char* what() const noexcept override;

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// What a shared library shows of itself: the names of these headers, and no others.
+/// The macro for the names that a shared library exports: those of these headers, and no others.
 #pragma once
 
-// A module of WebAssembly says itself what it shows; it is smaller without these attributes.
+// WebAssembly modules list their exports elsewhere; they are smaller without these attributes.
 #if defined(__GNUC__) && !defined(__wasm__)
 #define RONDEL_API __attribute__((visibility("default")))
 #else

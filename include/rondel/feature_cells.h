@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Voronoi cells of lines and polygons: the part of the sphere to which a river, road, border or country is
-/// nearest (target rondel::remap).
+/// Voronoi cells of lines and polygons: the part of the sphere to which a river, road, border or
+/// country is nearest (target rondel::remap).
 #pragma once
 
 #include <cstddef>
@@ -21,9 +21,9 @@
 
 namespace rondel {
 
-/// Polylines of features, in compressed rows. Feature i has the lines `features[i] ... features[i+1]-1`.
-/// Line l goes along shorter arcs of great circles from `points[lines[l]]` to `points[lines[l+1]-1]`. A line
-/// of one point is that point.
+/// Polylines of features, in compressed rows. Feature i has the lines `features[i] ...
+/// features[i+1]-1`. Line l goes along shorter arcs of great circles from `points[lines[l]]` to
+/// `points[lines[l+1]-1]`. A line of one point is that point.
 struct FeatureLines {
   std::vector<std::uint64_t> features = {0};  ///< one offset more than features; counts lines
   std::vector<std::uint64_t> lines = {0};     ///< one offset more than lines; counts points
@@ -38,31 +38,35 @@ struct FeatureSites {
   std::vector<Index> features;  ///< the feature of each site, never decreasing
 };
 
-/// Places sites along lines, as few as the tolerance allows: close together where another feature is near, far
-/// apart where no other feature is.
+/// Places sites along lines, as few as the tolerance allows: close together where another feature
+/// is near, far apart where no other feature is.
 ///
-/// 1. The feature of the site nearest to a point q is at most `tolerance` farther from q than the feature that
-///    is nearest to q (up to rounding).
-/// 2. Neighboring sites are at most 2 max(tolerance, sqrt(tolerance d)) apart, where d is the distance of the
-///    line there from the nearest other feature.
+/// 1. The feature of the site nearest to a point q is at most `tolerance` farther from q than the
+///    feature that is nearest to q (up to rounding).
+/// 2. Neighboring sites are at most 2 max(tolerance, sqrt(tolerance d)) apart, where d is the
+///    distance of the line there from the nearest other feature.
 /// 3. All points of the lines are sites.
 /// \param tolerance  radians, positive
-/// \throws InvalidInput if offsets do not fit, a point is no unit vector, neighbors in a line are antipodes, the
-///         tolerance is not positive, or there would be more sites than an Index counts.
+/// \throws InvalidInput if offsets do not fit, a point is no unit vector, neighbors in a line are
+///         antipodes, the tolerance is not positive, or there would be more sites than an Index
+///         counts.
 RONDEL_API FeatureSites feature_sites(const FeatureLines& lines, double tolerance,
                                       const Execution& execution = {});
 
-/// Computes the cell of each feature: the part of the sphere to which it is the nearest feature, within the
-/// tolerance of feature_sites(). A feature consists of its lines and of its polygon.
+/// Computes the cell of each feature: the part of the sphere to which it is the nearest feature,
+/// within the tolerance of feature_sites(). A feature consists of its lines and of its polygon.
 ///
-/// 1. A place inside of a polygon belongs to that polygon, exactly. Polygons may touch, but not overlap.
-/// 2. The cells cover the sphere; where two of them meet, both have the same corners, bit by bit. A single
-///    feature has the whole sphere, which has no border and so no rings.
+/// 1. A place inside of a polygon belongs to that polygon, exactly. Polygons may touch, but not
+///    overlap.
+/// 2. The cells cover the sphere; where two of them meet, both have the same corners, bit by bit. A
+///    single feature has the whole sphere, which has no border and so no rings.
 /// 3. Where features share a line or a point, the first of them gets what is nearest to it.
-/// \param polygons  a cell for each feature, without rings where it has no polygon; or no cells at all
+/// \param polygons  a cell for each feature, without rings where it has no polygon; or no cells at
+///                  all
 /// \param tolerance  radians, positive
-/// \throws InvalidInput as feature_sites() and Partition(), if the number of cells is neither 0 nor that of the
-///         features, or if polygons cross or overlap (the message has the first pair and a place).
+/// \throws InvalidInput as feature_sites() and Partition(), if the number of cells is neither 0 nor
+///         that of the features, or if polygons cross or overlap (the message has the first pair
+///         and a place).
 RONDEL_API CellRings feature_cells(const FeatureLines& lines, const CellRings& polygons,
                                    double tolerance, const Execution& execution = {});
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Values at points as files (target rondel::remap). Every function throws FileError with one line that
-/// names the file.
+/// Reading and writing of values at points (target rondel::remap). Every function throws FileError
+/// with one line that names the file.
 #pragma once
 
 #include <cstdint>
@@ -21,70 +21,79 @@
 
 namespace rondel {
 
-/// An array of a file: values, or the numbers of an axis such as time.
+/// An array of a file: values at points, or the numbers of an axis such as time.
 struct FieldArray {
   std::string name;
-  /// The dimensions in front of that of the points (an axis: its only one), and their lengths.
+  /// The names of the dimensions before that of the points (or, for an axis, of its only
+  /// dimension).
   std::vector<std::string> dimensions;
   std::vector<std::uint64_t> shape;
-  std::vector<double> values;  ///< the points change fastest; NaN: missing
+  std::vector<double> values;  ///< the points change fastest; NaN is missing
   std::vector<std::pair<std::string, std::string>> attributes;  ///< units, long_name ...
 
-  /// The fields at the points: the product of `shape`.
+  /// Returns the number of fields at the points: the product of `shape`.
   [[nodiscard]] RONDEL_API std::size_t num_fields() const;
 };
 
-/// A name for each field of an array, as where it is a column: the array's own if there is one field, else with the place on each axis,
-/// "tas_2001-07-15_850"; with the number on an axis that the file has not, or has twice in one place.
+/// Returns a name for each field of an array, for use as a column: the name of the array if it has
+/// one field, or else that with the field's place on each axis, "tas_2001-07-15_850". An axis that
+/// the file does not have, or that has a number twice, is replaced by the index.
 RONDEL_API std::vector<std::string> names_of_fields(const FieldArray& array,
                                                     std::span<const FieldArray> axes);
 
-/// What a file says of the same points.
+/// The values that a file has at the same points.
 struct FieldSet {
   std::size_t num_points = 0;
   std::vector<FieldArray> arrays;
   std::vector<FieldArray> axes;
-  std::vector<Point> points;  ///< of netCDF with longitudes and latitudes of the points; else empty
-  std::vector<LonLat> positions;  ///< the same in degrees, as the file has them
-  /// The lengths of the dimensions that the points have there; empty if some of them have no place.
+  /// netCDF with longitudes and latitudes of the points: unit vectors; else empty
+  std::vector<Point> points;
+  std::vector<LonLat> positions;  ///< the same places in degrees, as in the file
+  /// The lengths of the dimensions of the points in the file; empty if some points have no place.
   std::vector<std::uint64_t> shape;
   std::size_t num_without_place =
-      0;  ///< points whose longitude or latitude is missing, and which are left out
-  /// The number that the values have where they are missing, as a file that is written says it (`_FillValue`); in files that are read NaN.
+      0;  ///< how many points were left out because their longitude or latitude is missing
+  /// The number that stands for missing values in a file that is written (`_FillValue`). Values
+  /// that were read have NaN.
   double fill = std::numeric_limits<double>::quiet_NaN();
-  std::vector<std::string> remarks;  ///< sentences: which variables of netCDF are left out, and why
-  std::vector<std::uint64_t> lines;  ///< of a table: where each point is, from 1 on; else empty
+  /// sentences that say which variables of netCDF were left out, and why
+  std::vector<std::string> remarks;
+  std::vector<std::uint64_t> lines;  ///< for a table the line of each point, from 1 on; else empty
 };
 
 /// Reads values at points:
 ///
 /// | ending | content |
 /// | --- | --- |
-/// | `.csv`, `.tsv` | the columns `names`, one at least; an empty cell and `nan` are missing |
+/// | `.csv`, `.tsv` | the columns `names`, at least one; an empty cell and `nan` are missing |
 /// | `.npy` | shape (n,) or (fields, n); no `names` |
-/// | `.nc`, `.nc4`, `.cdf`, `.ncf`, or what begins as netCDF | the variables `names`, or all that are fields at the points |
+/// | `.nc`, `.nc4`, `.cdf`, `.ncf`, or a file that begins as netCDF | the variables `names`, or all that are fields at the points |
 ///
-/// A name may choose one of the several fields of a variable: "tas[3]", "tas[-1]" and "tas[3, 0]" by its place along the other
-/// dimensions, "tas_2001-07-15" as names_of_fields() calls it.
+/// A name may choose one field of a variable that has several: "tas[3]", "tas[-1]" and "tas[3, 0]"
+/// by its place along the other dimensions, and "tas_2001-07-15" by the name that names_of_fields()
+/// gives to it.
 ///
-/// In netCDF the dimensions of the points are those of their longitudes and latitudes (rondel/conventions.h), in any order and at any
-/// place among the others. Where the file has none, they are the dimension of the length n, or dimensions that follow each other and whose
-/// product is n. Values are what the attributes `_FillValue`, `missing_value`, `valid_min`, `valid_max`, `valid_range`, `_Unsigned`, `scale_factor` and
-/// `add_offset` make of the numbers.
+/// In netCDF the dimensions of the points are those of their longitudes and latitudes
+/// (rondel/conventions.h), in any order and anywhere among the others. If the file has no
+/// longitudes and latitudes, they are the dimension of the length n, or consecutive dimensions
+/// whose product is n. The attributes `_FillValue`, `missing_value`, `valid_min`, `valid_max`,
+/// `valid_range`, `_Unsigned`, `scale_factor` and `add_offset` turn the numbers of the file into
+/// values.
 ///
-/// \param num_points  n; 0 for tables: as many as there are rows; 0 for netCDF: those of the longitudes and latitudes of
-///                    the first variable that has some. Points whose longitude or latitude is missing are left out, unless n is
-///                    their number with these
-/// \param shape  the lengths of the grid of the points, if they are one; a variable of netCDF with other lengths is refused
+/// \param num_points  n. For tables 0 means the number of rows. For netCDF 0 means the number of
+///                    longitudes and latitudes of the first variable that has them. Points whose
+///                    longitude or latitude is missing are left out, unless n counts them
+/// \param shape  the lengths of the grid of the points, if they are on one; a variable of netCDF
+///               with other lengths is refused
 RONDEL_API FieldSet read_fields(const FileName& file, std::span<const std::string> names,
                                 std::uint64_t num_points, const ReadOptions& options = {},
                                 std::span<const std::uint64_t> shape = {});
 
-/// A file of fields whose values are read in slices, so that it may be larger than the memory. This holds for netCDF; other formats
-/// are read whole.
+/// A file of fields whose values are read in slices, so that it may be larger than the memory if it
+/// is netCDF. Files of other formats are read whole.
 class FieldFile {
  public:
-  /// As read_fields().
+  /// Opens a file; the parameters are those of read_fields().
   RONDEL_API FieldFile(const FileName& file, std::span<const std::string> names,
                        std::uint64_t num_points, const ReadOptions& options = {},
                        std::span<const std::uint64_t> shape = {});
@@ -92,12 +101,14 @@ class FieldFile {
   FieldFile(const FieldFile&) = delete;
   FieldFile& operator=(const FieldFile&) = delete;
 
-  /// Returns what read_fields() does, but the values of the arrays are empty.
+  /// Returns the result of read_fields() without the values of the arrays.
   [[nodiscard]] RONDEL_API const FieldSet& fields() const;
 
-  /// Reads so many of an array's fields as there is room for, from field `first` on.
-  /// \param array  its number in fields().arrays
-  /// \param out  a multiple of the points, which change fastest; NaN: missing
+  /// Reads consecutive fields of an array, beginning with field `first`, as many as `out` has room
+  /// for.
+  /// \param array  its index in fields().arrays
+  /// \param out  its size is a multiple of the number of points, which change fastest; NaN is
+  ///             missing
   RONDEL_API void read(std::size_t array, std::size_t first, std::span<double> out) const;
 
  private:
@@ -105,27 +116,30 @@ class FieldFile {
   std::unique_ptr<OpenFields> content_;
 };
 
-/// Writes values at the points of a side: `.csv` and `.tsv` with lon, lat, the columns of the side, and a
-/// column a field, named by its time or place on other axes, "tas_2001-07-15" or "tas_850"; `.npy` of
-/// the shape (n,) or (fields, n), `.nc` and `.nc4` on the grid of the side if it has one, else along one dimension. Where two would
-/// have one name, as a field and a coordinate of the points, the second one gets a number, "lat_2".
+/// Writes values at the points of a side: `.csv` and `.tsv` with lon, lat, the columns of the side,
+/// and one column for each field, named by its time or place on other axes ("tas_2001-07-15",
+/// "tas_850"); `.npy` of shape (n,) or (fields, n); `.nc` and `.nc4` on the grid of the side if it
+/// has one, or else along one dimension. If two columns or variables would have the same name, such
+/// as a field and a coordinate, the second one gets a number, "lat_2".
 RONDEL_API void write_fields(const FileName& file, const FieldSet& fields, const WeightSide& points,
                              const NetcdfOptions& netcdf = {});
 
-/// Writes the file of write_fields() in slices. Tables are kept in memory until finish(), other formats are not. The file appears when it
-/// is complete.
+/// Writes the file of write_fields() in slices. Tables are kept in memory until finish(), files of
+/// other formats are not. The file appears when it is complete.
 class FieldWriter {
  public:
-  /// \param fields  the arrays without values, the axes with theirs; used until finish(), as are the points
+  /// \param fields  the arrays without values, the axes with theirs; `fields` and `points` must
+  ///                stay valid until finish()
   RONDEL_API FieldWriter(const FileName& file, const FieldSet& fields, const WeightSide& points,
                          const NetcdfOptions& netcdf = {});
   RONDEL_API ~FieldWriter();
   FieldWriter(const FieldWriter&) = delete;
   FieldWriter& operator=(const FieldWriter&) = delete;
 
-  /// The next values: those of the first array, field by field, then those of the second one, and so on.
+  /// Writes the next values: first those of the first array, field by field, then those of the
+  /// second one, and so on.
   RONDEL_API void write(std::span<const double> values);
-  /// Precondition: all values are written.
+  /// Completes the file. \pre All values are written.
   RONDEL_API void finish();
 
  private:
@@ -133,7 +147,7 @@ class FieldWriter {
   std::unique_ptr<BegunFields> output_;
 };
 
-/// Whether the format can hold fields.
+/// True if the format can hold fields.
 RONDEL_API bool can_write_fields(const FileName& file);
 
 }  // namespace rondel

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// A globe to turn in the browser (target rondel::globe): one page of HTML that needs nothing else,
-/// neither a server nor a network. Whoever opens it can turn and zoom, down to centimetres,
-/// pick sites, cells and triangles, search, choose what is shown, and save a picture.
+/// An interactive globe in the browser (target rondel::globe): one page of HTML that needs neither
+/// a server nor a network. Its reader can turn the globe and zoom in down to centimetres, pick
+/// sites, cells and triangles, search, choose what is shown, and save a picture.
 #pragma once
 
 #include <cstdint>
@@ -22,49 +22,54 @@
 
 namespace rondel {
 
-/// Coasts as lines of longitude and latitude: line k is `positions[offsets[k]] ... positions[offsets[k+1]-1]`.
-/// Longitudes go on beyond 180 degrees where a line does.
+/// Coasts as lines of longitude and latitude: line k is `positions[offsets[k]] ...
+/// positions[offsets[k+1]-1]`. Longitudes exceed 180 degrees where a line crosses the antimeridian.
 struct CoastLines {
   std::vector<LonLat> positions;
   std::vector<std::uint64_t> offsets = {0};
 };
 
-/// The coasts of Natural Earth at 1:110 million, which globes show: 126 closed lines, in hundredths of a degree.
-/// The last position of a line is its first, or, around the south pole, a turn away from it.
+/// Returns the coasts of Natural Earth at 1:110 million, which globes show: 126 closed lines, in
+/// hundredths of a degree. The last position of a line equals its first, or, around the south pole,
+/// is 360 degrees from it.
 RONDEL_API CoastLines coast_lines();
 
-/// Which lines a globe shows at first.
+/// The lines that a globe shows when it is opened.
 enum class GlobeLines : std::uint8_t { delaunay, voronoi, both };
 
-/// What the colors of a globe's cells mean at first.
+/// The meaning of the colors of a globe's cells when it is opened.
 enum class GlobeFill : std::uint8_t { none, area, values };
 
-/// What a globe shows when it is opened; all of it can be switched in the page.
+/// What a globe shows when it is opened; all of it can be changed in the page.
 struct GlobeOptions {
   std::string title = "Globe";
   GlobeLines lines = GlobeLines::delaunay;
   GlobeFill fill = GlobeFill::none;
   bool show_sites = true;
-  bool show_circles = false;  ///< those of weighted sites
+  bool show_circles = false;  ///< the circles of weighted sites
   bool show_coast = true;
-  double graticule_deg = 30;     ///< between meridians; 0: none at first
-  std::optional<LonLat> view{};  ///< in the middle of the whole globe; none: the sites, near enough
-  double up_deg = 0;             ///< the direction that points up, clockwise from north
+  double graticule_deg = 30;  ///< distance of the drawn meridians and parallels; 0: none
+  /// the middle of the picture, with the whole globe in view; if empty, the view is filled by the
+  /// sites
+  std::optional<LonLat> view{};
+  double up_deg = 0;  ///< the direction that points up, clockwise from north
   std::string value_name = "Value";
-  const Isolines* isolines = nullptr;  ///< drawn over the cells, as isolines() gives them
-  std::span<const double> values{};  ///< one of each site, or empty; what is not finite is no value
+  const Isolines* isolines = nullptr;  ///< drawn over the cells; null: none
+  /// one value for each site, or empty; a value that is not finite is missing
+  std::span<const double> values{};
 };
 
-/// The page. It carries the sites, the faces, the diagram and the columns of the table, compressed;
-/// of 2,000 sites it has 240 KB, a million sites take 70 MB. Any triangulation has a page,
-/// also one without faces or sites.
-/// \throws InvalidInput if sites, diagram and values are not those of one triangulation, the arrays of the
-///         isolines do not fit together, or an option is not finite.
+/// Returns the page. It has the sites, the faces, the diagram and the columns of the table,
+/// compressed: 240 KB for 2,000 sites, 70 MB for a million. Any triangulation has a page, also one
+/// without faces or sites.
+/// \throws InvalidInput if sites, diagram and values do not belong to one triangulation, the arrays
+///         of the isolines do not fit together, or an option is not finite.
 RONDEL_API std::string globe_page(const SiteTable& table, const Triangulation& triangulation,
                                   const Diagram& diagram, const GlobeOptions& options = {},
                                   const Execution& execution = {});
 
-/// Writes globe_page() to a file, all or nothing; "-" is standard output. \throws FileError also.
+/// Writes globe_page() to a file, completely or not at all; "-" is standard output. \throws
+/// FileError also.
 RONDEL_API void write_globe(const std::string& path, const SiteTable& table,
                             const Triangulation& triangulation, const Diagram& diagram,
                             const GlobeOptions& options = {}, const Execution& execution = {});

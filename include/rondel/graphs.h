@@ -38,18 +38,20 @@ struct SiteGraph {
 /// Returns a proximity graph of the vertices of an unweighted triangulation.
 ///
 /// 1. All decisions are exact for the rays of the sites, ties included.
-/// 2. Ties depend on the positions of the vertices alone. A vertex on the border of a cap is in the cap. A
-///    vertex c that is as far from a or b as these are from each other removes no edge, so an equilateral
-///    face keeps its edges. Where several minimum spanning trees exist, edges of equal length are taken in
-///    lexicographic order.
-/// 3. spanning_tree is a subgraph of relative, relative of gabriel and of urquhart, and these of delaunay.
-///    So all graphs are connected.
-/// 4. Duplicates are represented by the site of lowest index at their place; the others have no edges.
-/// 5. Below dimension 2 the Delaunay edges are the arcs shorter than 180 degrees between neighbors around
-///    the great circle. Two vertices alone have one edge in all graphs, even if they are antipodes.
+/// 2. Ties depend on the positions of the vertices alone. A vertex on the border of a cap is in the
+///    cap. A vertex c that is as far from a or b as these are from each other removes no edge, so
+///    an equilateral face keeps its edges. Where several minimum spanning trees exist, edges of
+///    equal length are taken in lexicographic order.
+/// 3. spanning_tree is a subgraph of relative, relative of gabriel and of urquhart, and these of
+///    delaunay. So all graphs are connected.
+/// 4. Duplicates are represented by the site of lowest index at their place; the others have no
+///    edges.
+/// 5. Below dimension 2 the Delaunay edges are the arcs shorter than 180 degrees between neighbors
+///    around the great circle. Two vertices alone have one edge in all graphs, even if they are
+///    antipodes.
 ///
-/// The expected time is O(n); it is O(n log n) for spanning_tree, and O(n) for relative only if the density
-/// of sites is even.
+/// The expected time is O(n); it is O(n log n) for spanning_tree, and O(n) for relative only if the
+/// density of sites is even.
 /// \param triangulation a triangulation with Model::projected
 /// \throws InvalidInput if the sites are weighted.
 RONDEL_API SiteGraph site_graph(const Triangulation& triangulation, GraphKind kind,
@@ -70,11 +72,13 @@ struct EdgeIndex {
 RONDEL_API EdgeIndex edge_index(const SiteGraph& graph,
                                 EdgeDirections directions = EdgeDirections::both);
 
-/// Writes a graph, one row or feature for each edge, with `source`, `target` (sites) and `length_deg`.
-/// \param file  .csv; .geojson (RFC 7946: a MultiLineString, cut at the antimeridian); or .npy (the sites
-///              alone, uint32, shape (E, 2))
+/// Writes a graph, one row or feature for each edge, with `source`, `target` (sites) and
+/// `length_deg`.
+/// \param file  .csv; .geojson (RFC 7946: a MultiLineString, cut at the antimeridian); or .npy (the
+///              sites alone, uint32, shape (E, 2))
 /// \param tolerance_deg  how far drawn lines of a GeoJSON file may leave the arcs, degrees
-/// \throws InvalidInput if an edge has an end that is no site of `triangulation`, or no finite length.
+/// \throws InvalidInput if an edge has an end that is no site of `triangulation`, or no finite
+///         length.
 /// \throws FileError if the file cannot be written.
 RONDEL_API void write_graph(const FileName& file, const Triangulation& triangulation,
                             const SiteGraph& graph, double tolerance_deg = 0.01,

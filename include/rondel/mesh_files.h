@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// The cells of models' files: unstructured meshes and grids in longitude and latitude (target rondel::remap).
+/// Reading the cells of models: unstructured meshes and grids in longitude and latitude (target
+/// rondel::remap).
 #pragma once
 
 #include <cstddef>
@@ -21,32 +22,35 @@
 
 namespace rondel {
 
-/// The cells of a file: in `cells`, or, if it has coordinates along lines, in `grid`.
+/// The cells of a file. They are in `cells`, or in `grid` if the file has coordinates along axes.
 struct CellTable {
   std::string name;        ///< the file, for messages
   std::string convention;  ///< "UGRID", "SCRIP", "ESMF", "MPAS", "ICON", "OASIS", "Exodus" or "CF"
   CellRings cells;
   std::optional<LonLatGrid> grid;
-  std::vector<LonLat> centers;       ///< as the file has them; empty: it has none
-  std::vector<std::int32_t> mask;    ///< 0: the cell takes no part; empty: all do
-  std::vector<std::uint64_t> shape;  ///< of a grid, the last dimension changes fastest: nlat, nlon
+  std::vector<LonLat> centers;     ///< as in the file; empty if it has none
+  std::vector<std::int32_t> mask;  ///< 0: the cell takes no part; empty: all cells do
+  /// the shape of a grid, whose last dimension changes fastest: nlat, nlon
+  std::vector<std::uint64_t> shape;
   std::vector<std::string>
-      remarks;  ///< sentences: what is masked or left out, which grid of several was read
+      remarks;  ///< sentences: what is masked or left out, and which grid of several was read
 
   [[nodiscard]] RONDEL_API std::size_t num_cells() const;
 };
 
-/// The grid whose cells have these centers, by rule 3 of read_cells(). Longitudes increase but for whole turns.
-/// \throws InvalidInput for less than two, or what is not finite (its index).
+/// Returns the grid whose cells have these centers, by rule 3 of read_cells(). Longitudes ascend or
+/// descend, except for jumps by 360 degrees.
+/// \throws InvalidInput for less than two coordinates, or one that is not finite (its index).
 RONDEL_API LonLatGrid grid_around(std::span<const double> lon_deg, std::span<const double> lat_deg);
 
-/// Cells by the positions of their corners, `of_each` a cell, as CF's bounds have them. As in read_cells(), corners
-/// nearer than 1e-10 radians to each other are one.
-/// \throws InvalidInput if `of_each` is 0 or does not divide their number, or with the cell that has a corner at
-/// no place.
+/// Returns the cells with these corners, `of_each` consecutive ones for each cell, as in bounds of
+/// CF. As in read_cells(), corners nearer than 1e-10 radians to each other are one.
+/// \throws InvalidInput if `of_each` is 0 or does not divide the number of corners, or (with the
+///         cell) if a corner is no place.
 RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size_t of_each);
 
-/// Reads netCDF of any format. Its variables and attributes tell which convention it follows:
+/// Reads the cells of a netCDF file of any format. Its variables and attributes tell which
+/// convention it follows:
 ///
 /// | convention | cells |
 /// | --- | --- |
@@ -59,30 +63,36 @@ RONDEL_API CellRings cells_of_corners(std::span<const LonLat> corners, std::size
 /// | Exodus | connect1, connect2 ... of coord, or of coordx, coordy, coordz |
 /// | CF | coordinates of units degrees_east and degrees_north: along one dimension each, with bounds or between them; or of the same dimensions, with bounds |
 ///
-/// 1. Coordinates have the units that they say, in any of UDUNITS's spellings for degrees and radians; those without units are
-///    radians in MPAS and ICON, else degrees. Bounds without units have those of their coordinate.
-/// 2. Corners nearer than 1e-10 radians to each other are one, in single precision 1e-6: the same
-///    corner may be 0 and 2 pi. A corner that repeats the one before it is left out; cells with
-///    less than three corners have no ring. Rings that are clockwise are turned around.
-/// 3. Coordinates along lines and without bounds: cells end half way between them, the first and the last one as far
-///    beyond as before, or at the pole if that is less than a cell away.
-/// 4. Cells that the file masks have a mask of 0, as cells with a corner that is missing (NaN, a fill value), which have no ring.
-/// 5. `FILE.nc:NAME` names the grid of several by one of its variables: a coordinate, a UGRID topology, or values on it.
+/// 1. Coordinates have the units that they declare, in any of UDUNITS's spellings for degrees and
+///    radians; those without units are radians in MPAS and ICON, else degrees. Bounds without units
+///    have those of their coordinate.
+/// 2. Corners nearer than 1e-10 radians to each other (1e-6 in single precision) are one: the same
+///    corner may have the longitudes 0 and 2 pi. A corner that repeats the one before it is
+///    dropped; cells with less than three corners have no ring. Clockwise rings are reversed.
+/// 3. If coordinates are along axes and have no bounds, cells end half way between them. The first
+///    and the last cell extend as far beyond their coordinate as before it, or to the pole if that
+///    is less than a cell away.
+/// 4. A cell that the file masks has a mask of 0. So has a cell with a corner that is missing (NaN,
+///    a fill value); it has no ring.
+/// 5. `FILE.nc:NAME` chooses one of several grids by one of its variables: a coordinate, a UGRID
+///    topology, or values on the grid.
 /// \throws FileError for what cannot be read, with the file, and the cell or node.
 RONDEL_API CellTable read_cells(const FileName& file);
 
-/// Whether the format of the file, without the name of a grid, is one that read_cells() reads.
+/// True if read_cells() reads files of this format; the name of a grid (`FILE.nc:NAME`) is ignored.
 RONDEL_API bool can_read_cells(const FileName& file);
 
-/// The places of a netCDF file.
+/// The sites of a netCDF file.
 struct NetcdfSites {
-  SiteTable table;                   ///< with positions
-  std::vector<std::uint64_t> shape;  ///< the lengths of their dimensions: nlat, nlon for a grid
-  /// 0: a mask of SCRIP, ESMF or OASIS says that the cell takes no part; empty: all do.
+  SiteTable table;  ///< with positions
+  /// the lengths of the dimensions of the sites: nlat, nlon for a grid
+  std::vector<std::uint64_t> shape;
+  /// 0 if a mask of SCRIP, ESMF or OASIS says that the cell takes no part; empty if all do.
   std::vector<std::int32_t> mask;
-  std::vector<std::string> remarks;  ///< those of the cells; what is no column, and why
+  /// remarks about the cells, and about fields that are no column
+  std::vector<std::string> remarks;
 
-  /// Whether each site takes part.
+  /// Returns for each site whether it takes part.
   [[nodiscard]] std::vector<bool> unmasked() const {
     std::vector<bool> takes_part(table.sites.size(), true);
     for (std::size_t i = 0; i < mask.size(); ++i) takes_part[i] = mask[i] != 0;
@@ -90,23 +100,25 @@ struct NetcdfSites {
   }
 };
 
-/// Reads sites from netCDF: the centers of the cells that read_cells() finds, or else the places of the first of the fields
-/// that has some (rondel/fields.h).
-/// \param names  the fields in question; their values, where a field has one at each site, are columns of the table if
-///               columns are kept. Empty: all.
+/// Reads sites from netCDF: the centers of the cells that read_cells() finds, or else the places of
+/// the first field that has places (rondel/fields.h).
+/// \param names  the fields in question; empty: all. If columns are kept and a field has one value
+///               at each site, it is a column of the table
 RONDEL_API NetcdfSites read_netcdf_sites(const FileName& file, std::span<const std::string> names,
                                          bool keep_columns);
 
-/// The partition that the cells are. \throws FileError with the file's name for cells that Partition refuses.
+/// Returns the partition of the cells. \throws FileError with the file's name for cells that
+/// Partition refuses.
 RONDEL_API Partition partition_of(const CellTable& table, GridSides sides = GridSides::parallels,
                                   const Execution& execution = {});
 
-/// Returns what a file of weights says of these cells: their centers, the file's or the centers of mass, the mask, the shape of the grid, and the
-/// corners.
+/// Returns the description of these cells for a file of weights: the centers (those of the file, or
+/// else the centers of mass), the mask, the shape of the grid, and the corners.
 RONDEL_API WeightSide weight_side(const CellTable& table, const Partition& partition);
 
-/// The corners of cells with one ring each and 16 corners at most, as many for each: the last one is repeated, and (0, 0) those of cells
-/// without ring. Empty for other cells.
+/// Returns the corners of cells that have one ring and at most 16 corners each. All cells get the
+/// same number of corners: the last one is repeated, and a cell without ring has (0, 0). The result
+/// is empty for other cells.
 RONDEL_API std::vector<LonLat> weight_corners(const Partition& partition);
 
 }  // namespace rondel

@@ -17,62 +17,71 @@
 
 namespace rondel::mesh {
 
+/// Why the iteration ended.
 enum class PartitionEnd : std::uint8_t {
-  converged,   ///< all areas are as wanted
-  rounded,     ///< as near as coordinates that are doubles bring them
-  iterations,  ///< there were too many steps
-  infeasible,  ///< no weights give these areas, or none are found: AreaPartition::reason
-  stopped,     ///< Execution::stop
+  converged,   ///< all areas are within the tolerance
+  rounded,     ///< the areas are as near to the targets as coordinates in doubles allow
+  iterations,  ///< the largest number of steps was reached
+  infeasible,  ///< no weights give these areas, or none were found: AreaPartition::reason
+  stopped,     ///< Execution::stop was set
 };
 
-/// "converged", "rounded" ...
+/// Returns the name of a value: "converged", "rounded" ...
 RONDEL_API std::string_view name_of(PartitionEnd end) noexcept;
 
+/// The state of the iteration after a step.
 struct PartitionStep {
   int step = 0;
-  double largest_error = 0;  ///< of |area - wanted| / wanted
-  double length = 1;         ///< of the step over that of Newton's
+  double largest_error = 0;  ///< the largest |area - target| / target
+  double length = 1;         ///< the length of the step, as a multiple of Newton's step
 };
 
-/// Called before each step and at the end.
+/// A function that is called before each step and at the end.
 using PartitionSeen = std::function<void(const PartitionStep&)>;
 
 struct AreaPartitionOptions {
-  double tolerance = 1e-12;  ///< the largest error
+  double tolerance = 1e-12;  ///< the largest relative error of an area
   int max_steps = 100;
   PartitionSeen seen{};
 };
 
+/// The result of area_partition(): weights of the sites, with their cells' areas.
 struct AreaPartition {
-  /// The smallest is 1: each stands for a circle, of radius arccos(1 / weight).
+  /// The weights, of which the smallest is 1. A weight stands for a circle of radius arccos(1 /
+  /// weight).
   std::vector<double> weights;
-  /// Weighted sites (Model::weighted) whose power cells have the areas. They have the directions of the sites, to 1e-13, and
-  /// the lengths of the weights, but nearer than doubles have those: rounding alone would move areas of a million
-  /// cells by 1e-10. A few spacings from the ends of the three axes coordinates cannot have all lengths.
+  /// The weighted sites (Model::weighted) whose power cells have the areas. They have the
+  /// directions of the sites, up to 1e-13, and the lengths of the weights, but more exactly than
+  /// doubles represent these: rounding alone would change the areas of a million cells by 1e-10.
+  /// Within a few spacings of the ends of the three axes, coordinates cannot represent all lengths.
   std::vector<Point> poles;
-  std::vector<double> radii_deg;  ///< of the circles
+  std::vector<double> radii_deg;  ///< the radii of the circles
   std::vector<double> areas;
   double largest_error = 0;
-  Index worst = no_index;  ///< the site that has it
+  Index worst = no_index;  ///< the site with the largest error
   int steps = 0;
   PartitionEnd end = PartitionEnd::converged;
-  std::string reason;  ///< why what is infeasible is so, in a clause; otherwise empty
+  std::string reason;  ///< a clause that says why the problem is infeasible; otherwise empty
 };
 
-/// Weights for which the power cell of site i has the area targets[i]; without targets all are equal. This is
-/// Alexandrov's problem of polyhedra with given curvatures, and that of optimal transport for the cost
-/// -log(x.q); the walls are arcs of great circles. Newton's method, damped so that no cell vanishes (Kitagawa,
-/// Merigot, Thibert, J. Eur. Math. Soc. 21, 2019), from equal weights.
+/// Computes weights for which the power cell of site i has the area targets[i], or all cells have
+/// equal areas if there are no targets. This is Alexandrov's problem of polyhedra with given
+/// curvatures, and optimal transport with the cost -log(x.q); the sides of cells are arcs of great
+/// circles. The method is Newton's, damped so that no cell vanishes (Kitagawa, Merigot, Thibert, J.
+/// Eur. Math. Soc. 21, 2019), and starts with equal weights.
 ///
-/// 1. The same bytes on every machine and for every number of threads.
-/// 2. Where the sites surround the center of the sphere, such weights are unique but for a common factor.
-/// 3. The cells of sites on a great circle are lunes; their weights follow from the areas directly, without steps. One site has the
-///    whole sphere, and each of two sites a hemisphere.
-/// 4. What is infeasible ends as such: `reason` says why, and `worst` where it shows. Other sites that do not surround the
-///    center are, since weights are not looked for there.
-/// \throws InvalidInput (first bad index) if there are no sites, one is not finite or the center, or two
-///         are in one place; if targets are not one for each site, not positive, or do not add up to 4 pi within 1e-6
-///         of it (they are scaled to that).
+/// 1. The bytes are the same on every machine and for every number of threads.
+/// 2. If the sites surround the center of the sphere, such weights are unique up to a common
+///    factor.
+/// 3. The cells of sites on a great circle are lunes, whose weights follow from the areas without
+///    iteration. A single site has the whole sphere, and each of two sites a hemisphere.
+/// 4. An infeasible problem ends as such: `reason` says why, and `worst` is a site that shows it.
+///    Other sites that do not surround the center are infeasible, since weights are not searched
+///    for there.
+/// \param targets  steradians, one for each site; they are scaled to a sum of 4 pi
+/// \throws InvalidInput (first bad index) if there are no sites, a site is not finite or is the
+///         center, or two sites are in one place; if there is not one target for each site, a
+///         target is not positive, or they do not add up to 4 pi within 1e-6 of it.
 RONDEL_API AreaPartition area_partition(std::span<const Point> sites,
                                         std::span<const double> targets = {},
                                         const AreaPartitionOptions& options = {},

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Spacings of a mesh from files. Every function throws FileError with one line that names the file.
+/// Reading the spacings of a mesh. Every function throws FileError with one line that names the
+/// file.
 #pragma once
 
 #include <string>
@@ -16,22 +17,27 @@
 
 namespace rondel::mesh {
 
-/// The points to refine() at, closer than `distance` radians along lines: those of read_places().
+/// Reads the points for SizeFunction::refined(): those of read_places(), closer than `distance`
+/// radians along lines.
 /// \throws InvalidInput if the distance or the tolerance of the options is not positive.
 RONDEL_API std::vector<Point> read_refinement(const FileName& file, double distance,
                                               const PolygonOptions& options = {},
                                               const Execution& execution = {});
 
-/// Spacings at the places of a file, linear between them on their triangulation and at the nearest outside of
-/// it: the variable or column `name`, by default the only one; .nc with longitudes and latitudes, of a grid or
-/// of points, or of the cells of an MPAS mesh, and tables .csv .tsv. The values times `unit` are radians,
-/// and so are a thousandth of them where the attribute `units` says meters; units other than meters and kilometers are refused.
+/// Reads spacings at places. They are interpolated linearly on the triangulation of the places, and
+/// are those of the nearest place outside of it.
+/// \param file  .nc with longitudes and latitudes of a grid or of points, or with the cells of an
+///              MPAS mesh; or a table .csv .tsv
+/// \param name  the variable or column; empty: the only one
+/// \param unit  what a value is multiplied by to get radians. If the attribute `units` says meters,
+///              values are also divided by 1000; units other than meters and kilometers are refused
 RONDEL_API SizeFunction read_spacings(const FileName& file, const std::string& name, double unit,
                                       std::size_t steps = SizeFunction::usual_steps,
                                       const Execution& execution = {});
 
-/// Spacings from densities of a tessellation, read as read_spacings() does: their power -1/4, the largest 1. Only proportions
-/// count; of a mesh of MPAS, "meshDensity" are those of its cells.
+/// Reads densities of a tessellation as read_spacings() reads spacings, and returns spacings: their
+/// power -1/4, the largest 1. Only the proportions count. For an MPAS mesh, "meshDensity" are the
+/// densities of its cells.
 RONDEL_API SizeFunction read_density(const FileName& file, const std::string& name,
                                      std::size_t steps = SizeFunction::usual_steps,
                                      const Execution& execution = {});

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Ranks of MPI for rondel/distributed.h. All of it is in this header, so that it is compiled with the
-/// MPI of the program that includes it, and librondel knows of none.
+/// The ranks of MPI for rondel/distributed.h. All code is in this header, so that it is compiled
+/// with the MPI of the program that includes it, and the library itself does not depend on MPI.
 ///
 ///     MPI_Init(&argc, &argv);
 ///     {
@@ -12,10 +12,11 @@
 ///     }
 ///     MPI_Finalize();
 ///
-/// MPI 3 is enough: messages of any size are sent in pieces that its counts of 31 bits can tell.
+/// MPI 3 suffices: messages of any size are sent in pieces, whose sizes fit the 31-bit counts of
+/// MPI.
 #pragma once
 
-// The C++ functions that MPI had once, which come with the header where nobody says this.
+// Keeps the C++ bindings that MPI once had out of the header.
 #ifndef OMPI_SKIP_MPICXX
 #define OMPI_SKIP_MPICXX 1  // NOLINT(readability-identifier-naming)
 #endif
@@ -37,13 +38,14 @@
 
 namespace rondel {
 
-/// The ranks of an MPI communicator. Its messages are none of the program's, as it works on a copy of
-/// the communicator. What MPI itself cannot do ends all processes, as MPI_ERRORS_ARE_FATAL says; memory
-/// that one rank lacks for what it is to receive makes the call throw on all of them.
-/// \pre MPI is initialized, all ranks make it together, and it goes before MPI_Finalize().
+/// The ranks of an MPI communicator, of which it makes a copy, so that its messages are separate
+/// from those of the program. An error of MPI ends all processes (MPI_ERRORS_ARE_FATAL). If one
+/// rank lacks memory for the messages that it is to receive, the call throws on all ranks.
+/// \pre MPI is initialized, all ranks construct it together, and it is destroyed before
+///         MPI_Finalize().
 class MpiCommunicator final : public Communicator {
  public:
-  /// At most `most_bytes` are sent or received in one piece: for tests.
+  /// Sends or receives at most `most_bytes` in one piece; tests set it.
   explicit MpiCommunicator(MPI_Comm ranks, std::size_t most_bytes = std::size_t{1} << 30)
       : most_bytes_(most_bytes) {
     MPI_Comm_dup(ranks, &ranks_);
@@ -75,7 +77,7 @@ class MpiCommunicator final : public Communicator {
     MPI_Allgather(&own_size, 1, MPI_UINT64_T, sizes.data(), 1, MPI_UINT64_T, ranks_);
     const std::uint64_t longest = *std::max_element(sizes.begin(), sizes.end());
     if (longest == 0) return received;
-    // The pieces of all ranks are received as one.
+    // The pieces of all ranks are received into one array.
     const std::uint64_t most = std::max<std::uint64_t>(most_bytes_ / num_ranks, 1);
     agree([&] {
       for (std::size_t r = 0; r < num_ranks; ++r) received[r].resize(sizes[r]);
@@ -105,7 +107,7 @@ class MpiCommunicator final : public Communicator {
   std::vector<Bytes> exchange(std::vector<Bytes> messages) override {
     const auto num_ranks = static_cast<std::size_t>(size_);
     const auto self = static_cast<std::size_t>(rank_);
-    std::vector<std::uint64_t> sizes;  // to send, then to receive
+    std::vector<std::uint64_t> sizes;  // the sizes to send, then those to receive
     std::vector<Bytes> received;
     std::vector<MPI_Request> requests;
     agree([&] {
@@ -127,7 +129,8 @@ class MpiCommunicator final : public Communicator {
     }
     received[self] = std::move(messages[self]);
     for (std::size_t i = 1; i < num_ranks; ++i) {
-      const std::size_t r = (self + i) % num_ranks;  // not all to the same rank at once
+      // so that not all ranks send to the same one at once
+      const std::size_t r = (self + i) % num_ranks;
       for_pieces(messages[r], [&](std::byte* piece, int size) {
         MPI_Isend(piece, size, MPI_BYTE, static_cast<int>(r), 0, ranks_, &requests.emplace_back());
       });
@@ -137,7 +140,7 @@ class MpiCommunicator final : public Communicator {
   }
 
  private:
-  // Where one rank has no memory, all throw.
+  // Throws on all ranks if one of them cannot allocate its memory.
   template <class Allocate>
   void agree(Allocate allocate) {
     int is_done = 1;

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// The area that sites cover and the gaps between them: convex hull, alpha shapes and largest empty circles.
+/// The area that sites cover and the gaps between them: convex hull, alpha shapes and largest empty
+/// circles.
 #pragma once
 
 #include <array>
@@ -18,11 +19,12 @@
 
 namespace rondel {
 
-/// Polygons whose corners are sites. Polygon i has the rings polygon_offsets[i] ... polygon_offsets[i+1]-1, and
-/// ring j has the sites ring_offsets[j] ... ring_offsets[j+1]-1.
+/// Polygons whose corners are sites. Polygon i has the rings polygon_offsets[i] ...
+/// polygon_offsets[i+1]-1, and ring j has the sites ring_offsets[j] ... ring_offsets[j+1]-1.
 ///
 /// 1. Sides are the shorter arcs of great circles; the inside is to the left of each ring.
-/// 2. The inside of a polygon is connected. Rings are simple, and two rings or polygons meet at most in sites.
+/// 2. The inside of a polygon is connected. Rings are simple, and two rings or polygons meet at
+///    most in sites.
 /// 3. A polygon without rings is the whole sphere.
 struct Outline {
   std::vector<std::uint64_t> polygon_offsets = {0};
@@ -37,8 +39,8 @@ struct Outline {
 /// no polygon. Sites on the sides of the hull are corners of it.
 RONDEL_API Outline hull_polygon(const Triangulation& triangulation);
 
-/// Computes the alpha shape: the union of the solid faces whose circumscribed circles have at most a given radius.
-/// Faces with the same circle are taken or left together.
+/// Computes the alpha shape: the union of the solid faces whose circumscribed circles have at most
+/// a given radius. Faces with the same circle are taken or left together.
 /// \param radius  radians; compared with the computed radii
 /// \throws InvalidInput if the radius is negative or not a number, or the sites are weighted.
 RONDEL_API Outline alpha_shape(const Triangulation& triangulation, double radius,
@@ -60,10 +62,11 @@ enum class CircleCenters : std::uint8_t {
 
 /// Computes the k largest empty circles of the faces, the largest first; fewer if fewer exist.
 ///
-/// Faces with the same circle count once. Circles of equal radius (as rounded) are in the order of their first
-/// faces. Below dimension 2 the result is empty, except for CircleCenters::anywhere and sites on a great circle of
-/// which no open half is free of sites: then it has the circles around the two poles. Each circle touches three
-/// sites, so where all sites are in a hemisphere, a circle that touches only two of them may be larger.
+/// Faces with the same circle count once. Circles of equal radius (as rounded) are in the order of
+/// their first faces. Below dimension 2 the result is empty, except for CircleCenters::anywhere and
+/// sites on a great circle of which no open half is free of sites: then it has the circles around
+/// the two poles. Each circle touches three sites, so where all sites are in a hemisphere, a circle
+/// that touches only two of them may be larger.
 /// \throws InvalidInput if the sites are weighted.
 RONDEL_API std::vector<EmptyCircle> largest_empty_circles(
     const Triangulation& triangulation, std::size_t k,
@@ -77,7 +80,8 @@ RONDEL_API void write_outline(const FileName& file, const Triangulation& triangu
                               const Outline& outline, double tolerance_deg = 0.01,
                               const Execution& execution = {});
 
-/// Writes circles, one row or feature each, with the center, `radius_deg` and the sites `a`, `b`, `c`.
+/// Writes circles, one row or feature each, with the center, `radius_deg` and the sites `a`, `b`,
+/// `c`.
 /// \param file  .csv (with `lon` and `lat` first, degrees) or .geojson (a Point)
 RONDEL_API void write_circles(const FileName& file, std::span<const EmptyCircle> circles);
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Partitions of the sphere, or of parts of it, into cells: with sides on great circles, or between meridians
-/// and parallels.
+/// Partitions of the sphere, or of parts of it, into cells: with sides on great circles, or between
+/// meridians and parallels.
 #pragma once
 
 #include <cstddef>
@@ -23,53 +23,57 @@ class PartitionData;
 
 namespace rondel {
 
-/// A grid in longitude and latitude, by its lines. Cell `row * (lon_deg.size() - 1) + column` is between parallels row
-/// and row + 1 and meridians column and column + 1.
+/// A grid in longitude and latitude, given by its lines. Cell `row * (lon_deg.size() - 1) + column`
+/// is between the parallels row and row + 1 and the meridians column and column + 1.
 struct LonLatGrid {
-  std::vector<double> lon_deg;  ///< meridians, increasing or decreasing, by 360 degrees at most
-  std::vector<double> lat_deg;  ///< parallels, increasing or decreasing
+  std::vector<double> lon_deg;  ///< meridians, ascending or descending, over at most 360 degrees
+  std::vector<double> lat_deg;  ///< parallels, ascending or descending
 };
 
-/// What the northern and southern sides of a grid's cells are.
+/// The northern and southern sides of a grid's cells.
 enum class GridSides : std::uint8_t {
-  parallels,      ///< circles of latitude, as in most models
-  great_circles,  ///< the shortest ways between the corners, as ESMF's conservative method takes them
+  parallels,  ///< circles of latitude, as in most models
+  /// the shorter arcs between the corners, as ESMF's conservative method takes them
+  great_circles,
 };
 
-/// Cells, prepared once to be laid over others. Copies share the memory; any thread may read.
+/// Cells prepared for overlays with others. Copies share the memory; several threads may use one.
 class RONDEL_API Partition {
  public:
-  /// The Voronoi cells of the sites, in the weighted model their power cells. Corners are circumcenters
-  /// rounded to doubles; where rounding has brought corners of a cell into the wrong order, they become
-  /// one, so that cells narrower than that may vanish.
+  /// Makes the Voronoi cells of the sites, or the power cells in the weighted model. Corners are
+  /// circumcenters, rounded to doubles. Corners that rounding has put into the wrong order are
+  /// merged, so cells narrower than that may vanish.
   static Partition voronoi(const Triangulation& triangulation, const Execution& execution = {});
-  /// The solid faces, in dimension 2; none in others.
+  /// Makes the solid faces into cells in dimension 2; there are none in other dimensions.
   static Partition triangles(const Triangulation& triangulation, const Execution& execution = {});
-  /// The cells of a grid. With parallels, areas in the overlay are those between parallels and arcs
-  /// themselves, not of polygons near them; such a partition has no rings(), and regions.h refuses it.
+  /// Makes the cells of a grid. With GridSides::parallels, areas in the overlay are exact areas
+  /// between parallels and arcs, not those of polygons near them; such a partition has no rings(),
+  /// and regions.h refuses it.
   /// \throws InvalidInput with the line that is out of order or no longitude or latitude; with
   ///         great circles also with a cell that is 180 degrees wide.
   static Partition lonlat_grid(const LonLatGrid& grid, GridSides sides = GridSides::parallels,
                                const Execution& execution = {});
-  /// Any cells. Of cells that are neither convex nor nearly so, sides that run to and fro between two corners vanish, and so
-  /// do ways that turn back on themselves.
-  /// \throws InvalidInput with the cell that has an index out of range, a ring of less than three corners,
-  /// a corner that is no unit vector, or rings although it is named as the whole sphere; or whose sides all run to and fro, as
-  /// those of a ring and a hole of the same corners, or of two parts that share all of their border, so that it may be nothing
-  /// or the whole sphere. But rings no wider than rounding of their corners are nothing. Cells that cross or overlap
-  /// themselves, or each other, are refused by what is done with them (remap.h, regions.h).
+  /// Prepares any cells. In cells that are neither convex nor nearly convex, sides that lead back
+  /// and forth between two corners cancel, and so do paths that turn back on themselves.
+  /// \throws InvalidInput with the cell that has an index out of range, a ring of less than three
+  /// corners, a corner that is no unit vector, or rings although it is in `whole`; or whose sides
+  /// all cancel, as those of a ring and a hole with the same corners, or of two parts that share
+  /// all of their border, so that it may be empty or the whole sphere. (Rings no wider than
+  /// rounding of their corners are dropped.) Cells that cross or overlap themselves, or each other,
+  /// are refused by the functions that use them (remap.h, regions.h).
   explicit Partition(const CellRings& cells, const Execution& execution = {});
 
   [[nodiscard]] std::size_t num_cells() const;
-  /// In steradians, by cell, from its corners.
+  /// Returns the area of each cell in steradians, computed from its corners.
   [[nodiscard]] std::span<const double> areas() const;
-  /// Where the centers of mass are seen from the center of the sphere, by cell; (0, 0, 0) of an empty one.
+  /// Returns the direction of the center of mass of each cell from the center of the sphere; (0, 0,
+  /// 0) for an empty cell.
   [[nodiscard]] std::vector<Point> centers() const;
-  /// The cells, by index. Those of voronoi() have no corners in the wrong order.
+  /// Returns the cells. Those of voronoi() have no corners in the wrong order.
   [[nodiscard]] CellRings rings() const;
-  /// Whether the cells cover the sphere, each with one ring, convex or nearly so, and share their
-  /// edges; or whether they are a grid of parallels that does. An overlay of two of
-  /// which one does, or is any grid of parallels, takes less time (remap.h), and regions.h needs one that does.
+  /// True if the cells cover the sphere, each with one ring that is convex or nearly so, and share
+  /// their edges; or if they are a grid of parallels that covers the sphere. An overlay in which
+  /// one partition is a cover, or is any grid of parallels, takes less time (remap.h, regions.h).
   [[nodiscard]] bool is_cover() const;
 
  private:

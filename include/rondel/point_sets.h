@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Sites where models and surveys have them, as unit vectors; the same bytes on every machine.
+/// Standard sets of sites, as unit vectors: those of models and surveys; the same bytes on every
+/// machine.
 #pragma once
 
 #include <cstddef>
@@ -14,25 +15,29 @@
 
 namespace rondel::mesh {
 
-/// The corners of an icosahedron, two of them poles, and the middles of its edges, so many times: 10 * 4^levels + 2.
+/// Returns the corners of an icosahedron, two of them poles, refined `levels` times by the middles
+/// of all edges: 10 * 4^levels + 2 points.
 /// \throws InvalidInput if the levels are more than 12.
 RONDEL_API std::vector<Point> icosahedral_points(unsigned levels, const Execution& execution = {});
 
-/// The centers of HEALPix's pixels in ring order (Gorski et al., Astrophys. J. 622, 2005): 12 side^2.
+/// Returns the centers of HEALPix's pixels in ring order (Gorski et al., Astrophys. J. 622, 2005):
+/// 12 side^2 points.
 /// \throws InvalidInput if the side is not from 1 to 4096.
 RONDEL_API std::vector<Point> healpix_points(std::size_t side);
 
-/// The octahedral reduced Gaussian grid O(number) of ECMWF: rows at the roots of Legendre's polynomial of degree
-/// 2 number, from north to south, with 20, 24, 28 ... points up to the equator and back. 4 number (number + 9).
+/// Returns the points of the octahedral reduced Gaussian grid O(number) of ECMWF: rows at the roots
+/// of the Legendre polynomial of degree 2 number, from north to south, with 20, 24, 28 ... points
+/// up to the equator and back; together 4 number (number + 9).
 /// \throws InvalidInput if the number is not from 1 to 8000.
 RONDEL_API std::vector<Point> reduced_gaussian_points(std::size_t number);
 
-/// The centers of the cells of the equiangular cubed sphere, face by face: 6 side^2.
+/// Returns the centers of the cells of the equiangular cubed sphere, face by face: 6 side^2 points.
 /// \throws InvalidInput if the side is not from 1 to 8192.
 RONDEL_API std::vector<Point> cubed_sphere_points(std::size_t side);
 
-/// Maximal Poisson disks: no two points are closer than `radius` radians, and no point of the sphere is farther
-/// than 1 + 1e-12 times it from all of them. Random darts first; then the centers of the empty circles, largest first.
+/// Returns a maximal Poisson disk set: no two points are closer than `radius` radians, and every
+/// point of the sphere is within (1 + 1e-12) radius of one of them. Random darts come first, and
+/// then the centers of the empty circles, the largest first.
 /// \throws InvalidInput if the radius is not from 1e-4 to 1.
 RONDEL_API std::vector<Point> poisson_disk_points(double radius, std::uint64_t seed = 1,
                                                   const Execution& execution = {});

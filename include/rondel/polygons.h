@@ -16,24 +16,24 @@
 
 namespace rondel {
 
-/// Polygons in flat arrays. Each is one ring, counterclockwise, whose last position is its first,
-/// within [-180, 180] x [-90, 90]. A region that the antimeridian cuts has several polygons.
+/// Polygons in flat arrays. Each is one ring, counterclockwise, whose last position equals its
+/// first, within [-180, 180] x [-90, 90]. A region that the antimeridian cuts has several polygons.
 struct LonLatPolygons {
-  std::vector<LonLat> positions;       ///< of all rings, one after the other
+  std::vector<LonLat> positions;       ///< the positions of all rings, one after the other
   std::vector<std::uint64_t> offsets;  ///< ring k: positions[offsets[k]] to [offsets[k + 1]]
   std::vector<Index> owners;           ///< the site or face of each ring, never decreasing
 };
 
-/// The polygons of the cells of a diagram, by site. Arcs are densified as write_cells() does. A
-/// cell no wider than rounding has none.
+/// Computes the polygons of the cells of a diagram, by site. Arcs are densified as by
+/// write_cells(). A cell no wider than rounding has no polygon.
 /// \throws InvalidInput if the diagram cannot be that of the triangulation, or the tolerance is not
 ///         positive.
 RONDEL_API LonLatPolygons cell_polygons(const Triangulation& triangulation, const Diagram& diagram,
                                         double tolerance_deg = 0.01,
                                         const Execution& execution = {});
 
-/// The polygons of the solid faces, as write_triangles() writes them. A face no wider than rounding
-/// has none.
+/// Computes the polygons of the solid faces, as write_triangles() writes them. A face no wider than
+/// rounding has no polygon.
 RONDEL_API LonLatPolygons face_polygons(const Triangulation& triangulation,
                                         const Execution& execution = {});
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// The core of the library in one include: triangulations, hulls, diagrams, queries, predicates (target
-/// rondel::rondel). Files, polygons, interpolation, remapping, meshes, graphs and the globe have headers of
-/// their own, which their targets install beside this one.
+/// The core of the library in one include: triangulations, hulls, diagrams, queries, predicates
+/// (target rondel::rondel). Files, polygons, interpolation, remapping, meshes, graphs and the globe
+/// have headers of their own, which their targets install beside this one.
 #pragma once
 
 #include "rondel/check.h"          // IWYU pragma: export

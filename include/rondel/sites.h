@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// The sites that a triangulation was made from, and keeps.
+/// The sites that a triangulation was made from and keeps.
 #pragma once
 
 #include <cstddef>
@@ -15,15 +15,15 @@
 
 namespace rondel {
 
-/// Points that are kept and never change. Copies are cheap, and share them.
+/// An immutable array of points. Copies are cheap, as they share the points.
 ///
 /// 1. Sites(std::move(points)) takes a vector over, without a copy of its points.
-/// 2. Sites(points) copies them, 24 bytes each. \throws InvalidInput if they are more than
-///    max_sites.
-/// 3. Sites::view(points) refers to points of somebody else, who must neither change nor free them
-///    as long as anything that was made of these sites is in use: triangulations, locators, their
+/// 2. Sites(points) copies them, 24 bytes each. \throws InvalidInput if there are more than
+///    max_sites points.
+/// 3. Sites::view(points) refers to points of the caller, who must neither change nor free them
+///    as long as anything made of these sites is in use: triangulations, locators, and their
 ///    copies. Sites::view(points, owner) keeps `owner` as long.
-/// 4. What was moved from has no points.
+/// 4. Sites that were moved from have no points.
 class RONDEL_API Sites {
  public:
   Sites() = default;
@@ -40,7 +40,7 @@ class RONDEL_API Sites {
   [[nodiscard]] std::span<const Point> points() const noexcept { return points_; }
   [[nodiscard]] std::size_t size() const noexcept { return points_.size(); }
   [[nodiscard]] const Point& operator[](std::size_t site) const { return points_[site]; }
-  /// The same points, wherever they are.
+  /// True if both have the same points; the memory may be different.
   RONDEL_API friend bool operator==(const Sites& a, const Sites& b);
 
  private:

@@ -34,28 +34,28 @@ struct Hidden {
   friend bool operator==(const Hidden&, const Hidden&) = default;
 };
 
-/// Who made a triangulation.
+/// The algorithm that made a triangulation.
 enum class Builder : std::uint8_t {
-  given,        ///< nobody: it was made from arrays, or by changes
-  ring,         ///< below dimension 2 the sites are sorted around the great circle
-  incremental,  ///< one site after the other: any configuration
+  given,        ///< none: the triangulation was made from arrays, or by changes
+  ring,         ///< sorting around the great circle, below dimension 2
+  incremental,  ///< insertion of one site after the other, for any input
   sphere,       ///< divide and conquer over the whole sphere
   blocks,       ///< divide and conquer in blocks that are certified, in parallel
 };
 
-/// "ring", "incremental" ...
+/// Returns the name of a value: "ring", "incremental" ...
 RONDEL_API const char* name_of(Builder builder) noexcept;
 
-/// What a build did and how long it took.
+/// The work of a build and its time.
 struct BuildReport {
   Builder builder = Builder::given;
   Tally rungs{};
-  unsigned threads = 1;  ///< at most
+  unsigned threads = 1;  ///< the largest number of threads
   double order_seconds = 0;
   double triangulate_seconds = 0;
 };
 
-/// What Triangulation::from_arrays() takes; each array is as the function of that name returns it.
+/// The arrays for Triangulation::from_arrays(). Each is as the function of that name returns it.
 struct TriangulationParts {
   int dimension = -1;
   std::span<const Triple> faces{};
@@ -82,19 +82,19 @@ struct TriangulationParts {
 /// 4. Canonical order: a face starts with the corner that comes first in the
 ///    spatial order, and faces are listed by that corner, then counterclockwise.
 /// 5. Every site is a vertex, a duplicate or hidden, and only one of these.
-/// 6. It is immutable and keeps its sites. Copies are cheap, as they share everything; several
-///    threads may use one. What was moved from is the triangulation of no sites.
+/// 6. A triangulation is immutable and keeps its sites. Copies are cheap, as they share everything;
+///    several threads may use one. A triangulation that was moved from is that of no sites.
 class RONDEL_API Triangulation {
  public:
-  /// Without sites.
+  /// Makes the triangulation of no sites.
   Triangulation() = default;
 
-  /// Of arrays that come from elsewhere, a file say. Expected time O(n).
+  /// Makes a triangulation of given arrays, for example from a file, in O(n) expected time.
   /// \throws InvalidInput (position in the array that the message names) as delaunay() does, and if
   ///         the arrays do not obey 1, 2 and 5: indices in range, a closed surface around every
-  ///         vertex, each edge in two faces, duplicates in one place. Whether the faces are Delaunay
-  ///         is for check() to say; a Locator and a DynamicTriangulation, which walk through them,
-  ///         ask once, when they are made, and throw InvalidInput.
+  ///         vertex, each edge in two faces, duplicates in one place. Whether the faces are
+  ///         Delaunay is tested by check(); a Locator and a DynamicTriangulation, which walk
+  ///         through the faces, test it once, when they are made, and throw InvalidInput.
   static Triangulation from_arrays(Sites sites, const TriangulationParts& parts,
                                    const Options& options = {});
 
@@ -108,21 +108,21 @@ class RONDEL_API Triangulation {
   [[nodiscard]] std::size_t num_faces() const noexcept;
   [[nodiscard]] std::size_t num_ghost_faces() const noexcept;
 
-  /// Corners of the faces, shape (m, 3).
+  /// Returns the corners of the faces, shape (m, 3).
   [[nodiscard]] std::span<const Triple> faces() const noexcept;
-  /// Faces across the edges, shape (m, 3).
+  /// Returns the faces across the edges, shape (m, 3).
   [[nodiscard]] std::span<const Triple> neighbors() const noexcept;
-  /// The ghost faces in increasing order.
+  /// Returns the ghost faces in ascending order.
   [[nodiscard]] std::span<const Index> ghost_faces() const noexcept;
   [[nodiscard]] bool is_ghost(Index face) const noexcept;
 
-  /// Below dimension 2: the vertices in their order around the great circle.
-  /// Empty in dimension 2.
+  /// Returns the vertices in their order around the great circle below dimension 2; empty in
+  /// dimension 2.
   [[nodiscard]] std::span<const Index> ring() const noexcept;
 
-  /// In increasing order of `site`.
+  /// Returns the duplicates in ascending order of `site`.
   [[nodiscard]] std::span<const Duplicate> duplicates() const noexcept;
-  /// In increasing order of `site`.
+  /// Returns the hidden sites in ascending order of `site`.
   [[nodiscard]] std::span<const Hidden> hidden() const noexcept;
 
   [[nodiscard]] const BuildReport& report() const noexcept;
@@ -134,7 +134,7 @@ class RONDEL_API Triangulation {
  private:
   [[nodiscard]] const Impl& impl() const noexcept;
 
-  std::shared_ptr<const Impl> impl_;  // none: without sites
+  std::shared_ptr<const Impl> impl_;  // null without sites
 };
 
 }  // namespace rondel

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// \file
-/// Sparse weights that carry values from points to points.
+/// Sparse matrices of weights that interpolate or remap values.
 #pragma once
 
 #include <cstddef>
@@ -16,15 +16,15 @@
 
 namespace rondel {
 
-/// A sparse matrix in compressed rows: what row r takes is `values[k]` of column `columns[k]` for
-/// offsets[r] <= k < offsets[r + 1]. A row is a target, a column a site.
+/// A sparse matrix in compressed rows: row r has the weight `values[k]` in column `columns[k]` for
+/// offsets[r] <= k < offsets[r + 1]. A row is a target, a column is a site or a source cell.
 ///
 /// 1. A row without entries stands for a target that has no value.
-/// 2. Within a row the order depends on the places of the sites alone, not on their indices, so that
-///    sums along it have the same bytes for every order of the sites.
-/// 3. The hashes are point_set_hash() of the sites and of the targets; 0: not known.
+/// 2. Within a row the order depends on the places of the sites alone, not on their indices, so
+///    that sums along it have the same bytes for every order of the sites.
+/// 3. The hashes are point_set_hash() of the sites and of the targets, or 0 if they are not known.
 struct Weights {
-  std::vector<std::uint64_t> offsets = {0};  ///< number of rows + 1
+  std::vector<std::uint64_t> offsets = {0};  ///< one offset more than rows; counts entries
   std::vector<Index> columns;
   std::vector<double> values;
   std::size_t num_columns = 0;
@@ -35,24 +35,26 @@ struct Weights {
   friend bool operator==(const Weights&, const Weights&) = default;
 };
 
-/// A number that depends on the points and their order: FNV-1a of 64 bits (Fowler, Noll, Vo) over
-/// the coordinates x y z of each, as little-endian doubles, -0 being 0. Never 0.
+/// Returns a hash of the points and their order: the 64-bit FNV-1a (Fowler, Noll, Vo) of the
+/// coordinates x y z of each point, as little-endian doubles, with -0 as 0. It is never 0.
 RONDEL_API std::uint64_t point_set_hash(std::span<const Point> points);
 
-/// What apply() does with values that are not there (NaN).
+/// The treatment of missing values (NaN) by apply().
 struct ApplyOptions {
-  /// The value of rows without entries, and of those that miss too much.
+  /// The value of rows without entries, and of rows in which too much is missing.
   double fill = std::numeric_limits<double>::quiet_NaN();
-  /// A row may miss values that have up to this share of the sum of its absolute weights; what is left is
-  /// divided by its share of the row's sum. 0: one missing value is too many. 1: one value is enough.
+  /// The share of the sum of a row's absolute weights that missing values may have. The sum of the
+  /// other values is divided by their share of the row's sum. With 0 one missing value is too many,
+  /// with 1 one value is enough.
   double most_missing = 0;
 };
 
-/// The values of rows: for each field f and row r the sum of values[k] * in[f * num_columns +
-/// columns[k]] in the order of the row, into out[f * num_rows() + r]. `in` has the shape
-/// (num_fields, num_columns), `out` (num_fields, num_rows()).
-/// The same bytes on every machine and for any number of threads.
-/// \throws InvalidInput if a length is not what it should be, the weights are not in compressed rows
+/// Multiplies fields by the matrix: out[f * num_rows() + r] becomes the sum of values[k] * in[f *
+/// num_columns + columns[k]] over row r, in the order of the row, for each field f. The bytes are
+/// the same on every machine and for any number of threads.
+/// \param in  shape (num_fields, num_columns)
+/// \param out  shape (num_fields, num_rows())
+/// \throws InvalidInput if a length is not as described, the weights are not in compressed rows
 ///         (first bad position), or `most_missing` is not in [0, 1].
 RONDEL_API void apply(const Weights& weights, std::span<const double> in, std::span<double> out,
                       std::size_t num_fields = 1, const ApplyOptions& options = {},

@@ -78,8 +78,8 @@ struct ArcTolerance {
   Point center{};
 };
 
-// Appends points that cut the arc from p to q into pieces, in order and without p and q. The straight line of
-// each piece in longitude and latitude is within the tolerance of the piece.
+// Appends points that cut the arc from p to q into pieces, in order and without p and q. The
+// straight line of each piece in longitude and latitude is within the tolerance of the piece.
 //
 // 1. The points of the arc from q to p are bit by bit the same in reverse order.
 // 2. They depend only on p, q, their longitudes and the tolerance.

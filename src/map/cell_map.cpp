@@ -164,8 +164,9 @@ void CellMap::place_points(const Execution& execution) {
                        });
 }
 
-// True if a cheap test finds that the cell is drawn as the polygon of its points and that none of its lines
-// cross, as long as its points and arcs stay as they are. The positions of the points are left in the pen.
+// True if a cheap test finds that the cell is drawn as the polygon of its points and that none of
+// its lines cross, as long as its points and arcs stay as they are. The positions of the points are
+// left in the pen.
 //
 // This is the usual case of draw_ring(): the arc that follows face (a, u, v) lies between a and v.
 bool CellMap::find_plain(std::size_t site, Pen& pen) const {
@@ -251,10 +252,11 @@ void CellMap::add_arc(Index from, Index to, const ArcTolerance& tolerance, Ring&
   }
 }
 
-// Draws the ring of a site's cell into `ring` and `trace`. Returns false if fewer than three points are left.
+// Draws the ring of a site's cell into `ring` and `trace`. Returns false if fewer than three points
+// are left.
 //
-// In the ring of site a, the arc that follows face (a, u, v) lies between a and v; points of the diagram that
-// are no circumcenters lie on such an arc.
+// In the ring of site a, the arc that follows face (a, u, v) lies between a and v; points of the
+// diagram that are no circumcenters lie on such an arc.
 bool CellMap::draw_ring(std::size_t site, Ring& ring, Trace& trace) const {
   const std::span<const Index> points = points_of(site);
   const Point& own_direction = directions_[site];

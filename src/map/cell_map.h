@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Draws the cells of a diagram as a planar map: polygons in longitude and latitude that fit together without
-// gaps or overlaps.
+// Draws the cells of a diagram as a planar map: polygons in longitude and latitude that fit
+// together without gaps or overlaps.
 //
 // in    a triangulation and its cells, a tolerance in degrees
 // out   polygons in degrees for each site
-// index sites; points of the diagram (Index, as in Cells::points); lines of a drawn ring by their first points
+// index sites; points of the diagram (Index, as in Cells::points); lines of a drawn ring by their
+//       first points
 #pragma once
 
 #include <cstddef>
@@ -25,22 +26,24 @@ namespace rondel::map {
 
 // Draws one cell at a time. Some decisions concern several cells and are made by the constructor:
 //
-// 1. Points nearer to each other than merge_distance become one point for all cells: the order of the
-//    circumcenters of cocircular sites is decided by rounding.
-// 2. Near two close sites the arc between their cells is densified to an eighth of the angle between
-//    the sites, and farther away to an eighth of the distance. So each polygon contains its site.
-// 3. Where the lines of a cell cross, because the cell is narrower than the tolerance, each arc gets the points
-//    opposite those of the other arc, for the cells on both sides: lines between opposite points are nearly
-//    parallel. Where such points are nearer than merge_distance they are merged. A very short arc at a tip
-//    shrinks to a point.
-// 4. Cells of circles need not contain their sites and may be far narrower than the distances of sites,
-//    so that 2 does not help. Where their lines cross, or have all passed those of the other side,
-//    the lines are bisected on their arcs before 3, until they are short.
-// 5. If lines of any cell cross after that, by exact signs of rounded positions, all cells are replaced by
-//    settled_regions().
+// 1. Points nearer to each other than merge_distance become one point for all cells: the order of
+//    the circumcenters of cocircular sites is decided by rounding.
+// 2. Near two close sites the arc between their cells is densified to an eighth of the angle
+//    between the sites, and farther away to an eighth of the distance. So each polygon contains its
+//    site.
+// 3. Where the lines of a cell cross, because the cell is narrower than the tolerance, each arc
+//    gets the points opposite those of the other arc, for the cells on both sides: lines between
+//    opposite points are nearly parallel. Where such points are nearer than merge_distance they are
+//    merged. A very short arc at a tip shrinks to a point.
+// 4. Cells of circles need not contain their sites and may be far narrower than the distances of
+//    sites, so that 2 does not help. Where their lines cross, or have all passed those of the other
+//    side, the lines are bisected on their arcs before 3, until they are short.
+// 5. If lines of any cell cross after that, by exact signs of rounded positions, all cells are
+//    replaced by settled_regions().
 //
-// Most cells are plain: small and with few corners, each arc drawn as one straight line, and nothing crosses. A
-// plain cell has just its points, whose positions are computed once for all cells. Other cells are drawn.
+// Most cells are plain: small and with few corners, each arc drawn as one straight line, and
+// nothing crosses. A plain cell has just its points, whose positions are computed once for all
+// cells. Other cells are drawn.
 class CellMap {
  public:
   CellMap(const Triangulation& triangulation, const Cells& cells, double tolerance_deg,

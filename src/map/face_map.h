@@ -18,15 +18,15 @@
 
 namespace rondel::map {
 
-// Draws one face at a time. A side is within a hundredth of a degree of its arc, and within a tenth of the width of
-// the thinner one of the two faces at the edge, so that faces do not overlap, but never nearer than a meter on the
-// earth.
+// Draws one face at a time. A side is within a hundredth of a degree of its arc, and within a tenth
+// of the width of the thinner one of the two faces at the edge, so that faces do not overlap, but
+// never nearer than a meter on the earth.
 //
-// If lines of a face cross nevertheless, or have passed each other, because the face is narrower than rounding or
-// that meter, all faces are replaced by settled_regions().
+// If lines of a face cross nevertheless, or have passed each other, because the face is narrower
+// than rounding or that meter, all faces are replaced by settled_regions().
 //
-// Most faces are small, and each of their sides is one straight line. Such a face has just its corners, whose positions
-// are computed once for all faces. Other faces are drawn.
+// Most faces are small, and each of their sides is one straight line. Such a face has just its
+// corners, whose positions are computed once for all faces. Other faces are drawn.
 class FaceMap {
  public:
   FaceMap(const Triangulation& triangulation, const Execution& execution);

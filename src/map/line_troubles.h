@@ -20,8 +20,8 @@ struct Trouble {
     // the lines from a to b and from a to d (c equals a) are neighbors around a and have the region
     // on the same side
     unpaired,
-    // the lines from a to b and from a to d (c equals a) are neighbors around a, where other lines are
-    // unpaired; these two have the region between them, or outside of both
+    // the lines from a to b and from a to d (c equals a) are neighbors around a, where other lines
+    // are unpaired; these two have the region between them, or outside of both
     beside,
     turned,  // `loop` is misplaced: it has the region on the wrong side
   };
@@ -33,8 +33,8 @@ struct Trouble {
   Loop loop{};
 };
 
-// The polygons of a region if it has no trouble. If its only troubles are turned loops, the polygons
-// of its other loops.
+// The polygons of a region if it has no trouble. If its only troubles are turned loops, the
+// polygons of its other loops.
 struct RegionLook {
   std::vector<PolygonWithHoles> polygons;
   std::vector<Trouble> troubles;

@@ -1,12 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The grid of positions of a map, with steps of 2^-44 degrees (6 nanometers on the earth), and exact signs for its
-// positions.
+// The grid of positions of a map, with steps of 2^-44 degrees (6 nanometers on the earth), and
+// exact signs for its positions.
 //
-// Coordinates count half steps of the grid, so that the borders of its pixels are integers too. They are at
-// most 180 * 2^45 < 2^53, which doubles represent. Differences are below 2^54, products of two of them below
-// 2^108, and sums of two products below 2^109, so integers of 128 bits suffice.
+// Coordinates count half steps of the grid, so that the borders of its pixels are integers too.
+// They are at most 180 * 2^45 < 2^53, which doubles represent. Differences are below 2^54, products
+// of two of them below 2^108, and sums of two products below 2^109, so integers of 128 bits
+// suffice.
 #pragma once
 
 #include <compare>

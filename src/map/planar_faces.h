@@ -5,7 +5,8 @@
 //
 // in    lines that meet only in common ends, with the regions whose sides they are
 // out   the region of each face
-// index halfedges: 2 i leads along line i, 2 i + 1 leads back; a face is to the left of its halfedges
+// index halfedges: 2 i leads along line i, 2 i + 1 leads back; a face is to the left of its
+//       halfedges
 #pragma once
 
 #include <cstddef>

@@ -136,10 +136,11 @@ bool is_outside(const std::vector<LonLatPolygon>& polygons) {
   return doubled > most_of_rectangle;
 }
 
-// Joins chains along the border into loops. With the region to the left, the border belongs to the region
-// counterclockwise from the end of a chain to the next start. So in that order the k-th end leads to the k-th start,
-// or to the start after it if the region has the corner in the north west inside. Ends and starts are sorted
-// separately: if rounding has exchanged a neighboring end and start, the effect stays between them.
+// Joins chains along the border into loops. With the region to the left, the border belongs to the
+// region counterclockwise from the end of a chain to the next start. So in that order the k-th end
+// leads to the k-th start, or to the start after it if the region has the corner in the north west
+// inside. Ends and starts are sorted separately: if rounding has exchanged a neighboring end and
+// start, the effect stays between them.
 class Stitching {
  public:
   explicit Stitching(const Trace& trace) : trace_(trace), next_(trace.starts.size()) {

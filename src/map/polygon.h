@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Draws convex regions of the sphere as polygons in longitude and latitude, as GeoJSON (RFC 7946) has them.
+// Draws convex regions of the sphere as polygons in longitude and latitude, as GeoJSON (RFC 7946)
+// has them.
 //
 // in    rings of unit vectors, counterclockwise, tolerances in degrees
 // out   polygons in degrees
@@ -19,20 +20,20 @@ struct LonLatPolygon {
   std::vector<LonLat> ring;  // degrees; closed (the last position is the first), counterclockwise
 };
 
-// Returns the polygons of the region to the left of a ring of unit vectors, in which consecutive points (and
-// the last and the first) are joined by the shorter arc of a great circle.
+// Returns the polygons of the region to the left of a ring of unit vectors, in which consecutive
+// points (and the last and the first) are joined by the shorter arc of a great circle.
 //
-// 1. They are simple polygons inside [-180, 180] x [-90, 90], cut along the antimeridian; at a pole they
-//    reach the side lat = +-90.
-// 2. A side is within tolerances_deg[i] of arc i, which begins at ring[i]; the distance is measured in
-//    degrees on the sphere. Sides along the antimeridian and at the poles are exact.
+// 1. They are simple polygons inside [-180, 180] x [-90, 90], cut along the antimeridian; at a pole
+//    they reach the side lat = +-90.
+// 2. A side is within tolerances_deg[i] of arc i, which begins at ring[i]; the distance is measured
+//    in degrees on the sphere. Sides along the antimeridian and at the poles are exact.
 // 3. An arc gives the same positions, bit by bit, to the regions on both sides of it.
-// 4. An empty ring is the whole sphere. A ring with fewer than three distinct points has no polygon; all
-//    points within merge_distance of a pole count as one.
+// 4. An empty ring is the whole sphere. A ring with fewer than three distinct points has no
+//    polygon; all points within merge_distance of a pole count as one.
 //
-// Precondition: the region is spherically convex, at most a hemisphere (except for an empty ring), and
-// its boundary is simple. The boundary stays simple in the plane if the tolerance is small compared with the
-// region's width.
+// Precondition: the region is spherically convex, at most a hemisphere (except for an empty ring),
+// and its boundary is simple. The boundary stays simple in the plane if the tolerance is small
+// compared with the region's width.
 std::vector<LonLatPolygon> lonlat_polygons(std::span<const Point> ring,
                                            std::span<const double> tolerances_deg);
 

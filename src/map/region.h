@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Draws regions and lines of any shape in the plane of longitude and latitude: not convex, with holes, with
-// poles inside. (polygon.h draws convex regions.)
+// Draws regions and lines of any shape in the plane of longitude and latitude: not convex, with
+// holes, with poles inside. (polygon.h draws convex regions.)
 //
 // in    rings or lines of unit vectors, a tolerance in radians
 // out   loops, polygons and lines in degrees
@@ -42,11 +42,12 @@ DrawnRegion draw_region(std::span<const UnitVectors> rings, double tolerance);
 // Returns the border of the rectangle [-180, 180] x [-90, 90], counterclockwise.
 std::vector<LonLat> border_loop();
 
-// Returns the region to the left of all rings as loops that have it to their left. Consecutive points of a ring
-// (and the last and the first) are joined by the shorter arc of a great circle. The loops are inside
-// [-180, 180] x [-90, 90]: they are cut along the antimeridian, and at a pole they reach the side lat = +-90.
-// Without rings the region is the whole sphere. Loops may cross each other and themselves where rings are nearer to
-// each other than lines to arcs. Where draw_region() does not know the border, computed areas decide.
+// Returns the region to the left of all rings as loops that have it to their left. Consecutive
+// points of a ring (and the last and the first) are joined by the shorter arc of a great circle.
+// The loops are inside [-180, 180] x [-90, 90]: they are cut along the antimeridian, and at a pole
+// they reach the side lat = +-90. Without rings the region is the whole sphere. Loops may cross
+// each other and themselves where rings are nearer to each other than lines to arcs. Where
+// draw_region() does not know the border, computed areas decide.
 //
 // 1. Sides are within the tolerance (radians) of the arcs.
 // 2. An arc gives the same positions, bit by bit, to the regions on both sides of it.

@@ -18,7 +18,8 @@ namespace rondel::map {
 //
 // 1. The polygons are valid, and no two regions overlap, however the sides cross.
 // 2. Where two regions meet, both have the same positions, bit by bit, on the grid of map_grid.h.
-// 3. If the sides of each region bound it and cross no others, they stay, except for rounding to the grid.
+// 3. If the sides of each region bound it and cross no others, they stay, except for rounding to
+//    the grid.
 std::vector<std::vector<PolygonWithHoles>> settled_regions(
     std::span<const std::vector<DirectedLine>> sides_of_regions, unsigned threads);
 

@@ -118,10 +118,11 @@ class Drawing {
 
   // True if the region has the corners at the north pole inside.
   //
-  // At a pole on the ring the region is a sector: at the north pole from the longitude at which the ring leaves
-  // eastward to that at which it arrives, at the south pole the other way round. Otherwise the region has
-  // the north pole inside if the ring winds around it once. For that count a ring through the south pole is
-  // moved into its region; its antipode at the north pole is no inner point, as the region is convex.
+  // At a pole on the ring the region is a sector: at the north pole from the longitude at which the
+  // ring leaves eastward to that at which it arrives, at the south pole the other way round.
+  // Otherwise the region has the north pole inside if the ring winds around it once. For that count
+  // a ring through the south pole is moved into its region; its antipode at the north pole is no
+  // inner point, as the region is convex.
   bool has_north_corners() {
     bool visits_north = false;
     bool is_inside = false;

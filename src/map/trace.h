@@ -35,10 +35,10 @@ struct Trace {
 };
 
 // Draws a ring of at least three points, each snapped() and different from the next. Arc i runs
-// from point i to the next one and is densified to tolerances[i].
-// The side on which an arc passes a pole and the place where it crosses the antimeridian depend on the
-// arc alone, so that the regions on both sides of it fit together.
-// Precondition: the region to the left of the ring is spherically convex, at most a hemisphere.
+// from point i to the next one and is densified to tolerances[i]. The side on which an arc passes a
+// pole and the place where it crosses the antimeridian depend on the arc alone, so that the regions
+// on both sides of it fit together. Precondition: the region to the left of the ring is spherically
+// convex, at most a hemisphere.
 void draw(std::span<const Point> ring, std::span<const ArcTolerance> tolerances, Trace& trace);
 
 // Draws an open line of at least two points in the same way. The first points of all its chains are

@@ -14,12 +14,13 @@
 namespace rondel::overlay {
 namespace {
 
-// Compares two crossings along a great circle, each circle given by two points: positive if the circle pq meets
-// the circle yz, in the latter's direction, before the circle rs does. Both cross it from right to left and
-// within one arc of less than 180 degrees.
+// Compares two crossings along a great circle, each circle given by two points: positive if the
+// circle pq meets the circle yz, in the latter's direction, before the circle rs does. Both cross
+// it from right to left and within one arc of less than 180 degrees.
 //
 // With the normals N = y x z, M = p x q and M' = r x s it is the sign of N.(M x M'). Where that
-// vanishes, it is the sign of its change w.(N x (M x M')) when the first circle is perturbed (signs.h).
+// vanishes, it is the sign of its change w.(N x (M x M')) when the first circle is perturbed
+// (signs.h).
 Sign crossing_order(const Point& y, const Point& z, const Point& p, const Point& q, const Point& r,
                     const Point& s) {
   const auto sign_of = [&](const auto& value) {

@@ -1,17 +1,19 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// The boundaries of the pieces into which the cells of a subdivision are cut by the cells of a cover.
+// The boundaries of the pieces into which the cells of a subdivision are cut by the cells of a
+// cover.
 //
 // in    a subdivision and a cover, which is perturbed (signs.h)
 // out   for each cell the arcs that bound its pieces, each with the cells of the cover beside it
 // index cells in the spatial orders of the subdivision and of the cover; points of one cell, from 0
 //
-// The boundary of a cell is a sequence of arcs, each in one cell of the cover (crossings.h). It determines
-// the parts of the cover's edges inside of the cell without any further decision: an edge that the
-// boundary crosses on its way out of a cell of the cover leads inwards in the direction of its halfedge
-// there, to the next crossing or to its end, and all other edges continue from that end. The arcs with
-// the cell b of the cover to their left bound the piece in b; edges of the cover bound two pieces.
+// The boundary of a cell is a sequence of arcs, each in one cell of the cover (crossings.h). It
+// determines the parts of the cover's edges inside of the cell without any further decision: an
+// edge that the boundary crosses on its way out of a cell of the cover leads inwards in the
+// direction of its halfedge there, to the next crossing or to its end, and all other edges continue
+// from that end. The arcs with the cell b of the cover to their left bound the piece in b; edges of
+// the cover bound two pieces.
 #pragma once
 
 #include <cstdint>

@@ -26,11 +26,11 @@ struct KeyedArc {
 
 // Returns cells of which cell i has the rings around the region with the key i.
 //
-// 1. Arcs of one region that lead back and forth between two points cancel, so that parts that touch there
-//    are joined.
+// 1. Arcs of one region that lead back and forth between two points cancel, so that parts that
+//    touch there are joined.
 // 2. Where rings of a region meet in a point, each of them bounds one part of the region there.
-// 3. A ring begins at its corner with the least coordinates, rings are sorted by these corners, and points by
-//    their coordinates. So the result does not depend on the order of the arcs.
+// 3. A ring begins at its corner with the least coordinates, rings are sorted by these corners, and
+//    points by their coordinates. So the result does not depend on the order of the arcs.
 // 4. Rings no larger than what rounding of their corners can make are dropped.
 //
 // Throws InvalidInput if the arcs of a region do not form closed rings and are wider than rounding.

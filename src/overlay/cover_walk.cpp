@@ -20,10 +20,11 @@ Index last_of(Index first, Index end, const Holds& holds) {
 
 }  // namespace
 
-// Returns the exit of a large convex cell by bisection. The corners left of the line are consecutive around
-// the cell, and so are those right of it; the exit leads from the last right one to the first left one. One
-// corner of each kind is known: the ends of the halfedge by which the line entered, or else, if the line starts in
-// the cell, corners of the triangle with the start, of the fan of triangles around corner 0.
+// Returns the exit of a large convex cell by bisection. The corners left of the line are
+// consecutive around the cell, and so are those right of it; the exit leads from the last right one
+// to the first left one. One corner of each kind is known: the ends of the halfedge by which the
+// line entered, or else, if the line starts in the cell, corners of the triangle with the start, of
+// the fan of triangles around corner 0.
 Halfedge CoverWalk::way_out_by_search(const TracedLine& line, Index cell, Halfedge in) const {
   const Index begin = cover_.begin_of(cell);
   const Index size = cover_.end_of(cell) - begin;
@@ -63,9 +64,10 @@ Halfedge CoverWalk::halfedge_before(const Point& p, Index cell) const {
   return half + 1 < end && is_past(half + 1) ? last_of(half + 1, end, is_past) : half;
 }
 
-// Goes through the triangles of the center c and each halfedge, beginning with the triangle that has the
-// start of the line or with that of `in`. If c is to the left, the line turns counterclockwise around c. The
-// sides of triangles by which the line leaves have their origin right of it and their end left of it.
+// Goes through the triangles of the center c and each halfedge, beginning with the triangle that
+// has the start of the line or with that of `in`. If c is to the left, the line turns
+// counterclockwise around c. The sides of triangles by which the line leaves have their origin
+// right of it and their end left of it.
 Halfedge CoverWalk::way_out_of_star(const TracedLine& line, Index cell, Halfedge in) const {
   const Point& c = cover_.centers[cell];
   Halfedge h = in == no_index ? halfedge_before(line.from(), cell) : in;

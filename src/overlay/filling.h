@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Triangulates the sphere so that the sides of given cells are edges: a constrained triangulation that makes a
-// cover of cells that are only parts of the sphere.
+// Triangulates the sphere so that the sides of given cells are edges: a constrained triangulation
+// that makes a cover of cells that are only parts of the sphere.
 //
 // in    a subdivision that need not cover the sphere
 // out   a cover by triangles, each with the cell that it belongs to

@@ -1,11 +1,13 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Assembles the rows of pieces that several threads compute, in the order of the cells' indices in the input.
+// Assembles the rows of pieces that several threads compute, in the order of the cells' indices in
+// the input.
 //
 // in    a function that returns the pieces of one cell
 // out   PieceRows
-// index rows: indices of the cells in the input; places: cells of the other subdivision in its own order
+// index rows: indices of the cells in the input; places: cells of the other subdivision in its own
+//       order
 #pragma once
 
 #include <algorithm>
@@ -50,9 +52,10 @@ inline std::vector<double> column_sums(std::span<const RowBlock> blocks,
   return result;
 }
 
-// Computes the pieces of all cells in parallel and returns them as rows. make(first, end) makes a callable for the
-// cells [first, end). Its operator()(cell) returns the pieces of a cell that has a ring, each with `area` and
-// `moment`, sorted by its column(piece). Its column(piece) must be names[place(piece)].
+// Computes the pieces of all cells in parallel and returns them as rows. make(first, end) makes a
+// callable for the cells [first, end). Its operator()(cell) returns the pieces of a cell that has a
+// ring, each with `area` and `moment`, sorted by its column(piece). Its column(piece) must be
+// names[place(piece)].
 template <class Make>
 PieceRows gathered_rows(const Subdivision& cells, std::span<const Index> names, bool has_moments,
                         const Execution& execution, const Make& make) {

@@ -10,13 +10,13 @@
 
 namespace rondel::overlay {
 
-// Returns cells of which cell i is feature i. A ring of a shell is around its smaller side, and a hole is around the
-// part that it removes.
+// Returns cells of which cell i is feature i. A ring of a shell is around its smaller side, and a
+// hole is around the part that it removes.
 //
-// 1. Sides of a feature that lead back and forth between two corners cancel. A feature whose parts cover the
-//    sphere is in `whole`.
-// 2. FileError is thrown for a ring whose sides all cancel, for holes that leave nothing of their polygon, for
-//    parts that overlap, and for sides of a feature that cross.
+// 1. Sides of a feature that lead back and forth between two corners cancel. A feature whose parts
+//    cover the sphere is in `whole`.
+// 2. FileError is thrown for a ring whose sides all cancel, for holes that leave nothing of their
+//    polygon, for parts that overlap, and for sides of a feature that cross.
 CellRings geodesic_cells(const io::PolygonFeatures& features, const Execution& execution);
 
 }  // namespace rondel::overlay

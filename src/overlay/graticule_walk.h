@@ -7,9 +7,9 @@
 // out   strips: signed areas between parts of the arc and a parallel, each in one column and row
 // index columns and rows of a Graticule
 //
-// No decision is made here that rounding could get wrong. Points have rounded places, an arc joins two such
-// places, and the sums over strips are continuous functions of the places. Both directions of an arc give the same
-// numbers.
+// No decision is made here that rounding could get wrong. Points have rounded places, an arc joins
+// two such places, and the sums over strips are continuous functions of the places. Both directions
+// of an arc give the same numbers.
 #pragma once
 
 #include <vector>

@@ -123,14 +123,15 @@ void drop_rounding(std::vector<Piece>& pieces) {
   }
 }
 
-// Tests that the pieces of a cell add up to the cell's area; otherwise throws InvalidInput with `name`, the cell's
-// index in the input, or drops the pieces if the cell is no wider than rounding.
+// Tests that the pieces of a cell add up to the cell's area. Otherwise drops the pieces if the cell
+// is no wider than rounding, or throws InvalidInput with `name`, the index of the cell in the input.
 //
-// A piece is off by area_of_rounding() of its border where its triangles are no larger than a radian, and the cell by
-// that of its own border. Large triangles lose some more digits, for which the bound has a factor of four and
-// a share of 1e-9. Where an edge of the cover runs along a cell, triangles of a hemisphere can cancel;
-// 64 u covers what is left of them. A piece with a negative area, or a sum other than the cell's area, shows that the cell
-// is not what its border says: it crosses or overlaps itself.
+// A piece is off by area_of_rounding() of its border where its triangles are no larger than a
+// radian, and the cell by that of its own border. Large triangles lose some more digits, for which
+// the bound has a factor of four and a share of 1e-9. Where an edge of the cover runs along a cell,
+// triangles of a hemisphere can cancel; 64 u covers what is left of them. A piece with a negative
+// area, or a sum other than the cell's area, shows that the cell is not what its border says: it
+// crosses or overlaps itself.
 template <class Piece>
 void require_sum(std::vector<Piece>& pieces, double area, double length, Index name) {
   constexpr double of_triangles = 4;

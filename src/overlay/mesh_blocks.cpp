@@ -3,8 +3,8 @@
 
 // Readers of cells of coupled models and of finite elements:
 //
-// 1. OASIS: grids.nc, with several grids in one file, told apart by the first parts of variable names
-//    (OASIS3-MCT user guide, section 5.1)
+// 1. OASIS: grids.nc, with several grids in one file, told apart by the first parts of variable
+//    names (OASIS3-MCT user guide, section 5.1)
 // 2. Exodus II: blocks of elements with the same number of corners, at points in space (Schoof and
 //    Yarberry, SAND92-2137)
 #include <algorithm>

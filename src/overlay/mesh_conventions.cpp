@@ -5,7 +5,8 @@
 //
 // 1. UGRID: https://ugrid-conventions.github.io/ugrid-conventions
 // 2. SCRIP's grids: Jones, SCRIP user's guide, 1998, section 2.2.1
-// 3. ESMF's unstructured grids: ESMF reference manual, section 12.8.2 ("ESMF Unstructured Grid File Format")
+// 3. ESMF's unstructured grids: ESMF reference manual, section 12.8.2 ("ESMF Unstructured Grid File
+//    Format")
 // 4. MPAS: Mesh Specification, https://mpas-dev.github.io/files/documents/MPAS-MeshSpec.pdf
 // 5. ICON: grid files of the ICON grid generator
 #include <algorithm>

@@ -54,8 +54,9 @@ struct MeshContent {
 RONDEL_API CellTable cells_in(const io::NetcdfReader& file, const std::string& file_name,
                               const std::string& part);
 
-// Each reader returns nothing if the file does not follow its convention, or if `name` is not empty and that
-// variable is not on cells of this convention. Throws BadValue for a file that follows the convention and is wrong.
+// Each reader returns nothing if the file does not follow its convention, or if `name` is not empty
+// and that variable is not on cells of this convention. Throws BadValue for a file that follows the
+// convention and is wrong.
 std::optional<MeshContent> read_ugrid(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_scrip_grid(const io::NetcdfReader& file, const std::string& name);
 std::optional<MeshContent> read_esmf_mesh(const io::NetcdfReader& file, const std::string& name);

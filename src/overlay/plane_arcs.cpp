@@ -1,15 +1,16 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Why the arcs have the topology of the lines. Let two arcs have the same longitudes at both ends, and be in the
-// same order there. In the gnomonic plane of a point between them meridians are lines, and the arcs are
-// segments from one of these lines to the other: they do not cross, and touch at most at an end. So it
-// suffices that each arc has a corner on the meridian of every corner to which it comes nearer than it may be
-// from its line, with the corner on the line: at such a meridian the order is that of the plane, and at every other
-// one the distance is larger than what could change the order.
+// Why the arcs have the topology of the lines. Let two arcs have the same longitudes at both ends,
+// and be in the same order there. In the gnomonic plane of a point between them meridians are
+// lines, and the arcs are segments from one of these lines to the other: they do not cross, and
+// touch at most at an end. So it suffices that each arc has a corner on the meridian of every
+// corner to which it comes nearer than it may be from its line, with the corner on the line: at
+// such a meridian the order is that of the plane, and at every other one the distance is larger
+// than what could change the order.
 //
-// A corner that is added may be near a third line, which then gets a corner on the same meridian. Only the
-// meridians of the first corners occur, so this ends.
+// A corner that is added may be near a third line, which then gets a corner on the same meridian.
+// Only the meridians of the first corners occur, so this ends.
 #include "overlay/plane_arcs.h"
 
 #include <algorithm>

@@ -1,14 +1,17 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A cell that is only as wide as the distance of its sides' arcs from their lines may get another area by the
-// arcs, however near they are. The area that an arc adds is known in closed form. For a line over d radians of
-// longitude, with f the latitude of its middle and h half of its height, the integral of the sine of latitude is
+// A cell that is only as wide as the distance of its sides' arcs from their lines may get another
+// area by the arcs, however near they are. The area that an arc adds is known in closed form. For a
+// line over d radians of longitude, with f the latitude of its middle and h half of its height, the
+// integral of the sine of latitude is
 //
-//   d sin f sin h / h  along the line,   2 atan(k tan(d / 2)) with k = sin f / cos h  along the arc.
+//   d sin f sin h / h                               along the line
+//   2 atan(k tan(d / 2)) with k = sin f / cos h     along the arc
 //
-// Where these differences add up to more than a share of the area, all sides of the cell are halved. The number of
-// halvings assumes a fourth of the difference each time, since differences go with the cube of d or with d h^2.
+// Where these differences add up to more than a share of the area, all sides of the cell are
+// halved. The number of halvings assumes a fourth of the difference each time, since differences go
+// with the cube of d or with d h^2.
 #include "overlay/plane_areas.h"
 
 #include <algorithm>

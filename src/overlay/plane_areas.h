@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Divides the sides of cells that are straight in longitude and latitude until arcs preserve the cells' areas.
+// Divides the sides of cells that are straight in longitude and latitude until arcs preserve the
+// cells' areas.
 //
 // in    straight sides in degrees, each with its cell, a tolerance in radians
 // out   positions that divide each side

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// A line sweeps the plane from west to east (Shamos, Hoey 1976). It keeps the sides that it crosses in their
-// order from south to north, and the state of the region above each side: inside of a polygon, or outside and
-// in a hole or in none.
+// A line sweeps the plane from west to east (Shamos, Hoey 1976). It keeps the sides that it crosses
+// in their order from south to north, and the state of the region above each side: inside of a
+// polygon, or outside and in a hole or in none.
 //
 //       \ above: in polygon 0       The state above a side follows from the state below it, which is that above
 //     ---*------------------        the next side to the south, and from the side's ring. A side that does not
 //       / below: outside            fit to the state below is a fault: a shell in another polygon, or a hole
 //                                   outside of its shell.
 //
-// Only corners are events. When the sweep arrives at a corner, the sides on which it lies are divided there, and
-// sides that coincide are merged. So the sides that are left either cross properly, which is found between
-// neighbors, or meet only in corners.
+// Only corners are events. When the sweep arrives at a corner, the sides on which it lies are
+// divided there, and sides that coincide are merged. So the sides that are left either cross
+// properly, which is found between neighbors, or meet only in corners.
 #include "overlay/plane_sweep.h"
 
 #include <algorithm>

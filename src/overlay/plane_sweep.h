@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Determines the inside of the polygons of one feature in the plane of longitude and latitude, by exact signs.
+// Determines the inside of the polygons of one feature in the plane of longitude and latitude, by
+// exact signs.
 //
 // in    rings of one feature: shells and their holes
 // out   the sides of the border, or the first fault
@@ -50,8 +51,8 @@ struct PlaneRegion {
 
 // Returns the region of the polygons, given as rings: for each polygon its shell, then its holes.
 //
-// 1. A polygon is read by the even-odd rule: sides that occur twice in it cancel, and a ring may meet itself
-//    and other rings in points.
+// 1. A polygon is read by the even-odd rule: sides that occur twice in it cancel, and a ring may
+//    meet itself and other rings in points.
 // 2. Corners that lie on a side, exactly, divide it.
 // 3. Polygons may share sides, which cancel, but no area.
 PlaneRegion sweep_rings(std::span<const io::LonLatRing> rings);

@@ -23,10 +23,10 @@ constexpr double whole_area = 4 * std::numbers::pi;
 //
 //     tan(area / 2) = o.((p - o) x d) / (1 + o.p + p.q + q.o) = s / c.
 //
-// s is off by 10 u |p - o| |d| with |p - o| <= 2, and c by 12 u, so the angle by less than 32 u |d| / (s^2 + c^2) (1 +
-// |d|) where that is less than 1. Corners are off by 2 u, or some 10 u where they are crossings
-// (area_of_rounding()); that moves the area by 16 u |d|, which is the bound where the triangles are small,
-// s^2 + c^2 = 16.
+// s is off by 10 u |p - o| |d| with |p - o| <= 2, and c by 12 u, so the angle is off by less than
+// 32 u |d| (1 + |d|) / (s^2 + c^2), where that is less than 1. Corners are off by 2 u, or some 10 u
+// where they are crossings (area_of_rounding()); that moves the area by 16 u |d|, which is the
+// bound where the triangles are small, s^2 + c^2 = 16.
 RingArea area_around(std::span<const Point> ring, const Point& origin) {
   constexpr double factor = 64 * predicates::unit_roundoff;
   constexpr double most_square = 4;

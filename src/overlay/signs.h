@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // Exact orientations of the points of two partitions. The second one, the cover, is perturbed by an
-// infinitesimal rotation: no point of one partition lies on an edge of the other, and two edges cross
-// in their insides or not at all. So equal grids, shared corners and shared edges are no special cases.
+// infinitesimal rotation: no point of one partition lies on an edge of the other, and two edges
+// cross in their insides or not at all. So equal grids, shared corners and shared edges are no
+// special cases.
 //
 // in    points of a partition (a, b, x) and of the perturbed cover (y, z)
 // out   signs, never zero; rounded values with bounds where a filter is enough

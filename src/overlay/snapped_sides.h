@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Snaps corners to sides. A corner that is on a side only up to rounding may be on either side of it, so that sides
-// that should touch cross. Such corners become corners of the side.
+// Snaps corners to sides. A corner that is on a side only up to rounding may be on either side of
+// it, so that sides that should touch cross. Such corners become corners of the side.
 //
 // in    points, and sides with the cell to their left
 // out   the sides, divided at the corners near them

@@ -159,10 +159,11 @@ void Subdivision::take_rings(const CellRings& input) {
   }
 }
 
-// Merges corners that rounding has put into the wrong order. Each edge must turn counterclockwise around the
-// center of its cell. The ends of a short edge that does not are merged. If a long edge does not, the cell
-// is narrower than that edge's rounding, and all its short edges vanish. A cell that has fewer than three
-// corners left loses its ring, and the cells on both sides of it become neighbors.
+// Merges corners that rounding has put into the wrong order. Each edge must turn counterclockwise
+// around the center of its cell. The ends of a short edge that does not are merged. If a long edge
+// does not, the cell is narrower than that edge's rounding, and all its short edges vanish. A cell
+// that has fewer than three corners left loses its ring, and the cells on both sides of it become
+// neighbors.
 void Subdivision::merge_disordered() {
   constexpr double short_length = 0x1p-44;
   MergedPoints merged(points.size());

@@ -5,8 +5,8 @@
 //
 // in    CellRings
 // out   the arrays below
-// index cells: their places in spatial order, with the index in the input in `names`; halfedges: places
-//       in `corners`
+// index cells: their places in spatial order, with the index in the input in `names`; halfedges:
+//       places in `corners`
 //
 // A halfedge leads from its corner to the next one of its ring, and its cell is to its left.
 #pragma once

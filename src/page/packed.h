@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Packs arrays for a page: bytes sorted by planes, compressed as a zlib stream (RFC 1950), written in
-// base64 (RFC 4648).
+// Packs arrays for a page: bytes sorted by planes, compressed as a zlib stream (RFC 1950), written
+// in base64 (RFC 4648).
 //
 // in    bytes
 // out   bytes, text

@@ -33,18 +33,16 @@ std::vector<Point> site_directions(const Triangulation& triangulation);
 
 // Returns the arrays of a page:
 //
-// directions   3 n, f64: unit vectors
-// lengths      n, f64: distances from the center in radii of the sphere; weighted sites only
-// radii        n, f64: radii of the sites' circles in radians, 0 for a site without one; weighted sites only
-// faces        3 m, u32: the corners of each face
-// ghosts, duplicates and hidden (pairs), ring (below dimension 2): u32
-// points       3 k, f64: the points of the diagram. The first m are the circumcenters; they are stored as the
+// directions   3 n, f64: unit vectors lengths      n, f64: distances from the center in radii of
+// the sphere; weighted sites only radii        n, f64: radii of the sites' circles in radians, 0
+// for a site without one; weighted sites only faces        3 m, u32: the corners of each face
+// ghosts, duplicates and hidden (pairs), ring (below dimension 2): u32 points       3 k, f64: the
+// points of the diagram. The first m are the circumcenters; they are stored as the
 //              bits in which they differ from what the page computes in doubles, most of which are zero
-// ringOffsets, ringPoints   u32: the rings of the cells, unless they are just the faces around each site
-// areas        n, f64: steradians
-// values       n, f64; only if there are values
-// isolines     3 k, f64: the points of the isolines, and
-// isolineEnds  u32: the place after the last point of each isoline; only if there are isolines
+// ringOffsets, ringPoints   u32: the rings of the cells, unless they are just the faces around each
+// site areas        n, f64: steradians values       n, f64; only if there are values isolines     3
+// k, f64: the points of the isolines, and isolineEnds  u32: the place after the last point of each
+// isoline; only if there are isolines
 std::vector<PageArray> page_arrays(const SiteTable& table, const Triangulation& triangulation,
                                    const Diagram& diagram, const GlobeOptions& options,
                                    const std::vector<Point>& directions);

@@ -74,8 +74,8 @@ Sign compare_exactly(const Point& a, const Point& b, const Point& c, const Point
   });
 }
 
-// Returns the sign of (u_c - u_a).(u_b - u_c) for unit vectors u, times positive lengths. With A = a.a
-// and so on this is
+// Returns the sign of (u_c - u_a).(u_b - u_c) for unit vectors u, times positive lengths. With A =
+// a.a and so on this is
 //
 //     R - L,   R = (c.b) sqrt(A) - (a.b) sqrt(C),   L = sqrt(B) (sqrt(A C) - c.a) >= 0
 //

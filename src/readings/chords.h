@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Exact comparisons of the distances between vertices, measured as angles at the center of the sphere.
+// Exact comparisons of the distances between vertices, measured as angles at the center of the
+// sphere.
 //
 // in    an unweighted triangulation
 // out   chords of unit vectors (lengths and squares without unit), angles in radians, signs

@@ -1,8 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Places sites along lines so that the nearest site's feature is the nearest feature up to a tolerance t.
-// Each segment between neighboring sites of a line is halved until it is short enough for t:
+// Places sites along lines so that the nearest site's feature is the nearest feature up to a
+// tolerance t. Each segment between neighboring sites of a line is halved until it is short enough
+// for t:
 //
 //            x         Let p be a segment's point nearest to x, at distance d, in a segment of feature F
 //           /|         with half-length h. Let the site nearest to x belong to another feature G. This
@@ -13,12 +14,12 @@
 //
 // So e <= t if h <= t or h^2 <= t D, that is if h <= H(D) = max(t, sqrt(t D)).
 //
-// D is not known; known is d1, the distance of the segment's middle m from the nearest *site* of another
-// feature. Let D now be the distance of that feature from m, attained in a segment of half-length h'.
-// That segment passes the same test, so h' <= H(D + h), as D + h bounds what its test knows of its
-// distance. So d1 <= D + h' <= D + H(D + h), which bounds D from below, and D - h is a bound for all
-// points p of the segment. With u = D + h and K = d1 + h this is u + H(u) >= K, and the test is
-// h^2 <= t (u - 2 h).
+// D is not known; known is d1, the distance of the segment's middle m from the nearest *site* of
+// another feature. Let D now be the distance of that feature from m, attained in a segment of
+// half-length h'. That segment passes the same test, so h' <= H(D + h), as D + h bounds what its
+// test knows of its distance. So d1 <= D + h' <= D + H(D + h), which bounds D from below, and D - h
+// is a bound for all points p of the segment. With u = D + h and K = d1 + h this is u + H(u) >= K,
+// and the test is h^2 <= t (u - 2 h).
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

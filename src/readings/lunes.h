@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// Decides which edges belong to the relative neighborhood graph. The lune of an edge ab has the points
-// that are nearer to a and nearer to b than a and b are to each other; the edge stays if its lune has
-// no vertex.
+// Decides which edges belong to the relative neighborhood graph. The lune of an edge ab has the
+// points that are nearer to a and nearer to b than a and b are to each other; the edge stays if its
+// lune has no vertex.
 //
 // in    the exact distances of sites, the edges of the Delaunay triangulation
 // out   whether the lune of an edge is empty
