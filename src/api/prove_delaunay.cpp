@@ -61,7 +61,7 @@ Flaw find_flaw(const Triangulation& t, const Options& options, const Execution& 
   const CheckReport report =
       proof::check_triangles(t.sites().points(), t.faces(), {options, execution});
   if (!report.is_valid) return {report.reason};
-  // Those that are listed are duplicates, but more may be.
+  // The listed sites are duplicates, but there may be others.
   if (t.duplicates().size() != report.num_duplicates) {
     return {std::to_string(t.duplicates().size()) + " duplicates are listed, but there are " +
             std::to_string(report.num_duplicates)};

@@ -35,7 +35,7 @@ struct Triangulation::Impl {
 
 namespace api {
 
-// Of arrays that the library made of these sites.
+// Makes a triangulation of arrays that the library computed for these sites.
 RONDEL_API Triangulation make_triangulation(Sites sites, TriangulationArrays arrays,
                                             const Options& options, const BuildReport& report);
 

@@ -23,7 +23,8 @@ bool are_valid(std::span<const Point> sites, const Options& options);
 // Throws InvalidInput because of the options, of too many sites, or of the first that is not valid.
 void validate(std::span<const Point> sites, const Options& options);
 
-// The same for some of the sites, of which `first` come before these, without the options.
+// Does the same for some of the sites, without testing the options. `first` is the number of sites
+// before these.
 RONDEL_API void validate_some(std::span<const Point> sites, const Options& options,
                               std::uint64_t first);
 

@@ -36,8 +36,8 @@ void AllSites::take_larger(const Point& p) {
   if (exact::largest_coordinate(p) > exact::largest_coordinate(largest_)) largest_ = p;
 }
 
-// Of sites that others looked at, their three are enough: all between two of these are in line or in a
-// plane with those before, so none of them is the first one that is not.
+// The three spanning sites of other sites suffice. The sites between two of these three are in line
+// or in a plane with those before, so none of them is the first one that is not.
 void AllSites::take_spanning(const Point& p) {
   if (model_ == Model::projected || num_spanning_ == spanning_.size()) return;
   const auto& [first, second, third] = spanning_;

@@ -23,7 +23,7 @@ class RONDEL_API AllSites {
   explicit AllSites(const system::Job& options);
 
   void add(std::span<const Point> sites);
-  // Those that somebody else looked at.
+  // Adds the sites that `others` has seen.
   void add(const AllSites& others);
 
   [[nodiscard]] const Extent& extent() const { return extent_; }

@@ -38,10 +38,10 @@ bool has_short_seams(const Input& input);
 std::vector<BlockResult> triangulate_blocks(const Input& input, const std::vector<Block>& blocks,
                                             TriangulationArrays& arrays);
 
-// As kernel::triangulate, with blocks of at most so many sites; or nothing if the seam has no hull,
-// because all its sites lie on one great circle. The faces come into the memory of `copies`, which
-// may be that of the copies in `input`: blocks read their sites before they write their faces. The
-// rule says when the seam is long.
+// Computes what kernel::triangulate does, with blocks of at most `max_block_sites`; returns nothing
+// if the seam has no hull, because all its sites lie on one great circle. The faces are written
+// into the memory of `copies`, which may be that of the copies in `input`: blocks read their sites
+// before they write their faces. `rule` says when the seam is long.
 std::optional<kernel::Triangulated> triangulate_by_blocks(const Input& input,
                                                           std::span<const order::Renamed> renamed,
                                                           std::size_t max_block_sites,

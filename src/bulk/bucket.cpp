@@ -55,7 +55,7 @@ class SquaresAbove {
   std::vector<TreeSquare> squares_;
 };
 
-// Those of the faces in `seam` that belong to the result, by their owners.
+// Lists the faces of `seam` that belong to the result, by their owners.
 void list_joined(const SeamFaces& seam, std::span<const Triple> at_edges, JoinedFaces& joined) {
   const auto num_sites = static_cast<Index>(seam.sites().size());
   const Index first = seam.names_begin();

@@ -36,9 +36,9 @@ struct BucketBorder {
 
 struct Bucket {
   order::SpatialOrder order;
-  // Those of a site are together, and the sites are in their order. Those of open sites are in no
-  // particular order, all others in the canonical one. Corners are ranks; neighbors are faces of the
-  // bucket, or across open edge i the number of faces + i.
+  // The faces. Those of one site are together, and the sites are in their order. The faces of open
+  // sites are in no particular order, all others in the canonical one. Corners are ranks; neighbors
+  // are faces of the bucket, or across open edge i the number of faces + i.
   LargeVector<Triple> faces;
   LargeVector<Triple> neighbors;
   BucketBorder border;

@@ -64,7 +64,7 @@ class RONDEL_API BucketFaces {
   void number(GlobalIndex first, JoinedNumbers& numbers);
 
   [[nodiscard]] GlobalIndex first() const { return first_; }
-  // Of the bucket's own faces, counted from the first number on.
+  // Returns the places of the bucket's own faces, counted from the first number on.
   [[nodiscard]] LargeVector<Index> places_of_own() const;
 
   // visit(corners) for each face in the order of the numbers. `faces` are the bucket's.
@@ -108,7 +108,7 @@ class RONDEL_API BucketFaces {
   [[nodiscard]] bool is_own_site(Index open_site) const {
     return open_site - first_site_ < border_.open_sites.size();
   }
-  // Of a face at an open site: its position in the rim.
+  // Returns the position in the rim of a face at an open site.
   [[nodiscard]] std::size_t rim_place(Index own_face) const;
 
   [[nodiscard]] BucketCorner corner_of_joined(Index open_site) const {
@@ -124,7 +124,7 @@ class RONDEL_API BucketFaces {
   }
   [[nodiscard]] Neighbors neighbors_of_own(const Triple& n, std::span<const Index> place_of) const;
   [[nodiscard]] Neighbors neighbors_of_joined(Index face) const;
-  // Of a face at an open site.
+  // Returns a corner of a face at an open site.
   [[nodiscard]] BucketCorner corner(Index code, unsigned i) const;
   [[nodiscard]] Index across(Index code, unsigned i) const;
   // In the order of all ranks of all buckets.

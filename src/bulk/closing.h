@@ -184,9 +184,9 @@ class Closing {
     }
   }
 
-  // As Merge::sew, from the bridge to itself. The center is inside the hull, so no face of it is
-  // in a plane with the center, and there is a next face until the ring is closed. Returns whether
-  // it is, which only an error in what came before can make false.
+  // Does what Merge::sew does, from the bridge to itself. The center is inside the hull, so no face
+  // of it is in a plane with the center, and there is a next face until the ring is closed. Returns
+  // whether it is, which only an error in an earlier step can make false.
   bool sew_around(Edge bridge) {
     Edge base = bridge;
     Index l = graph_.origin(base);

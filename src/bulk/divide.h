@@ -159,7 +159,8 @@ class Divide {
   // For a square of 2^bits positions either way.
   [[nodiscard]] const SquareLimits& limits_of(int bits) const { return sites_.limits_of(bits); }
 
-  // Of two weighted sites on one ray the lower one is hidden, which no square tells from the other.
+  // Joins two sites. If two weighted sites are on one ray, the lower one is hidden, which no square
+  // tells from the other; then this fails.
   Part solve_two(Index a) {
     if (T::hides_sites && is_close(a, a + 1) &&
         predicates::are_on_one_ray(sites_.point(a), sites_.point(a + 1), sites_.center())) {

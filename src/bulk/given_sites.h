@@ -42,7 +42,7 @@ class GivenSites {
     return exact::unit_vector(point(i), center_);
   }
 
-  // As in SphereTraits.
+  // Returns the coordinates with the meaning that they have in SphereTraits.
   [[nodiscard]] Vector coordinates(Index i) const {
     if constexpr (model == Model::projected) return direction(i);
     return exact::to_vector(point(i));
@@ -97,12 +97,13 @@ class GivenSites {
     return decision.sign == Sign::positive;
   }
 
-  // Of all conflict tests, given that this is called for those that a filter of the caller decided.
+  // The tally counts all conflict tests, provided that count_filtered() is called for those that a
+  // filter of the caller decided.
   void count_filtered() { ++tally_.filter; }
   [[nodiscard]] const Tally& tally() const { return tally_; }
 
  private:
-  // Of two stored directions.
+  // The bound for the distance of two stored directions.
   static constexpr double most_distance = 2.001;
 
   std::span<const Point> sites_;

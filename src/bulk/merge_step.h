@@ -69,7 +69,7 @@ class MergeStep {
   }
 
  private:
-  // Of the ends no filter is sure, as zero is right.
+  // True for the ends of the edge, for which no filter is certain, as zero is right.
   [[nodiscard]] bool is_end(Index x) const { return x == l_ || x == r_; }
 
   Sites& sites_;

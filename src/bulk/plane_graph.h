@@ -189,7 +189,8 @@ class PlaneGraph {
   Links* rings_ = nullptr;
   Index* targets_ = nullptr;
   Index* faces_ = nullptr;
-  // Of another type than the links, so that these are not read again after each link is written.
+  // These are of another type than the links, so that they are not read again after each link is
+  // written.
   std::size_t begin_ = 0;
   std::size_t full_ = 0;
   std::size_t limit_ = 0;

@@ -21,7 +21,7 @@ class SeamFaces {
   // Without faces. `store` is where the blocks wrote theirs.
   SeamFaces(std::span<const BlockResult> results, FaceStore store, unsigned threads);
 
-  // Of block i, the first seam site.
+  // Returns the first seam site of block i.
   [[nodiscard]] Index first_site(std::size_t i) const { return first_site_[i]; }
 
   // Room for all faces that there can be, so that they are not moved when there are more.
@@ -33,7 +33,7 @@ class SeamFaces {
   Index add(std::size_t count);
   // Where a face of the seam is written: corners as seam sites, the lowest one first, and neighbors.
   Triple& seam_corners(Index face) { return corners_[face - names_begin()]; }
-  // Of a face of either kind.
+  // Returns the neighbors of a face of either kind.
   Triple& neighbors(Index face) {
     return face < names_begin() ? store_.neighbors[face] : neighbors_[face - names_begin()];
   }

@@ -37,7 +37,7 @@ void append(const HandedUp& part, HandedUp& all) {
     all.edges.push_back({e.a + offset, e.b + offset, e.face, e.corner});
 }
 
-// Of a block with this first seam site.
+// Hands up the sites and edges of a block, whose first seam site is `first`.
 HandedUp hand_up(const BlockResult& block, Index first) {
   HandedUp result;
   std::vector<Index> place(block.seam_sites.size(), 0);

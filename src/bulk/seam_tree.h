@@ -57,11 +57,11 @@ struct OpenSeam {
 bool fill_seam(const Input& input, std::span<const TreeSquare> squares,
                std::span<const BlockResult> results, const SeamRule& rule, SeamFaces& seam,
                Tally& tally);
-// The same without squares: the sphere does all.
+// Does the same without squares, on the whole sphere at once.
 bool fill_seam_at_once(const Input& input, std::span<const BlockResult> results, SeamFaces& seam,
                        Tally& tally);
 
-// The same for one square, the last one, as far as its faces are final.
+// Does the same for one square, the last one, for the faces that are final.
 OpenSeam fill_square_seam(const Input& input, std::span<const TreeSquare> squares,
                           std::span<const BlockResult> results, const SeamRule& rule,
                           SeamFaces& seam, Tally& tally);

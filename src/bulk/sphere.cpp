@@ -32,7 +32,7 @@ constexpr std::size_t num_parts = num_lunes * parts_of_lune;
 // For fewer it takes longer to start threads than to wait for one.
 constexpr Index least_parallel_sites = 4096;
 
-// Of a ray along this axis, or the other one if x is 0.
+// Returns the lune of a ray along the x axis, or along the y axis if x is 0.
 std::size_t lune_of_axis(double x, double y) { return x > 0 ? 0 : (y > 0 ? 1 : (x < 0 ? 2 : 3)); }
 
 // A ray with |x| = |y| belongs to a lune of the x axis, and the z axis, as an end of it, to the half

@@ -32,9 +32,9 @@ unsigned octants_of(std::span<const Point> sites, const Point& center);
 // Whether the center is inside the hull of the sites, told by the octants in which they are: all.
 bool surround_center(std::span<const Point> sites, const Point& center);
 
-// As kernel::triangulate, or nothing if this does not work: it does for sites in general, but
-// not if weighted sites are hidden in such a way that only exact numbers tell. Precondition: the
-// sites surround the center.
+// Computes what kernel::triangulate does, or returns nothing if it cannot: it can for sites in
+// general, but not if weighted sites are hidden in such a way that only exact numbers tell.
+// Precondition: the sites surround the center.
 std::optional<kernel::Triangulated> triangulate_sphere(const Input& input,
                                                        std::span<const order::Renamed> renamed);
 

@@ -80,7 +80,7 @@ class SquareSeamBuilder {
     return seam;
   }
 
-  // Of the last build.
+  // Returns the tally of the last build.
   [[nodiscard]] Tally tally() const { return piece_.tally(); }
 
  private:

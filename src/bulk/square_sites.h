@@ -145,7 +145,8 @@ class SquareSites {
   // this is not certain.
   [[nodiscard]] Sign side_over_tangent(Index a, Index b, Index c, Index p) const;
 
-  // Of all conflict tests, given that count_filtered() is called for those that the limits decided.
+  // The tally counts all conflict tests, provided that count_filtered() is called for those that
+  // the limits decided.
   void count_filtered() { ++tally_.filter; }
   [[nodiscard]] const Tally& tally() const { return tally_; }
 
@@ -159,7 +160,7 @@ class SquareSites {
   void find_bounds(int bits);
   // Reads the sites from `first` on; more will be read, up to `end`.
   void read_sites(std::size_t first, std::size_t end, std::span<Point> sites) const;
-  // As is_in_conflict() where a filter for the very sites decides; zero if none does.
+  // Returns the sign of is_in_conflict() if a filter for these sites decides, and zero otherwise.
   [[nodiscard]] Sign filtered_side(Index a, Index b, Index c, Index p);
 
   SquarePoint* points_ = nullptr;

@@ -47,10 +47,10 @@ struct TreeSquare {
 // Splits all ranks into blocks of at most `max_sites`, as far as positions can tell sites apart. Each
 // square comes after its quarters, so the blocks are in their order.
 std::vector<TreeSquare> make_squares(const Input& input, std::size_t max_sites);
-// The same for one square, which has all sites of the input.
+// Splits one square, which has all sites of the input.
 std::vector<TreeSquare> make_squares(const Square& square, const Input& input,
                                      std::size_t max_sites);
-// Those that are not split.
+// Returns the squares that are not split.
 std::vector<Block> blocks_of(std::span<const TreeSquare> squares);
 
 // Whether a position on the same face of the cube is in the square.

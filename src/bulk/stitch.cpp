@@ -114,7 +114,7 @@ class Numbering {
     }
   }
 
-  // The same if not all of its faces are known, as they come.
+  // Does the same for a site of which not all faces are known; the faces are appended as they come.
   void append_open(Index s) {
     const SeamSite& site = seam_.sites()[s];
     open_[s].faces_begin = next_;
@@ -186,7 +186,8 @@ void for_each(std::vector<Section>& sections, unsigned threads, Work work) {
                        [&](std::size_t i, std::size_t /*end*/) { work(sections[i]); });
 }
 
-// As few as keep the threads busy, since near their ends faces are copied. Still empty.
+// Makes as few sections as keep the threads busy, since faces near their ends are copied. The
+// sections are still empty.
 std::vector<Section> make_sections(std::span<const BlockResult> results, const SeamFaces& seam,
                                    unsigned threads) {
   const std::size_t num_sections = threads == 1 ? 1 : 4 * std::size_t{threads};

@@ -28,9 +28,9 @@ namespace rondel::bulk {
 bool stitch(std::span<const BlockResult> results, const SeamFaces& seam,
             std::span<const Index> names, unsigned threads, TriangulationArrays& arrays);
 
-// The same for one square, whose faces are not all known. There no neighbor is known where `open` says
-// so; the faces that its sites own are in no particular order. Returns these sites, and names the
-// faces in `open` anew.
+// Does the same for one square, whose faces are not all known. No neighbor is known where `open`
+// says so, and the faces of the sites there are in no particular order. Returns these sites, and
+// renames the faces in `open`.
 std::vector<SeamSite> stitch_open(std::span<const BlockResult> results, const SeamFaces& seam,
                                   std::span<const Index> names, unsigned threads, OpenSeam& open,
                                   TriangulationArrays& arrays);

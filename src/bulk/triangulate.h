@@ -35,8 +35,8 @@ inline constexpr std::size_t least_copied_sites = std::size_t{3} << 18;
 // With more the mesh of a whole sphere would not fit into the second cache, more or less.
 inline constexpr std::size_t most_sphere_sites = std::size_t{1} << 16;
 
-// As kernel::triangulate. `copies` is empty, or system::SiteCopies of the sites by rank lie in
-// its memory, which becomes that of the faces.
+// Computes what kernel::triangulate does. `copies` is empty, or has the memory in which
+// system::SiteCopies of the sites by rank lie, which becomes that of the faces.
 kernel::Triangulated triangulate(std::span<const Point> sites, std::vector<Index> order,
                                  std::span<const order::Renamed> renamed,
                                  const system::Job& options, LargeVector<Triple> copies = {},

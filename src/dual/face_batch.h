@@ -14,9 +14,9 @@
 
 namespace rondel::dual {
 
-// Of a projected face, for each corner: the area of the kite between the corner, the middles of
+// The kites of a projected face. For each corner it is the area between the corner, the middles of
 // its two edges and the circumcenter, negative where the circumcenter lies beyond. The kites around
-// a site add up to its cell. The first is nan where the face needs more care (is_careful()).
+// a site add up to its cell. The first one is nan if the face needs more care (is_careful()).
 using Kites = std::array<double, 3>;
 inline constexpr Kites careful_kites = {std::numeric_limits<double>::quiet_NaN(),
                                         std::numeric_limits<double>::quiet_NaN(),

@@ -84,7 +84,8 @@ class LinkTriangulation {
     previous_[b] = u;
   }
 
-  // As in kernel/conflict_region.h, entering through one edge of the polygon.
+  // Finds the conflict region as kernel/conflict_region.h does, entering through one edge of the
+  // polygon.
   void find_conflict_region(kernel::ConflictTest<T>& test, std::span<const Index> link, Index u,
                             topology::HorizonEdge entry) {
     region_.clear();

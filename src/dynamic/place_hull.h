@@ -156,7 +156,7 @@ class PlaceHull {
       corner_of_[v[i]] = topology::halfedge(f, i);
     }
   }
-  // Of all faces. The first face of a vertex counts.
+  // Sets the corners of all vertices; the first face of a vertex counts.
   void set_corners() {
     for (Index f = mesh().num_slots(); f-- > 0;) {
       if (mesh().is_alive(f)) set_corners(f);
@@ -186,7 +186,8 @@ class PlaceHull {
     }
   }
 
-  // As a build inserts, in rounds along the spatial order: all hidden sites may come back at once.
+  // Inserts the hidden sites again in the order of a build, in rounds along the spatial order,
+  // since all of them may become vertices at once.
   void bring_back() {
     const std::vector<Index> places = in_spatial_order(std::exchange(displaced_, {}));
     Start start = hull_.start();

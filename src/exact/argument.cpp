@@ -40,8 +40,8 @@ double excess_over_arctangent(double u) {
           s * (1.0 / 5 - s * (1.0 / 7 - s * (1.0 / 9 - s * (1.0 / 11 - s * (1.0 / 13))))));
 }
 
-// Of numbers so large that a sum could overflow, or so small that a product could lose digits, the
-// argument is that of others.
+// Returns a factor for both coordinates, which does not change the argument. It keeps sums of large
+// numbers from overflow, and products of small numbers from losing digits.
 double scale_for(double largest) {
   if (largest > 0x1p1000) return 0x1p-100;
   return largest < 0x1p-900 ? 0x1p120 : 1;

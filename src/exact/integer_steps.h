@@ -13,7 +13,7 @@
 
 namespace rondel::exact {
 
-// Of det(a-o, b-o, c-o).
+// Returns the sign of det(a-o, b-o, c-o), or nothing if integers do not suffice.
 std::optional<Sign> sign_of_volume_in_integers(const Point& o, const Point& a, const Point& b,
                                                const Point& c);
 

@@ -58,11 +58,11 @@ class MutableHull {
   [[nodiscard]] const FaceKinds& kinds() const { return kinds_; }
   [[nodiscard]] const Start& start() const { return start_; }
   [[nodiscard]] ConflictTest<T>& test() { return test_; }
-  // Of all conflict tests.
+  // Returns the tally of all conflict tests.
   [[nodiscard]] const Tally& tally() const { return test_.tally(); }
 
-  // Of a build, where nobody asks what hides a site, and where the next one is close: its walks
-  // start from the faces above and below this one.
+  // Inserts a site during a build. There the face that hides a site is not needed, and the next
+  // site is close, so its walks start from the faces above and below this one.
   void insert(Index p) {
     const auto found = locate(p, start_);
     if (found.conflict != no_index) {

@@ -135,7 +135,8 @@ class Walk {
     }
   }
 
-  // Of the determinant of a ray from the center to a site and two steps from that site.
+  // True if the sign of a determinant is certain: of a ray from the center to a site, and two steps
+  // from that site.
   [[nodiscard]] static bool is_certain(double value, const predicates::Vector& ray,
                                        const predicates::Vector& a, const predicates::Vector& b) {
     return T::hides_sites ? predicates::is_orientation_certain(value, ray, a, b)

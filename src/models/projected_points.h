@@ -31,7 +31,7 @@ class ProjectedPoints {
     assign(input, order, center);
   }
 
-  // As SphereModel (sphere_traits.h) has them.
+  // These are the functions of SphereModel (sphere_traits.h).
   void assign(std::span<const Point> input, std::span<const Index> order, const Point& center);
   void rebind(std::span<const Point> input, std::span<const Index> order) {
     input_ = input;
@@ -45,7 +45,7 @@ class ProjectedPoints {
   }
   void prefetch(Index a) const { system::prefetch(&directions_[a]); }
 
-  // As SphereTraits has them.
+  // These are the functions of SphereTraits.
   [[nodiscard]] Index size() const { return static_cast<Index>(directions_.size()); }
   [[nodiscard]] const Point& center() const { return center_; }
   [[nodiscard]] const Point& point(Index a) const { return input_[order_[a]]; }

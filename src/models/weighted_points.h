@@ -27,7 +27,7 @@ class WeightedPoints {
     assign(input, order, center);
   }
 
-  // As SphereModel (sphere_traits.h) has them.
+  // These are the functions of SphereModel (sphere_traits.h).
   void assign(std::span<const Point> input, std::span<const Index> order, const Point& center);
   void rebind(std::span<const Point> /*input*/, std::span<const Index> /*order*/) {}
   void set(Index a, std::span<const Point> input, std::span<const Index> order);
@@ -36,7 +36,7 @@ class WeightedPoints {
   }
   void prefetch(Index a) const { system::prefetch(&points_[a]); }
 
-  // As SphereTraits has them.
+  // These are the functions of SphereTraits.
   [[nodiscard]] Index size() const { return static_cast<Index>(points_.size()); }
   [[nodiscard]] Point center() const { return exact::to_point(center_); }
   [[nodiscard]] Point point(Index a) const { return exact::to_point(points_[a]); }

@@ -34,7 +34,7 @@ inline constexpr std::array<CubeFace, 6> faces = {{{2, 1, 1, 2, 1},
 
 inline constexpr std::uint64_t last_position = (std::uint64_t{1} << position_bits) - 1;
 
-// Of a ratio in [-1, 1].
+// Returns the position of a ratio in [-1, 1].
 inline std::uint64_t position(double ratio) {
   constexpr double half_range = 0x1p51;  // position_bits - 1
   constexpr double last = static_cast<double>(last_position);

@@ -100,8 +100,8 @@ RONDEL_ALWAYS_INLINE inline void set_positions(const Point* sites, const Point& 
   }
 }
 
-// The same, where vectors are so narrow that choices by masks lose against a table of faces. Keys are
-// for vectors of any width.
+// Does the same with a table of faces, which is faster than choices by masks if vectors are narrow.
+// The keys are the same for vectors of any width.
 void set_positions_by_table(std::span<const Point> sites, const Point& center,
                             Positions& positions) {
   constexpr std::uint64_t low_bits = (std::uint64_t{1} << low_levels) - 1;

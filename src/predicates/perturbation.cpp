@@ -37,7 +37,7 @@ Order sorted_roles(const Four& points, Compare moves_more) {
   return order;
 }
 
-// As sorted_roles(points, is_lowered_more), without branches that nothing would predict.
+// Returns sorted_roles(points, is_lowered_more), without branches, which would be unpredictable.
 Order lowering_order(const Four& points) {
   std::array<std::uint64_t, 4> keys{};
   std::ranges::transform(points, keys.begin(), lowering_key);
@@ -75,8 +75,8 @@ Sign raise_from_center(const Four& points, const Order& order, Model model, cons
 // parallel to W. The sign of a triple seen from g is its orientation within W, up to one common
 // sign.
 
-// Of three distinct rays it is that of their circular order. Two of the three consecutive pairs turn
-// the same way; a pair of antipodes turns neither way.
+// Returns the orientation of three distinct rays: that of their circular order. Two of the three
+// consecutive pairs turn the same way; a pair of antipodes turns neither way.
 Sign orientation_of_rays(const Four& points, const Triple& t, const Point& center, unsigned axis) {
   int turns = 0;
   for (std::size_t k = 0; k < 3; ++k) {

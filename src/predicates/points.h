@@ -48,7 +48,7 @@ concept RaySource = PointSource<S> && requires(S& points, Index a) {
 
 // The unit vector from the center to p != center, off by at most `direction_error`.
 Vector direction(const Point& p, const Point& center);
-// Of many.
+// Computes the same for many points.
 void directions(std::span<const Point> points, const Point& center, Vector* result);
 
 // Points on the stack, named 0, 1, 2, 3. What a rung needs is computed when it asks.

@@ -22,7 +22,8 @@ double along(const Vector& v, std::size_t axis) {
   return axis == 0 ? v.x : (axis == 1 ? v.y : v.z);
 }
 
-// Of rounded differences, a product and a sum: at most 4u (1 + O(u)) relative to the products.
+// Compares two products of rounded differences. Their difference is off by at most 4u (1 + O(u))
+// relative to the products.
 Sign compare_slopes_filter(const Vector& v, const Vector& w, std::size_t i, std::size_t axis) {
   const double left = along(v, i) * along(w, axis);
   const double right = along(w, i) * along(v, axis);

@@ -83,7 +83,8 @@ using Coordinates = std::array<double, 3>;
 
 Coordinates coordinates(const Vector& v) { return {v.x, v.y, v.z}; }
 
-// Of rows whose relative errors add up to `error`, seen from p.
+// Returns the sign of a determinant of rows, seen from p. The relative errors of the rows add up to
+// `error`.
 Sign sign_of_rows(const std::array<StepRow, 3>& rows, const Vector& p, double error) {
   const Coordinates along = coordinates(p);
   const auto longer = [&](std::size_t i, std::size_t j) {

@@ -45,7 +45,7 @@ class RONDEL_API Built {
   }
   // Precondition: there is such a site. no_index if it is hidden.
   [[nodiscard]] Index vertex_of(Index site) const { return vertex_of_[site]; }
-  // Of each vertex: what it is called outside, the site whose coordinates count, and these.
+  // These return for each vertex its name outside, and the site whose coordinates count.
   [[nodiscard]] std::span<const Index> names() const { return names_; }
   [[nodiscard]] std::span<const Index> speakers() const { return speakers_; }
   [[nodiscard]] const Point& point(Index v) const { return sites_.points()[speakers_[v]]; }

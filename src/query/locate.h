@@ -18,7 +18,7 @@
 
 namespace rondel::query {
 
-// Of the solid faces that share a vertex, the one of the smallest number.
+// Returns the solid face with the smallest number among those at a vertex, or no_index.
 template <models::SphereTraits T>
 Index first_solid_face(const SurfaceGraph<T>& surface, Index v) {
   Index first = no_index;
@@ -30,7 +30,7 @@ Index first_solid_face(const SurfaceGraph<T>& surface, Index v) {
   return first;
 }
 
-// Of sites that are viewed, and that somebody has changed.
+// Throws for viewed sites that were changed after the triangulation was made.
 [[noreturn]] inline void refuse_sites() {
   throw InvalidInput("the sites are not those of the triangulation", 0);
 }

@@ -15,7 +15,7 @@
 namespace rondel::query {
 namespace {
 
-// Of the sites in a place, the one whose coordinates count.
+// Returns, for a representative, which of the sites in its place has the coordinates that count.
 class SpeakerOf {
  public:
   explicit SpeakerOf(const Triangulation& triangulation) {

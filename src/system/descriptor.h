@@ -21,7 +21,8 @@ inline constexpr int standard_output = 1;
 // system ends lines in its own way, text would be.
 void keep_bytes(int standard_stream) noexcept;
 
-// Of a path in the encoding of the system; UTF-8 on Windows. No directory can be opened.
+// Opens a file, whose path is in the encoding of the system (UTF-8 on Windows). A directory cannot
+// be opened.
 int open_to_read(const std::string& path) noexcept;
 
 // 0 where the system does not know it: of pipes and devices.
@@ -36,7 +37,8 @@ std::ptrdiff_t write(int descriptor, std::string_view bytes) noexcept;
 // A file to read and to write at any place, which is made if it is not there.
 RONDEL_API int open_to_change(const std::string& path) noexcept;
 
-// As read() and write(), at a place of the file. On Windows one thread at a time may use a file.
+// These do what read() and write() do, at a place of the file. On Windows one thread at a time may
+// use a file.
 RONDEL_API std::ptrdiff_t read_at(int descriptor, std::uint64_t place, char* bytes,
                                   std::size_t size) noexcept;
 RONDEL_API std::ptrdiff_t write_at(int descriptor, std::uint64_t place,
@@ -44,8 +46,8 @@ RONDEL_API std::ptrdiff_t write_at(int descriptor, std::uint64_t place,
 
 // Makes the file at least so long, with room on the disk for all of it; what is in it stays. Returns 0.
 RONDEL_API int reserve(int descriptor, std::uint64_t size) noexcept;
-// The same where the system can do so at once, else nothing: room that is there beforehand is written to several times as
-// fast, on Linux. Returns 0, also where it cannot.
+// Reserves room if the system can do so at once, and does nothing otherwise: on Linux, writing to
+// reserved room is several times as fast. Returns 0, also where it cannot.
 RONDEL_API int prepare(int descriptor, std::uint64_t size) noexcept;
 // Cuts the file, or makes it longer. Returns 0.
 RONDEL_API int resize(int descriptor, std::uint64_t size) noexcept;

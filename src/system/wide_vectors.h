@@ -10,8 +10,8 @@
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(_WIN32) && !defined(RONDEL_NARROW_VECTORS)
 #define RONDEL_HAS_WIDE_VECTORS
 #endif
-// Of all widths: a function that is called from a loop keeps it from becoming vector code. The module
-// for WebAssembly has no vectors, and must be small.
+// A function that is called from a loop prevents vector code of any width, unless it is inlined.
+// The module for WebAssembly has no vectors, and must be small.
 #if defined(__GNUC__) && !defined(__wasm__)
 #define RONDEL_ALWAYS_INLINE __attribute__((always_inline))
 #else
