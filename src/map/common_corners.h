@@ -29,14 +29,14 @@ class CommonCorners {
                    std::vector<Point>& out) const;
 
  private:
+  // A directed arc of a ring.
   struct RingArc {
-    // An arc of a ring that no other ring has in the opposite direction.
     Point from;
     Point to;
     friend bool operator==(const RingArc&, const RingArc&) = default;
   };
+  // Orders arcs lexicographically by the coordinates of their ends.
   struct ArcsInSpace {
-    // Orders arcs lexicographically by the coordinates of their ends.
     bool operator()(const RingArc& a, const RingArc& b) const;
   };
   struct ArcBox;

@@ -72,6 +72,7 @@ class ArcMaker {
   [[nodiscard]] bool has_corners_of_cover(Index cell);
   [[nodiscard]] double area_within(Index beyond) const;
   void take_all_edges();
+  // Adds a point to those of the cell, and returns its index.
   Index add_point(const Point& p) {
     points_.push_back(p);
     return static_cast<Index>(points_.size() - 1);

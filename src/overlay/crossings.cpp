@@ -113,6 +113,7 @@ class Walker {
       : walk_(cover), at_(base.point), cell_(base.cell) {}
 
   [[nodiscard]] Index cell() const { return cell_; }
+  // Moves to a point whose cell is known.
   void jump_to(const Point& p, Index cell) {
     at_ = p;
     cell_ = cell;

@@ -33,9 +33,8 @@ class Crossings {
   struct EdgeTrace {
     Index start;  // the cover's cell at its origin
     Index first;
-    // true if the crossings are those of the twin, and so in reverse order
     Index count;
-    bool is_backwards;  // the crossings are those of its twin
+    bool is_backwards;  // true if the crossings are those of the twin, in reverse order
   };
   // Returns the trace of a halfedge of these cells.
   [[nodiscard]] const EdgeTrace& trace_of(Halfedge h) const { return traces_[h - first_]; }

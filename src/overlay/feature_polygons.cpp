@@ -76,6 +76,7 @@ class FeatureCells {
                const Execution& execution)
       : features_(features), options_(options), execution_(execution) {}
 
+  // Returns the cells of all features, with overlaps treated as the options say. Throws FileError.
   CellRings operator()() {
     const bool is_geodesic = options_.edges == PolygonEdges::geodesic;
     CellRings cells = is_geodesic ? geodesic_cells(features_, quiet()) : plane_cells();
@@ -101,6 +102,8 @@ class FeatureCells {
   [[noreturn]] void refuse(std::size_t feature, const std::string& what) const {
     refuse_feature(features_, feature, what);
   }
+  // Returns execution options without a progress callback: the parts of this work would each report
+  // from 0 on.
   [[nodiscard]] Execution quiet() const {
     return {.threads = execution_.threads, .stop = execution_.stop};
   }
@@ -176,6 +179,8 @@ class FeatureCells {
     return cells;
   }
 
+  // Throws FileError for a side that spans more than 180 degrees of longitude, with what to do
+  // about it.
   [[noreturn]] void refuse_long_side(std::size_t feature, Index ring, std::size_t side) const {
     const std::vector<io::LonLatRing>& rings = features_.rings[feature];
     const std::vector<LonLat>& positions = rings[ring].positions;

@@ -71,6 +71,7 @@ class SideMesh {
 
  private:
   [[nodiscard]] Index apex(Index from, Index to) const { return sides_.at(from, to).apex; }
+  // Returns positive if c is to the left of the great circle from a to b.
   [[nodiscard]] Sign turn(Index a, Index b, Index c) const {
     return orientation(points_[a], points_[b], points_[c]);
   }
@@ -202,6 +203,7 @@ void SideMesh::take(CellRings& triangles, std::vector<Index>& owners) {
 // its sides, and from them all triangles beyond sides that bound nothing: sides that no cell has,
 // or that one cell has in both directions.
 std::vector<Index> SideMesh::owners_of(std::span<const Index> corners) const {
+  // The cells on both sides of a triangle's side, if they differ.
   struct Bounds {
     Index left;
     Index right;

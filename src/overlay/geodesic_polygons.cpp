@@ -29,6 +29,7 @@ class GeodesicCells {
   GeodesicCells(const io::PolygonFeatures& features, const Execution& execution)
       : features_(features), execution_(execution), areas_(features.rings.size(), 0) {}
 
+  // Returns the cells of all features. Throws FileError.
   CellRings operator()() {
     CellRings given;
     for (std::size_t f = 0; f < features_.rings.size(); ++f) {

@@ -27,6 +27,7 @@ bool goes_around(const std::vector<double>& lon) {
   return std::abs(std::abs(lon.back() - lon.front()) - 360) <= same_line_degrees;
 }
 
+// Throws InvalidInput, with the line, unless the lines are in order and in range and bound cells.
 void validate(const LonLatGrid& grid) {
   const std::vector<double>& lon = grid.lon_deg;
   const std::vector<double>& lat = grid.lat_deg;
@@ -63,6 +64,7 @@ void validate(const LonLatGrid& grid) {
   }
 }
 
+// Returns the point of the equator at a longitude.
 Point on_equator(double lon_deg) {
   const exact::SineCosine angle = exact::sine_cosine_of_degrees(lon_deg);
   return {angle.cosine, angle.sine, 0};

@@ -79,6 +79,7 @@ class Graticule {
   [[nodiscard]] Index num_columns_of_grid() const { return num_columns_of_grid_; }
   [[nodiscard]] Index num_rows_of_grid() const { return num_rows_of_grid_; }
   [[nodiscard]] bool is_around() const { return is_around_; }
+  // True if the cells of the grid cover the sphere.
   [[nodiscard]] bool is_cover() const {
     return is_around_ && num_rows_of_grid_ == num_rows() && first_row_ == 0;
   }
@@ -93,6 +94,7 @@ class Graticule {
   [[nodiscard]] Index first_row() const { return first_row_; }
   // Returns the cell in a column and row, or no_index if it is a filling one.
   [[nodiscard]] Index cell(Index column, Index row) const;
+  // Returns the area of a column in a row, in steradians, also for filling ones.
   [[nodiscard]] double area(Index column, Index row) const {
     return columns_[column].width * heights_[row];
   }
@@ -101,6 +103,7 @@ class Graticule {
   // Returns the point where the meridian `offset` radians east of a column's western meridian meets
   // the equator.
   [[nodiscard]] Point meridian(Index column, double offset) const;
+  // Returns the point where a column's eastern meridian meets the equator.
   [[nodiscard]] Point eastern_meridian(Index column) const {
     return columns_[column + 1 < columns_.size() ? column + 1 : 0].west;
   }

@@ -33,6 +33,7 @@ double snapped(double to, double value) {
   return std::abs(value - to) <= same_line_degrees ? to : value;
 }
 
+// Returns the ranges of longitude that columns of the two grids share. `first` is a column of a.
 std::vector<Overlap> shared_columns(const Graticule& a, const Graticule& b) {
   std::vector<Overlap> overlaps;
   for (Index i = 0; i < a.num_columns_of_grid(); ++i) {
@@ -60,6 +61,7 @@ std::vector<Overlap> shared_columns(const Graticule& a, const Graticule& b) {
   return overlaps;
 }
 
+// Returns the ranges of latitude that rows of the two grids share. `first` is a row of a.
 std::vector<Overlap> shared_rows(const Graticule& a, const Graticule& b) {
   std::vector<Overlap> overlaps;
   Index j = 0;
@@ -85,6 +87,7 @@ struct LonRange {
   Point run;
 };
 
+// Converts a range of longitude into what the moments of boxes need.
 LonRange range_of(const Overlap& overlap, const Graticule& grid) {
   constexpr double one_degree = std::numbers::pi / 180;
   const Graticule::Lune& column = grid.columns()[overlap.first];
@@ -105,6 +108,7 @@ struct LatRange {
   double height;
 };
 
+// Converts a range of latitude into parallels; those that are lines of a grid are taken from it.
 LatRange range_of(const Overlap& overlap, const Graticule& grid, const Graticule& other) {
   const auto parallel = [&](double latitude) {
     const Index row = grid.first_row() + overlap.first;
@@ -155,6 +159,7 @@ PieceRows pieces(const Graticule& rows, const Graticule& columns, bool has_momen
   for (const Overlap& overlap : shared_rows(rows, columns)) {
     across[overlap.first].push_back(range_of(overlap, rows, columns));
   }
+  // The place of a cell in the grid of rows.
   struct Box {
     Index column;
     Index row;

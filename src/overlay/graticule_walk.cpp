@@ -66,6 +66,7 @@ bool is_south_of(const SphereHeight& height, const Graticule::Parallel& parallel
   return is_polar(low, height) ? above < -of_gap * low.gap : above < 0;
 }
 
+// Sets the point of a place, and what follows from it except for the column.
 void set_point(GraticulePlace& place, const Point& point) {
   place.point = point;
   place.radius = radius_of(point);
@@ -94,6 +95,8 @@ RiseAlongChord rise_along(const Point& from, const Point& chord, double square, 
           chord.z + parallel.sine * (1 - 2 * t) * square / (2 * length)};
 }
 
+// Returns the point where the meridian of a place meets the equator. For a pole, which is on all
+// meridians, its column and offset decide.
 Point meridian_of(const Graticule& grid, const GraticulePlace& place) {
   if (place.radius > 0) return {place.point.x / place.radius, place.point.y / place.radius, 0};
   return grid.meridian(place.column, place.offset);

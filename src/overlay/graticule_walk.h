@@ -62,6 +62,7 @@ class GraticuleWalk {
     double sign;
     std::vector<Strip>& strips;
   };
+  // Returns how far a place is east of the first column's western meridian, in radians.
   [[nodiscard]] double turn(const GraticulePlace& place) const {
     return grid_.columns()[place.column].start + place.offset;
   }

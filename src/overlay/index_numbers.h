@@ -48,6 +48,7 @@ class IndexNumbers {
     std::uint32_t stamp = 0;
   };
 
+  // Returns the slot of a key, or the free slot where it belongs.
   NumberedIndex& slot_of(Index key) {
     constexpr std::uint64_t multiplier = 0x9e3779b97f4a7c15U;  // 2^64 over the golden ratio
     const std::size_t mask = slots_.size() - 1;

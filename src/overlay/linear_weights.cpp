@@ -33,6 +33,7 @@ class LinearRowMaker {
   LinearRowMaker(const Remap& remap, const CellGradients& gradients)
       : remap_(remap), gradients_(gradients) {}
 
+  // Appends the row of a target, whose weights are divided by `area`.
   void append(std::size_t target, double area, LinearRows& rows) {
     numbers_.clear();
     sums_.clear();
@@ -59,6 +60,7 @@ class LinearRowMaker {
     sums_[number] += weight;
   }
 
+  // Appends the weights of the row in ascending order of sources.
   void put_in_order(LinearRows& rows) {
     const std::span<const Index> sources = numbers_.keys();
     const std::size_t begin = rows.columns.size();

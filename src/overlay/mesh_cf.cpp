@@ -75,6 +75,7 @@ class CfGrids {
     return pair.are_axes || (pair.lon_bounds != no_variable && pair.lat_bounds != no_variable);
   }
 
+  // True if all names of `some` are among `all`.
   static bool are_among(const std::vector<std::string>& some, const std::vector<std::string>& all) {
     return std::ranges::all_of(
         some, [&](const std::string& name) { return std::ranges::count(all, name) != 0; });

@@ -27,6 +27,7 @@ namespace {
 using io::BadValue;
 using io::NetcdfReader;
 
+// Returns the words of a text that spaces separate.
 std::vector<std::string> words_of(const std::string& text) {
   std::istringstream stream(text);
   std::vector<std::string> words;

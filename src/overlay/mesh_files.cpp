@@ -70,6 +70,7 @@ class RingsOfNodes {
     made_.corners.reserve(num_corners);
   }
 
+  // Adds a corner to the ring, unless it equals the corner before.
   void add_corner(Index node) {
     const Index corner = corner_of_[node];
     if (ring_.empty() || corner != ring_.back()) ring_.push_back(corner);

@@ -17,6 +17,7 @@ namespace {
 
 using io::BadValue;
 
+// Returns, for example, "3 of 17 cells".
 std::string cells_in_words(std::size_t count, std::size_t of_all) {
   return std::to_string(count) + " of " + std::to_string(of_all) + " cells";
 }

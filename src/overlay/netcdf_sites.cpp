@@ -42,6 +42,7 @@ struct NamedVariable {
   bool is_one_of_several = false;
 };
 
+// Returns the variable of the first name, or an empty name if there are no names.
 NamedVariable named_variable(const FileName& file, std::span<const std::string> names) {
   if (names.empty()) return {};
   io::FileBytes bytes(file.path, true);
@@ -80,6 +81,7 @@ std::optional<NetcdfSites> centers_of_cells(const FileName& file, const std::str
   }
 }
 
+// Returns an array with one value at each site as a column; missing values are empty cells.
 Column column_of(const FieldArray& array) {
   Column column;
   column.name = array.name;

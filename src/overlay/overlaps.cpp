@@ -122,6 +122,7 @@ std::vector<Candidates> candidates_of(const Subdivision& cells, unsigned threads
   return all;
 }
 
+// Returns a pair with the lower index first.
 CrossingCells named(Index a, Index b, const Point& place) {
   const auto [first, second] = std::minmax(a, b);
   return {first, second, place};
@@ -169,6 +170,7 @@ class OverlapFinder {
   OverlapFinder(const Subdivision& cells, const Execution& execution)
       : cells_(cells), told_{.threads = execution.threads, .stop = execution.stop} {}
 
+  // Finds all overlaps. A cell that overlaps itself is not compared with others.
   void find() {
     soundness_.assign(cells_.num_cells(), Soundness::sound);
     for (Index cell = 0; cell < cells_.num_cells(); ++cell) {
@@ -264,6 +266,7 @@ class OverlapFinder {
           named(cells_.names[filled], cells_.names[others[k]], normalized(pieces.moments[at])));
     }
   }
+  // Returns a bound for the length of a cell's border.
   [[nodiscard]] double length_of(Index cell) const {
     double length = 0;
     for (Index ring = cells_.cells[cell]; ring < cells_.cells[cell + 1]; ++ring) {
@@ -275,6 +278,7 @@ class OverlapFinder {
     }
     return length;
   }
+  // Returns the pieces of some cells in a cover.
   [[nodiscard]] PieceRows pieces_in(const Subdivision& cover, std::span<const Index> some) const {
     const PartitionData laid(Subdivision(rings_of(cells_, some), false, told_.threads), {},
                              told_.threads);

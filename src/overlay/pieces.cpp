@@ -67,6 +67,7 @@ class PieceMaker {
   static Index place(const MeasuredPiece& piece) { return piece.beyond; }
 
  private:
+  // True if the piece belongs to one of the other cells.
   [[nodiscard]] bool has_column(const MeasuredPiece& piece) const {
     return piece.beyond < names_.size();
   }
@@ -162,6 +163,7 @@ class PieceMaker {
     }
     pieces_.resize(size);
   }
+  // An arc of the border of the piece in `beyond`.
   struct SideOfPiece {
     Index beyond;
     BorderArc arc;

@@ -20,13 +20,10 @@ namespace rondel::overlay {
 // The pieces of all cells, in compressed rows: row i has the pieces of cell i, with ascending
 // columns.
 struct PieceRows {
-  // the cell of the other subdivision that has the piece
-  std::vector<std::uint64_t> offsets = {0};
-  std::vector<Index> columns;
-  // steradians
-  std::vector<double> areas;
-  // integrals of the unit vector over the pieces; empty unless asked for
-  std::vector<Point> moments;
+  std::vector<std::uint64_t> offsets = {0};  // one more than rows
+  std::vector<Index> columns;                // the cell of the other subdivision that has the piece
+  std::vector<double> areas;                 // steradians
+  std::vector<Point> moments;                // integrals of the unit vector; empty unless asked for
   // The sums of the areas of rows and columns, computed in double_double arithmetic and rounded.
   // They are empty until find_sums() is called, unless the function that made the pieces knows
   // them.

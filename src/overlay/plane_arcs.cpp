@@ -71,11 +71,13 @@ class LineDivider {
            is_near(normalized(m + q), middle_of(middle, to));
   }
 
+  // True if a point of an arc is within the tolerance of a position on the line.
   [[nodiscard]] bool is_near(const Point& of_arc, const LonLat& of_line) const {
     const Point off = of_arc - unit_vector(of_line);
     return dot(off, off) <= squared_tolerance_;
   }
 
+  // Returns the middle of a line, which may exceed 180 degrees of longitude.
   static LonLat middle_of(const LonLat& a, const LonLat& b) {
     return {(a.lon_deg + b.lon_deg) / 2, (a.lat_deg + b.lat_deg) / 2};
   }
@@ -170,6 +172,7 @@ std::vector<LonLat> divide_at(const PlaneCorners& corners, bool are_few,
   return added;
 }
 
+// Returns an index of corners without owners.
 PlaneCorners corners_at(std::span<const LonLat> positions) {
   std::vector<PlaneCorners::OwnedCorner> corners;
   corners.reserve(positions.size());

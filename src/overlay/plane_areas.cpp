@@ -112,6 +112,7 @@ class CellLines {
     return (of_widths + of_heights * sine) * radian <= share_ * (area - 1e-9 * extent) * cosine;
   }
 
+  // Returns by how much the area exceeds what is allowed, as LineStrips::excess_ratio().
   [[nodiscard]] double excess_ratio() const {
     LineStrips strips(sides_[first_].from.lat_deg, share_);
     visit([&](const LonLat& from, const LonLat& to) { strips.add(from, to); });
@@ -173,6 +174,7 @@ class AreaKeeper {
     }
   }
 
+  // Returns the divided sides of all cells.
   DividedSides operator()() {
     DividedSides divided = divider_.divided();
     std::vector<std::size_t> cells(begins_.size() - 1);

@@ -37,13 +37,13 @@ struct PlaneState {
 // A side from a corner to one farther east (or north), both by their numbers.
 struct SweptSide {
   Index west;
-  // the rings that have the side, of different polygons
   Index east;
-  std::vector<Index> rings;  // of different polygons
+  std::vector<Index> rings;  // the rings that have the side, of different polygons
   PlaneState below{};
   PlaneState above{};
 };
 
+// Sweeps over the rings of one feature.
 class PlaneSweep {
  public:
   explicit PlaneSweep(std::span<const io::LonLatRing> rings)
@@ -52,6 +52,7 @@ class PlaneSweep {
     add_sides();
   }
 
+  // Returns the sides of the region, or the first fault.
   PlaneRegion operator()() {
     for (Index corner = 0; corner < corners_.size() && !fault_; ++corner) visit(corner);
     if (!fault_) find_lines();
@@ -74,6 +75,7 @@ class PlaneSweep {
   };
   using Active = std::set<Index, Southern>;
 
+  // Numbers the different corners from west to east.
   void number_corners() {
     for (const io::LonLatRing& ring : rings_) {
       corners_.insert(corners_.end(), ring.positions.begin(), ring.positions.end());
@@ -86,6 +88,7 @@ class PlaneSweep {
     return static_cast<Index>(std::ranges::lower_bound(corners_, p, is_west_of) - corners_.begin());
   }
 
+  // Adds the sides of all rings, and assigns rings to polygons: each shell begins one.
   void add_sides() {
     Index part = no_index;
     for (Index r = 0; r < rings_.size(); ++r) {
@@ -103,6 +106,7 @@ class PlaneSweep {
     around_.assign(part == no_index ? 0 : part + std::size_t{1}, std::nullopt);
   }
 
+  // Adds a side that begins at the corner `west`.
   void start(Index west, Index east, std::vector<Index> rings) {
     const auto side = static_cast<Index>(sides_.size());
     sides_.push_back({west, east, std::move(rings)});
@@ -110,9 +114,11 @@ class PlaneSweep {
     first_from_[west] = side;
   }
 
+  // Returns positive if p is north of the line through a side.
   [[nodiscard]] Sign side_of(Index side, const LonLat& p) const {
     return side_of_line(corners_[sides_[side].west], corners_[sides_[side].east], p);
   }
+  // True if active side s is south of active side t.
   [[nodiscard]] bool is_south_of(Index s, Index t) const {
     if (s == t) return false;
     const SweptSide& first = sides_[s];
@@ -122,6 +128,7 @@ class PlaneSweep {
     return side_of(t, corners_[first.west]) == Sign::negative;
   }
 
+  // Handles the event of a corner: ends the sides that meet it, and begins those that start there.
   void visit(Index corner) {
     const LonLat place = corners_[corner];
     const auto [first, last] = active_.equal_range(place);
@@ -211,6 +218,8 @@ class PlaneSweep {
     }
     return true;
   }
+  // Changes the state by crossing a side of one ring. Returns false, with a fault, if the ring does
+  // not fit there.
   bool cross_ring(Index ring, PlaneState& state, const LonLat& place) {
     const PlaneState own = {true, parts_[ring]};
     if (rings_[ring].is_hole) {
@@ -231,6 +240,7 @@ class PlaneSweep {
     state = own;
     return true;
   }
+  // Records a fault of a ring in a region with this state; returns false.
   bool refuse(PlaneFaultKind kind, const PlaneState& state, Index ring, const LonLat& place) {
     Index other = state.number;
     if (state.is_inside) other = first_ring_of(state.number);
@@ -241,6 +251,7 @@ class PlaneSweep {
     return static_cast<Index>(std::ranges::find(parts_, part) - parts_.begin());
   }
 
+  // Records a fault if two neighboring sides, s south of t, cross.
   void require_apart(Index s, Index t) {
     if (s == no_index) return;
     const LonLat &a = corners_[sides_[s].west], &b = corners_[sides_[s].east];
@@ -260,6 +271,7 @@ class PlaneSweep {
     fault_ = PlaneFault{PlaneFaultKind::crossing, first, second, place};
   }
 
+  // Records a fault if all sides of a ring have cancelled.
   void find_lines() {
     for (Index r = 0; r < rings_.size() && !fault_; ++r) {
       if (has_sides_[r]) continue;

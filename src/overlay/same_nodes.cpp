@@ -77,6 +77,7 @@ class NearPoints {
   [[nodiscard]] std::size_t next(std::size_t slot) const {
     return (slot + 1) & (slots_.size() - 1);
   }
+  // True if two points are within the distance in each coordinate.
   [[nodiscard]] bool is_near(const Point& p, const Point& q) const {
     return std::abs(p.x - q.x) <= distance_ && std::abs(p.y - q.y) <= distance_ &&
            std::abs(p.z - q.z) <= distance_;
@@ -97,6 +98,7 @@ class KnownValues {
   explicit KnownValues(std::vector<Value>& values) : values_(values) {}
 
   void prefetch(std::uint64_t hash) const { system::prefetch(&slots_[hash & mask()]); }
+  // Returns the number of a value, and adds the value if it is new.
   Index number(const Value& value, std::uint64_t hash) {
     const auto tag = static_cast<std::uint32_t>(hash >> 32U);
     std::size_t s = hash & mask();

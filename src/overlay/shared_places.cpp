@@ -88,6 +88,7 @@ TakingPart cut_up(const CellRings& cells, const std::vector<std::vector<Index>>&
   return result;
 }
 
+// True if the mask excludes a cell.
 bool is_masked(const std::vector<std::int32_t>& mask, Index cell) {
   return !mask.empty() && mask[cell] == 0;
 }
@@ -138,6 +139,7 @@ std::span<const Index> TakingPart::owners_of(const Index& part) const {
 PieceRows joined_parts(PieceRows pieces, const TakingPart& rows, std::size_t num_rows,
                        const TakingPart& columns) {
   if (!rows.has_parts() && !columns.has_parts()) return pieces;
+  // A piece as an entry of the table of cells.
   struct PartPiece {
     Index row;
     Index column;

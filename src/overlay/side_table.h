@@ -70,6 +70,7 @@ class SideTable {
     while (!is_place_of(slot, from, to)) slot = (slot + 1) & last;
     return slot;
   }
+  // True if a slot is free or has this side.
   [[nodiscard]] bool is_place_of(std::size_t slot, Index from, Index to) const {
     const TriangleSide& side = slots_[slot];
     return side.from == no_index || (side.from == from && side.to == to);

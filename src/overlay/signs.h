@@ -106,6 +106,7 @@ class CoverEdge {
   [[nodiscard]] const Point& start() const { return y_; }
   [[nodiscard]] const Point& end() const { return z_; }
   [[nodiscard]] double squared_length() const { return dot(step_, step_); }
+  // True if an unperturbed point x is to the left of the perturbed edge.
   [[nodiscard]] bool is_left(const Point& x) const {
     const double value = distance(x);
     return is_sure(value) ? value > 0 : is_left_nearby(x);

@@ -63,6 +63,7 @@ class SlopeEquations {
     yy_ += s.weight * s.y * s.y;
     return true;
   }
+  // Computes the inverse, or, if only one direction is determined, that direction.
   void solve() {
     const double trace = xx_ + yy_;
     determinant_ = xx_ * yy_ - xy_ * xy_;

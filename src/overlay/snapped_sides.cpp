@@ -126,6 +126,7 @@ void Snaps::take(Index low, Index high, Index corner) {
   }
 }
 
+// Returns the corners near a side, sorted along it.
 std::span<const Snaps::PassedCorner> Snaps::passed_by(const OwnedSide& side) const {
   const auto ends = [](const PassedCorner& passed) { return std::pair(passed.low, passed.high); };
   const auto first = std::ranges::lower_bound(passed_, ends_of(side), {}, ends);

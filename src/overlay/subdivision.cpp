@@ -40,6 +40,7 @@ class MergedPoints {
   explicit MergedPoints(std::size_t size) : parents_(size) {
     std::iota(parents_.begin(), parents_.end(), Index{0});
   }
+  // Returns the representative of a point, and shortens the path to it.
   [[nodiscard]] Index operator[](Index p) {
     while (parents_[p] != p) p = parents_[p] = parents_[parents_[p]];
     return p;

@@ -154,6 +154,7 @@ class NamesOfCorners {
       return std::tie(p.x, p.y, p.z, a) < std::tie(q.x, q.y, q.z, b);
     });
   }
+  // Returns the index of the cell's point with these coordinates. Precondition: there is one.
   [[nodiscard]] Index operator[](const Point& p) const {
     return *std::ranges::lower_bound(names_, p, is_less,
                                      [&](Index name) -> const Point& { return points_[name]; });

@@ -63,6 +63,7 @@ std::optional<Point> crossing_of(const BoxedSide& s, const BoxedSide& t) {
   return place;
 }
 
+// Returns the sides of all cells. Throws InvalidInput if the arrays are no compressed rows.
 std::vector<BoxedSide> sides_of_cells(const CellRings& cells) {
   const auto fits = [](const std::vector<std::uint64_t>& offsets, std::size_t size) {
     return !offsets.empty() && offsets.front() == 0 && offsets.back() == size &&
@@ -86,6 +87,7 @@ std::vector<BoxedSide> sides_of_cells(const CellRings& cells) {
   return sides;
 }
 
+// Orders crossings by the pair of cells, and then by place.
 auto key_of(const CrossingCells& pair) {
   return std::tuple(pair.first, pair.second, pair.place.x, pair.place.y, pair.place.z);
 }

@@ -26,6 +26,7 @@ using WideVector = exact::Vector3<DoubleDouble>;
 
 constexpr std::size_t faces_per_piece = 1024;
 
+// Returns a unit vector in twice a double's precision.
 WideVector wide(const exact::SplitPoint& p) {
   return {{p.hi.x, p.lo.x}, {p.hi.y, p.lo.y}, {p.hi.z, p.lo.z}};
 }

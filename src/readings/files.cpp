@@ -48,6 +48,7 @@ double tolerance_of(double degrees) {
   return degrees / map::degrees_per_radian;
 }
 
+// Returns the unit vector from the center to a site.
 Point unit_of(const Triangulation& triangulation, Index site) {
   return exact::unit_vector(triangulation.sites()[site], triangulation.sphere().center).hi;
 }

@@ -102,6 +102,7 @@ bool is_in_urquhart(const Chords& chords, const NearPair& candidate) {
   });
 }
 
+// True if no corner across the edge is in the cap with the edge as diameter.
 bool is_in_gabriel(const Chords& chords, const NearPair& candidate) {
   const auto [a, b] = candidate.edge;
   return std::ranges::none_of(candidate.across, [&, p = a, q = b](Index c) {

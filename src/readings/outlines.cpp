@@ -35,6 +35,7 @@ class Tracer {
         is_done_(3 * faces_.size()),
         place_(triangulation.num_sites(), no_index) {}
 
+  // Returns the outline of the set: its polygons are in the order of their lowest faces.
   Outline trace() {
     std::vector<std::uint8_t> is_found(faces_.size());
     std::vector<Index> part;
@@ -62,6 +63,7 @@ class Tracer {
     unsigned corner;
   };
 
+  // Returns the face on the other side of a side.
   [[nodiscard]] Index across(const FaceSide& side) const {
     return neighbors_[side.face][side.corner];
   }
@@ -115,6 +117,7 @@ class Tracer {
     append_ring(line);
   }
 
+  // Appends a ring, and removes its sites from the current line.
   void append_ring(std::span<const Index> ring) {
     for (const Index site : ring) place_[site] = no_index;
     out_.sites.insert(out_.sites.end(), ring.begin(), ring.end());
