@@ -86,7 +86,7 @@ RONDEL_API std::optional<Method> method_of(std::string_view name) noexcept;
 
 /// Options of the estimate of gradients.
 struct GradientOptions {
-  /// How many edges away the neighbors of a site are that count.
+  /// The neighbors of a site that count are at most this many edges away.
   unsigned rings = 2;
   Undetermined undetermined = Undetermined::zero;
   friend bool operator==(const GradientOptions&, const GradientOptions&) = default;

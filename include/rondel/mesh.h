@@ -77,7 +77,7 @@ struct MeshArrays {
 inline constexpr double least_radius = 1e-30;
 inline constexpr double largest_radius = 1e30;
 
-/// What a mesh has in addition to the triangulation, for arrays().
+/// The options of arrays().
 struct MeshOptions {
   double radius = 1;  ///< from least_radius to largest_radius
   /// The density of each cell, if the mesh was made for one, as MPAS defines it: (least spacing /

@@ -44,7 +44,8 @@ class RONDEL_API SizeFunction {
   static SizeFunction from_function(const Block& spacings, std::size_t steps = usual_steps);
   /// Interpolates values on a grid of longitudes and latitudes bilinearly; beyond the first and the
   /// last latitude the values are those at that latitude.
-  /// \param lon_deg, lat_deg  degrees, each ascending or descending
+  /// \param lon_deg  degrees, ascending or descending
+  /// \param lat_deg  degrees, ascending or descending
   /// \param spacings  radians; the longitudes change fastest
   /// \throws InvalidInput as from_function(), and if lengths or axes are not as described.
   static SizeFunction from_grid(std::span<const double> lon_deg, std::span<const double> lat_deg,

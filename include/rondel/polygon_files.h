@@ -40,8 +40,8 @@ struct PolygonOptions {
   PolygonEdges edges = PolygonEdges::lonlat;
   /// How far arcs may be from the straight lines in longitude and latitude that they stand for, in
   /// degrees; the lines get more corners until the arcs are so near. They get further corners until
-  /// the area of a feature is within 1/1000 of that between the lines, or within 10 times the
-  /// tolerance if that is less than 1e-4.
+  /// the area of a feature differs from that between the lines by a share of at most 1/1000, or of
+  /// at most 10 times this number if that is less.
   double tolerance_deg = 1e-4;
   PolygonOverlap overlap = PolygonOverlap::keep;
   /// The features to read. Others are cells without rings, and take no space. Without a function

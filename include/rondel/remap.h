@@ -83,9 +83,9 @@ struct Remap {
 ///
 /// With order 1 and destarea, the sum of areas times weights of a column is that source's area, and
 /// the sum of a row is 1, up to a few ulp, where the other partition covers it. If neither
-/// partition is_cover() and neither is a grid of parallels, the one with fewer sides is completed
-/// by triangles, whose sides leave no trace in the pieces; if its cells overlap each other, the
-/// other one is. That takes longer.
+/// partition is_cover() and neither is a grid of parallels, the one with fewer sides (the source if
+/// both have as many) is completed by triangles, whose sides leave no trace in the pieces; if its
+/// cells overlap each other, the other one is. That takes longer.
 /// \throws InvalidInput if the order is neither 1 nor 2, a mask has another length than its
 ///         partition, cells of a partition overlap and the options have no rule for it (with the
 ///         cells and a place), or a cell crosses or overlaps itself.
@@ -94,7 +94,8 @@ RONDEL_API Remap remap(const Partition& source, const Partition& target,
 
 /// Computes the target means of order 2 with given gradients, for which linear fields are
 /// reproduced up to rounding.
-/// \param means, gradients  one for each source cell
+/// \param means  one for each source cell
+/// \param gradients  one for each source cell: tangent vectors, in the field's unit per radian
 /// \param out  gets one value for each target; NaN where no source is
 /// \throws InvalidInput if sizes do not fit or `remap` is of order 1.
 RONDEL_API void apply_gradients(const Remap& remap, std::span<const double> means,

@@ -36,7 +36,7 @@ struct Hidden {
 
 /// The algorithm that made a triangulation.
 enum class Builder : std::uint8_t {
-  given,        ///< none: the triangulation was made from arrays, or by changes
+  given,        ///< the triangulation was not built: it comes from arrays, or from changes
   ring,         ///< sorting around the great circle, below dimension 2
   incremental,  ///< insertion of one site after the other, for any input
   sphere,       ///< divide and conquer over the whole sphere

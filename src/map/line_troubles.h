@@ -40,8 +40,8 @@ struct RegionLook {
   std::vector<Trouble> troubles;
 };
 
-// What look_at_region() found last time: the region's sides in order, and where they met. Pairs of
-// unchanged sides are not compared again.
+// The findings of the last look_at_region(): the region's sides in order, and where they met. Pairs
+// of unchanged sides are not compared again.
 struct RegionMemory {
   std::vector<DirectedLine> sides;
   std::vector<Trouble> meetings;

@@ -28,13 +28,12 @@ struct GridPiece {
   Point moment;
 };
 
-// The part of a column's width, at the southern parallel of a row, that lies south of the strips
-// seen so far: inside of the cell if the strips are its border. `size` is a bound of the widths
-// that were summed.
+// The part of a parallel, within one column, that is inside of the cell, as the strips north of the
+// parallel tell.
 struct Fill {
-  double width = 0;
-  double size = 0;
-  Point run{};
+  double width = 0;  // radians
+  double size = 0;   // the sum of the sizes of all widths that were added
+  Point run{};       // the difference of its ends' meridians on the equator
 };
 
 // The strips in one row of one column.
@@ -190,7 +189,7 @@ class GridPieceMaker {
     }
   }
 
-  // Returns the fill of a column that is inside all over its width.
+  // Returns the fill of a parallel that is inside of the cell over the whole width of a column.
   [[nodiscard]] Fill filled(Index column) const {
     const double width = grid_.columns()[column].width;
     return {width, width, grid_.eastern_meridian(column) - grid_.columns()[column].west};

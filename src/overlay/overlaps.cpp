@@ -203,7 +203,7 @@ class OverlapFinder {
   }
 
  private:
-  // How much is known of the inside of a cell.
+  // Says whether a cell has a well-defined inside.
   enum class Soundness : std::uint8_t {
     sound,
     to_rounding,  // sides cross, but no end is beyond the other side by more than rounding

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: The Rondel authors
 // SPDX-License-Identifier: Apache-2.0
 
-// What a Partition holds: cells prepared for an overlay, or a grid, with areas and moments.
+// The content of a Partition: cells prepared for an overlay, or a grid, with areas and moments.
 //
 // in    a subdivision or a grid
 // out   areas, moments and border lengths of the cells, and whether they cover the sphere

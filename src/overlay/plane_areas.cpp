@@ -78,7 +78,7 @@ class LineStrips {
   double reference_deg_;
   double share_;
   double area_ = 0;    // the area between lines
-  double excess_ = 0;  // what the area between arcs has more
+  double excess_ = 0;  // the area between arcs minus that between lines
   double length_ = 0;
 };
 

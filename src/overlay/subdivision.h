@@ -24,7 +24,7 @@ namespace rondel::overlay {
 
 using Halfedge = Index;
 
-// How many cells a piece of a parallel loop has.
+// The number of cells in a piece of a parallel loop.
 inline constexpr std::size_t cells_per_piece = 4096;
 
 // The shapes of cells, which decide how a walk goes through them.

@@ -26,14 +26,14 @@
 namespace rondel {
 namespace {
 
-// What a writer of graphs gets.
+// The input of a writer of graphs.
 struct GraphToWrite {
   const Triangulation& triangulation;
   const SiteGraph& graph;
   double tolerance;  // radians
 };
 
-// What a writer of outlines gets.
+// The input of a writer of outlines.
 struct OutlineToWrite {
   const Triangulation& triangulation;
   const Outline& outline;
